@@ -1,0 +1,94 @@
+#include "io/atomic_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <utility>
+#include <vector>
+
+#include "core/error.h"
+
+namespace clsurf::io {
+namespace {
+
+constexpr std::size_t buffer_bytes = std::size_t{1} << 20;
+
+[[noreturn]] void fail(const std::string& path, const std::string& what) {
+    throw SystemError(path + ": " + what + ": " + std::strerror(errno));
+}
+
+std::string folder_of(const std::string& path) {
+    const std::size_t slash = path.rfind('/');
+    return slash == std::string::npos ? std::string(".") : path.substr(0, slash + 1);
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(std::string path) : path_(std::move(path)) {
+    struct stat status {};
+    if (::stat(path_.c_str(), &status) == 0 && S_ISDIR(status.st_mode)) {
+        errno = EISDIR;
+        fail(path_, "cannot write");
+    }
+    std::string pattern = path_ + ".XXXXXX";
+    descriptor_ = ::mkstemp(pattern.data());
+    if (descriptor_ < 0) fail(path_, "cannot write");
+    temporary_ = pattern;
+    // mkstemp makes it private; an output has the rights that any new file would have.
+    const mode_t mask = ::umask(0);
+    ::umask(mask);
+    ::fchmod(descriptor_, 0666 & ~mask);
+}
+
+AtomicFile::~AtomicFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    if (!committed_ && !temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+void AtomicFile::flush() {
+    std::size_t done = 0;
+    while (done < buffer_.size()) {
+        const ssize_t wrote = ::write(descriptor_, buffer_.data() + done, buffer_.size() - done);
+        if (wrote < 0 && errno == EINTR) continue;
+        if (wrote < 0) fail(path_, "cannot write");
+        done += static_cast<std::size_t>(wrote);
+    }
+    buffer_.clear();
+}
+
+void AtomicFile::write(std::span<const std::byte> bytes) {
+    if (buffer_.size() + bytes.size() > buffer_bytes) flush();
+    buffer_.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+}
+
+void AtomicFile::write_at(std::size_t offset, std::span<const std::byte> bytes) {
+    flush();
+    std::size_t done = 0;
+    while (done < bytes.size()) {
+        const ssize_t wrote = ::pwrite(descriptor_, bytes.data() + done, bytes.size() - done,
+                                       static_cast<off_t>(offset + done));
+        if (wrote < 0 && errno == EINTR) continue;
+        if (wrote < 0) fail(path_, "cannot write");
+        done += static_cast<std::size_t>(wrote);
+    }
+}
+
+void AtomicFile::commit() {
+    flush();
+    if (::fsync(descriptor_) != 0) fail(path_, "cannot write");
+    if (::close(std::exchange(descriptor_, -1)) != 0) fail(path_, "cannot write");
+    if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail(path_, "cannot rename into place");
+    committed_ = true;
+    // The name itself must survive a power cut too; a folder that cannot be synchronised is no error.
+    const int folder = ::open(folder_of(path_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (folder >= 0) {
+        ::fsync(folder);
+        ::close(folder);
+    }
+}
+
+}  // namespace clsurf::io

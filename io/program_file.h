@@ -1,0 +1,15 @@
+#pragma once
+// Programs from files.
+
+#include <string>
+
+#include "program/program.h"
+
+namespace clsurf::io {
+
+/// Reads and interprets a program ("-": standard input). `dialect` empty: detected. Subprograms
+/// that the program calls by name are looked for beside it.
+/// Throws InputError (unreadable, wrong arc, endless loop), UsageError (unknown dialect).
+[[nodiscard]] Program read_program(const std::string& path, const std::string& dialect);
+
+}  // namespace clsurf::io

@@ -1,0 +1,37 @@
+#pragma once
+// Option groups that several subcommands share, declared and read in one place each, so that an
+// option means the same everywhere.
+
+#include <string>
+
+#include "cli/subcommand.h"
+#include "core/diagnostic.h"
+#include "io/log_format.h"
+
+namespace clsurf::cli {
+
+/// -q, -v, --threads, --progress: every subcommand has them.
+struct CommonOptions {
+    bool quiet = false;
+    bool verbose = false;
+    int threads = 0;  ///< 0: as many as cores
+    std::string progress = "auto";
+};
+void declare_common(po::options_description& options);
+[[nodiscard]] CommonOptions read_common(const po::variables_map& values);
+
+/// --dialect
+void declare_dialect(po::options_description& options);
+[[nodiscard]] std::string read_dialect(const po::variables_map& values);
+
+/// --layout, --mapping, --period
+void declare_log_options(po::options_description& options);
+[[nodiscard]] io::LogOptions read_log_options(const po::variables_map& values);
+
+/// A positional argument or an option that must be there; UsageError names it otherwise.
+[[nodiscard]] std::string required(const po::variables_map& values, const char* name);
+
+/// Prints diagnostics to stderr: errors and warnings, notes with -v, nothing but errors with -q.
+void print(const Diagnostics& diagnostics, const po::variables_map& values);
+
+}  // namespace clsurf::cli

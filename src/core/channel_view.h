@@ -1,0 +1,42 @@
+#pragma once
+// ChannelView: one channel of a log where it lies, as a typed strided view. value = raw · scale + bias.
+//
+// The mapped file owns the raw data. Everything per point gathers a block of it into doubles with
+// copy_block(); that is the only place where the type of a channel is looked at.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/point.h"
+
+namespace clsurf {
+
+/// Storage types of a channel; the numbers are those of the BIIP format, version 1.
+enum class ScalarType : std::uint8_t { i8 = 1, u8, i16, u16, i32, u32, i64, u64, f32, f64 };
+
+/// Bytes of one value of the type.
+[[nodiscard]] std::size_t size_of(ScalarType type);
+
+struct ChannelView {
+    const std::byte* first = nullptr;  ///< value of point 0; need not be aligned
+    std::size_t stride = 0;            ///< bytes from one point to the next
+    PointIndex count = 0;              ///< points
+    ScalarType type = ScalarType::f64;
+    bool big_endian = false;
+    double scale = 1.0;
+    double bias = 0.0;
+
+    /// raw · scale + bias of one point. Domain: 0 ≤ i < count.
+    [[nodiscard]] double at(PointIndex i) const;
+};
+
+/// Gathers points [begin, begin + out.size()) as doubles. Domain: inside the view.
+void copy_block(const ChannelView& view, PointIndex begin, std::span<double> out);
+
+/// Gathers an integral channel (a line number) without the way through double.
+/// Values that are not in 0 … 2^32−1, or not finite, become `bad`.
+void copy_block(const ChannelView& view, PointIndex begin, std::span<std::uint32_t> out,
+                std::uint32_t bad);
+
+}  // namespace clsurf

@@ -1,0 +1,107 @@
+#pragma once
+// Column<T>: an owned, contiguous array of a trivially copyable type that grows without zeroing.
+//
+// Results of 10^7 … 10^8 points are kept in columns. std::vector would write every page twice (once
+// to zero it, once with the value) and would copy on growth; realloc() lets the kernel move pages of
+// large blocks instead, so that a column that grows never needs twice its memory.
+
+#include <cstddef>
+#include <cstdlib>
+#include <cstring>
+#include <new>
+#include <span>
+#include <type_traits>
+#include <utility>
+
+namespace clsurf {
+
+template <typename T>
+class Column {
+    static_assert(std::is_trivially_copyable_v<T>);
+
+public:
+    Column() = default;
+    /// A column of `size` elements whose values are not set.
+    explicit Column(std::size_t size) { resize(size); }
+    Column(std::size_t size, T value) {
+        resize(size);
+        for (std::size_t i = 0; i < size; ++i) data_[i] = value;
+    }
+    Column(const Column& other) {
+        resize(other.size_);
+        if (size_ > 0) std::memcpy(static_cast<void*>(data_), other.data_, size_ * sizeof(T));
+    }
+    Column(Column&& other) noexcept
+        : data_(std::exchange(other.data_, nullptr)),
+          size_(std::exchange(other.size_, 0)),
+          capacity_(std::exchange(other.capacity_, 0)) {}
+    Column& operator=(Column other) noexcept {
+        std::swap(data_, other.data_);
+        std::swap(size_, other.size_);
+        std::swap(capacity_, other.capacity_);
+        return *this;
+    }
+    ~Column() { std::free(data_); }
+
+    /// Grows or shrinks; new elements are not set.
+    void resize(std::size_t size) {
+        if (size > capacity_) reserve(size);
+        size_ = size;
+    }
+    void reserve(std::size_t capacity) {
+        if (capacity <= capacity_) return;
+        if (capacity > static_cast<std::size_t>(-1) / sizeof(T)) throw std::bad_alloc();
+        void* grown = std::realloc(static_cast<void*>(data_), capacity * sizeof(T));
+        if (grown == nullptr) throw std::bad_alloc();
+        data_ = static_cast<T*>(grown);
+        capacity_ = capacity;
+    }
+    void push_back(const T& value) {
+        if (size_ == capacity_) {
+            const T copy = value;  // `value` may live in this column
+            reserve(capacity_ < 16 ? 16 : capacity_ + capacity_ / 2);
+            data_[size_++] = copy;
+            return;
+        }
+        data_[size_++] = value;
+    }
+    /// Gives the memory beyond size() back.
+    void shrink_to_fit() {
+        if (size_ == capacity_) return;
+        if (size_ == 0) {
+            std::free(std::exchange(data_, nullptr));
+            capacity_ = 0;
+            return;
+        }
+        if (void* shrunk = std::realloc(static_cast<void*>(data_), size_ * sizeof(T))) {
+            data_ = static_cast<T*>(shrunk);
+            capacity_ = size_;
+        }
+    }
+    void clear() noexcept { size_ = 0; }
+
+    [[nodiscard]] std::size_t size() const noexcept { return size_; }
+    [[nodiscard]] std::size_t capacity() const noexcept { return capacity_; }
+    [[nodiscard]] bool empty() const noexcept { return size_ == 0; }
+    [[nodiscard]] T* data() noexcept { return data_; }
+    [[nodiscard]] const T* data() const noexcept { return data_; }
+    T& operator[](std::size_t i) noexcept { return data_[i]; }
+    const T& operator[](std::size_t i) const noexcept { return data_[i]; }
+    T& back() noexcept { return data_[size_ - 1]; }
+    const T& back() const noexcept { return data_[size_ - 1]; }
+    T* begin() noexcept { return data_; }
+    T* end() noexcept { return data_ + size_; }
+    const T* begin() const noexcept { return data_; }
+    const T* end() const noexcept { return data_ + size_; }
+    // NOLINTNEXTLINE(google-explicit-constructor): a column reads as a span wherever one is wanted
+    operator std::span<const T>() const noexcept { return {data_, size_}; }
+    // NOLINTNEXTLINE(google-explicit-constructor)
+    operator std::span<T>() noexcept { return {data_, size_}; }
+
+private:
+    T* data_ = nullptr;
+    std::size_t size_ = 0;
+    std::size_t capacity_ = 0;
+};
+
+}  // namespace clsurf

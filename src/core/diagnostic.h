@@ -1,0 +1,60 @@
+#pragma once
+// Diagnostic: something survivable that the user should know, with a stable code and a place.
+// Diagnostics: a list that keeps the first few of each code and counts the rest, so that a log with
+// a million gaps gives a readable answer in bounded memory.
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/place.h"
+
+namespace clsurf {
+
+enum class Severity : std::uint8_t { note, warning, error };
+
+[[nodiscard]] std::string_view name_of(Severity severity);  ///< "note", "warning", "error"
+
+struct Diagnostic {
+    Severity severity = Severity::warning;
+    std::string code;  ///< stable, "log.gap", "program.unknown-word"
+    Place where;
+    std::string text;  ///< one sentence, numbers with units
+    std::string hint;  ///< what to do; may be empty
+};
+
+class Diagnostics {
+public:
+    static constexpr std::size_t kept_of_a_code = 20;
+
+    void add(Diagnostic diagnostic);
+    /// Appends another list, in its order; used to join the lists of parallel blocks.
+    void append(const Diagnostics& other);
+
+    [[nodiscard]] const std::vector<Diagnostic>& kept() const { return kept_; }
+    /// How often a code was added, kept or not.
+    [[nodiscard]] std::uint64_t count(std::string_view code) const;
+    [[nodiscard]] bool has_errors() const { return errors_ > 0; }
+    [[nodiscard]] bool empty() const { return kept_.empty(); }
+    /// The kept ones, and for each code with more a closing one that says how many were left out.
+    [[nodiscard]] std::vector<Diagnostic> summary() const;
+
+private:
+    struct CodeCount {
+        std::string code;
+        Severity severity;
+        std::uint64_t count;
+        std::size_t kept;
+    };
+    CodeCount& entry(const Diagnostic& diagnostic);
+
+    std::vector<Diagnostic> kept_;
+    std::vector<CodeCount> counts_;
+    std::uint64_t errors_ = 0;
+};
+
+/// "part.nc:2316:14: error: text" + source line + caret + "hint: …", each on its own line.
+[[nodiscard]] std::string to_text(const Diagnostic& diagnostic);
+
+}  // namespace clsurf

@@ -1,0 +1,23 @@
+#pragma once
+// Vectors, boxes and frames as Eigen types. Lengths in mm, directions without unit.
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace clsurf {
+
+using Vec2 = Eigen::Vector2d;
+using Vec3 = Eigen::Vector3d;
+using Box3 = Eigen::AlignedBox3d;
+
+/// Three doubles without Eigen's machinery, for columns (trivially copyable).
+struct Xyz {
+    double x = 0, y = 0, z = 0;
+    Xyz() = default;
+    Xyz(double x_, double y_, double z_) : x(x_), y(y_), z(z_) {}
+    explicit Xyz(const Vec3& v) : x(v.x()), y(v.y()), z(v.z()) {}
+    [[nodiscard]] Vec3 vec() const { return {x, y, z}; }
+    friend bool operator==(const Xyz&, const Xyz&) = default;
+};
+
+}  // namespace clsurf

@@ -1,0 +1,30 @@
+#pragma once
+// Field: one number per point that can be coloured, plotted and exported, with what it means.
+
+#include <cstdint>
+#include <string>
+
+#include "core/column.h"
+#include "core/units.h"
+
+namespace clsurf {
+
+enum class FieldScale : std::uint8_t {
+    sequential,  ///< from low to high
+    diverging,   ///< signed, 0 in the middle of the colour map
+};
+
+struct FieldInfo {
+    std::string name;   ///< "speed", the word of --color
+    std::string label;  ///< "Path speed"
+    Unit unit;          ///< as shown; values are stored in inside units
+    FieldScale scale = FieldScale::sequential;
+    std::string note;   ///< how it was computed, "21-point window (20 ms)"; may be empty
+};
+
+struct Field {
+    FieldInfo info;
+    Column<float> values;  ///< one per point, inside units; NaN: no value there
+};
+
+}  // namespace clsurf

@@ -1,0 +1,54 @@
+#pragma once
+// Log: what a controller recorded, one record per interpolation period, as views on the raw data.
+// A Log owns its storage without knowing files: `keep_alive` holds a mapping or vectors.
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/channel_view.h"
+#include "core/diagnostic.h"
+#include "core/point.h"
+
+namespace clsurf {
+
+/// Which of the three recorded positions: what the interpolator commanded, what the motor encoder
+/// fed back, what the linear or ring scale measured.
+enum class Role : std::uint8_t { commanded, feedback, actual };
+
+[[nodiscard]] std::string_view name_of(Role role);      ///< "commanded", …
+[[nodiscard]] std::string_view prefix_of(Role role);    ///< "cmd", "fb", "act"
+
+struct Channel {
+    std::string name;  ///< "cmd.x", "line", …: docs/formats/biip.md
+    std::string unit;  ///< as recorded, UTF-8
+    ChannelView values;
+};
+
+struct ProgramReference {
+    std::string name;
+    std::string sha256;  ///< hex; empty: not recorded
+};
+
+struct Log {
+    std::string name;    ///< the file, as the user named it
+    std::string format;  ///< "biip", "layout", "csv", "halsampler"
+    PointIndex records = 0;
+    double period = 0;   ///< [s], > 0
+    bool closed = true;  ///< false: the writer was stopped before it finished
+    std::vector<Channel> channels;
+    std::vector<ProgramReference> programs;
+    std::string metadata;  ///< the JSON text that came with it; empty: none
+    Diagnostics diagnostics;
+    std::shared_ptr<const void> keep_alive;
+
+    /// The channel of that name, or nullptr.
+    [[nodiscard]] const Channel* find(std::string_view channel) const;
+    /// All three linear axes of the role are there.
+    [[nodiscard]] bool has(Role role) const;
+    /// Time of a point since the first record [s]: the channel `time`, or index · period.
+    [[nodiscard]] double time_of(PointIndex point) const;
+};
+
+}  // namespace clsurf

@@ -1,0 +1,60 @@
+#pragma once
+// Motions: the commanded toolpath as columns, one entry per motion, in the order in which the
+// controller runs them (subprograms and loops unrolled).
+//
+// Positions are those of the *active work coordinate system*, in mm, as the program gives them after
+// G20/21, G90/91 and G92/G52; what is known of the way to machine coordinates stands in `offsets`.
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "core/column.h"
+#include "core/geometry.h"
+#include "core/point.h"
+
+namespace clsurf {
+
+enum class MotionKind : std::uint8_t { rapid, feed, cw, ccw, dwell, spline };
+
+[[nodiscard]] constexpr bool is_arc(MotionKind kind) {
+    return kind == MotionKind::cw || kind == MotionKind::ccw;
+}
+
+/// A circle or helix: the centre, and the plane that it turns in.
+struct Arc {
+    std::int64_t motion = 0;   ///< index of its motion
+    Xyz centre;                ///< [mm]; the component along the axis is that of the start
+    std::int32_t turns = 1;    ///< 1: at most a full circle; n: n − 1 full circles more
+    std::uint8_t axis = 2;     ///< axis of rotation: 2 z (G17), 1 y (G18), 0 x (G19)
+};
+
+/// From motion `first` on: machine position = position + offset (translation only), as far as the
+/// program itself tells; NaN where it depends on the controller's tables.
+struct OffsetChange {
+    std::int64_t first = 0;
+    Xyz offset;
+};
+
+struct Motions {
+    Column<MotionKind> kind;
+    Column<Xyz> end;           ///< [mm]; NaN: this axis has not been programmed yet
+    Column<float> feed;        ///< [mm/s] along the path; rapid: NaN; dwell: its time [s]
+    Column<LineNumber> line;   ///< line in the file that the motion stands in
+    Column<Xyz> rotary;        ///< A, B, C [rad]; empty when the program has no rotary axis
+    Column<std::uint16_t> file;  ///< index into Program::files; empty when all is in the main file
+    std::vector<Arc> arcs;     ///< sorted by motion
+    std::vector<OffsetChange> offsets;  ///< sorted by first
+    Xyz start{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN(),
+              std::numeric_limits<double>::quiet_NaN()};  ///< before the first motion; NaN: unknown
+
+    [[nodiscard]] std::int64_t size() const { return static_cast<std::int64_t>(kind.size()); }
+    /// Where motion i begins: the end of the one before.
+    [[nodiscard]] const Xyz& begin_of(std::int64_t i) const {
+        return i == 0 ? start : end[static_cast<std::size_t>(i - 1)];
+    }
+    /// The arc of motion i; nullptr for anything but cw and ccw. O(log arcs).
+    [[nodiscard]] const Arc* arc_of(std::int64_t i) const;
+};
+
+}  // namespace clsurf

@@ -1,0 +1,58 @@
+#pragma once
+// Program: the text of an NC program, its lines and its motions. A value: built whole by
+// parse_program(), not changed afterwards.
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/column.h"
+#include "core/diagnostic.h"
+#include "core/point.h"
+#include "program/dialect.h"
+#include "program/motion.h"
+
+namespace clsurf {
+
+/// A source text and its lines.
+class SourceText {
+public:
+    SourceText() = default;
+    /// `keep_alive` owns the bytes that `text` views. Cost: one pass over the text.
+    SourceText(std::string name, std::string_view text, std::shared_ptr<const void> keep_alive);
+
+    [[nodiscard]] const std::string& name() const { return name_; }
+    [[nodiscard]] std::string_view text() const { return text_; }
+    [[nodiscard]] LineNumber line_count() const { return line_count_; }
+    /// The text of a line (from 1) without its end; empty when there is no such line. O(1).
+    [[nodiscard]] std::string_view line(LineNumber number) const;
+
+private:
+    std::string name_;
+    std::string_view text_;
+    std::shared_ptr<const void> keep_alive_;
+    Column<std::uint64_t> every_64th_;  ///< byte where line 1, 65, 129 … starts
+    LineNumber line_count_ = 0;
+};
+
+/// Something besides motion that the program asks for, in order: modes, spindle, tool.
+struct ProgramEvent {
+    std::int64_t motion = 0;  ///< takes effect before this motion
+    LineNumber line = 0;
+    std::string name;         ///< "path-mode", "high-speed", "spindle", "tool", "end", …
+    std::string value;        ///< "G64 P0.005 Q0", "CYCLE832(0.02,1,1)", "S12000 M3"
+};
+
+struct Program {
+    std::vector<SourceText> files;  ///< files[0] is the main program
+    const Dialect* dialect = nullptr;
+    Motions motions;
+    std::vector<ProgramEvent> events;
+    Diagnostics diagnostics;
+
+    [[nodiscard]] const SourceText& main() const { return files.front(); }
+};
+
+}  // namespace clsurf
