@@ -1,11 +1,19 @@
 #pragma once
 // Passes: the trajectory cut into pieces. A pass is a maximal run of cutting points whose neighbour
 // passes lie to the side, not ahead; what joins passes are links and rapids.
+//
+// Runs are what the program tells apart (cutting or not). Within a run the way turns back where the
+// chords behind and ahead enclose more than 120°; what does so links two passes. The chord is
+// measured in way (1.5 step-overs), not in samples, so that it bridges both corners of a step-over
+// move however slowly they are taken. Loops and spirals turn back nowhere: they are cut where the
+// neighbour of a point lies in its own pass (surface/cl_surface.h).
 
 #include <cstdint>
 
 #include "core/column.h"
 #include "core/point.h"
+#include "path/line_map.h"
+#include "path/positions.h"
 
 namespace clsurf {
 
@@ -20,5 +28,12 @@ struct Pass {
 
 /// All pieces in order; together they cover every point of the trajectory exactly once.
 using Passes = Column<Pass>;
+
+/// Cutting runs and what lies between. A vertical approach or retract at the ends of a run, and
+/// points without a position, are not cutting. O(points), parallel.
+[[nodiscard]] Passes find_runs(const Positions& positions, const LineMap& lines);
+
+/// Runs cut into passes at turns back, for a step-over [mm] > 0; links between. O(points), parallel.
+[[nodiscard]] Passes find_passes(const Positions& positions, const Passes& runs, double step_over);
 
 }  // namespace clsurf

@@ -1,0 +1,239 @@
+#include "path/line_map.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "core/block.h"
+#include "path/alignment.h"
+#include "path/toolpath.h"
+
+namespace clsurf {
+namespace {
+
+constexpr PointIndex checked_stretches = 64;  ///< evenly spaced over the log
+constexpr PointIndex checked_stretch = 1600;  ///< points
+constexpr std::int64_t longest_merge = 1000;  ///< motions that a kernel makes one of
+/// A reported line agrees when the point lies this near to it [mm]: a corner tolerance of finishing
+/// (0.01 mm) with room for the two records by which a kernel's line leads its axes.
+constexpr double agreeing_distance = 0.05;
+/// More disagreement than this among the checked points is worth a warning.
+constexpr double disagreeing_share = 0.005;
+
+PointKind point_kind(MotionKind kind) {
+    switch (kind) {
+        case MotionKind::rapid: return PointKind::rapid;
+        case MotionKind::dwell: return PointKind::idle;
+        default: return PointKind::cut;
+    }
+}
+
+}  // namespace
+
+LineMap::LineMap(const ChannelView& channel, const Program& program,
+                 std::shared_ptr<const void> keep_alive)
+    : count_(channel.count), channel_(channel), keep_alive_(std::move(keep_alive)) {
+    index_lines(program);
+}
+
+LineMap::LineMap(Column<std::uint32_t> motion_of_point, Column<std::uint8_t> confidence,
+                 const Program& program)
+    : count_(static_cast<PointIndex>(motion_of_point.size())),
+      motion_of_point_(std::move(motion_of_point)),
+      confidence_(std::move(confidence)) {
+    index_lines(program);
+}
+
+void LineMap::index_lines(const Program& program) {
+    const Motions& motions = program.motions;
+    const std::size_t lines = std::size_t{program.main().line_count()} + 1;
+    kind_of_line_ = Column<PointKind>(lines, PointKind::idle);
+    line_of_motion_ = motions.line;
+    kind_of_motion_.resize(motions.kind.size());
+    first_of_line_ = Column<std::uint32_t>(lines + 1, 0);
+    const auto in_main = [&](std::size_t i) {
+        return motions.line[i] < lines && (motions.file.empty() || motions.file[i] == 0);
+    };
+    for (std::size_t i = 0; i < motions.kind.size(); ++i) {
+        kind_of_motion_[i] = point_kind(motions.kind[i]);
+        if (!in_main(i)) continue;
+        const LineNumber line = motions.line[i];
+        kind_of_line_[line] = std::max(kind_of_line_[line], kind_of_motion_[i]);
+        ++first_of_line_[line + 1];
+    }
+    // Counting sort; a line that runs again (a loop, a subprogram) has several motions.
+    for (std::size_t line = 0; line < lines; ++line) first_of_line_[line + 1] += first_of_line_[line];
+    by_line_.resize(first_of_line_[lines]);
+    Column<std::uint32_t> next = first_of_line_;
+    for (std::size_t i = 0; i < motions.kind.size(); ++i) {
+        if (in_main(i)) by_line_[next[motions.line[i]]++] = static_cast<std::uint32_t>(i);
+    }
+}
+
+std::span<const std::uint32_t> LineMap::motions_of(LineNumber line) const {
+    if (std::size_t{line} + 1 >= first_of_line_.size()) return {};
+    return {by_line_.data() + first_of_line_[line], by_line_.data() + first_of_line_[line + 1]};
+}
+
+void LineMap::read(PointIndex begin, std::span<LineNumber> out) const {
+    if (from_log()) {
+        copy_block(channel_, begin, out, 0);
+        return;
+    }
+    const std::uint32_t* motion = motion_of_point_.data() + begin;
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        out[i] = motion[i] == no_motion ? 0 : line_of_motion_[motion[i]];
+    }
+}
+
+void LineMap::read_kinds(PointIndex begin, std::span<PointKind> out) const {
+    if (!from_log()) {
+        const std::uint32_t* motion = motion_of_point_.data() + begin;
+        for (std::size_t i = 0; i < out.size(); ++i) {
+            out[i] = motion[i] == no_motion ? PointKind::idle : kind_of_motion_[motion[i]];
+        }
+        return;
+    }
+    std::array<LineNumber, 1024> lines;
+    for (std::size_t done = 0; done < out.size(); done += lines.size()) {
+        const std::size_t n = std::min(lines.size(), out.size() - done);
+        copy_block(channel_, begin + static_cast<PointIndex>(done), {lines.data(), n}, 0);
+        for (std::size_t i = 0; i < n; ++i) {
+            // A line that the program does not have is judged by info; here it cuts, so that it shows.
+            out[done + i] = lines[i] == 0                      ? PointKind::idle
+                            : lines[i] >= kind_of_line_.size() ? PointKind::cut
+                                                               : kind_of_line_[lines[i]];
+        }
+    }
+}
+
+LineNumber LineMap::line_at(PointIndex point) const {
+    LineNumber line = 0;
+    read(point, {&line, 1});
+    return line;
+}
+
+std::vector<PointRange> LineMap::points_of(LineNumber line) const {
+    std::vector<PointRange> ranges;
+    std::array<LineNumber, 4096> lines;
+    for (PointIndex begin = 0; begin < count_; begin += static_cast<PointIndex>(lines.size())) {
+        const auto n = static_cast<std::size_t>(
+            std::min<PointIndex>(static_cast<PointIndex>(lines.size()), count_ - begin));
+        read(begin, {lines.data(), n});
+        for (std::size_t i = 0; i < n; ++i) {
+            if (lines[i] != line) continue;
+            const PointIndex point = begin + static_cast<PointIndex>(i);
+            if (!ranges.empty() && ranges.back().last == point - 1) {
+                ranges.back().last = point;
+            } else {
+                ranges.push_back({point, point});
+            }
+        }
+    }
+    return ranges;
+}
+
+double LineMap::confidence_at(PointIndex point) const {
+    if (from_log()) return line_at(point) > 0 ? 1.0 : 0.0;
+    return confidence_[static_cast<std::size_t>(point)] / 255.0;
+}
+
+namespace {
+
+/// Distance of a position to the motions that the reported lines allow; NaN: the line has none.
+double allowed_distance(const Toolpath& path, const LineMap& map, LineNumber before,
+                        LineNumber line, const Vec3& position) {
+    double best = std::numeric_limits<double>::quiet_NaN();
+    for (const std::uint32_t motion : map.motions_of(line)) {
+        // Back over the motions that were merged into this one, to the line reported before it.
+        std::int64_t first = std::int64_t{motion} - 1;
+        while (first > 0 && motion - first < longest_merge &&
+               path.motions().line[static_cast<std::size_t>(first)] != before) {
+            --first;
+        }
+        // A line that does not follow the one before (a loop, a jump) merged nothing.
+        if (first >= 0 && path.motions().line[static_cast<std::size_t>(first)] != before) {
+            first = std::int64_t{motion} - 1;
+        }
+        const std::int64_t last = std::min<std::int64_t>(path.size() - 1, std::int64_t{motion} + 1);
+        for (std::int64_t m = std::max<std::int64_t>(0, first - 1); m <= last; ++m) {
+            const double distance = path.foot(m, position).distance;
+            if (!(best <= distance)) best = distance;
+        }
+        if (best <= agreeing_distance) break;
+    }
+    return best;
+}
+
+double quantile(Column<double>& values, double q) {
+    double* at = values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+}
+
+}  // namespace
+
+LineAgreement check_lines(const Trajectory& path, const Program& program, const LineMap& map) {
+    LineAgreement agreement;
+    agreement.tolerance = agreeing_distance;
+    const Toolpath toolpath(program.motions, path.count > 0 ? path.at(0) : Vec3::Zero());
+    const PointIndex stretch = std::min(path.count, checked_stretch);
+    const PointIndex stretches = std::min<PointIndex>(checked_stretches, stretch > 0 ? path.count / stretch : 0);
+    Column<double> distances;
+    std::vector<double> x(static_cast<std::size_t>(stretch)), y(x.size()), z(x.size());
+    std::vector<LineNumber> lines(x.size());
+    for (PointIndex s = 0; s < stretches; ++s) {
+        const PointIndex begin = stretches == 1 ? 0 : (path.count - stretch) / (stretches - 1) * s;
+        path.read(begin, x, y, z);
+        map.read(begin, lines);
+        LineNumber before = 0;
+        // The first line of a stretch has no known one before it.
+        bool known = begin == 0;
+        for (std::size_t i = 1; i < x.size(); ++i) {
+            if (lines[i] != lines[i - 1]) {
+                before = lines[i - 1];
+                known = true;
+            }
+            const Vec3 p(x[i], y[i], z[i]);
+            const bool moved = (p - Vec3(x[i - 1], y[i - 1], z[i - 1])).squaredNorm() > 0;
+            if (!moved || !known || lines[i] == 0) continue;
+            const double distance = allowed_distance(toolpath, map, before, lines[i], p);
+            if (!std::isfinite(distance)) continue;
+            distances.push_back(distance);
+            if (distance > agreement.tolerance) ++agreement.disagreeing;
+            if (distance > agreement.worst_distance) {
+                agreement.worst_distance = distance;
+                agreement.worst = begin + static_cast<PointIndex>(i);
+            }
+        }
+    }
+    agreement.checked = static_cast<PointIndex>(distances.size());
+    if (distances.empty()) return agreement;
+    agreement.median_distance = quantile(distances, 0.5);
+    agreement.p95_distance = quantile(distances, 0.95);
+    return agreement;
+}
+
+LineMap map_lines(const Trajectory& path, const Log& log, const Program& program, bool use_channel,
+                  Diagnostics& diagnostics) {
+    const Channel* channel = use_channel ? log.find("line") : nullptr;
+    if (channel == nullptr) return align_lines(path, program, diagnostics);
+    LineMap map(channel->values, program, log.keep_alive);
+    const LineAgreement agreement = check_lines(path, program, map);
+    if (static_cast<double>(agreement.disagreeing) >
+        disagreeing_share * static_cast<double>(agreement.checked)) {
+        diagnostics.add(
+            {Severity::warning, "map.disagreement", Place::of_point(log.name, agreement.worst),
+             fmt::format("{} of {} checked points are farther than {} mm from the line that the log "
+                         "gives them: median {:.4f} mm, worst {:.3f} mm",
+                         agreement.disagreeing, agreement.checked, agreement.tolerance,
+                         agreement.median_distance, agreement.worst_distance),
+             "another program, another version of it, or another work offset?"});
+    }
+    return map;
+}
+
+}  // namespace clsurf

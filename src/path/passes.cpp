@@ -1,0 +1,148 @@
+#include "path/passes.h"
+
+#include <array>
+#include <vector>
+
+#include "core/block.h"
+#include "path/chords.h"
+
+namespace clsurf {
+namespace {
+
+constexpr double turning_cosine = -0.5;   ///< chords that enclose more than 120° turn back
+constexpr double chord_step_overs = 1.5;  ///< way of a chord
+constexpr double shortest_pass = 2.0;     ///< step-overs of way; a shorter piece belongs to its link
+constexpr float vertical_slope = 0.02F;   ///< horizontal per vertical way of an approach
+constexpr float vertical_play = 0.005F;   ///< [mm]
+constexpr float least_approach = 0.1F;    ///< [mm]; a shorter vertical piece is left alone
+
+/// Appends a piece; joins it with the one before when it is of the same kind.
+void append(Passes& passes, Pass piece) {
+    if (piece.size() <= 0) return;
+    if (!passes.empty() && passes.back().kind == piece.kind) {
+        passes.back().last = piece.last;
+        return;
+    }
+    passes.push_back(piece);
+}
+
+/// Points of [from, to] in steps of `direction` that only move along z, counted from `from`.
+PointIndex vertical_points(const Positions& p, PointIndex from, PointIndex to, int direction) {
+    const Eigen::Vector3f start = p[from];
+    PointIndex i = from;
+    while (i != to) {
+        const Eigen::Vector3f way = p[i + direction] - start;
+        if (std::hypot(way.x(), way.y()) > vertical_play + vertical_slope * std::abs(way.z())) break;
+        i += direction;
+    }
+    if (std::abs((p[i] - start).z()) < least_approach) return 0;
+    return std::abs(i - from);
+}
+
+/// A cutting run without its vertical approach and retract.
+void append_run(Passes& passes, const Positions& p, Pass run) {
+    const PointIndex down = vertical_points(p, run.first, run.last, +1);
+    append(passes, {run.first, run.first + down - 1, PassKind::rapid});
+    run.first += down;
+    if (run.size() <= 0) return;
+    const PointIndex up = vertical_points(p, run.last, run.first, -1);
+    append(passes, {run.first, run.last - up, PassKind::cut});
+    append(passes, {run.last - up + 1, run.last, PassKind::rapid});
+}
+
+}  // namespace
+
+Passes find_runs(const Positions& positions, const LineMap& lines) {
+    const PointIndex count = positions.size();
+    const auto blocks = static_cast<std::size_t>((count + block_points - 1) / block_points);
+    std::vector<Passes> of_block(blocks);
+    for_each_block(count, [&](PointIndex first, PointIndex last) {
+        Passes& mine = of_block[static_cast<std::size_t>(first / block_points)];
+        std::array<PointKind, 1024> kinds;
+        for (PointIndex begin = first; begin < last; begin += 1024) {
+            const auto n = static_cast<std::size_t>(std::min<PointIndex>(1024, last - begin));
+            lines.read_kinds(begin, {kinds.data(), n});
+            for (std::size_t k = 0; k < n; ++k) {
+                const PointIndex i = begin + static_cast<PointIndex>(k);
+                const bool cuts = kinds[k] == PointKind::cut && positions[i].allFinite();
+                append(mine, {i, i, cuts ? PassKind::cut : PassKind::rapid});
+            }
+        }
+    });
+    Passes joined;
+    for (const Passes& block : of_block) {
+        for (const Pass& piece : block) append(joined, piece);
+    }
+    Passes runs;
+    for (const Pass& piece : joined) {
+        if (piece.kind == PassKind::cut) {
+            append_run(runs, positions, piece);
+        } else {
+            append(runs, piece);
+        }
+    }
+    return runs;
+}
+
+namespace {
+
+/// True where the way turns back.
+bool turns_back(const Positions& p, const Chords& chords, double way) {
+    // Near the end of a run there is no way ahead to judge by.
+    if (chords.way_behind() < 0.5 * way || chords.way_ahead() < 0.5 * way) return false;
+    const Eigen::Vector3f here = p[chords.point()];
+    const Eigen::Vector3f back = here - p[chords.behind()];
+    const Eigen::Vector3f ahead = p[chords.ahead()] - here;
+    const float lengths = back.norm() * ahead.norm();
+    return lengths > 0 && back.dot(ahead) < turning_cosine * lengths;
+}
+
+double way_of(const Positions& p, const Pass& piece) {
+    double way = 0;
+    for (PointIndex i = piece.first; i < piece.last; ++i) way += (p[i + 1] - p[i]).norm();
+    return way;
+}
+
+/// Pieces between two links that are too short to be passes belong to the link.
+void append_cleaned(Passes& passes, const Positions& p, const Passes& pieces, double least) {
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        Pass piece = pieces[i];
+        const bool between = i > 0 && i + 1 < pieces.size();
+        if (piece.kind == PassKind::cut && between && way_of(p, piece) < least) {
+            piece.kind = PassKind::link;
+        }
+        append(passes, piece);
+    }
+}
+
+}  // namespace
+
+Passes find_passes(const Positions& positions, const Passes& runs, double step_over) {
+    const double way = chord_step_overs * step_over;
+    Passes passes;
+    for (const Pass& run : runs) {
+        if (run.kind != PassKind::cut) {
+            append(passes, run);
+            continue;
+        }
+        const auto parts = static_cast<std::size_t>((run.size() + block_points - 1) / block_points);
+        std::vector<Passes> of_part(parts);
+        for_each_block(run.size(), [&](PointIndex first, PointIndex last) {
+            Passes& mine = of_part[static_cast<std::size_t>(first / block_points)];
+            Chords chords(positions, {run.first, run.last}, run.first + first, way);
+            for (PointIndex i = run.first + first; i < run.first + last; ++i) {
+                const bool back = turns_back(positions, chords, way);
+                append(mine, {i, i, back ? PassKind::link : PassKind::cut});
+                if (i < run.last) chords.advance();
+            }
+        });
+        Passes pieces;
+        for (const Passes& part : of_part) {
+            for (const Pass& piece : part) append(pieces, piece);
+        }
+        append_cleaned(passes, positions, pieces, shortest_pass * step_over);
+    }
+    return passes;
+}
+
+}  // namespace clsurf

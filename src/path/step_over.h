@@ -1,0 +1,15 @@
+#pragma once
+// The step-over of a finishing program: how far neighbour passes are apart, estimated from the way
+// itself (median distance from a sample to the nearest part of the way that is not its own pass).
+
+#include "path/passes.h"
+#include "path/way.h"
+
+namespace clsurf {
+
+/// Step-over [mm] of the cutting runs, or 0 where no part of the way has another beside it (a single
+/// pass). O(points), parallel.
+[[nodiscard]] double estimate_step_over(const Positions& positions, const Passes& runs,
+                                        const Way& way);
+
+}  // namespace clsurf

@@ -1,0 +1,44 @@
+#pragma once
+// Toolpath: the programmed motions as geometry: where the nearest point of a motion is, and how long
+// it is. Lines, arcs and helices; dwells are points.
+
+#include "core/geometry.h"
+#include "program/motion.h"
+
+namespace clsurf {
+
+/// The nearest point of a motion to a position.
+struct Foot {
+    double distance = 0;  ///< [mm]
+    double fraction = 0;  ///< of the motion's way, 0 … 1
+};
+
+class Toolpath {
+public:
+    /// `motions` must outlive it. `rest` stands for coordinates before the program sets them
+    /// (the controller's own start position) [mm].
+    Toolpath(const Motions& motions, const Vec3& rest) : motions_(&motions), rest_(rest) {}
+
+    [[nodiscard]] std::int64_t size() const { return motions_->size(); }
+    [[nodiscard]] const Motions& motions() const { return *motions_; }
+    [[nodiscard]] Vec3 begin(std::int64_t motion) const { return known(motions_->begin_of(motion)); }
+    [[nodiscard]] Vec3 end(std::int64_t motion) const {
+        return known(motions_->end[static_cast<std::size_t>(motion)]);
+    }
+    /// The point after a fraction of a motion's way.
+    [[nodiscard]] Vec3 at(std::int64_t motion, double fraction) const;
+    /// Way along a motion [mm].
+    [[nodiscard]] double length(std::int64_t motion) const;
+    /// The nearest point of a motion at or after `from` (fraction of its way) to `p`.
+    [[nodiscard]] Foot foot(std::int64_t motion, const Vec3& p, double from = 0.0) const;
+
+private:
+    [[nodiscard]] Vec3 known(const Xyz& v) const {
+        return {v.x == v.x ? v.x : rest_.x(), v.y == v.y ? v.y : rest_.y(), v.z == v.z ? v.z : rest_.z()};
+    }
+
+    const Motions* motions_;
+    Vec3 rest_;
+};
+
+}  // namespace clsurf

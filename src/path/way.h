@@ -1,0 +1,28 @@
+#pragma once
+// Way: how far the tool has gone, as a prefix sum that is kept for every 64th point only, which is
+// enough to know in O(1) that two points lie far apart along the way.
+
+#include "core/column.h"
+#include "path/positions.h"
+
+namespace clsurf {
+
+class Way {
+public:
+    /// O(points), parallel. `positions` must outlive it.
+    explicit Way(const Positions& positions);
+
+    /// Way from the first point to point i [mm]. O(64).
+    [[nodiscard]] double to(PointIndex i) const;
+
+    /// True where the way between two points is at least `distance` [mm]. O(1) but where it is close.
+    [[nodiscard]] bool at_least(PointIndex i, PointIndex j, double distance) const;
+
+private:
+    static constexpr PointIndex stride = 64;
+
+    const Positions* positions_;
+    Column<double> sums_;  ///< way to point 64 k
+};
+
+}  // namespace clsurf

@@ -1,0 +1,247 @@
+#include "surface/adjacency.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "core/block.h"
+#include "path/chords.h"
+#include "surface/way_grid.h"
+
+namespace clsurf {
+namespace {
+
+using Vec3f = Eigen::Vector3f;
+
+// All in step-overs, after docs/design/surface.md.
+constexpr float nearest_neighbour = 0.2F;   ///< nearer is the same pass cut again
+constexpr float farthest_neighbour = 1.6F;
+constexpr float along_play = 0.35F;         ///< how far a foot may lie along the feed
+constexpr double direction_chord = 0.75;    ///< way of the chords that give the feed direction
+constexpr double grid_cell = 3.0;
+constexpr double search_again = 1.0;        ///< way without a neighbour after which it is sought anew
+constexpr float own_way = 2.5F;             ///< the way to a neighbour is this many distances or more
+constexpr float running_along = 0.8660F;    ///< cos 30°
+constexpr PointIndex part_points = 65536;   ///< of a pass, walked by one thread
+
+/// A place on another pass that is followed while the own point moves on.
+struct Follower {
+    PointIndex point = -1;  ///< −1: lost
+    PointRange pass;        ///< it stays inside
+    double since = 1e300;   ///< own way since it was lost or sought [step-overs]
+};
+
+/// The frame of an own point: feed direction and the two directions across.
+struct Across {
+    Vec3f here = Vec3f::Zero(), feed = Vec3f::Zero(), side = Vec3f::Zero(), up = Vec3f::Zero();
+    /// Coordinates of q across the feed; x > 0 is left.
+    [[nodiscard]] Eigen::Vector2f of(const Vec3f& q) const {
+        const Vec3f d = q - here;
+        return {d.dot(side), d.dot(up)};
+    }
+};
+
+/// Left and right in the plane across the feed: by the horizontal part, and on steep walls (where
+/// neighbours lie above each other) by the upward part.
+Side side_of(const Eigen::Vector2f& across) {
+    const float by = std::abs(across.x()) > 0.35F * across.norm() ? across.x() : across.y();
+    return by > 0 ? Side::left : Side::right;
+}
+
+class Walker {
+public:
+    Walker(const Positions& positions, const Passes& passes, const Way& way, const WayGrid& grid,
+           double step_over, Adjacency& out)
+        : p_(positions),
+          passes_(passes),
+          way_(way),
+          grid_(grid),
+          step_over_(static_cast<float>(step_over)),
+          out_(out) {}
+
+    /// Neighbours of points [first, last] of the pass.
+    void walk(std::size_t pass, PointIndex first, PointIndex last) {
+        const PointRange own{passes_[pass].first, passes_[pass].last};
+        Chords chords(p_, own, first, direction_chord * step_over_);
+        std::array<Follower, 2> followers;
+        Across across{};
+        for (PointIndex i = first; i <= last; ++i) {
+            const float moved = i > first ? (p_[i] - p_[i - 1]).norm() : 0.0F;
+            if (turn(across, i, chords.across())) {
+                for (Follower& f : followers) f.since += moved / step_over_;
+                follow(across, i, followers);
+            }
+            for (const Side side : {Side::left, Side::right}) {
+                const Follower& f = followers[static_cast<std::size_t>(side)];
+                Column<std::int32_t>& column = side == Side::left ? out_.left : out_.right;
+                const PointIndex delta = f.point - i;
+                const bool fits = f.point >= 0 && std::abs(delta) < std::numeric_limits<std::int32_t>::max();
+                column[static_cast<std::size_t>(i)] =
+                    fits ? static_cast<std::int32_t>(delta) : Adjacency::none;
+            }
+            if (i < last) chords.advance();
+        }
+    }
+
+private:
+    /// False where the feed has no direction (standing still).
+    bool turn(Across& across, PointIndex i, const Vec3f& chord) const {
+        across.here = p_[i];
+        const float length = chord.norm();
+        if (!(length > 0)) return across.feed.squaredNorm() > 0;
+        across.feed = chord / length;
+        const Vec3f side = Vec3f::UnitZ().cross(across.feed);
+        const float horizontal = side.norm();
+        // Straight up or down: any fixed direction serves.
+        across.side = horizontal > 1e-3F ? Vec3f(side / horizontal) : Vec3f(Vec3f::UnitX());
+        across.up = across.feed.cross(across.side);
+        return true;
+    }
+
+    void follow(const Across& across, PointIndex i, std::array<Follower, 2>& followers) const {
+        bool search = false;
+        for (const Side side : {Side::left, Side::right}) {
+            Follower& f = followers[static_cast<std::size_t>(side)];
+            if (f.point >= 0) {
+                f.point = cross(across, f.point, f.pass);
+                if (!valid(across, f.point, side) || !elsewhere(i, f.point)) {
+                    f.point = -1;
+                    f.since = search_again;  // seek at once
+                }
+            }
+            search = search || (f.point < 0 && f.since >= search_again);
+        }
+        if (!search) return;
+        seek(across, i, followers);
+        for (Follower& f : followers) {
+            if (f.point < 0 && f.since >= search_again) f.since = 0;
+        }
+    }
+
+    /// Walks from `n` to the point of its pass that is nearest to the plane across the feed.
+    [[nodiscard]] PointIndex cross(const Across& across, PointIndex n, const PointRange& pass) const {
+        const auto along = [&](PointIndex k) { return (p_[k] - across.here).dot(across.feed); };
+        float at = along(n);
+        // Whichever way brings it nearer to the plane; a pass that runs away ends the walk.
+        for (const int direction : {+1, -1}) {
+            PointIndex k = n;
+            float best = std::abs(at);
+            PointIndex standing = 0;
+            while (k + direction >= pass.first && k + direction <= pass.last) {
+                const float next = std::abs(along(k + direction));
+                if (next > best) break;
+                // Where the neighbour stood still the points do not come nearer: go on, within reason.
+                standing = next == best ? standing + 1 : 0;
+                if (standing > 100'000) break;
+                k += direction;
+                best = next;
+            }
+            if (best < std::abs(at)) {
+                n = k;
+                at = along(n);
+                break;
+            }
+        }
+        return n;
+    }
+
+    [[nodiscard]] bool valid(const Across& across, PointIndex n, Side side) const {
+        const Vec3f d = p_[n] - across.here;
+        if (std::abs(d.dot(across.feed)) > along_play * step_over_) return false;
+        const Eigen::Vector2f offset = across.of(p_[n]);
+        const float squared = offset.squaredNorm() / (step_over_ * step_over_);
+        if (!(squared > nearest_neighbour * nearest_neighbour &&
+              squared < farthest_neighbour * farthest_neighbour)) {
+            return false;
+        }
+        return side_of(offset) == side;
+    }
+
+    /// The neighbour is another part of the way: the way to it is much longer than the distance.
+    [[nodiscard]] bool elsewhere(PointIndex i, PointIndex n) const {
+        const double distance = (p_[n] - p_[i]).norm();
+        return way_.at_least(i, n, own_way * distance);
+    }
+
+    /// The neighbour's pass runs along or against the feed.
+    [[nodiscard]] bool parallel(const Across& across, PointIndex n, const PointRange& pass) const {
+        PointIndex a = n;
+        PointIndex b = n;
+        const float reach = 0.25F * step_over_;
+        while (a > pass.first && (p_[n] - p_[a]).norm() < reach) --a;
+        while (b < pass.last && (p_[b] - p_[n]).norm() < reach) ++b;
+        const Vec3f chord = p_[b] - p_[a];
+        const float length = chord.norm();
+        return length > 0 && std::abs(chord.dot(across.feed)) > running_along * length;
+    }
+
+    /// Looks for the nearest neighbours of the lost sides in the grid.
+    void seek(const Across& across, PointIndex i, std::array<Follower, 2>& followers) const {
+        std::array<float, 2> best{1e30F, 1e30F};
+        std::array<Follower, 2> found;
+        grid_.for_each_near(across.here, [&](const WayGrid::Entry& entry) {
+            const PointRange pass{passes_[static_cast<std::size_t>(entry.pass)].first,
+                                  passes_[static_cast<std::size_t>(entry.pass)].last};
+            const PointIndex n = cross(across, entry.point, pass);
+            const Eigen::Vector2f offset = across.of(p_[n]);
+            const Side side = side_of(offset);
+            const auto s = static_cast<std::size_t>(side);
+            if (followers[s].point >= 0 || offset.norm() >= best[s]) return;
+            if (!valid(across, n, side) || !parallel(across, n, pass)) return;
+            if (!elsewhere(i, n)) return;
+            best[s] = offset.norm();
+            found[s] = {n, pass, 0};
+        });
+        for (std::size_t s = 0; s < 2; ++s) {
+            if (followers[s].point < 0 && found[s].point >= 0) followers[s] = found[s];
+        }
+    }
+
+    const Positions& p_;
+    const Passes& passes_;
+    const Way& way_;
+    const WayGrid& grid_;
+    float step_over_;
+    Adjacency& out_;
+};
+
+struct Part {
+    std::size_t pass = 0;
+    PointIndex first = 0, last = -1;
+};
+
+}  // namespace
+
+Adjacency find_neighbours(const Positions& positions, const Passes& passes, const Way& way,
+                          double step_over) {
+    Adjacency adjacency;
+    const auto count = static_cast<std::size_t>(positions.size());
+    adjacency.left.resize(count);
+    adjacency.right.resize(count);
+    std::vector<Part> parts;
+    for (std::size_t pass = 0; pass < passes.size(); ++pass) {
+        const Pass& piece = passes[pass];
+        for (PointIndex first = piece.first; first <= piece.last; first += part_points) {
+            parts.push_back({pass, first, std::min(piece.last, first + part_points - 1)});
+        }
+    }
+    const WayGrid grid(positions, step_over > 0 ? passes : Passes(),
+                       grid_cell * (step_over > 0 ? step_over : 1.0));
+    parallel_for(static_cast<std::int64_t>(parts.size()), 1, [&](std::int64_t from, std::int64_t to) {
+        for (std::int64_t k = from; k < to; ++k) {
+            const Part& part = parts[static_cast<std::size_t>(k)];
+            if (step_over > 0 && passes[part.pass].kind == PassKind::cut) {
+                Walker(positions, passes, way, grid, step_over, adjacency).walk(part.pass, part.first, part.last);
+                continue;
+            }
+            for (PointIndex i = part.first; i <= part.last; ++i) {
+                adjacency.left[static_cast<std::size_t>(i)] = Adjacency::none;
+                adjacency.right[static_cast<std::size_t>(i)] = Adjacency::none;
+            }
+        }
+    });
+    return adjacency;
+}
+
+}  // namespace clsurf
