@@ -3,6 +3,7 @@
 // option means the same everywhere.
 
 #include <string>
+#include <vector>
 
 #include "cli/subcommand.h"
 #include "core/diagnostic.h"
@@ -31,6 +32,9 @@ void declare_log_options(po::options_description& options);
 
 /// A positional argument or an option that must be there; UsageError names it otherwise.
 [[nodiscard]] std::string required(const po::variables_map& values, const char* name);
+
+/// Exactly `count` numbers separated by commas (0: one or more). Throws UsageError, naming `option`.
+[[nodiscard]] std::vector<double> parse_numbers(const std::string& text, const std::string& option, std::size_t count);
 
 /// Prints diagnostics to stderr: errors and warnings, notes with -v, nothing but errors with -q.
 void print(const Diagnostics& diagnostics, const po::variables_map& values);

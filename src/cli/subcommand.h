@@ -31,5 +31,6 @@ struct Subcommand {
 
 // One function a subcommand, each in the file of its name.
 [[nodiscard]] Subcommand moves_subcommand();
+[[nodiscard]] Subcommand render_subcommand();
 
 }  // namespace clsurf::cli
