@@ -110,7 +110,15 @@ void add_legend(Sheet& sheet, const ColourScale& scale, const FieldInfo& field, 
     sheet.lines.push_back({{{x, bottom}, {x + bar_width, bottom}, {x + bar_width, top}, {x, top}, {x, bottom}}, 1.0, frame});
     const std::vector<double> ticks = scale.high > scale.low ? nice_ticks(scale.low, scale.high, std::max(2, static_cast<int>(height / (3 * layout.text)))) : std::vector<double>{scale.low};
     const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : 1.0;
+    // The ends of the range stand there exactly; ticks too near to them give way.
+    const double near = 1.3 * layout.small_text / height * (scale.high - scale.low);
+    for (const double end : {scale.low, scale.high}) {
+        if (!(scale.high > scale.low) && end == scale.high) continue;
+        const double y = end == scale.low ? bottom : top;
+        add_text(sheet, x + bar_width + 0.5 * layout.text, y, tick_text(end, step / 10), layout.small_text, Align::left, ink, true);
+    }
     for (const double tick : ticks) {
+        if (tick - scale.low < near || scale.high - tick < near) continue;
         const double t = scale.high > scale.low ? (tick - scale.low) / (scale.high - scale.low) : 0.5;
         const double y = bottom + t * height;
         sheet.lines.push_back({{{x + bar_width, y}, {x + bar_width + 0.3 * layout.text, y}}, 1.0, frame});

@@ -19,7 +19,13 @@ namespace clsurf::cli {
 std::span<const Subcommand> subcommands() {
     static const std::vector<Subcommand> table{
         render_subcommand(),
+        query_subcommand(),
+        info_subcommand(),
         moves_subcommand(),
+        plot_subcommand(),
+        export_subcommand(),
+        convert_subcommand(),
+        compare_subcommand(),
 
     };
     return table;

@@ -30,7 +30,13 @@ struct Subcommand {
 [[nodiscard]] std::span<const Subcommand> subcommands();
 
 // One function a subcommand, each in the file of its name.
+[[nodiscard]] Subcommand compare_subcommand();
+[[nodiscard]] Subcommand convert_subcommand();
+[[nodiscard]] Subcommand export_subcommand();
+[[nodiscard]] Subcommand info_subcommand();
 [[nodiscard]] Subcommand moves_subcommand();
+[[nodiscard]] Subcommand plot_subcommand();
+[[nodiscard]] Subcommand query_subcommand();
 [[nodiscard]] Subcommand render_subcommand();
 
 }  // namespace clsurf::cli
