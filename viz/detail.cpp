@@ -143,16 +143,18 @@ public:
     /// Fills the turn from one pass to the next: a zigzag's end, from the last place where the passes
     /// see each other to the link's outermost vertex.
     void close_turn(const Pass& link, Column<std::uint32_t>& triangles) const {
-        const std::int64_t after = first_vertex_at(link.last + 1);
-        std::int64_t a = first_vertex_at(link.first) - 1;
-        for (int looked = 0; a > 0 && looked < longest_turn; --a, ++looked) {
-            if (v_.joined[static_cast<std::size_t>(a + 1)] == 0) return;
+        const std::int64_t before = first_vertex_at(link.first);
+        std::int64_t b = first_vertex_at(link.last + 1);
+        const auto count = static_cast<std::int64_t>(v_.points.size());
+        // Gaps are filled from their later pass, so that is where the last band ended.
+        for (int looked = 0; b < count && looked < longest_turn; ++b, ++looked) {
+            if (b > 0 && v_.joined[static_cast<std::size_t>(b)] == 0) return;
             for (const Side side : {Side::left, Side::right}) {
-                if (!s_.neighbours.has(side, point(a))) continue;
-                const PointIndex n = s_.neighbours.neighbour(side, point(a));
-                if (n <= link.last) continue;
-                const std::int64_t b = vertex_of(n);
-                if (b < after || b - a > 2 * longest_turn) return;
+                if (!s_.neighbours.has(side, point(b))) continue;
+                const PointIndex m = s_.neighbours.neighbour(side, point(b));
+                if (m >= link.first) continue;
+                const std::int64_t a = vertex_of(m);
+                if (a < 0 || a >= before || before - a > longest_turn) continue;
                 zip(a, b, triangles);
                 return;
             }

@@ -18,6 +18,9 @@ constexpr double jump_factor = 20.0;    ///< a step this many times the 99.9th p
 constexpr double least_jump = 0.5;      ///< [mm]
 constexpr double stuck_way = 50.0;      ///< [mm] gone on one line before it is called stuck
 constexpr double worth_offset = 0.002;  ///< [mm] between commanded and feedback while resting
+constexpr double resting_step = 1e-4;   ///< [mm] per record that feedback may move at rest
+constexpr std::size_t least_resting = 50;
+constexpr double least_quantum = 5e-6;  ///< [mm]; finer steps are rounding of the file
 constexpr PointIndex sampled = 200'000;
 
 Diagnostic finding(Severity severity, const char* code, Place where, std::string text, std::string hint = {}) {
@@ -180,7 +183,7 @@ double quantum_of(const Channel& channel, PointIndex records) {
         const double ratio = step / smallest;
         if (std::abs(ratio - std::round(ratio)) < 0.02) ++on_grid;
     }
-    const bool grid = candidate < 50 * smallest && on_grid > steps.size() * 98 / 100 && smallest > 1e-8;
+    const bool grid = candidate < 50 * smallest && on_grid > steps.size() * 98 / 100 && smallest > least_quantum;
     return grid ? smallest : 0;
 }
 
@@ -207,17 +210,22 @@ void check_offset(const Log& log, Diagnostics& found) {
             const auto n = static_cast<std::size_t>(std::min(stretch, log.records - begin));
             commanded.read(begin, n, c);
             measured.read(begin, n, m);
-            for (std::size_t k = 0; k < 3; ++k) {
-                for (std::size_t i = 0; i < n; ++i) differences[k].push_back(m[k][i] - c[k][i]);
+            for (std::size_t i = 1; i < n; ++i) {
+                bool rests = true;
+                for (std::size_t k = 0; k < 3; ++k) {
+                    rests = rests && c[k][i] == c[k][i - 1] && std::abs(m[k][i] - m[k][i - 1]) < resting_step;
+                }
+                for (std::size_t k = 0; rests && k < 3; ++k) differences[k].push_back(m[k][i] - c[k][i]);
             }
         }
+        if (differences[0].size() < least_resting) continue;
         for (std::size_t k = 0; k < 3; ++k) {
             std::vector<double>& d = differences[k];
             auto middle = d.begin() + static_cast<std::ptrdiff_t>(d.size() / 2);
             std::nth_element(d.begin(), middle, d.end());
             if (std::abs(*middle) < worth_offset) continue;
             found.add(finding(Severity::warning, "log.offset", Place::of_file(log.name),
-                              fmt::format("{} differs from cmd.{} by {:.4f} mm in the median: a constant offset, not a lag", measured.channel[k]->name, "xyz"[k], *middle)));
+                              fmt::format("{} differs from cmd.{} by {:.4f} mm while the machine rests: a constant offset, not a lag", measured.channel[k]->name, "xyz"[k], *middle)));
         }
     }
 }
