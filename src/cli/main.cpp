@@ -3,10 +3,10 @@
 #include <cstdio>
 #include <exception>
 #include <new>
-#include <sstream>
 #include <string>
 #include <vector>
 
+#include "cli/help.h"
 #include "cli/options.h"
 #include "cli/subcommand.h"
 #include "core/error.h"
@@ -32,43 +32,6 @@ std::span<const Subcommand> subcommands() {
 }
 
 namespace {
-
-void print_help() {
-    std::printf("clsurf %s: sees the mark before the cut\n\nusage: clsurf SUBCOMMAND …\n\n", version);
-    for (const Subcommand& s : subcommands()) {
-        std::printf("  %-10.*s %.*s\n", static_cast<int>(s.name.size()), s.name.data(),
-                    static_cast<int>(s.summary.size()), s.summary.data());
-    }
-    std::printf("\n`clsurf SUBCOMMAND --help` shows the options of one.\n");
-}
-
-po::options_description visible_options(const Subcommand& subcommand) {
-    po::options_description options("options", 100);
-    subcommand.declare(options);
-    po::options_description common("everywhere", 100);
-    declare_common(common);
-    options.add(common);
-    return options;
-}
-
-void print_help(const Subcommand& subcommand) {
-    std::string text = "usage: clsurf " + std::string(subcommand.name) + " " +
-                       std::string(subcommand.arguments) + "\n\n" +
-                       std::string(subcommand.description) + "\n\n";
-    std::fputs(text.c_str(), stdout);
-    std::ostringstream options;
-    options << visible_options(subcommand);
-    std::fputs(options.str().c_str(), stdout);
-}
-
-const Subcommand& find_subcommand(const std::string& name) {
-    std::vector<std::string_view> names;
-    for (const Subcommand& s : subcommands()) {
-        if (s.name == name) return s;
-        names.push_back(s.name);
-    }
-    throw UsageError("unknown subcommand '" + name + "'", did_you_mean(name, names));
-}
 
 ExitCode run(const Subcommand& subcommand, const std::vector<std::string>& words) {
     po::options_description all = visible_options(subcommand);
@@ -112,15 +75,12 @@ ExitCode run(const Subcommand& subcommand, const std::vector<std::string>& words
 
 ExitCode run(std::vector<std::string> words) {
     if (words.empty()) {
-        print_help();
+        (void)help({});
         return ExitCode::usage;
     }
     const std::string first = words.front();
     words.erase(words.begin());
-    if (first == "--help" || first == "-h" || (first == "help" && words.empty())) {
-        print_help();
-        return ExitCode::done;
-    }
+    if (first == "--help" || first == "-h" || first == "help") return help(words);
     if (first == "--version") {
         std::printf("clsurf %s\n", version);
         return ExitCode::done;

@@ -12,8 +12,7 @@ void declare_common(po::options_description& options) {
         ("help,h", "show this help")
         ("quiet,q", "print errors only")
         ("verbose,v", "print notes and what was done")
-        ("threads", po::value<int>()->value_name("N"), "threads to use (default: all cores)")
-        ("progress", po::value<std::string>()->value_name("WHEN"), "auto, always or never (default: auto, on a terminal)");
+        ("threads", po::value<int>()->value_name("N"), "threads to use (default: all cores)");
     // clang-format on
 }
 
@@ -24,10 +23,6 @@ CommonOptions read_common(const po::variables_map& values) {
     if (values.count("threads") > 0) {
         common.threads = values["threads"].as<int>();
         if (common.threads < 1) throw UsageError("--threads must be at least 1");
-    }
-    if (values.count("progress") > 0) common.progress = values["progress"].as<std::string>();
-    if (common.progress != "auto" && common.progress != "always" && common.progress != "never") {
-        throw UsageError("--progress: '" + common.progress + "' is not auto, always or never");
     }
     return common;
 }

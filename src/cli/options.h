@@ -11,12 +11,11 @@
 
 namespace clsurf::cli {
 
-/// -q, -v, --threads, --progress: every subcommand has them.
+/// -q, -v, --threads: every subcommand has them.
 struct CommonOptions {
     bool quiet = false;
     bool verbose = false;
     int threads = 0;  ///< 0: as many as cores
-    std::string progress = "auto";
 };
 void declare_common(po::options_description& options);
 [[nodiscard]] CommonOptions read_common(const po::variables_map& values);

@@ -154,7 +154,7 @@ void check_jumps(const Log& log, const Axes& axes, Diagnostics& found) {
         axes.read(begin, static_cast<std::size_t>(last - begin), q);
         for (std::size_t i = 1; i < q[0].size(); ++i) {
             const double step = std::hypot(q[0][i] - q[0][i - 1], q[1][i] - q[1][i - 1], q[2][i] - q[2][i - 1]);
-            if (step <= limit) continue;
+            if (!(step > limit)) continue;  // NaN is no jump
             of_block[static_cast<std::size_t>(first / block_points)].add(
                 finding(Severity::warning, "log.jump", Place::of_point(log.name, begin + static_cast<PointIndex>(i)),
                         fmt::format("the position jumps by {:.3f} mm in one period; 99.9 % of the steps are under {:.3f} mm", step, *high)));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 #include <fmt/format.h>
@@ -20,6 +21,7 @@ constexpr std::int64_t longest_merge = 1000;  ///< motions that a kernel makes o
 /// A reported line agrees when the point lies this near to it [mm]: a corner tolerance of finishing
 /// (0.01 mm) with room for the two records by which a kernel's line leads its axes.
 constexpr double agreeing_distance = 0.05;
+constexpr double blending_distance = 1.0;  ///< [mm] G64 without a tolerance
 /// More disagreement than this among the checked points is worth a warning.
 constexpr double disagreeing_share = 0.005;
 
@@ -143,6 +145,18 @@ double LineMap::confidence_at(PointIndex point) const {
 
 namespace {
 
+/// How far the tool may leave the programmed path: the largest corner tolerance that the program
+/// gives, and where it allows blending without one, what a kernel takes at finishing feeds.
+double play_of(const Program& program) {
+    double play = agreeing_distance;
+    for (const ProgramEvent& event : program.events) {
+        if (event.name != "path-mode" || !event.value.starts_with("G64")) continue;
+        const std::size_t p = event.value.find(" P");
+        play = std::max(play, p == std::string::npos ? blending_distance : std::strtod(event.value.c_str() + p + 2, nullptr));
+    }
+    return play;
+}
+
 /// Distance of a position to the motions that the reported lines allow; NaN: the line has none.
 double allowed_distance(const Toolpath& path, const LineMap& map, LineNumber before,
                         LineNumber line, const Vec3& position) {
@@ -178,7 +192,7 @@ double quantile(Column<double>& values, double q) {
 
 LineAgreement check_lines(const Trajectory& path, const Program& program, const LineMap& map) {
     LineAgreement agreement;
-    agreement.tolerance = agreeing_distance;
+    agreement.tolerance = play_of(program);
     const Toolpath toolpath(program.motions, path.count > 0 ? path.at(0) : Vec3::Zero());
     const PointIndex stretch = std::min(path.count, checked_stretch);
     const PointIndex stretches = std::min<PointIndex>(checked_stretches, stretch > 0 ? path.count / stretch : 0);

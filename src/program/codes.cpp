@@ -216,7 +216,7 @@ bool Interpreter::apply_of_dialect(int code, Block& block, std::size_t column) {
                 case 90:
                     return false;
                 case 100: set_offsets(block); return true;
-                case 650: return true;  // carried out with the block's words, flow.cpp
+                case 650: motion_suppressed_ = true; return true;  // its words are arguments (flow.cpp)
                 case 502: note(Severity::warning, "program.polygon", "G50.2 is not carried out", column); return true;
                 case 510:
                     note(Severity::warning, "program.scaling", "G51: scaling is not carried out, the path is read as programmed", column);

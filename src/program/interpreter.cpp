@@ -24,9 +24,10 @@ Interpreter::Interpreter(SourceText text, const InterpreterOptions& options)
     program_.files.push_back(std::move(text));
     indexes_.resize(1);
     indexed_.resize(1);
-    // RS274's interpreter starts at its origin; the other controls stand wherever they stand.
+    // RS274's interpreter starts at its origin and retracts to R; the other controls stand wherever they stand.
     if (dialect_ == DialectId::linuxcnc) {
         state_.position = Vec3::Zero();
+        state_.retract_to_r = true;
         program_.motions.start = Xyz(0, 0, 0);
     }
 }

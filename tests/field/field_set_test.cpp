@@ -1,0 +1,101 @@
+#include "field/field_set.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "field/range.h"
+
+namespace clsurf {
+namespace {
+
+constexpr double radius = 20;   // [mm]
+constexpr double speed = 50;    // [mm/s]
+constexpr double period = 0.001;
+
+/// A circle at constant speed; feedback 5 µm inside it and 2 records late.
+struct Circle {
+    std::vector<double> c[3], f[3];
+    Log log;
+    Passes passes;
+    Circle() {
+        const double step = speed * period / radius;
+        for (int i = 0; i < 3000; ++i) {
+            c[0].push_back(radius * std::cos(step * i));
+            c[1].push_back(radius * std::sin(step * i));
+            c[2].push_back(1);
+            f[0].push_back((radius - 0.005) * std::cos(step * (i - 2)));
+            f[1].push_back((radius - 0.005) * std::sin(step * (i - 2)));
+            f[2].push_back(1);
+        }
+        log.period = period;
+        log.records = 3000;
+        for (int k = 0; k < 3; ++k) {
+            const auto view = [](const std::vector<double>& v) { return ChannelView{reinterpret_cast<const std::byte*>(v.data()), 8, 3000, ScalarType::f64, false, 1, 0}; };
+            log.channels.push_back({std::string("cmd.") + "xyz"[k], "mm", view(c[k])});
+            log.channels.push_back({std::string("fb.") + "xyz"[k], "mm", view(f[k])});
+        }
+        passes.push_back({0, 2999, PassKind::cut});
+    }
+    Field get(const char* name) {
+        const Trajectory path = reconstruct(log, Role::commanded, Vec3::Zero());
+        return FieldSet(log, path, passes).get(name);
+    }
+};
+
+TEST(FieldSet, KnowsTheSpeedAndAccelerationOfACircle) {
+    Circle circle;
+    const Field v = circle.get("speed");
+    const Field a = circle.get("acceleration");
+    const Field n = circle.get("normal_acceleration");
+    const Field t = circle.get("tangential_acceleration");
+    const Field k = circle.get("curvature");
+    const Field j = circle.get("jerk");
+    for (std::size_t i = 50; i < 2950; i += 100) {
+        EXPECT_NEAR(v.values[i], speed, 0.01);
+        EXPECT_NEAR(a.values[i], speed * speed / radius, 0.05);   // 125 mm/s²
+        EXPECT_NEAR(n.values[i], speed * speed / radius, 0.05);
+        EXPECT_NEAR(t.values[i], 0, 0.01);
+        EXPECT_NEAR(k.values[i], 1 / radius, 1e-4);
+        EXPECT_NEAR(j.values[i], speed * speed * speed / (radius * radius), 0.5);  // 312.5 mm/s³
+    }
+}
+
+TEST(FieldSet, TellsLagFromContourError) {
+    Circle circle;
+    const Field lag = circle.get("following_error");
+    const Field contour = circle.get("contour_error");
+    // 2 records at 50 mm/s are 0.1 mm along the path; across it the error is 5 µm.
+    for (std::size_t i = 100; i < 2900; i += 100) {
+        EXPECT_NEAR(lag.values[i], 0.1, 0.001);
+        EXPECT_NEAR(contour.values[i], 0.005, 0.0002);
+    }
+}
+
+TEST(FieldSet, SuggestsTheNearestNameAndNamesMissingRoles) {
+    Circle circle;
+    try {
+        (void)circle.get("acelleration");
+        FAIL();
+    } catch (const UsageError& error) {
+        EXPECT_EQ(error.hint(), "did you mean 'acceleration'?");
+    }
+    circle.log.channels.erase(circle.log.channels.begin() + 1);  // fb.x
+    EXPECT_THROW((void)circle.get("following_error"), UsageError);
+}
+
+TEST(Range, LeavesOutRapidsAndOutliers) {
+    Field field;
+    field.values.resize(10'000);
+    for (std::size_t i = 0; i < 10'000; ++i) field.values[i] = static_cast<float>(i < 1000 ? 1e6 : i % 100);
+    Passes passes;
+    passes.push_back({0, 999, PassKind::rapid});
+    passes.push_back({1000, 9999, PassKind::cut});
+    const ShownRange range = find_range(field, passes, {});
+    EXPECT_NEAR(range.low, 1, 1);
+    EXPECT_NEAR(range.high, 98, 1);
+}
+
+}  // namespace
+}  // namespace clsurf

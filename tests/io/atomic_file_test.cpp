@@ -1,0 +1,35 @@
+#include "io/atomic_file.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "support/temporary_folder.h"
+
+namespace clsurf::io {
+namespace {
+
+TEST(AtomicFile, LeavesTheOldFileUntilItIsCommitted) {
+    const test::TemporaryFolder folder;
+    const std::string path = folder.write("out", "old");
+    {
+        AtomicFile file(path);
+        file.write("new");
+        EXPECT_EQ(test::read_file(path), "old");
+    }
+    EXPECT_EQ(test::read_file(path), "old");
+    EXPECT_EQ(folder.files(), 1u);
+    AtomicFile file(path);
+    file.write("new");
+    file.commit();
+    EXPECT_EQ(test::read_file(path), "new");
+    EXPECT_EQ(folder.files(), 1u);
+}
+
+TEST(AtomicFile, SaysWhereItCannotWrite) {
+    const test::TemporaryFolder folder;
+    EXPECT_THROW(AtomicFile(folder / "no/such/folder"), SystemError);
+    EXPECT_THROW(AtomicFile(folder / ""), SystemError);
+}
+
+}  // namespace
+}  // namespace clsurf::io

@@ -1,0 +1,93 @@
+#include "io/delimited.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "support/temporary_folder.h"
+
+namespace clsurf::io {
+namespace {
+
+Log open(const test::TemporaryFolder& folder, const std::string& text, const LogOptions& options = {}) {
+    return open_log(folder.write("run.csv", text), options);
+}
+
+TEST(Delimited, ReadsOurNamesUnitsAndPeriod) {
+    const test::TemporaryFolder folder;
+    const Log log = open(folder, "time,cmd.x [mm],cmd.y [in],line\r\n0,1.5,1,3\r\n0.002,+2,1e0,4\r\n0.004,2.5,1,4\r\n");
+    EXPECT_EQ(log.format, "delimited");
+    EXPECT_EQ(log.records, 3);
+    EXPECT_DOUBLE_EQ(log.period, 0.002);
+    EXPECT_EQ(log.find("cmd.x")->values.at(1), 2.0);
+    EXPECT_EQ(log.find("cmd.y")->unit, "mm");
+    EXPECT_DOUBLE_EQ(log.find("cmd.y")->values.at(0), 25.4);
+}
+
+TEST(Delimited, UnderstandsSemicolonsWithDecimalCommas) {
+    const test::TemporaryFolder folder;
+    const Log log = open(folder, "time;cmd.x\n0;1,25\n0,001;1,5\n");
+    EXPECT_DOUBLE_EQ(log.find("cmd.x")->values.at(0), 1.25);
+    EXPECT_DOUBLE_EQ(log.period, 0.001);
+}
+
+TEST(Delimited, TakesABadNumberAsMissingAndNamesItsPlace) {
+    const test::TemporaryFolder folder;
+    const Log log = open(folder, "time,cmd.x\n0,1\n0.001,oops\n0.002\n");
+    EXPECT_TRUE(std::isnan(log.find("cmd.x")->values.at(1)));
+    EXPECT_TRUE(std::isnan(log.find("cmd.x")->values.at(2)));
+    ASSERT_EQ(log.diagnostics.count("log.bad-number"), 1u);
+    EXPECT_EQ(log.diagnostics.kept()[0].where.number, 3u);
+    EXPECT_EQ(log.diagnostics.kept()[0].where.column, 7u);
+    EXPECT_EQ(log.diagnostics.count("log.ragged-row"), 1u);
+}
+
+TEST(Delimited, NeedsAPeriodFromSomewhere) {
+    const test::TemporaryFolder folder;
+    EXPECT_THROW((void)open(folder, "cmd.x\n1\n2\n"), InputError);
+    LogOptions options;
+    options.period = 0.004;
+    EXPECT_DOUBLE_EQ(open(folder, "cmd.x\n1\n2\n", options).period, 0.004);
+}
+
+TEST(Delimited, FollowsAMapping) {
+    const test::TemporaryFolder folder;
+    LogOptions options;
+    options.mapping = folder.write("m.toml", "[log]\nperiod_s = 0.002\n[[column]]\nfrom = \"DES_POS|1\"\nname = \"cmd.x\"\nunit = \"mm\"\nscale = 0.001\n");
+    const Log log = open(folder, "n,DES_POS|1\n0,1500\n1,1600\n", options);
+    EXPECT_DOUBLE_EQ(log.find("cmd.x")->values.at(0), 1.5);
+    EXPECT_EQ(log.channels.size(), 1u);
+}
+
+TEST(Delimited, RefusesAMappingWithAnUnknownKeyOrColumn) {
+    const test::TemporaryFolder folder;
+    LogOptions options;
+    options.mapping = folder.write("m.toml", "[[column]]\nfrom = \"b\"\nname = \"cmd.x\"\nunits = \"mm\"\n");
+    try {
+        (void)open(folder, "a,b\n1,2\n", options);
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_EQ(error.diagnostic().where.number, 4u);
+        EXPECT_EQ(error.diagnostic().hint, "did you mean 'unit'?");
+    }
+    options.mapping = folder.write("m.toml", "[log]\nperiod_s=1\n[[column]]\nfrom = \"missing\"\nname = \"cmd.x\"\n");
+    EXPECT_THROW((void)open(folder, "a,b\n1,2\n", options), InputError);
+}
+
+TEST(Delimited, ReadsRecordedHalsamplerText) {
+    LogOptions options;
+    options.mapping = SAMPLE_DATA "/logs/dome_loops.mapping.toml";
+    const Log text = open_log(TEST_LOGS "/dome_loops.halsampler.txt", options);
+    const Log biip = open_log(TEST_LOGS "/dome_loops.biip", {});
+    EXPECT_EQ(text.format, "halsampler");
+    ASSERT_EQ(text.records, biip.records);
+    for (PointIndex i = 0; i < text.records; i += 997) {
+        EXPECT_NEAR(text.find("cmd.x")->values.at(i), biip.find("cmd.x")->values.at(i), 1e-6);
+        EXPECT_EQ(text.find("line")->values.at(i), biip.find("line")->values.at(i));
+    }
+    EXPECT_THROW((void)open_log(TEST_LOGS "/dome_loops.halsampler.txt", {}), InputError);
+}
+
+}  // namespace
+}  // namespace clsurf::io

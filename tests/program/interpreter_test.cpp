@@ -1,0 +1,167 @@
+#include "program/interpreter.h"
+
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "io/program_file.h"
+
+namespace clsurf {
+namespace {
+
+Program parse(const std::string& text, const char* dialect) {
+    const auto kept = std::make_shared<std::string>(text);
+    InterpreterOptions options;
+    options.dialect = find_dialect(dialect);
+    return parse_program(SourceText("test.nc", *kept, kept), options);
+}
+
+/// "kind x y z" of every motion.
+std::vector<std::string> motions(const Program& program) {
+    std::vector<std::string> all;
+    static constexpr const char* kinds[] = {"rapid", "feed", "cw", "ccw", "dwell", "spline"};
+    const auto number = [](double v) {
+        std::string text = std::to_string(std::round(v * 1e4) / 1e4 + 0.0);
+        text.erase(text.find_last_not_of('0') + 1);
+        if (text.ends_with('.')) text.pop_back();
+        return text == "-0" ? std::string("0") : text;
+    };
+    const Motions& m = program.motions;
+    for (std::size_t i = 0; i < m.kind.size(); ++i) {
+        all.push_back(std::string(kinds[static_cast<int>(m.kind[i])]) + " " + number(m.end[i].x) + " " + number(m.end[i].y) + " " + number(m.end[i].z));
+    }
+    return all;
+}
+
+using Rows = std::vector<std::string>;
+
+std::string error_of(const std::string& text, const char* dialect) {
+    try {
+        (void)parse(text, dialect);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(Interpreter, KeepsModalMotionAndAxes) {
+    EXPECT_EQ(motions(parse("G0 X1 Y2 Z3\nG1 F60 X2\nY5\nG0Z9\n", "fanuc")), (Rows{"rapid 1 2 3", "feed 2 2 3", "feed 2 5 3", "rapid 2 5 9"}));
+}
+
+TEST(Interpreter, ConvertsInchesAndFeeds) {
+    const Program p = parse("G20 G1 X1 F10\n", "fanuc");
+    EXPECT_DOUBLE_EQ(p.motions.end[0].x, 25.4);
+    EXPECT_NEAR(p.motions.feed[0], 254.0 / 60, 1e-4);
+}
+
+TEST(Interpreter, AddsIncrementsUnderG91) {
+    EXPECT_EQ(motions(parse("G0 X1 Y1 Z0\nG91 G1 F60 X1\nX1 Y-3\nG90 X0\n", "fanuc")), (Rows{"rapid 1 1 0", "feed 2 1 0", "feed 3 -2 0", "feed 0 -2 0"}));
+}
+
+TEST(Interpreter, ReadsTapesAsTheyCome) {
+    // Byte order mark, CRLF, lower case, no blanks, N numbers, comments, block delete, percent.
+    const std::string tape = "\xef\xbb\xbf%\r\no1000 (part)\r\nn10g90g21\r\nn20g0x.5y1.z-1\r\n/g0x99\r\nn30.5 g1f100x1 (half) y2 ; rest\r\nm30\r\n%\r\ng0x7\r\n";
+    EXPECT_EQ(motions(parse(tape, "fanuc")), (Rows{"rapid 0.5 1 -1", "feed 1 2 -1"}));
+}
+
+TEST(Interpreter, CarriesRotaryAxes) {
+    const Program p = parse("G1 F100 X1 A90\nC-45\n", "linuxcnc");
+    EXPECT_NEAR(p.motions.rotary[1].x, std::numbers::pi / 2, 1e-12);
+    EXPECT_NEAR(p.motions.rotary[1].z, -std::numbers::pi / 4, 1e-12);
+}
+
+TEST(Interpreter, ResolvesFullCirclesPlanesAndAbsoluteCentres) {
+    const Program p = parse("G0 X1 Y0 Z0\nG3 F60 I-1\nG18 G2 X2 Z1 I1\nG17 G90.1 G2 X4 Y0 I3 J0\n", "linuxcnc");
+    ASSERT_EQ(p.motions.arcs.size(), 3u);
+    EXPECT_DOUBLE_EQ(p.motions.arcs[0].centre.x, 0.0);
+    EXPECT_EQ(p.motions.arcs[1].axis, 1);
+    EXPECT_DOUBLE_EQ(p.motions.arcs[1].centre.x, 2.0);
+    EXPECT_DOUBLE_EQ(p.motions.arcs[2].centre.x, 3.0);
+}
+
+TEST(Interpreter, MakesAWrongArcAnErrorWithBothRadii) {
+    EXPECT_EQ(error_of("G0 X0 Y0\nG2 X2 Y0 I1.2 J0 F60\n", "linuxcnc"),
+              "test.nc:2:1: error: arc radius differs: 1.2000 at the start, 0.8000 at the end\n    G2 X2 Y0 I1.2 J0 F60\n    ^\n");
+}
+
+TEST(Interpreter, ShiftsWithG92AndWorkOffsets) {
+    // G92 makes the present position read 10; G10 L2 moves the zero of G55 to machine X 5.
+    EXPECT_EQ(motions(parse("G0 X1 Y0 Z0\nG92 X10\nG0 X11\nG92.1\nG0 X0\nG10 L2 P2 X5\nG55 G0 X0\nG53 G0 X0\n", "linuxcnc")),
+              (Rows{"rapid 1 0 0", "rapid 11 0 0", "rapid 0 0 0", "rapid 0 0 0", "rapid -5 0 0"}));
+}
+
+TEST(Interpreter, RunsCannedCyclesAsMotions) {
+    // G83, Q 2 from R 1 to Z −3: pecks at −1 and −3, out to R between, 0.254 mm above the last depth.
+    EXPECT_EQ(motions(parse("G0 X0 Y0 Z5\nG98 G83 X1 Y2 Z-3 R1 Q2 F60\nG80\n", "linuxcnc")),
+              (Rows{"rapid 0 0 5", "rapid 1 2 5", "rapid 1 2 1", "feed 1 2 -1", "rapid 1 2 1", "rapid 1 2 -0.746", "feed 1 2 -3", "rapid 1 2 5"}));
+}
+
+TEST(Interpreter, EvaluatesExpressionsByTheirRanks) {
+    EXPECT_EQ(motions(parse("#1=[2+3*4**2]\n#<_k>=7\nG0 X#1 Y[#<_k> MOD 4] Z[SIN[30]*2]\nG0 X-#1 Y[[1 LT 2] AND [3 EQ 3]] Z[ATAN[1]/[1]]\n", "linuxcnc")),
+              (Rows{"rapid 50 3 1", "rapid -50 1 45"}));
+}
+
+TEST(Interpreter, RunsOWords) {
+    const char* text =
+        "o100 sub\n  G1 X#1 F60\n  o101 if [#1 GT 2]\n    G1 Y#1\n  o101 else\n    G1 Y-1\n  o101 endif\no100 endsub\n"
+        "#5=0\no1 while [#5 LT 2]\n#5=[#5+1]\no100 call [#5*2-1]\no1 endwhile\no2 repeat [2]\nG91 G1 Z1\no2 endrepeat\nM2\n";
+    EXPECT_EQ(motions(parse(text, "linuxcnc")), (Rows{"feed 1 0 0", "feed 1 -1 0", "feed 3 -1 0", "feed 3 3 0", "feed 3 3 1", "feed 3 3 2"}));
+}
+
+TEST(Interpreter, RunsFanucSubprogramsAndMacros) {
+    const char* text = "G91 G1 F60\nM98 P1000 L2\nM98 P20001\nG65 P2 X5 A2\nWHILE [#1 LT 2] DO 1\n#1=#1+1\nX1\nEND 1\nIF [1 EQ 1] GOTO 50\nX99\nN50 Y9\nM30\n"
+                       "O1000\nX10\nM99\nO0001\nY1\nM99\nO2\nX#24 Y#1\nM99\n";
+    EXPECT_EQ(motions(parse(text, "fanuc")),
+              (Rows{"feed 10 nan nan", "feed 20 nan nan", "feed 20 1 nan", "feed 20 2 nan", "feed 25 4 nan", "feed 26 4 nan", "feed 27 4 nan", "feed 27 13 nan"}));
+}
+
+TEST(Interpreter, ReadsSiemensWords) {
+    const Program p = parse("DEF REAL _DEPTH\n_DEPTH=-2.5\nR1=4\nG0 X=R1*2 Y=AC(3) Z=_DEPTH\nG91 X=AC(1) Y=IC(2)\nG90 G3 X3 Y5 CR=-5 F60\nG2 X3 Y5 I0 J2 TURN=2\nTRAORI\n", "siemens");
+    EXPECT_EQ(motions(p)[0], "rapid 8 3 -2.5");
+    EXPECT_EQ(motions(p)[1], "rapid 1 5 -2.5");
+    ASSERT_GE(p.motions.arcs.size(), 1u);
+    EXPECT_EQ(p.motions.arcs.back().turns, 3);
+    EXPECT_EQ(p.events.back().value, "TRAORI");
+}
+
+TEST(Interpreter, ReportsUnknownWordsWithTheirPlace) {
+    const Program p = parse("G0 X1\nG777 X2\n", "fanuc");
+    ASSERT_EQ(p.diagnostics.count("program.unknown-word"), 1u);
+    EXPECT_EQ(p.diagnostics.kept()[0].where.text(), "test.nc:2:1");
+}
+
+TEST(Interpreter, StopsEndlessLoopsAndRecursion) {
+    EXPECT_NE(error_of("o1 while [1]\no1 endwhile\n", "linuxcnc").find("a loop without end?"), std::string::npos);
+    EXPECT_NE(error_of("o1 sub\no1 call\no1 endsub\no1 call\n", "linuxcnc").find("a subprogram that calls itself?"), std::string::npos);
+    EXPECT_NE(error_of("M98 P77\n", "fanuc").find("subprogram '77' is neither in the program nor beside it"), std::string::npos);
+}
+
+TEST(Interpreter, SurvivesBrokenBlocks) {
+    for (const char* text : {"X[1+", "#1=[", "G1 X[1/0]", "#<abc", "o1 if [", "G2 X1", "X1.2.3", "o[ call", "G0 X[SQRT[-1]]", "((((", "\"\"\"", "N", "/", "%%", "o100", "#=", "G", "M", "[[[[[[[["}) {
+        for (const Dialect& dialect : dialects()) {
+            try {
+                (void)parse(text, dialect.name.data());
+            } catch (const InputError&) {  // a clear error is as good an answer as any
+            }
+        }
+    }
+}
+
+TEST(Dialect, IsDetectedFromItsWords) {
+    EXPECT_EQ(detect_dialect("N10 TRAORI\nN20 CYCLE832(0.01,1,1)\n").name, "siemens");
+    EXPECT_EQ(detect_dialect("o<x> sub\n#<a>=1\no<x> endsub\n").name, "linuxcnc");
+    EXPECT_EQ(detect_dialect("%X G71 *\nN10 G0 X1*\nN20 G1 X2*\nN30 X3*\n").name, "heidenhain-iso");
+    EXPECT_EQ(detect_dialect("O1000\nG90 G54 G0 X0\n").name, "fanuc");
+}
+
+TEST(Program, ReadsARealFiveAxisProgram) {
+    const Program p = io::read_program(SAMPLE_DATA "/programs/keychain.mpf", "");
+    EXPECT_EQ(p.dialect->name, "siemens");
+    EXPECT_GT(p.motions.size(), 500);
+    EXPECT_EQ(p.diagnostics.count("program.unknown-word"), 0u);
+    EXPECT_GT(p.motions.arcs.size(), 10u);
+}
+
+}  // namespace
+}  // namespace clsurf

@@ -1,0 +1,28 @@
+#include "viz/chart.h"
+
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace clsurf::viz {
+namespace {
+
+TEST(ThinCurve, KeepsEveryExtremeOfEveryColumn) {
+    std::mt19937 random(5);
+    std::vector<double> x(100'000);
+    std::vector<double> y(x.size());
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        x[i] = static_cast<double>(i);
+        y[i] = static_cast<double>(random() % 1000);
+    }
+    y[12'345] = 1e6;
+    y[54'321] = -1e6;
+    const std::vector<Vec2> thin = thin_curve(x, y, 0, 99'999, 500);
+    EXPECT_LE(thin.size(), 4u * 501);
+    EXPECT_TRUE(std::any_of(thin.begin(), thin.end(), [](const Vec2& p) { return p == Vec2(12'345, 1e6); }));
+    EXPECT_TRUE(std::any_of(thin.begin(), thin.end(), [](const Vec2& p) { return p == Vec2(54'321, -1e6); }));
+    for (std::size_t i = 1; i < thin.size(); ++i) EXPECT_LT(thin[i - 1].x(), thin[i].x());
+}
+
+}  // namespace
+}  // namespace clsurf::viz

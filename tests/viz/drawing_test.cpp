@@ -1,0 +1,65 @@
+// Drawing without a display: the context is a software one, and a pixel has its colour.
+#include "viz/canvas.h"
+
+#include <cstdlib>
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "viz/gl_context.h"
+
+namespace clsurf::viz {
+namespace {
+
+Sheet red_square() {
+    Sheet sheet;
+    sheet.width = 80;
+    sheet.height = 60;
+    MeshPanel panel;
+    panel.rect = {0, 0, 80, 60};
+    panel.camera = camera_for(parse_view("top"), Box3(Vec3(0, 0, 0), Vec3(10, 10, 0)), 80, 60, {});
+    for (const float v : {0.F, 0.F, 0.F, 10.F, 0.F, 0.F, 10.F, 10.F, 0.F, 0.F, 10.F, 0.F}) panel.geometry.xyz.push_back(v);
+    for (int k = 0; k < 4; ++k) {
+        for (const std::uint8_t c : {200, 30, 40}) panel.geometry.rgb.push_back(c);
+    }
+    for (const std::uint32_t v : {0u, 1u, 2u, 0u, 2u, 3u}) panel.geometry.triangles.push_back(v);
+    sheet.panels.push_back(std::move(panel));
+    return sheet;
+}
+
+TEST(Drawing, UsesASoftwareRendererWithoutADisplay) {
+    ::unsetenv("DISPLAY");
+    const auto context = make_gl_context("osmesa", 64, 64);
+    const std::string name = context->renderer();
+    EXPECT_TRUE(name.find("llvmpipe") != std::string::npos || name.find("softpipe") != std::string::npos) << name;
+}
+
+TEST(Drawing, GivesAPixelItsColour) {
+    ::unsetenv("DISPLAY");
+    const Image image = draw(red_square(), "osmesa", 2);
+    const std::uint8_t* middle = image.pixel(40, 30);
+    EXPECT_EQ(middle[0], 200);
+    EXPECT_EQ(middle[1], 30);
+    EXPECT_EQ(middle[2], 40);
+    EXPECT_EQ(image.pixel(1, 1)[0], 255);
+}
+
+TEST(Drawing, GivesTheSamePixelsEveryTime) {
+    const Image a = draw(red_square(), "osmesa", 2);
+    const Image b = draw(red_square(), "osmesa", 2);
+    EXPECT_TRUE(std::equal(a.rgb.begin(), a.rgb.end(), b.rgb.begin()));
+}
+
+TEST(Drawing, PutsTextsAboveQuads) {
+    Sheet sheet = red_square();
+    sheet.quads.push_back({{0, 0, 80, 60}, {255, 255, 255}});
+    sheet.texts.push_back({40, 30, "M", 40, Align::centre, true, {0, 0, 0}});
+    const Image image = draw(sheet, "osmesa", 2);
+    const bool dark = std::any_of(image.rgb.begin(), image.rgb.end(), [](std::uint8_t v) { return v < 60; });
+    EXPECT_TRUE(dark);
+}
+
+TEST(Drawing, RefusesAnUnknownContext) { EXPECT_THROW((void)make_gl_context("glx", 8, 8), UsageError); }
+
+}  // namespace
+}  // namespace clsurf::viz

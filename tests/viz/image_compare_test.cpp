@@ -1,0 +1,54 @@
+#include "viz/image_compare.h"
+
+#include <gtest/gtest.h>
+
+namespace clsurf::viz {
+namespace {
+
+Image grey(std::uint8_t value) {
+    Image image;
+    image.width = 100;
+    image.height = 50;
+    image.rgb = Column<std::uint8_t>(3 * 100 * 50, value);
+    return image;
+}
+
+TEST(Compare, CallsTheSameEqual) {
+    const Comparison c = compare(grey(10), grey(10), {});
+    EXPECT_TRUE(c.equal);
+    EXPECT_EQ(c.pixels_over, 0);
+}
+
+TEST(Compare, AllowsOneStepEverywhereAndThreeStepsInOneValue) {
+    EXPECT_TRUE(compare(grey(10), grey(11), {}).equal);
+    Image b = grey(10);
+    b.rgb[77] = 13;
+    EXPECT_TRUE(compare(grey(10), b, {}).equal);
+    b.rgb[77] = 14;
+    const Comparison c = compare(grey(10), b, {});
+    EXPECT_FALSE(c.equal);
+    EXPECT_EQ(c.pixels_over, 1);
+    EXPECT_NEAR(c.max_error, 4 / 255.0, 1e-6);
+}
+
+TEST(Compare, FailsWhereManyValuesAreTwoStepsOff) { EXPECT_FALSE(compare(grey(10), grey(12), {}).equal); }
+
+TEST(Image, ReadsBackWhatItEncoded) {
+    Image a = grey(90);
+    a.rgb[3 * 5 + 1] = 200;
+    const std::string bytes = encode_png(a, "test");
+    EXPECT_EQ(bytes, encode_png(a, "test"));
+    EXPECT_EQ(bytes.substr(1, 3), "PNG");
+}
+
+TEST(Image, ShrinksToTheMean) {
+    Image a = grey(10);
+    for (int k = 0; k < 3; ++k) a.rgb[static_cast<std::size_t>(k)] = 50;
+    const Image b = shrink(a, 2);
+    EXPECT_EQ(b.width, 50);
+    EXPECT_EQ(b.rgb[0], 20);
+    EXPECT_EQ(b.rgb[3], 10);
+}
+
+}  // namespace
+}  // namespace clsurf::viz

@@ -1,0 +1,50 @@
+#include "viz/view.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+
+namespace clsurf::viz {
+namespace {
+
+const Box3 box(Vec3(-10, -5, 0), Vec3(10, 5, 2));
+
+TEST(View, TopLooksDownWithYUp) {
+    const Camera c = camera_for(parse_view("top"), box, 200, 100, {});
+    EXPECT_TRUE(c.right.isApprox(Vec3::UnitX(), 1e-12));
+    EXPECT_TRUE(c.up.isApprox(Vec3::UnitY(), 1e-12));
+    EXPECT_TRUE(c.pixel(Vec3(0, 0, 1)).isApprox(Vec2(100, 50), 1e-9));
+    // 20 mm on 200 pixels with a margin of 3 %.
+    EXPECT_NEAR(c.pixel(Vec3(10, 0, 1)).x(), 100 + 100 / 1.03, 1e-9);
+}
+
+TEST(View, FrontLooksAlongYAndRightAlongMinusX) {
+    EXPECT_TRUE(camera_for(parse_view("front"), box, 10, 10, {}).towards.isApprox(-Vec3::UnitY(), 1e-12));
+    EXPECT_TRUE(camera_for(parse_view("right"), box, 10, 10, {}).towards.isApprox(Vec3::UnitX(), 1e-12));
+    EXPECT_TRUE(camera_for(parse_view("90,0"), box, 10, 10, {}).towards.isApprox(Vec3::UnitX(), 1e-12));
+}
+
+TEST(View, ProjectionAndPixelAgree) {
+    const Camera c = camera_for(parse_view("33,21"), box, 640, 480, {0.2, 0.1, 0.6, 0.5});
+    const Vec3 p(1.5, -2.5, 0.75);
+    const Projection m = c.projection();
+    EXPECT_TRUE((m.leftCols<3>() * p + m.col(3)).isApprox(c.pixel(p), 1e-9));
+}
+
+TEST(View, ZoomShowsThatPartOfThePicture) {
+    const Camera whole = camera_for(parse_view("top"), box, 200, 100, {});
+    const Camera part = camera_for(parse_view("top"), box, 200, 100, {0.5, 0, 1, 0.5});
+    // The middle of the whole picture is the lower left corner of its upper right quarter.
+    const Vec3 middle(0, 0, 1);
+    EXPECT_TRUE(part.pixel(middle).isApprox(Vec2(0, 0)) || part.pixel(middle).norm() < 1e-9);
+    EXPECT_NEAR(part.mm_per_pixel, 0.5 * whole.mm_per_pixel, 1e-12);
+}
+
+TEST(View, RefusesWhatIsNone) {
+    EXPECT_THROW((void)parse_view("tpo"), UsageError);
+    EXPECT_THROW((void)parse_view("10"), UsageError);
+    EXPECT_THROW((void)parse_view("10,95"), UsageError);
+}
+
+}  // namespace
+}  // namespace clsurf::viz
