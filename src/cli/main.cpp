@@ -18,6 +18,7 @@ namespace clsurf::cli {
 
 std::span<const Subcommand> subcommands() {
     static const std::vector<Subcommand> table{
+        moves_subcommand(),
 
     };
     return table;

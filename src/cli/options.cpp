@@ -30,9 +30,19 @@ CommonOptions read_common(const po::variables_map& values) {
     return common;
 }
 
-void declare_dialect(po::options_description& options) {
-    options.add_options()("dialect", po::value<std::string>()->value_name("NAME"),
-                          "language of the program (default: detected; clsurf help dialects)");
+void declare_program_options(po::options_description& options) {
+    // clang-format off
+    options.add_options()
+        ("dialect", po::value<std::string>()->value_name("NAME"), "language of the program (default: detected; see `clsurf help dialects`)")
+        ("block-delete", po::value<std::string>()->value_name("ON|OFF"), "skip blocks that begin with / (default: on)");
+    // clang-format on
+}
+
+bool read_block_delete(const po::variables_map& values) {
+    if (values.count("block-delete") == 0) return true;
+    const std::string word = values["block-delete"].as<std::string>();
+    if (word != "on" && word != "off") throw UsageError("--block-delete: '" + word + "' is not on or off");
+    return word == "on";
 }
 
 std::string read_dialect(const po::variables_map& values) {

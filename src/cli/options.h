@@ -20,9 +20,10 @@ struct CommonOptions {
 void declare_common(po::options_description& options);
 [[nodiscard]] CommonOptions read_common(const po::variables_map& values);
 
-/// --dialect
-void declare_dialect(po::options_description& options);
+/// --dialect, --block-delete
+void declare_program_options(po::options_description& options);
 [[nodiscard]] std::string read_dialect(const po::variables_map& values);
+[[nodiscard]] bool read_block_delete(const po::variables_map& values);
 
 /// --layout, --mapping, --period
 void declare_log_options(po::options_description& options);

@@ -1,0 +1,15 @@
+#pragma once
+// The motions of a program as CSV, one row a motion, in the active work coordinate system: mm, deg,
+// mm/min. Columns: line,kind,x,y,z,a,b,c,ci,cj,ck,turns,plane,feed; empty where not meant.
+
+#include <functional>
+#include <string_view>
+
+#include "program/program.h"
+
+namespace clsurf::io {
+
+/// Hands the text on in pieces of about a megabyte.
+void write_moves_csv(const Motions& motions, const std::function<void(std::string_view)>& write);
+
+}  // namespace clsurf::io

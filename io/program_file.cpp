@@ -1,0 +1,57 @@
+#include "io/program_file.h"
+
+#include <array>
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+#include "core/error.h"
+#include "core/spelling.h"
+#include "io/mapped_file.h"
+#include "program/interpreter.h"
+
+namespace clsurf::io {
+namespace {
+
+SourceText source_text(const std::string& path) {
+    Source source = map_file(path);
+    return {source.name, source.text(), source.keep_alive};
+}
+
+/// Subprograms stand beside the program under their name, as the controls write it.
+std::optional<SourceText> load_beside(const std::filesystem::path& folder, const std::string& name) {
+    static constexpr std::array<std::string_view, 12> endings{
+        "", ".ngc", ".nc", ".NC", ".spf", ".SPF", ".mpf", ".MPF", ".tap", ".i", ".I", ".txt"};
+    // A name with a path would leave the folder.
+    if (name.find('/') != std::string::npos) return std::nullopt;
+    for (const std::string& stem : {name, "O" + name, "o" + name, "O" + std::string(name.size() < 4 ? 4 - name.size() : 0, '0') + name}) {
+        for (const std::string_view ending : endings) {
+            const std::filesystem::path path = folder / (stem + std::string(ending));
+            std::error_code error;
+            if (std::filesystem::is_regular_file(path, error)) return source_text(path.string());
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+Program read_program(const std::string& path, const std::string& dialect, bool block_delete) {
+    InterpreterOptions options;
+    options.block_delete = block_delete;
+    if (!dialect.empty()) {
+        options.dialect = find_dialect(dialect);
+        if (options.dialect == nullptr) {
+            std::vector<std::string_view> names;
+            for (const Dialect& d : dialects()) names.push_back(d.name);
+            throw UsageError("unknown dialect '" + dialect + "'", did_you_mean(dialect, names));
+        }
+    }
+    const std::filesystem::path folder = path == "-" ? std::filesystem::path(".") : std::filesystem::path(path).parent_path();
+    options.load = [folder](const std::string& name) { return load_beside(folder.empty() ? "." : folder, name); };
+    SourceText text = source_text(path);
+    if (text.text().empty()) throw InputError(Place::of_file(text.name()), "is empty, expected an NC program");
+    return parse_program(std::move(text), options);
+}
+
+}  // namespace clsurf::io

@@ -1,0 +1,331 @@
+#include "program/block.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+
+namespace clsurf {
+
+Statement clean_line(std::string_view line, DialectId dialect) {
+    Statement statement;
+    std::string& text = statement.text;
+    text.assign(line);
+    // A byte order mark and bytes that no controller reads are blanks; in quotes all stays.
+    if (text.starts_with("\xef\xbb\xbf")) text.replace(0, 3, "   ");
+    bool quoted = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        char& c = text[i];
+        if (c == '"') quoted = !quoted;
+        if (quoted) continue;
+        if (c == '\0' || c == '\r' || c == '\t') c = ' ';
+        if (c == ';') {
+            text.resize(i);
+            break;
+        }
+        const bool comment = c == '(' && dialect != DialectId::siemens;
+        if (!comment) continue;
+        const std::size_t end = text.find(')', i);
+        if (end == std::string::npos) statement.open_comment = true;
+        const std::size_t stop = end == std::string::npos ? text.size() : end + 1;
+        std::fill(text.begin() + static_cast<std::ptrdiff_t>(i), text.begin() + static_cast<std::ptrdiff_t>(stop), ' ');
+        i = stop - 1;
+    }
+    if (dialect == DialectId::heidenhain_iso) std::replace(text.begin(), text.end(), '*', ' ');
+    while (!text.empty() && text.back() == ' ') text.pop_back();
+    std::size_t at = text.find_first_not_of(' ');
+    if (at == std::string::npos) {
+        text.clear();
+        return statement;
+    }
+    if (text[at] == '/') {
+        statement.deleted = true;
+        text[at] = ' ';
+        // A skip level, /1 … /9.
+        if (at + 1 < text.size() && is_digit(text[at + 1]) && dialect != DialectId::linuxcnc) text[at + 1] = ' ';
+    }
+    // "%" alone begins and ends a tape; "%name" is a program's name.
+    if (text[at] == '%') {
+        statement.tape_mark = true;
+        text.clear();
+        return statement;
+    }
+    // The block number.
+    at = text.find_first_not_of(' ');
+    if (at != std::string::npos && upper(text[at]) == 'N' && at + 1 < text.size() &&
+        (is_digit(text[at + 1]) || text[at + 1] == '.' || text[at + 1] == ' ')) {
+        std::size_t end = at + 1;
+        while (end < text.size() && (is_digit(text[end]) || text[end] == '.' || text[end] == ' ')) ++end;
+        std::fill(text.begin() + static_cast<std::ptrdiff_t>(at), text.begin() + static_cast<std::ptrdiff_t>(end), ' ');
+    }
+    return statement;
+}
+
+namespace {
+
+struct NumberedAssignment {
+    int number;
+    double value;
+};
+struct NamedAssignment {
+    std::string name;
+    double value;
+};
+
+class BlockReader {
+public:
+    BlockReader(Cursor& cursor, Variables& variables, DialectId dialect, Block& block)
+        : c_(cursor), variables_(variables), dialect_(dialect), block_(block) {}
+
+    void read() {
+        block_.clear();
+        while (c_.peek() != '\0') {
+            const char next = c_.peek();
+            if (next == '#') {
+                hash_assignment();
+            } else if (dialect_ == DialectId::siemens) {
+                siemens_word();
+            } else if (next == ',' && is_letter(c_.at + 1 < c_.text.size() ? c_.text[c_.at + 1] : ' ')) {
+                // ,C and ,R: chamfer and corner radius between blocks.
+                unknown(2);
+            } else if ((next == '@' || next == '^') && dialect_ == DialectId::linuxcnc) {
+                ++c_.at;
+                (next == '@' ? block_.polar_radius : block_.polar_angle) = read_value(c_, variables_, dialect_);
+            } else if (is_letter(next)) {
+                letter_word();
+            } else {
+                throw ReadError{std::string("expected a word, found '") + next + "'", c_.column(), {}};
+            }
+        }
+        for (const NumberedAssignment& a : numbered_) variables_.set(a.number, a.value);
+        for (const NamedAssignment& a : named_) variables_.set(a.name, a.value);
+    }
+
+private:
+    void hash_assignment() {
+        const std::size_t column = c_.column();
+        c_.take('#');
+        if (c_.take('<')) {
+            const std::size_t end = c_.text.find('>', c_.at);
+            if (end == std::string_view::npos) throw ReadError{"'#<' is not closed by '>'", column, {}};
+            std::string name;
+            for (const char ch : c_.text.substr(c_.at, end - c_.at)) {
+                if (!is_blank(ch)) name += static_cast<char>(std::tolower(static_cast<unsigned char>(ch)));
+            }
+            c_.at = end + 1;
+            expect_equals();
+            named_.push_back({name, right_side()});
+            return;
+        }
+        const double number = read_value(c_, variables_, dialect_);
+        if (!(number >= 0 && number < 1e6)) throw ReadError{"no such variable number", column, {}};
+        expect_equals();
+        numbered_.push_back({static_cast<int>(std::lround(number)), right_side()});
+    }
+    void expect_equals() {
+        if (!c_.take('=')) throw ReadError{"expected '=' after the variable", c_.column(), {}};
+    }
+    /// RS274 assigns a value (`#1=[#2+1]`), Fanuc and Siemens an expression (`#1=#2+1`).
+    double right_side() {
+        return dialect_ == DialectId::linuxcnc ? read_value(c_, variables_, dialect_)
+                                               : evaluate(c_, variables_, dialect_);
+    }
+
+    void unknown(std::size_t least) {
+        const std::size_t column = c_.column();
+        std::size_t end = c_.at + least;
+        while (end < c_.text.size() && !is_blank(c_.text[end]) && end < c_.at + 40) ++end;
+        end = std::min(end, c_.text.size());
+        block_.unknown.push_back({std::string(c_.text.substr(c_.at, end - c_.at)), column});
+        c_.at = end;
+    }
+
+    void put(char letter, double value, std::size_t column) {
+        if (letter == 'G') {
+            if (!add_g(block_.words, value, column)) {
+                block_.unknown.push_back({"G" + std::to_string(value), column});
+            }
+        } else if (letter == 'M') {
+            if (!add_m(block_.words, value)) block_.unknown.push_back({"M" + std::to_string(value), column});
+        } else {
+            if (block_.words.given(letter) && dialect_ == DialectId::linuxcnc) {
+                throw ReadError{std::string("word ") + letter + " is given twice", column, {}};
+            }
+            block_.words.set(letter, value, column);
+        }
+    }
+
+    void letter_word() {
+        const std::size_t column = c_.column();
+        const char letter = upper(c_.peek());
+        if (letter == 'Q' && dialect_ == DialectId::heidenhain_iso) {
+            if (heidenhain_assignment()) return;
+        }
+        ++c_.at;
+        const char next = c_.peek();
+        const bool value_follows = is_digit(next) || next == '.' || next == '-' || next == '+' ||
+                                   next == '[' || next == '#' ||
+                                   (is_letter(next) && dialect_ != DialectId::fanuc) ||
+                                   (next == 'Q' && dialect_ == DialectId::heidenhain_iso);
+        if (!value_follows) {
+            c_.at = column - 1;
+            unknown(1);
+            return;
+        }
+        if (is_letter(next) && !function_follows()) {
+            c_.at = column - 1;
+            unknown(1);
+            return;
+        }
+        put(letter, read_value(c_, variables_, dialect_), column);
+    }
+
+    /// After a letter only a function's name may stand for a value: `Xsin[30]`.
+    bool function_follows() {
+        static constexpr std::array<std::string_view, 14> names{"ABS", "ACOS", "ASIN", "ATAN", "COS",
+            "EXP", "FIX", "FUP", "LN", "ROUND", "SIN", "SQRT", "TAN", "EXISTS"};
+        if (dialect_ == DialectId::heidenhain_iso) return upper(c_.peek()) == 'Q';
+        const std::string id = c_.identifier();
+        return std::find(names.begin(), names.end(), id) != names.end();
+    }
+
+    /// `Q1 = 5` in the newer form.
+    bool heidenhain_assignment() {
+        Cursor ahead = c_;
+        ++ahead.at;
+        double number = 0;
+        const std::size_t next = read_decimal(ahead.text, ahead.at, number);
+        if (next == ahead.at) return false;
+        ahead.at = next;
+        if (!ahead.take('=')) return false;
+        c_ = ahead;
+        numbered_.push_back({100000 + static_cast<int>(number), evaluate(c_, variables_, dialect_)});
+        return true;
+    }
+
+    /// The name of the word at the cursor without moving: letters, and digits where they belong.
+    void siemens_word() {
+        const std::size_t column = c_.column();
+        const char first = upper(c_.peek());
+        if (first == ':' ) {  // main block number
+            ++c_.at;
+            return;
+        }
+        if (!is_letter(first) && first != '_' && first != '$') {
+            throw ReadError{std::string("expected a word, found '") + first + "'", column, {}};
+        }
+        const std::string id = c_.identifier();
+        Cursor after = c_;
+        after.at += id.size();
+        // G1, X10, Z-5: a letter with its number.
+        const std::size_t letters = static_cast<std::size_t>(
+            std::find_if(id.begin(), id.end(), [](char ch) { return !is_letter(ch); }) - id.begin());
+        const char following = after.peek();
+        const bool single = letters == 1 && (id.size() == 1 || id.find_first_not_of("0123456789", 1) == std::string::npos);
+        if (following == '=' && c_.text.substr(after.at, 2) != "==") {
+            assign(id, after, column);
+            return;
+        }
+        if (single && following != '(') {
+            ++c_.at;
+            const char next = c_.peek();
+            if (is_digit(next) || next == '.' || next == '-' || next == '+') {
+                double value = 0;
+                const std::size_t end = read_decimal(c_.text, c_.at, value);
+                if (end == c_.at) throw ReadError{"malformed number", c_.column(), {}};
+                c_.at = end;
+                put(first, value, column);
+                return;
+            }
+            --c_.at;
+        }
+        keyword(id, after, column);
+    }
+
+    void keyword(const std::string& id, Cursor after, std::size_t column) {
+        Keyword word{id, {}, false, column};
+        if (after.peek() == '(') {
+            int depth = 0;
+            bool quoted = false;
+            const std::size_t begin = after.at + 1;
+            std::size_t end = after.at;
+            for (; end < after.text.size(); ++end) {
+                const char ch = after.text[end];
+                if (ch == '"') quoted = !quoted;
+                if (quoted) continue;
+                if (ch == '(') ++depth;
+                if (ch == ')' && --depth == 0) break;
+            }
+            if (end >= after.text.size()) throw ReadError{"'(' is not closed", after.column(), {}};
+            word.arguments = std::string(after.text.substr(begin, end - begin));
+            word.has_arguments = true;
+            after.at = end + 1;
+        }
+        c_.at = after.at;
+        block_.keywords.push_back(std::move(word));
+    }
+
+    /// `X=AC(5)`, `CR=10`, `TURN=2`, `R1=3`, `_Z_HOME=610.`, `T="MILL"`, `M1=3`.
+    void assign(const std::string& id, Cursor after, std::size_t column) {
+        c_ = after;
+        c_.take('=');
+        if (c_.peek() == '"') {
+            const std::size_t end = c_.text.find('"', c_.at + 1);
+            if (end == std::string_view::npos) throw ReadError{"'\"' is not closed", c_.column(), {}};
+            block_.keywords.push_back({id + "=", std::string(c_.text.substr(c_.at + 1, end - c_.at - 1)), true, column});
+            c_.at = end + 1;
+            return;
+        }
+        if (id.size() == 1 && id != "R") {
+            const char letter = id[0];
+            for (const auto& [name, mask] : {std::pair{std::string_view("AC"), &block_.absolute},
+                                             std::pair{std::string_view("IC"), &block_.incremental}}) {
+                Cursor inside = c_;
+                if (!inside.take_word(name) || inside.peek() != '(') continue;
+                c_ = inside;
+                put(letter, read_value(c_, variables_, dialect_), column);
+                *mask |= Words::bit(letter);
+                return;
+            }
+            for (const std::string_view name : {"DC", "ACP", "ACN"}) {  // rotary axes, absolute
+                Cursor inside = c_;
+                if (!inside.take_word(name) || inside.peek() != '(') continue;
+                c_ = inside;
+                put(letter, read_value(c_, variables_, dialect_), column);
+                block_.absolute |= Words::bit(letter);
+                return;
+            }
+            put(letter, evaluate(c_, variables_, dialect_), column);
+            return;
+        }
+        const double value = evaluate(c_, variables_, dialect_);
+        if (id == "CR") {
+            put('R', value, column);
+        } else if (id == "TURN") {
+            block_.extra_turns = static_cast<int>(std::clamp(std::round(value), 0.0, 1e6));
+        } else if (id.size() > 1 && id[0] == 'R' && id.find_first_not_of("0123456789", 1) == std::string::npos && id.size() < 7) {
+            variables_.set(100000 + std::stoi(id.substr(1)), value);
+        } else if (variables_.find(id) != nullptr) {
+            variables_.set(id, value);
+        } else if (id[0] == 'S' || id[0] == 'M' || id[0] == 'H') {
+            block_.keywords.push_back({id + "=", std::to_string(value), true, column});  // S1=, M2=
+        } else {
+            block_.unknown.push_back({id + "=", column});
+        }
+    }
+
+    Cursor& c_;
+    Variables& variables_;
+    DialectId dialect_;
+    Block& block_;
+    std::vector<NumberedAssignment> numbered_;
+    std::vector<NamedAssignment> named_;
+};
+
+}  // namespace
+
+void read_block(Cursor& cursor, Variables& variables, DialectId dialect, Block& block) {
+    BlockReader(cursor, variables, dialect, block).read();
+}
+
+}  // namespace clsurf

@@ -1,0 +1,60 @@
+#pragma once
+// Block: one line of a program read to words, whatever its dialect. Assignments are carried out while
+// it is read (RS274 and Fanuc: after the whole block has been read with the old values).
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "program/cursor.h"
+#include "program/expression.h"
+#include "program/lexer.h"
+
+namespace clsurf {
+
+/// A word that the reader knows but whose meaning is not in letters: TRAORI, CYCLE832(0.01), SUPA.
+struct Keyword {
+    std::string name;       ///< upper case
+    std::string arguments;  ///< text between the parentheses
+    bool has_arguments = false;
+    std::size_t column = 0;
+};
+
+struct UnknownWord {
+    std::string text;
+    std::size_t column = 0;
+};
+
+struct Block {
+    Words words;
+    std::uint32_t absolute = 0, incremental = 0;  ///< letters given as AC(…), IC(…)
+    int extra_turns = 0;                          ///< TURN=
+    std::optional<double> polar_radius, polar_angle;  ///< @ and ^ of LinuxCNC, as written
+    std::vector<Keyword> keywords;
+    std::vector<UnknownWord> unknown;
+
+    void clear() {
+        words.clear();
+        absolute = incremental = 0;
+        extra_turns = 0;
+        polar_radius.reset();
+        polar_angle.reset();
+        keywords.clear();
+        unknown.clear();
+    }
+};
+
+/// Reads the words from the cursor to the end of the line. Throws ReadError.
+void read_block(Cursor& cursor, Variables& variables, DialectId dialect, Block& block);
+
+/// A line without its comments, block-delete sign and number; blanks at both ends taken off.
+struct Statement {
+    std::string text;          ///< same columns as the line: comments are replaced by blanks
+    bool deleted = false;      ///< begins with '/'
+    bool tape_mark = false;    ///< '%' alone
+    bool open_comment = false; ///< a '(' that is not closed
+};
+[[nodiscard]] Statement clean_line(std::string_view line, DialectId dialect);
+
+}  // namespace clsurf

@@ -1,0 +1,95 @@
+// Canned cycles G73, G81 … G89 as motions. Rules: RS274/NGC, section 3.5.16; LinuxCNC, "Canned cycles".
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "program/interpreter_state.h"
+
+namespace clsurf {
+namespace {
+
+constexpr double peck_clearance_mm = 0.254;  ///< 0.010 inch, as RS274/NGC has it
+constexpr int most_pecks = 1'000'000;
+
+struct Stroke {
+    bool dwells, feeds_out, pecks, breaks_chips;
+};
+
+/// What a cycle does between R and Z.
+Stroke stroke_of(int code) {
+    switch (code) {
+        case 730: return {false, false, true, true};
+        case 820: return {true, false, false, false};
+        case 830: return {false, false, true, false};
+        case 740: case 840: return {false, true, false, false};
+        case 850: return {false, true, false, false};
+        case 860: case 880: return {true, false, false, false};
+        case 890: return {true, true, false, false};
+        default: return {false, false, false, false};
+    }
+}
+
+}  // namespace
+
+void Interpreter::cycle(const Block& block) {
+    const int code = state_.cycle;
+    if (code == 760 || code == 870) {
+        note(Severity::warning, "program.cycle", fmt::format("G{} is not carried out", code / 10));
+        return;
+    }
+    const Stroke stroke = stroke_of(code);
+    const double unit = state_.unit_mm;
+    const int c = state_.plane_axis;  // the drilling axis
+    const char depth_letter = "XYZ"[c];
+    const auto word = [&](char letter, double& kept) {
+        if (block.words.given(letter)) kept = block.words.of(letter) * (letter == 'P' ? 1.0 : unit);
+    };
+    word('R', cycle_.r);
+    word(depth_letter, cycle_.z);
+    word('Q', cycle_.q);
+    if (block.words.given('P')) cycle_.p = block.words.of('P') * (dialect_ == DialectId::fanuc ? 0.001 : 1.0);
+    if (stroke.pecks && !(cycle_.q > 0)) fail(fmt::format("G{} needs Q greater than 0", code / 10));
+
+    Vec3 position = state_.position.array().isNaN().select(0.0, state_.position);
+    double level = position[c];
+    const double r = state_.incremental ? cycle_.r + level : cycle_.r;
+    const double bottom = state_.incremental ? r + cycle_.z : cycle_.z;
+    if (r < bottom) fail(fmt::format("the cycle's R ({:g}) is below its bottom ({:g})", r, bottom));
+    int repeats = 1;
+    for (const char letter : {'L', 'K'}) {
+        if (letter == 'K' && (dialect_ != DialectId::fanuc)) continue;
+        if (block.words.given(letter)) repeats = static_cast<int>(std::clamp(block.words.of(letter), 0.0, 1e6));
+    }
+    const Vec3 rotary = rotary_target(block);
+    const auto to = [&](MotionKind kind, double height) {
+        Vec3 end = state_.position.array().isNaN().select(position, state_.position);
+        end[c] = height;
+        straight(kind, end, rotary);
+    };
+    if (level < r) {
+        to(MotionKind::rapid, r);
+        level = r;
+    }
+    const double clear = state_.retract_to_r ? r : level;
+    for (int k = 0; k < repeats; ++k) {
+        Vec3 hole = target(block, machine_coordinates_);
+        hole[c] = state_.position[c];
+        straight(MotionKind::rapid, hole, rotary);
+        to(MotionKind::rapid, r);
+        if (stroke.pecks) {
+            if ((r - bottom) / cycle_.q > most_pecks) fail("too many pecks: Q is too small");
+            for (double depth = r - cycle_.q; depth > bottom; depth -= cycle_.q) {
+                to(MotionKind::feed, depth);
+                if (!stroke.breaks_chips) to(MotionKind::rapid, r);
+                to(MotionKind::rapid, depth + peck_clearance_mm);
+            }
+        }
+        to(MotionKind::feed, bottom);
+        if (stroke.dwells) push(MotionKind::dwell, state_.position, state_.rotary, static_cast<float>(cycle_.p));
+        to(stroke.feeds_out ? MotionKind::feed : MotionKind::rapid, clear);
+    }
+}
+
+}  // namespace clsurf

@@ -1,0 +1,59 @@
+#pragma once
+// Expressions and variables of NC programs: `#1`, `#<name>`, `R1`, `Q1`, declared names; the
+// operators and functions of RS274/NGC, Fanuc's custom macro B and Siemens' NC language. Angles deg.
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "program/cursor.h"
+#include "program/dialect.h"
+
+namespace clsurf {
+
+/// Values of variables. Local ones belong to a call of a subprogram.
+class Variables {
+public:
+    /// `system(n)` answers for parameters that the controller keeps (positions, offsets); NaN: none.
+    using System = std::function<double(int number)>;
+
+    explicit Variables(System system) : system_(std::move(system)) { push_locals(); }
+
+    /// A numbered variable; what was never set reads as 0.
+    [[nodiscard]] double get(int number) const;
+    void set(int number, double value);
+    [[nodiscard]] bool has(int number) const;
+
+    /// A named variable ("_x" and other names that begin with an underscore are global in RS274).
+    [[nodiscard]] const double* find(const std::string& name) const;
+    void set(const std::string& name, double value);
+
+    /// A new set of local variables (#1 … #33 and local names) for a call.
+    void push_locals();
+    void pop_locals();
+    [[nodiscard]] std::size_t depth() const { return locals_.size(); }
+
+private:
+    struct Locals {
+        std::unordered_map<int, double> numbers;
+        std::unordered_map<std::string, double> names;
+    };
+    static bool is_local(int number) { return number >= 1 && number <= 33; }
+
+    System system_;
+    std::vector<Locals> locals_;
+    std::unordered_map<int, double> numbers_;
+    std::unordered_map<std::string, double> names_;
+};
+
+/// Reads an expression (or a single value) at the cursor and evaluates it. Throws ReadError: a
+/// malformed expression, a division by zero, a name that was never set, nesting over 200.
+[[nodiscard]] double evaluate(Cursor& cursor, const Variables& variables, DialectId dialect);
+
+/// A single value at the cursor: a number, a variable, a bracketed expression, a function, with sign.
+[[nodiscard]] double read_value(Cursor& cursor, const Variables& variables, DialectId dialect);
+
+}  // namespace clsurf

@@ -1,0 +1,399 @@
+// Which line comes next: control statements, calls and returns.
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "program/interpreter_state.h"
+
+namespace clsurf {
+namespace {
+
+constexpr std::size_t deepest_call = 64;
+constexpr std::uint64_t most_jumps = 5'000'000;
+
+}  // namespace
+
+const ControlIndex& Interpreter::index(std::size_t file) {
+    if (!indexed_[file]) {
+        indexes_[file] = ControlIndex(program_.files[file], dialect_);
+        indexed_[file] = true;
+    }
+    return indexes_[file];
+}
+
+void Interpreter::count_jump() {
+    if (++jumps_ > most_jumps) {
+        fail(fmt::format("more than {} jumps and calls: a loop without end?", most_jumps));
+    }
+}
+
+/// The condition of an elseif.
+bool Interpreter::branch_taken(const Control& branch) const {
+    const Statement statement = clean_line(program_.files[file_].line(branch.line), dialect_);
+    Cursor c{statement.text, branch.rest};
+    return evaluate(c, variables_, dialect_) != 0;
+}
+
+bool Interpreter::control(const Statement& statement) {
+    const std::string& text = statement.text;
+    if (dialect_ == DialectId::siemens) {
+        Cursor c{text, 0};
+        if (c.take_word("DEF")) {
+            siemens_definition(text.substr(c.at));
+            return true;
+        }
+    }
+    const Control parsed = parse_control(text, dialect_);
+    if (parsed.kind == ControlKind::none) return false;
+    const auto condition = [&](std::size_t at) {
+        Cursor c{text, at};
+        return evaluate(c, variables_, dialect_) != 0;
+    };
+    const auto own = [&]() -> const Control& {
+        const int at = index(file_).at_line(line_);
+        if (at < 0) fail("this control statement cannot stand here");
+        return index(file_).all()[static_cast<std::size_t>(at)];
+    };
+    const auto partner_of = [&](const Control& c, const char* what) -> const Control& {
+        if (c.partner < 0) fail(fmt::format("{} has no other end", what));
+        return index(file_).all()[static_cast<std::size_t>(c.partner)];
+    };
+    const auto after = [&](LineNumber line) {
+        count_jump();
+        go_to(file_, line + 1);
+    };
+    switch (parsed.kind) {
+        case ControlKind::sub:
+            if (dialect_ == DialectId::heidenhain_iso) {
+                // A label; what it begins is carried out on the way as well.
+                return true;
+            }
+            after(partner_of(own(), "sub").line);
+            return true;
+        case ControlKind::end_sub:
+        case ControlKind::leave: {
+            if (parsed.rest < text.size() && dialect_ == DialectId::linuxcnc) {
+                Cursor c{text, parsed.rest};
+                if (c.peek() != '\0') {
+                    const double value = read_value(c, variables_, dialect_);
+                    variables_.set("_value", value);
+                    variables_.set("_value_returned", 1);
+                }
+            }
+            if (frames_.empty() && dialect_ != DialectId::siemens) return true;
+            leave(false);
+            return true;
+        }
+        case ControlKind::call: {
+            std::vector<double> arguments;
+            Cursor c{text, parsed.rest};
+            while (c.peek() == '[') {
+                ++c.at;
+                arguments.push_back(evaluate(c, variables_, dialect_));
+                if (!c.take(']')) throw ReadError{"'[' is not closed", c.column(), {}};
+            }
+            std::string label = parsed.label;
+            if (label.starts_with('[') || label.starts_with('#')) {
+                Cursor name{label, 0};
+                label = fmt::format("{}", std::lround(read_value(name, variables_, dialect_)));
+            }
+            call(label, 1, true, arguments);
+            return true;
+        }
+        case ControlKind::while_begin: {
+            const Control& begin = own();
+            if (begin.kind == ControlKind::do_while) {  // `o1 while` that closes `o1 do`
+                if (condition(parsed.rest)) after(partner_of(begin, "while").line);
+                return true;
+            }
+            const bool goes_in = parsed.rest == std::string_view::npos || condition(parsed.rest);
+            if (!goes_in) after(partner_of(begin, "while").line);
+            return true;
+        }
+        case ControlKind::while_end: {
+            const Control& begin = partner_of(own(), "end of a loop");
+            count_jump();
+            go_to(file_, begin.line);
+            return true;
+        }
+        case ControlKind::do_begin: return true;
+        case ControlKind::do_while: {  // UNTIL
+            const Control& begin = partner_of(own(), "until");
+            if (!condition(parsed.rest)) after(begin.line);
+            return true;
+        }
+        case ControlKind::if_begin:
+        case ControlKind::else_if: {
+            const Control* branch = &own();
+            // Reached by running on from a branch that was taken: the whole is over.
+            if (parsed.kind == ControlKind::else_if) {
+                after(partner_of(*branch, "elseif").line);
+                return true;
+            }
+            if (condition(parsed.rest)) return true;
+            do {
+                if (branch->next_branch < 0) fail("if has no endif");
+                branch = &index(file_).all()[static_cast<std::size_t>(branch->next_branch)];
+                if (branch->kind != ControlKind::else_if) break;
+                line_ = branch->line;
+                current_ = program_.files[file_].line(line_);
+            } while (!branch_taken(*branch));
+            after(branch->line);
+            return true;
+        }
+        case ControlKind::else_branch: after(partner_of(own(), "else").line); return true;
+        case ControlKind::if_end: return true;
+        case ControlKind::repeat_begin: {
+            const Control& begin = own();
+            Cursor c{text, parsed.rest};
+            const double count = read_value(c, variables_, dialect_);
+            if (!(count >= 1)) {
+                after(partner_of(begin, "repeat").line);
+                return true;
+            }
+            counters_[line_] = std::floor(count + 1e-6) - 1;
+            return true;
+        }
+        case ControlKind::repeat_end: {
+            const Control& begin = partner_of(own(), "endrepeat");
+            double& left = counters_[begin.line];
+            if (left >= 1) {
+                left -= 1;
+                after(begin.line);
+            }
+            return true;
+        }
+        case ControlKind::for_begin: {
+            // FOR v = from TO to
+            Cursor c{text, parsed.rest};
+            const std::string name = c.identifier();
+            c.at += name.size();
+            if (name.empty() || !c.take('=')) throw ReadError{"expected a variable and '=' after FOR", c.column(), {}};
+            const double from = evaluate(c, variables_, dialect_);
+            if (!c.take_word("TO")) throw ReadError{"expected TO", c.column(), {}};
+            const double to = evaluate(c, variables_, dialect_);
+            double value = from;
+            const auto running = counters_.find(line_);
+            const bool numbered = name.size() > 1 && name[0] == 'R' && name.find_first_not_of("0123456789", 1) == std::string::npos;
+            const int number = numbered && name.size() < 7 ? 100000 + std::stoi(name.substr(1)) : 0;
+            if (running != counters_.end()) value = running->second + 1;
+            if (numbered) variables_.set(number, value); else variables_.set(name, value);
+            if (value > to) {
+                counters_.erase(line_);
+                after(partner_of(own(), "for").line);
+            } else {
+                counters_[line_] = value;
+            }
+            return true;
+        }
+        case ControlKind::for_end: {
+            count_jump();
+            go_to(file_, partner_of(own(), "endfor").line);
+            return true;
+        }
+        case ControlKind::break_loop:
+        case ControlKind::continue_loop: {
+            const int loop = index(file_).loop_around(line_, parsed.label);
+            if (loop < 0) fail("break or continue outside a loop");
+            const Control& begin = index(file_).all()[static_cast<std::size_t>(loop)];
+            const Control& end = partner_of(begin, "loop");
+            if (parsed.kind == ControlKind::break_loop) {
+                after(end.line);
+            } else {
+                count_jump();
+                go_to(file_, end.line);
+            }
+            return true;
+        }
+        case ControlKind::if_go_to:
+        case ControlKind::go_to: {
+            if (parsed.kind == ControlKind::if_go_to && !condition(parsed.rest)) return true;
+            count_jump();
+            LineNumber line = 0;
+            std::string label = parsed.label;
+            if (label.empty() && dialect_ == DialectId::fanuc) {
+                Cursor c{text, parsed.rest};
+                label = fmt::format("{}", std::lround(read_value(c, variables_, dialect_)));
+            }
+            const bool number = dialect_ == DialectId::fanuc ||
+                                (label.size() > 1 && label[0] == 'N' && is_digit(label[1]));
+            if (number) {
+                const std::string digits = dialect_ == DialectId::fanuc ? label : label.substr(1);
+                double value = 0;
+                if (read_decimal(digits, 0, value) > 0) {
+                    line = find_block_number(program_.files[file_], value, line_, parsed.direction);
+                }
+            } else {
+                const int at = index(file_).find(ControlKind::label, label, line_, parsed.direction);
+                if (at >= 0) line = index(file_).all()[static_cast<std::size_t>(at)].line;
+            }
+            if (line == 0) fail(fmt::format("there is no block to go to: '{}'", label));
+            go_to(file_, line);
+            return true;
+        }
+        case ControlKind::if_then: {
+            if (!condition(parsed.rest)) return true;
+            Cursor c{text, static_cast<std::size_t>(std::stoul(parsed.label))};
+            read_block(c, variables_, dialect_, block_);
+            execute(block_);
+            return true;
+        }
+        case ControlKind::label: {
+            // A program number; what follows in its block still counts. A second one ends the first
+            // program, as another program begins there.
+            const bool begins_another = dialect_ == DialectId::fanuc && program_.motions.size() > 0 && frames_.empty();
+            if (begins_another) {
+                event("end", "O" + parsed.label);
+                ended_ = true;
+                return true;
+            }
+            const std::string word = text.substr(std::min(parsed.rest, text.size()));
+            if (dialect_ == DialectId::siemens && word.find_first_not_of(' ') != std::string::npos && text.find(':') != std::string::npos) {
+                Cursor c{text, parsed.rest};
+                read_block(c, variables_, dialect_, block_);
+                execute(block_);
+            }
+            return true;
+        }
+        case ControlKind::end_loop:
+        case ControlKind::none: return false;
+    }
+    return false;
+}
+
+/// DEF REAL a, b=5: names that exist from here on.
+void Interpreter::siemens_definition(const std::string& definition) {
+    Cursor c{definition, 0};
+    const std::string type = c.identifier();
+    c.at += type.size();
+    if (type == "STRING" && c.take('[')) {
+        while (!c.done() && !c.take(']')) ++c.at;
+    }
+    while (c.peek() != '\0') {
+        const std::string name = c.identifier();
+        if (name.empty()) throw ReadError{"expected a name after DEF", c.column(), {}};
+        c.skip_blanks();
+        c.at += name.size();
+        double value = 0;
+        if (c.take('=')) {
+            if (c.peek() == '"') {
+                const std::size_t end = definition.find('"', c.at + 1);
+                c.at = end == std::string::npos ? definition.size() : end + 1;
+            } else {
+                value = evaluate(c, variables_, dialect_);
+            }
+        }
+        variables_.set(name, value);
+        if (!c.take(',')) break;
+    }
+}
+
+void Interpreter::call(const std::string& name, int repeats, bool locals, const std::vector<double>& arguments) {
+    count_jump();
+    if (frames_.size() >= deepest_call) {
+        fail(fmt::format("calls are nested more than {} deep: a subprogram that calls itself?", deepest_call));
+    }
+    const ControlKind kind = dialect_ == DialectId::linuxcnc || dialect_ == DialectId::heidenhain_iso ? ControlKind::sub : ControlKind::label;
+    std::size_t file = file_;
+    int at = index(file).find(kind, name);
+    for (std::size_t other = 0; at < 0 && other < program_.files.size(); ++other) {
+        file = other;
+        at = index(other).find(kind, name);
+    }
+    LineNumber line = 1;
+    if (at >= 0) {
+        line = indexes_[file].all()[static_cast<std::size_t>(at)].line;
+    } else {
+        std::optional<SourceText> loaded = options_.load ? options_.load(name) : std::nullopt;
+        if (!loaded) fail(fmt::format("subprogram '{}' is neither in the program nor beside it", name));
+        if (program_.files.size() >= 65535) fail("too many subprogram files");
+        file = program_.files.size();
+        program_.files.push_back(std::move(*loaded));
+        indexes_.emplace_back();
+        indexed_.push_back(false);
+        const int begin = index(file).find(kind, name);
+        if (begin >= 0) line = indexes_[file].all()[static_cast<std::size_t>(begin)].line;
+    }
+    Frame frame;
+    frame.file = file_;
+    frame.line = line_;
+    frame.start_file = file;
+    frame.start_line = line + (at >= 0 || dialect_ != DialectId::fanuc ? 1 : 0);
+    if (at < 0 && dialect_ == DialectId::siemens) frame.start_line = 1;
+    frame.repeats = repeats - 1;
+    frame.locals = locals;
+    frame.counters = std::move(counters_);
+    counters_.clear();
+    if (locals) variables_.push_locals();
+    for (std::size_t k = 0; k < arguments.size() && k < 33; ++k) variables_.set(static_cast<int>(k) + 1, arguments[k]);
+    frames_.push_back(std::move(frame));
+    go_to(file, frames_.back().start_line);
+}
+
+void Interpreter::leave(bool from_end_of_text) {
+    if (frames_.empty()) {
+        ended_ = true;
+        if (!from_end_of_text) event("end", "return from the main program");
+        return;
+    }
+    Frame& frame = frames_.back();
+    if (frame.repeats > 0) {
+        count_jump();
+        --frame.repeats;
+        go_to(frame.start_file, frame.start_line);
+        return;
+    }
+    if (frame.locals) variables_.pop_locals();
+    counters_ = std::move(frame.counters);
+    const std::size_t file = frame.file;
+    const LineNumber line = frame.line;
+    frames_.pop_back();
+    go_to(file, line + 1);
+}
+
+/// M98 P…, G65 P… with argument letters, L5 and L5,2 of Siemens and Heidenhain.
+void Interpreter::call_from_words(const Block& block) {
+    const bool macro = dialect_ == DialectId::fanuc &&
+                       std::find(block.words.g.begin(), block.words.g.begin() + block.words.g_count, 650) !=
+                           block.words.g.begin() + block.words.g_count;
+    if (call_program_ == -2) fail("M98 needs the program's number (P)");
+    int repeats = block.words.given('L') ? static_cast<int>(std::clamp(block.words.of('L'), 1.0, 99999.0)) : 1;
+    if (macro) {
+        if (!block.words.given('P')) fail("G65 needs the program's number (P)");
+        // A B C I J K D E F H M Q R S T U V W X Y Z → #1 … #26 (argument specification I).
+        static constexpr std::pair<char, int> numbers[] = {
+            {'A', 1}, {'B', 2}, {'C', 3}, {'I', 4}, {'J', 5}, {'K', 6}, {'D', 7}, {'E', 8}, {'F', 9}, {'H', 11},
+            {'Q', 17}, {'R', 18}, {'S', 19}, {'T', 20}, {'U', 21}, {'V', 22}, {'W', 23}, {'X', 24}, {'Y', 25}, {'Z', 26}};
+        std::vector<double> arguments(26, 0.0);
+        for (const auto& [letter, number] : numbers) {
+            if (block.words.given(letter)) arguments[static_cast<std::size_t>(number - 1)] = block.words.of(letter);
+        }
+        call(fmt::format("{}", static_cast<long>(block.words.of('P'))), repeats, true, arguments);
+        return;
+    }
+    if (call_program_ >= 0) {
+        int number = call_program_;
+        // P0031234: three times program 1234, where no L says so.
+        if (!block.words.given('L') && number > 9999) {
+            repeats = number / 10000;
+            number %= 10000;
+        }
+        call_program_ = -1;
+        call(fmt::format("{}", number), repeats, false, {});
+        return;
+    }
+    if (block.words.given('L') && (dialect_ == DialectId::siemens || dialect_ == DialectId::heidenhain_iso) && !motion_suppressed_) {
+        const long number = std::lround(block.words.of('L'));
+        if (dialect_ == DialectId::siemens) {
+            const int times = block.words.given('P') ? static_cast<int>(std::clamp(block.words.of('P'), 1.0, 9999.0)) : 1;
+            call(fmt::format("L{}", number), times, true, {});
+        } else {
+            call(fmt::format("{}", number), 1, false, {});
+        }
+    }
+}
+
+}  // namespace clsurf

@@ -1,0 +1,198 @@
+#include "program/interpreter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "program/interpreter_state.h"
+
+namespace clsurf {
+namespace {
+
+constexpr std::size_t shown_line_bytes = 4000;  ///< of a source line in a message
+
+}  // namespace
+
+Interpreter::Interpreter(SourceText text, const InterpreterOptions& options)
+    : options_(options), variables_([this](int number) { return parameter(number); }) {
+    program_.dialect = options.dialect != nullptr ? options.dialect : &detect_dialect(text.text());
+    dialect_ = program_.dialect->id;
+    program_.files.push_back(std::move(text));
+    indexes_.resize(1);
+    indexed_.resize(1);
+    // RS274's interpreter starts at its origin; the other controls stand wherever they stand.
+    if (dialect_ == DialectId::linuxcnc) {
+        state_.position = Vec3::Zero();
+        program_.motions.start = Xyz(0, 0, 0);
+    }
+}
+
+Program Interpreter::run() {
+    run_lines();
+    if (!nurbs_.empty()) note(Severity::warning, "program.open-spline", "a spline is not closed at the end");
+    Motions& m = program_.motions;
+    m.kind.shrink_to_fit();
+    m.end.shrink_to_fit();
+    m.feed.shrink_to_fit();
+    m.line.shrink_to_fit();
+    m.rotary.shrink_to_fit();
+    m.file.shrink_to_fit();
+    return std::move(program_);
+}
+
+std::string_view Interpreter::next_line() {
+    const std::string_view text = program_.files[file_].text();
+    const char* begin = text.data() + next_byte_;
+    const std::size_t left = text.size() - next_byte_;
+    const void* end = std::memchr(begin, '\n', left);
+    const std::size_t size = end == nullptr ? left : static_cast<std::size_t>(static_cast<const char*>(end) - begin);
+    next_byte_ += size + (end == nullptr ? 0 : 1);
+    line_ = next_line_++;
+    return {begin, size};
+}
+
+void Interpreter::go_to(std::size_t file, LineNumber line) {
+    file_ = file;
+    next_line_ = line;
+    const SourceText& text = program_.files[file];
+    next_byte_ = line > text.line_count()
+                     ? text.text().size()
+                     : static_cast<std::size_t>(text.line(line).data() - text.text().data());
+}
+
+void Interpreter::run_lines() {
+    Words words;
+    while (!ended_) {
+        if (next_byte_ >= program_.files[file_].text().size()) {
+            leave(true);
+            continue;
+        }
+        current_ = next_line();
+        if (read_plain(current_, words) == PlainResult::plain) {
+            if (run_plain(words)) continue;
+            if (dialect_ != DialectId::siemens && dialect_ != DialectId::heidenhain_iso) {
+                block_.clear();
+                block_.words = words;
+                execute(block_);
+                continue;
+            }
+        }
+        run_block(current_);
+    }
+}
+
+/// G0, G1 or nothing, with axis words and feed: what nearly every block of a finishing program is.
+bool Interpreter::run_plain(const Words& words) {
+    constexpr std::uint32_t axes = Words::bit('X') | Words::bit('Y') | Words::bit('Z');
+    constexpr std::uint32_t allowed = axes | Words::bit('F') | Words::bit('N');
+    if ((words.has & ~allowed) != 0 || (words.has & axes) == 0 || words.m_count != 0) return false;
+    MotionMode mode = state_.motion;
+    if (words.g_count == 1) {
+        if (words.g[0] != 0 && words.g[0] != 10) return false;
+        mode = words.g[0] == 0 ? MotionMode::rapid : MotionMode::feed;
+    } else if (words.g_count != 0) {
+        return false;
+    }
+    const bool ordinary = (mode == MotionMode::rapid || mode == MotionMode::feed) && !state_.incremental &&
+                          state_.feed_mode == FeedMode::per_minute && modal_call_.empty() && nurbs_.empty();
+    if (!ordinary) return false;
+    state_.motion = mode;
+    const double unit = state_.unit_mm;
+    if (words.given('F')) state_.feed = words.of('F');
+    Vec3& p = state_.position;
+    if (words.given('X')) p.x() = words.of('X') * unit;
+    if (words.given('Y')) p.y() = words.of('Y') * unit;
+    if (words.given('Z')) p.z() = words.of('Z') * unit;
+    const bool rapid = mode == MotionMode::rapid;
+    push(rapid ? MotionKind::rapid : MotionKind::feed, p, state_.rotary,
+         rapid ? std::numeric_limits<float>::quiet_NaN()
+               : static_cast<float>(state_.feed * unit / seconds_per_minute));
+    return true;
+}
+
+void Interpreter::run_block(std::string_view line) {
+    try {
+        const Statement statement = clean_line(line, dialect_);
+        if (statement.open_comment) note(Severity::warning, "program.open-comment", "'(' is not closed");
+        if (statement.tape_mark) {
+            // The second % ends the tape; "%name" of other controls is a title.
+            const bool alone = line.find_first_not_of("% \t\r") == std::string_view::npos;
+            if (tape_began_ && alone && file_ == 0) ended_ = true;
+            tape_began_ = true;
+            return;
+        }
+        if (statement.deleted && options_.block_delete) return;
+        if (statement.text.empty()) return;
+        if (control(statement)) return;
+        Cursor cursor{statement.text, 0};
+        read_block(cursor, variables_, dialect_, block_);
+        execute(block_);
+    } catch (const ReadError& error) {
+        fail(error.what, error.column, error.hint);
+    }
+}
+
+void Interpreter::fail(const std::string& what, std::size_t column, const std::string& hint) const {
+    Place place = Place::of_line(program_.files[file_].name(), line_, static_cast<std::uint32_t>(column));
+    place.source = std::string(current_.substr(0, shown_line_bytes));
+    throw InputError(std::move(place), what, hint);
+}
+
+void Interpreter::note(Severity severity, const char* code, const std::string& text, std::size_t column) {
+    Place place = Place::of_line(program_.files[file_].name(), line_, static_cast<std::uint32_t>(column));
+    if (program_.diagnostics.count(code) < Diagnostics::kept_of_a_code) {
+        place.source = std::string(current_.substr(0, shown_line_bytes));
+    }
+    program_.diagnostics.add({severity, code, std::move(place), text, {}});
+}
+
+void Interpreter::event(const std::string& name, const std::string& value) {
+    program_.events.push_back({program_.motions.size(), line_, name, value});
+}
+
+double Interpreter::parameter(int number) const {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    const double unit = state_.unit_mm;
+    const Vec3 known = state_.position.array().isNaN().select(0.0, state_.position);
+    const auto axis_of = [&](int first, const Vec3& lengths, const Vec3& angles) {
+        const int k = number - first;
+        return k < 3 ? lengths[k] / unit : k < 6 ? angles[k - 3] : 0.0;
+    };
+    if (dialect_ == DialectId::linuxcnc) {
+        if (number >= 5420 && number <= 5428) return axis_of(5420, known, state_.rotary);
+        if (number >= 5161 && number <= 5169) return axis_of(5161, state_.home, Vec3::Zero());
+        if (number >= 5181 && number <= 5189) return axis_of(5181, state_.second_home, Vec3::Zero());
+        if (number >= 5211 && number <= 5219) return axis_of(5211, -state_.shift, Vec3::Zero());
+        if (number == 5220) return state_.work_system;
+        if (number >= 5221 && number < 5221 + 9 * 20) {
+            const int system = (number - 5221) / 20 + 1;
+            const int axis = (number - 5221) % 20;
+            const auto found = state_.work_offsets.find(system);
+            const WorkOffset offset = found == state_.work_offsets.end() ? WorkOffset{} : found->second;
+            if (axis == 9) return offset.rotation;
+            return axis < 3 ? offset.shift[axis] / unit : 0.0;
+        }
+        if (number >= 5401 && number <= 5409) return axis_of(5401, state_.tool_offset, Vec3::Zero());
+        return none;
+    }
+    if (dialect_ == DialectId::fanuc) {
+        for (const int first : {5001, 5041}) {
+            if (number >= first && number < first + 6) return axis_of(first, known, state_.rotary);
+        }
+        if (number >= 5021 && number < 5027) return axis_of(5021, state_.to_machine(known), state_.rotary);
+        if (number == 4003) return state_.incremental ? 91 : 90;
+        if (number == 4006) return unit == 1 ? 21 : 20;
+        if (number == 4109) return state_.feed;
+    }
+    return none;
+}
+
+Program parse_program(SourceText text, const InterpreterOptions& options) {
+    return Interpreter(std::move(text), options).run();
+}
+
+}  // namespace clsurf

@@ -1,0 +1,31 @@
+#pragma once
+// The interpreter: blocks → motions. One pass over the text; plain blocks take a short way.
+//
+// Rules: RS274/NGC (NIST IR 6556) with LinuxCNC's extensions for `linuxcnc`; the operator's manuals
+// of the controls for the other dialects (docs/formats/programs.md lists what is understood).
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "program/program.h"
+
+namespace clsurf {
+
+/// Finds the text of a subprogram that the program itself does not contain, by its name ("1234",
+/// "PROFILE"); nullopt: there is none.
+using SubprogramLoader = std::function<std::optional<SourceText>(const std::string& name)>;
+
+struct InterpreterOptions {
+    const Dialect* dialect = nullptr;  ///< nullptr: detected from the text
+    bool block_delete = true;          ///< skip blocks that begin with '/'
+    SubprogramLoader load;             ///< empty: no other files
+};
+
+/// Interprets a program. Throws InputError with file, line and column: a wrong arc, a malformed
+/// block, an endless loop or recursion, a subprogram that is nowhere. Survivable: diagnostics
+/// `program.…` in the result. O(blocks carried out).
+[[nodiscard]] Program parse_program(SourceText text, const InterpreterOptions& options);
+
+}  // namespace clsurf

@@ -1,0 +1,66 @@
+#pragma once
+// Lexer: characters of a block → words with their place. No meaning.
+//
+// Nearly all blocks of a finishing program are plain: letters followed by decimal numbers. Those are
+// read here at memory speed. What is not plain (expressions, assignments, keywords, comments) is left
+// to the dialect's block reader, which gets the same text.
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace clsurf {
+
+/// The words of one block. A letter's value stands in `value`, whatever their order; G and M words
+/// may repeat and are kept as lists.
+struct Words {
+    static constexpr int most_codes = 24;
+
+    std::array<double, 26> value;          ///< by letter − 'A'; only where `has` tells
+    std::array<std::uint16_t, 26> column;  ///< of the letter, from 1 (65535: farther)
+    std::uint32_t has = 0;                 ///< bit per letter
+    int g_count = 0, m_count = 0;
+    std::array<std::int32_t, most_codes> g;       ///< in tenths: G54.1 is 541
+    std::array<std::uint16_t, most_codes> g_column;
+    std::array<std::int32_t, most_codes> m;
+
+    static constexpr std::uint32_t bit(char letter) { return 1u << (letter - 'A'); }
+    [[nodiscard]] bool given(char letter) const { return (has & bit(letter)) != 0; }
+    [[nodiscard]] double of(char letter) const { return value[static_cast<std::size_t>(letter - 'A')]; }
+    void set(char letter, double number, std::size_t at) {
+        const auto k = static_cast<std::size_t>(letter - 'A');
+        value[k] = number;
+        column[k] = static_cast<std::uint16_t>(at < 65535 ? at : 65535);
+        has |= bit(letter);
+    }
+    void clear() {
+        has = 0;
+        g_count = 0;
+        m_count = 0;
+    }
+};
+
+/// How a block was read.
+enum class PlainResult : std::uint8_t {
+    plain,    ///< all of it is in the words
+    complex,  ///< the dialect must read it
+};
+
+/// Reads a block of plain words. `text`: one line without its end.
+[[nodiscard]] PlainResult read_plain(std::string_view text, Words& words);
+
+/// A decimal number without exponent at `at` of `text`: [+-]digits[.digits], correctly rounded.
+/// Returns the character after it, or `at` where there is none.
+[[nodiscard]] std::size_t read_decimal(std::string_view text, std::size_t at, double& value);
+
+/// Letters folded to upper case.
+[[nodiscard]] constexpr char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c; }
+[[nodiscard]] constexpr bool is_letter(char c) { return upper(c) >= 'A' && upper(c) <= 'Z'; }
+[[nodiscard]] constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
+[[nodiscard]] constexpr bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+
+/// Appends a G word (value as written, 54.1) to the lists; false: too many, or no such code.
+[[nodiscard]] bool add_g(Words& words, double value, std::size_t column);
+[[nodiscard]] bool add_m(Words& words, double value);
+
+}  // namespace clsurf

@@ -1,0 +1,78 @@
+#pragma once
+// ModalState: what stays in force from block to block, and the way from programmed to machine
+// coordinates: machine = rotation · (position + shift) + work offset + tool offset.
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+
+#include "core/geometry.h"
+#include "core/units.h"
+
+namespace clsurf {
+
+enum class MotionMode : std::uint8_t {
+    none, rapid, feed, cw, ccw, thread, cubic_spline, quadratic_spline, nurbs, probe, cycle,
+};
+
+enum class FeedMode : std::uint8_t { per_minute, per_revolution, inverse_time };
+
+struct WorkOffset {
+    Vec3 shift = Vec3::Zero();  ///< [mm]
+    double rotation = 0;        ///< about z [deg]
+};
+
+struct ModalState {
+    MotionMode motion = MotionMode::none;
+    int cycle = 0;               ///< the canned cycle's G number in tenths, 0: none
+    int plane_axis = 2;          ///< axis of rotation: 2 G17, 1 G18, 0 G19
+    double unit_mm = 1;          ///< mm per programmed length
+    bool incremental = false;    ///< G91
+    bool centre_absolute = false;  ///< G90.1
+    FeedMode feed_mode = FeedMode::per_minute;
+    double feed = 0;             ///< as programmed: lengths per minute, per revolution, or 1/min
+    double spindle = 0;          ///< 1/min
+    bool retract_to_r = false;   ///< G99
+    bool spline_open = false;    ///< between G5.2 and G5.3
+
+    Vec3 position = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< [mm], programmed
+    Vec3 rotary = Vec3::Zero();  ///< A, B, C [deg]
+
+    int work_system = 1;         ///< 1: G54
+    std::map<int, WorkOffset> work_offsets;
+    Vec3 shift = Vec3::Zero();        ///< G92 and G52 together [mm]
+    Vec3 saved_shift = Vec3::Zero();  ///< what G92.3 restores
+    Vec3 tool_offset = Vec3::Zero();  ///< [mm]
+    Vec3 home = Vec3::Zero(), second_home = Vec3::Zero();  ///< G28, G30; machine coordinates
+
+    [[nodiscard]] WorkOffset work_offset() const {
+        const auto found = work_offsets.find(work_system);
+        return found == work_offsets.end() ? WorkOffset{} : found->second;
+    }
+    [[nodiscard]] Vec3 to_machine(const Vec3& p) const {
+        const WorkOffset offset = work_offset();
+        return rotated(p + shift, offset.rotation) + offset.shift + tool_offset;
+    }
+    [[nodiscard]] Vec3 from_machine(const Vec3& m) const {
+        const WorkOffset offset = work_offset();
+        return rotated(m - tool_offset - offset.shift, -offset.rotation) - shift;
+    }
+    /// Changes offsets by `change` while the machine stands still: the position is read anew.
+    template <typename Change>
+    void rebase(Change&& change) {
+        const Vec3 machine = to_machine(position);
+        change();
+        position = from_machine(machine);
+    }
+
+private:
+    static Vec3 rotated(const Vec3& p, double degrees) {
+        if (degrees == 0) return p;
+        const double c = std::cos(degrees * rad_per_deg);
+        const double s = std::sin(degrees * rad_per_deg);
+        return {c * p.x() - s * p.y(), s * p.x() + c * p.y(), p.z()};
+    }
+};
+
+}  // namespace clsurf

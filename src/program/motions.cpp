@@ -1,0 +1,269 @@
+// Blocks that move: targets, lines, arcs, splines.
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "program/interpreter_state.h"
+
+namespace clsurf {
+namespace {
+
+constexpr std::uint32_t linear_axes = Words::bit('X') | Words::bit('Y') | Words::bit('Z');
+constexpr std::uint32_t rotary_axes = Words::bit('A') | Words::bit('B') | Words::bit('C');
+constexpr std::uint32_t other_axes = Words::bit('U') | Words::bit('V') | Words::bit('W');
+constexpr std::uint32_t centres = Words::bit('I') | Words::bit('J') | Words::bit('K') | Words::bit('R');
+constexpr int most_turns = 100'000;
+
+}  // namespace
+
+Vec3 Interpreter::target(const Block& block, bool machine) const {
+    Vec3 base = machine ? state_.to_machine(state_.position) : state_.position;
+    for (int axis = 0; axis < 3; ++axis) {
+        const char letter = "XYZ"[axis];
+        if (!block.words.given(letter)) continue;
+        const double value = block.words.of(letter) * state_.unit_mm;
+        const std::uint32_t bit = Words::bit(letter);
+        const bool incremental = !machine && (state_.incremental ? (block.absolute & bit) == 0 : (block.incremental & bit) != 0);
+        // Before the first motion an increment counts from the control's own zero.
+        const double from = std::isnan(base[axis]) ? 0.0 : base[axis];
+        base[axis] = incremental ? from + value : value;
+    }
+    if (block.polar_radius || block.polar_angle) put_polar(block, base);
+    return machine ? state_.from_machine(base) : base;
+}
+
+/// LinuxCNC's polar words: @ radius, ^ angle about the work origin.
+void Interpreter::put_polar(const Block& block, Vec3& end) const {
+    const Vec2 from(end.x(), end.y());
+    const double radius_now = from.norm();
+    const double angle_now = std::atan2(from.y(), from.x());
+    double radius = radius_now;
+    double angle = angle_now;
+    if (block.polar_radius) radius = (state_.incremental ? radius_now : 0.0) + *block.polar_radius * state_.unit_mm;
+    if (block.polar_angle) angle = (state_.incremental ? angle_now : 0.0) + *block.polar_angle * rad_per_deg;
+    end.x() = radius * std::cos(angle);
+    end.y() = radius * std::sin(angle);
+}
+
+Vec3 Interpreter::rotary_target(const Block& block) const {
+    Vec3 target = state_.rotary;
+    for (int axis = 0; axis < 3; ++axis) {
+        const char letter = "ABC"[axis];
+        if (!block.words.given(letter)) continue;
+        const std::uint32_t bit = Words::bit(letter);
+        const bool incremental = state_.incremental ? (block.absolute & bit) == 0 : (block.incremental & bit) != 0;
+        target[axis] = (incremental ? target[axis] : 0.0) + block.words.of(letter);
+    }
+    return target;
+}
+
+void Interpreter::move(const Block& block) {
+    const bool axes = (block.words.has & (linear_axes | rotary_axes | other_axes)) != 0 || block.polar_radius || block.polar_angle;
+    switch (state_.motion) {
+        case MotionMode::none:
+            if (!axes) return;
+            if (dialect_ == DialectId::linuxcnc) fail("axis words without a motion mode (G80 is active)");
+            note(Severity::warning, "program.no-motion-mode", "axis words without a motion mode are read as G1");
+            state_.motion = MotionMode::feed;
+            straight(MotionKind::feed, target(block, machine_coordinates_), rotary_target(block));
+            return;
+        case MotionMode::probe:
+            // A probing move cuts nothing and ends wherever it touches: noted, not a motion.
+            if (axes) {
+                state_.position = target(block, machine_coordinates_);
+                event("probe", fmt::format("{:.4f} {:.4f} {:.4f}", state_.position.x(), state_.position.y(), state_.position.z()));
+            }
+            return;
+        case MotionMode::rapid:
+        case MotionMode::feed:
+        case MotionMode::thread:
+            if (!axes) return;
+            straight(state_.motion == MotionMode::rapid ? MotionKind::rapid : MotionKind::feed,
+                     target(block, machine_coordinates_), rotary_target(block));
+            return;
+        case MotionMode::cw:
+        case MotionMode::ccw:
+            if (axes || (block.words.has & centres) != 0) arc(block, state_.motion == MotionMode::cw);
+            return;
+        case MotionMode::cubic_spline:
+        case MotionMode::quadratic_spline:
+            if (axes) spline(block);
+            return;
+        case MotionMode::nurbs: nurbs_point(block); return;
+        case MotionMode::cycle:
+            if (axes) cycle(block);
+            return;
+    }
+}
+
+float Interpreter::feed_for(double length) {
+    switch (state_.feed_mode) {
+        case FeedMode::per_minute: return static_cast<float>(state_.feed * state_.unit_mm / seconds_per_minute);
+        case FeedMode::per_revolution:
+            return static_cast<float>(state_.feed * state_.unit_mm * state_.spindle / seconds_per_minute);
+        case FeedMode::inverse_time: return static_cast<float>(length * state_.feed / seconds_per_minute);
+    }
+    return 0;
+}
+
+void Interpreter::straight(MotionKind kind, const Vec3& end, const Vec3& rotary) {
+    const Vec3 from = state_.position.array().isNaN().select(end, state_.position);
+    const float feed = kind == MotionKind::rapid ? std::numeric_limits<float>::quiet_NaN()
+                                                 : feed_for((end - from).norm());
+    push(kind, end, rotary, feed);
+}
+
+void Interpreter::arc(const Block& block, bool clockwise) {
+    ArcWords words;
+    words.begin = state_.position.array().isNaN().select(0.0, state_.position);
+    words.end = target(block, machine_coordinates_);
+    words.end = words.end.array().isNaN().select(words.begin, words.end);
+    words.axis = state_.plane_axis;
+    words.clockwise = clockwise;
+    const bool heidenhain = dialect_ == DialectId::heidenhain_iso;
+    if (block.words.given('R')) {
+        words.has_radius = true;
+        words.radius = block.words.of('R') * state_.unit_mm;
+    } else {
+        words.centre = words.begin;
+        bool any = false;
+        for (int k = 0; k < 3; ++k) {
+            const char letter = "IJK"[k];
+            if (k == words.axis || !block.words.given(letter)) continue;
+            any = true;
+            const std::uint32_t bit = Words::bit(letter);
+            const bool absolute = state_.centre_absolute || heidenhain || (block.absolute & bit) != 0;
+            const double value = block.words.of(letter) * state_.unit_mm;
+            words.centre[k] = absolute ? value : words.begin[k] + value;
+        }
+        if (!any) fail("an arc needs its centre (I, J, K) or its radius (R)");
+    }
+    words.turns = 1 + block.extra_turns;
+    if (dialect_ == DialectId::linuxcnc && block.words.given('P')) {
+        const double turns = block.words.of('P');
+        if (!(turns >= 1 && turns <= most_turns) || turns != std::round(turns)) fail("P of an arc must be a whole number of turns, 1 or more");
+        words.turns = static_cast<int>(turns);
+    }
+    std::string error;
+    Arc arc = resolve_arc(words, error);
+    if (!error.empty()) fail(error, block.words.g_count > 0 ? block.words.g_column[0] : 1);
+    arc.motion = program_.motions.size();
+    program_.motions.arcs.push_back(arc);
+    const double length = arc_length(arc, clockwise, words.begin, words.end);
+    push(clockwise ? MotionKind::cw : MotionKind::ccw, words.end, rotary_target(block), feed_for(length));
+}
+
+void Interpreter::push(MotionKind kind, const Vec3& end, const Vec3& rotary, float feed) {
+    Motions& m = program_.motions;
+    if (m.kind.size() >= 0xfffffff0u) fail("the program has more than 4·10^9 motions");
+    if (end.array().isInf().any()) fail("a position is not finite");
+    m.kind.push_back(kind);
+    m.end.push_back(Xyz(end));
+    m.feed.push_back(feed);
+    m.line.push_back(line_);
+    if (!m.rotary.empty() || rotary.squaredNorm() != 0) {
+        if (m.rotary.empty()) m.rotary = Column<Xyz>(m.kind.size() - 1, Xyz(0, 0, 0));
+        m.rotary.push_back(Xyz(rotary * rad_per_deg));
+    }
+    if (!m.file.empty() || file_ != 0) {
+        if (m.file.empty()) m.file = Column<std::uint16_t>(m.kind.size() - 1, 0);
+        m.file.push_back(static_cast<std::uint16_t>(file_));
+    }
+    state_.position = end;
+    state_.rotary = rotary;
+}
+
+namespace {
+
+/// Pieces that a curve is flattened to: chords within 1 µm of it for curves of finishing size.
+constexpr int curve_pieces = 100;
+
+Vec2 bezier(const std::vector<Vec2>& control, double t) {
+    std::vector<Vec2> p = control;
+    for (std::size_t level = p.size() - 1; level > 0; --level) {
+        for (std::size_t i = 0; i < level; ++i) p[i] = (1 - t) * p[i] + t * p[i + 1];
+    }
+    return p[0];
+}
+
+}  // namespace
+
+void Interpreter::spline(const Block& block) {
+    if (state_.plane_axis != 2) fail("G5 and G5.1 need the XY plane (G17)");
+    const double unit = state_.unit_mm;
+    const Vec3 begin = state_.position;
+    const Vec3 end = target(block, false);
+    const auto word = [&](char letter) { return block.words.given(letter) ? block.words.of(letter) * unit : 0.0; };
+    std::vector<Vec2> control;
+    const Vec2 from = begin.head<2>();
+    const Vec2 to = end.head<2>();
+    if (state_.motion == MotionMode::cubic_spline) {
+        const bool first = block.words.given('I') || block.words.given('J');
+        if (!block.words.given('P') || !block.words.given('Q')) fail("G5 needs P and Q");
+        if (first && !(block.words.given('I') && block.words.given('J'))) fail("G5 needs both I and J, or neither");
+        if (!first && spline_out_.isZero()) fail("the first G5 needs I and J");
+        const Vec2 out = first ? Vec2(word('I'), word('J')) : Vec2(-spline_out_);
+        spline_out_ = Vec2(word('P'), word('Q'));
+        control = {from, from + out, to + spline_out_, to};
+    } else {
+        if (!block.words.given('I') && !block.words.given('J')) fail("G5.1 needs I or J");
+        const Vec2 middle = from + Vec2(word('I'), word('J'));
+        control = {from, (from + 2 * middle) / 3, (to + 2 * middle) / 3, to};
+    }
+    flatten_bezier(control);
+}
+
+void Interpreter::flatten_bezier(const std::vector<Vec2>& control) {
+    for (int k = 1; k <= curve_pieces; ++k) {
+        const Vec2 p = bezier(control, static_cast<double>(k) / curve_pieces);
+        straight(MotionKind::spline, Vec3(p.x(), p.y(), state_.position.z()), state_.rotary);
+    }
+}
+
+void Interpreter::nurbs_point(const Block& block) {
+    if (nurbs_.empty()) {
+        nurbs_order_ = block.words.given('L') ? static_cast<int>(block.words.of('L')) : 3;
+        if (nurbs_order_ < 2 || nurbs_order_ > 20) fail("the order of a spline (L) is 2 … 20");
+        const Vec3 p = state_.position;
+        nurbs_.emplace_back(p.x(), p.y(), block.words.given('P') ? block.words.of('P') : 1.0);
+    }
+    if (!block.words.given('X') && !block.words.given('Y')) return;
+    const Vec3 end = target(block, false);
+    const double weight = block.words.given('P') ? block.words.of('P') : 1.0;
+    if (!(weight > 0)) fail("a weight (P) must be greater than 0");
+    nurbs_.emplace_back(end.x(), end.y(), weight);
+}
+
+void Interpreter::nurbs_end() {
+    const auto count = static_cast<int>(nurbs_.size());
+    const int order = nurbs_order_;
+    if (count < order) fail(fmt::format("a spline of order {} needs {} points, it has {}", order, order, count));
+    // Clamped uniform knots; de Boor in homogeneous coordinates.
+    const int spans = count - order + 1;
+    const auto knot = [&](int i) { return static_cast<double>(std::clamp(i - order + 1, 0, spans)); };
+    for (int k = 1; k <= spans * curve_pieces / 4; ++k) {
+        const double u = std::min(static_cast<double>(k) * 4 / curve_pieces, static_cast<double>(spans));
+        const int span = std::min(static_cast<int>(u), spans - 1) + order - 1;
+        std::vector<Vec3> d;
+        for (int j = 0; j < order; ++j) {
+            const Vec3& c = nurbs_[static_cast<std::size_t>(span - order + 1 + j)];
+            d.emplace_back(c.x() * c.z(), c.y() * c.z(), c.z());
+        }
+        for (int r = 1; r < order; ++r) {
+            for (int j = order - 1; j >= r; --j) {
+                const int i = span - order + 1 + j;
+                const double width = knot(i + order - r) - knot(i);
+                const double a = width > 0 ? (u - knot(i)) / width : 0.0;
+                d[static_cast<std::size_t>(j)] = (1 - a) * d[static_cast<std::size_t>(j - 1)] + a * d[static_cast<std::size_t>(j)];
+            }
+        }
+        const Vec3& p = d[static_cast<std::size_t>(order - 1)];
+        straight(MotionKind::spline, Vec3(p.x() / p.z(), p.y() / p.z(), state_.position.z()), state_.rotary);
+    }
+    nurbs_.clear();
+    state_.motion = MotionMode::none;
+}
+
+}  // namespace clsurf
