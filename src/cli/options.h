@@ -3,6 +3,7 @@
 // option means the same everywhere.
 
 #include <string>
+#include <string_view>
 
 #include "cli/subcommand.h"
 #include "core/diagnostic.h"
@@ -29,8 +30,15 @@ void declare_program_options(po::options_description& options);
 void declare_log_options(po::options_description& options);
 [[nodiscard]] io::LogOptions read_log_options(const po::variables_map& values);
 
+/// --json
+void declare_json(po::options_description& options);
+[[nodiscard]] bool read_json(const po::variables_map& values);
+
 /// A positional argument or an option that must be there; UsageError names it otherwise.
 [[nodiscard]] std::string required(const po::variables_map& values, const char* name);
+
+/// Writes to standard output. Throws SystemError (a full disk; a closed pipe ends the program).
+void write_to_stdout(std::string_view text);
 
 /// Prints diagnostics to stderr: errors and warnings, notes with -v, nothing but errors with -q.
 void print(const Diagnostics& diagnostics, const po::variables_map& values);

@@ -1,0 +1,41 @@
+#pragma once
+// The option tables as rows that --help, man pages, completion and docs/reference are written from.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cli/subcommand.h"
+
+namespace clsurf::cli {
+
+struct OptionRow {
+    std::string short_name;     ///< "-o"; empty: none
+    std::string long_name;      ///< "--output"
+    std::string value_name;     ///< "FILE"; empty: takes no value
+    std::string default_value;  ///< empty: none, or said in the description
+    std::string description;
+
+    [[nodiscard]] std::string names() const;  ///< "-o, --output FILE"
+    [[nodiscard]] std::string text() const;   ///< the description, and the default
+};
+[[nodiscard]] std::vector<OptionRow> rows_of(const po::options_description& options);
+
+/// "clsurf moves [options] PROGRAM"
+[[nodiscard]] std::string usage_of(const Subcommand& subcommand);
+
+/// What an exit code means, for help and manual.
+struct ExitCodeRow {
+    ExitCode code;
+    std::string_view meaning;
+};
+[[nodiscard]] std::span<const ExitCodeRow> exit_codes();
+
+inline constexpr std::string_view motto = "sees the mark before the cut";
+
+/// `clsurf --help`
+[[nodiscard]] std::string overview_text();
+/// `clsurf SUBCOMMAND --help`
+[[nodiscard]] std::string help_text(const Subcommand& subcommand);
+
+}  // namespace clsurf::cli
