@@ -31,6 +31,9 @@ struct LogFormat {
 /// All formats, in the order of the help text.
 [[nodiscard]] std::span<const LogFormat> log_formats();
 
+/// The format that the content looks most like, or nullptr.
+[[nodiscard]] const LogFormat* recognise_log(const Source& source, const LogOptions& options);
+
 /// Opens a log of any format. Throws InputError; unknown content names the formats tried.
 [[nodiscard]] Log open_log(const std::string& path, const LogOptions& options);
 

@@ -29,7 +29,7 @@ public:
     Projector(const ClSurface& surface, const DetailRequest& request)
         : p_(surface.positions), width_(static_cast<float>(request.width)), height_(static_cast<float>(request.height)) {
         linear_ = request.projection.leftCols<3>().cast<float>();
-        const Vec2 shift = request.projection * p_.origin.homogeneous();
+        const Vec2 shift = request.projection.leftCols<3>() * p_.origin + request.projection.col(3);
         shift_ = shift.cast<float>();
         boxed_ = !request.box.isEmpty();
         if (boxed_) {

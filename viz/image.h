@@ -1,5 +1,5 @@
 #pragma once
-// Image: 8-bit RGB pixels, rows from the top. Read and written through OpenImageIO.
+// Image: 8-bit RGB pixels, rows from the top. Read and encoded through OpenImageIO.
 
 #include <cstdint>
 #include <string>
@@ -12,13 +12,19 @@ struct Image {
     int width = 0;
     int height = 0;
     Column<std::uint8_t> rgb;  ///< 3 · width · height
+
+    [[nodiscard]] const std::uint8_t* pixel(int x, int y) const {
+        return rgb.data() + 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
+    }
 };
 
-/// Throws InputError.
+/// Throws InputError: missing, no image, larger than 2^28 pixels.
 [[nodiscard]] Image read_image(const std::string& path);
 
-/// PNG bytes with sRGB chunk and `description` (how the picture was made) as text; the same image
-/// always gives the same bytes. viz never writes files; the caller does (io::AtomicFile).
+/// PNG bytes; the same image always gives the same bytes. viz never writes files, the caller does.
 [[nodiscard]] std::string encode_png(const Image& image, const std::string& description);
+
+/// The mean of each `factor` × `factor` pixels. Domain: both sizes divisible.
+[[nodiscard]] Image shrink(const Image& image, int factor);
 
 }  // namespace clsurf::viz

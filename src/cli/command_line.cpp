@@ -36,12 +36,21 @@ bool is_number(std::string_view text) {
     return error == std::errc() && end == text.data() + text.size();
 }
 
+bool is_list(const std::type_info& type) {
+    return type == typeid(std::vector<std::string>) || type == typeid(std::vector<double>) ||
+           type == typeid(std::vector<int>) || type == typeid(std::vector<long>) ||
+           type == typeid(std::vector<long long>);
+}
+
 // Checked here, so that the message does not speak of C++ and -1 never wraps into an unsigned.
 void check_number(const std::string& option, const std::type_info& type, const std::string& text) {
-    const bool whole = type == typeid(int) || type == typeid(long) || type == typeid(long long);
+    const bool whole = type == typeid(int) || type == typeid(long) || type == typeid(long long) ||
+                       type == typeid(std::vector<int>) || type == typeid(std::vector<long>) ||
+                       type == typeid(std::vector<long long>);
     const bool counted = type == typeid(unsigned) || type == typeid(unsigned long) ||
                          type == typeid(unsigned long long);
-    const bool real = type == typeid(double) || type == typeid(float);
+    const bool real =
+        type == typeid(double) || type == typeid(float) || type == typeid(std::vector<double>);
     const bool good = (!whole || is_number<std::int64_t>(text)) &&
                       (type != typeid(int) || is_number<std::int32_t>(text)) &&
                       (!counted || is_number<std::uint64_t>(text)) &&
@@ -87,9 +96,7 @@ public:
         const std::string& name = option.string_key;
         const po::option_description& description = options_.find(name, false);
         const auto* typed = dynamic_cast<const po::typed_value_base*>(description.semantic().get());
-        const bool may_repeat =
-            description.semantic()->is_composing() ||
-            (typed != nullptr && typed->value_type() == typeid(std::vector<std::string>));
+        const bool may_repeat = typed != nullptr && is_list(typed->value_type());
         if (!seen_.insert(name).second && !may_repeat) {
             throw UsageError("--" + name + " is given more than once");
         }

@@ -1,6 +1,8 @@
 #include "cli/options.h"
 
 #include <cerrno>
+#include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 
@@ -85,6 +87,26 @@ void write_to_stdout(std::string_view text) {
     if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) {
         throw SystemError(std::string("cannot write to standard output: ") + std::strerror(errno));
     }
+}
+
+std::vector<double> parse_numbers(const std::string& text, const std::string& option, std::size_t count) {
+    std::vector<double> numbers;
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    for (;;) {
+        if (at != end && *at == '+') ++at;
+        double value = 0;
+        const auto read = std::from_chars(at, end, value);
+        if (read.ec != std::errc() || !std::isfinite(value)) break;
+        numbers.push_back(value);
+        at = read.ptr;
+        if (at == end || *at != ',') break;
+        ++at;
+    }
+    if (at != end || numbers.empty() || (count != 0 && numbers.size() != count)) {
+        throw UsageError(option + ": '" + text + "' is not " + (count == 0 ? std::string("a list of numbers") : std::to_string(count) + " numbers") + " separated by commas");
+    }
+    return numbers;
 }
 
 void print(const Diagnostics& diagnostics, const po::variables_map& values) {

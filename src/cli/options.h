@@ -4,6 +4,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "cli/subcommand.h"
 #include "core/diagnostic.h"
@@ -39,6 +40,9 @@ void declare_json(po::options_description& options);
 
 /// Writes to standard output. Throws SystemError (a full disk; a closed pipe ends the program).
 void write_to_stdout(std::string_view text);
+
+/// Exactly `count` numbers separated by commas (0: one or more). Throws UsageError, naming `option`.
+[[nodiscard]] std::vector<double> parse_numbers(const std::string& text, const std::string& option, std::size_t count);
 
 /// Prints diagnostics to stderr: errors and warnings, notes with -v, nothing but errors with -q.
 void print(const Diagnostics& diagnostics, const po::variables_map& values);

@@ -40,6 +40,7 @@ struct Subcommand {
 
 // One function a subcommand, each in the file of its name.
 [[nodiscard]] Subcommand moves_subcommand();
+[[nodiscard]] Subcommand render_subcommand();
 [[nodiscard]] Subcommand help_subcommand();
 [[nodiscard]] Subcommand manual_subcommand();
 

@@ -8,6 +8,7 @@ namespace clsurf::cli {
 
 std::span<const Subcommand> subcommands() {
     static const std::vector<Subcommand> table{
+        render_subcommand(),
         moves_subcommand(),
         help_subcommand(),
         manual_subcommand(),

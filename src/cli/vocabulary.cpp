@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 
+#include "field/field_table.h"
+#include "io/log_format.h"
 #include "program/dialect.h"
+#include "viz/colour_map.h"
 
 namespace clsurf::cli {
 namespace {
@@ -12,6 +15,31 @@ std::vector<io::ListingRow> dialect_rows() {
     std::vector<io::ListingRow> rows;
     for (const Dialect& dialect : dialects()) {
         rows.push_back({std::string(dialect.name), "", std::string(dialect.summary)});
+    }
+    return rows;
+}
+
+std::vector<io::ListingRow> field_rows() {
+    std::vector<io::ListingRow> rows;
+    for (const FieldRow& field : field_table()) {
+        rows.push_back(
+            {std::string(field.name), std::string(field.unit.name), std::string(field.label)});
+    }
+    return rows;
+}
+
+std::vector<io::ListingRow> format_rows() {
+    std::vector<io::ListingRow> rows;
+    for (const io::LogFormat& format : io::log_formats()) {
+        rows.push_back({std::string(format.name), "", std::string(format.summary)});
+    }
+    return rows;
+}
+
+std::vector<io::ListingRow> colour_map_rows() {
+    std::vector<io::ListingRow> rows;
+    for (const viz::ColourMapInfo& map : viz::colour_maps()) {
+        rows.push_back({std::string(map.name), "", std::string(map.summary)});
     }
     return rows;
 }
@@ -35,7 +63,12 @@ std::vector<std::string_view> alternatives_of(std::string_view value_name) {
 
 std::span<const Vocabulary> vocabularies() {
     static constexpr std::array table{
+        Vocabulary{"fields", "FIELD",
+                   "what can be coloured, plotted and exported; every channel of a log besides",
+                   field_rows},
+        Vocabulary{"formats", "FORMAT", "log formats that are recognised", format_rows},
         Vocabulary{"dialects", "DIALECT", "languages of NC programs", dialect_rows},
+        Vocabulary{"colormaps", "COLORMAP", "named colour maps", colour_map_rows},
     };
     return table;
 }
@@ -43,7 +76,7 @@ std::span<const Vocabulary> vocabularies() {
 std::vector<std::string> words_of(std::string_view value_name) {
     std::vector<std::string> words;
     for (const std::string_view alternative : alternatives_of(value_name)) {
-        if (alternatives_of(value_name).size() > 1 && is_word(alternative)) {
+        if (value_name.find('|') != std::string_view::npos && is_word(alternative)) {
             words.emplace_back(alternative);
         }
         for (const Vocabulary& vocabulary : vocabularies()) {

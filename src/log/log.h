@@ -3,12 +3,14 @@
 // A Log owns its storage without knowing files: `keep_alive` holds a mapping or vectors.
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/channel_view.h"
 #include "core/diagnostic.h"
+#include "core/geometry.h"
 #include "core/point.h"
 
 namespace clsurf {
@@ -40,6 +42,7 @@ struct Log {
     std::vector<Channel> channels;
     std::vector<ProgramReference> programs;
     std::string metadata;  ///< the JSON text that came with it; empty: none
+    std::optional<Vec3> work_offset;  ///< [mm], machine = workpiece + offset, where the log tells
     Diagnostics diagnostics;
     std::shared_ptr<const void> keep_alive;
 

@@ -1,0 +1,54 @@
+#include <algorithm>
+#include <array>
+
+#include "core/error.h"
+#include "io/biip.h"
+#include "io/delimited.h"
+#include "io/log_format.h"
+#include "io/record_layout.h"
+
+namespace clsurf::io {
+namespace {
+
+/// One line a format. Later lines win only with a better score.
+constexpr auto table = std::to_array<LogFormat>({
+    {"biip", "BIIP v1: self-describing fixed records (docs/formats/biip.md)", probe_biip, open_biip},
+    {"layout", "foreign fixed records, described by --layout FILE", probe_layout, open_layout},
+    {"halsampler", "LinuxCNC halsampler text, columns named by --mapping FILE", probe_halsampler, open_halsampler},
+    {"delimited", "CSV or TSV with a header of channel names, or with --mapping FILE", probe_delimited, open_delimited},
+});
+
+constexpr std::size_t head_bytes = 65536;
+
+}  // namespace
+
+std::span<const LogFormat> log_formats() { return table; }
+
+const LogFormat* recognise_log(const Source& source, const LogOptions& options) {
+    const std::span<const std::byte> head = source.bytes.first(std::min(head_bytes, source.bytes.size()));
+    const LogFormat* best = nullptr;
+    int best_score = 0;
+    for (const LogFormat& format : table) {
+        const int score = format.probe(head, options);
+        if (score > best_score) {
+            best_score = score;
+            best = &format;
+        }
+    }
+    return best;
+}
+
+Log open_log(const std::string& path, const LogOptions& options) {
+    const Source source = map_file(path);
+    if (source.bytes.empty()) throw InputError(Place::of_file(source.name), "is empty, expected a log");
+    const LogFormat* format = recognise_log(source, options);
+    if (format == nullptr) {
+        std::string names;
+        for (const LogFormat& f : table) names += (names.empty() ? "" : ", ") + std::string(f.name);
+        throw InputError(Place::of_file(source.name), "is no log of a known format (" + names + ")",
+                         "a foreign binary needs --layout FILE, a text without channel names --mapping FILE");
+    }
+    return format->open(source, options);
+}
+
+}  // namespace clsurf::io

@@ -1,0 +1,72 @@
+#include "cli/part.h"
+
+#include <charconv>
+
+#include "core/spelling.h"
+#include "io/program_file.h"
+
+namespace clsurf::cli {
+namespace {
+
+Role parse_role(const std::string& text) {
+    const std::string_view names[] = {"commanded", "feedback", "actual"};
+    for (const Role role : {Role::commanded, Role::feedback, Role::actual}) {
+        if (text == name_of(role)) return role;
+    }
+    throw UsageError("--surface: '" + text + "' is not commanded, feedback or actual", did_you_mean(text, names));
+}
+
+/// The role that lines are found by: what was commanded, where it is there.
+Role mapping_role(const Log& log, Role shown) { return log.has(Role::commanded) ? Role::commanded : shown; }
+
+}  // namespace
+
+void declare_part(po::options_description& options) {
+    declare_program_options(options);
+    declare_log_options(options);
+    // clang-format off
+    options.add_options()
+        ("surface", po::value<std::string>()->value_name("commanded|feedback|actual"), "which positions (default: commanded, else what the log has)")
+        ("work-offset", po::value<std::string>()->value_name("X,Y,Z"), "machine position of the program's zero [mm] (default: what the log tells, else 0,0,0)")
+        ("ignore-lines", "find the lines by geometry even where the log has a line channel");
+    // clang-format on
+}
+
+PartOptions read_part_options(const po::variables_map& values) {
+    PartOptions options;
+    options.program = required(values, "PROGRAM");
+    options.log = required(values, "LOG");
+    options.dialect = read_dialect(values);
+    options.block_delete = read_block_delete(values);
+    options.log_options = read_log_options(values);
+    options.use_line_channel = values.count("ignore-lines") == 0;
+    if (values.count("surface") > 0) options.role = parse_role(values["surface"].as<std::string>());
+    else options.role_given = false;
+    if (values.count("work-offset") > 0) {
+        const std::vector<double> numbers = parse_numbers(values["work-offset"].as<std::string>(), "--work-offset", 3);
+        options.offset = Vec3(numbers[0], numbers[1], numbers[2]);
+    }
+    return options;
+}
+
+Part load_part(const PartOptions& options) {
+    Part part;
+    part.program = io::read_program(options.program, options.dialect, options.block_delete);
+    part.log = io::open_log(options.log, options.log_options);
+    if (part.log.records == 0) throw InputError(Place::of_file(part.log.name), "holds no records");
+    Role role = options.role;
+    if (!options.role_given && !part.log.has(role)) {
+        role = part.log.has(Role::feedback) ? Role::feedback : Role::actual;
+    }
+    const Vec3 offset = -options.offset.value_or(part.log.work_offset.value_or(Vec3::Zero()));
+    part.path = reconstruct(part.log, role, offset);
+    part.diagnostics.append(part.program.diagnostics);
+    part.diagnostics.append(part.log.diagnostics);
+    const Trajectory mapped = reconstruct(part.log, mapping_role(part.log, role), offset);
+    part.lines = std::make_unique<LineMap>(map_lines(mapped, part.log, part.program, options.use_line_channel, part.diagnostics));
+    return part;
+}
+
+ClSurface stitch(const Part& part) { return clsurf::stitch(gather(part.path), *part.lines); }
+
+}  // namespace clsurf::cli

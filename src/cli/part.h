@@ -1,0 +1,48 @@
+#pragma once
+// Part: a program and a log of it, read and put together: the first five of the seven calls that
+// every subcommand on a log begins with (docs/design/map.md).
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "cli/options.h"
+#include "field/field_set.h"
+#include "log/log.h"
+#include "path/line_map.h"
+#include "path/trajectory.h"
+#include "program/program.h"
+#include "surface/cl_surface.h"
+
+namespace clsurf::cli {
+
+struct PartOptions {
+    std::string program, log;
+    std::string dialect;
+    bool block_delete = true;
+    io::LogOptions log_options;
+    Role role = Role::commanded;
+    bool role_given = true;         ///< false: commanded where the log has it
+    std::optional<Vec3> offset;     ///< [mm], workpiece = machine − offset
+    bool use_line_channel = true;
+};
+
+/// --dialect, --block-delete, --layout, --mapping, --period, --surface, --work-offset, --ignore-lines.
+void declare_part(po::options_description& options);
+[[nodiscard]] PartOptions read_part_options(const po::variables_map& values);
+
+struct Part {
+    Program program;
+    Log log;
+    Trajectory path;               ///< of the role that is shown
+    std::unique_ptr<LineMap> lines;
+    Diagnostics diagnostics;       ///< of program, log and map together
+};
+
+/// Reads and maps. Throws InputError, UsageError.
+[[nodiscard]] Part load_part(const PartOptions& options);
+
+/// The surface of a part. O(points).
+[[nodiscard]] ClSurface stitch(const Part& part);
+
+}  // namespace clsurf::cli

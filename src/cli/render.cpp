@@ -1,0 +1,237 @@
+// clsurf render: the quality map.
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "cli/part.h"
+#include "core/spelling.h"
+#include "field/range.h"
+#include "io/atomic_file.h"
+#include "viz/scene.h"
+
+namespace clsurf::cli {
+namespace {
+
+struct RenderOptions {
+    PartOptions part;
+    std::string before;  ///< log of the other panel; empty: one panel
+    std::string output;
+    std::string field = "speed";
+    RangeRule range;
+    std::string colour_map;  ///< empty: by the field
+    int bins = 0;
+    std::vector<PointIndex> points;
+    std::vector<LineNumber> lines;
+    viz::Look look;
+};
+
+void declare(po::options_description& options) {
+    declare_part(options);
+    // clang-format off
+    options.add_options()
+        ("output,o", po::value<std::string>()->value_name("FILE"), "the picture (PNG)")
+        ("color", po::value<std::string>()->value_name("FIELD"), "what is coloured (default: speed; `clsurf help fields`)")
+        ("style", po::value<std::string>()->value_name("surface|lines|points"), "how the map is drawn (default: surface)")
+        ("view", po::value<std::string>()->value_name("iso|top|front|left|right|back|bottom|AZ,EL"), "from where; AZ,EL in degrees (default: iso)")
+        ("zoom", po::value<std::string>()->value_name("X0,Y0,X1,Y1"), "part of the map, as fractions from its upper left corner")
+        ("box", po::value<std::string>()->value_name("X0,Y0,Z0,X1,Y1,Z1"), "part of the workpiece [mm]; the rest is left out")
+        ("range", po::value<std::string>()->value_name("auto|MIN,MAX|pLOW,pHIGH"), "values at the ends of the colours, or percentiles of the cutting points (default: auto, p1,p99)")
+        ("colormap", po::value<std::string>()->value_name("COLORMAP|RGB,RGB,…"), "a named map (`clsurf help colormaps`) or own stops, #RRGGBB,#RRGGBB,… (default: isurface; signed fields coolwarm)")
+        ("bins", po::value<int>()->value_name("N"), "colours in N steps")
+        ("mark-point", po::value<std::vector<long long>>()->value_name("N"), "ring a point; may be repeated")
+        ("mark-line", po::value<std::vector<long long>>()->value_name("N"), "draw the points of a line bold; may be repeated")
+        ("before", po::value<std::string>()->value_name("LOG"), "another log of the program, drawn beside it on the same scale")
+        ("size", po::value<std::string>()->value_name("WxH"), "size in pixels (default: 1600x1200)")
+        ("background", po::value<std::string>()->value_name("white|black|#RRGGBB"), "behind the map (default: white)")
+        ("no-legend", "the map alone: no title, legend, axes, scale bar")
+        ("gl", po::value<std::string>()->value_name("osmesa|egl"), "what draws: the processor, or a graphics card (default: osmesa)");
+    // clang-format on
+}
+
+std::string text_of(const po::variables_map& values, const char* name, const std::string& otherwise) {
+    return values.count(name) > 0 ? values[name].as<std::string>() : otherwise;
+}
+
+RangeRule parse_range(const std::string& text) {
+    RangeRule rule;
+    if (text == "auto") return rule;
+    std::string numbers = text;
+    rule.kind = RangeRule::Kind::fixed;
+    if (text.starts_with('p')) {
+        rule.kind = RangeRule::Kind::percentiles;
+        std::erase(numbers, 'p');
+    }
+    const std::vector<double> pair = parse_numbers(numbers, "--range", 2);
+    rule.low = pair[0];
+    rule.high = pair[1];
+    if (rule.low > rule.high) throw UsageError("--range: the lower end is above the upper one");
+    if (rule.kind == RangeRule::Kind::percentiles && (rule.low < 0 || rule.high > 100)) throw UsageError("--range: percentiles are 0 … 100");
+    return rule;
+}
+
+void parse_size(const std::string& text, viz::Look& look) {
+    const std::size_t x = text.find('x');
+    const std::string list = x == std::string::npos ? text : text.substr(0, x) + "," + text.substr(x + 1);
+    const std::vector<double> numbers = parse_numbers(list, "--size", 2);
+    constexpr double least = 64;
+    constexpr double most = 8192;
+    for (const double n : numbers) {
+        if (n < least || n > most || n != static_cast<int>(n)) throw UsageError(fmt::format("--size: {:g} is not a whole number of pixels in {:g} … {:g}", n, least, most));
+    }
+    look.width = static_cast<int>(numbers[0]);
+    look.height = static_cast<int>(numbers[1]);
+}
+
+viz::Look read_look(const po::variables_map& values) {
+    viz::Look look;
+    parse_size(text_of(values, "size", "1600x1200"), look);
+    look.view = viz::parse_view(text_of(values, "view", "iso"));
+    const std::string style = text_of(values, "style", "surface");
+    if (style == "surface") look.style = viz::Style::surface;
+    else if (style == "lines") look.style = viz::Style::lines;
+    else if (style == "points") look.style = viz::Style::points;
+    else throw UsageError("--style: '" + style + "' is not surface, lines or points");
+    if (values.count("zoom") > 0) {
+        const std::vector<double> n = parse_numbers(values["zoom"].as<std::string>(), "--zoom", 4);
+        look.zoom = {n[0], n[1], n[2], n[3]};
+        if (!(n[0] < n[2] && n[1] < n[3])) throw UsageError("--zoom: X0 < X1 and Y0 < Y1 are needed");
+    }
+    if (values.count("box") > 0) {
+        const std::vector<double> n = parse_numbers(values["box"].as<std::string>(), "--box", 6);
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (!(n[k] <= n[k + 3])) throw UsageError("--box: the first corner must be the lower one in X, Y and Z");
+        }
+        look.box = Box3(Vec3(n[0], n[1], n[2]), Vec3(n[3], n[4], n[5]));
+    }
+    look.background = viz::parse_colour(text_of(values, "background", "white"), "--background");
+    look.legend = values.count("no-legend") == 0;
+    look.gl = text_of(values, "gl", "osmesa");
+    if (look.gl != "osmesa" && look.gl != "egl") throw UsageError("--gl: '" + look.gl + "' is not osmesa or egl");
+    return look;
+}
+
+RenderOptions read_options(const po::variables_map& values) {
+    RenderOptions options;
+    options.part = read_part_options(values);
+    options.output = required(values, "output");
+    options.before = text_of(values, "before", "");
+    options.field = text_of(values, "color", "speed");
+    options.range = parse_range(text_of(values, "range", "auto"));
+    options.colour_map = text_of(values, "colormap", "");
+    if (!options.colour_map.empty()) (void)viz::make_colour_map(options.colour_map);  // wrong names fail early
+    if (values.count("bins") > 0) {
+        options.bins = values["bins"].as<int>();
+        if (options.bins < 2 || options.bins > 256) throw UsageError("--bins must be 2 … 256");
+    }
+    if (values.count("mark-point") > 0) {
+        for (const long long n : values["mark-point"].as<std::vector<long long>>()) options.points.push_back(n);
+    }
+    if (values.count("mark-line") > 0) {
+        for (const long long n : values["mark-line"].as<std::vector<long long>>()) {
+            if (n < 1 || n > 0xffffffffLL) throw UsageError("--mark-line: lines count from 1");
+            options.lines.push_back(static_cast<LineNumber>(n));
+        }
+    }
+    options.look = read_look(values);
+    return options;
+}
+
+/// A part with its surface and its field.
+struct Shown {
+    Part part;
+    ClSurface surface;
+    Field field;
+};
+
+Shown prepare(const PartOptions& options, const std::string& field) {
+    Shown shown;
+    shown.part = load_part(options);
+    shown.surface = stitch(shown.part);
+    shown.field = FieldSet(shown.part.log, shown.part.path, shown.surface.passes).get(field);
+    return shown;
+}
+
+viz::MapPanel panel_of(const Shown& shown, const RenderOptions& options, std::string caption) {
+    viz::MapPanel panel{&shown.surface, &shown.field, std::move(caption), {}, {}};
+    for (const PointIndex point : options.points) {
+        if (point < 0 || point >= shown.part.log.records) {
+            throw UsageError(fmt::format("--mark-point {}: the log has points 0 … {}", point, shown.part.log.records - 1));
+        }
+        panel.points.push_back({point, fmt::format("point {}, line {}", point, shown.part.lines->line_at(point))});
+    }
+    for (const LineNumber line : options.lines) {
+        std::vector<PointRange> ranges = shown.part.lines->points_of(line);
+        if (ranges.empty()) throw UsageError(fmt::format("--mark-line {}: the log has no point of that line", line));
+        panel.lines.push_back({std::move(ranges), fmt::format("line {}", line)});
+    }
+    return panel;
+}
+
+std::string base_name(const std::string& path) { return path.substr(path.rfind('/') + 1); }
+
+viz::MapTexts texts_of(const Shown& shown, const RenderOptions& options, const std::string& range_note) {
+    PointIndex passes = 0;
+    for (const Pass& pass : shown.surface.passes) passes += pass.kind == PassKind::cut ? 1 : 0;
+    viz::MapTexts texts;
+    texts.title = fmt::format("{}, {} {}", shown.field.info.label, name_of(shown.part.path.role), options.look.style == viz::Style::surface ? "surface" : "path");
+    texts.subtitle = fmt::format("{} · {}{} · {} points, {} passes{}", base_name(options.part.program),
+                                 options.before.empty() ? "" : base_name(options.before) + " and ", base_name(options.part.log),
+                                 shown.part.log.records, passes,
+                                 shown.surface.step_over > 0 ? fmt::format(", {:.3g} mm apart", shown.surface.step_over) : "");
+    texts.footnote = shown.field.info.note + (shown.field.info.note.empty() ? "" : "; ") + range_note;
+    return texts;
+}
+
+ExitCode run(const po::variables_map& values) {
+    const RenderOptions options = read_options(values);
+    io::AtomicFile output(options.output);  // a name that cannot be written fails before the work
+    const Shown after = prepare(options.part, options.field);
+    print(after.part.diagnostics, values);
+    std::vector<viz::MapPanel> panels;
+    std::optional<Shown> before;
+    if (!options.before.empty()) {
+        PartOptions other = options.part;
+        other.log = options.before;
+        before = prepare(other, options.field);
+        print(before->part.diagnostics, values);
+        panels.push_back(panel_of(*before, options, "before: " + base_name(options.before)));
+    }
+    panels.push_back(panel_of(after, options, before ? "after: " + base_name(options.part.log) : ""));
+
+    ShownRange range = find_range(after.field, after.surface.passes, options.range);
+    if (before && options.range.kind != RangeRule::Kind::fixed) {
+        const ShownRange other = find_range(before->field, before->surface.passes, options.range);
+        range.low = std::min(range.low, other.low);
+        range.high = std::max(range.high, other.high);
+        range.note += ", of both logs";
+    }
+    const bool diverging = after.field.info.scale == FieldScale::diverging;
+    viz::ColourScale scale{viz::make_colour_map(!options.colour_map.empty() ? options.colour_map : diverging ? "coolwarm" : "isurface"),
+                           range.low, range.high, options.bins};
+    const viz::Image image = viz::draw_map(panels, scale, texts_of(after, options, range.note), options.look);
+    output.write(viz::encode_png(image, fmt::format("clsurf map of {} from {}: {} {:g} to {:g} {}", base_name(options.part.program),
+                                                    base_name(options.part.log), options.field, range.low, range.high, after.field.info.unit.name)));
+    output.commit();
+    return ExitCode::done;
+}
+
+}  // namespace
+
+Subcommand render_subcommand() {
+    return {
+        .name = "render",
+        .arguments = "PROGRAM LOG -o map.png",
+        .summary = "the quality map: the CL surface coloured by speed, acceleration and more",
+        .description = "Maps each logged point to its line, puts the cutter-location surface back together from\n"
+                       "neighbouring passes, colours it by a field and draws it without a display.\n\n"
+                       "  clsurf render part.nc run.biip -o map.png\n"
+                       "  clsurf render part.nc run.biip -o map.png --color acceleration --view top --range 0,800",
+        .declare = declare,
+        .positional = {"PROGRAM", "LOG"},
+        .run = run,
+    };
+}
+
+}  // namespace clsurf::cli

@@ -1,0 +1,39 @@
+#pragma once
+// FieldSet: computes the fields that are asked for, block by block, from the log and the passes.
+//
+// To add a field: one row in field_table.cpp.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "field/field.h"
+#include "log/log.h"
+#include "path/passes.h"
+#include "path/trajectory.h"
+
+namespace clsurf {
+
+class FieldSet {
+public:
+    /// `log`, `path` and `passes` must outlive it. Derivatives are taken inside pieces of `passes`;
+    /// neighbouring turns of a spiral count as one piece.
+    FieldSet(const Log& log, const Trajectory& path, const Passes& passes);
+
+    /// One value per point. Throws UsageError: an unknown field (with a suggestion), a field that
+    /// needs a role that the log does not have. O(points), parallel.
+    [[nodiscard]] Field get(std::string_view name) const;
+
+    /// The values of points [first, last] only. O(last − first + window).
+    [[nodiscard]] std::vector<double> values(std::string_view name, PointRange points) const;
+
+private:
+    const Log& log_;
+    const Trajectory& path_;
+    std::vector<PointRange> pieces_;  ///< for derivatives, in order
+};
+
+/// All fields by name: those of the table, then the log's channels (nullptr: no log).
+[[nodiscard]] std::vector<FieldInfo> known_fields(const Log* log);
+
+}  // namespace clsurf

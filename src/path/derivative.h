@@ -1,0 +1,51 @@
+#pragma once
+// Derivatives that are honest about quantised positions: Savitzky–Golay, a least-squares polynomial
+// over a window of about 20 ms (Savitzky, Golay 1964). Exact on polynomials of its order, no lag;
+// towards the ends of a piece the window stays inside it and the polynomial is read off centre.
+
+#include <span>
+#include <vector>
+
+#include "core/point.h"
+
+namespace clsurf {
+
+struct DerivativeFilter {
+    int points = 21;     ///< of the window, odd
+    int order = 2;       ///< of the polynomial
+    int derivative = 1;  ///< 1, 2, 3
+    double period = 0;   ///< [s]
+
+    /// Frequency at which the filter gives 1/√2 of the true derivative [Hz].
+    [[nodiscard]] double bandwidth() const;
+};
+
+/// The filter for a derivative at this period: 20 ms, at least order + 2 points; third derivatives
+/// 40 ms, since their noise grows with (1/window)^3.5.
+[[nodiscard]] DerivativeFilter derivative_filter(int derivative, double period);
+
+/// Weights of the window's points for the value at point `at` of it, 0 … points − 1. Per period^d.
+[[nodiscard]] std::vector<double> derivative_weights(int points, int order, int derivative, int at);
+
+/// The weights of a filter, once for all positions in the window.
+class Differentiator {
+public:
+    explicit Differentiator(const DerivativeFilter& filter);
+
+    [[nodiscard]] const DerivativeFilter& filter() const { return filter_; }
+    /// How many points beyond a stretch are looked at.
+    [[nodiscard]] PointIndex reach() const { return filter_.points; }
+
+    /// Derivatives of points [first, first + out.size()) of a piece. `samples` holds the piece's
+    /// points from `samples_first` on, at least `reach()` beyond both ends of the stretch or to the
+    /// piece's ends. A piece with fewer points than the window is fitted whole; with fewer than
+    /// order + 1 its derivatives are NaN. Units: samples' unit / s^d.
+    void apply(std::span<const double> samples, PointIndex samples_first, PointRange piece,
+               PointIndex first, std::span<double> out) const;
+
+private:
+    DerivativeFilter filter_;
+    std::vector<std::vector<double>> weights_;  ///< by position in the window, divided by period^d
+};
+
+}  // namespace clsurf

@@ -1,0 +1,222 @@
+#include "viz/canvas.h"
+
+#include <vtkActor.h>
+#include <vtkActor2D.h>
+#include <vtkCamera.h>
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkCoordinate.h>
+#include <vtkFloatArray.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkPolyDataMapper2D.h>
+#include <vtkProperty.h>
+#include <vtkProperty2D.h>
+#include <vtkRenderer.h>
+#include <vtkTextActor.h>
+#include <vtkTextProperty.h>
+#include <vtkTextRenderer.h>
+#include <vtkTypeInt32Array.h>
+#include <vtkUnsignedCharArray.h>
+
+#include "core/error.h"
+#include "viz/gl_window.h"
+
+namespace clsurf::viz {
+namespace {
+
+constexpr int dpi = 72;  // one point of text is one pixel
+
+/// Our 32-bit vertex numbers as VTK cells of `size` vertices, without a copy. The column must outlive it.
+vtkNew<vtkCellArray> cells(const Column<std::uint32_t>& vertices, int size) {
+    vtkNew<vtkCellArray> array;
+    const auto count = static_cast<vtkIdType>(vertices.size()) / size;
+    vtkNew<vtkTypeInt32Array> offsets;
+    offsets->SetNumberOfValues(count + 1);
+    for (vtkIdType i = 0; i <= count; ++i) offsets->SetValue(i, static_cast<vtkTypeInt32>(i * size));
+    vtkNew<vtkTypeInt32Array> connectivity;
+    auto* data = reinterpret_cast<vtkTypeInt32*>(const_cast<std::uint32_t*>(vertices.data()));
+    connectivity->SetArray(data, count * size, 1);
+    array->SetData(offsets, connectivity);
+    return array;
+}
+
+void add_mesh(vtkRenderer* renderer, const MeshPanel& panel, int supersample) {
+    const Geometry& g = panel.geometry;
+    const auto vertices = static_cast<vtkIdType>(g.xyz.size() / 3);
+    if (vertices == 0) return;
+    vtkNew<vtkFloatArray> xyz;
+    xyz->SetNumberOfComponents(3);
+    xyz->SetArray(const_cast<float*>(g.xyz.data()), vertices * 3, 1);
+    vtkNew<vtkPoints> points;
+    points->SetData(xyz);
+    vtkNew<vtkUnsignedCharArray> colours;
+    colours->SetNumberOfComponents(3);
+    colours->SetArray(const_cast<unsigned char*>(g.rgb.data()), vertices * 3, 1);
+    vtkNew<vtkPolyData> data;
+    data->SetPoints(points);
+    data->GetPointData()->SetScalars(colours);
+    if (!g.triangles.empty()) data->SetPolys(cells(g.triangles, 3));
+    if (!g.segments.empty()) data->SetLines(cells(g.segments, 2));
+    if (!g.points.empty()) data->SetVerts(cells(g.points, 1));
+    vtkNew<vtkPolyDataMapper> mapper;
+    mapper->SetInputData(data);
+    mapper->SetColorModeToDirectScalars();
+    vtkNew<vtkActor> actor;
+    actor->SetMapper(mapper);
+    // Shading is in the colours already, so that one rule makes legend and surface.
+    actor->GetProperty()->LightingOff();
+    actor->GetProperty()->SetLineWidth(static_cast<float>(panel.line_width * supersample));
+    actor->GetProperty()->SetPointSize(static_cast<float>(panel.point_size * supersample));
+    renderer->AddActor(actor);
+}
+
+void place_camera(vtkRenderer* renderer, const MeshPanel& panel) {
+    const Camera& c = panel.camera;
+    const Vec3 focus = c.centre - panel.geometry.origin;
+    double bounds[6];
+    renderer->ComputeVisiblePropBounds(bounds);
+    double reach = 1;
+    if (bounds[0] <= bounds[1]) {
+        const Box3 box(Vec3(bounds[0], bounds[2], bounds[4]), Vec3(bounds[1], bounds[3], bounds[5]));
+        reach = box.diagonal().norm() + (box.center() - focus).norm() + 1;
+    }
+    const Vec3 eye = focus + reach * c.towards;
+    vtkCamera* camera = renderer->GetActiveCamera();
+    camera->SetParallelProjection(1);
+    camera->SetFocalPoint(focus.data());
+    camera->SetPosition(eye.data());
+    camera->SetViewUp(c.up.data());
+    camera->SetParallelScale(0.5 * c.height * c.mm_per_pixel);
+    camera->SetClippingRange(1e-3 * reach, 2.5 * reach);
+}
+
+void add_quads(vtkRenderer* renderer, const std::vector<FlatQuad>& quads, int supersample) {
+    if (quads.empty()) return;
+    vtkNew<vtkPoints> points;
+    vtkNew<vtkCellArray> polygons;
+    vtkNew<vtkUnsignedCharArray> colours;
+    colours->SetNumberOfComponents(3);
+    for (const FlatQuad& quad : quads) {
+        const Rect& r = quad.rect;
+        vtkIdType ids[4];
+        const double corners[4][2] = {{r.x, r.y}, {r.x + r.width, r.y}, {r.x + r.width, r.y + r.height}, {r.x, r.y + r.height}};
+        for (int k = 0; k < 4; ++k) ids[k] = points->InsertNextPoint(corners[k][0] * supersample, corners[k][1] * supersample, 0);
+        polygons->InsertNextCell(4, ids);
+        colours->InsertNextTypedTuple(quad.rgb.data());
+    }
+    vtkNew<vtkPolyData> data;
+    data->SetPoints(points);
+    data->SetPolys(polygons);
+    data->GetCellData()->SetScalars(colours);
+    vtkNew<vtkPolyDataMapper2D> mapper;
+    mapper->SetInputData(data);
+    mapper->SetColorModeToDirectScalars();
+    mapper->SetScalarModeToUseCellData();
+    vtkNew<vtkActor2D> actor;
+    actor->SetMapper(mapper);
+    renderer->AddActor2D(actor);
+}
+
+/// Lines as quads along their steps: llvmpipe's wide lines have no joints.
+void add_lines(vtkRenderer* renderer, const std::vector<FlatLine>& lines, int supersample) {
+    for (const FlatLine& line : lines) {
+        vtkNew<vtkPoints> points;
+        vtkNew<vtkCellArray> polygons;
+        for (std::size_t i = 1; i < line.points.size(); ++i) {
+            const Vec2 a = line.points[i - 1] * supersample;
+            const Vec2 b = line.points[i] * supersample;
+            const double length = (b - a).norm();
+            if (!(length > 0)) continue;
+            const Vec2 along = 0.5 * line.width * supersample / length * (b - a);
+            const Vec2 side(-along.y(), along.x());
+            vtkIdType ids[4];
+            int k = 0;
+            for (const Vec2& p : {Vec2(a - along * 0.5 + side), Vec2(a - along * 0.5 - side), Vec2(b + along * 0.5 - side), Vec2(b + along * 0.5 + side)}) {
+                ids[k++] = points->InsertNextPoint(p.x(), p.y(), 0);
+            }
+            polygons->InsertNextCell(4, ids);
+        }
+        vtkNew<vtkPolyData> data;
+        data->SetPoints(points);
+        data->SetPolys(polygons);
+        vtkNew<vtkPolyDataMapper2D> mapper;
+        mapper->SetInputData(data);
+        vtkNew<vtkActor2D> actor;
+        actor->SetMapper(mapper);
+        actor->GetProperty()->SetColor(line.rgb[0] / 255.0, line.rgb[1] / 255.0, line.rgb[2] / 255.0);
+        renderer->AddActor2D(actor);
+    }
+}
+
+void set_up(vtkTextProperty* property, const FlatText& text, int supersample) {
+    property->SetFontFamilyToArial();
+    property->SetFontSize(static_cast<int>(std::lround(text.size * supersample)));
+    property->SetBold(text.bold ? 1 : 0);
+    property->SetColor(text.rgb[0] / 255.0, text.rgb[1] / 255.0, text.rgb[2] / 255.0);
+    property->SetVerticalJustificationToCentered();
+    if (text.align == Align::left) property->SetJustificationToLeft();
+    if (text.align == Align::centre) property->SetJustificationToCentered();
+    if (text.align == Align::right) property->SetJustificationToRight();
+}
+
+void add_texts(vtkRenderer* renderer, const std::vector<FlatText>& texts, int supersample) {
+    for (const FlatText& text : texts) {
+        if (text.text.empty()) continue;
+        vtkNew<vtkTextActor> actor;
+        actor->SetInput(text.text.c_str());
+        set_up(actor->GetTextProperty(), text, supersample);
+        actor->SetTextScaleModeToNone();
+        actor->GetPositionCoordinate()->SetCoordinateSystemToDisplay();
+        actor->SetPosition(std::round(text.x * supersample), std::round(text.y * supersample));
+        renderer->AddActor2D(actor);
+    }
+}
+
+}  // namespace
+
+double text_width(const FlatText& text) {
+    vtkNew<vtkTextProperty> property;
+    set_up(property, text, 1);
+    int box[4] = {0, 0, 0, 0};
+    vtkTextRenderer::GetInstance()->GetBoundingBox(property, text.text, box, dpi);
+    return box[1] - box[0] + 1;
+}
+
+Image draw(const Sheet& sheet, const std::string& gl, int supersample) {
+    const int width = sheet.width * supersample;
+    const int height = sheet.height * supersample;
+    GlWindow gl_window(gl, width, height);
+    vtkRenderWindow* window = gl_window.window();
+    window->SetDPI(dpi);
+    window->SetNumberOfLayers(3);
+    const auto background = [&](vtkRenderer* renderer) {
+        renderer->SetBackground(sheet.background[0] / 255.0, sheet.background[1] / 255.0, sheet.background[2] / 255.0);
+    };
+    vtkNew<vtkRenderer> paper;
+    background(paper);
+    paper->InteractiveOff();
+    window->AddRenderer(paper);
+    std::vector<vtkSmartPointer<vtkRenderer>> renderers;
+    for (const MeshPanel& panel : sheet.panels) {
+        auto renderer = vtkSmartPointer<vtkRenderer>::New();
+        renderer->SetLayer(1);
+        renderer->SetViewport(panel.rect.x / sheet.width, panel.rect.y / sheet.height,
+                              (panel.rect.x + panel.rect.width) / sheet.width, (panel.rect.y + panel.rect.height) / sheet.height);
+        add_mesh(renderer, panel, supersample);
+        window->AddRenderer(renderer);
+        place_camera(renderer, panel);
+        renderers.push_back(renderer);
+    }
+    vtkNew<vtkRenderer> flat;
+    flat->SetLayer(2);
+    window->AddRenderer(flat);
+    add_quads(flat, sheet.quads, supersample);
+    add_lines(flat, sheet.lines, supersample);
+    add_texts(flat, sheet.texts, supersample);
+    return shrink(gl_window.render(), supersample);
+}
+
+}  // namespace clsurf::viz

@@ -1,0 +1,68 @@
+#pragma once
+// Canvas: meshes and flat drawing → pixels, through VTK on a GL context of our own. The only VTK in
+// the drawing of maps; what is drawn where is decided in scene.cpp.
+//
+// Flat things are placed in pixels of the finished picture, from its lower left corner.
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "viz/colour_map.h"
+#include "viz/geometry.h"
+#include "viz/gl_context.h"
+#include "viz/image.h"
+#include "viz/view.h"
+
+namespace clsurf::viz {
+
+struct Rect {
+    double x = 0, y = 0, width = 0, height = 0;
+};
+
+enum class Align : std::uint8_t { left, centre, right };
+
+struct FlatText {
+    double x = 0, y = 0;  ///< baseline side, middle of the line's height
+    std::string text;     ///< UTF-8
+    double size = 12;     ///< [px]
+    Align align = Align::left;
+    bool bold = false;
+    Rgb rgb{0, 0, 0};
+};
+struct FlatQuad {
+    Rect rect;
+    Rgb rgb{0, 0, 0};
+};
+struct FlatLine {
+    std::vector<Vec2> points;
+    double width = 1;
+    Rgb rgb{0, 0, 0};
+};
+
+struct MeshPanel {
+    Rect rect;
+    Camera camera;      ///< of the panel's size
+    Geometry geometry;  ///< painted
+    double line_width = 1.5;
+    double point_size = 2;
+};
+
+/// Everything of a picture. Quads are drawn first, then lines, then texts, all above the meshes.
+struct Sheet {
+    int width = 0, height = 0;
+    Rgb background{255, 255, 255};
+    std::vector<MeshPanel> panels;
+    std::vector<FlatQuad> quads;
+    std::vector<FlatLine> lines;
+    std::vector<FlatText> texts;
+};
+
+/// Width of a text [px].
+[[nodiscard]] double text_width(const FlatText& text);
+
+/// Draws at `supersample` times the size and takes the mean, for smooth edges. Throws SystemError.
+[[nodiscard]] Image draw(const Sheet& sheet, const std::string& gl, int supersample);
+
+}  // namespace clsurf::viz

@@ -1,0 +1,26 @@
+#pragma once
+// GlContext: an OpenGL context that is current on its own buffer, without a window or a display.
+// `osmesa` is Mesa's software renderer (the same pixels everywhere); `egl` is surfaceless EGL, a GPU
+// where there is one.
+
+#include <memory>
+#include <string>
+
+namespace clsurf::viz {
+
+class GlContext {
+public:
+    GlContext() = default;
+    GlContext(const GlContext&) = delete;
+    GlContext& operator=(const GlContext&) = delete;
+    virtual ~GlContext() = default;
+
+    virtual void make_current() = 0;
+    /// What OpenGL calls itself: "llvmpipe (LLVM 15.0.6, 256 bits)".
+    [[nodiscard]] virtual std::string renderer() const = 0;
+};
+
+/// `kind`: "osmesa" or "egl". Throws UsageError (unknown, or not built in), SystemError (no context).
+[[nodiscard]] std::unique_ptr<GlContext> make_gl_context(const std::string& kind, int width, int height);
+
+}  // namespace clsurf::viz

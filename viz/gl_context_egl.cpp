@@ -1,0 +1,58 @@
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+
+#include "core/error.h"
+#include "viz/gl_context_makers.h"
+
+namespace clsurf::viz {
+namespace {
+
+/// Surfaceless: VTK draws into a framebuffer object of its own.
+class EglContext final : public GlContext {
+public:
+    EglContext() {
+        const auto get_display = reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(eglGetProcAddress("eglGetPlatformDisplayEXT"));
+        if (get_display != nullptr) display_ = get_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+        if (display_ == EGL_NO_DISPLAY || eglInitialize(display_, nullptr, nullptr) != EGL_TRUE) {
+            throw SystemError("EGL has no surfaceless display here");
+        }
+        eglBindAPI(EGL_OPENGL_API);
+        const EGLint config_attributes[] = {EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
+        EGLConfig config = nullptr;
+        EGLint found = 0;
+        eglChooseConfig(display_, config_attributes, &config, 1, &found);
+        const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 2,
+                                     EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+        context_ = eglCreateContext(display_, found > 0 ? config : nullptr, EGL_NO_CONTEXT, attributes);
+        if (context_ == EGL_NO_CONTEXT) throw SystemError("EGL cannot make an OpenGL 3.2 context");
+        make_current();
+    }
+    ~EglContext() override {
+        eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+        eglDestroyContext(display_, context_);
+        eglTerminate(display_);
+    }
+    void make_current() override {
+        set_gl_resolver([](const char* name) { return reinterpret_cast<GlFunction>(eglGetProcAddress(name)); });
+        if (eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) != EGL_TRUE) {
+            throw SystemError("the EGL context cannot be made current");
+        }
+    }
+    [[nodiscard]] std::string renderer() const override {
+        using GetString = const unsigned char* (*)(unsigned);
+        constexpr unsigned renderer_name = 0x1F01;
+        const auto get = reinterpret_cast<GetString>(eglGetProcAddress("glGetString"));
+        const unsigned char* name = get != nullptr ? get(renderer_name) : nullptr;
+        return name == nullptr ? std::string() : reinterpret_cast<const char*>(name);
+    }
+
+private:
+    EGLDisplay display_ = EGL_NO_DISPLAY;
+    EGLContext context_ = EGL_NO_CONTEXT;
+};
+
+}  // namespace
+
+std::unique_ptr<GlContext> make_egl_context() { return std::make_unique<EglContext>(); }
+
+}  // namespace clsurf::viz

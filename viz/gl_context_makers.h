@@ -1,0 +1,17 @@
+#pragma once
+// The makers of gl_context.cpp, one file each.
+
+#include "viz/gl_context.h"
+
+namespace clsurf::viz {
+
+[[nodiscard]] std::unique_ptr<GlContext> make_osmesa_context(int width, int height);
+[[nodiscard]] std::unique_ptr<GlContext> make_egl_context();
+
+using GlFunction = void (*)();
+using GlResolver = GlFunction (*)(const char* name);
+
+/// Who answers glXGetProcAddress from now on (gl_symbols.cpp).
+void set_gl_resolver(GlResolver resolver);
+
+}  // namespace clsurf::viz

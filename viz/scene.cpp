@@ -1,0 +1,292 @@
+#include "viz/scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "core/block.h"
+
+namespace clsurf::viz {
+namespace {
+
+constexpr double shade_dark = 0.80;  ///< of a surface that the light only grazes
+const Vec3 light(-0.45, 0.55, 0.70);  ///< from the upper left, in the camera's frame
+
+/// Sizes of the layout, from the picture's size.
+struct Layout {
+    double text, small_text, margin, title_height, note_height, legend_width;
+    explicit Layout(const Look& look) {
+        text = std::clamp(std::min(look.width * 0.75, look.height * 1.0) / 46.0, 9.0, 60.0);
+        small_text = std::max(8.0, 0.78 * text);
+        margin = 0.8 * text;
+        title_height = 3.6 * text;
+        note_height = 2.2 * small_text;
+        legend_width = look.legend ? 7.2 * text : 0;
+    }
+};
+
+Rgb ink_for(const Rgb& background) {
+    const double lightness = 0.3 * background[0] + 0.59 * background[1] + 0.11 * background[2];
+    return lightness > 128 ? Rgb{20, 20, 24} : Rgb{240, 240, 240};
+}
+Rgb faint(const Rgb& ink, const Rgb& background) {
+    Rgb mixed;
+    for (std::size_t k = 0; k < 3; ++k) mixed[k] = static_cast<std::uint8_t>((2 * ink[k] + background[k]) / 3);
+    return mixed;
+}
+
+/// Shortens a text in its middle until it fits.
+FlatText fitted(FlatText text, double width) {
+    if (text_width(text) <= width) return text;
+    const std::string whole = text.text;
+    for (std::size_t keep = whole.size(); keep > 4; --keep) {
+        std::size_t head = keep / 2;
+        std::size_t tail = whole.size() - (keep - head);
+        // Not inside a UTF-8 sequence.
+        while (head > 0 && (static_cast<unsigned char>(whole[head]) & 0xC0) == 0x80) --head;
+        while (tail < whole.size() && (static_cast<unsigned char>(whole[tail]) & 0xC0) == 0x80) ++tail;
+        text.text = whole.substr(0, head) + "..." + whole.substr(tail);
+        if (text_width(text) <= width) return text;
+    }
+    return text;
+}
+
+/// Vertices get their colours, darkened where the light grazes.
+void paint(Detail& detail, const ColourScale& scale, double per_inside, const Camera& camera) {
+    Geometry& g = detail.geometry;
+    const std::size_t count = detail.values.size();
+    g.rgb.resize(3 * count);
+    const Vec3 direction = (light.x() * camera.right + light.y() * camera.up + light.z() * camera.towards).normalized();
+    const bool lit = !g.normals.empty();
+    // A table of colours: maps are smooth, 1024 steps are finer than 8 bits.
+    constexpr int steps = 1024;
+    std::vector<Rgb> table(steps + 1);
+    const double width = scale.high > scale.low ? scale.high - scale.low : 1.0;
+    for (int k = 0; k <= steps; ++k) table[static_cast<std::size_t>(k)] = scale.colour(scale.low + width * k / steps);
+    parallel_for(static_cast<std::int64_t>(count), block_points, [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t i = first; i < last; ++i) {
+            const auto v = static_cast<std::size_t>(i);
+            const double value = detail.values[v] * per_inside;
+            const double x = (value - scale.low) / width;
+            const Rgb rgb = !(value == value) ? missing_colour : table[static_cast<std::size_t>(std::clamp(x, 0.0, 1.0) * steps)];
+            double shade = 1;
+            if (lit) {
+                const Vec3 n(g.normals[3 * v], g.normals[3 * v + 1], g.normals[3 * v + 2]);
+                shade = shade_dark + (1 - shade_dark) * std::abs(n.dot(direction));
+            }
+            for (std::size_t k = 0; k < 3; ++k) g.rgb[3 * v + k] = static_cast<std::uint8_t>(rgb[k] * shade + 0.5);
+        }
+    });
+    g.normals = {};
+}
+
+void add_text(Sheet& sheet, double x, double y, std::string text, double size, Align align, Rgb rgb, bool bold = false) {
+    sheet.texts.push_back({x, y, std::move(text), size, align, bold, rgb});
+}
+
+void add_title(Sheet& sheet, const MapTexts& texts, const Look& look, const Layout& layout, Rgb ink) {
+    const double width = look.width - 2 * layout.margin;
+    const double top = look.height - layout.margin;
+    sheet.texts.push_back(fitted({layout.margin, top - 0.5 * layout.text, texts.title, 1.25 * layout.text, Align::left, true, ink}, width));
+    sheet.texts.push_back(fitted({layout.margin, top - 2.0 * layout.text, texts.subtitle, layout.small_text, Align::left, false, faint(ink, look.background)}, width));
+    sheet.texts.push_back(fitted({layout.margin, layout.margin * 0.5 + 0.5 * layout.small_text, texts.footnote, layout.small_text, Align::left, false, faint(ink, look.background)}, width));
+}
+
+void add_legend(Sheet& sheet, const ColourScale& scale, const FieldInfo& field, bool missing, const Look& look, const Layout& layout, Rgb ink) {
+    const double x = look.width - layout.legend_width + 0.6 * layout.text;
+    const double bar_width = 1.3 * layout.text;
+    const double bottom = layout.note_height + 3.2 * layout.text;
+    const double top = look.height - layout.title_height - 1.8 * layout.text;
+    const double height = top - bottom;
+    if (height < 3 * layout.text) return;
+    const int cells = scale.bins > 0 ? scale.bins : static_cast<int>(std::clamp(height, 16.0, 512.0));
+    for (int k = 0; k < cells; ++k) {
+        const double value = scale.low + (scale.high - scale.low) * (k + 0.5) / cells;
+        sheet.quads.push_back({{x, bottom + height * k / cells, bar_width, height / cells + 0.6}, scale.colour(value)});
+    }
+    const Rgb frame = faint(ink, look.background);
+    sheet.lines.push_back({{{x, bottom}, {x + bar_width, bottom}, {x + bar_width, top}, {x, top}, {x, bottom}}, 1.0, frame});
+    const std::vector<double> ticks = scale.high > scale.low ? nice_ticks(scale.low, scale.high, std::max(2, static_cast<int>(height / (3 * layout.text)))) : std::vector<double>{scale.low};
+    const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : 1.0;
+    for (const double tick : ticks) {
+        const double t = scale.high > scale.low ? (tick - scale.low) / (scale.high - scale.low) : 0.5;
+        const double y = bottom + t * height;
+        sheet.lines.push_back({{{x + bar_width, y}, {x + bar_width + 0.3 * layout.text, y}}, 1.0, frame});
+        add_text(sheet, x + bar_width + 0.5 * layout.text, y, tick_text(tick, step), layout.small_text, Align::left, ink);
+    }
+    const std::string unit = field.unit.name.empty() ? std::string() : fmt::format("[{}]", field.unit.name);
+    add_text(sheet, x, top + 0.9 * layout.text, unit, layout.text, Align::left, ink, true);
+    if (missing) {
+        const double y = bottom - 1.6 * layout.text;
+        sheet.quads.push_back({{x, y - 0.4 * layout.text, bar_width, 0.8 * layout.text}, missing_colour});
+        add_text(sheet, x + bar_width + 0.5 * layout.text, y, "no value", layout.small_text, Align::left, ink);
+    }
+}
+
+/// A bar of a round length, true in the whole picture since the projection is parallel.
+void add_scale_bar(Sheet& sheet, const MeshPanel& panel, const Layout& layout, Rgb ink) {
+    const double wanted = 0.22 * panel.rect.width * panel.camera.mm_per_pixel;
+    const double power = std::pow(10.0, std::floor(std::log10(wanted)));
+    double length = power;
+    for (const double factor : {2.0, 5.0}) {
+        if (factor * power <= wanted) length = factor * power;
+    }
+    const double pixels = length / panel.camera.mm_per_pixel;
+    const double x = panel.rect.x + panel.rect.width - layout.margin - pixels;
+    const double y = panel.rect.y + 0.9 * layout.text;
+    const double tick = 0.35 * layout.text;
+    sheet.lines.push_back({{{x, y + tick}, {x, y - tick}}, 1.5, ink});
+    sheet.lines.push_back({{{x, y}, {x + pixels, y}}, 1.5, ink});
+    sheet.lines.push_back({{{x + pixels, y + tick}, {x + pixels, y - tick}}, 1.5, ink});
+    add_text(sheet, x + 0.5 * pixels, y + 0.9 * layout.text, fmt::format("{:g} mm", length), layout.small_text, Align::centre, ink);
+}
+
+void add_axes(Sheet& sheet, const MeshPanel& panel, const Layout& layout, Rgb ink) {
+    const Vec2 origin(panel.rect.x + 3.2 * layout.text, panel.rect.y + 3.0 * layout.text);
+    const double length = 2.0 * layout.text;
+    for (int axis = 0; axis < 3; ++axis) {
+        const Vec3 direction = Vec3::Unit(axis);
+        const Vec2 flat(direction.dot(panel.camera.right), direction.dot(panel.camera.up));
+        if (flat.norm() < 0.15) continue;  // it points at the eye
+        static constexpr Rgb colours[3] = {{200, 40, 40}, {30, 140, 50}, {40, 80, 200}};
+        sheet.lines.push_back({{origin, origin + length * flat}, 2.0, colours[axis]});
+        const Vec2 at = origin + (length + 0.55 * layout.text) * flat.normalized() * std::max(0.5, flat.norm());
+        add_text(sheet, at.x(), at.y(), std::string(1, "XYZ"[axis]), layout.small_text, Align::centre, ink);
+    }
+}
+
+void add_ring(Sheet& sheet, const Vec2& at, double radius, double width, Rgb rgb) {
+    FlatLine ring{{}, width, rgb};
+    constexpr int pieces = 48;
+    for (int k = 0; k <= pieces; ++k) {
+        const double a = 2 * std::numbers::pi * k / pieces;
+        ring.points.emplace_back(at + radius * Vec2(std::cos(a), std::sin(a)));
+    }
+    sheet.lines.push_back(std::move(ring));
+}
+
+/// Black on a white edge is seen on every colour.
+void add_marks(Sheet& sheet, const MapPanel& map, const MeshPanel& panel, const Layout& layout) {
+    const Vec2 corner(panel.rect.x, panel.rect.y);
+    const auto pixel = [&](PointIndex i) -> Vec2 {
+        const Vec3 p = map.surface->positions[i].cast<double>() + map.surface->positions.origin;
+        return corner + panel.camera.pixel(p);
+    };
+    const auto inside = [&](const Vec2& p) {
+        return p.x() >= corner.x() && p.y() >= corner.y() && p.x() <= corner.x() + panel.rect.width && p.y() <= corner.y() + panel.rect.height;
+    };
+    constexpr Rgb white{255, 255, 255};
+    constexpr Rgb black{0, 0, 0};
+    const auto label = [&](Vec2 at, const std::string& text) {
+        if (text.empty()) return;
+        FlatText flat{at.x() + 0.9 * layout.text, at.y() + 0.9 * layout.text, text, layout.small_text, Align::left, true, black};
+        const double width = text_width(flat);
+        const double right = corner.x() + panel.rect.width;
+        if (flat.x + width > right) flat.x = std::max(corner.x(), at.x() - 0.9 * layout.text - width);
+        sheet.quads.push_back({{flat.x - 2, flat.y - 0.65 * layout.small_text, width + 4, 1.3 * layout.small_text}, white});
+        sheet.texts.push_back(std::move(flat));
+    };
+    for (const LineMark& mark : map.lines) {
+        bool labelled = false;
+        for (const PointRange& range : mark.points) {
+            FlatLine line{{}, 0.35 * layout.text, white};
+            for (PointIndex i = range.first; i <= range.last; ++i) {
+                const Vec2 p = pixel(i);
+                if (p.allFinite() && inside(p) && (line.points.empty() || (p - line.points.back()).norm() >= 0.5)) line.points.push_back(p);
+            }
+            if (line.points.empty()) continue;
+            if (line.points.size() == 1) line.points.push_back(line.points[0] + Vec2(0.5, 0));
+            const Vec2 first = line.points.front();
+            sheet.lines.push_back(line);
+            line.width = 0.17 * layout.text;
+            line.rgb = black;
+            sheet.lines.push_back(std::move(line));
+            // The first point of a marked line is ringed: there the line begins.
+            add_ring(sheet, first, 0.45 * layout.text, 0.15 * layout.text, black);
+            if (!labelled) label(first, mark.label);
+            labelled = true;
+        }
+    }
+    for (const PointMark& mark : map.points) {
+        const Vec2 p = pixel(mark.point);
+        if (!p.allFinite() || !inside(p)) continue;
+        add_ring(sheet, p, 0.75 * layout.text, 0.36 * layout.text, white);
+        add_ring(sheet, p, 0.75 * layout.text, 0.18 * layout.text, black);
+        label(p, mark.label);
+    }
+}
+
+}  // namespace
+
+Box3 bounds_of(const ClSurface& surface, const Box3& inside) {
+    Eigen::AlignedBox3f box;
+    const Vec3 origin = surface.positions.origin;
+    for (const Pass& pass : surface.passes) {
+        if (pass.kind == PassKind::rapid) continue;
+        for (PointIndex i = pass.first; i <= pass.last; ++i) {
+            const Eigen::Vector3f p = surface.positions[i];
+            if (!inside.isEmpty() && !inside.contains(p.cast<double>() + origin)) continue;
+            box.extend(p);
+        }
+    }
+    if (box.isEmpty()) return {};
+    return {box.min().cast<double>() + origin, box.max().cast<double>() + origin};
+}
+
+Image draw_map(const std::vector<MapPanel>& panels, const ColourScale& scale, const MapTexts& texts, const Look& look) {
+    const Layout layout(look);
+    const Rgb ink = ink_for(look.background);
+    Sheet sheet;
+    sheet.width = look.width;
+    sheet.height = look.height;
+    sheet.background = look.background;
+    Rect area{0, 0, look.width - layout.legend_width, static_cast<double>(look.height)};
+    if (look.legend) {
+        area.y = layout.note_height;
+        area.height -= layout.note_height + layout.title_height;
+    }
+    Box3 bounds;
+    for (const MapPanel& map : panels) bounds.extend(bounds_of(*map.surface, look.box));
+    if (!look.box.isEmpty()) bounds = look.box;
+    bool missing = false;
+    const auto count = static_cast<double>(panels.size());
+    for (std::size_t k = 0; k < panels.size(); ++k) {
+        const MapPanel& map = panels[k];
+        MeshPanel panel;
+        panel.rect = {std::round(area.x + area.width * static_cast<double>(k) / count), std::round(area.y),
+                      std::floor(area.width / count), std::floor(area.height)};
+        // Each panel shows the same part at the same scale; a caption has its own line.
+        const double caption = map.caption.empty() ? 0 : 1.6 * layout.text;
+        panel.rect.height = std::max(1.0, panel.rect.height - caption);
+        panel.rect.width = std::max(1.0, panel.rect.width);
+        panel.camera = camera_for(look.view, bounds, static_cast<int>(panel.rect.width), static_cast<int>(panel.rect.height), look.zoom);
+        DetailRequest request;
+        request.projection = panel.camera.projection();
+        request.width = panel.camera.width;
+        request.height = panel.camera.height;
+        request.style = look.style;
+        request.box = look.box;
+        Detail detail = visible_detail(*map.surface, map.field->values, request);
+        missing = missing || std::any_of(detail.values.begin(), detail.values.end(), [](float v) { return !(v == v); });
+        paint(detail, scale, map.field->info.unit.per_inside, panel.camera);
+        panel.geometry = std::move(detail.geometry);
+        add_marks(sheet, map, panel, layout);
+        if (caption > 0) {
+            add_text(sheet, panel.rect.x + layout.margin, panel.rect.y + panel.rect.height + 0.5 * caption, map.caption, layout.text, Align::left, ink, true);
+        }
+        if (look.legend) {
+            add_axes(sheet, panel, layout, ink);
+            if (k + 1 == panels.size()) add_scale_bar(sheet, panel, layout, ink);
+        }
+        sheet.panels.push_back(std::move(panel));
+    }
+    if (look.legend) {
+        add_title(sheet, texts, look, layout, ink);
+        add_legend(sheet, scale, panels.front().field->info, missing, look, layout, ink);
+    }
+    return draw(sheet, look.gl, look.supersample);
+}
+
+}  // namespace clsurf::viz

@@ -1,0 +1,61 @@
+#pragma once
+// Scene: a quality map on a sheet: panels, title, legend, marks, scale bar, axes. To draw another
+// thing, add a function to scene.cpp that puts it on the sheet.
+
+#include <string>
+#include <vector>
+
+#include "field/field.h"
+#include "surface/cl_surface.h"
+#include "viz/canvas.h"
+#include "viz/detail.h"
+#include "viz/view.h"
+
+namespace clsurf::viz {
+
+/// How the picture is to look: the options of `render`.
+struct Look {
+    int width = 1600, height = 1200;
+    View view;
+    Zoom zoom;
+    Box3 box;  ///< empty: everything
+    Style style = Style::surface;
+    Rgb background{255, 255, 255};
+    bool legend = true;
+    std::string gl = "osmesa";
+    int supersample = 2;
+};
+
+/// A point to be ringed, or the points of a line to be drawn bold.
+struct PointMark {
+    PointIndex point = 0;
+    std::string label;
+};
+struct LineMark {
+    std::vector<PointRange> points;
+    std::string label;
+};
+
+/// One map: what one log shows.
+struct MapPanel {
+    const ClSurface* surface = nullptr;
+    const Field* field = nullptr;
+    std::string caption;  ///< "before", "after"; empty where there is one panel
+    std::vector<PointMark> points;
+    std::vector<LineMark> lines;
+};
+
+struct MapTexts {
+    std::string title;      ///< "Path speed, commanded surface"
+    std::string subtitle;   ///< program · log · counts
+    std::string footnote;   ///< window, range
+};
+
+/// Cutting points inside a box (empty: all) [mm].
+[[nodiscard]] Box3 bounds_of(const ClSurface& surface, const Box3& inside);
+
+/// Draws one map, or two side by side on one scale. Throws SystemError, UsageError.
+[[nodiscard]] Image draw_map(const std::vector<MapPanel>& panels, const ColourScale& scale,
+                             const MapTexts& texts, const Look& look);
+
+}  // namespace clsurf::viz
