@@ -36,5 +36,6 @@ struct LogFormat {
 
 /// Opens a log of any format. Throws InputError; unknown content names the formats tried.
 [[nodiscard]] Log open_log(const std::string& path, const LogOptions& options);
+[[nodiscard]] Log open_log(const Source& source, const LogOptions& options);
 
 }  // namespace clsurf::io

@@ -38,8 +38,9 @@ const LogFormat* recognise_log(const Source& source, const LogOptions& options) 
     return best;
 }
 
-Log open_log(const std::string& path, const LogOptions& options) {
-    const Source source = map_file(path);
+Log open_log(const std::string& path, const LogOptions& options) { return open_log(map_file(path), options); }
+
+Log open_log(const Source& source, const LogOptions& options) {
     if (source.bytes.empty()) throw InputError(Place::of_file(source.name), "is empty, expected a log");
     const LogFormat* format = recognise_log(source, options);
     if (format == nullptr) {

@@ -37,6 +37,10 @@ std::optional<SourceText> load_beside(const std::filesystem::path& folder, const
 }  // namespace
 
 Program read_program(const std::string& path, const std::string& dialect, bool block_delete) {
+    return read_program(map_file(path), dialect, block_delete);
+}
+
+Program read_program(const Source& source, const std::string& dialect, bool block_delete) {
     InterpreterOptions options;
     options.block_delete = block_delete;
     if (!dialect.empty()) {
@@ -47,10 +51,10 @@ Program read_program(const std::string& path, const std::string& dialect, bool b
             throw UsageError("unknown dialect '" + dialect + "'", did_you_mean(dialect, names));
         }
     }
-    const std::filesystem::path folder = path == "-" ? std::filesystem::path(".") : std::filesystem::path(path).parent_path();
+    const std::filesystem::path folder = std::filesystem::path(source.name).parent_path();
     options.load = [folder](const std::string& name) { return load_beside(folder.empty() ? "." : folder, name); };
-    SourceText text = source_text(path);
-    if (text.text().empty()) throw InputError(Place::of_file(text.name()), "is empty, expected an NC program");
+    if (source.bytes.empty()) throw InputError(Place::of_file(source.name), "is empty, expected an NC program");
+    SourceText text(source.name, source.text(), source.keep_alive);
     return parse_program(std::move(text), options);
 }
 

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "io/mapped_file.h"
 #include "program/program.h"
 
 namespace clsurf::io {
@@ -11,6 +12,8 @@ namespace clsurf::io {
 /// that the program calls by name are looked for beside it.
 /// Throws InputError (unreadable, empty, wrong arc, endless loop), UsageError (unknown dialect).
 [[nodiscard]] Program read_program(const std::string& path, const std::string& dialect,
+                                   bool block_delete = true);
+[[nodiscard]] Program read_program(const Source& source, const std::string& dialect,
                                    bool block_delete = true);
 
 }  // namespace clsurf::io

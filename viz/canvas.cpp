@@ -1,5 +1,7 @@
 #include "viz/canvas.h"
 
+#include <array>
+
 #include <vtkActor.h>
 #include <vtkActor2D.h>
 #include <vtkCamera.h>
@@ -121,8 +123,9 @@ void add_quads(vtkRenderer* renderer, const std::vector<FlatQuad>& quads, int su
 }
 
 /// Lines as quads along their steps: llvmpipe's wide lines have no joints.
-void add_lines(vtkRenderer* renderer, const std::vector<FlatLine>& lines, int supersample) {
+void add_lines(vtkRenderer* renderer, const std::vector<FlatLine>& lines, bool under, int supersample) {
     for (const FlatLine& line : lines) {
+        if (line.under != under) continue;
         vtkNew<vtkPoints> points;
         vtkNew<vtkCellArray> polygons;
         for (std::size_t i = 1; i < line.points.size(); ++i) {
@@ -191,7 +194,7 @@ Image draw(const Sheet& sheet, const std::string& gl, int supersample) {
     GlWindow gl_window(gl, width, height);
     vtkRenderWindow* window = gl_window.window();
     window->SetDPI(dpi);
-    window->SetNumberOfLayers(3);
+    window->SetNumberOfLayers(6);
     const auto background = [&](vtkRenderer* renderer) {
         renderer->SetBackground(sheet.background[0] / 255.0, sheet.background[1] / 255.0, sheet.background[2] / 255.0);
     };
@@ -210,12 +213,16 @@ Image draw(const Sheet& sheet, const std::string& gl, int supersample) {
         place_camera(renderer, panel);
         renderers.push_back(renderer);
     }
-    vtkNew<vtkRenderer> flat;
-    flat->SetLayer(2);
-    window->AddRenderer(flat);
-    add_quads(flat, sheet.quads, supersample);
-    add_lines(flat, sheet.lines, supersample);
-    add_texts(flat, sheet.texts, supersample);
+    // Flat things have no depth among each other: each kind is a layer of its own.
+    std::array<vtkNew<vtkRenderer>, 4> flat;
+    for (int k = 0; k < 4; ++k) {
+        flat[static_cast<std::size_t>(k)]->SetLayer(2 + k);
+        window->AddRenderer(flat[static_cast<std::size_t>(k)]);
+    }
+    add_quads(flat[0], sheet.quads, supersample);
+    add_lines(flat[1], sheet.lines, true, supersample);
+    add_lines(flat[2], sheet.lines, false, supersample);
+    add_texts(flat[3], sheet.texts, supersample);
     return shrink(gl_window.render(), supersample);
 }
 

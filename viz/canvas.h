@@ -39,6 +39,7 @@ struct FlatLine {
     std::vector<Vec2> points;
     double width = 1;
     Rgb rgb{0, 0, 0};
+    bool under = false;  ///< below the other lines: the light edge of a dark one
 };
 
 struct MeshPanel {
@@ -49,7 +50,7 @@ struct MeshPanel {
     double point_size = 2;
 };
 
-/// Everything of a picture. Quads are drawn first, then lines, then texts, all above the meshes.
+/// Everything of a picture. Quads are drawn first, then lines (those that are under others first), then texts.
 struct Sheet {
     int width = 0, height = 0;
     Rgb background{255, 255, 255};

@@ -15,6 +15,7 @@ using Vec3f = Eigen::Vector3f;
 
 constexpr PointIndex part_points = 65536;
 constexpr float margin = 4.0F;          ///< [px] round the picture that is kept
+constexpr int longest_turn = 512;          ///< vertices from a link to where its passes see each other
 constexpr std::int64_t longest_fan = 256;  ///< vertices of a neighbour that one step may span
 
 /// Vertices of a part of a pass.
@@ -139,7 +140,46 @@ public:
         }
     }
 
+    /// Fills the turn from one pass to the next: a zigzag's end, from the last place where the passes
+    /// see each other to the link's outermost vertex.
+    void close_turn(const Pass& link, Column<std::uint32_t>& triangles) const {
+        const std::int64_t before = first_vertex_at(link.first);
+        std::int64_t b = first_vertex_at(link.last + 1);
+        const auto count = static_cast<std::int64_t>(v_.points.size());
+        // Gaps are filled from their later pass, so that is where the last band ended.
+        for (int looked = 0; b < count && looked < longest_turn; ++b, ++looked) {
+            if (b > 0 && v_.joined[static_cast<std::size_t>(b)] == 0) return;
+            for (const Side side : {Side::left, Side::right}) {
+                if (!s_.neighbours.has(side, point(b))) continue;
+                const PointIndex m = s_.neighbours.neighbour(side, point(b));
+                if (m >= link.first) continue;
+                const std::int64_t a = vertex_of(m);
+                if (a < 0 || a >= before || before - a > longest_turn) continue;
+                zip(a, b, triangles);
+                return;
+            }
+        }
+    }
+
 private:
+    [[nodiscard]] std::int64_t first_vertex_at(PointIndex i) const {
+        return std::lower_bound(v_.points.begin(), v_.points.end(), i) - v_.points.begin();
+    }
+
+    /// Triangles between the vertices from a on and those from b back, until they meet.
+    void zip(std::int64_t a, std::int64_t b, Column<std::uint32_t>& triangles) const {
+        for (std::int64_t k = a + 1; k <= b; ++k) {
+            if (v_.joined[static_cast<std::size_t>(k)] == 0) return;
+        }
+        while (b - a >= 2) {
+            add(triangles, static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(a + 1), static_cast<std::uint32_t>(b));
+            ++a;
+            if (b - a < 2) break;
+            add(triangles, static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b - 1), static_cast<std::uint32_t>(b));
+            --b;
+        }
+    }
+
     [[nodiscard]] PointIndex point(std::int64_t vertex) const {
         return v_.points[static_cast<std::size_t>(vertex)];
     }
@@ -270,6 +310,9 @@ Detail visible_detail(const ClSurface& surface, std::span<const float> values,
         for (std::size_t piece = 0; piece < pieces; ++piece) {
             append(geometry.triangles, triangles[piece]);
             append(geometry.segments, segments[piece]);
+        }
+        for (const Pass& pass : surface.passes) {
+            if (pass.kind == PassKind::link) bander.close_turn(pass, geometry.triangles);
         }
         put_normals(geometry);
     } else if (request.style == Style::lines) {

@@ -22,7 +22,7 @@ struct Layout {
         small_text = std::max(8.0, 0.78 * text);
         margin = 0.8 * text;
         title_height = 3.6 * text;
-        note_height = 2.2 * small_text;
+        note_height = 3.0 * small_text;
         legend_width = look.legend ? 7.2 * text : 0;
     }
 };
@@ -91,13 +91,13 @@ void add_title(Sheet& sheet, const MapTexts& texts, const Look& look, const Layo
     const double top = look.height - layout.margin;
     sheet.texts.push_back(fitted({layout.margin, top - 0.5 * layout.text, texts.title, 1.25 * layout.text, Align::left, true, ink}, width));
     sheet.texts.push_back(fitted({layout.margin, top - 2.0 * layout.text, texts.subtitle, layout.small_text, Align::left, false, faint(ink, look.background)}, width));
-    sheet.texts.push_back(fitted({layout.margin, layout.margin * 0.5 + 0.5 * layout.small_text, texts.footnote, layout.small_text, Align::left, false, faint(ink, look.background)}, width));
+    sheet.texts.push_back(fitted({layout.margin, layout.margin * 0.5 + 0.5 * layout.small_text, texts.footnote, layout.small_text, Align::left, false, faint(ink, look.background)}, 0.68 * (look.width - layout.legend_width) - layout.margin));
 }
 
 void add_legend(Sheet& sheet, const ColourScale& scale, const FieldInfo& field, bool missing, const Look& look, const Layout& layout, Rgb ink) {
     const double x = look.width - layout.legend_width + 0.6 * layout.text;
     const double bar_width = 1.3 * layout.text;
-    const double bottom = layout.note_height + 3.2 * layout.text;
+    const double bottom = layout.note_height + 6.4 * layout.text;
     const double top = look.height - layout.title_height - 1.8 * layout.text;
     const double height = top - bottom;
     if (height < 3 * layout.text) return;
@@ -110,16 +110,24 @@ void add_legend(Sheet& sheet, const ColourScale& scale, const FieldInfo& field, 
     sheet.lines.push_back({{{x, bottom}, {x + bar_width, bottom}, {x + bar_width, top}, {x, top}, {x, bottom}}, 1.0, frame});
     const std::vector<double> ticks = scale.high > scale.low ? nice_ticks(scale.low, scale.high, std::max(2, static_cast<int>(height / (3 * layout.text)))) : std::vector<double>{scale.low};
     const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : 1.0;
+    // The ends of the range stand there exactly; ticks too near to them give way.
+    const double near = 1.3 * layout.small_text / height * (scale.high - scale.low);
+    for (const double end : {scale.low, scale.high}) {
+        if (!(scale.high > scale.low) && end == scale.high) continue;
+        const double y = end == scale.low ? bottom : top;
+        add_text(sheet, x + bar_width + 0.5 * layout.text, y, tick_text(end, step / 10), layout.small_text, Align::left, ink, true);
+    }
     for (const double tick : ticks) {
+        if (tick - scale.low < near || scale.high - tick < near) continue;
         const double t = scale.high > scale.low ? (tick - scale.low) / (scale.high - scale.low) : 0.5;
         const double y = bottom + t * height;
         sheet.lines.push_back({{{x + bar_width, y}, {x + bar_width + 0.3 * layout.text, y}}, 1.0, frame});
         add_text(sheet, x + bar_width + 0.5 * layout.text, y, tick_text(tick, step), layout.small_text, Align::left, ink);
     }
     const std::string unit = field.unit.name.empty() ? std::string() : fmt::format("[{}]", field.unit.name);
-    add_text(sheet, x, top + 0.9 * layout.text, unit, layout.text, Align::left, ink, true);
+    add_text(sheet, x, top + 1.5 * layout.text, unit, layout.text, Align::left, ink, true);
     if (missing) {
-        const double y = bottom - 1.6 * layout.text;
+        const double y = bottom - 1.5 * layout.text;
         sheet.quads.push_back({{x, y - 0.4 * layout.text, bar_width, 0.8 * layout.text}, missing_colour});
         add_text(sheet, x + bar_width + 0.5 * layout.text, y, "no value", layout.small_text, Align::left, ink);
     }
@@ -135,7 +143,7 @@ void add_scale_bar(Sheet& sheet, const MeshPanel& panel, const Layout& layout, R
     }
     const double pixels = length / panel.camera.mm_per_pixel;
     const double x = panel.rect.x + panel.rect.width - layout.margin - pixels;
-    const double y = panel.rect.y + 0.9 * layout.text;
+    const double y = 0.55 * layout.margin + 0.2 * layout.text;
     const double tick = 0.35 * layout.text;
     sheet.lines.push_back({{{x, y + tick}, {x, y - tick}}, 1.5, ink});
     sheet.lines.push_back({{{x, y}, {x + pixels, y}}, 1.5, ink});
@@ -144,7 +152,8 @@ void add_scale_bar(Sheet& sheet, const MeshPanel& panel, const Layout& layout, R
 }
 
 void add_axes(Sheet& sheet, const MeshPanel& panel, const Layout& layout, Rgb ink) {
-    const Vec2 origin(panel.rect.x + 3.2 * layout.text, panel.rect.y + 3.0 * layout.text);
+    // Below the legend, where no map can be under it.
+    const Vec2 origin(panel.rect.x + panel.rect.width + 0.42 * layout.legend_width, 3.4 * layout.text);
     const double length = 2.0 * layout.text;
     for (int axis = 0; axis < 3; ++axis) {
         const Vec3 direction = Vec3::Unit(axis);
@@ -157,8 +166,8 @@ void add_axes(Sheet& sheet, const MeshPanel& panel, const Layout& layout, Rgb in
     }
 }
 
-void add_ring(Sheet& sheet, const Vec2& at, double radius, double width, Rgb rgb) {
-    FlatLine ring{{}, width, rgb};
+void add_ring(Sheet& sheet, const Vec2& at, double radius, double width, Rgb rgb, bool under) {
+    FlatLine ring{{}, width, rgb, under};
     constexpr int pieces = 48;
     for (int k = 0; k <= pieces; ++k) {
         const double a = 2 * std::numbers::pi * k / pieces;
@@ -191,7 +200,7 @@ void add_marks(Sheet& sheet, const MapPanel& map, const MeshPanel& panel, const 
     for (const LineMark& mark : map.lines) {
         bool labelled = false;
         for (const PointRange& range : mark.points) {
-            FlatLine line{{}, 0.35 * layout.text, white};
+            FlatLine line{{}, 0.35 * layout.text, white, true};
             for (PointIndex i = range.first; i <= range.last; ++i) {
                 const Vec2 p = pixel(i);
                 if (p.allFinite() && inside(p) && (line.points.empty() || (p - line.points.back()).norm() >= 0.5)) line.points.push_back(p);
@@ -202,9 +211,10 @@ void add_marks(Sheet& sheet, const MapPanel& map, const MeshPanel& panel, const 
             sheet.lines.push_back(line);
             line.width = 0.17 * layout.text;
             line.rgb = black;
+            line.under = false;
             sheet.lines.push_back(std::move(line));
             // The first point of a marked line is ringed: there the line begins.
-            add_ring(sheet, first, 0.45 * layout.text, 0.15 * layout.text, black);
+            add_ring(sheet, first, 0.45 * layout.text, 0.15 * layout.text, black, false);
             if (!labelled) label(first, mark.label);
             labelled = true;
         }
@@ -212,8 +222,8 @@ void add_marks(Sheet& sheet, const MapPanel& map, const MeshPanel& panel, const 
     for (const PointMark& mark : map.points) {
         const Vec2 p = pixel(mark.point);
         if (!p.allFinite() || !inside(p)) continue;
-        add_ring(sheet, p, 0.75 * layout.text, 0.36 * layout.text, white);
-        add_ring(sheet, p, 0.75 * layout.text, 0.18 * layout.text, black);
+        add_ring(sheet, p, 0.75 * layout.text, 0.36 * layout.text, white, true);
+        add_ring(sheet, p, 0.75 * layout.text, 0.18 * layout.text, black, false);
         label(p, mark.label);
     }
 }
@@ -277,8 +287,10 @@ Image draw_map(const std::vector<MapPanel>& panels, const ColourScale& scale, co
             add_text(sheet, panel.rect.x + layout.margin, panel.rect.y + panel.rect.height + 0.5 * caption, map.caption, layout.text, Align::left, ink, true);
         }
         if (look.legend) {
-            add_axes(sheet, panel, layout, ink);
-            if (k + 1 == panels.size()) add_scale_bar(sheet, panel, layout, ink);
+            if (k + 1 == panels.size()) {
+                add_axes(sheet, panel, layout, ink);
+                add_scale_bar(sheet, panel, layout, ink);
+            }
         }
         sheet.panels.push_back(std::move(panel));
     }

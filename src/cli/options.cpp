@@ -109,6 +109,20 @@ std::vector<double> parse_numbers(const std::string& text, const std::string& op
     return numbers;
 }
 
+std::vector<double> read_size(const std::string& text) {
+    const std::size_t x = text.find('x');
+    const std::string list = x == std::string::npos ? text : text.substr(0, x) + "," + text.substr(x + 1);
+    const std::vector<double> size = parse_numbers(list, "--size", 2);
+    constexpr double least = 64;
+    constexpr double most = 8192;
+    for (const double n : size) {
+        if (n < least || n > most || n != std::floor(n)) {
+            throw UsageError("--size: '" + text + "' is not WIDTHxHEIGHT in whole pixels, 64 to 8192");
+        }
+    }
+    return size;
+}
+
 void print(const Diagnostics& diagnostics, const po::variables_map& values) {
     const CommonOptions common = read_common(values);
     for (const Diagnostic& diagnostic : diagnostics.summary()) {

@@ -71,22 +71,11 @@ RangeRule parse_range(const std::string& text) {
     return rule;
 }
 
-void parse_size(const std::string& text, viz::Look& look) {
-    const std::size_t x = text.find('x');
-    const std::string list = x == std::string::npos ? text : text.substr(0, x) + "," + text.substr(x + 1);
-    const std::vector<double> numbers = parse_numbers(list, "--size", 2);
-    constexpr double least = 64;
-    constexpr double most = 8192;
-    for (const double n : numbers) {
-        if (n < least || n > most || n != static_cast<int>(n)) throw UsageError(fmt::format("--size: {:g} is not a whole number of pixels in {:g} … {:g}", n, least, most));
-    }
-    look.width = static_cast<int>(numbers[0]);
-    look.height = static_cast<int>(numbers[1]);
-}
-
 viz::Look read_look(const po::variables_map& values) {
     viz::Look look;
-    parse_size(text_of(values, "size", "1600x1200"), look);
+    const std::vector<double> size = read_size(text_of(values, "size", "1600x1200"));
+    look.width = static_cast<int>(size[0]);
+    look.height = static_cast<int>(size[1]);
     look.view = viz::parse_view(text_of(values, "view", "iso"));
     const std::string style = text_of(values, "style", "surface");
     if (style == "surface") look.style = viz::Style::surface;

@@ -39,7 +39,13 @@ struct Subcommand {
 [[nodiscard]] const Subcommand& find_subcommand(std::string_view name);
 
 // One function a subcommand, each in the file of its name.
+[[nodiscard]] Subcommand compare_subcommand();
+[[nodiscard]] Subcommand convert_subcommand();
+[[nodiscard]] Subcommand export_subcommand();
+[[nodiscard]] Subcommand info_subcommand();
 [[nodiscard]] Subcommand moves_subcommand();
+[[nodiscard]] Subcommand plot_subcommand();
+[[nodiscard]] Subcommand query_subcommand();
 [[nodiscard]] Subcommand render_subcommand();
 [[nodiscard]] Subcommand help_subcommand();
 [[nodiscard]] Subcommand manual_subcommand();

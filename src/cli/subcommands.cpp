@@ -9,7 +9,13 @@ namespace clsurf::cli {
 std::span<const Subcommand> subcommands() {
     static const std::vector<Subcommand> table{
         render_subcommand(),
+        query_subcommand(),
+        info_subcommand(),
         moves_subcommand(),
+        plot_subcommand(),
+        export_subcommand(),
+        convert_subcommand(),
+        compare_subcommand(),
         help_subcommand(),
         manual_subcommand(),
     };

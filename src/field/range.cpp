@@ -50,7 +50,7 @@ ShownRange find_range(const Field& field, const Passes& passes, const RangeRule&
         range.low = -most;
         range.high = most;
     }
-    range.note = fmt::format("range: {:g}th to {:g}th percentile of {} cutting points{}", p_low, p_high, cutting,
+    range.note = fmt::format("range: percentiles {:g} to {:g} of {} cutting points{}", p_low, p_high, cutting,
                              automatic && field.info.scale == FieldScale::diverging ? ", even about 0" : "");
     return range;
 }

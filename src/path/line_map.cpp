@@ -217,6 +217,19 @@ LineAgreement check_lines(const Trajectory& path, const Program& program, const 
     return agreement;
 }
 
+double check_line_at(const Trajectory& path, const Program& program, const LineMap& map, PointIndex point) {
+    const LineNumber line = map.line_at(point);
+    PointIndex i = point;
+    while (i > 0 && point - i < checked_stretch && map.line_at(i) == line) --i;
+    const Toolpath toolpath(program.motions, path.at(0));
+    return allowed_distance(toolpath, map, map.line_at(i), line, path.at(point));
+}
+
+double off_confidence(double distance) {
+    if (!(distance == distance)) return 0.0;
+    return distance <= agreeing_distance ? 1.0 : agreeing_distance / distance;
+}
+
 LineMap map_lines(const Trajectory& path, const Log& log, const Program& program, bool use_channel,
                   Diagnostics& diagnostics) {
     const Channel* channel = use_channel ? log.find("line") : nullptr;

@@ -90,6 +90,13 @@ struct LineAgreement {
 [[nodiscard]] LineAgreement check_lines(const Trajectory& path, const Program& program,
                                         const LineMap& map);
 
+/// How far a point lies from what its line allows [mm], as check_lines() has it; NaN: no line.
+[[nodiscard]] double check_line_at(const Trajectory& path, const Program& program,
+                                   const LineMap& map, PointIndex point);
+
+/// Confidence in a line whose point lies `distance` [mm] off it: 1 within a finishing tolerance.
+[[nodiscard]] double off_confidence(double distance);
+
 /// The lines of a log: its channel where it has one (and `use_channel`), an alignment otherwise.
 /// Adds diagnostics `map.…` about disagreement.
 [[nodiscard]] LineMap map_lines(const Trajectory& path, const Log& log, const Program& program,

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double turning_cosine = -0.5;   ///< chords that enclose more than 120° turn back
 constexpr double chord_step_overs = 1.5;  ///< way of a chord
+constexpr float corner_play = 1e-6F;      ///< [mm²] of reach times chord; less is no progress
 constexpr double shortest_pass = 2.0;     ///< step-overs of way; a shorter piece belongs to its link
 constexpr float vertical_slope = 0.02F;   ///< horizontal per vertical way of an approach
 constexpr float vertical_play = 0.005F;   ///< [mm]
@@ -115,6 +116,41 @@ void append_cleaned(Passes& passes, const Positions& p, const Passes& pieces, do
     }
 }
 
+/// The point of [from, to] that lies farthest in a direction: the first such from `from` on.
+PointIndex farthest(const Positions& p, PointIndex from, PointIndex to, const Eigen::Vector3f& direction) {
+    PointIndex best = from;
+    float most = 0;
+    const PointIndex step = to >= from ? 1 : -1;
+    for (PointIndex i = from; i != to + step; i += step) {
+        const float way = (p[i] - p[from]).dot(direction);
+        if (way > most + corner_play) {
+            most = way;
+            best = i;
+        }
+    }
+    return best;
+}
+
+/// Chords see a turn before it comes. The pass itself ends at its outermost point, the next begins
+/// at its own; what lies between is the link.
+void tighten_links(Passes& passes, const Positions& p, double way) {
+    for (std::size_t k = 1; k + 1 < passes.size(); ++k) {
+        Pass& link = passes[k];
+        Pass& before = passes[k - 1];
+        Pass& after = passes[k + 1];
+        if (link.kind != PassKind::link || before.kind != PassKind::cut || after.kind != PassKind::cut) continue;
+        const Chords arriving(p, {before.first, link.first}, link.first, way);
+        const Chords leaving(p, {link.last, after.last}, link.last, way);
+        const PointIndex end = farthest(p, link.first, link.last, p[link.first] - p[arriving.behind()]);
+        const PointIndex begin = farthest(p, link.last, link.first, p[link.last] - p[leaving.ahead()]);
+        if (end >= begin) continue;  // no way between the corners: leave it as it was seen
+        before.last = end;
+        link.first = end + 1;
+        link.last = std::max(end + 1, begin - 1);
+        after.first = link.last + 1;
+    }
+}
+
 }  // namespace
 
 Passes find_passes(const Positions& positions, const Passes& runs, double step_over) {
@@ -142,6 +178,7 @@ Passes find_passes(const Positions& positions, const Passes& runs, double step_o
         }
         append_cleaned(passes, positions, pieces, shortest_pass * step_over);
     }
+    tighten_links(passes, positions, way);
     return passes;
 }
 

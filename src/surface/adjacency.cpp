@@ -16,12 +16,13 @@ using Vec3f = Eigen::Vector3f;
 
 // All in step-overs, after docs/design/surface.md.
 constexpr float nearest_neighbour = 0.2F;   ///< nearer is the same pass cut again
-constexpr float farthest_neighbour = 1.6F;
+constexpr float usual_neighbour = 1.6F;      ///< farther, a nearer one may have begun: it is sought
+constexpr float farthest_neighbour = 4.0F;   ///< on steep flanks passes are so far apart
 constexpr float along_play = 0.35F;         ///< how far a foot may lie along the feed
 constexpr double direction_chord = 0.75;    ///< way of the chords that give the feed direction
-constexpr double grid_cell = 3.0;
-constexpr double search_again = 1.0;        ///< way without a neighbour after which it is sought anew
-constexpr float own_way = 2.5F;             ///< the way to a neighbour is this many distances or more
+constexpr double grid_cell = 4.0;
+constexpr double search_again = 0.25;       ///< way without a neighbour after which it is sought anew
+constexpr float own_way = 1.7F;             ///< the way to a neighbour is this many distances or more
 constexpr float running_along = 0.8660F;    ///< cos 30°
 constexpr PointIndex part_points = 65536;   ///< of a pass, walked by one thread
 
@@ -110,12 +111,13 @@ private:
                     f.since = search_again;  // seek at once
                 }
             }
-            search = search || (f.point < 0 && f.since >= search_again);
+            const bool wanted = f.point < 0 || (p_[f.point] - across.here).norm() > usual_neighbour * step_over_;
+            search = search || (wanted && f.since >= search_again);
         }
         if (!search) return;
         seek(across, i, followers);
         for (Follower& f : followers) {
-            if (f.point < 0 && f.since >= search_again) f.since = 0;
+            if (f.since >= search_again) f.since = 0;
         }
     }
 
@@ -178,7 +180,11 @@ private:
 
     /// Looks for the nearest neighbours of the lost sides in the grid.
     void seek(const Across& across, PointIndex i, std::array<Follower, 2>& followers) const {
+        // A follower that is not lost gives way only to a nearer neighbour.
         std::array<float, 2> best{1e30F, 1e30F};
+        for (std::size_t s = 0; s < 2; ++s) {
+            if (followers[s].point >= 0) best[s] = across.of(p_[followers[s].point]).norm() - 0.1F * step_over_;
+        }
         std::array<Follower, 2> found;
         grid_.for_each_near(across.here, [&](const WayGrid::Entry& entry) {
             const PointRange pass{passes_[static_cast<std::size_t>(entry.pass)].first,
@@ -187,14 +193,14 @@ private:
             const Eigen::Vector2f offset = across.of(p_[n]);
             const Side side = side_of(offset);
             const auto s = static_cast<std::size_t>(side);
-            if (followers[s].point >= 0 || offset.norm() >= best[s]) return;
+            if (offset.norm() >= best[s]) return;
             if (!valid(across, n, side) || !parallel(across, n, pass)) return;
             if (!elsewhere(i, n)) return;
             best[s] = offset.norm();
             found[s] = {n, pass, 0};
         });
         for (std::size_t s = 0; s < 2; ++s) {
-            if (followers[s].point < 0 && found[s].point >= 0) followers[s] = found[s];
+            if (found[s].point >= 0) followers[s] = found[s];
         }
     }
 

@@ -1,0 +1,93 @@
+#include "io/json_text.h"
+
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "core/units.h"
+
+namespace clsurf::io {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string dump(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+/// JSON has no NaN and no infinity.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json vector(const Vec3& v) { return Json::array({number(v.x()), number(v.y()), number(v.z())}); }
+
+Json list(const Diagnostics& diagnostics) {
+    Json all = Json::array();
+    for (const Diagnostic& d : diagnostics.summary()) {
+        Json entry{{"severity", name_of(d.severity)}, {"code", d.code}, {"where", d.where.text()}, {"text", d.text}};
+        if (!d.hint.empty()) entry["hint"] = d.hint;
+        all.push_back(std::move(entry));
+    }
+    return all;
+}
+
+}  // namespace
+
+std::string program_json(const Program& program, const ToolpathSummary& s, const Diagnostics& diagnostics) {
+    Json json{{"kind", "program"},
+              {"file", program.main().name()},
+              {"dialect", program.dialect->name},
+              {"lines", program.main().line_count()},
+              {"motions", {{"rapid", s.rapids}, {"feed", s.feeds}, {"arc", s.arcs}, {"dwell", s.dwells}}},
+              {"cutting_length_mm", number(s.cutting_length)}};
+    json["bounds_mm"] = s.bounds.isEmpty() ? Json(nullptr) : Json::array({vector(s.bounds.min()), vector(s.bounds.max())});
+    json["diagnostics"] = list(diagnostics);
+    return dump(json);
+}
+
+std::string log_json(const Log& log, const Diagnostics& diagnostics) {
+    Json channels = Json::array();
+    for (const Channel& c : log.channels) channels.push_back({{"name", c.name}, {"unit", c.unit}});
+    Json json{{"kind", "log"},
+              {"file", log.name},
+              {"format", log.format},
+              {"records", log.records},
+              {"period_s", number(log.period)},
+              {"duration_s", number(log.records > 0 ? log.time_of(log.records - 1) : 0.0)},
+              {"channels", std::move(channels)},
+              {"closed", log.closed},
+              {"diagnostics", list(diagnostics)}};
+    return dump(json);
+}
+
+std::string query_json(const std::vector<QueryMatch>& matches, const Diagnostics& diagnostics) {
+    Json all = Json::array();
+    for (const QueryMatch& m : matches) {
+        all.push_back({{"point", m.point},
+                       {"time_s", number(m.time)},
+                       {"line", m.line},
+                       {"text", m.text},
+                       {"position_mm", vector(m.position)},
+                       {"speed_mm_min", number(m.speed * seconds_per_minute)},
+                       {"acceleration_mm_s2", number(m.acceleration)},
+                       {"confidence", number(m.confidence)},
+                       {"distance_mm", number(m.distance)},
+                       {"line_points", Json::array({m.line_points.first, m.line_points.last})}});
+    }
+    return dump(Json{{"matches", std::move(all)}, {"diagnostics", list(diagnostics)}});
+}
+
+std::string comparison_json(const ComparisonReport& r) {
+    return dump(Json{{"equal", r.equal},
+                     {"max_error", number(r.max_error)},
+                     {"mean_error", number(r.mean_error)},
+                     {"psnr", number(r.psnr)},
+                     {"delta_e", number(r.delta_e)},
+                     {"pixels_over", r.pixels_over},
+                     {"threshold", number(r.threshold)}});
+}
+
+std::string files_json(const std::vector<std::string>& objects) {
+    Json all = Json::array();
+    for (const std::string& text : objects) all.push_back(Json::parse(text));
+    return dump(Json{{"files", std::move(all)}});
+}
+
+}  // namespace clsurf::io

@@ -1,0 +1,45 @@
+#pragma once
+// Reports as JSON text, with the keys that scripts rely on (docs/reference/json.md). Invalid UTF-8 in
+// names and program lines becomes U+FFFD.
+
+#include <string>
+#include <vector>
+
+#include "core/diagnostic.h"
+#include "core/geometry.h"
+#include "core/point.h"
+#include "log/log.h"
+#include "path/toolpath_summary.h"
+#include "program/program.h"
+
+namespace clsurf::io {
+
+/// What `query` found at a point.
+struct QueryMatch {
+    PointIndex point = 0;
+    double time = 0;              ///< [s]
+    LineNumber line = 0;
+    std::string text;             ///< of the line
+    Vec3 position = Vec3::Zero(); ///< [mm]
+    double speed = 0;             ///< [mm/s]
+    double acceleration = 0;      ///< [mm/s²]
+    double confidence = 0;        ///< 0 … 1
+    double distance = 0;          ///< [mm] to the asked position; 0 where none was asked
+    PointRange line_points;       ///< the run of points of this line round the point
+};
+
+[[nodiscard]] std::string program_json(const Program& program, const ToolpathSummary& summary, const Diagnostics& diagnostics);
+[[nodiscard]] std::string log_json(const Log& log, const Diagnostics& diagnostics);
+[[nodiscard]] std::string query_json(const std::vector<QueryMatch>& matches, const Diagnostics& diagnostics);
+
+struct ComparisonReport {
+    bool equal = false;
+    double max_error = 0, mean_error = 0, psnr = 0, delta_e = 0, threshold = 0;
+    std::int64_t pixels_over = 0;
+};
+[[nodiscard]] std::string comparison_json(const ComparisonReport& report);
+
+/// {"files":[…]} of several objects' texts.
+[[nodiscard]] std::string files_json(const std::vector<std::string>& objects);
+
+}  // namespace clsurf::io

@@ -1,0 +1,87 @@
+// clsurf compare: two pictures, for snapshots in CI.
+
+#include <cstdio>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "cli/options.h"
+#include "io/atomic_file.h"
+#include "io/json_text.h"
+#include "viz/image_compare.h"
+
+namespace clsurf::cli {
+namespace {
+
+void write_file(const std::string& path, std::string_view bytes) {
+    io::AtomicFile file(path);
+    file.write(bytes);
+    file.commit();
+}
+
+ExitCode run(const po::variables_map& values) {
+    const std::string made = required(values, "A.png");
+    const std::string reference = required(values, "B.png");
+    viz::CompareRule rule;
+    if (values.count("threshold") > 0) {
+        rule.threshold = values["threshold"].as<double>();
+        if (!(rule.threshold >= 0 && rule.threshold <= 1)) throw UsageError("--threshold must be 0 … 1");
+    }
+    const viz::Image a = viz::read_image(made);
+    const bool update = values.count("update") > 0;
+    const bool missing = update && !std::filesystem::exists(reference);
+    io::ComparisonReport report;
+    report.threshold = rule.threshold;
+    std::string verdict;
+    if (missing) {
+        verdict = "reference was missing";
+    } else {
+        const viz::Image b = viz::read_image(reference);
+        if (a.width != b.width || a.height != b.height) {
+            verdict = fmt::format("sizes differ: {}x{} and {}x{}", a.width, a.height, b.width, b.height);
+            report.max_error = report.mean_error = 1;
+        } else {
+            const viz::Comparison c = viz::compare(a, b, rule);
+            report = {c.equal, c.max_error, c.mean_error, c.psnr, c.delta_e, rule.threshold, c.pixels_over};
+            verdict = fmt::format("{}: {} pixels over {:.4f}, largest error {:.4f}, mean {:.6f}, PSNR {:.1f} dB, ΔE {:.1f}", c.equal ? "equal" : "different",
+                                  c.pixels_over, rule.threshold, c.max_error, c.mean_error, c.psnr, c.delta_e);
+            if (values.count("diff") > 0) write_file(values["diff"].as<std::string>(), viz::encode_png(viz::difference_picture(a, b), "difference of " + made + " and " + reference));
+        }
+    }
+    if (update && !report.equal) {
+        const io::Source source = io::map_file(made);
+        write_file(reference, source.text());
+        verdict += "; reference updated";
+        report.equal = true;
+    }
+    if (values.count("json") > 0) std::fputs(io::comparison_json(report).c_str(), stdout);
+    else fmt::print("{}\n", verdict);
+    return report.equal ? ExitCode::done : ExitCode::check_failed;
+}
+
+}  // namespace
+
+Subcommand compare_subcommand() {
+    return {
+        .name = "compare",
+        .arguments = "A.png B.png",
+        .summary = "two pictures compared, for snapshots in CI",
+        .description = "A is the new picture, B the reference. They differ when more than 0.02 % of the values are\n"
+                       "off by more than the threshold, or any by more than three times that: exit code 1.\n\n"
+                       "  clsurf compare map.png snapshots/map.png --diff difference.png",
+        .declare =
+            [](po::options_description& options) {
+                // clang-format off
+                options.add_options()
+                    ("threshold", po::value<double>()->value_name("T"), "largest difference that counts as none, 0 … 1 (default: 1/255)")
+                    ("diff", po::value<std::string>()->value_name("OUT.png"), "a picture of the differences")
+                    ("update", "make A the reference where they differ, or where B is missing")
+                    ("json", "one JSON object");
+                // clang-format on
+            },
+        .positional = {"A.png", "B.png"},
+        .run = run,
+    };
+}
+
+}  // namespace clsurf::cli

@@ -1,0 +1,134 @@
+// clsurf export: per-point columns as CSV, BIIP, VTK.
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "cli/part.h"
+#include "core/block.h"
+#include "io/atomic_file.h"
+#include "io/export_table.h"
+#include "viz/export_vtk.h"
+
+namespace clsurf::cli {
+namespace {
+
+std::vector<std::string> column_names(const po::variables_map& values) {
+    const std::string text = values.count("columns") > 0 ? values["columns"].as<std::string>() : "point,time,line,x,y,z,speed";
+    std::vector<std::string> names;
+    std::size_t at = 0;
+    while (at <= text.size()) {
+        const std::size_t end = std::min(text.find(',', at), text.size());
+        if (end > at) names.push_back(text.substr(at, end - at));
+        at = end + 1;
+    }
+    if (names.empty()) throw UsageError("--columns: no names");
+    return names;
+}
+
+io::ExportColumn column_of(const std::string& name, const Part& part, const ClSurface& surface) {
+    const auto count = static_cast<std::size_t>(part.log.records);
+    io::ExportColumn column;
+    column.name = name;
+    if (name == "point") {
+        column.counts.resize(count);
+        for (std::size_t i = 0; i < count; ++i) column.counts[i] = static_cast<std::uint32_t>(i);
+    } else if (name == "line") {
+        column.counts.resize(count);
+        for_each_block(part.log.records, [&](PointIndex first, PointIndex last) {
+            part.lines->read(first, {column.counts.data() + first, static_cast<std::size_t>(last - first)});
+        });
+    } else if (name == "pass") {
+        column.counts = Column<std::uint32_t>(count, 0);
+        std::uint32_t number = 0;
+        for (const Pass& pass : surface.passes) {
+            if (pass.kind != PassKind::cut) continue;
+            ++number;
+            for (PointIndex i = pass.first; i <= pass.last; ++i) column.counts[static_cast<std::size_t>(i)] = number;
+        }
+    } else if (name == "time") {
+        column.unit = "s";
+        column.exact.resize(count);
+        for (std::size_t i = 0; i < count; ++i) column.exact[i] = part.log.time_of(static_cast<PointIndex>(i));
+    } else if (name == "x" || name == "y" || name == "z") {
+        const auto axis = static_cast<std::size_t>(name[0] - 'x');
+        column.unit = "mm";
+        column.exact.resize(count);
+        copy_block(part.path.axes[axis], 0, column.exact);
+        for (double& v : column.exact) v += part.path.offset[static_cast<Eigen::Index>(axis)];
+    } else if (name == "confidence") {
+        column.values.resize(count);
+        for (std::size_t i = 0; i < count; ++i) column.values[i] = static_cast<float>(part.lines->confidence_at(static_cast<PointIndex>(i)));
+    } else {
+        Field field = FieldSet(part.log, part.path, surface.passes).get(name);
+        column.unit = std::string(field.info.unit.name);
+        column.values = std::move(field.values);
+        if (field.info.unit.per_inside != 1) {
+            for (float& v : column.values) v = static_cast<float>(v * field.info.unit.per_inside);
+        }
+    }
+    return column;
+}
+
+/// Columns as 32-bit point data for VTK.
+Column<float> as_floats(const io::ExportColumn& column) {
+    Column<float> values(static_cast<std::size_t>(column.size()));
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        values[i] = !column.counts.empty() ? static_cast<float>(column.counts[i]) : !column.exact.empty() ? static_cast<float>(column.exact[i]) : column.values[i];
+    }
+    return values;
+}
+
+void write_vtk(const std::string& path, bool hdf, const ClSurface& surface, const std::vector<io::ExportColumn>& columns) {
+    std::vector<Column<float>> values;
+    for (const io::ExportColumn& column : columns) values.push_back(as_floats(column));
+    std::vector<viz::PointData> data;
+    for (std::size_t i = 0; i < columns.size(); ++i) data.push_back({columns[i].name, &values[i]});
+    io::AtomicFile file(path);
+    (hdf ? viz::write_vtkhdf : viz::write_vtp)(file.temporary_path(), surface, data);
+    file.commit();
+}
+
+ExitCode run(const po::variables_map& values) {
+    const std::string output = required(values, "output");
+    const std::vector<std::string> names = column_names(values);
+    const std::string ending = output.substr(std::min(output.rfind('.'), output.size()));
+    if (ending != ".csv" && ending != ".biip" && ending != ".vtp" && ending != ".vtkhdf") {
+        throw UsageError("-o: '" + output + "' must end in .csv, .biip, .vtp or .vtkhdf");
+    }
+    const Part part = load_part(read_part_options(values));
+    print(part.diagnostics, values);
+    const ClSurface surface = stitch(part);
+    std::vector<io::ExportColumn> columns;
+    for (const std::string& name : names) columns.push_back(column_of(name, part, surface));
+    if (ending == ".csv") io::write_csv(output, columns);
+    else if (ending == ".biip") io::write_biip_table(output, columns, part.log.period, "{}");
+    else write_vtk(output, ending == ".vtkhdf", surface, columns);
+    return ExitCode::done;
+}
+
+}  // namespace
+
+Subcommand export_subcommand() {
+    return {
+        .name = "export",
+        .arguments = "PROGRAM LOG -o FILE",
+        .summary = "per-point columns as .csv, .biip, .vtp, .vtkhdf",
+        .description = "The file's ending chooses the form. Columns: point, time, line, pass, confidence, x, y, z and every\n"
+                       "field of `clsurf help fields`. VTK files hold the passes as polylines and the stitched surface.\n\n"
+                       "  clsurf export part.nc run.biip -o points.csv --columns line,x,y,z,speed,acceleration",
+        .declare =
+            [](po::options_description& options) {
+                // clang-format off
+                options.add_options()
+                    ("output,o", po::value<std::string>()->value_name("FILE"), "the file: .csv, .biip, .vtp or .vtkhdf")
+                    ("columns", po::value<std::string>()->value_name("A,B,…"), "what is written (default: point,time,line,x,y,z,speed)");
+                // clang-format on
+                declare_part(options);
+            },
+        .positional = {"PROGRAM", "LOG"},
+        .run = run,
+    };
+}
+
+}  // namespace clsurf::cli

@@ -1,0 +1,166 @@
+// clsurf plot: signal curves over time or path length.
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "cli/part.h"
+#include "io/atomic_file.h"
+#include "viz/chart.h"
+
+namespace clsurf::cli {
+namespace {
+
+struct PlotOptions {
+    PartOptions part;
+    std::string output;
+    std::vector<std::string> fields;
+    bool over_length = false;
+    std::optional<double> from, to;  ///< [s], or [mm] over length
+    std::optional<LineNumber> line;
+    std::vector<PointIndex> points;
+    viz::ChartLook look;
+};
+
+std::vector<std::string> split_names(const std::string& text) {
+    std::vector<std::string> names;
+    std::size_t at = 0;
+    while (at <= text.size()) {
+        const std::size_t end = std::min(text.find(',', at), text.size());
+        if (end > at) names.push_back(text.substr(at, end - at));
+        at = end + 1;
+    }
+    return names;
+}
+
+PlotOptions read_options(const po::variables_map& values) {
+    PlotOptions options;
+    options.part = read_part_options(values);
+    options.output = required(values, "output");
+    options.fields = split_names(values.count("fields") > 0 ? values["fields"].as<std::string>() : "speed");
+    if (options.fields.empty() || options.fields.size() > 8) throw UsageError("--fields: 1 to 8 names separated by commas");
+    const std::string over = values.count("over") > 0 ? values["over"].as<std::string>() : "time";
+    if (over != "time" && over != "length") throw UsageError("--over: '" + over + "' is not time or length");
+    options.over_length = over == "length";
+    if (values.count("from") > 0) options.from = values["from"].as<double>();
+    if (values.count("to") > 0) options.to = values["to"].as<double>();
+    if (options.from && options.to && !(*options.from < *options.to)) throw UsageError("--from must be less than --to");
+    if (values.count("line") > 0) {
+        const long long line = values["line"].as<long long>();
+        if (line < 1 || line > 0xffffffffLL) throw UsageError("--line: lines count from 1");
+        options.line = static_cast<LineNumber>(line);
+    }
+    if (values.count("mark-point") > 0) {
+        for (const long long n : values["mark-point"].as<std::vector<long long>>()) options.points.push_back(n);
+    }
+    if (values.count("size") > 0) {
+        const std::vector<double> size = read_size(values["size"].as<std::string>());
+        options.look.width = static_cast<int>(size[0]);
+        options.look.height = static_cast<int>(size[1]);
+    }
+    if (values.count("gl") > 0) options.look.gl = values["gl"].as<std::string>();
+    return options;
+}
+
+/// x of every point: time [s], or way from the first point [mm].
+std::vector<double> x_values(const Part& part, bool over_length) {
+    const PointIndex count = part.log.records;
+    std::vector<double> x(static_cast<std::size_t>(count));
+    if (!over_length) {
+        for (PointIndex i = 0; i < count; ++i) x[static_cast<std::size_t>(i)] = part.log.time_of(i);
+        return x;
+    }
+    const Positions positions = gather(part.path);
+    for (PointIndex i = 1; i < count; ++i) {
+        const double step = (positions[i] - positions[i - 1]).norm();
+        x[static_cast<std::size_t>(i)] = x[static_cast<std::size_t>(i - 1)] + (step == step ? step : 0.0);
+    }
+    return x;
+}
+
+/// The points to show: from --from to --to, or the stretch of --line with as much on both sides.
+PointRange shown_range(const PlotOptions& options, const Part& part, const std::vector<double>& x) {
+    const auto last = static_cast<PointIndex>(x.size()) - 1;
+    PointRange range{0, last};
+    if (options.line) {
+        const std::vector<PointRange> runs = part.lines->points_of(*options.line);
+        if (runs.empty()) throw UsageError(fmt::format("--line {}: the log has no point of that line", *options.line));
+        const PointIndex room = std::max<PointIndex>(50, runs.back().last - runs.front().first + 1);
+        range = {std::max<PointIndex>(0, runs.front().first - room), std::min(last, runs.back().last + room)};
+    }
+    if (options.from) range.first = std::max(range.first, static_cast<PointIndex>(std::lower_bound(x.begin(), x.end(), *options.from) - x.begin()));
+    if (options.to) range.last = std::min(range.last, static_cast<PointIndex>(std::upper_bound(x.begin(), x.end(), *options.to) - x.begin()) - 1);
+    if (range.size() < 2) throw UsageError("--from and --to leave no points to draw");
+    return range;
+}
+
+ExitCode run(const po::variables_map& values) {
+    PlotOptions options = read_options(values);
+    io::AtomicFile output(options.output);
+    const Part part = load_part(options.part);
+    print(part.diagnostics, values);
+    const ClSurface surface = stitch(part);
+    const FieldSet fields(part.log, part.path, surface.passes);
+    const std::vector<double> x = x_values(part, options.over_length);
+    const PointRange range = shown_range(options, part, x);
+    if (options.line) options.points.push_back(part.lines->points_of(*options.line).front().first);
+    std::vector<viz::Curve> curves;
+    std::vector<viz::ChartCursor> cursors;
+    for (const PointIndex point : options.points) {
+        if (point < 0 || point >= part.log.records) throw UsageError(fmt::format("point {}: the log has points 0 … {}", point, part.log.records - 1));
+        cursors.push_back({x[static_cast<std::size_t>(point)], fmt::format("point {}, line {}", point, part.lines->line_at(point)), {}});
+    }
+    std::string note;
+    for (const std::string& name : options.fields) {
+        const Field field = fields.get(name);
+        viz::Curve curve;
+        curve.label = field.info.label + (field.info.unit.name.empty() ? "" : fmt::format(" ({})", field.info.unit.name));
+        for (PointIndex i = range.first; i <= range.last; ++i) curve.values.push_back(field.values[static_cast<std::size_t>(i)] * field.info.unit.per_inside);
+        for (std::size_t k = 0; k < cursors.size(); ++k) {
+            cursors[k].values.push_back(field.values[static_cast<std::size_t>(options.points[k])] * field.info.unit.per_inside);
+        }
+        if (!field.info.note.empty()) note += (note.empty() ? "" : "; ") + name + ": " + field.info.note;
+        curves.push_back(std::move(curve));
+    }
+    options.look.title = "Signals along " + options.part.log.substr(options.part.log.rfind('/') + 1);
+    options.look.subtitle = fmt::format("{} · points {} to {}, {} positions", options.part.program.substr(options.part.program.rfind('/') + 1), range.first, range.last, name_of(part.path.role));
+    options.look.x_label = options.over_length ? "path length (mm)" : "time (s)";
+    options.look.footnote = note;
+    const std::span<const double> shown_x(x.data() + range.first, static_cast<std::size_t>(range.size()));
+    output.write(viz::encode_png(viz::draw_chart(shown_x, curves, cursors, options.look), options.look.title));
+    output.commit();
+    return ExitCode::done;
+}
+
+}  // namespace
+
+Subcommand plot_subcommand() {
+    return {
+        .name = "plot",
+        .arguments = "PROGRAM LOG -o curve.png",
+        .summary = "signal curves over time or path length",
+        .description = "One chart a field, stacked, every extreme kept however long the log is.\n\n"
+                       "  clsurf plot part.nc run.biip -o curve.png --fields speed,acceleration --line 1204",
+        .declare =
+            [](po::options_description& options) {
+                // clang-format off
+                options.add_options()
+                    ("output,o", po::value<std::string>()->value_name("FILE"), "the picture (PNG)")
+                    ("fields", po::value<std::string>()->value_name("FIELD,…"), "what is drawn (default: speed; `clsurf help fields`)")
+                    ("over", po::value<std::string>()->value_name("time|length"), "what x is (default: time)")
+                    ("from", po::value<double>()->value_name("X"), "first x to show [s or mm]")
+                    ("to", po::value<double>()->value_name("X"), "last x to show [s or mm]")
+                    ("line", po::value<long long>()->value_name("N"), "show the points of a line and some round them; a cursor at its first point")
+                    ("mark-point", po::value<std::vector<long long>>()->value_name("N"), "a cursor at a point; may be repeated")
+                    ("size", po::value<std::string>()->value_name("WxH"), "size in pixels (default: 1600x900)")
+                    ("gl", po::value<std::string>()->value_name("osmesa|egl"), "what draws: the processor, or a graphics card (default: osmesa)");
+                // clang-format on
+                declare_part(options);
+            },
+        .positional = {"PROGRAM", "LOG"},
+        .run = run,
+    };
+}
+
+}  // namespace clsurf::cli

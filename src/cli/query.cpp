@@ -1,0 +1,206 @@
+// clsurf query: which line, which point, what happened there.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include <fmt/format.h>
+
+#include "cli/part.h"
+#include "core/block.h"
+#include "core/units.h"
+#include "io/json_text.h"
+
+namespace clsurf::cli {
+namespace {
+
+constexpr PointIndex window = 256;  ///< points to each side that the derivatives may look at
+
+struct Candidate {
+    double squared;
+    PointIndex point;
+    friend bool operator<(const Candidate& a, const Candidate& b) {
+        return a.squared != b.squared ? a.squared < b.squared : a.point < b.point;
+    }
+};
+
+/// The `count` points nearest to a position, nearest first. O(points), parallel.
+std::vector<Candidate> nearest_points(const Trajectory& path, const Vec3& at, std::size_t count) {
+    const auto blocks = static_cast<std::size_t>((path.count + block_points - 1) / block_points);
+    std::vector<std::vector<Candidate>> of_block(blocks);
+    for_each_block(path.count, [&](PointIndex first, PointIndex last) {
+        std::vector<Candidate>& best = of_block[static_cast<std::size_t>(first / block_points)];
+        constexpr PointIndex step = 2048;
+        std::array<std::array<double, step>, 3> p;
+        for (PointIndex begin = first; begin < last; begin += step) {
+            const auto n = static_cast<std::size_t>(std::min(step, last - begin));
+            path.read(begin, {p[0].data(), n}, {p[1].data(), n}, {p[2].data(), n});
+            for (std::size_t i = 0; i < n; ++i) {
+                const double dx = p[0][i] - at.x();
+                const double dy = p[1][i] - at.y();
+                const double dz = p[2][i] - at.z();
+                const double squared = dx * dx + dy * dy + dz * dz;
+                if (best.size() == count && !(squared < best.front().squared)) continue;
+                if (!(squared == squared)) continue;
+                best.push_back({squared, begin + static_cast<PointIndex>(i)});
+                std::push_heap(best.begin(), best.end());
+                if (best.size() <= count) continue;
+                std::pop_heap(best.begin(), best.end());
+                best.pop_back();
+            }
+        }
+    });
+    std::vector<Candidate> all;
+    for (const std::vector<Candidate>& block : of_block) all.insert(all.end(), block.begin(), block.end());
+    std::sort(all.begin(), all.end());
+    if (all.size() > count) all.resize(count);
+    return all;
+}
+
+PointIndex point_at_time(const Log& log, double time) {
+    if (log.find("time") == nullptr) return std::llround(time / log.period);
+    PointIndex low = 0;
+    PointIndex high = log.records - 1;
+    while (low < high) {
+        const PointIndex middle = low + (high - low) / 2;
+        (log.time_of(middle) < time ? low = middle + 1 : high = middle);
+    }
+    const bool before_is_nearer = low > 0 && time - log.time_of(low - 1) < log.time_of(low) - time;
+    return before_is_nearer ? low - 1 : low;
+}
+
+/// The points round one that have the same line, or the same kind.
+template <typename Same>
+PointRange spread(PointIndex point, PointIndex count, PointIndex reach, Same&& same) {
+    PointRange range{point, point};
+    while (range.first > 0 && point - range.first < reach && same(range.first - 1)) --range.first;
+    while (range.last + 1 < count && range.last - point < reach && same(range.last + 1)) ++range.last;
+    return range;
+}
+
+io::QueryMatch match_of(const Part& part, PointIndex point, double distance) {
+    io::QueryMatch match;
+    const LineMap& lines = *part.lines;
+    match.point = point;
+    match.time = part.log.time_of(point);
+    match.line = lines.line_at(point);
+    match.text = std::string(part.program.main().line(match.line));
+    match.position = part.path.at(point);
+    match.distance = distance;
+    match.line_points = spread(point, part.log.records, part.log.records, [&](PointIndex i) { return lines.line_at(i) == match.line; });
+    const double off = lines.from_log() ? check_line_at(part.path, part.program, lines, point) : 0.0;
+    match.confidence = lines.confidence_at(point) * off_confidence(off);
+    // Derivatives look no farther than this kind of motion lasts.
+    const auto kind_at = [&](PointIndex i) {
+        PointKind kind = PointKind::idle;
+        lines.read_kinds(i, {&kind, 1});
+        return kind;
+    };
+    const PointKind kind = kind_at(point);
+    const PointRange piece = spread(point, part.log.records, window, [&](PointIndex i) { return kind_at(i) == kind; });
+    Passes local;
+    local.push_back({piece.first, piece.last, PassKind::cut});
+    const FieldSet fields(part.log, part.path, local);
+    match.speed = fields.values("speed", {point, point}).front();
+    match.acceleration = fields.values("acceleration", {point, point}).front();
+    return match;
+}
+
+void check_point(const Log& log, PointIndex point) {
+    if (point < 0 || point >= log.records) throw UsageError(fmt::format("point {}: the log has points 0 … {}", point, log.records - 1));
+}
+
+std::vector<io::QueryMatch> find_matches(const Part& part, const po::variables_map& values) {
+    std::vector<io::QueryMatch> matches;
+    std::size_t nearest = 1;
+    if (values.count("nearest") > 0) {
+        const int k = values["nearest"].as<int>();
+        if (k < 1 || k > 100'000) throw UsageError("--nearest must be 1 … 100000");
+        if (values.count("at") == 0) throw UsageError("--nearest goes with --at");
+        nearest = static_cast<std::size_t>(k);
+    }
+    if (values.count("point") > 0) {
+        const PointIndex point = values["point"].as<long long>();
+        check_point(part.log, point);
+        matches.push_back(match_of(part, point, 0));
+    }
+    if (values.count("at") > 0) {
+        const std::vector<double> at = parse_numbers(values["at"].as<std::string>(), "--at", 3);
+        for (const Candidate& c : nearest_points(part.path, Vec3(at[0], at[1], at[2]), nearest)) {
+            matches.push_back(match_of(part, c.point, std::sqrt(c.squared)));
+        }
+    }
+    if (values.count("time") > 0) {
+        const double time = values["time"].as<double>();
+        const PointIndex point = point_at_time(part.log, time);
+        if (point < 0 || point >= part.log.records || !std::isfinite(time)) {
+            throw UsageError(fmt::format("--time {:g}: the log lasts from 0 to {:.6f} s", time, part.log.time_of(part.log.records - 1)));
+        }
+        matches.push_back(match_of(part, point, 0));
+    }
+    if (values.count("line") > 0) {
+        const long long line = values["line"].as<long long>();
+        if (line < 1 || line > part.program.main().line_count()) {
+            throw UsageError(fmt::format("--line {}: the program has lines 1 … {}", line, part.program.main().line_count()));
+        }
+        for (const PointRange& range : part.lines->points_of(static_cast<LineNumber>(line))) matches.push_back(match_of(part, range.first, 0));
+    }
+    return matches;
+}
+
+void print_matches(const std::vector<io::QueryMatch>& matches) {
+    if (matches.empty()) std::puts("no point: a comment, a setting, or a line that the controller merged with the next one");
+    for (const io::QueryMatch& m : matches) {
+        fmt::print("line {}: {}\n", m.line, m.text);
+        fmt::print("  point {} at {:.3f} s, X {:.4f} Y {:.4f} Z {:.4f} mm", m.point, m.time, m.position.x(), m.position.y(), m.position.z());
+        if (m.distance > 0) fmt::print(", {:.4f} mm away", m.distance);
+        fmt::print("\n  speed {:.1f} mm/min, acceleration {:.1f} mm/s²; points {} … {} belong to the line (confidence {:.2f})\n",
+                   m.speed * seconds_per_minute, m.acceleration, m.line_points.first, m.line_points.last, m.confidence);
+    }
+}
+
+ExitCode run(const po::variables_map& values) {
+    if (values.count("point") + values.count("at") + values.count("line") + values.count("time") == 0) {
+        throw UsageError("what to look for is missing", "--point N, --at X,Y,Z, --line N or --time T");
+    }
+    const Part part = load_part(read_part_options(values));
+    const std::vector<io::QueryMatch> matches = find_matches(part, values);
+    if (values.count("json") > 0) {
+        std::fputs(io::query_json(matches, part.diagnostics).c_str(), stdout);
+    } else {
+        print(part.diagnostics, values);
+        print_matches(matches);
+    }
+    return ExitCode::done;
+}
+
+}  // namespace
+
+Subcommand query_subcommand() {
+    return {
+        .name = "query",
+        .arguments = "PROGRAM LOG",
+        .summary = "which line, which point, what happened there",
+        .description = "Finds points by number, place, line or time and says which line of the program made them.\n\n"
+                       "  clsurf query part.nc run.biip --at 12.5,-3.0,1.2\n"
+                       "  clsurf query part.nc run.biip --line 1204 --json",
+        .declare =
+            [](po::options_description& options) {
+                // clang-format off
+                options.add_options()
+                    ("point", po::value<long long>()->value_name("N"), "the point of that number, from 0")
+                    ("at", po::value<std::string>()->value_name("X,Y,Z"), "the point nearest to a place on the workpiece [mm]")
+                    ("nearest", po::value<int>()->value_name("K"), "with --at: the K nearest points")
+                    ("line", po::value<long long>()->value_name("N"), "every run of points of that line; the first point of each")
+                    ("time", po::value<double>()->value_name("T"), "the point nearest to that time [s]")
+                    ("json", "one JSON object");
+                // clang-format on
+                declare_part(options);
+            },
+        .positional = {"PROGRAM", "LOG"},
+        .run = run,
+    };
+}
+
+}  // namespace clsurf::cli

@@ -1,0 +1,137 @@
+#include "viz/chart.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace clsurf::viz {
+namespace {
+
+constexpr Rgb ink_colour{20, 20, 24};
+constexpr Rgb grid_colour{222, 222, 226};
+constexpr Rgb cursor_colour{200, 30, 30};
+// Readable by the colour-blind (Okabe, Ito 2008).
+constexpr Rgb curve_colours[] = {{0, 90, 178}, {213, 94, 0}, {0, 130, 95}, {160, 70, 130}, {110, 85, 0}};
+
+struct Frame {
+    Rect rect;
+    double x_low, x_high, y_low, y_high;
+    [[nodiscard]] Vec2 at(double x, double y) const {
+        const double u = x_high > x_low ? (x - x_low) / (x_high - x_low) : 0.5;
+        const double v = y_high > y_low ? (y - y_low) / (y_high - y_low) : 0.5;
+        return {rect.x + u * rect.width, rect.y + v * rect.height};
+    }
+};
+
+/// Range of a curve with a little room; a flat curve gets some anyway.
+void fit(Frame& frame, const Curve& curve) {
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    for (const double v : curve.values) {
+        if (!std::isfinite(v)) continue;
+        low = std::min(low, v);
+        high = std::max(high, v);
+    }
+    if (!(low <= high)) low = high = 0;
+    const double room = high > low ? 0.05 * (high - low) : std::max(1.0, 0.05 * std::abs(high));
+    frame.y_low = low - (low >= 0 && low < room ? low : room);
+    frame.y_high = high + room;
+}
+
+void add_grid(Sheet& sheet, const Frame& f, double text, bool x_labels) {
+    const std::vector<double> ys = nice_ticks(f.y_low, f.y_high, std::max(2, static_cast<int>(f.rect.height / (3 * text))));
+    const double y_step = ys.size() > 1 ? ys[1] - ys[0] : 1;
+    for (const double y : ys) {
+        const Vec2 p = f.at(f.x_low, y);
+        sheet.lines.push_back({{p, {f.rect.x + f.rect.width, p.y()}}, 1, grid_colour});
+        sheet.texts.push_back({f.rect.x - 0.5 * text, p.y(), tick_text(y, y_step), text, Align::right, false, ink_colour});
+    }
+    const std::vector<double> xs = nice_ticks(f.x_low, f.x_high, std::max(2, static_cast<int>(f.rect.width / (7 * text))));
+    const double x_step = xs.size() > 1 ? xs[1] - xs[0] : 1;
+    for (const double x : xs) {
+        const Vec2 p = f.at(x, f.y_low);
+        sheet.lines.push_back({{p, {p.x(), f.rect.y + f.rect.height}}, 1, grid_colour});
+        if (x_labels) sheet.texts.push_back({p.x(), f.rect.y - 0.9 * text, tick_text(x, x_step), text, Align::centre, false, ink_colour});
+    }
+    const Rect& r = f.rect;
+    sheet.lines.push_back({{{r.x, r.y}, {r.x + r.width, r.y}, {r.x + r.width, r.y + r.height}, {r.x, r.y + r.height}, {r.x, r.y}}, 1, {120, 120, 126}});
+}
+
+}  // namespace
+
+std::vector<Vec2> thin_curve(std::span<const double> x, std::span<const double> y, double x_low, double x_high, int columns) {
+    std::vector<Vec2> out;
+    const double per_x = x_high > x_low ? columns / (x_high - x_low) : 0;
+    std::size_t i = 0;
+    while (i < x.size()) {
+        const double column = std::floor((x[i] - x_low) * per_x);
+        std::size_t low = i;
+        std::size_t high = i;
+        std::size_t end = i;
+        for (; end < x.size() && std::floor((x[end] - x_low) * per_x) == column; ++end) {
+            if (!(y[low] <= y[end])) low = end;
+            if (!(y[high] >= y[end])) high = end;
+        }
+        const std::size_t picks[4] = {i, std::min(low, high), std::max(low, high), end - 1};
+        for (std::size_t k = 0; k < 4; ++k) {
+            if (k > 0 && picks[k] <= picks[k - 1]) continue;
+            out.emplace_back(x[picks[k]], y[picks[k]]);
+        }
+        i = end;
+    }
+    return out;
+}
+
+Image draw_chart(std::span<const double> x, const std::vector<Curve>& curves, const std::vector<ChartCursor>& cursors, const ChartLook& look) {
+    const double text = std::clamp(std::min(look.width * 0.6, static_cast<double>(look.height)) / 44.0, 8.0, 40.0);
+    Sheet sheet;
+    sheet.width = look.width;
+    sheet.height = look.height;
+    sheet.background = look.background;
+    const double left = 6.5 * text;
+    const double right = 1.5 * text;
+    const double top = 4.6 * text;
+    const double bottom = 5.2 * text;
+    const double gap = 2.4 * text;
+    sheet.texts.push_back({text, look.height - 1.4 * text, look.title, 1.4 * text, Align::left, true, ink_colour});
+    sheet.texts.push_back({text, look.height - 3.0 * text, look.subtitle, text, Align::left, false, {95, 95, 100}});
+    sheet.texts.push_back({left, 2.6 * text, look.x_label, text, Align::left, true, ink_colour});
+    sheet.texts.push_back({text, 1.0 * text, look.footnote, 0.85 * text, Align::left, false, {95, 95, 100}});
+    const auto count = static_cast<double>(curves.size());
+    const double each = (look.height - top - bottom - gap * count) / count;
+    for (std::size_t k = 0; k < curves.size(); ++k) {
+        Frame f{};
+        f.rect = {left, bottom + (count - 1 - static_cast<double>(k)) * (each + gap), look.width - left - right, std::max(1.0, each)};
+        f.x_low = x.empty() ? 0 : x.front();
+        f.x_high = x.empty() ? 1 : x.back();
+        fit(f, curves[k]);
+        add_grid(sheet, f, text, k + 1 == curves.size());
+        const Rgb colour = curve_colours[k % std::size(curve_colours)];
+        sheet.texts.push_back({f.rect.x, f.rect.y + f.rect.height + 0.9 * text, curves[k].label, text, Align::left, true, colour});
+        FlatLine line{{}, 1.4, colour};
+        for (const Vec2& p : thin_curve(x, curves[k].values, f.x_low, f.x_high, static_cast<int>(f.rect.width))) {
+            if (std::isfinite(p.y())) {
+                line.points.push_back(f.at(p.x(), p.y()));
+            } else if (!line.points.empty()) {
+                sheet.lines.push_back(line);
+                line.points.clear();
+            }
+        }
+        if (!line.points.empty()) sheet.lines.push_back(std::move(line));
+        for (const ChartCursor& cursor : cursors) {
+            const Vec2 p = f.at(cursor.x, f.y_low);
+            if (p.x() < f.rect.x || p.x() > f.rect.x + f.rect.width) continue;
+            sheet.lines.push_back({{p, {p.x(), f.rect.y + f.rect.height}}, 1.4, cursor_colour});
+            const bool to_left = p.x() > f.rect.x + 0.7 * f.rect.width;
+            const std::string value = tick_text(cursor.values[k], std::max(1e-4, (f.y_high - f.y_low) / 1000));
+            FlatText note{p.x() + (to_left ? -0.5 : 0.5) * text, f.rect.y + f.rect.height - 0.9 * text,
+                          k == 0 ? cursor.label + ": " + value : value, text, to_left ? Align::right : Align::left, true, cursor_colour};
+            const double width = text_width(note);
+            sheet.quads.push_back({{to_left ? note.x - width - 2 : note.x - 2, note.y - 0.7 * text, width + 4, 1.4 * text}, look.background});
+            sheet.texts.push_back(std::move(note));
+        }
+    }
+    return draw(sheet, look.gl, look.supersample);
+}
+
+}  // namespace clsurf::viz

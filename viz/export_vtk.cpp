@@ -1,0 +1,170 @@
+#include "viz/export_vtk.h"
+
+#include <hdf5.h>
+#include <vtkCellArray.h>
+#include <vtkCellType.h>
+#include <vtkDoubleArray.h>
+#include <vtkFloatArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkTypeInt64Array.h>
+#include <vtkXMLPolyDataWriter.h>
+
+#include "core/error.h"
+
+namespace clsurf::viz {
+namespace {
+
+struct Cells {
+    Column<std::int64_t> line_offsets, line_points;  ///< polylines of the passes
+    Column<std::int64_t> triangles;                  ///< 3 points each
+};
+
+/// Every point of every pass; triangles between a point, the next, and their neighbours on the
+/// earlier pass.
+Cells cells_of(const ClSurface& surface) {
+    Cells cells;
+    cells.line_offsets.push_back(0);
+    for (const Pass& pass : surface.passes) {
+        if (pass.kind != PassKind::cut) continue;
+        for (PointIndex i = pass.first; i <= pass.last; ++i) cells.line_points.push_back(i);
+        cells.line_offsets.push_back(static_cast<std::int64_t>(cells.line_points.size()));
+        for (PointIndex i = pass.first; i < pass.last; ++i) {
+            for (const Side side : {Side::left, Side::right}) {
+                if (!surface.neighbours.has(side, i) || !surface.neighbours.has(side, i + 1)) continue;
+                const PointIndex m = surface.neighbours.neighbour(side, i);
+                const PointIndex n = surface.neighbours.neighbour(side, i + 1);
+                if (m >= i || n >= i + 1) continue;
+                constexpr PointIndex longest = 4096;  // a jump to another part of the way
+                if (std::abs(n - m) > longest) continue;
+                const PointIndex step = n >= m ? 1 : -1;
+                for (PointIndex k = m; k != n; k += step) {
+                    for (const PointIndex p : {i, k, k + step}) cells.triangles.push_back(p);
+                }
+                for (const PointIndex p : {i, n, i + 1}) cells.triangles.push_back(p);
+            }
+        }
+    }
+    return cells;
+}
+
+Column<double> points_of(const ClSurface& surface) {
+    const PointIndex count = surface.positions.size();
+    Column<double> xyz(static_cast<std::size_t>(count) * 3);
+    for (PointIndex i = 0; i < count; ++i) {
+        const Vec3 p = surface.positions[i].cast<double>() + surface.positions.origin;
+        for (int k = 0; k < 3; ++k) xyz[static_cast<std::size_t>(3 * i + k)] = p[k];
+    }
+    return xyz;
+}
+
+vtkNew<vtkCellArray> cell_array(Column<std::int64_t>& offsets, Column<std::int64_t>& points) {
+    vtkNew<vtkTypeInt64Array> o;
+    o->SetArray(reinterpret_cast<vtkTypeInt64*>(offsets.data()), static_cast<vtkIdType>(offsets.size()), 1);
+    vtkNew<vtkTypeInt64Array> c;
+    c->SetArray(reinterpret_cast<vtkTypeInt64*>(points.data()), static_cast<vtkIdType>(points.size()), 1);
+    vtkNew<vtkCellArray> cells;
+    cells->SetData(o, c);
+    return cells;
+}
+
+/// An HDF5 object that closes itself.
+class H5 {
+public:
+    H5(hid_t id, herr_t (*close)(hid_t), const char* what) : id_(id), close_(close) {
+        if (id < 0) throw SystemError(std::string("HDF5 cannot write: ") + what);
+    }
+    H5(const H5&) = delete;
+    H5& operator=(const H5&) = delete;
+    ~H5() { close_(id_); }
+    [[nodiscard]] hid_t id() const { return id_; }
+
+private:
+    hid_t id_;
+    herr_t (*close_)(hid_t);
+};
+
+void put(hid_t group, const char* name, hid_t type, std::vector<hsize_t> size, const void* values) {
+    const H5 space(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), H5Sclose, name);
+    const H5 set(H5Dcreate2(group, name, type, space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose, name);
+    if (H5Dwrite(set.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0) throw SystemError(std::string("HDF5 cannot write ") + name);
+}
+
+void put_header(hid_t group) {
+    const hsize_t two = 2;
+    const H5 space(H5Screate_simple(1, &two, nullptr), H5Sclose, "Version");
+    const H5 version(H5Acreate2(group, "Version", H5T_NATIVE_INT64, space.id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose, "Version");
+    const std::int64_t number[2] = {1, 0};
+    const H5 scalar(H5Screate(H5S_SCALAR), H5Sclose, "Type");
+    const H5 text(H5Tcopy(H5T_C_S1), H5Tclose, "Type");
+    const char type[] = "UnstructuredGrid";
+    H5Tset_size(text.id(), sizeof type - 1);
+    const H5 kind(H5Acreate2(group, "Type", text.id(), scalar.id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose, "Type");
+    if (H5Awrite(version.id(), H5T_NATIVE_INT64, number) < 0 || H5Awrite(kind.id(), text.id(), type) < 0) throw SystemError("HDF5 cannot write attributes");
+}
+
+}  // namespace
+
+void write_vtp(const std::string& path, const ClSurface& surface, const std::vector<PointData>& data) {
+    Column<double> xyz = points_of(surface);
+    Cells cells = cells_of(surface);
+    vtkNew<vtkDoubleArray> coordinates;
+    coordinates->SetNumberOfComponents(3);
+    coordinates->SetArray(xyz.data(), static_cast<vtkIdType>(xyz.size()), 1);
+    vtkNew<vtkPoints> points;
+    points->SetData(coordinates);
+    vtkNew<vtkPolyData> poly;
+    poly->SetPoints(points);
+    poly->SetLines(cell_array(cells.line_offsets, cells.line_points));
+    Column<std::int64_t> triangle_offsets(cells.triangles.size() / 3 + 1);
+    for (std::size_t i = 0; i < triangle_offsets.size(); ++i) triangle_offsets[i] = static_cast<std::int64_t>(3 * i);
+    if (!cells.triangles.empty()) poly->SetPolys(cell_array(triangle_offsets, cells.triangles));
+    for (const PointData& column : data) {
+        vtkNew<vtkFloatArray> values;
+        values->SetName(column.name.c_str());
+        values->SetArray(const_cast<float*>(column.values->data()), static_cast<vtkIdType>(column.values->size()), 1);
+        poly->GetPointData()->AddArray(values);
+    }
+    vtkNew<vtkXMLPolyDataWriter> writer;
+    writer->SetInputData(poly);
+    writer->SetFileName(path.c_str());
+    writer->SetDataModeToAppended();
+    writer->EncodeAppendedDataOff();
+    if (writer->Write() == 0) throw SystemError(path + ": VTK cannot write");
+}
+
+void write_vtkhdf(const std::string& path, const ClSurface& surface, const std::vector<PointData>& data) {
+    const Column<double> xyz = points_of(surface);
+    const Cells cells = cells_of(surface);
+    Column<std::int64_t> connectivity = cells.line_points;
+    Column<std::int64_t> offsets = cells.line_offsets;
+    Column<std::uint8_t> types(cells.line_offsets.size() - 1, VTK_POLY_LINE);
+    for (std::size_t t = 0; t < cells.triangles.size(); ++t) {
+        connectivity.push_back(cells.triangles[t]);
+        if (t % 3 != 2) continue;
+        offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
+        types.push_back(VTK_TRIANGLE);
+    }
+    const H5 file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose, path.c_str());
+    const H5 root(H5Gcreate2(file.id(), "VTKHDF", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, "VTKHDF");
+    put_header(root.id());
+    const auto count = [](std::size_t n) { return static_cast<std::int64_t>(n); };
+    const std::int64_t point_count = surface.positions.size();
+    const std::int64_t cell_count = count(types.size());
+    const std::int64_t id_count = count(connectivity.size());
+    put(root.id(), "NumberOfPoints", H5T_NATIVE_INT64, {1}, &point_count);
+    put(root.id(), "NumberOfCells", H5T_NATIVE_INT64, {1}, &cell_count);
+    put(root.id(), "NumberOfConnectivityIds", H5T_NATIVE_INT64, {1}, &id_count);
+    put(root.id(), "Points", H5T_NATIVE_DOUBLE, {static_cast<hsize_t>(point_count), 3}, xyz.data());
+    put(root.id(), "Connectivity", H5T_NATIVE_INT64, {connectivity.size()}, connectivity.data());
+    put(root.id(), "Offsets", H5T_NATIVE_INT64, {offsets.size()}, offsets.data());
+    put(root.id(), "Types", H5T_NATIVE_UINT8, {types.size()}, types.data());
+    const H5 point_data(H5Gcreate2(root.id(), "PointData", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, "PointData");
+    for (const PointData& column : data) {
+        put(point_data.id(), column.name.c_str(), H5T_NATIVE_FLOAT, {column.values->size()}, column.values->data());
+    }
+}
+
+}  // namespace clsurf::viz

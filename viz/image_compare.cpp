@@ -1,0 +1,107 @@
+#include "viz/image_compare.h"
+
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace clsurf::viz {
+namespace {
+
+OIIO::ImageBuf buffer_of(const Image& image) {
+    const OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::UINT8);
+    return OIIO::ImageBuf(spec, const_cast<std::uint8_t*>(image.rgb.data()));
+}
+
+using Lab = std::array<double, 3>;
+
+double linear(double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }
+
+/// sRGB → CIE L*a*b* (D65).
+Lab lab_of(const std::array<double, 3>& rgb) {
+    const double r = linear(rgb[0]);
+    const double g = linear(rgb[1]);
+    const double b = linear(rgb[2]);
+    const auto f = [](double t) { return t > 216.0 / 24389 ? std::cbrt(t) : (24389.0 / 27 * t + 16) / 116; };
+    const double x = f((0.4124564 * r + 0.3575761 * g + 0.1804375 * b) / 0.95047);
+    const double y = f(0.2126729 * r + 0.7151522 * g + 0.0721750 * b);
+    const double z = f((0.0193339 * r + 0.1191920 * g + 0.9503041 * b) / 1.08883);
+    return {116 * y - 16, 500 * (x - y), 200 * (y - z)};
+}
+
+Lab mean_lab(const Image& image, int x, int y) {
+    std::array<double, 3> sum{};
+    int count = 0;
+    for (int v = std::max(0, y - 1); v <= std::min(image.height - 1, y + 1); ++v) {
+        for (int u = std::max(0, x - 1); u <= std::min(image.width - 1, x + 1); ++u) {
+            const std::uint8_t* p = image.pixel(u, v);
+            for (std::size_t k = 0; k < 3; ++k) sum[k] += p[k];
+            ++count;
+        }
+    }
+    for (double& s : sum) s /= 255.0 * count;
+    return lab_of(sum);
+}
+
+}  // namespace
+
+Comparison compare(const Image& a, const Image& b, const CompareRule& rule) {
+    OIIO::ImageBuf left = buffer_of(a);
+    OIIO::ImageBuf right = buffer_of(b);
+    const float fail = static_cast<float>(rule.threshold + 1e-6);
+    const OIIO::ImageBufAlgo::CompareResults result = OIIO::ImageBufAlgo::compare(left, right, fail, fail);
+    Comparison comparison;
+    comparison.max_error = result.maxerror;
+    comparison.mean_error = result.meanerror;
+    comparison.psnr = result.PSNR;
+    std::int64_t values_over = 0;
+    for (int y = 0; y < a.height; ++y) {
+        for (int x = 0; x < a.width; ++x) {
+            const std::uint8_t* p = a.pixel(x, y);
+            const std::uint8_t* q = b.pixel(x, y);
+            bool over = false;
+            for (int k = 0; k < 3; ++k) {
+                if (std::abs(p[k] - q[k]) / 255.0 <= rule.threshold + 1e-6) continue;
+                over = true;
+                ++values_over;
+            }
+            if (!over) continue;
+            ++comparison.pixels_over;
+            const Lab la = mean_lab(a, x, y);
+            const Lab lb = mean_lab(b, x, y);
+            comparison.delta_e = std::max(comparison.delta_e, std::hypot(la[0] - lb[0], la[1] - lb[1], la[2] - lb[2]));
+        }
+    }
+    const double share = static_cast<double>(values_over) / std::max<double>(1.0, static_cast<double>(a.rgb.size()));
+    comparison.equal = share <= rule.failing_share && comparison.max_error <= 3 * rule.threshold + 1e-6;
+    return comparison;
+}
+
+Image difference_picture(const Image& a, const Image& b) {
+    Image out;
+    out.width = a.width;
+    out.height = a.height;
+    out.rgb.resize(a.rgb.size());
+    for (int y = 0; y < a.height; ++y) {
+        for (int x = 0; x < a.width; ++x) {
+            const std::uint8_t* p = a.pixel(x, y);
+            const std::uint8_t* q = b.pixel(x, y);
+            int worst = 0;
+            for (int k = 0; k < 3; ++k) worst = std::max(worst, std::abs(p[k] - q[k]));
+            std::uint8_t* to = out.rgb.data() + (p - a.rgb.data());
+            if (worst == 0) {
+                const int grey = 200 + (p[0] + p[1] + p[2]) / 3 / 5;
+                std::fill(to, to + 3, static_cast<std::uint8_t>(grey));
+            } else {
+                to[0] = 255;
+                to[1] = static_cast<std::uint8_t>(220 - std::min(220, worst * 4));
+                to[2] = 0;
+            }
+        }
+    }
+    return out;
+}
+
+}  // namespace clsurf::viz

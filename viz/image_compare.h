@@ -1,0 +1,32 @@
+#pragma once
+// Two pictures compared for snapshots: how many values differ, and by how much.
+
+#include <cstdint>
+
+#include "viz/image.h"
+
+namespace clsurf::viz {
+
+/// A picture fails when more than `failing_share` of its values differ by more than `threshold`, or
+/// any by more than three times that. Values are 0 … 1.
+struct CompareRule {
+    double threshold = 1.0 / 255.0;
+    double failing_share = 0.0002;
+};
+
+struct Comparison {
+    bool equal = false;          ///< within the rule
+    double max_error = 0;        ///< 0 … 1
+    double mean_error = 0;       ///< 0 … 1
+    double psnr = 0;             ///< [dB]; infinite: the same
+    double delta_e = 0;          ///< largest colour difference that an eye sees, CIE76 over 3 × 3 means
+    std::int64_t pixels_over = 0;  ///< pixels with a value over the threshold
+};
+
+/// Domain: pictures of one size.
+[[nodiscard]] Comparison compare(const Image& a, const Image& b, const CompareRule& rule);
+
+/// Where they differ: the first picture in pale grey, differences from yellow (small) to red.
+[[nodiscard]] Image difference_picture(const Image& a, const Image& b);
+
+}  // namespace clsurf::viz
