@@ -1,55 +1,49 @@
 #include "viz/image.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
+#include <utility>
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "viz/image_library.h"
 
 namespace clsurf::viz {
 namespace {
 
 constexpr std::int64_t most_pixels = std::int64_t{1} << 28;
 
+struct Reading {
+    Image image;
+    std::string error;
+};
+
 }  // namespace
 
 Image read_image(const std::string& path) {
-    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path);
-    if (!input) throw InputError(Place::of_file(path), "cannot be read as an image: " + OIIO::geterror());
-    const OIIO::ImageSpec& spec = input->spec();
-    if (spec.width <= 0 || spec.height <= 0 || std::int64_t{spec.width} * spec.height > most_pixels) {
-        throw InputError(Place::of_file(path), "image of an impossible size");
+    Reading reading;
+    const auto take = [](void* context, int width, int height) -> std::uint8_t* {
+        Image& image = static_cast<Reading*>(context)->image;
+        if (width <= 0 || height <= 0 || std::int64_t{width} * height > most_pixels) return nullptr;
+        image.width = width;
+        image.height = height;
+        image.rgb.resize(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+        return image.rgb.data();
+    };
+    const auto report = [](void* context, const char* text) { static_cast<Reading*>(context)->error = text; };
+    if (!image_library().read(path.c_str(), &reading, take, report)) {
+        throw InputError(Place::of_file(path), "cannot be read as an image: " + reading.error);
     }
-    Image image;
-    image.width = spec.width;
-    image.height = spec.height;
-    const std::size_t pixels = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
-    const auto channels = static_cast<std::size_t>(spec.nchannels);
-    Column<std::uint8_t> raw(pixels * channels);
-    if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT8, raw.data())) {
-        throw InputError(Place::of_file(path), "cannot be read as an image: " + input->geterror());
-    }
-    image.rgb.resize(pixels * 3);
-    for (std::size_t i = 0; i < pixels; ++i) {
-        for (std::size_t k = 0; k < 3; ++k) image.rgb[3 * i + k] = raw[i * channels + (channels >= 3 ? k : 0)];
-    }
-    return image;
+    return std::move(reading.image);
 }
 
 std::string encode_png(const Image& image, const std::string& description) {
-    std::vector<unsigned char> bytes;
-    OIIO::Filesystem::IOVecOutput buffer(bytes);
-    OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::UINT8);
-    spec.attribute("oiio:ColorSpace", "sRGB");
-    spec.attribute("ImageDescription", description);
-    spec.attribute("Software", "clsurf");
-    spec.attribute("png:compressionLevel", 3);
-    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("png");
-    if (!output || !output->set_ioproxy(&buffer) || !output->open("clsurf.png", spec) ||
-        !output->write_image(OIIO::TypeDesc::UINT8, image.rgb.data()) || !output->close()) {
-        throw SystemError("OpenImageIO cannot write PNG: " + (output ? output->geterror() : OIIO::geterror()));
+    std::string bytes;
+    const auto sink = [](void* context, const void* data, std::size_t size) {
+        static_cast<std::string*>(context)->assign(static_cast<const char*>(data), size);
+    };
+    if (!image_library().encode_png(image.rgb.data(), image.width, image.height, description.c_str(), &bytes, sink)) {
+        throw SystemError("the picture cannot be encoded: " + bytes);
     }
-    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+    return bytes;
 }
 
 Image shrink(const Image& image, int factor) {

@@ -1,19 +1,13 @@
 #include "viz/image_compare.h"
 
-#include <OpenImageIO/imagebuf.h>
-#include <OpenImageIO/imagebufalgo.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "viz/image_library.h"
+
 namespace clsurf::viz {
 namespace {
-
-OIIO::ImageBuf buffer_of(const Image& image) {
-    const OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::UINT8);
-    return OIIO::ImageBuf(spec, const_cast<std::uint8_t*>(image.rgb.data()));
-}
 
 using Lab = std::array<double, 3>;
 
@@ -48,14 +42,11 @@ Lab mean_lab(const Image& image, int x, int y) {
 }  // namespace
 
 Comparison compare(const Image& a, const Image& b, const CompareRule& rule) {
-    OIIO::ImageBuf left = buffer_of(a);
-    OIIO::ImageBuf right = buffer_of(b);
-    const float fail = static_cast<float>(rule.threshold + 1e-6);
-    const OIIO::ImageBufAlgo::CompareResults result = OIIO::ImageBufAlgo::compare(left, right, fail, fail);
+    const ImageLibrary::Errors errors = image_library().compare(a.rgb.data(), b.rgb.data(), a.width, a.height);
     Comparison comparison;
-    comparison.max_error = result.maxerror;
-    comparison.mean_error = result.meanerror;
-    comparison.psnr = result.PSNR;
+    comparison.max_error = errors.max;
+    comparison.mean_error = errors.mean;
+    comparison.psnr = errors.psnr;
     std::int64_t values_over = 0;
     for (int y = 0; y < a.height; ++y) {
         for (int x = 0; x < a.width; ++x) {

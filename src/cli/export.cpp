@@ -96,7 +96,8 @@ ExitCode run(const po::variables_map& values) {
     if (ending != ".csv" && ending != ".biip" && ending != ".vtp" && ending != ".vtkhdf") {
         throw UsageError("-o: '" + output + "' must end in .csv, .biip, .vtp or .vtkhdf");
     }
-    const Part part = load_part(read_part_options(values));
+    StageClock clock(read_common(values).verbose);
+    const Part part = load_part(read_part_options(values), clock);
     print(part.diagnostics, values);
     const ClSurface surface = stitch(part);
     std::vector<io::ExportColumn> columns;

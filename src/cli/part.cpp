@@ -49,21 +49,24 @@ PartOptions read_part_options(const po::variables_map& values) {
     return options;
 }
 
-Part load_part(const PartOptions& options) {
+Part load_part(const PartOptions& options, StageClock& clock) {
     Part part;
     part.program = io::read_program(options.program, options.dialect, options.block_delete);
+    clock.lap("read the program");
     part.log = io::open_log(options.log, options.log_options);
     if (part.log.records == 0) throw InputError(Place::of_file(part.log.name), "holds no records");
     Role role = options.role;
     if (!options.role_given && !part.log.has(role)) {
         role = part.log.has(Role::feedback) ? Role::feedback : Role::actual;
     }
+    clock.lap("open the log");
     const Vec3 offset = -options.offset.value_or(part.log.work_offset.value_or(Vec3::Zero()));
     part.path = reconstruct(part.log, role, offset);
     part.diagnostics.append(part.program.diagnostics);
     part.diagnostics.append(part.log.diagnostics);
     const Trajectory mapped = reconstruct(part.log, mapping_role(part.log, role), offset);
     part.lines = std::make_unique<LineMap>(map_lines(mapped, part.log, part.program, options.use_line_channel, part.diagnostics));
+    clock.lap("map points to lines");
     return part;
 }
 

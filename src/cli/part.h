@@ -7,6 +7,7 @@
 #include <string>
 
 #include "cli/options.h"
+#include "cli/stage_clock.h"
 #include "field/field_set.h"
 #include "log/log.h"
 #include "path/line_map.h"
@@ -40,7 +41,7 @@ struct Part {
 };
 
 /// Reads and maps. Throws InputError, UsageError.
-[[nodiscard]] Part load_part(const PartOptions& options);
+[[nodiscard]] Part load_part(const PartOptions& options, StageClock& clock);
 
 /// The surface of a part. O(points).
 [[nodiscard]] ClSurface stitch(const Part& part);

@@ -8,6 +8,7 @@
 #include "cli/part.h"
 #include "io/atomic_file.h"
 #include "viz/chart.h"
+#include "viz/image_library.h"
 
 namespace clsurf::cli {
 namespace {
@@ -97,8 +98,10 @@ PointRange shown_range(const PlotOptions& options, const Part& part, const std::
 
 ExitCode run(const po::variables_map& values) {
     PlotOptions options = read_options(values);
+    viz::preload_image_library();
     io::AtomicFile output(options.output);
-    const Part part = load_part(options.part);
+    StageClock clock(read_common(values).verbose);
+    const Part part = load_part(options.part, clock);
     print(part.diagnostics, values);
     const ClSurface surface = stitch(part);
     const FieldSet fields(part.log, part.path, surface.passes);

@@ -9,6 +9,7 @@
 #include "core/spelling.h"
 #include "field/range.h"
 #include "io/atomic_file.h"
+#include "viz/image_library.h"
 #include "viz/scene.h"
 
 namespace clsurf::cli {
@@ -134,11 +135,13 @@ struct Shown {
     Field field;
 };
 
-Shown prepare(const PartOptions& options, const std::string& field) {
+Shown prepare(const PartOptions& options, const std::string& field, StageClock& clock) {
     Shown shown;
-    shown.part = load_part(options);
+    shown.part = load_part(options, clock);
     shown.surface = stitch(shown.part);
+    clock.lap("stitch the surface");
     shown.field = FieldSet(shown.part.log, shown.part.path, shown.surface.passes).get(field);
+    clock.lap("compute the field");
     return shown;
 }
 
@@ -175,15 +178,17 @@ viz::MapTexts texts_of(const Shown& shown, const RenderOptions& options, const s
 
 ExitCode run(const po::variables_map& values) {
     const RenderOptions options = read_options(values);
+    viz::preload_image_library();
     io::AtomicFile output(options.output);  // a name that cannot be written fails before the work
-    const Shown after = prepare(options.part, options.field);
+    StageClock clock(read_common(values).verbose);
+    const Shown after = prepare(options.part, options.field, clock);
     print(after.part.diagnostics, values);
     std::vector<viz::MapPanel> panels;
     std::optional<Shown> before;
     if (!options.before.empty()) {
         PartOptions other = options.part;
         other.log = options.before;
-        before = prepare(other, options.field);
+        before = prepare(other, options.field, clock);
         print(before->part.diagnostics, values);
         panels.push_back(panel_of(*before, options, "before: " + base_name(options.before)));
     }
@@ -199,10 +204,13 @@ ExitCode run(const po::variables_map& values) {
     const bool diverging = after.field.info.scale == FieldScale::diverging;
     viz::ColourScale scale{viz::make_colour_map(!options.colour_map.empty() ? options.colour_map : diverging ? "coolwarm" : "isurface"),
                            range.low, range.high, options.bins};
+    clock.lap("choose the range");
     const viz::Image image = viz::draw_map(panels, scale, texts_of(after, options, range.note), options.look);
+    clock.lap("draw");
     output.write(viz::encode_png(image, fmt::format("clsurf map of {} from {}: {} {:g} to {:g} {}", base_name(options.part.program),
                                                     base_name(options.part.log), options.field, range.low, range.high, after.field.info.unit.name)));
     output.commit();
+    clock.lap("write the picture");
     return ExitCode::done;
 }
 

@@ -1,0 +1,78 @@
+// The shared library behind image_library.h: the only code that knows OpenImageIO.
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/imageio.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "viz/image_library.h"
+
+namespace clsurf::viz {
+namespace {
+
+bool encode_png(const std::uint8_t* rgb, int width, int height, const char* description, void* context,
+                void (*sink)(void*, const void*, std::size_t)) {
+    std::vector<unsigned char> bytes;
+    OIIO::Filesystem::IOVecOutput buffer(bytes);
+    OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
+    spec.attribute("oiio:ColorSpace", "sRGB");
+    spec.attribute("ImageDescription", description);
+    spec.attribute("Software", "clsurf");
+    spec.attribute("png:compressionLevel", 3);
+    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("png");
+    const bool done = output && output->set_ioproxy(&buffer) && output->open("clsurf.png", spec) &&
+                      output->write_image(OIIO::TypeDesc::UINT8, rgb) && output->close();
+    if (!done) {
+        const std::string error = output ? output->geterror() : OIIO::geterror();
+        sink(context, error.data(), error.size());
+        return false;
+    }
+    sink(context, bytes.data(), bytes.size());
+    return true;
+}
+
+bool read(const char* path, void* context, std::uint8_t* (*take)(void*, int, int), void (*report)(void*, const char*)) {
+    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path);
+    if (!input) {
+        report(context, OIIO::geterror().c_str());
+        return false;
+    }
+    const OIIO::ImageSpec& spec = input->spec();
+    std::uint8_t* const rgb = take(context, spec.width, spec.height);
+    if (rgb == nullptr) {
+        report(context, "image of an impossible size");
+        return false;
+    }
+    const std::size_t pixels = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
+    const auto channels = static_cast<std::size_t>(spec.nchannels);
+    std::vector<std::uint8_t> raw(pixels * channels);
+    if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT8, raw.data())) {
+        report(context, input->geterror().c_str());
+        return false;
+    }
+    for (std::size_t i = 0; i < pixels; ++i) {
+        for (std::size_t k = 0; k < 3; ++k) rgb[3 * i + k] = raw[i * channels + (channels >= 3 ? k : 0)];
+    }
+    return true;
+}
+
+ImageLibrary::Errors compare(const std::uint8_t* a, const std::uint8_t* b, int width, int height) {
+    const OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
+    const OIIO::ImageBuf left(spec, const_cast<std::uint8_t*>(a));
+    const OIIO::ImageBuf right(spec, const_cast<std::uint8_t*>(b));
+    const OIIO::ImageBufAlgo::CompareResults result = OIIO::ImageBufAlgo::compare(left, right, 1.0F, 1.0F);
+    return {result.maxerror, result.meanerror, result.PSNR};
+}
+
+constexpr ImageLibrary library{encode_png, read, compare};
+
+}  // namespace
+}  // namespace clsurf::viz
+
+extern "C" __attribute__((visibility("default"))) const clsurf::viz::ImageLibrary* clsurf_image_library() {
+    return &clsurf::viz::library;
+}
