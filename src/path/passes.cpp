@@ -9,7 +9,7 @@
 namespace clsurf {
 namespace {
 
-constexpr double turning_cosine = -0.5;   ///< chords that enclose more than 120° turn back
+constexpr float turning_cosine = -0.5F;   ///< chords that enclose more than 120° turn back
 constexpr double chord_step_overs = 1.5;  ///< way of a chord
 constexpr float corner_play = 1e-6F;      ///< [mm²] of reach times chord; less is no progress
 constexpr double shortest_pass = 2.0;     ///< step-overs of way; a shorter piece belongs to its link
@@ -88,28 +88,23 @@ Passes find_runs(const Positions& positions, const LineMap& lines) {
 namespace {
 
 /// True where the way turns back.
-bool turns_back(const Positions& p, const Chords& chords, double way) {
+bool turns_back(const Positions& p, const Chords& chords, float way) {
     // Near the end of a run there is no way ahead to judge by.
-    if (chords.way_behind() < 0.5 * way || chords.way_ahead() < 0.5 * way) return false;
+    if (chords.way_behind() < 0.5F * way || chords.way_ahead() < 0.5F * way) return false;
     const Eigen::Vector3f here = p[chords.point()];
     const Eigen::Vector3f back = here - p[chords.behind()];
     const Eigen::Vector3f ahead = p[chords.ahead()] - here;
-    const float lengths = back.norm() * ahead.norm();
-    return lengths > 0 && back.dot(ahead) < turning_cosine * lengths;
-}
-
-double way_of(const Positions& p, const Pass& piece) {
-    double way = 0;
-    for (PointIndex i = piece.first; i < piece.last; ++i) way += (p[i + 1] - p[i]).norm();
-    return way;
+    // cos < −1/2 without roots: both sides squared, the sign kept.
+    const float dot = back.dot(ahead);
+    return dot < 0 && dot * dot > turning_cosine * turning_cosine * back.squaredNorm() * ahead.squaredNorm();
 }
 
 /// Pieces between two links that are too short to be passes belong to the link.
-void append_cleaned(Passes& passes, const Positions& p, const Passes& pieces, double least) {
+void append_cleaned(Passes& passes, const Way& way, const Passes& pieces, double least) {
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         Pass piece = pieces[i];
         const bool between = i > 0 && i + 1 < pieces.size();
-        if (piece.kind == PassKind::cut && between && way_of(p, piece) < least) {
+        if (piece.kind == PassKind::cut && between && way.to(piece.last) - way.to(piece.first) < least) {
             piece.kind = PassKind::link;
         }
         append(passes, piece);
@@ -133,14 +128,14 @@ PointIndex farthest(const Positions& p, PointIndex from, PointIndex to, const Ei
 
 /// Chords see a turn before it comes. The pass itself ends at its outermost point, the next begins
 /// at its own; what lies between is the link.
-void tighten_links(Passes& passes, const Positions& p, double way) {
+void tighten_links(Passes& passes, const Positions& p, const Way& lengths, float way) {
     for (std::size_t k = 1; k + 1 < passes.size(); ++k) {
         Pass& link = passes[k];
         Pass& before = passes[k - 1];
         Pass& after = passes[k + 1];
         if (link.kind != PassKind::link || before.kind != PassKind::cut || after.kind != PassKind::cut) continue;
-        const Chords arriving(p, {before.first, link.first}, link.first, way);
-        const Chords leaving(p, {link.last, after.last}, link.last, way);
+        const Chords arriving(lengths, {before.first, link.first}, link.first, way);
+        const Chords leaving(lengths, {link.last, after.last}, link.last, way);
         const PointIndex end = farthest(p, link.first, link.last, p[link.first] - p[arriving.behind()]);
         const PointIndex begin = farthest(p, link.last, link.first, p[link.last] - p[leaving.ahead()]);
         if (end >= begin) continue;  // no way between the corners: leave it as it was seen
@@ -153,8 +148,8 @@ void tighten_links(Passes& passes, const Positions& p, double way) {
 
 }  // namespace
 
-Passes find_passes(const Positions& positions, const Passes& runs, double step_over) {
-    const double way = chord_step_overs * step_over;
+Passes find_passes(const Positions& positions, const Way& lengths, const Passes& runs, double step_over) {
+    const auto way = static_cast<float>(chord_step_overs * step_over);
     Passes passes;
     for (const Pass& run : runs) {
         if (run.kind != PassKind::cut) {
@@ -165,20 +160,26 @@ Passes find_passes(const Positions& positions, const Passes& runs, double step_o
         std::vector<Passes> of_part(parts);
         for_each_block(run.size(), [&](PointIndex first, PointIndex last) {
             Passes& mine = of_part[static_cast<std::size_t>(first / block_points)];
-            Chords chords(positions, {run.first, run.last}, run.first + first, way);
-            for (PointIndex i = run.first + first; i < run.first + last; ++i) {
+            Chords chords(lengths, {run.first, run.last}, run.first + first, way);
+            PointIndex begin = run.first + first;
+            bool before = turns_back(positions, chords, way);
+            for (PointIndex i = begin + 1; i < run.first + last; ++i) {
+                chords.advance();
                 const bool back = turns_back(positions, chords, way);
-                append(mine, {i, i, back ? PassKind::link : PassKind::cut});
-                if (i < run.last) chords.advance();
+                if (back == before) continue;
+                append(mine, {begin, i - 1, before ? PassKind::link : PassKind::cut});
+                begin = i;
+                before = back;
             }
+            append(mine, {begin, run.first + last - 1, before ? PassKind::link : PassKind::cut});
         });
         Passes pieces;
         for (const Passes& part : of_part) {
             for (const Pass& piece : part) append(pieces, piece);
         }
-        append_cleaned(passes, positions, pieces, shortest_pass * step_over);
+        append_cleaned(passes, lengths, pieces, shortest_pass * step_over);
     }
-    tighten_links(passes, positions, way);
+    tighten_links(passes, positions, lengths, way);
     return passes;
 }
 

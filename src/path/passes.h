@@ -14,6 +14,7 @@
 #include "core/point.h"
 #include "path/line_map.h"
 #include "path/positions.h"
+#include "path/way.h"
 
 namespace clsurf {
 
@@ -34,6 +35,7 @@ using Passes = Column<Pass>;
 [[nodiscard]] Passes find_runs(const Positions& positions, const LineMap& lines);
 
 /// Runs cut into passes at turns back, for a step-over [mm] > 0; links between. O(points), parallel.
-[[nodiscard]] Passes find_passes(const Positions& positions, const Passes& runs, double step_over);
+[[nodiscard]] Passes find_passes(const Positions& positions, const Way& way, const Passes& runs,
+                                 double step_over);
 
 }  // namespace clsurf

@@ -69,7 +69,12 @@ Eigen::AlignedBox3f box_of(const Positions& p, const Passes& runs) {
     Eigen::AlignedBox3f box;
     for (const Pass& run : runs) {
         if (run.kind != PassKind::cut) continue;
-        for (PointIndex i = run.first; i <= run.last; ++i) box.extend(p[i]);
+        std::vector<Eigen::AlignedBox3f> of_block(static_cast<std::size_t>((run.size() + block_points - 1) / block_points));
+        for_each_block(run.size(), [&](PointIndex first, PointIndex last) {
+            Eigen::AlignedBox3f& mine = of_block[static_cast<std::size_t>(first / block_points)];
+            for (PointIndex i = run.first + first; i < run.first + last; ++i) mine.extend(p[i]);
+        });
+        for (const Eigen::AlignedBox3f& part : of_block) box.extend(part);
     }
     return box;
 }
@@ -82,7 +87,7 @@ struct Sample {
 };
 
 /// Points of the cutting runs, one per `spacing` [mm] of way or little more.
-std::vector<Sample> thinned(const Positions& p, const Passes& runs, const Way& way, double spacing) {
+std::vector<Sample> thinned(const Passes& runs, const Way& way, double spacing) {
     std::vector<std::vector<Sample>> of_block;
     for (const Pass& run : runs) {
         if (run.kind != PassKind::cut) continue;
@@ -93,7 +98,7 @@ std::vector<Sample> thinned(const Positions& p, const Passes& runs, const Way& w
             double at = way.to(run.first + first);
             mine.push_back({run.first + first, at, first > 0});
             for (PointIndex i = run.first + first + 1; i < run.first + last; ++i) {
-                at += (p[i] - p[i - 1]).norm();
+                at += way.step(i - 1);
                 if (at - mine.back().way >= spacing) mine.push_back({i, at, true});
             }
         });
@@ -111,7 +116,7 @@ double estimate_step_over(const Positions& positions, const Passes& runs, const 
     const Eigen::AlignedBox3f box = box_of(positions, runs);
     if (box.isEmpty() || box.diagonal().norm() <= 0) return 0;
     const float diagonal = box.diagonal().norm();
-    const std::vector<Sample> path = thinned(positions, runs, way, diagonal / (finest_cells * 8));
+    const std::vector<Sample> path = thinned(runs, way, diagonal / (finest_cells * 8));
     std::vector<Probe> probes;
     const std::size_t stride = std::max<std::size_t>(1, path.size() / probes_wanted);
     for (std::size_t i = stride / 2; i < path.size(); i += stride) {

@@ -8,31 +8,30 @@
 namespace clsurf {
 namespace {
 
-/// Way over points [first, last]; steps from or to a missing position count nothing.
-double way_over(const Positions& p, PointIndex first, PointIndex last) {
-    const float* x = p.x.data();
-    const float* y = p.y.data();
-    const float* z = p.z.data();
-    double sum = 0;
+[[gnu::target_clones("avx2", "default")]] void measure(const float* x, const float* y, const float* z,
+                                                       float* steps, PointIndex first, PointIndex last) {
     for (PointIndex i = first; i < last; ++i) {
         const float dx = x[i + 1] - x[i];
         const float dy = y[i + 1] - y[i];
         const float dz = z[i + 1] - z[i];
-        const float step = std::sqrt(dx * dx + dy * dy + dz * dz);
-        sum += step == step ? step : 0.0F;
+        const float squared = dx * dx + dy * dy + dz * dz;
+        steps[i] = squared >= 0 ? std::sqrt(squared) : 0.0F;  // NaN is no way
     }
-    return sum;
 }
 
 }  // namespace
 
-Way::Way(const Positions& positions) : positions_(&positions) {
+Way::Way(const Positions& positions) {
     const PointIndex count = positions.size();
+    steps_.resize(static_cast<std::size_t>(count));
     sums_ = Column<double>(static_cast<std::size_t>((count + stride - 1) / stride + 1), 0.0);
     for_each_block(count, [&](PointIndex first, PointIndex last) {
+        measure(positions.x.data(), positions.y.data(), positions.z.data(), steps_.data(), first, std::min(last, count - 1));
+        if (last == count) steps_[static_cast<std::size_t>(count - 1)] = 0;
         for (PointIndex begin = first; begin < last; begin += stride) {
-            const PointIndex end = std::min(begin + stride, count - 1);
-            sums_[static_cast<std::size_t>(begin / stride + 1)] = way_over(positions, begin, end);
+            double sum = 0;
+            for (PointIndex i = begin; i < std::min(begin + stride, last); ++i) sum += step(i);
+            sums_[static_cast<std::size_t>(begin / stride + 1)] = sum;
         }
     });
     for (std::size_t k = 1; k < sums_.size(); ++k) sums_[k] += sums_[k - 1];
@@ -40,7 +39,9 @@ Way::Way(const Positions& positions) : positions_(&positions) {
 
 double Way::to(PointIndex i) const {
     const PointIndex block = i / stride;
-    return sums_[static_cast<std::size_t>(block)] + way_over(*positions_, block * stride, i);
+    double way = sums_[static_cast<std::size_t>(block)];
+    for (PointIndex k = block * stride; k < i; ++k) way += step(k);
+    return way;
 }
 
 bool Way::at_least(PointIndex i, PointIndex j, double distance) const {

@@ -1,6 +1,6 @@
 #pragma once
-// Way: how far the tool has gone, as a prefix sum that is kept for every 64th point only, which is
-// enough to know in O(1) that two points lie far apart along the way.
+// Way: how far the tool goes from point to point, and in all: a prefix sum for every 64th point only,
+// which is enough to know in O(1) that two points lie far apart along the way.
 
 #include "core/column.h"
 #include "path/positions.h"
@@ -9,8 +9,11 @@ namespace clsurf {
 
 class Way {
 public:
-    /// O(points), parallel. `positions` must outlive it.
+    /// O(points), parallel.
     explicit Way(const Positions& positions);
+
+    /// Way from point i to the next [mm]; 0 from or to a missing position.
+    [[nodiscard]] float step(PointIndex i) const { return steps_[static_cast<std::size_t>(i)]; }
 
     /// Way from the first point to point i [mm]. O(64).
     [[nodiscard]] double to(PointIndex i) const;
@@ -21,7 +24,7 @@ public:
 private:
     static constexpr PointIndex stride = 64;
 
-    const Positions* positions_;
+    Column<float> steps_;
     Column<double> sums_;  ///< way to point 64 k
 };
 

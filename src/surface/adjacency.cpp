@@ -19,9 +19,10 @@ constexpr float nearest_neighbour = 0.2F;   ///< nearer is the same pass cut aga
 constexpr float usual_neighbour = 1.6F;      ///< farther, a nearer one may have begun: it is sought
 constexpr float farthest_neighbour = 4.0F;   ///< on steep flanks passes are so far apart
 constexpr float along_play = 0.35F;         ///< how far a foot may lie along the feed
-constexpr double direction_chord = 0.75;    ///< way of the chords that give the feed direction
+constexpr float steep_share = 0.12F;         ///< squared cosine to the horizontal below which a neighbour is above
+constexpr float direction_chord = 0.75F;   ///< way of the chords that give the feed direction
 constexpr double grid_cell = 4.0;
-constexpr double search_again = 0.25;       ///< way without a neighbour after which it is sought anew
+constexpr float search_again = 0.25F;      ///< way without a neighbour after which it is sought anew
 constexpr float own_way = 1.7F;             ///< the way to a neighbour is this many distances or more
 constexpr float running_along = 0.8660F;    ///< cos 30°
 constexpr PointIndex part_points = 65536;   ///< of a pass, walked by one thread
@@ -30,25 +31,27 @@ constexpr PointIndex part_points = 65536;   ///< of a pass, walked by one thread
 struct Follower {
     PointIndex point = -1;  ///< −1: lost
     PointRange pass;        ///< it stays inside
-    double since = 1e300;   ///< own way since it was lost or sought [step-overs]
+    float since = 1e30F;    ///< own way since it was lost or sought [step-overs]
 };
 
-/// The frame of an own point: feed direction and the two directions across.
+/// The plane across the feed at a point. Nothing is normalised: roots would cost more than the walk.
 struct Across {
-    Vec3f here = Vec3f::Zero(), feed = Vec3f::Zero(), side = Vec3f::Zero(), up = Vec3f::Zero();
-    /// Coordinates of q across the feed; x > 0 is left.
-    [[nodiscard]] Eigen::Vector2f of(const Vec3f& q) const {
+    Vec3f here = Vec3f::Zero();
+    Vec3f chord = Vec3f::Zero();  ///< along the feed
+    float chord_squared = 0;
+
+    /// Left and right: by the horizontal part, and on steep walls (where neighbours lie above each
+    /// other) by the upward part.
+    [[nodiscard]] Side side_of(const Vec3f& q) const {
         const Vec3f d = q - here;
-        return {d.dot(side), d.dot(up)};
+        const float left = chord.x() * d.y() - chord.y() * d.x();  // d · (z × chord)
+        const float horizontal = chord.x() * chord.x() + chord.y() * chord.y();
+        if (left * left > steep_share * d.squaredNorm() * horizontal) return left > 0 ? Side::left : Side::right;
+        // The component along chord × (z × chord), which is upwards.
+        const float up = d.z() * chord_squared - d.dot(chord) * chord.z();
+        return up > 0 ? Side::left : Side::right;
     }
 };
-
-/// Left and right in the plane across the feed: by the horizontal part, and on steep walls (where
-/// neighbours lie above each other) by the upward part.
-Side side_of(const Eigen::Vector2f& across) {
-    const float by = std::abs(across.x()) > 0.35F * across.norm() ? across.x() : across.y();
-    return by > 0 ? Side::left : Side::right;
-}
 
 class Walker {
 public:
@@ -64,13 +67,13 @@ public:
     /// Neighbours of points [first, last] of the pass.
     void walk(std::size_t pass, PointIndex first, PointIndex last) {
         const PointRange own{passes_[pass].first, passes_[pass].last};
-        Chords chords(p_, own, first, direction_chord * step_over_);
+        Chords chords(way_, own, first, direction_chord * step_over_);
         std::array<Follower, 2> followers;
-        Across across{};
+        Across across;
         for (PointIndex i = first; i <= last; ++i) {
-            const float moved = i > first ? (p_[i] - p_[i - 1]).norm() : 0.0F;
-            if (turn(across, i, chords.across())) {
-                for (Follower& f : followers) f.since += moved / step_over_;
+            if (turn(across, i, p_[chords.ahead()] - p_[chords.behind()])) {
+                const float moved = i > first ? way_.step(i - 1) / step_over_ : 0.0F;
+                for (Follower& f : followers) f.since += moved;
                 follow(across, i, followers);
             }
             for (const Side side : {Side::left, Side::right}) {
@@ -86,18 +89,15 @@ public:
     }
 
 private:
-    /// False where the feed has no direction (standing still).
+    /// False where the feed has no direction yet (standing still).
     bool turn(Across& across, PointIndex i, const Vec3f& chord) const {
         across.here = p_[i];
-        const float length = chord.norm();
-        if (!(length > 0)) return across.feed.squaredNorm() > 0;
-        across.feed = chord / length;
-        const Vec3f side = Vec3f::UnitZ().cross(across.feed);
-        const float horizontal = side.norm();
-        // Straight up or down: any fixed direction serves.
-        across.side = horizontal > 1e-3F ? Vec3f(side / horizontal) : Vec3f(Vec3f::UnitX());
-        across.up = across.feed.cross(across.side);
-        return true;
+        const float squared = chord.squaredNorm();
+        if (squared > 0) {
+            across.chord = chord;
+            across.chord_squared = squared;
+        }
+        return across.chord_squared > 0;
     }
 
     void follow(const Across& across, PointIndex i, std::array<Follower, 2>& followers) const {
@@ -111,7 +111,8 @@ private:
                     f.since = search_again;  // seek at once
                 }
             }
-            const bool wanted = f.point < 0 || (p_[f.point] - across.here).norm() > usual_neighbour * step_over_;
+            const float usual = usual_neighbour * step_over_;
+            const bool wanted = f.point < 0 || (p_[f.point] - across.here).squaredNorm() > usual * usual;
             search = search || (wanted && f.since >= search_again);
         }
         if (!search) return;
@@ -123,7 +124,7 @@ private:
 
     /// Walks from `n` to the point of its pass that is nearest to the plane across the feed.
     [[nodiscard]] PointIndex cross(const Across& across, PointIndex n, const PointRange& pass) const {
-        const auto along = [&](PointIndex k) { return (p_[k] - across.here).dot(across.feed); };
+        const auto along = [&](PointIndex k) { return (p_[k] - across.here).dot(across.chord); };
         float at = along(n);
         // Whichever way brings it nearer to the plane; a pass that runs away ends the walk.
         for (const int direction : {+1, -1}) {
@@ -150,20 +151,22 @@ private:
 
     [[nodiscard]] bool valid(const Across& across, PointIndex n, Side side) const {
         const Vec3f d = p_[n] - across.here;
-        if (std::abs(d.dot(across.feed)) > along_play * step_over_) return false;
-        const Eigen::Vector2f offset = across.of(p_[n]);
-        const float squared = offset.squaredNorm() / (step_over_ * step_over_);
+        const float along = d.dot(across.chord);
+        const float play = along_play * step_over_;
+        if (along * along > play * play * across.chord_squared) return false;
+        const float squared = d.squaredNorm() / (step_over_ * step_over_);
         if (!(squared > nearest_neighbour * nearest_neighbour &&
               squared < farthest_neighbour * farthest_neighbour)) {
             return false;
         }
-        return side_of(offset) == side;
+        return across.side_of(p_[n]) == side;
     }
 
     /// The neighbour is another part of the way: the way to it is much longer than the distance.
     [[nodiscard]] bool elsewhere(PointIndex i, PointIndex n) const {
-        const double distance = (p_[n] - p_[i]).norm();
-        return way_.at_least(i, n, own_way * distance);
+        // Far apart along the way is enough; only near a turn is the distance asked for.
+        const float most = own_way * farthest_neighbour * step_over_;
+        return way_.at_least(i, n, most) || way_.at_least(i, n, own_way * (p_[n] - p_[i]).norm());
     }
 
     /// The neighbour's pass runs along or against the feed.
@@ -174,8 +177,8 @@ private:
         while (a > pass.first && (p_[n] - p_[a]).norm() < reach) --a;
         while (b < pass.last && (p_[b] - p_[n]).norm() < reach) ++b;
         const Vec3f chord = p_[b] - p_[a];
-        const float length = chord.norm();
-        return length > 0 && std::abs(chord.dot(across.feed)) > running_along * length;
+        const float dot = chord.dot(across.chord);
+        return dot * dot > running_along * running_along * chord.squaredNorm() * across.chord_squared;
     }
 
     /// Looks for the nearest neighbours of the lost sides in the grid.
@@ -183,20 +186,20 @@ private:
         // A follower that is not lost gives way only to a nearer neighbour.
         std::array<float, 2> best{1e30F, 1e30F};
         for (std::size_t s = 0; s < 2; ++s) {
-            if (followers[s].point >= 0) best[s] = across.of(p_[followers[s].point]).norm() - 0.1F * step_over_;
+            if (followers[s].point >= 0) best[s] = (p_[followers[s].point] - across.here).norm() - 0.1F * step_over_;
         }
         std::array<Follower, 2> found;
         grid_.for_each_near(across.here, [&](const WayGrid::Entry& entry) {
             const PointRange pass{passes_[static_cast<std::size_t>(entry.pass)].first,
                                   passes_[static_cast<std::size_t>(entry.pass)].last};
             const PointIndex n = cross(across, entry.point, pass);
-            const Eigen::Vector2f offset = across.of(p_[n]);
-            const Side side = side_of(offset);
+            const Side side = across.side_of(p_[n]);
             const auto s = static_cast<std::size_t>(side);
-            if (offset.norm() >= best[s]) return;
+            const float distance = (p_[n] - across.here).norm();
+            if (distance >= best[s]) return;
             if (!valid(across, n, side) || !parallel(across, n, pass)) return;
             if (!elsewhere(i, n)) return;
-            best[s] = offset.norm();
+            best[s] = distance;
             found[s] = {n, pass, 0};
         });
         for (std::size_t s = 0; s < 2; ++s) {
@@ -232,7 +235,7 @@ Adjacency find_neighbours(const Positions& positions, const Passes& passes, cons
             parts.push_back({pass, first, std::min(piece.last, first + part_points - 1)});
         }
     }
-    const WayGrid grid(positions, step_over > 0 ? passes : Passes(),
+    const WayGrid grid(positions, step_over > 0 ? passes : Passes(), way,
                        grid_cell * (step_over > 0 ? step_over : 1.0));
     parallel_for(static_cast<std::int64_t>(parts.size()), 1, [&](std::int64_t from, std::int64_t to) {
         for (std::int64_t k = from; k < to; ++k) {

@@ -48,7 +48,7 @@ ClSurface stitch(Positions positions, const LineMap& lines, double step_over) {
         surface.neighbours = find_neighbours(surface.positions, runs, way, 0);
         return surface;
     }
-    const Passes passes = find_passes(surface.positions, runs, surface.step_over);
+    const Passes passes = find_passes(surface.positions, way, runs, surface.step_over);
     surface.neighbours = find_neighbours(surface.positions, passes, way, surface.step_over);
     surface.passes = cut_at_returns(passes, surface.neighbours);
     return surface;

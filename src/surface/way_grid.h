@@ -6,13 +6,14 @@
 #include <vector>
 
 #include "path/passes.h"
+#include "path/way.h"
 
 namespace clsurf {
 
 class WayGrid {
 public:
     /// One entry per `cell` [mm] of way of every cut pass. O(points).
-    WayGrid(const Positions& positions, const Passes& passes, double cell);
+    WayGrid(const Positions& positions, const Passes& passes, const Way& way, double cell);
 
     struct Entry {
         PointIndex point = 0;
