@@ -84,16 +84,6 @@ std::string comparison_json(const ComparisonReport& r) {
                      {"threshold", number(r.threshold)}});
 }
 
-std::string help_json(const std::vector<HelpRow>& rows) {
-    Json all = Json::array();
-    for (const HelpRow& row : rows) {
-        Json entry{{"name", row.name}, {"summary", row.summary}};
-        if (!row.unit.empty()) entry["unit"] = row.unit;
-        all.push_back(std::move(entry));
-    }
-    return dump(all);
-}
-
 std::string files_json(const std::vector<std::string>& objects) {
     Json all = Json::array();
     for (const std::string& text : objects) all.push_back(Json::parse(text));

@@ -39,12 +39,6 @@ struct ComparisonReport {
 };
 [[nodiscard]] std::string comparison_json(const ComparisonReport& report);
 
-/// A list of rows as a JSON array of objects, [{"name": …, "summary": …}].
-struct HelpRow {
-    std::string name, summary, unit;  ///< unit: empty where rows have none
-};
-[[nodiscard]] std::string help_json(const std::vector<HelpRow>& rows);
-
 /// {"files":[…]} of several objects' texts.
 [[nodiscard]] std::string files_json(const std::vector<std::string>& objects);
 

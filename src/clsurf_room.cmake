@@ -1,13 +1,14 @@
 # clsurf_room(NAME NEEDS rooms… SOURCES … HEADERS … [LIBRARIES …]): a room of the project, as the
 # library clsurf::NAME. Sources are listed, never globbed; a room may include only what it NEEDS
-# (tests/architecture reads the includes).
+# (tests/architecture reads the includes, preset `rooms` links without undefined symbols).
 
 add_library(clsurf_build_options INTERFACE)
 target_compile_features(clsurf_build_options INTERFACE cxx_std_20)
 # No FMA contraction: the same numbers whatever the compiler makes of an expression.
 # -Wno-restrict: GCC 12 warns falsely of std::string operator+ (GCC bug 105651).
 target_compile_options(clsurf_build_options INTERFACE -ffp-contract=off -Wall -Wextra -Wpedantic
-  -Wshadow -Wnon-virtual-dtor -Wno-restrict $<$<BOOL:${CLSURF_STRICT}>:-Werror>)
+  -Wshadow -Wnon-virtual-dtor $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
+  $<$<BOOL:${CLSURF_STRICT}>:-Werror>)
 if(CLSURF_SANITIZE STREQUAL "address")
   target_compile_options(clsurf_build_options INTERFACE -fsanitize=address,undefined
     -fno-sanitize-recover=all -fno-omit-frame-pointer)
@@ -17,18 +18,30 @@ elseif(CLSURF_SANITIZE STREQUAL "thread")
   target_link_options(clsurf_build_options INTERFACE -fsanitize=thread)
 endif()
 
+# Where the rooms are listed for the package config: those that need VTK, and all others.
+set(CLSURF_ROOMS_WITH_VTK viz)
+
 function(clsurf_room name)
   cmake_parse_arguments(PARSE_ARGV 1 ROOM "" "" "NEEDS;SOURCES;HEADERS;LIBRARIES")
+  get_filename_component(base ${CMAKE_CURRENT_SOURCE_DIR} DIRECTORY)
   add_library(clsurf_${name} ${ROOM_SOURCES})
   add_library(clsurf::${name} ALIAS clsurf_${name})
-  get_filename_component(base ${CMAKE_CURRENT_SOURCE_DIR} DIRECTORY)
   target_sources(clsurf_${name} PUBLIC FILE_SET HEADERS BASE_DIRS ${base} FILES ${ROOM_HEADERS})
-  target_include_directories(clsurf_${name} PUBLIC $<BUILD_INTERFACE:${base}>)
+  target_compile_features(clsurf_${name} PUBLIC cxx_std_20)
+  list(TRANSFORM ROOM_NEEDS PREPEND clsurf_)
   target_link_libraries(clsurf_${name} PRIVATE $<BUILD_INTERFACE:clsurf_build_options>)
-  foreach(need ${ROOM_NEEDS})
-    target_link_libraries(clsurf_${name} PUBLIC clsurf_${need})
-  endforeach()
+  target_link_libraries(clsurf_${name} PUBLIC ${ROOM_NEEDS})
   target_link_libraries(clsurf_${name} ${ROOM_LIBRARIES})
-  set_property(TARGET clsurf_${name} PROPERTY EXPORT_NAME ${name})
-  set_property(GLOBAL APPEND PROPERTY CLSURF_ROOMS clsurf_${name})
+  set_target_properties(clsurf_${name} PROPERTIES EXPORT_NAME ${name}
+    VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+
+  set_property(GLOBAL APPEND PROPERTY CLSURF_ROOMS ${name})
+
+  set(export clsurf_rooms)
+  if(name IN_LIST CLSURF_ROOMS_WITH_VTK)
+    set(export clsurf_rooms_with_vtk)
+  endif()
+  install(TARGETS clsurf_${name} EXPORT ${export}
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/clsurf)
 endfunction()

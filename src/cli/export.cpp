@@ -96,10 +96,12 @@ ExitCode run(const po::variables_map& values) {
     if (ending != ".csv" && ending != ".biip" && ending != ".vtp" && ending != ".vtkhdf") {
         throw UsageError("-o: '" + output + "' must end in .csv, .biip, .vtp or .vtkhdf");
     }
-    StageClock clock(read_common(values).verbose);
+    StageClock clock(read_common(values), 5);
     const Part part = load_part(read_part_options(values), clock);
     print(part.diagnostics, values);
+    clock.begin("stitch the surface");
     const ClSurface surface = stitch(part);
+    clock.begin("write the columns");
     std::vector<io::ExportColumn> columns;
     for (const std::string& name : names) columns.push_back(column_of(name, part, surface));
     if (ending == ".csv") io::write_csv(output, columns);

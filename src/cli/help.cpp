@@ -1,106 +1,185 @@
 #include "cli/help.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <optional>
-#include <sstream>
+#include <array>
 
 #include <fmt/format.h>
 
+#include "cli/command_line.h"
 #include "cli/options.h"
+#include "cli/text.h"
+#include "cli/vocabulary.h"
 #include "core/spelling.h"
 #include "core/version.h"
-#include "field/field_set.h"
-#include "io/json_text.h"
-#include "io/log_format.h"
-#include "program/dialect.h"
-#include "viz/colour_map.h"
 
 namespace clsurf::cli {
 namespace {
 
-constexpr const char* topics[] = {"fields", "formats", "dialects", "colormaps"};
+constexpr std::size_t width = 80;         // columns of a help text
+constexpr std::size_t widest_names = 30;  // wider ones have a line of their own
 
-void print_overview() {
-    fmt::print("clsurf {}: quality maps of machined surfaces from NC programs and controller logs\n\nusage: clsurf SUBCOMMAND …\n\n", version);
-    for (const Subcommand& s : subcommands()) fmt::print("  {:<10} {}\n", s.name, s.summary);
-    fmt::print("\n`clsurf SUBCOMMAND --help` shows the options of one; `clsurf help fields|formats|dialects|colormaps`\nlists what options take. Exit codes: 0 done, 1 a check failed, 2 usage, 3 bad input, 4 the machine failed.\n");
+struct Entry {
+    std::string left, right;
+};
+
+/// Two columns, the right one filled.
+std::string two_columns(const std::vector<Entry>& entries) {
+    std::size_t left = 0;
+    for (const Entry& entry : entries) {
+        if (columns_of(entry.left) <= widest_names) left = std::max(left, columns_of(entry.left));
+    }
+    const std::string indent(left + 4, ' ');
+    std::string text;
+    for (const Entry& entry : entries) {
+        text += "  " + entry.left;
+        std::string gap = columns_of(entry.left) > left
+                              ? "\n" + indent
+                              : std::string(left + 2 - columns_of(entry.left), ' ');
+        for (const std::string& line : wrap(entry.right, width - indent.size())) {
+            text += gap + line;
+            gap = "\n" + indent;
+        }
+        text += "\n";
+    }
+    return text;
 }
 
-/// The rows of a topic; nullopt: there is no such topic.
-std::optional<std::vector<io::HelpRow>> rows_of(const std::string& topic) {
-    std::vector<io::HelpRow> rows;
-    if (topic == "fields") {
-        for (const FieldInfo& f : known_fields(nullptr)) rows.push_back({f.name, f.label, std::string(f.unit.name)});
-    } else if (topic == "formats") {
-        for (const io::LogFormat& f : io::log_formats()) rows.push_back({std::string(f.name), std::string(f.summary), {}});
-    } else if (topic == "dialects") {
-        for (const Dialect& d : dialects()) rows.push_back({std::string(d.name), std::string(d.summary), {}});
-    } else if (topic == "colormaps") {
-        for (const viz::ColourMapInfo& m : viz::colour_maps()) rows.push_back({std::string(m.name), std::string(m.summary), {}});
-    } else {
-        return std::nullopt;
-    }
-    return rows;
+std::string options_text(std::string_view title, const po::options_description& options) {
+    std::vector<Entry> entries;
+    for (const OptionRow& row : rows_of(options)) entries.push_back({row.names(), row.text()});
+    return entries.empty() ? std::string() : fmt::format("\n{}:\n{}", title, two_columns(entries));
 }
 
-void print_rows(const std::string& topic, const std::vector<io::HelpRow>& rows) {
-    std::size_t width = 0;
-    for (const io::HelpRow& row : rows) width = std::max(width, row.name.size());
-    for (const io::HelpRow& row : rows) {
-        fmt::print("  {:<{}}  {}{}\n", row.name, width, row.summary, row.unit.empty() ? "" : " [" + row.unit + "]");
+std::string vocabulary_text(const Vocabulary& vocabulary) {
+    std::vector<Entry> entries;
+    for (const io::ListingRow& row : vocabulary.rows()) {
+        entries.push_back({row.name, row.unit.empty()
+                                         ? row.summary
+                                         : fmt::format("{} [{}]", row.summary, row.unit)});
     }
-    if (topic == "fields") fmt::print("\nEvery channel of the log is a field too; one that has a field's name is `log.NAME`.\n");
-    if (topic == "colormaps") fmt::print("\nOwn maps: stops from low to high, evenly spaced, #RRGGBB,#RRGGBB,…\n");
+    return two_columns(entries);
+}
+
+ExitCode run(const po::variables_map& values) {
+    const bool json = read_json(values);
+    if (values.count("TOPIC") == 0) {
+        if (json) throw UsageError("--json needs a list: clsurf help fields --json");
+        write_to_stdout(overview_text());
+        return ExitCode::done;
+    }
+    const std::string topic = required(values, "TOPIC");
+    std::vector<std::string_view> known;
+    for (const Vocabulary& vocabulary : vocabularies()) {
+        known.push_back(vocabulary.name);
+        if (vocabulary.name != topic) continue;
+        write_to_stdout(json ? io::listing_json(vocabulary.name, vocabulary.rows())
+                             : vocabulary_text(vocabulary));
+        return ExitCode::done;
+    }
+    for (const Subcommand& subcommand : subcommands()) {
+        if (!subcommand.hidden) known.push_back(subcommand.name);
+        if (subcommand.name != topic) continue;
+        if (json) throw UsageError("--json is for lists: clsurf help fields --json");
+        write_to_stdout(help_text(subcommand));
+        return ExitCode::done;
+    }
+    throw UsageError("no help on '" + topic + "'", did_you_mean(topic, known));
 }
 
 }  // namespace
 
-po::options_description visible_options(const Subcommand& subcommand) {
-    po::options_description options("options", 100);
-    subcommand.declare(options);
-    po::options_description common("everywhere", 100);
-    declare_common(common);
-    options.add(common);
-    return options;
+std::string OptionRow::names() const {
+    return fmt::format("{}{}{}{}", short_name.empty() ? "" : short_name + ", ", long_name,
+                       value_name.empty() ? "" : " ", value_name);
 }
 
-const Subcommand& find_subcommand(const std::string& name) {
-    std::vector<std::string_view> names;
-    for (const Subcommand& s : subcommands()) {
-        if (s.name == name) return s;
-        names.push_back(s.name);
-    }
-    throw UsageError("unknown subcommand '" + name + "'", did_you_mean(name, names));
+std::string OptionRow::text() const {
+    return default_value.empty() ? description
+                                 : fmt::format("{} (default: {})", description, default_value);
 }
 
-void print_help(const Subcommand& subcommand) {
-    std::ostringstream options;
-    options << visible_options(subcommand);
-    fmt::print("usage: clsurf {} {}\n\n{}\n\n{}", subcommand.name, subcommand.arguments, subcommand.description, options.str());
+std::vector<OptionRow> rows_of(const po::options_description& options) {
+    std::vector<OptionRow> rows;
+    for (const auto& option : options.options()) {
+        OptionRow row;
+        row.long_name = "--" + option->long_name();
+        const std::string name =
+            option->canonical_display_name(po::command_line_style::allow_dash_for_short);
+        if (name.size() == 2 && name[0] == '-') row.short_name = name;
+        // Boost writes the default behind the value's name: "N (=3)".
+        row.value_name = option->format_parameter();
+        if (const std::size_t at = row.value_name.find(" (="); at != std::string::npos) {
+            row.default_value = row.value_name.substr(at + 3, row.value_name.size() - at - 4);
+            row.value_name.resize(at);
+        }
+        row.description = option->description();
+        rows.push_back(std::move(row));
+    }
+    return rows;
 }
 
-ExitCode help(const std::vector<std::string>& words) {
-    const bool json = std::find(words.begin(), words.end(), "--json") != words.end();
-    std::vector<std::string> names;
-    std::copy_if(words.begin(), words.end(), std::back_inserter(names), [](const std::string& w) { return w != "--json"; });
-    if (names.empty()) {
-        print_overview();
-        return ExitCode::done;
+std::string usage_of(const Subcommand& subcommand) {
+    return fmt::format("clsurf {} [options]{}{}", subcommand.name,
+                       subcommand.arguments.empty() ? "" : " ", subcommand.arguments);
+}
+
+std::span<const ExitCodeRow> exit_codes() {
+    static constexpr std::array table{
+        ExitCodeRow{ExitCode::done, "done"},
+        ExitCodeRow{ExitCode::check_failed, "done, but a check or a comparison failed"},
+        ExitCodeRow{ExitCode::usage, "wrong options or arguments"},
+        ExitCodeRow{ExitCode::bad_input, "an input that cannot be used"},
+        ExitCodeRow{ExitCode::system, "the machine failed: disk, memory, graphics"},
+    };
+    return table;
+}
+
+std::string overview_text() {
+    std::vector<Entry> commands;
+    for (const Subcommand& subcommand : subcommands()) {
+        if (subcommand.hidden) continue;
+        commands.push_back({std::string(subcommand.name), std::string(subcommand.summary)});
     }
-    const std::string& topic = names.front();
-    if (const std::optional<std::vector<io::HelpRow>> rows = rows_of(topic)) {
-        if (json) std::fputs(io::help_json(*rows).c_str(), stdout);
-        else print_rows(topic, *rows);
-        return ExitCode::done;
+    std::vector<Entry> lists;
+    for (const Vocabulary& vocabulary : vocabularies()) {
+        lists.push_back({fmt::format("help {}", vocabulary.name), std::string(vocabulary.summary)});
     }
-    std::vector<std::string_view> known(std::begin(topics), std::end(topics));
-    for (const Subcommand& s : subcommands()) known.push_back(s.name);
-    if (std::find(known.begin(), known.end(), topic) == known.end()) {
-        throw UsageError("no help on '" + topic + "'", did_you_mean(topic, known));
+    std::vector<Entry> codes;
+    for (const ExitCodeRow& row : exit_codes()) {
+        codes.push_back({std::to_string(static_cast<int>(row.code)), std::string(row.meaning)});
     }
-    print_help(find_subcommand(topic));
-    return ExitCode::done;
+    return fmt::format(
+        "clsurf {}: {}\n\nusage: clsurf SUBCOMMAND [options] …\n\nsubcommands:\n{}\nlists:\n{}\n"
+        "exit codes:\n{}\n`clsurf SUBCOMMAND --help` shows the options of one.\n",
+        version, motto, two_columns(commands), two_columns(lists), two_columns(codes));
+}
+
+std::string help_text(const Subcommand& subcommand) {
+    std::string text = fmt::format("usage: {}\n", usage_of(subcommand));
+    for (const Paragraph& paragraph : paragraphs_of(subcommand.description)) {
+        text += "\n";
+        if (paragraph.literal) {
+            text += paragraph.text;
+        } else {
+            for (const std::string& line : wrap(paragraph.text, width)) text += line + "\n";
+        }
+    }
+    const ShownOptions shown = shown_options(subcommand);
+    return text + options_text("options", shown.own) + options_text("everywhere", shown.common);
+}
+
+Subcommand help_subcommand() {
+    return {
+        .name = "help",
+        .arguments = "[TOPIC]",
+        .summary = "a subcommand's options; fields, formats, dialects, colour maps",
+        .description =
+            "TOPIC is a subcommand, or a list of words that options take as values:\n"
+            "fields, formats, dialects, colormaps. Lists can be had as JSON.",
+        .declare = [](po::options_description& options) { declare_json(options); },
+        .positional = {"TOPIC"},
+        .run = run,
+    };
 }
 
 }  // namespace clsurf::cli

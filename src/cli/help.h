@@ -1,22 +1,41 @@
 #pragma once
-// Help: the subcommands, the options of one, and the tables behind option values.
+// The option tables as rows that --help, man pages, completion and docs/reference are written from.
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/subcommand.h"
 
 namespace clsurf::cli {
 
-/// All options of a subcommand, the common ones included.
-[[nodiscard]] po::options_description visible_options(const Subcommand& subcommand);
+struct OptionRow {
+    std::string short_name;     ///< "-o"; empty: none
+    std::string long_name;      ///< "--output"
+    std::string value_name;     ///< "FILE"; empty: takes no value
+    std::string default_value;  ///< empty: none, or said in the description
+    std::string description;
 
-/// Throws UsageError with a suggestion.
-[[nodiscard]] const Subcommand& find_subcommand(const std::string& name);
+    [[nodiscard]] std::string names() const;  ///< "-o, --output FILE"
+    [[nodiscard]] std::string text() const;   ///< the description, and the default
+};
+[[nodiscard]] std::vector<OptionRow> rows_of(const po::options_description& options);
 
-void print_help(const Subcommand& subcommand);
+/// "clsurf moves [options] PROGRAM"
+[[nodiscard]] std::string usage_of(const Subcommand& subcommand);
 
-/// `clsurf help [SUBCOMMAND | fields | formats | dialects | colormaps] [--json]`.
-ExitCode help(const std::vector<std::string>& words);
+/// What an exit code means, for help and manual.
+struct ExitCodeRow {
+    ExitCode code;
+    std::string_view meaning;
+};
+[[nodiscard]] std::span<const ExitCodeRow> exit_codes();
+
+inline constexpr std::string_view motto = "sees the mark before the cut";
+
+/// `clsurf --help`
+[[nodiscard]] std::string overview_text();
+/// `clsurf SUBCOMMAND --help`
+[[nodiscard]] std::string help_text(const Subcommand& subcommand);
 
 }  // namespace clsurf::cli

@@ -1,91 +1,60 @@
-// clsurf SUBCOMMAND …: the table of subcommands, the exit codes, and the only catch.
+// clsurf SUBCOMMAND …: runs one subcommand and turns what it threw into an exit code. The only
+// catch.
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <new>
 #include <string>
 #include <vector>
 
+#include "cli/command_line.h"
 #include "cli/help.h"
 #include "cli/options.h"
 #include "cli/subcommand.h"
 #include "core/error.h"
 #include "core/parallel.h"
-#include "core/spelling.h"
 #include "core/version.h"
 
 namespace clsurf::cli {
 
-std::span<const Subcommand> subcommands() {
-    static const std::vector<Subcommand> table{
-        render_subcommand(),
-        query_subcommand(),
-        info_subcommand(),
-        moves_subcommand(),
-        plot_subcommand(),
-        export_subcommand(),
-        convert_subcommand(),
-        compare_subcommand(),
-
-    };
-    return table;
-}
-
 namespace {
 
 ExitCode run(const Subcommand& subcommand, const std::vector<std::string>& words) {
-    po::options_description all = visible_options(subcommand);
-    po::options_description hidden;
-    po::positional_options_description positions;
-    for (const std::string& name : subcommand.positional) {
-        const bool repeats = name.ends_with("…");
-        const std::string key = repeats ? name.substr(0, name.size() - std::string("…").size()) : name;
-        if (repeats) {
-            hidden.add_options()(key.c_str(), po::value<std::vector<std::string>>());
-        } else {
-            hidden.add_options()(key.c_str(), po::value<std::string>());
-        }
-        positions.add(key.c_str(), repeats ? -1 : 1);
-    }
-    std::vector<std::string> known;
-    for (const auto& option : all.options()) known.push_back(option->long_name());
-    all.add(hidden);
-    po::variables_map values;
-    try {
-        // Guessing from prefixes is off: a later option must not change what a script means.
-        const int style = po::command_line_style::default_style & ~po::command_line_style::allow_guessing;
-        po::store(po::command_line_parser(words).options(all).positional(positions).style(style).run(),
-                  values);
-        po::notify(values);
-    } catch (const po::unknown_option& error) {
-        std::string name = error.get_option_name();
-        while (name.starts_with('-')) name.erase(0, 1);
-        throw UsageError(error.what(),
-                         did_you_mean(name, std::vector<std::string_view>(known.begin(), known.end())));
-    } catch (const po::error& error) {
-        throw UsageError(error.what());
-    }
+    const po::variables_map values = parse_words(subcommand, words);
     if (values.count("help") > 0) {
-        print_help(subcommand);
+        write_to_stdout(help_text(subcommand));
         return ExitCode::done;
     }
     set_thread_count(read_common(values).threads);
     return subcommand.run(values);
 }
 
-ExitCode run(std::vector<std::string> words) {
+ExitCode run(const std::vector<std::string>& words) {
     if (words.empty()) {
-        (void)help({});
+        std::fputs(overview_text().c_str(), stderr);
         return ExitCode::usage;
     }
-    const std::string first = words.front();
-    words.erase(words.begin());
-    if (first == "--help" || first == "-h" || first == "help") return help(words);
-    if (first == "--version") {
-        std::printf("clsurf %s\n", version);
+    const std::string& first = words.front();
+    if (first == "--help" || first == "-h") {
+        write_to_stdout(overview_text());
         return ExitCode::done;
     }
-    return run(find_subcommand(first), words);
+    if (first == "--version") {
+        write_to_stdout("clsurf " + std::string(version) + "\n");
+        return ExitCode::done;
+    }
+    if (first.starts_with('-')) {
+        throw UsageError("expected a subcommand, found '" + first + "'", "see clsurf --help");
+    }
+    return run(find_subcommand(first), {words.begin() + 1, words.end()});
+}
+
+ExitCode report(const UsageError& error) {
+    std::fprintf(stderr, "clsurf: %s\n", error.what());
+    if (!error.hint().empty()) std::fprintf(stderr, "    hint: %s\n", error.hint().c_str());
+    return ExitCode::usage;
 }
 
 }  // namespace
@@ -96,11 +65,14 @@ int main(int argc, char** argv) {
     ExitCode code = ExitCode::done;
     try {
         code = clsurf::cli::run(std::vector<std::string>(argv + 1, argv + argc));
-        if (std::fflush(stdout) != 0) throw clsurf::SystemError("cannot write to standard output");
+        if (std::fflush(stdout) != 0) {
+            throw clsurf::SystemError(std::string("cannot write to standard output: ") +
+                                      std::strerror(errno));
+        }
     } catch (const clsurf::UsageError& error) {
-        std::fprintf(stderr, "clsurf: %s\n", error.what());
-        if (!error.hint().empty()) std::fprintf(stderr, "    hint: %s\n", error.hint().c_str());
-        code = ExitCode::usage;
+        code = clsurf::cli::report(error);
+    } catch (const boost::program_options::error& error) {
+        code = clsurf::cli::report(clsurf::cli::to_usage_error(error));
     } catch (const clsurf::InputError& error) {
         std::fputs(error.what(), stderr);
         code = ExitCode::bad_input;

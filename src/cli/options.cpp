@@ -1,8 +1,10 @@
 #include "cli/options.h"
 
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 
 namespace clsurf::cli {
 
@@ -12,7 +14,8 @@ void declare_common(po::options_description& options) {
         ("help,h", "show this help")
         ("quiet,q", "print errors only")
         ("verbose,v", "print notes and what was done")
-        ("threads", po::value<int>()->value_name("N"), "threads to use (default: all cores)");
+        ("threads", po::value<int>()->value_name("N"), "threads to use (default: all cores)")
+        ("progress", po::value<std::string>()->value_name("auto|always|never"), "show how far long stages are (default: auto, on a terminal)");
     // clang-format on
 }
 
@@ -24,22 +27,21 @@ CommonOptions read_common(const po::variables_map& values) {
         common.threads = values["threads"].as<int>();
         if (common.threads < 1) throw UsageError("--threads must be at least 1");
     }
+    if (values.count("progress") > 0) common.progress = values["progress"].as<std::string>();
     return common;
 }
 
 void declare_program_options(po::options_description& options) {
     // clang-format off
     options.add_options()
-        ("dialect", po::value<std::string>()->value_name("NAME"), "language of the program (default: detected; see `clsurf help dialects`)")
-        ("block-delete", po::value<std::string>()->value_name("ON|OFF"), "skip blocks that begin with / (default: on)");
+        ("dialect", po::value<std::string>()->value_name("DIALECT"), "language of the program (default: detected; see `clsurf help dialects`)")
+        ("block-delete", po::value<std::string>()->value_name("on|off"), "skip blocks that begin with / (default: on)");
     // clang-format on
 }
 
 bool read_block_delete(const po::variables_map& values) {
     if (values.count("block-delete") == 0) return true;
-    const std::string word = values["block-delete"].as<std::string>();
-    if (word != "on" && word != "off") throw UsageError("--block-delete: '" + word + "' is not on or off");
-    return word == "on";
+    return values["block-delete"].as<std::string>() == "on";
 }
 
 std::string read_dialect(const po::variables_map& values) {
@@ -66,11 +68,25 @@ io::LogOptions read_log_options(const po::variables_map& values) {
     return options;
 }
 
+void declare_json(po::options_description& options) {
+    options.add_options()("json", "one JSON object instead of text");
+}
+
+bool read_json(const po::variables_map& values) {
+    return values.count("json") > 0;
+}
+
 std::string required(const po::variables_map& values, const char* name) {
     if (values.count(name) == 0 || values[name].as<std::string>().empty()) {
         throw UsageError(std::string("missing argument: ") + name);
     }
     return values[name].as<std::string>();
+}
+
+void write_to_stdout(std::string_view text) {
+    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) {
+        throw SystemError(std::string("cannot write to standard output: ") + std::strerror(errno));
+    }
 }
 
 std::vector<double> parse_numbers(const std::string& text, const std::string& option, std::size_t count) {

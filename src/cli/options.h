@@ -3,6 +3,7 @@
 // option means the same everywhere.
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/subcommand.h"
@@ -11,11 +12,12 @@
 
 namespace clsurf::cli {
 
-/// -q, -v, --threads: every subcommand has them.
+/// -q, -v, --threads, --progress: every subcommand has them.
 struct CommonOptions {
     bool quiet = false;
     bool verbose = false;
     int threads = 0;  ///< 0: as many as cores
+    std::string progress = "auto";
 };
 void declare_common(po::options_description& options);
 [[nodiscard]] CommonOptions read_common(const po::variables_map& values);
@@ -29,8 +31,15 @@ void declare_program_options(po::options_description& options);
 void declare_log_options(po::options_description& options);
 [[nodiscard]] io::LogOptions read_log_options(const po::variables_map& values);
 
+/// --json
+void declare_json(po::options_description& options);
+[[nodiscard]] bool read_json(const po::variables_map& values);
+
 /// A positional argument or an option that must be there; UsageError names it otherwise.
 [[nodiscard]] std::string required(const po::variables_map& values, const char* name);
+
+/// Writes to standard output. Throws SystemError (a full disk; a closed pipe ends the program).
+void write_to_stdout(std::string_view text);
 
 /// Exactly `count` numbers separated by commas (0: one or more). Throws UsageError, naming `option`.
 [[nodiscard]] std::vector<double> parse_numbers(const std::string& text, const std::string& option, std::size_t count);

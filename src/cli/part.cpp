@@ -26,7 +26,7 @@ void declare_part(po::options_description& options) {
     declare_log_options(options);
     // clang-format off
     options.add_options()
-        ("surface", po::value<std::string>()->value_name("ROLE"), "commanded, feedback or actual positions (default: commanded, else what the log has)")
+        ("surface", po::value<std::string>()->value_name("commanded|feedback|actual"), "which positions (default: commanded, else what the log has)")
         ("work-offset", po::value<std::string>()->value_name("X,Y,Z"), "machine position of the program's zero [mm] (default: what the log tells, else 0,0,0)")
         ("ignore-lines", "find the lines by geometry even where the log has a line channel");
     // clang-format on
@@ -51,22 +51,23 @@ PartOptions read_part_options(const po::variables_map& values) {
 
 Part load_part(const PartOptions& options, StageClock& clock) {
     Part part;
+    clock.begin("read the program");
     part.program = io::read_program(options.program, options.dialect, options.block_delete);
-    clock.lap("read the program");
+    clock.begin("open the log");
     part.log = io::open_log(options.log, options.log_options);
     if (part.log.records == 0) throw InputError(Place::of_file(part.log.name), "holds no records");
     Role role = options.role;
     if (!options.role_given && !part.log.has(role)) {
         role = part.log.has(Role::feedback) ? Role::feedback : Role::actual;
     }
-    clock.lap("open the log");
     const Vec3 offset = -options.offset.value_or(part.log.work_offset.value_or(Vec3::Zero()));
     part.path = reconstruct(part.log, role, offset);
     part.diagnostics.append(part.program.diagnostics);
     part.diagnostics.append(part.log.diagnostics);
+    clock.begin("map points to lines");
     const Trajectory mapped = reconstruct(part.log, mapping_role(part.log, role), offset);
     part.lines = std::make_unique<LineMap>(map_lines(mapped, part.log, part.program, options.use_line_channel, part.diagnostics));
-    clock.lap("map points to lines");
+    clock.end();
     return part;
 }
 

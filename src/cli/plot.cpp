@@ -100,9 +100,10 @@ ExitCode run(const po::variables_map& values) {
     PlotOptions options = read_options(values);
     viz::preload_image_library();
     io::AtomicFile output(options.output);
-    StageClock clock(read_common(values).verbose);
+    StageClock clock(read_common(values), 5);
     const Part part = load_part(options.part, clock);
     print(part.diagnostics, values);
+    clock.begin("stitch the surface");
     const ClSurface surface = stitch(part);
     const FieldSet fields(part.log, part.path, surface.passes);
     const std::vector<double> x = x_values(part, options.over_length);
@@ -130,6 +131,7 @@ ExitCode run(const po::variables_map& values) {
     options.look.subtitle = fmt::format("{} · points {} to {}, {} positions", options.part.program.substr(options.part.program.rfind('/') + 1), range.first, range.last, name_of(part.path.role));
     options.look.x_label = options.over_length ? "path length (mm)" : "time (s)";
     options.look.footnote = note;
+    clock.begin("draw");
     const std::span<const double> shown_x(x.data() + range.first, static_cast<std::size_t>(range.size()));
     output.write(viz::encode_png(viz::draw_chart(shown_x, curves, cursors, options.look), options.look.title));
     output.commit();
@@ -150,14 +152,14 @@ Subcommand plot_subcommand() {
                 // clang-format off
                 options.add_options()
                     ("output,o", po::value<std::string>()->value_name("FILE"), "the picture (PNG)")
-                    ("fields", po::value<std::string>()->value_name("A,B,…"), "what is drawn (default: speed; `clsurf help fields`)")
-                    ("over", po::value<std::string>()->value_name("X"), "time or length (default: time)")
+                    ("fields", po::value<std::string>()->value_name("FIELD,…"), "what is drawn (default: speed; `clsurf help fields`)")
+                    ("over", po::value<std::string>()->value_name("time|length"), "what x is (default: time)")
                     ("from", po::value<double>()->value_name("X"), "first x to show [s or mm]")
                     ("to", po::value<double>()->value_name("X"), "last x to show [s or mm]")
                     ("line", po::value<long long>()->value_name("N"), "show the points of a line and some round them; a cursor at its first point")
                     ("mark-point", po::value<std::vector<long long>>()->value_name("N"), "a cursor at a point; may be repeated")
                     ("size", po::value<std::string>()->value_name("WxH"), "size in pixels (default: 1600x900)")
-                    ("gl", po::value<std::string>()->value_name("CONTEXT"), "osmesa or egl (default: osmesa)");
+                    ("gl", po::value<std::string>()->value_name("osmesa|egl"), "what draws: the processor, or a graphics card (default: osmesa)");
                 // clang-format on
                 declare_part(options);
             },

@@ -164,7 +164,7 @@ ExitCode run(const po::variables_map& values) {
     if (values.count("point") + values.count("at") + values.count("line") + values.count("time") == 0) {
         throw UsageError("what to look for is missing", "--point N, --at X,Y,Z, --line N or --time T");
     }
-    StageClock clock(read_common(values).verbose);
+    StageClock clock(read_common(values), 3);
     const Part part = load_part(read_part_options(values), clock);
     const std::vector<io::QueryMatch> matches = find_matches(part, values);
     if (values.count("json") > 0) {

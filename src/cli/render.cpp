@@ -34,20 +34,20 @@ void declare(po::options_description& options) {
     options.add_options()
         ("output,o", po::value<std::string>()->value_name("FILE"), "the picture (PNG)")
         ("color", po::value<std::string>()->value_name("FIELD"), "what is coloured (default: speed; `clsurf help fields`)")
-        ("style", po::value<std::string>()->value_name("STYLE"), "surface, lines or points (default: surface)")
-        ("view", po::value<std::string>()->value_name("VIEW"), "iso, top, front, left, right, back, bottom or AZ,EL [deg] (default: iso)")
+        ("style", po::value<std::string>()->value_name("surface|lines|points"), "how the map is drawn (default: surface)")
+        ("view", po::value<std::string>()->value_name("iso|top|front|left|right|back|bottom|AZ,EL"), "from where; AZ,EL in degrees (default: iso)")
         ("zoom", po::value<std::string>()->value_name("X0,Y0,X1,Y1"), "part of the map, as fractions from its upper left corner")
         ("box", po::value<std::string>()->value_name("X0,Y0,Z0,X1,Y1,Z1"), "part of the workpiece [mm]; the rest is left out")
-        ("range", po::value<std::string>()->value_name("RANGE"), "auto, MIN,MAX or pLOW,pHIGH (default: auto, 1st to 99th percentile of cutting points)")
-        ("colormap", po::value<std::string>()->value_name("MAP"), "isurface, gray, viridis, cividis, turbo, coolwarm or own stops #RRGGBB,#RRGGBB,… (default: isurface; signed fields coolwarm)")
+        ("range", po::value<std::string>()->value_name("auto|MIN,MAX|pLOW,pHIGH"), "values at the ends of the colours, or percentiles of the cutting points (default: auto, p1,p99)")
+        ("colormap", po::value<std::string>()->value_name("COLORMAP|RGB,RGB,…"), "a named map (`clsurf help colormaps`) or own stops, #RRGGBB,#RRGGBB,… (default: isurface; signed fields coolwarm)")
         ("bins", po::value<int>()->value_name("N"), "colours in N steps")
         ("mark-point", po::value<std::vector<long long>>()->value_name("N"), "ring a point; may be repeated")
         ("mark-line", po::value<std::vector<long long>>()->value_name("N"), "draw the points of a line bold; may be repeated")
         ("before", po::value<std::string>()->value_name("LOG"), "another log of the program, drawn beside it on the same scale")
         ("size", po::value<std::string>()->value_name("WxH"), "size in pixels (default: 1600x1200)")
-        ("background", po::value<std::string>()->value_name("COLOR"), "white, black or #RRGGBB (default: white)")
+        ("background", po::value<std::string>()->value_name("white|black|#RRGGBB"), "behind the map (default: white)")
         ("no-legend", "the map alone: no title, legend, axes, scale bar")
-        ("gl", po::value<std::string>()->value_name("CONTEXT"), "osmesa or egl (default: osmesa)");
+        ("gl", po::value<std::string>()->value_name("osmesa|egl"), "what draws: the processor, or a graphics card (default: osmesa)");
     // clang-format on
 }
 
@@ -138,10 +138,11 @@ struct Shown {
 Shown prepare(const PartOptions& options, const std::string& field, StageClock& clock) {
     Shown shown;
     shown.part = load_part(options, clock);
+    clock.begin("stitch the surface");
     shown.surface = stitch(shown.part);
-    clock.lap("stitch the surface");
+    clock.begin("compute the field");
     shown.field = FieldSet(shown.part.log, shown.part.path, shown.surface.passes).get(field);
-    clock.lap("compute the field");
+    clock.end();
     return shown;
 }
 
@@ -180,7 +181,8 @@ ExitCode run(const po::variables_map& values) {
     const RenderOptions options = read_options(values);
     viz::preload_image_library();
     io::AtomicFile output(options.output);  // a name that cannot be written fails before the work
-    StageClock clock(read_common(values).verbose);
+    constexpr int stages_of_a_part = 5;
+    StageClock clock(read_common(values), stages_of_a_part * (options.before.empty() ? 1 : 2) + 3);
     const Shown after = prepare(options.part, options.field, clock);
     print(after.part.diagnostics, values);
     std::vector<viz::MapPanel> panels;
@@ -194,6 +196,7 @@ ExitCode run(const po::variables_map& values) {
     }
     panels.push_back(panel_of(after, options, before ? "after: " + base_name(options.part.log) : ""));
 
+    clock.begin("choose the range");
     ShownRange range = find_range(after.field, after.surface.passes, options.range);
     if (before && options.range.kind != RangeRule::Kind::fixed) {
         const ShownRange other = find_range(before->field, before->surface.passes, options.range);
@@ -204,13 +207,12 @@ ExitCode run(const po::variables_map& values) {
     const bool diverging = after.field.info.scale == FieldScale::diverging;
     viz::ColourScale scale{viz::make_colour_map(!options.colour_map.empty() ? options.colour_map : diverging ? "coolwarm" : "isurface"),
                            range.low, range.high, options.bins};
-    clock.lap("choose the range");
+    clock.begin("draw");
     const viz::Image image = viz::draw_map(panels, scale, texts_of(after, options, range.note), options.look);
-    clock.lap("draw");
+    clock.begin("write the picture");
     output.write(viz::encode_png(image, fmt::format("clsurf map of {} from {}: {} {:g} to {:g} {}", base_name(options.part.program),
                                                     base_name(options.part.log), options.field, range.low, range.high, after.field.info.unit.name)));
     output.commit();
-    clock.lap("write the picture");
     return ExitCode::done;
 }
 

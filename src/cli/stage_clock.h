@@ -1,26 +1,53 @@
 #pragma once
-// StageClock: where the time of a run goes, said with -v.
+// StageClock: which stage a run is in. It moves the progress bar, and says with -v where the time
+// went.
 
 #include <chrono>
 #include <cstdio>
+#include <string>
 
 #include <fmt/format.h>
+
+#include "cli/progress_bar.h"
 
 namespace clsurf::cli {
 
 class StageClock {
 public:
-    explicit StageClock(bool speaks) : speaks_(speaks) {}
-    /// Ends a stage and says how long it took.
-    void lap(const char* stage) {
-        const auto now = std::chrono::steady_clock::now();
-        if (speaks_) fmt::print(stderr, "{:<24} {:8.3f} s\n", stage, std::chrono::duration<double>(now - last_).count());
-        last_ = now;
+    /// `stages`: how many will begin.
+    StageClock(const CommonOptions& options, int stages)
+        : speaks_(options.verbose), stages_(stages), bar_(options), progress_(bar_.callback()) {}
+    StageClock(const StageClock&) = delete;
+    StageClock& operator=(const StageClock&) = delete;
+    ~StageClock() { end(); }
+
+    /// Ends the stage before and begins one.
+    void begin(const char* stage) {
+        end();
+        stage_ = stage;
+        start_ = std::chrono::steady_clock::now();
+        if (progress_) progress_(stage, static_cast<double>(begun_) / stages_);
+        ++begun_;
+    }
+
+    /// Ends the stage and takes the bar away, before something else is printed.
+    void end() {
+        bar_.clear();
+        if (speaks_ && !stage_.empty()) {
+            const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start_;
+            fmt::print(stderr, "{:<24} {:8.3f} s\n", stage_, took.count());
+        }
+        stage_.clear();
     }
 
 private:
     bool speaks_;
-    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+    int stages_;
+    int begun_ = 0;
+    ProgressBar bar_;
+    Progress progress_;
+    std::string stage_;
+    std::chrono::steady_clock::time_point start_;
 };
 
 }  // namespace clsurf::cli

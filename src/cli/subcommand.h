@@ -1,5 +1,9 @@
 #pragma once
-// Subcommand: one row of the table in main.cpp. Help, man pages and completion are made from it.
+// Subcommand: one row of the table in subcommands.cpp. Help, man pages and completion are made from it.
+//
+// What an option's value is called says what it may be: "auto|always|never" are all the words there
+// are (others are refused before run() is called), "iso|top|AZ,EL" some of them, "DIALECT" those of
+// a vocabulary (cli/vocabulary.h), "FILE" and "FOLDER" names that the shell can complete.
 
 #include <span>
 #include <string>
@@ -17,17 +21,22 @@ namespace po = boost::program_options;
 struct Subcommand {
     std::string_view name;
     std::string_view arguments;    ///< positional ones for the usage line, "PROGRAM LOG"
-    std::string_view summary;      ///< one line
-    std::string_view description;  ///< paragraphs for --help and the man page; examples among them
+    std::string_view summary;      ///< one line, lower case, no full stop
+    std::string_view description;  ///< paragraphs for --help and the man page; lines that begin
+                                   ///< with a space are kept as they are, all others are filled
     /// Declares what is shown in the help; common options (help, threads, …) are added by main().
     void (*declare)(po::options_description& options);
-    /// Names of the positional arguments in order; the last may repeat ("file…").
+    /// Names of the positional arguments in order; the last may repeat ("FILE…").
     std::vector<std::string> positional;
     ExitCode (*run)(const po::variables_map& values);
+    bool hidden = false;  ///< not in the overview: a tool of the build
 };
 
 /// All subcommands, in the order of the help text.
 [[nodiscard]] std::span<const Subcommand> subcommands();
+
+/// The subcommand of that name. Throws UsageError with the nearest one.
+[[nodiscard]] const Subcommand& find_subcommand(std::string_view name);
 
 // One function a subcommand, each in the file of its name.
 [[nodiscard]] Subcommand compare_subcommand();
@@ -38,5 +47,7 @@ struct Subcommand {
 [[nodiscard]] Subcommand plot_subcommand();
 [[nodiscard]] Subcommand query_subcommand();
 [[nodiscard]] Subcommand render_subcommand();
+[[nodiscard]] Subcommand help_subcommand();
+[[nodiscard]] Subcommand manual_subcommand();
 
 }  // namespace clsurf::cli

@@ -78,15 +78,15 @@ TEST(Delimited, RefusesAMappingWithAnUnknownKeyOrColumn) {
 TEST(Delimited, ReadsRecordedHalsamplerText) {
     LogOptions options;
     options.mapping = SAMPLE_DATA "/logs/dome_loops.mapping.toml";
-    const Log text = open_log(TEST_LOGS "/dome_loops.halsampler.txt", options);
-    const Log biip = open_log(TEST_LOGS "/dome_loops.biip", {});
+    const Log text = open_log(SAMPLE_LOGS "/dome_loops.halsampler.txt", options);
+    const Log biip = open_log(SAMPLE_LOGS "/dome_loops.biip", {});
     EXPECT_EQ(text.format, "halsampler");
     ASSERT_EQ(text.records, biip.records);
     for (PointIndex i = 0; i < text.records; i += 997) {
         EXPECT_NEAR(text.find("cmd.x")->values.at(i), biip.find("cmd.x")->values.at(i), 1e-6);
         EXPECT_EQ(text.find("line")->values.at(i), biip.find("line")->values.at(i));
     }
-    EXPECT_THROW((void)open_log(TEST_LOGS "/dome_loops.halsampler.txt", {}), InputError);
+    EXPECT_THROW((void)open_log(SAMPLE_LOGS "/dome_loops.halsampler.txt", {}), InputError);
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ double right_share(const Sample& sample) {
     io::LogOptions options;
     if (*sample.layout != 0) options.layout = std::string(SAMPLE_DATA "/logs/") + sample.layout;
     if (sample.period > 0) options.period = sample.period;
-    const Log log = io::open_log(std::string(TEST_LOGS "/") + sample.log, options);
+    const Log log = io::open_log(std::string(SAMPLE_LOGS "/") + sample.log, options);
     const Trajectory path = reconstruct(log, Role::commanded, Vec3::Zero());
     Diagnostics diagnostics;
     const LineMap reported = map_lines(path, log, program, true, diagnostics);
@@ -68,7 +68,7 @@ INSTANTIATE_TEST_SUITE_P(Recorded, Alignment,
 
 TEST(LineMap, WarnsOfALogThatBelongsToAnotherProgram) {
     const Program program = io::read_program(SAMPLE_DATA "/programs/petal_loops_g64.ngc", "");
-    const Log log = io::open_log(TEST_LOGS "/bottle_uneven.biip", {});
+    const Log log = io::open_log(SAMPLE_LOGS "/bottle_uneven.biip", {});
     const Trajectory path = reconstruct(log, Role::commanded, Vec3::Zero());
     Diagnostics diagnostics;
     (void)map_lines(path, log, program, true, diagnostics);
@@ -79,7 +79,7 @@ TEST(LineMap, WarnsOfALogThatBelongsToAnotherProgram) {
 
 TEST(LineMap, FindsItsPlaceInALogThatBeginsInTheMiddle) {
     const Program program = io::read_program(SAMPLE_DATA "/programs/bottle_uneven.nc", "");
-    const Log log = io::open_log(TEST_LOGS "/bottle_uneven.biip", {});
+    const Log log = io::open_log(SAMPLE_LOGS "/bottle_uneven.biip", {});
     Trajectory path = reconstruct(log, Role::commanded, Vec3::Zero());
     constexpr PointIndex cut = 12'000;
     for (ChannelView& axis : path.axes) {

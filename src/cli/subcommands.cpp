@@ -1,0 +1,34 @@
+// THE table of subcommands. To add one: src/cli/<name>.cpp, its declaration in subcommand.h, its
+// row.
+
+#include "cli/subcommand.h"
+#include "core/spelling.h"
+
+namespace clsurf::cli {
+
+std::span<const Subcommand> subcommands() {
+    static const std::vector<Subcommand> table{
+        render_subcommand(),
+        query_subcommand(),
+        info_subcommand(),
+        moves_subcommand(),
+        plot_subcommand(),
+        export_subcommand(),
+        convert_subcommand(),
+        compare_subcommand(),
+        help_subcommand(),
+        manual_subcommand(),
+    };
+    return table;
+}
+
+const Subcommand& find_subcommand(std::string_view name) {
+    std::vector<std::string_view> names;
+    for (const Subcommand& s : subcommands()) {
+        if (s.name == name) return s;
+        if (!s.hidden) names.push_back(s.name);
+    }
+    throw UsageError("unknown subcommand '" + std::string(name) + "'", did_you_mean(name, names));
+}
+
+}  // namespace clsurf::cli

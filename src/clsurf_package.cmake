@@ -1,0 +1,16 @@
+# What `cmake --install` puts beside the libraries: the package config, so that another project says
+# find_package(clsurf COMPONENTS path surface) and links clsurf::path.
+
+include(CMakePackageConfigHelpers)
+set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/clsurf)
+
+get_property(CLSURF_ROOMS GLOBAL PROPERTY CLSURF_ROOMS)
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/clsurf-config.cmake.in
+  ${PROJECT_BINARY_DIR}/clsurf-config.cmake INSTALL_DESTINATION ${package_folder})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/clsurf-config-version.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/clsurf-config.cmake
+              ${PROJECT_BINARY_DIR}/clsurf-config-version.cmake DESTINATION ${package_folder})
+foreach(export clsurf_rooms clsurf_rooms_with_vtk)
+  install(EXPORT ${export} NAMESPACE clsurf:: DESTINATION ${package_folder})
+endforeach()

@@ -1,0 +1,131 @@
+# The command line as a user meets it: exit codes, messages, and no file left by a run that failed.
+include(cli/clsurf_cli_test.cmake)
+
+# ---- words of the command line ----
+clsurf_cli_test(NAME no_subcommand ARGS EXIT 2 STDERR "usage: clsurf SUBCOMMAND")
+clsurf_cli_test(NAME help ARGS --help STDOUT "subcommands:" "render" "exit codes:")
+clsurf_cli_test(NAME version ARGS --version STDOUT "^clsurf ${PROJECT_VERSION}")
+clsurf_cli_test(NAME help_of_a_subcommand ARGS help moves STDOUT "usage: clsurf moves" "--dialect DIALECT")
+clsurf_cli_test(NAME help_fields ARGS help fields STDOUT "speed +Path speed .mm/min.")
+clsurf_cli_test(NAME help_formats ARGS help formats STDOUT "biip")
+clsurf_cli_test(NAME help_dialects_as_json ARGS help dialects --json STDOUT "\"name\": \"heidenhain-iso\"")
+clsurf_cli_test(NAME help_colormaps ARGS help colormaps STDOUT "viridis")
+clsurf_cli_test(NAME help_on_an_unknown_topic ARGS help dialect EXIT 2 STDERR "did you mean 'dialects'")
+clsurf_cli_test(NAME unknown_subcommand ARGS rendr EXIT 2 STDERR "unknown subcommand 'rendr'" "did you mean 'render'")
+clsurf_cli_test(NAME option_before_subcommand ARGS --view top EXIT 2 STDERR "expected a subcommand, found '--view'")
+clsurf_cli_test(NAME unknown_option ARGS moves --dialekt fanuc a.nc EXIT 2 STDERR "unknown option '--dialekt'" "did you mean --dialect")
+clsurf_cli_test(NAME option_prefix_is_not_guessed ARGS moves --dial fanuc a.nc EXIT 2 STDERR "unknown option '--dial'")
+clsurf_cli_test(NAME value_missing_at_the_end ARGS moves --dialect EXIT 2 STDERR "--dialect needs a value")
+clsurf_cli_test(NAME value_missing_before_an_option ARGS moves a.nc --dialect --quiet EXIT 2 STDERR "--dialect needs a value, found '--quiet'")
+clsurf_cli_test(NAME value_missing_after_equals ARGS moves a.nc --dialect= EXIT 2 STDERR "--dialect needs a value")
+clsurf_cli_test(NAME value_for_a_flag ARGS moves a.nc --quiet=3 EXIT 2 STDERR "--quiet takes no value")
+clsurf_cli_test(NAME option_given_twice ARGS moves a.nc --dialect fanuc --dialect siemens EXIT 2 STDERR "--dialect is given more than once")
+clsurf_cli_test(NAME number_that_is_none ARGS moves a.nc --threads two EXIT 2 STDERR "--threads: 'two' is not a whole number")
+clsurf_cli_test(NAME number_out_of_range ARGS moves a.nc --threads 0 EXIT 2 STDERR "--threads must be at least 1")
+clsurf_cli_test(NAME number_that_does_not_fit ARGS moves a.nc --threads 99999999999 EXIT 2 STDERR "--threads: '99999999999'")
+clsurf_cli_test(NAME word_not_in_the_list ARGS moves a.nc --progress alway EXIT 2 STDERR "not one of auto, always, never" "did you mean 'always'")
+clsurf_cli_test(NAME argument_missing ARGS moves EXIT 2 STDERR "missing argument: PROGRAM")
+clsurf_cli_test(NAME argument_too_many ARGS moves a.nc b.nc EXIT 2 STDERR "unexpected argument 'b.nc'" "usage: clsurf moves")
+clsurf_cli_test(NAME negative_values_after_a_space
+  ARGS render @DATA@/programs/bottle_uneven.nc @LOGS@/bottle_uneven.biip -o map.png --size 160x120
+       --range -5,4000 --box -3,-3,-50,3,3,50 --view -30,20 FILE map.png)
+clsurf_cli_test(NAME negative_values_after_equals
+  ARGS render @DATA@/programs/bottle_uneven.nc @LOGS@/bottle_uneven.biip --output=map.png --size=160x120
+       --range=-5,4000 --view=-30,20 FILE map.png)
+clsurf_cli_test(NAME file_name_with_a_dash SETUP "echo 'G1 X-1.5 F100' > -part.nc" ARGS moves -- -part.nc
+  STDOUT "1,feed,-1.5")
+clsurf_cli_test(NAME standard_input SETUP "echo 'G0 X7' > stdin" ARGS moves - STDOUT "1,rapid,7")
+
+# ---- programs that cannot be used ----
+clsurf_cli_test(NAME program_missing ARGS moves nowhere.nc EXIT 3 STDERR "nowhere.nc: error: cannot open: No such file")
+clsurf_cli_test(NAME program_is_a_folder SETUP "mkdir part" ARGS moves part EXIT 3 STDERR "part: error: is a folder")
+clsurf_cli_test(NAME program_is_empty SETUP ": > part.nc" ARGS moves part.nc EXIT 3 STDERR "part.nc: error: .*empty")
+clsurf_cli_test(NAME program_is_binary SETUP "head -c 100000 @LOGS@/bottle_uneven.biip > part.nc" ARGS moves part.nc
+  EXIT 3 STDERR "part.nc")
+clsurf_cli_test(NAME program_in_an_unknown_dialect SETUP "echo 'G0 X7' > part.nc" ARGS moves part.nc --dialect fanuk
+  EXIT 2 STDERR "fanuk" "did you mean 'fanuc'")
+clsurf_cli_test(NAME program_calls_itself SETUP "printf 'O1\\nM98 P1\\nM30\\n' > part.nc" ARGS moves part.nc EXIT 3
+  STDERR "part.nc:2")
+clsurf_cli_test(NAME program_never_ends SETUP "printf 'o1 while [1 EQ 1]\\nG1 X1 F100\\no1 endwhile\\nM2\\n' > part.nc"
+  ARGS moves part.nc --dialect linuxcnc EXIT 3 STDERR "part.nc:")
+clsurf_cli_test(NAME program_with_a_wrong_arc
+  SETUP "printf 'G0 X0 Y0\\nG2 X10 Y0 I4 J0 F100\\n' > part.nc" ARGS moves part.nc EXIT 3
+  STDERR "part.nc:2:" "4" "6")
+
+# ---- logs that cannot be used ----
+set(part @DATA@/programs/bottle_uneven.nc)
+clsurf_cli_test(NAME log_missing ARGS render ${part} nowhere.biip -o map.png EXIT 3 STDERR "nowhere.biip: error: cannot open")
+clsurf_cli_test(NAME log_is_empty SETUP ": > run.biip" ARGS render ${part} run.biip -o map.png EXIT 3 STDERR "run.biip: error: is empty")
+clsurf_cli_test(NAME log_is_a_folder SETUP "mkdir run.biip" ARGS render ${part} run.biip -o map.png EXIT 3 STDERR "run.biip: error")
+clsurf_cli_test(NAME log_of_no_format SETUP "head -c 5000 @DATA@/logs/bottle_uneven.biip.xz > run.biip"
+  ARGS render ${part} run.biip -o map.png EXIT 3 STDERR "no log of a known format")
+clsurf_cli_test(NAME log_cut_inside_its_header SETUP "head -c 60 @LOGS@/bottle_uneven.biip > run.biip"
+  ARGS render ${part} run.biip -o map.png EXIT 3 STDERR "run.biip")
+clsurf_cli_test(NAME log_cut_inside_a_record SETUP "head -c 100000 @LOGS@/bottle_uneven.biip > run.biip"
+  ARGS render ${part} run.biip -o map.png --size 160x120 EXIT 0 FILE map.png STDERR "warning")
+# record_bytes, channel_count, metadata_bytes and header_bytes of 2^32 − 1 must not be believed.
+foreach(field 12 16 20 40)
+  clsurf_cli_test(NAME log_with_a_gigantic_number_at_${field}
+    SETUP "head -c 100000 @LOGS@/bottle_uneven.biip > run.biip; printf '\\377\\377\\377\\377' | dd of=run.biip bs=1 seek=${field} conv=notrunc status=none"
+    ARGS render ${part} run.biip -o map.png EXIT 3 STDERR "run.biip")
+endforeach()
+clsurf_cli_test(NAME log_with_a_later_major_version
+  SETUP "head -c 100000 @LOGS@/bottle_uneven.biip > run.biip; printf '\\002' | dd of=run.biip bs=1 seek=8 conv=notrunc status=none"
+  ARGS render ${part} run.biip -o map.png EXIT 3 STDERR "run.biip.*version")
+
+# ---- outputs that cannot be written ----
+clsurf_cli_test(NAME output_missing ARGS render ${part} @LOGS@/bottle_uneven.biip EXIT 2 STDERR "output")
+clsurf_cli_test(NAME output_in_no_folder ARGS render ${part} @LOGS@/bottle_uneven.biip -o nowhere/map.png EXIT 4 STDERR "nowhere/map.png")
+clsurf_cli_test(NAME output_below_a_file SETUP ": > file" ARGS render ${part} @LOGS@/bottle_uneven.biip -o file/map.png EXIT 4 STDERR "file/map.png")
+clsurf_cli_test(NAME output_is_a_folder SETUP "mkdir map.png" ARGS render ${part} @LOGS@/bottle_uneven.biip -o map.png --size 160x120 EXIT 4 STDERR "map.png")
+clsurf_cli_test(NAME standard_output_is_full SETUP "ln -s /dev/full stdout" ARGS moves @DATA@/programs/bottle_uneven.nc EXIT 4 STDERR "standard output: No space left")
+clsurf_cli_test(NAME bad_input_keeps_the_old_picture SETUP "echo old > map.png; echo > run.biip"
+  ARGS render ${part} run.biip -o map.png EXIT 3 FILE map.png STDERR "run.biip")
+
+# ---- the runner itself: what it must find ----
+function(clsurf_runner_test name)
+  add_test(NAME cli.runner_finds_${name} COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/cli/run_cli_test
+    ${CMAKE_CURRENT_BINARY_DIR}/cli/runner_finds_${name} /bin/bash ${ARGN})
+  set_tests_properties(cli.runner_finds_${name} PROPERTIES
+    PASS_REGULAR_EXPRESSION "FAILED: " TIMEOUT 20)
+endfunction()
+clsurf_runner_test(a_wrong_exit_code --exit 3 -- -c "exit 2")
+clsurf_runner_test(a_missing_message --stderr bad -- -c "echo good >&2")
+clsurf_runner_test(a_file_left_behind --exit 3 -- -c "echo error >&2; echo x > left; exit 3")
+clsurf_runner_test(a_missing_file --file map.png -- -c "exit 0")
+clsurf_runner_test(an_empty_file --file map.png -- -c ": > map.png")
+clsurf_runner_test(silence --exit 3 -- -c "exit 3")
+
+# ---- what the subcommands answer ----
+set(run @LOGS@/bottle_uneven.biip)
+clsurf_cli_test(NAME moves_columns ARGS moves @DATA@/programs/mixed.ngc STDOUT "line,kind,x,y,z,a,b,c,ci,cj,ck,turns,plane,feed" "ccw,")
+clsurf_cli_test(NAME info_of_both ARGS info ${part} ${run} STDOUT "positions lie 0.000[0-9] mm")
+clsurf_cli_test(NAME info_json ARGS info ${run} --json STDOUT "\"records\": 27517" "\"closed\": true")
+clsurf_cli_test(NAME info_program_json ARGS info ${part} --json STDOUT "\"feed\": 3703" "\"kind\": \"program\"")
+clsurf_cli_test(NAME info_wrong_program ARGS info @DATA@/programs/petal_loops_g64.ngc ${run} STDOUT "another program")
+clsurf_cli_test(NAME info_layout ARGS info @LOGS@/petal_spiral.raw --layout @DATA@/logs/petal_spiral.layout.toml STDOUT "84271 records")
+clsurf_cli_test(NAME query_at ARGS query ${part} ${run} --at -5.87,0,2.45 STDOUT "^line 1768")
+clsurf_cli_test(NAME query_json ARGS query ${part} ${run} --point 5000 --json STDOUT "\"line\": 638" "\"confidence\": 1.0")
+clsurf_cli_test(NAME query_time ARGS query ${part} ${run} --time 3.2 STDOUT "point 3200 at 3.200 s")
+clsurf_cli_test(NAME query_line ARGS query ${part} ${run} --line 515 STDOUT "X1.053 Z4.590")
+clsurf_cli_test(NAME query_by_geometry ARGS query ${part} ${run} --point 5000 --ignore-lines --json STDOUT "\"line\": 63[78]")
+clsurf_cli_test(NAME query_nothing_asked ARGS query ${part} ${run} EXIT 2 STDERR "--point N, --at X,Y,Z")
+clsurf_cli_test(NAME query_far_point ARGS query ${part} ${run} --point 99999 EXIT 2 STDERR "the log has points 0 … 27516")
+clsurf_cli_test(NAME render_unknown_field ARGS render ${part} ${run} -o map.png --color sped EXIT 2 STDERR "did you mean 'speed'")
+clsurf_cli_test(NAME render_missing_role ARGS render ${part} ${run} -o map.png --surface actual EXIT 3 STDERR "channel 'act.x' is missing")
+clsurf_cli_test(NAME render_says_its_stages ARGS render ${part} ${run} -o map.png --size 160x120 -v FILE map.png STDERR "stitch the surface +[0-9.]+ s")
+clsurf_cli_test(NAME render_shows_progress ARGS render ${part} ${run} -o map.png --size 160x120 --progress always FILE map.png STDERR "stitch the surface")
+clsurf_cli_test(NAME plot ARGS plot ${part} ${run} -o c.png --size 320x240 --fields speed,acceleration --line 515 FILE c.png)
+clsurf_cli_test(NAME plot_empty_range ARGS plot ${part} ${run} -o c.png --from 5 --to 4 EXIT 2 STDERR "--from must be less")
+clsurf_cli_test(NAME export_csv ARGS export ${part} ${run} -o p.csv --columns line,x,speed FILE p.csv)
+clsurf_cli_test(NAME export_vtp ARGS export ${part} ${run} -o p.vtp FILE p.vtp)
+clsurf_cli_test(NAME export_vtkhdf ARGS export ${part} ${run} -o p.vtkhdf FILE p.vtkhdf)
+clsurf_cli_test(NAME export_biip ARGS export ${part} ${run} -o p.biip FILE p.biip)
+clsurf_cli_test(NAME export_unknown_form ARGS export ${part} ${run} -o p.xls EXIT 2 STDERR "must end in")
+clsurf_cli_test(NAME convert ARGS convert @LOGS@/mixed.csv --period 0.001 -o m.biip FILE m.biip)
+clsurf_cli_test(NAME convert_without_period ARGS convert @LOGS@/mixed.csv -o m.biip EXIT 3 STDERR "sampling period")
+set(shot ${PROJECT_SOURCE_DIR}/tests/snapshots/baseline)
+clsurf_cli_test(NAME compare_same ARGS compare ${shot}/speed_iso.png ${shot}/speed_iso.png --json STDOUT "\"equal\": true")
+clsurf_cli_test(NAME compare_different ARGS compare ${shot}/speed_iso.png ${shot}/speed_top.png --diff d.png EXIT 1 FILE d.png)
+clsurf_cli_test(NAME compare_no_image ARGS compare @DATA@/programs/mixed.ngc @DATA@/programs/mixed.ngc EXIT 3 STDERR "cannot be read as an image")
+clsurf_cli_test(NAME compare_updates SETUP "cp ${shot}/speed_iso.png a.png" ARGS compare a.png b.png --update FILE b.png)

@@ -1,0 +1,16 @@
+# The package as a stranger meets it: installed into an empty folder, found, linked, run.
+
+if(CLSURF_SANITIZE STREQUAL "none")
+  set(here ${CMAKE_CURRENT_BINARY_DIR}/consumer)
+  add_test(NAME consumer.install
+    COMMAND ${CMAKE_COMMAND} --install ${PROJECT_BINARY_DIR} --prefix ${here}/installed)
+  add_test(NAME consumer.uses_the_installed_package
+    COMMAND ${CMAKE_CTEST_COMMAND} --build-and-test ${CMAKE_CURRENT_SOURCE_DIR}/consumer ${here}/build
+      --build-generator ${CMAKE_GENERATOR}
+      --build-options -DCMAKE_PREFIX_PATH=${here}/installed -DCMAKE_BUILD_TYPE=Release
+                      -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}
+                      -DCMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER}
+      --test-command consumer)
+  set_tests_properties(consumer.install PROPERTIES FIXTURES_SETUP installed_tree)
+  set_tests_properties(consumer.uses_the_installed_package PROPERTIES FIXTURES_REQUIRED installed_tree)
+endif()
