@@ -43,18 +43,18 @@ void add_grid(Sheet& sheet, const Frame& f, double text, bool x_labels) {
     const double y_step = ys.size() > 1 ? ys[1] - ys[0] : 1;
     for (const double y : ys) {
         const Vec2 p = f.at(f.x_low, y);
-        sheet.lines.push_back({{p, {f.rect.x + f.rect.width, p.y()}}, 1, grid_colour});
+        sheet.lines.push_back({{p, {f.rect.x + f.rect.width, p.y()}}, 1, grid_colour, true});
         sheet.texts.push_back({f.rect.x - 0.5 * text, p.y(), tick_text(y, y_step), text, Align::right, false, ink_colour});
     }
     const std::vector<double> xs = nice_ticks(f.x_low, f.x_high, std::max(2, static_cast<int>(f.rect.width / (7 * text))));
     const double x_step = xs.size() > 1 ? xs[1] - xs[0] : 1;
     for (const double x : xs) {
         const Vec2 p = f.at(x, f.y_low);
-        sheet.lines.push_back({{p, {p.x(), f.rect.y + f.rect.height}}, 1, grid_colour});
+        sheet.lines.push_back({{p, {p.x(), f.rect.y + f.rect.height}}, 1, grid_colour, true});
         if (x_labels) sheet.texts.push_back({p.x(), f.rect.y - 0.9 * text, tick_text(x, x_step), text, Align::centre, false, ink_colour});
     }
     const Rect& r = f.rect;
-    sheet.lines.push_back({{{r.x, r.y}, {r.x + r.width, r.y}, {r.x + r.width, r.y + r.height}, {r.x, r.y + r.height}, {r.x, r.y}}, 1, {120, 120, 126}});
+    sheet.lines.push_back({{{r.x, r.y}, {r.x + r.width, r.y}, {r.x + r.width, r.y + r.height}, {r.x, r.y + r.height}, {r.x, r.y}}, 1, {120, 120, 126}, true});
 }
 
 }  // namespace
@@ -122,12 +122,12 @@ Image draw_chart(std::span<const double> x, const std::vector<Curve>& curves, co
             const Vec2 p = f.at(cursor.x, f.y_low);
             if (p.x() < f.rect.x || p.x() > f.rect.x + f.rect.width) continue;
             sheet.lines.push_back({{p, {p.x(), f.rect.y + f.rect.height}}, 1.4, cursor_colour});
-            const bool to_left = p.x() > f.rect.x + 0.7 * f.rect.width;
+            // Its value stands above the frame, where no curve runs, beside the curve's name.
             const std::string value = tick_text(cursor.values[k], std::max(1e-4, (f.y_high - f.y_low) / 1000));
-            FlatText note{p.x() + (to_left ? -0.5 : 0.5) * text, f.rect.y + f.rect.height - 0.9 * text,
-                          k == 0 ? cursor.label + ": " + value : value, text, to_left ? Align::right : Align::left, true, cursor_colour};
-            const double width = text_width(note);
-            sheet.quads.push_back({{to_left ? note.x - width - 2 : note.x - 2, note.y - 0.7 * text, width + 4, 1.4 * text}, look.background});
+            FlatText note{p.x(), f.rect.y + f.rect.height + 0.9 * text, k == 0 ? cursor.label + ": " + value : value,
+                          text, Align::left, true, cursor_colour};
+            const double least = f.rect.x + text_width({0, 0, curves[k].label, text, Align::left, true, colour}) + text;
+            note.x = std::max(least, std::min(note.x, f.rect.x + f.rect.width - text_width(note)));
             sheet.texts.push_back(std::move(note));
         }
     }

@@ -91,7 +91,17 @@ void add_title(Sheet& sheet, const MapTexts& texts, const Look& look, const Layo
     const double top = look.height - layout.margin;
     sheet.texts.push_back(fitted({layout.margin, top - 0.5 * layout.text, texts.title, 1.25 * layout.text, Align::left, true, ink}, width));
     sheet.texts.push_back(fitted({layout.margin, top - 2.0 * layout.text, texts.subtitle, layout.small_text, Align::left, false, faint(ink, look.background)}, width));
-    sheet.texts.push_back(fitted({layout.margin, layout.margin * 0.5 + 0.5 * layout.small_text, texts.footnote, layout.small_text, Align::left, false, faint(ink, look.background)}, 0.68 * (look.width - layout.legend_width) - layout.margin));
+    const double note_width = 0.72 * (look.width - layout.legend_width) - layout.margin;
+    FlatText note{layout.margin, layout.margin * 0.5 + 0.5 * layout.small_text, "", layout.small_text, Align::left, false, faint(ink, look.background)};
+    for (const std::string& part : texts.notes) note.text += (note.text.empty() ? "" : "; ") + part;
+    if (text_width(note) <= note_width) {
+        sheet.texts.push_back(std::move(note));
+        return;
+    }
+    for (auto part = texts.notes.rbegin(); part != texts.notes.rend(); ++part, note.y += 1.25 * layout.small_text) {
+        note.text = *part;
+        sheet.texts.push_back(fitted(note, note_width));
+    }
 }
 
 void add_legend(Sheet& sheet, const ColourScale& scale, const FieldInfo& field, bool missing, const Look& look, const Layout& layout, Rgb ink) {

@@ -48,7 +48,7 @@ struct MapPanel {
 struct MapTexts {
     std::string title;      ///< "Path speed, commanded surface"
     std::string subtitle;   ///< program · log · counts
-    std::string footnote;   ///< window, range
+    std::vector<std::string> notes;  ///< window, range: one line where they fit, else one each
 };
 
 /// Cutting points inside a box (empty: all) [mm].

@@ -173,7 +173,8 @@ viz::MapTexts texts_of(const Shown& shown, const RenderOptions& options, const s
                                  options.before.empty() ? "" : base_name(options.before) + " and ", base_name(options.part.log),
                                  shown.part.log.records, passes,
                                  shown.surface.step_over > 0 ? fmt::format(", {:.3g} mm apart", shown.surface.step_over) : "");
-    texts.footnote = shown.field.info.note + (shown.field.info.note.empty() ? "" : "; ") + range_note;
+    if (!shown.field.info.note.empty()) texts.notes.push_back(shown.field.info.note);
+    texts.notes.push_back(range_note);
     return texts;
 }
 
