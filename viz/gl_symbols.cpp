@@ -4,6 +4,8 @@
 // libOSMesa before anything that brings libGL, so that the plain gl* names are Mesa's as well
 // (CMakeLists.txt; clsurf_link_gl). A test draws a pixel and looks at it.
 
+#include <cstring>
+
 #include "viz/gl_context_makers.h"
 
 namespace clsurf::viz {
@@ -11,17 +13,26 @@ namespace {
 
 GlResolver resolver = nullptr;
 
+void* no_display() { return nullptr; }
+
 }  // namespace
 
 void set_gl_resolver(GlResolver wanted) { resolver = wanted; }
 
 }  // namespace clsurf::viz
 
+using clsurf::viz::no_display;
+
 extern "C" {
 
 __attribute__((visibility("default"))) void (*glXGetProcAddressARB(const unsigned char* name))() {
     const clsurf::viz::GlResolver resolve = clsurf::viz::resolver;
-    return resolve == nullptr ? nullptr : resolve(reinterpret_cast<const char*>(name));
+    const char* const text = reinterpret_cast<const char*>(name);
+    if (resolve == nullptr) return nullptr;
+    // There is no GLX here. GLEW asks for the current display; the answer must be that there is none,
+    // or it goes on to call GLX without one.
+    if (std::strncmp(text, "glX", 3) == 0) return reinterpret_cast<void (*)()>(&no_display);
+    return resolve(text);
 }
 
 __attribute__((visibility("default"))) void (*glXGetProcAddress(const unsigned char* name))() {

@@ -111,6 +111,7 @@ clsurf_cli_test(NAME query_line ARGS query ${part} ${run} --line 515 STDOUT "X1.
 clsurf_cli_test(NAME query_by_geometry ARGS query ${part} ${run} --point 5000 --ignore-lines --json STDOUT "\"line\": 63[78]")
 clsurf_cli_test(NAME query_nothing_asked ARGS query ${part} ${run} EXIT 2 STDERR "--point N, --at X,Y,Z")
 clsurf_cli_test(NAME query_far_point ARGS query ${part} ${run} --point 99999 EXIT 2 STDERR "the log has points 0 … 27516")
+clsurf_cli_test(NAME render_through_egl ARGS render ${part} ${run} -o map.png --size 160x120 --gl egl FILE map.png)
 clsurf_cli_test(NAME render_unknown_field ARGS render ${part} ${run} -o map.png --color sped EXIT 2 STDERR "did you mean 'speed'")
 clsurf_cli_test(NAME render_missing_role ARGS render ${part} ${run} -o map.png --surface actual EXIT 3 STDERR "channel 'act.x' is missing")
 clsurf_cli_test(NAME render_says_its_stages ARGS render ${part} ${run} -o map.png --size 160x120 -v FILE map.png STDERR "stitch the surface +[0-9.]+ s")
