@@ -13,19 +13,6 @@
 namespace clsurf::cli {
 namespace {
 
-std::vector<std::string> column_names(const po::variables_map& values) {
-    const std::string text = values.count("columns") > 0 ? values["columns"].as<std::string>() : "point,time,line,x,y,z,speed";
-    std::vector<std::string> names;
-    std::size_t at = 0;
-    while (at <= text.size()) {
-        const std::size_t end = std::min(text.find(',', at), text.size());
-        if (end > at) names.push_back(text.substr(at, end - at));
-        at = end + 1;
-    }
-    if (names.empty()) throw UsageError("--columns: no names");
-    return names;
-}
-
 io::ExportColumn column_of(const std::string& name, const Part& part, const ClSurface& surface) {
     const auto count = static_cast<std::size_t>(part.log.records);
     io::ExportColumn column;
@@ -91,7 +78,9 @@ void write_vtk(const std::string& path, bool hdf, const ClSurface& surface, cons
 
 ExitCode run(const po::variables_map& values) {
     const std::string output = required(values, "output");
-    const std::vector<std::string> names = column_names(values);
+    const std::vector<std::string> names =
+        split_names(values.count("columns") > 0 ? values["columns"].as<std::string>() : "point,time,line,x,y,z,speed");
+    if (names.empty()) throw UsageError("--columns: no names");
     const std::string ending = output.substr(std::min(output.rfind('.'), output.size()));
     if (ending != ".csv" && ending != ".biip" && ending != ".vtp" && ending != ".vtkhdf") {
         throw UsageError("-o: '" + output + "' must end in .csv, .biip, .vtp or .vtkhdf");

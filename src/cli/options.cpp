@@ -1,6 +1,7 @@
 #include "cli/options.h"
 
 #include <cerrno>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -107,6 +108,17 @@ std::vector<double> parse_numbers(const std::string& text, const std::string& op
         throw UsageError(option + ": '" + text + "' is not " + (count == 0 ? std::string("a list of numbers") : std::to_string(count) + " numbers") + " separated by commas");
     }
     return numbers;
+}
+
+std::vector<std::string> split_names(const std::string& text) {
+    std::vector<std::string> names;
+    std::size_t at = 0;
+    while (at <= text.size()) {
+        const std::size_t end = std::min(text.find(',', at), text.size());
+        if (end > at) names.push_back(text.substr(at, end - at));
+        at = end + 1;
+    }
+    return names;
 }
 
 std::vector<double> read_size(const std::string& text) {

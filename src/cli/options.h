@@ -44,6 +44,9 @@ void write_to_stdout(std::string_view text);
 /// Exactly `count` numbers separated by commas (0: one or more). Throws UsageError, naming `option`.
 [[nodiscard]] std::vector<double> parse_numbers(const std::string& text, const std::string& option, std::size_t count);
 
+/// Names separated by commas; empty ones are left out.
+[[nodiscard]] std::vector<std::string> split_names(const std::string& text);
+
 /// "1600x1200": two whole numbers of pixels. Throws UsageError.
 [[nodiscard]] std::vector<double> read_size(const std::string& text);
 

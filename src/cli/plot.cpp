@@ -24,17 +24,6 @@ struct PlotOptions {
     viz::ChartLook look;
 };
 
-std::vector<std::string> split_names(const std::string& text) {
-    std::vector<std::string> names;
-    std::size_t at = 0;
-    while (at <= text.size()) {
-        const std::size_t end = std::min(text.find(',', at), text.size());
-        if (end > at) names.push_back(text.substr(at, end - at));
-        at = end + 1;
-    }
-    return names;
-}
-
 PlotOptions read_options(const po::variables_map& values) {
     PlotOptions options;
     options.part = read_part_options(values);

@@ -7,6 +7,21 @@
 
 namespace clsurf {
 
+namespace {
+
+/// RS274 takes blanks inside numbers: "1 0 . 5" is 10.5. The digits move together, what follows stays.
+void close_numbers(std::string& text) {
+    const auto of_number = [](char c) { return is_digit(c) || c == '.'; };
+    for (std::size_t i = 0; i + 1 < text.size(); ++i) {
+        if (!of_number(text[i]) || text[i + 1] != ' ') continue;
+        const std::size_t next = text.find_first_not_of(' ', i + 1);
+        if (next == std::string::npos || !of_number(text[next])) continue;
+        std::swap(text[i + 1], text[next]);
+    }
+}
+
+}  // namespace
+
 Statement clean_line(std::string_view line, DialectId dialect) {
     Statement statement;
     std::string& text = statement.text;
@@ -32,6 +47,7 @@ Statement clean_line(std::string_view line, DialectId dialect) {
         i = stop - 1;
     }
     if (dialect == DialectId::heidenhain_iso) std::replace(text.begin(), text.end(), '*', ' ');
+    if (dialect == DialectId::linuxcnc && text.find('"') == std::string::npos) close_numbers(text);
     while (!text.empty() && text.back() == ' ') text.pop_back();
     std::size_t at = text.find_first_not_of(' ');
     if (at == std::string::npos) {

@@ -195,7 +195,10 @@ bool Interpreter::apply_of_dialect(int code, Block& block, std::size_t column) {
                 case 51: state_.motion = MotionMode::quadratic_spline; return true;
                 case 52: state_.motion = MotionMode::nurbs; return true;
                 case 53: nurbs_end(); return true;
-                case 70: case 80: event("lathe", code_text(code)); return true;
+                case 70: case 80:
+                    state_.diameter = code == 70;
+                    event("lathe", code_text(code));
+                    return true;
                 case 100: set_offsets(block); return true;
                 case 281: state_.home = state_.to_machine(state_.position); motion_suppressed_ = true; return true;
                 case 301: state_.second_home = state_.to_machine(state_.position); motion_suppressed_ = true; return true;
@@ -380,19 +383,26 @@ void Interpreter::set_offsets(const Block& block) {
     }
     int system = is(block, 'P') ? static_cast<int>(block.words.of('P')) : 0;
     if (system == 0) system = state_.work_system;
+    const Vec3 machine = state_.to_machine(state_.position);
+    const Vec3 position = state_.position.array().isNaN().select(0.0, state_.position);
     state_.rebase([&] {
         WorkOffset& offset = state_.work_offsets[system];
-        const Vec3 machine = state_.to_machine(state_.position);
         if (is(block, 'R') && level == 2 && dialect_ == DialectId::linuxcnc) offset.rotation = block.words.of('R');
+        Vec3 reads = position;  // L20: the present position reads as the words, in that system
         for (int axis = 0; axis < 3; ++axis) {
             const char letter = "XYZ"[axis];
             if (!is(block, letter)) continue;
             const double value = block.words.of(letter) * state_.unit_mm;
+            reads[axis] = value;
             if (level == 2) {
                 offset.shift[axis] = state_.incremental && dialect_ == DialectId::fanuc ? offset.shift[axis] + value : value;
-            } else {
-                // L20: the present position reads as the value (rotation aside, as LinuxCNC does).
-                offset.shift[axis] = machine[axis] - state_.tool_offset[axis] - state_.shift[axis] - value;
+            }
+        }
+        if (level == 20) {
+            const Vec3 turned = ModalState::rotated(reads + state_.shift, offset.rotation);
+            for (int axis = 0; axis < 3; ++axis) {
+                const bool turns = axis < 2 && offset.rotation != 0;  // one word moves both zeros then
+                if (is(block, "XYZ"[axis]) || turns) offset.shift[axis] = machine[axis] - state_.tool_offset[axis] - turned[axis];
             }
         }
     });

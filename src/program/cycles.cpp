@@ -68,14 +68,15 @@ void Interpreter::cycle(const Block& block) {
         end[c] = height;
         straight(kind, end, rotary);
     };
+    if (std::isnan(cycle_.initial)) cycle_.initial = level;
     if (level < r) {
         to(MotionKind::rapid, r);
         level = r;
     }
-    const double clear = state_.retract_to_r ? r : level;
+    const double clear = state_.retract_to_r ? r : std::max(r, cycle_.initial);
     for (int k = 0; k < repeats; ++k) {
         Vec3 hole = target(block, machine_coordinates_);
-        hole[c] = state_.position[c];
+        hole[c] = state_.retract_to_r ? state_.position[c] : std::max(level, clear);  // as RS274 goes there
         straight(MotionKind::rapid, hole, rotary);
         to(MotionKind::rapid, r);
         if (stroke.pecks) {

@@ -99,7 +99,7 @@ bool Interpreter::run_plain(const Words& words) {
         return false;
     }
     const bool ordinary = (mode == MotionMode::rapid || mode == MotionMode::feed) && !state_.incremental &&
-                          state_.feed_mode == FeedMode::per_minute && modal_call_.empty() && nurbs_.empty();
+                          state_.feed_mode == FeedMode::per_minute && modal_call_.empty() && nurbs_.empty() && !state_.diameter;
     if (!ordinary) return false;
     state_.motion = mode;
     const double unit = state_.unit_mm;

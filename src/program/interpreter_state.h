@@ -28,6 +28,7 @@ struct Frame {
 struct CycleState {
     double r = 0, z = 0, q = 0;  ///< sticky words [mm]
     double p = 0;                ///< dwell [s]
+    double initial = std::numeric_limits<double>::quiet_NaN();  ///< level where the cycle began [mm]
 };
 
 class Interpreter {

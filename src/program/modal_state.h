@@ -34,7 +34,7 @@ struct ModalState {
     double feed = 0;             ///< as programmed: lengths per minute, per revolution, or 1/min
     double spindle = 0;          ///< 1/min
     bool retract_to_r = false;   ///< G99
-    bool spline_open = false;    ///< between G5.2 and G5.3
+    bool diameter = false;       ///< G7: X is a diameter
 
     Vec3 position = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< [mm], programmed
     Vec3 rotary = Vec3::Zero();  ///< A, B, C [deg]
@@ -66,7 +66,7 @@ struct ModalState {
         position = from_machine(machine);
     }
 
-private:
+    /// Turned about z by an angle [deg].
     static Vec3 rotated(const Vec3& p, double degrees) {
         if (degrees == 0) return p;
         const double c = std::cos(degrees * rad_per_deg);

@@ -23,7 +23,7 @@ Vec3 Interpreter::target(const Block& block, bool machine) const {
     for (int axis = 0; axis < 3; ++axis) {
         const char letter = "XYZ"[axis];
         if (!block.words.given(letter)) continue;
-        const double value = block.words.of(letter) * state_.unit_mm;
+        const double value = block.words.of(letter) * state_.unit_mm * (axis == 0 && state_.diameter ? 0.5 : 1.0);
         const std::uint32_t bit = Words::bit(letter);
         const bool incremental = !machine && (state_.incremental ? (block.absolute & bit) == 0 : (block.incremental & bit) != 0);
         // Before the first motion an increment counts from the control's own zero.
