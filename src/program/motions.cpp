@@ -16,6 +16,11 @@ constexpr std::uint32_t other_axes = Words::bit('U') | Words::bit('V') | Words::
 constexpr std::uint32_t centres = Words::bit('I') | Words::bit('J') | Words::bit('K') | Words::bit('R');
 constexpr int most_turns = 100'000;
 
+bool names_motion(const Block& block) {
+    const auto* first = block.words.g.data();
+    return std::any_of(first, first + block.words.g_count, [](std::int32_t code) { return code == 0 || code == 10; });
+}
+
 }  // namespace
 
 Vec3 Interpreter::target(const Block& block, bool machine) const {
@@ -79,7 +84,8 @@ void Interpreter::move(const Block& block) {
         case MotionMode::rapid:
         case MotionMode::feed:
         case MotionMode::thread:
-            if (!axes) return;
+            // RS274 makes a motion of no length of a G0 or G1 that stands alone.
+            if (!axes && !(dialect_ == DialectId::linuxcnc && names_motion(block))) return;
             straight(state_.motion == MotionMode::rapid ? MotionKind::rapid : MotionKind::feed,
                      target(block, machine_coordinates_), rotary_target(block));
             return;

@@ -97,6 +97,22 @@ TEST(Interpreter, RunsCannedCyclesAsMotions) {
               (Rows{"rapid 0 0 5", "rapid 1 2 5", "rapid 1 2 1", "feed 1 2 -1", "rapid 1 2 1", "rapid 1 2 -0.746", "feed 1 2 -3", "rapid 1 2 5"}));
 }
 
+TEST(Interpreter, ReturnsToTheLevelWhereACycleBegan) {
+    // G98 after G99: out to Z 10, where the first of the cycles began, and across at that height.
+    EXPECT_EQ(motions(parse("G0 X0 Y0 Z10\nG99 G81 X1 Z-1 R2 F60\nG98 X2\n", "linuxcnc")),
+              (Rows{"rapid 0 0 10", "rapid 1 0 10", "rapid 1 0 2", "feed 1 0 -1", "rapid 1 0 2", "rapid 2 0 10", "rapid 2 0 2", "feed 2 0 -1", "rapid 2 0 10"}));
+}
+
+TEST(Interpreter, SetsTheZeroOfATurnedSystem) {
+    // Turned by 90°: X 10 of the program is machine Y 10. There L20 makes the position read (3, 4).
+    EXPECT_EQ(motions(parse("G10 L2 P1 R90\nG0 X10 Y0\nG10 L20 P1 X3 Y4\nG0 X4 Y4\nG53 G0 X0 Y11\n", "linuxcnc")),
+              (Rows{"rapid 10 0 0", "rapid 4 4 0", "rapid 4 4 0"}));
+}
+
+TEST(Interpreter, TakesBlanksInsideNumbersAndDiameters) {
+    EXPECT_EQ(motions(parse("G 0 X 1 0 . 5\nG7 G0 X10\n", "linuxcnc")), (Rows{"rapid 10.5 0 0", "rapid 5 0 0"}));
+}
+
 TEST(Interpreter, EvaluatesExpressionsByTheirRanks) {
     EXPECT_EQ(motions(parse("#1=[2+3*4**2]\n#<_k>=7\nG0 X#1 Y[#<_k> MOD 4] Z[SIN[30]*2]\nG0 X-#1 Y[[1 LT 2] AND [3 EQ 3]] Z[ATAN[1]/[1]]\n", "linuxcnc")),
               (Rows{"rapid 50 3 1", "rapid -50 1 45"}));
