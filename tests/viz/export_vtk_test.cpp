@@ -1,0 +1,66 @@
+// What is exported is read back by VTK's own readers.
+#include "viz/export_vtk.h"
+
+#include <vtkHDFReader.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLPolyDataReader.h>
+
+#include <gtest/gtest.h>
+
+#include "support/made_path.h"
+#include "support/temporary_folder.h"
+
+namespace clsurf::viz {
+namespace {
+
+/// Three passes of a zigzag, stitched.
+struct Made {
+    ClSurface surface;
+    Column<float> values;
+    Made() {
+        surface.positions = test::zigzag(3, 10, 0.4, 0.1);
+        surface.positions.origin = Vec3(100, 0, 0);
+        const Way way(surface.positions);
+        surface.passes = find_passes(surface.positions, way, test::one_run(surface.positions), 0.4);
+        surface.neighbours = find_neighbours(surface.positions, surface.passes, way, 0.4);
+        for (PointIndex i = 0; i < surface.positions.size(); ++i) values.push_back(static_cast<float>(i));
+    }
+};
+
+TEST(ExportVtk, VtpHoldsPointsPassesTrianglesAndColumns) {
+    const Made made;
+    const test::TemporaryFolder folder;
+    const std::string path = folder / "a.vtp";
+    write_vtp(path, made.surface, {{"speed", &made.values}});
+    vtkNew<vtkXMLPolyDataReader> reader;
+    reader->SetFileName(path.c_str());
+    reader->Update();
+    vtkPolyData* read = reader->GetOutput();
+    EXPECT_EQ(read->GetNumberOfPoints(), made.surface.positions.size());
+    EXPECT_EQ(read->GetNumberOfLines(), 3);
+    EXPECT_GT(read->GetNumberOfPolys(), 300);
+    EXPECT_EQ(read->GetPoint(0)[0], 100.0);
+    EXPECT_EQ(read->GetPointData()->GetArray("speed")->GetTuple1(17), 17.0);
+}
+
+TEST(ExportVtk, VtkHdfHoldsTheSame) {
+    const Made made;
+    const test::TemporaryFolder folder;
+    const std::string path = folder / "a.vtkhdf";
+    write_vtkhdf(path, made.surface, {{"speed", &made.values}});
+    vtkNew<vtkHDFReader> reader;
+    reader->SetFileName(path.c_str());
+    reader->Update();
+    auto* read = vtkUnstructuredGrid::SafeDownCast(reader->GetOutputDataObject(0));
+    ASSERT_NE(read, nullptr);
+    EXPECT_EQ(read->GetNumberOfPoints(), made.surface.positions.size());
+    EXPECT_GT(read->GetNumberOfCells(), 303);
+    EXPECT_EQ(read->GetCellType(0), 4);  // a polyline
+    EXPECT_EQ(read->GetPointData()->GetArray("speed")->GetTuple1(17), 17.0);
+}
+
+}  // namespace
+}  // namespace clsurf::viz
