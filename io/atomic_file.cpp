@@ -30,9 +30,17 @@ std::string folder_of(const std::string& path) {
 
 AtomicFile::AtomicFile(std::string path) : path_(std::move(path)) {
     struct stat status {};
-    if (::stat(path_.c_str(), &status) == 0 && S_ISDIR(status.st_mode)) {
-        errno = EISDIR;
-        fail(path_, "cannot write");
+    if (::stat(path_.c_str(), &status) == 0) {
+        if (S_ISDIR(status.st_mode)) {
+            errno = EISDIR;
+            fail(path_, "cannot write");
+        }
+        // A rename would put a file in the place of a device or a pipe.
+        if (!S_ISREG(status.st_mode)) throw SystemError(path_ + ": cannot write: not a regular file");
+        // What a link points at is replaced, not the link.
+        char* target = ::realpath(path_.c_str(), nullptr);
+        if (target != nullptr) path_ = target;
+        std::free(target);
     }
     std::string pattern = path_ + ".XXXXXX";
     descriptor_ = ::mkstemp(pattern.data());

@@ -39,7 +39,7 @@ ShownRange find_range(const Field& field, const Passes& passes, const RangeRule&
         }
         next = i - pass.last - 1;
     }
-    if (values.empty()) throw UsageError("field '" + field.info.name + "' has no value on any cutting point");
+    if (values.empty()) throw InputError({}, "field '" + field.info.name + "' has no value on any cutting point", "too few points, or the program and the log do not belong together?");
     const bool automatic = rule.kind == RangeRule::Kind::automatic;
     const double p_low = automatic ? automatic_low : rule.low;
     const double p_high = automatic ? automatic_high : rule.high;

@@ -20,7 +20,7 @@ struct ShownRange {
 };
 
 /// `automatic`: 1st to 99th percentile of the cutting points; about 0 for diverging fields. Over at
-/// most 10^6 evenly spaced points. Throws UsageError where no point has a value.
+/// most 10^6 evenly spaced points. Throws InputError where no point has a value.
 [[nodiscard]] ShownRange find_range(const Field& field, const Passes& passes, const RangeRule& rule);
 
 }  // namespace clsurf

@@ -25,6 +25,18 @@ TEST(AtomicFile, LeavesTheOldFileUntilItIsCommitted) {
     EXPECT_EQ(folder.files(), 1u);
 }
 
+TEST(AtomicFile, LeavesDevicesAndLinksWhatTheyAre) {
+    EXPECT_THROW(AtomicFile("/dev/full"), SystemError);
+    const test::TemporaryFolder folder;
+    const std::string target = folder.write("target", "old");
+    std::filesystem::create_symlink(target, folder / "link");
+    AtomicFile file(folder / "link");
+    file.write("new");
+    file.commit();
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+    EXPECT_EQ(test::read_file(target), "new");
+}
+
 TEST(AtomicFile, SaysWhereItCannotWrite) {
     const test::TemporaryFolder folder;
     EXPECT_THROW(AtomicFile(folder / "no/such/folder"), SystemError);
