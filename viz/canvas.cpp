@@ -223,7 +223,7 @@ Image draw(const Sheet& sheet, const std::string& gl, int supersample) {
     add_lines(flat[1], sheet.lines, true, supersample);
     add_lines(flat[2], sheet.lines, false, supersample);
     add_texts(flat[3], sheet.texts, supersample);
-    return shrink(gl_window.render(), supersample);
+    return gl_window.render(supersample);
 }
 
 }  // namespace clsurf::viz

@@ -4,6 +4,8 @@
 // libOSMesa before anything that brings libGL, so that the plain gl* names are Mesa's as well
 // (CMakeLists.txt; clsurf_link_gl). A test draws a pixel and looks at it.
 
+#include <dlfcn.h>
+
 #include <cstring>
 
 #include "viz/gl_context_makers.h"
@@ -18,6 +20,8 @@ void* no_display() { return nullptr; }
 }  // namespace
 
 void set_gl_resolver(GlResolver wanted) { resolver = wanted; }
+
+GlFunction resolve_gl(const char* name) { return resolver == nullptr ? nullptr : resolver(name); }
 
 }  // namespace clsurf::viz
 
@@ -39,4 +43,8 @@ __attribute__((visibility("default"))) void (*glXGetProcAddress(const unsigned c
     return glXGetProcAddressARB(name);
 }
 
+}
+
+bool clsurf::viz::gl_symbols_are_ours() {
+    return ::dlsym(RTLD_DEFAULT, "glXGetProcAddressARB") == reinterpret_cast<void*>(&glXGetProcAddressARB);
 }

@@ -1,28 +1,60 @@
 #include "viz/gl_window.h"
 
-#include <vtkCallbackCommand.h>
+#include <vtkLogger.h>
 #include <vtkUnsignedCharArray.h>
 
 #include "core/error.h"
+#include "viz/gl_context_makers.h"
 
 namespace clsurf::viz {
 namespace {
 
-/// GLEW 2 in VTK 9.1 looks for a GLX display, finds none, and says "Unknown error", which is harmless
-/// here (nigels-com/glew issue 273). Every other complaint is kept and ends the drawing.
-void take_error(vtkObject*, unsigned long, void* errors, void* message) {
-    const std::string text = message == nullptr ? std::string() : static_cast<const char*>(message);
-    if (text.find("GLEW could not be initialized: Unknown error") != std::string::npos) return;
-    static_cast<std::string*>(errors)->append(text);
+// VTK draws into a framebuffer object of its own size; the context's own buffer is never seen.
+constexpr int context_size = 16;
+
+/// VTK 9.4 and later take the resolver from the window; before, GLEW asks the exported glX names.
+template <typename Window>
+void give_resolver(Window* window) {
+    if constexpr (requires { window->SetOpenGLSymbolLoader(nullptr, nullptr); }) {
+        window->SetOpenGLSymbolLoader([](void*, const char* name) { return resolve_gl(name); }, nullptr);
+    } else {
+        (void)window;
+        if (!gl_symbols_are_ours()) throw SystemError("this program was linked without clsurf_link_gl: VTK would call another OpenGL");
+    }
 }
 
 }  // namespace
 
-GlWindow::GlWindow(const std::string& gl, int width, int height) : context_(make_gl_context(gl, width, height)) {
-    vtkNew<vtkCallbackCommand> callback;
-    callback->SetCallback(take_error);
-    callback->SetClientData(&errors_);
-    window_->AddObserver(vtkCommand::ErrorEvent, callback);
+/// Where VTK writes what it has to complain about, of whatever object.
+class GlWindow::Complaints final : public vtkOutputWindow {
+public:
+    static Complaints* New() {
+        auto* made = new Complaints;
+        made->InitializeObjectBase();
+        return made;
+    }
+    vtkTypeMacro(Complaints, vtkOutputWindow)
+
+    void DisplayErrorText(const char* text) override {
+        const std::string said = text;
+        // GLEW 2 in VTK 9.1 looks for a GLX display, finds none, and says "Unknown error", which is
+        // harmless here (nigels-com/glew issue 273). Every other complaint ends the drawing.
+        if (said.find("GLEW could not be initialized: Unknown error") == std::string::npos) errors_ += said;
+    }
+    [[nodiscard]] const std::string& errors() const { return errors_; }
+
+private:
+    std::string errors_;
+};
+
+GlWindow::GlWindow(const std::string& gl, int width, int height)
+    : context_(make_gl_context(gl, context_size, context_size)),
+      complaints_(vtkSmartPointer<Complaints>::New()),
+      complaints_before_(vtkOutputWindow::GetInstance()) {
+    if (context_->renderer().empty()) throw SystemError("OpenGL does not answer");
+    give_resolver(window_.GetPointer());
+    vtkOutputWindow::SetInstance(complaints_);
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);  // else it says the same on stderr
     window_->SetSize(width, height);
     window_->SetOwnContext(false);
     window_->SetReadyForRendering(true);
@@ -33,32 +65,26 @@ GlWindow::GlWindow(const std::string& gl, int width, int height) : context_(make
     // With multisampling llvmpipe drops lines shorter than a pixel; edges are smoothed by supersampling.
     window_->SetMultiSamples(0);
     window_->InitializeFromCurrentContext();
-    if (context_->renderer().empty()) throw SystemError("OpenGL does not answer");
 }
 
 GlWindow::~GlWindow() {
     context_->make_current();
     window_->Finalize();
+    vtkOutputWindow::SetInstance(complaints_before_);
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_INFO);
 }
 
-Image GlWindow::render() {
+Image GlWindow::render(int factor) {
     window_->Render();
-    if (!errors_.empty()) throw SystemError("VTK cannot draw: " + errors_);
     const int* size = window_->GetSize();
+    const int width = size[0];
+    const int height = size[1];
     vtkNew<vtkUnsignedCharArray> pixels;
-    window_->GetPixelData(0, 0, size[0] - 1, size[1] - 1, 0, pixels, 0);
-    Image image;
-    image.width = size[0];
-    image.height = size[1];
-    const std::size_t row = 3 * static_cast<std::size_t>(size[0]);
-    image.rgb.resize(row * static_cast<std::size_t>(size[1]));
-    if (pixels->GetNumberOfValues() != static_cast<vtkIdType>(image.rgb.size())) throw SystemError("VTK gave no picture");
-    // OpenGL counts rows from below.
-    for (int y = 0; y < image.height; ++y) {
-        const unsigned char* from = pixels->GetPointer(0) + static_cast<std::size_t>(image.height - 1 - y) * row;
-        std::copy(from, from + row, image.rgb.data() + static_cast<std::size_t>(y) * row);
-    }
-    return image;
+    window_->GetPixelData(0, 0, width - 1, height - 1, 0, pixels, 0);
+    const std::string& errors = static_cast<const Complaints*>(complaints_.Get())->errors();
+    if (!errors.empty()) throw SystemError("VTK cannot draw: " + errors);
+    if (pixels->GetNumberOfValues() != vtkIdType{3} * width * height) throw SystemError("VTK gave no picture");
+    return shrink_from_below(pixels->GetPointer(0), width, height, factor);
 }
 
 }  // namespace clsurf::viz

@@ -6,6 +6,8 @@
 
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkNew.h>
+#include <vtkOutputWindow.h>
+#include <vtkSmartPointer.h>
 
 #include "viz/gl_context.h"
 #include "viz/image.h"
@@ -22,13 +24,16 @@ public:
 
     [[nodiscard]] vtkRenderWindow* window() { return window_; }
     [[nodiscard]] std::string renderer() const { return context_->renderer(); }
-    /// Renders and reads the pixels. Throws SystemError with what VTK complained about.
-    [[nodiscard]] Image render();
+    /// Renders and reads the pixels, the mean of each `factor` × `factor`. Throws SystemError with what
+    /// VTK complained about.
+    [[nodiscard]] Image render(int factor);
 
 private:
+    class Complaints;
+
     std::unique_ptr<GlContext> context_;
+    vtkSmartPointer<vtkOutputWindow> complaints_, complaints_before_;
     vtkNew<vtkGenericOpenGLRenderWindow> window_;
-    std::string errors_;
 };
 
 }  // namespace clsurf::viz

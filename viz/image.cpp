@@ -1,6 +1,8 @@
 #include "viz/image.h"
 
+#include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "core/error.h"
 #include "core/parallel.h"
@@ -46,27 +48,52 @@ std::string encode_png(const Image& image, const std::string& description) {
     return bytes;
 }
 
-Image shrink(const Image& image, int factor) {
-    if (factor == 1) return image;
+namespace {
+
+/// `row_of(y)`: row y from the top, 3 · factor · width values.
+template <typename RowOf>
+Image mean_of(int width, int height, int factor, const RowOf& row_of) {
     Image small;
-    small.width = image.width / factor;
-    small.height = image.height / factor;
-    small.rgb.resize(3 * static_cast<std::size_t>(small.width) * static_cast<std::size_t>(small.height));
+    small.width = width;
+    small.height = height;
+    const std::size_t values = 3 * static_cast<std::size_t>(width);
+    small.rgb.resize(values * static_cast<std::size_t>(height));
     const int count = factor * factor;
-    parallel_for(small.height, 32, [&](std::int64_t first, std::int64_t last) {
+    const auto step = static_cast<std::size_t>(factor);
+    parallel_for(height, 32, [&](std::int64_t first, std::int64_t last) {
+        std::vector<std::uint16_t> sums(values * step);
         for (int y = static_cast<int>(first); y < static_cast<int>(last); ++y) {
-            std::uint8_t* out = small.rgb.data() + 3 * static_cast<std::size_t>(y) * static_cast<std::size_t>(small.width);
-            for (int x = 0; x < small.width; ++x, out += 3) {
-                int sum[3] = {count / 2, count / 2, count / 2};
-                for (int dy = 0; dy < factor; ++dy) {
-                    const std::uint8_t* in = image.pixel(x * factor, y * factor + dy);
-                    for (int k = 0; k < 3 * factor; ++k) sum[k % 3] += in[k];
+            std::fill(sums.begin(), sums.end(), std::uint16_t{0});
+            for (int dy = 0; dy < factor; ++dy) {
+                const std::uint8_t* in = row_of(y * factor + dy);
+                for (std::size_t k = 0; k < sums.size(); ++k) sums[k] = static_cast<std::uint16_t>(sums[k] + in[k]);
+            }
+            std::uint8_t* out = small.rgb.data() + static_cast<std::size_t>(y) * values;
+            const std::uint16_t* sum = sums.data();
+            for (int x = 0; x < width; ++x, out += 3, sum += 3 * step) {
+                for (std::size_t k = 0; k < 3; ++k) {
+                    int total = count / 2;
+                    for (std::size_t dx = 0; dx < step; ++dx) total += sum[3 * dx + k];
+                    out[k] = static_cast<std::uint8_t>(total / count);
                 }
-                for (int k = 0; k < 3; ++k) out[k] = static_cast<std::uint8_t>(sum[k] / count);
             }
         }
     });
     return small;
+}
+
+}  // namespace
+
+// The mean is taken of the stored values, not of light: dark text and lines on white stay as heavy as
+// they are without supersampling, where a mean of light would thin them.
+Image shrink(const Image& image, int factor) {
+    if (factor == 1) return image;
+    return mean_of(image.width / factor, image.height / factor, factor, [&](int y) { return image.pixel(0, y); });
+}
+
+Image shrink_from_below(const std::uint8_t* rgb, int width, int height, int factor) {
+    const std::size_t row = 3 * static_cast<std::size_t>(width);
+    return mean_of(width / factor, height / factor, factor, [&](int y) { return rgb + static_cast<std::size_t>(height - 1 - y) * row; });
 }
 
 }  // namespace clsurf::viz

@@ -26,5 +26,7 @@ struct Image {
 
 /// The mean of each `factor` × `factor` pixels. Domain: both sizes divisible.
 [[nodiscard]] Image shrink(const Image& image, int factor);
+/// The same of RGB rows that begin at the bottom, as OpenGL has them.
+[[nodiscard]] Image shrink_from_below(const std::uint8_t* rgb, int width, int height, int factor);
 
 }  // namespace clsurf::viz
