@@ -1,6 +1,7 @@
 #include "viz/canvas.h"
 
-#include <array>
+#include <algorithm>
+#include <cmath>
 
 #include <vtkActor.h>
 #include <vtkActor2D.h>
@@ -8,6 +9,7 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCoordinate.h>
+#include <vtkCullerCollection.h>
 #include <vtkFloatArray.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -78,37 +80,24 @@ void add_mesh(vtkRenderer* renderer, const MeshPanel& panel, int supersample) {
 void place_camera(vtkRenderer* renderer, const MeshPanel& panel) {
     const Camera& c = panel.camera;
     const Vec3 focus = c.centre - panel.geometry.origin;
-    double bounds[6];
-    renderer->ComputeVisiblePropBounds(bounds);
-    double reach = 1;
-    if (bounds[0] <= bounds[1]) {
-        const Box3 box(Vec3(bounds[0], bounds[2], bounds[4]), Vec3(bounds[1], bounds[3], bounds[5]));
-        reach = box.diagonal().norm() + (box.center() - focus).norm() + 1;
-    }
-    const Vec3 eye = focus + reach * c.towards;
-    vtkCamera* camera = renderer->GetActiveCamera();
+    // A panel's shift in its plane does not change depths, since the projection is parallel.
+    const double room = 1.01 * c.depth + 1;
+    const Vec3 eye = focus + 2 * room * c.towards;
+    vtkNew<vtkCamera> camera;
     camera->SetParallelProjection(1);
     camera->SetFocalPoint(focus.data());
     camera->SetPosition(eye.data());
     camera->SetViewUp(c.up.data());
     camera->SetParallelScale(0.5 * c.height * c.mm_per_pixel);
-    camera->SetClippingRange(1e-3 * reach, 2.5 * reach);
+    camera->SetClippingRange(room, 3 * room);
+    renderer->SetActiveCamera(camera);
+    // Everything is in view (detail.h): cullers would only measure it again.
+    renderer->GetCullers()->RemoveAllItems();
 }
 
-void add_quads(vtkRenderer* renderer, const std::vector<FlatQuad>& quads, int supersample) {
-    if (quads.empty()) return;
-    vtkNew<vtkPoints> points;
-    vtkNew<vtkCellArray> polygons;
-    vtkNew<vtkUnsignedCharArray> colours;
-    colours->SetNumberOfComponents(3);
-    for (const FlatQuad& quad : quads) {
-        const Rect& r = quad.rect;
-        vtkIdType ids[4];
-        const double corners[4][2] = {{r.x, r.y}, {r.x + r.width, r.y}, {r.x + r.width, r.y + r.height}, {r.x, r.y + r.height}};
-        for (int k = 0; k < 4; ++k) ids[k] = points->InsertNextPoint(corners[k][0] * supersample, corners[k][1] * supersample, 0);
-        polygons->InsertNextCell(4, ids);
-        colours->InsertNextTypedTuple(quad.rgb.data());
-    }
+/// Polygons in pixels of the supersampled picture, a colour each.
+void add_flat(vtkRenderer* renderer, vtkPoints* points, vtkCellArray* polygons, vtkUnsignedCharArray* colours) {
+    if (polygons->GetNumberOfCells() == 0) return;
     vtkNew<vtkPolyData> data;
     data->SetPoints(points);
     data->SetPolys(polygons);
@@ -122,12 +111,30 @@ void add_quads(vtkRenderer* renderer, const std::vector<FlatQuad>& quads, int su
     renderer->AddActor2D(actor);
 }
 
+void add_quads(vtkRenderer* renderer, const std::vector<FlatQuad>& quads, int supersample) {
+    vtkNew<vtkPoints> points;
+    vtkNew<vtkCellArray> polygons;
+    vtkNew<vtkUnsignedCharArray> colours;
+    colours->SetNumberOfComponents(3);
+    for (const FlatQuad& quad : quads) {
+        const Rect& r = quad.rect;
+        vtkIdType ids[4];
+        const double corners[4][2] = {{r.x, r.y}, {r.x + r.width, r.y}, {r.x + r.width, r.y + r.height}, {r.x, r.y + r.height}};
+        for (int k = 0; k < 4; ++k) ids[k] = points->InsertNextPoint(corners[k][0] * supersample, corners[k][1] * supersample, 0);
+        polygons->InsertNextCell(4, ids);
+        colours->InsertNextTypedTuple(quad.rgb.data());
+    }
+    add_flat(renderer, points, polygons, colours);
+}
+
 /// Lines as quads along their steps: llvmpipe's wide lines have no joints.
 void add_lines(vtkRenderer* renderer, const std::vector<FlatLine>& lines, bool under, int supersample) {
+    vtkNew<vtkPoints> points;
+    vtkNew<vtkCellArray> polygons;
+    vtkNew<vtkUnsignedCharArray> colours;
+    colours->SetNumberOfComponents(3);
     for (const FlatLine& line : lines) {
         if (line.under != under) continue;
-        vtkNew<vtkPoints> points;
-        vtkNew<vtkCellArray> polygons;
         for (std::size_t i = 1; i < line.points.size(); ++i) {
             const Vec2 a = line.points[i - 1] * supersample;
             const Vec2 b = line.points[i] * supersample;
@@ -141,17 +148,10 @@ void add_lines(vtkRenderer* renderer, const std::vector<FlatLine>& lines, bool u
                 ids[k++] = points->InsertNextPoint(p.x(), p.y(), 0);
             }
             polygons->InsertNextCell(4, ids);
+            colours->InsertNextTypedTuple(line.rgb.data());
         }
-        vtkNew<vtkPolyData> data;
-        data->SetPoints(points);
-        data->SetPolys(polygons);
-        vtkNew<vtkPolyDataMapper2D> mapper;
-        mapper->SetInputData(data);
-        vtkNew<vtkActor2D> actor;
-        actor->SetMapper(mapper);
-        actor->GetProperty()->SetColor(line.rgb[0] / 255.0, line.rgb[1] / 255.0, line.rgb[2] / 255.0);
-        renderer->AddActor2D(actor);
     }
+    add_flat(renderer, points, polygons, colours);
 }
 
 void set_up(vtkTextProperty* property, const FlatText& text, int supersample) {
@@ -188,13 +188,29 @@ double text_width(const FlatText& text) {
     return box[1] - box[0] + 1;
 }
 
+FlatText fitted(FlatText text, double width) {
+    if (text_width(text) <= width) return text;
+    const std::string whole = text.text;
+    for (std::size_t keep = whole.size(); keep > 4; --keep) {
+        std::size_t head = keep / 2;
+        std::size_t tail = whole.size() - (keep - head);
+        // Not inside a UTF-8 sequence.
+        while (head > 0 && (static_cast<unsigned char>(whole[head]) & 0xC0) == 0x80) --head;
+        while (tail < whole.size() && (static_cast<unsigned char>(whole[tail]) & 0xC0) == 0x80) ++tail;
+        text.text = whole.substr(0, head) + "…" + whole.substr(tail);
+        if (text_width(text) <= width) return text;
+    }
+    text.text.clear();
+    return text;
+}
+
 Image draw(const Sheet& sheet, const std::string& gl, int supersample) {
     const int width = sheet.width * supersample;
     const int height = sheet.height * supersample;
     GlWindow gl_window(gl, width, height);
     vtkRenderWindow* window = gl_window.window();
     window->SetDPI(dpi);
-    window->SetNumberOfLayers(6);
+    window->SetNumberOfLayers(4);
     const auto background = [&](vtkRenderer* renderer) {
         renderer->SetBackground(sheet.background[0] / 255.0, sheet.background[1] / 255.0, sheet.background[2] / 255.0);
     };
@@ -213,16 +229,17 @@ Image draw(const Sheet& sheet, const std::string& gl, int supersample) {
         place_camera(renderer, panel);
         renderers.push_back(renderer);
     }
-    // Flat things have no depth among each other: each kind is a layer of its own.
-    std::array<vtkNew<vtkRenderer>, 4> flat;
-    for (int k = 0; k < 4; ++k) {
-        flat[static_cast<std::size_t>(k)]->SetLayer(2 + k);
-        window->AddRenderer(flat[static_cast<std::size_t>(k)]);
-    }
-    add_quads(flat[0], sheet.quads, supersample);
-    add_lines(flat[1], sheet.lines, true, supersample);
-    add_lines(flat[2], sheet.lines, false, supersample);
-    add_texts(flat[3], sheet.texts, supersample);
+    // Flat things have no depth among each other: they are drawn one after the other, texts above all.
+    vtkNew<vtkRenderer> flat;
+    flat->SetLayer(2);
+    window->AddRenderer(flat);
+    add_quads(flat, sheet.quads, supersample);
+    add_lines(flat, sheet.lines, true, supersample);
+    add_lines(flat, sheet.lines, false, supersample);
+    vtkNew<vtkRenderer> texts;
+    texts->SetLayer(3);
+    window->AddRenderer(texts);
+    add_texts(texts, sheet.texts, supersample);
     return gl_window.render(supersample);
 }
 

@@ -62,6 +62,8 @@ struct Sheet {
 
 /// Width of a text [px].
 [[nodiscard]] double text_width(const FlatText& text);
+/// Shortens a text in its middle until it is at most so wide [px].
+[[nodiscard]] FlatText fitted(FlatText text, double width);
 
 /// Draws at `supersample` times the size and takes the mean, for smooth edges. Throws SystemError.
 [[nodiscard]] Image draw(const Sheet& sheet, const std::string& gl, int supersample);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 namespace clsurf::viz {
 namespace {
 
+constexpr double caption_lines = 1.6;   ///< height of a panel's caption, in text sizes
 constexpr double shade_dark = 0.80;  ///< of a surface that the light only grazes
 const Vec3 light(-0.45, 0.55, 0.70);  ///< from the upper left, in the camera's frame
 
@@ -37,21 +39,10 @@ Rgb faint(const Rgb& ink, const Rgb& background) {
     return mixed;
 }
 
-/// Shortens a text in its middle until it fits.
-FlatText fitted(FlatText text, double width) {
-    if (text_width(text) <= width) return text;
-    const std::string whole = text.text;
-    for (std::size_t keep = whole.size(); keep > 4; --keep) {
-        std::size_t head = keep / 2;
-        std::size_t tail = whole.size() - (keep - head);
-        // Not inside a UTF-8 sequence.
-        while (head > 0 && (static_cast<unsigned char>(whole[head]) & 0xC0) == 0x80) --head;
-        while (tail < whole.size() && (static_cast<unsigned char>(whole[tail]) & 0xC0) == 0x80) ++tail;
-        text.text = whole.substr(0, head) + "..." + whole.substr(tail);
-        if (text_width(text) <= width) return text;
-    }
-    return text;
-}
+/// What the colours of a map leave out: values beyond the range by more than can be read off it.
+struct Beyond {
+    bool below = false, above = false, missing = false;
+};
 
 /// Vertices get their colours, darkened where the light grazes.
 void paint(Detail& detail, const ColourScale& scale, double per_inside, const Camera& camera) {
@@ -240,52 +231,95 @@ void add_marks(Sheet& sheet, const MapPanel& map, const MeshPanel& panel, const 
 
 }  // namespace
 
-Box3 bounds_of(const ClSurface& surface, const Box3& inside) {
-    Eigen::AlignedBox3f box;
-    const Vec3 origin = surface.positions.origin;
+Box3 extent_of(const ClSurface& surface, const ViewAxes& axes) {
+    const Positions& p = surface.positions;
+    const Eigen::Matrix3f turned = axes.cast<float>();
+    struct Piece {
+        PointIndex first, last;
+        Eigen::AlignedBox3f box;
+    };
+    std::vector<Piece> pieces;
     for (const Pass& pass : surface.passes) {
         if (pass.kind == PassKind::rapid) continue;
-        for (PointIndex i = pass.first; i <= pass.last; ++i) {
-            const Eigen::Vector3f p = surface.positions[i];
-            if (!inside.isEmpty() && !inside.contains(p.cast<double>() + origin)) continue;
-            box.extend(p);
+        for (PointIndex first = pass.first; first <= pass.last; first += block_points) {
+            pieces.push_back({first, std::min(pass.last, first + block_points - 1), {}});
         }
     }
+    parallel_for(static_cast<std::int64_t>(pieces.size()), 8, [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t k = first; k < last; ++k) {
+            Piece& piece = pieces[static_cast<std::size_t>(k)];
+            // A point that is not finite neither widens nor empties the box.
+            Eigen::Array3f low = Eigen::Array3f::Constant(std::numeric_limits<float>::infinity());
+            Eigen::Array3f high = -low;
+            for (PointIndex i = piece.first; i <= piece.last; ++i) {
+                const Eigen::Vector3f q = turned * p[i];
+                if (!q.allFinite()) continue;
+                low = low.min(q.array());
+                high = high.max(q.array());
+            }
+            if ((low <= high).all()) piece.box = Eigen::AlignedBox3f(low.matrix(), high.matrix());
+        }
+    });
+    Eigen::AlignedBox3f box;
+    for (const Piece& piece : pieces) box.extend(piece.box);
     if (box.isEmpty()) return {};
+    const Vec3 origin = axes * p.origin;
     return {box.min().cast<double>() + origin, box.max().cast<double>() + origin};
 }
 
-Image draw_map(const std::vector<MapPanel>& panels, const ColourScale& scale, const MapTexts& texts, const Look& look) {
+namespace {
+
+Rect map_area(const Look& look, const Layout& layout) {
+    Rect area{0, 0, look.width - layout.legend_width, static_cast<double>(look.height)};
+    if (!look.legend) return area;
+    area.y = layout.note_height;
+    area.height -= layout.note_height + layout.title_height;
+    return area;
+}
+
+/// Panels side by side; a caption has its own line above.
+Rect panel_rect(const std::vector<MapPanel>& panels, std::size_t k, const Look& look, const Layout& layout) {
+    const Rect area = map_area(look, layout);
+    const auto count = static_cast<double>(panels.size());
+    const double caption = panels[k].caption.empty() ? 0 : caption_lines * layout.text;
+    return {std::round(area.x + area.width * static_cast<double>(k) / count), std::round(area.y),
+            std::max(1.0, std::floor(area.width / count)), std::max(1.0, std::floor(area.height) - std::ceil(caption))};
+}
+
+}  // namespace
+
+Camera map_camera(const std::vector<MapPanel>& panels, const Look& look) {
+    const Rect rect = panel_rect(panels, 0, look, Layout(look));
+    const auto width = static_cast<int>(rect.width);
+    const auto height = static_cast<int>(rect.height);
+    if (!look.box.isEmpty()) return camera_for(look.view, look.box, width, height, look.zoom);
+    const ViewAxes axes = axes_of(look.view);
+    Box3 extent;
+    for (const MapPanel& map : panels) extent.extend(extent_of(*map.surface, axes));
+    return camera_for(axes, extent, width, height, look.zoom);
+}
+
+Sheet map_sheet(const std::vector<MapPanel>& panels, const ColourScale& scale, const MapTexts& texts, const Look& look) {
     const Layout layout(look);
     const Rgb ink = ink_for(look.background);
     Sheet sheet;
     sheet.width = look.width;
     sheet.height = look.height;
     sheet.background = look.background;
-    Rect area{0, 0, look.width - layout.legend_width, static_cast<double>(look.height)};
-    if (look.legend) {
-        area.y = layout.note_height;
-        area.height -= layout.note_height + layout.title_height;
-    }
-    Box3 bounds;
-    for (const MapPanel& map : panels) bounds.extend(bounds_of(*map.surface, look.box));
-    if (!look.box.isEmpty()) bounds = look.box;
+    const Camera camera = map_camera(panels, look);
     bool missing = false;
-    const auto count = static_cast<double>(panels.size());
     for (std::size_t k = 0; k < panels.size(); ++k) {
         const MapPanel& map = panels[k];
         MeshPanel panel;
-        panel.rect = {std::round(area.x + area.width * static_cast<double>(k) / count), std::round(area.y),
-                      std::floor(area.width / count), std::floor(area.height)};
-        // Each panel shows the same part at the same scale; a caption has its own line.
-        const double caption = map.caption.empty() ? 0 : 1.6 * layout.text;
-        panel.rect.height = std::max(1.0, panel.rect.height - caption);
-        panel.rect.width = std::max(1.0, panel.rect.width);
-        panel.camera = camera_for(look.view, bounds, static_cast<int>(panel.rect.width), static_cast<int>(panel.rect.height), look.zoom);
+        panel.rect = panel_rect(panels, k, look, layout);
+        panel.camera = camera;  // each panel shows the same part at the same scale
         DetailRequest request;
-        request.projection = panel.camera.projection();
-        request.width = panel.camera.width;
-        request.height = panel.camera.height;
+        // Somewhat more than the panel: a triangle over its edge has corners outside.
+        const double room = std::min(2.0 * map.surface->step_over / camera.mm_per_pixel + 8.0, static_cast<double>(camera.width));
+        request.projection = camera.projection();
+        request.projection.col(3).array() += std::ceil(room);
+        request.width = camera.width + 2 * static_cast<int>(std::ceil(room));
+        request.height = camera.height + 2 * static_cast<int>(std::ceil(room));
         request.style = look.style;
         request.box = look.box;
         Detail detail = visible_detail(*map.surface, map.field->values, request);
@@ -293,14 +327,14 @@ Image draw_map(const std::vector<MapPanel>& panels, const ColourScale& scale, co
         paint(detail, scale, map.field->info.unit.per_inside, panel.camera);
         panel.geometry = std::move(detail.geometry);
         add_marks(sheet, map, panel, layout);
-        if (caption > 0) {
-            add_text(sheet, panel.rect.x + layout.margin, panel.rect.y + panel.rect.height + 0.5 * caption, map.caption, layout.text, Align::left, ink, true);
+        if (!map.caption.empty()) {
+            const double y = panel.rect.y + panel.rect.height + 0.5 * caption_lines * layout.text;
+            sheet.texts.push_back(fitted({panel.rect.x + layout.margin, y, map.caption, layout.text, Align::left, true, ink},
+                                         panel.rect.width - 2 * layout.margin));
         }
-        if (look.legend) {
-            if (k + 1 == panels.size()) {
-                add_axes(sheet, panel, layout, ink);
-                add_scale_bar(sheet, panel, layout, ink);
-            }
+        if (look.legend && k + 1 == panels.size()) {
+            add_axes(sheet, panel, layout, ink);
+            add_scale_bar(sheet, panel, layout, ink);
         }
         sheet.panels.push_back(std::move(panel));
     }
@@ -308,7 +342,11 @@ Image draw_map(const std::vector<MapPanel>& panels, const ColourScale& scale, co
         add_title(sheet, texts, look, layout, ink);
         add_legend(sheet, scale, panels.front().field->info, missing, look, layout, ink);
     }
-    return draw(sheet, look.gl, look.supersample);
+    return sheet;
+}
+
+Image draw_map(const std::vector<MapPanel>& panels, const ColourScale& scale, const MapTexts& texts, const Look& look) {
+    return draw(map_sheet(panels, scale, texts, look), look.gl, look.supersample);
 }
 
 }  // namespace clsurf::viz

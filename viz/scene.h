@@ -51,10 +51,17 @@ struct MapTexts {
     std::vector<std::string> notes;  ///< window, range: one line where they fit, else one each
 };
 
-/// Cutting points inside a box (empty: all) [mm].
-[[nodiscard]] Box3 bounds_of(const ClSurface& surface, const Box3& inside);
+/// Extent along the axes of a view of the points that do not belong to rapids [mm]. O(points), parallel.
+[[nodiscard]] Box3 extent_of(const ClSurface& surface, const ViewAxes& axes);
 
-/// Draws one map, or two side by side on one scale. Throws SystemError, UsageError.
+/// What the map panels show: a camera of the panels' size. The box, where there is one, else all that is drawn.
+[[nodiscard]] Camera map_camera(const std::vector<MapPanel>& panels, const Look& look);
+
+/// The sheet of one map, or of two side by side on one scale.
+[[nodiscard]] Sheet map_sheet(const std::vector<MapPanel>& panels, const ColourScale& scale,
+                              const MapTexts& texts, const Look& look);
+
+/// Draws it. Throws SystemError, UsageError.
 [[nodiscard]] Image draw_map(const std::vector<MapPanel>& panels, const ColourScale& scale,
                              const MapTexts& texts, const Look& look);
 

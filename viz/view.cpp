@@ -47,26 +47,26 @@ Projection Camera::projection() const {
     return p;
 }
 
-Camera camera_for(const View& view, const Box3& box, int width, int height, const Zoom& zoom) {
+ViewAxes axes_of(const View& view) {
     const double az = view.azimuth * rad_per_deg;
     const double el = view.elevation * rad_per_deg;
+    const Vec3 towards(std::sin(az) * std::cos(el), -std::cos(az) * std::cos(el), std::sin(el));
+    const Vec3 right(std::cos(az), std::sin(az), 0);
+    ViewAxes axes;
+    axes << right.transpose(), towards.cross(right).transpose(), towards.transpose();
+    return axes;
+}
+
+Camera camera_for(const ViewAxes& axes, const Box3& extent, int width, int height, const Zoom& zoom) {
     Camera camera;
     camera.width = width;
     camera.height = height;
-    camera.towards = Vec3(std::sin(az) * std::cos(el), -std::cos(az) * std::cos(el), std::sin(el));
-    camera.right = Vec3(std::cos(az), std::sin(az), 0);
-    camera.up = camera.towards.cross(camera.right);
-    const Vec3 middle = box.isEmpty() ? Vec3(Vec3::Zero()) : Vec3(box.center());
-    double half_width = 0;
-    double half_height = 0;
-    if (!box.isEmpty()) {
-        for (int corner = 0; corner < 8; ++corner) {
-            const Vec3 d = box.corner(static_cast<Box3::CornerType>(corner)) - middle;
-            half_width = std::max(half_width, std::abs(d.dot(camera.right)));
-            half_height = std::max(half_height, std::abs(d.dot(camera.up)));
-        }
-    }
-    double scale = margin * std::max(2 * half_width / width, 2 * half_height / height);
+    camera.right = axes.row(0).transpose();
+    camera.up = axes.row(1).transpose();
+    camera.towards = axes.row(2).transpose();
+    const Vec3 size = extent.isEmpty() ? Vec3(Vec3::Zero()) : Vec3(extent.sizes());
+    const Vec3 middle = extent.isEmpty() ? Vec3(Vec3::Zero()) : Vec3(axes.transpose() * extent.center());
+    double scale = margin * std::max(size.x() / width, size.y() / height);
     if (!(scale > 0)) scale = 1.0 / std::max(1, std::min(width, height));  // one point: a millimetre wide
     // The part of the picture that is asked for, in pixels from the middle.
     const double part = std::max(zoom.x1 - zoom.x0, zoom.y1 - zoom.y0);
@@ -74,7 +74,17 @@ Camera camera_for(const View& view, const Box3& box, int width, int height, cons
     const double shift_y = (0.5 - 0.5 * (zoom.y0 + zoom.y1)) * height;
     camera.centre = middle + scale * (shift_x * camera.right + shift_y * camera.up);
     camera.mm_per_pixel = scale * part;
+    camera.depth = 0.5 * size.z();
     return camera;
+}
+
+Camera camera_for(const View& view, const Box3& box, int width, int height, const Zoom& zoom) {
+    const ViewAxes axes = axes_of(view);
+    Box3 extent;
+    for (int corner = 0; corner < 8 && !box.isEmpty(); ++corner) {
+        extent.extend(axes * box.corner(static_cast<Box3::CornerType>(corner)));
+    }
+    return camera_for(axes, extent, width, height, zoom);
 }
 
 }  // namespace clsurf::viz
