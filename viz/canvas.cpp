@@ -11,6 +11,7 @@
 #include <vtkCoordinate.h>
 #include <vtkCullerCollection.h>
 #include <vtkFloatArray.h>
+#include <vtkImageData.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
@@ -22,6 +23,7 @@
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
 #include <vtkTextRenderer.h>
+#include <vtkTexture.h>
 #include <vtkTypeInt32Array.h>
 #include <vtkUnsignedCharArray.h>
 
@@ -47,6 +49,51 @@ vtkNew<vtkCellArray> cells(const Column<std::uint32_t>& vertices, int size) {
     return array;
 }
 
+/// A ramp as a texture of one row. VTK multiplies it with the vertex colours.
+vtkSmartPointer<vtkTexture> texture_of(const std::vector<Rgb>& ramp, bool stepped) {
+    vtkNew<vtkImageData> image;
+    image->SetDimensions(static_cast<int>(ramp.size()), 1, 1);
+    image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+    auto* out = static_cast<unsigned char*>(image->GetScalarPointer());
+    for (const Rgb& rgb : ramp) out = std::copy(rgb.begin(), rgb.end(), out);
+    auto texture = vtkSmartPointer<vtkTexture>::New();
+    texture->SetInputData(image);
+    texture->SetColorModeToDirectScalars();
+    texture->SetWrap(vtkTexture::ClampToEdge);
+    texture->MipmapOff();
+    texture->SetInterpolate(stepped ? 0 : 1);
+    return texture;
+}
+
+struct Cells {
+    const Column<std::uint32_t>& triangles;
+    const Column<std::uint32_t>& segments;
+    const Column<std::uint32_t>& points;
+};
+
+void add_cells(vtkRenderer* renderer, const MeshPanel& panel, const Cells& of, vtkPoints* points, vtkPointData* attributes,
+               vtkTexture* texture, int supersample) {
+    if (of.triangles.empty() && of.segments.empty() && of.points.empty()) return;
+    vtkNew<vtkPolyData> data;
+    data->SetPoints(points);
+    data->GetPointData()->ShallowCopy(attributes);
+    if (!of.triangles.empty()) data->SetPolys(cells(of.triangles, 3));
+    if (!of.segments.empty()) data->SetLines(cells(of.segments, 2));
+    if (!of.points.empty()) data->SetVerts(cells(of.points, 1));
+    vtkNew<vtkPolyDataMapper> mapper;
+    mapper->SetInputData(data);
+    mapper->SetColorModeToDirectScalars();
+    vtkNew<vtkActor> actor;
+    actor->SetMapper(mapper);
+    if (texture != nullptr) actor->SetTexture(texture);
+    // Shading is in the colours already, so that one rule makes legend and surface.
+    actor->GetProperty()->LightingOff();
+    actor->GetProperty()->SetLineWidth(static_cast<float>(panel.line_width * supersample));
+    actor->GetProperty()->SetPointSize(static_cast<float>(panel.point_size * supersample));
+    actor->ForceOpaqueOn();
+    renderer->AddActor(actor);
+}
+
 void add_mesh(vtkRenderer* renderer, const MeshPanel& panel, int supersample) {
     const Geometry& g = panel.geometry;
     const auto vertices = static_cast<vtkIdType>(g.xyz.size() / 3);
@@ -59,22 +106,20 @@ void add_mesh(vtkRenderer* renderer, const MeshPanel& panel, int supersample) {
     vtkNew<vtkUnsignedCharArray> colours;
     colours->SetNumberOfComponents(3);
     colours->SetArray(const_cast<unsigned char*>(g.rgb.data()), vertices * 3, 1);
-    vtkNew<vtkPolyData> data;
-    data->SetPoints(points);
-    data->GetPointData()->SetScalars(colours);
-    if (!g.triangles.empty()) data->SetPolys(cells(g.triangles, 3));
-    if (!g.segments.empty()) data->SetLines(cells(g.segments, 2));
-    if (!g.points.empty()) data->SetVerts(cells(g.points, 1));
-    vtkNew<vtkPolyDataMapper> mapper;
-    mapper->SetInputData(data);
-    mapper->SetColorModeToDirectScalars();
-    vtkNew<vtkActor> actor;
-    actor->SetMapper(mapper);
-    // Shading is in the colours already, so that one rule makes legend and surface.
-    actor->GetProperty()->LightingOff();
-    actor->GetProperty()->SetLineWidth(static_cast<float>(panel.line_width * supersample));
-    actor->GetProperty()->SetPointSize(static_cast<float>(panel.point_size * supersample));
-    renderer->AddActor(actor);
+    vtkNew<vtkPolyData> attributes;
+    attributes->GetPointData()->SetScalars(colours);
+    vtkSmartPointer<vtkTexture> texture;
+    vtkSmartPointer<vtkTexture> bare;
+    if (!panel.ramp.empty()) {
+        vtkNew<vtkFloatArray> along;
+        along->SetArray(const_cast<float*>(panel.along.data()), vertices, 1);
+        attributes->GetPointData()->SetTCoords(along);
+        texture = texture_of(panel.ramp, panel.stepped);
+        bare = texture_of({panel.bare_colour}, true);
+    }
+    add_cells(renderer, panel, {g.triangles, g.segments, g.points}, points, attributes->GetPointData(), texture, supersample);
+    add_cells(renderer, panel, {panel.bare_triangles, panel.bare_segments, panel.bare_points}, points,
+              attributes->GetPointData(), bare, supersample);
 }
 
 void place_camera(vtkRenderer* renderer, const MeshPanel& panel) {

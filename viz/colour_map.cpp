@@ -18,7 +18,7 @@ constexpr auto infos = std::to_array<ColourMapInfo>({
     {"viridis", "even in lightness, readable by the colour-blind"},
     {"cividis", "even in lightness, the same for the colour-blind"},
     {"turbo", "rainbow with smooth lightness"},
-    {"coolwarm", "blue, white, red: signed values about 0"},
+    {"coolwarm", "blue, white, red: signed values, white at 0"},
 });
 
 // Samples of the published maps (viridis: Smith, van der Walt 2015; cividis: Nuñez, Anderton, Renslow
@@ -37,19 +37,22 @@ constexpr auto gray = std::to_array<std::uint32_t>({0x000000, 0xffffff});
 constexpr auto coolwarm = std::to_array<std::uint32_t>({
     0x3b4cc0, 0x5977e3, 0x7b9ff9, 0x9ebeff, 0xc0d4f5, 0xdddcdc, 0xf2cbb7, 0xf7ac8e, 0xee8468, 0xd65244, 0xb40426});
 
-ColourMap from_table(std::string name, std::span<const std::uint32_t> colours) {
+ColourMap from_table(std::string name, std::span<const std::uint32_t> colours, bool centred = false) {
     std::vector<ColourStop> stops;
     for (std::size_t i = 0; i < colours.size(); ++i) {
         const std::uint32_t c = colours[i];
         stops.push_back({static_cast<double>(i) / static_cast<double>(colours.size() - 1),
                          {static_cast<std::uint8_t>(c >> 16), static_cast<std::uint8_t>(c >> 8), static_cast<std::uint8_t>(c)}});
     }
-    return {std::move(name), std::move(stops)};
+    return {std::move(name), std::move(stops), centred};
 }
+
+constexpr int ramp_colours = 1024;  ///< finer than 8 bits of any map
 
 }  // namespace
 
-ColourMap::ColourMap(std::string name, std::vector<ColourStop> stops) : name_(std::move(name)), stops_(std::move(stops)) {}
+ColourMap::ColourMap(std::string name, std::vector<ColourStop> stops, bool centred)
+    : name_(std::move(name)), stops_(std::move(stops)), centred_(centred) {}
 
 Rgb ColourMap::at(double x) const {
     if (!(x > 0)) return stops_.front().rgb;
@@ -85,7 +88,7 @@ ColourMap make_colour_map(const std::string& text) {
     if (text == "viridis") return from_table(text, viridis);
     if (text == "cividis") return from_table(text, cividis);
     if (text == "turbo") return from_table(text, turbo);
-    if (text == "coolwarm") return from_table(text, coolwarm);
+    if (text == "coolwarm") return from_table(text, coolwarm, true);
     if (text.find(',') == std::string::npos) {
         std::vector<std::string_view> names;
         for (const ColourMapInfo& info : infos) names.push_back(info.name);
@@ -108,7 +111,27 @@ Rgb ColourScale::colour(double value) const {
     if (!(high > low)) return map.at(0.5);
     double x = std::clamp((value - low) / (high - low), 0.0, 1.0);
     if (bins > 0) x = (std::min(std::floor(x * bins), bins - 1.0) + 0.5) / bins;
+    if (map.centred() && low < 0 && high > 0) x = 0.5 + 0.5 * (low + x * (high - low)) / std::max(-low, high);
     return map.at(x);
+}
+
+std::vector<Rgb> ColourScale::ramp() const {
+    const int count = bins > 0 ? bins : ramp_colours;
+    std::vector<Rgb> colours;
+    for (int k = 0; k < count; ++k) {
+        // Steps have their own place in the middle, running colours begin and end at the ends.
+        const double x = bins > 0 ? (k + 0.5) / count : static_cast<double>(k) / (count - 1);
+        colours.push_back(colour(low + x * (high - low)));
+    }
+    return colours;
+}
+
+double ColourScale::along(double value) const {
+    if (!(high > low)) return 0.5;
+    // Not cut at the ends: between a vertex inside and one outside the range the value runs on evenly.
+    constexpr double far = 1e6;
+    const double x = std::clamp((value - low) / (high - low), -far, far);
+    return bins > 0 ? x : (0.5 + x * (ramp_colours - 1)) / ramp_colours;
 }
 
 std::vector<double> nice_ticks(double low, double high, int wanted) {

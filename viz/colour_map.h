@@ -21,16 +21,18 @@ struct ColourStop {
 class ColourMap {
 public:
     ColourMap() = default;
-    /// At least two stops, from 0 to 1.
-    ColourMap(std::string name, std::vector<ColourStop> stops);
+    /// At least two stops, from 0 to 1. `centred`: the middle stands for the value 0.
+    ColourMap(std::string name, std::vector<ColourStop> stops, bool centred = false);
 
     [[nodiscard]] const std::string& name() const { return name_; }
+    [[nodiscard]] bool centred() const { return centred_; }
     /// x in 0 … 1; outside it the nearest end.
     [[nodiscard]] Rgb at(double x) const;
 
 private:
     std::string name_;
     std::vector<ColourStop> stops_;
+    bool centred_ = false;
 };
 
 struct ColourMapInfo {
@@ -48,7 +50,9 @@ struct ColourMapInfo {
 /// The colour of points without a value: outside every map.
 inline constexpr Rgb missing_colour{150, 150, 150};
 
-/// Values → colours over a range, in steps where `bins` > 0.
+/// Values → colours over a range, in steps where `bins` > 0. Where a centred map's range goes from
+/// below 0 to above, 0 has the map's middle colour and both sides the same steepness: an uneven range
+/// shows less of the map on its shorter side.
 struct ColourScale {
     ColourMap map;
     double low = 0, high = 1;  ///< in shown units
@@ -56,6 +60,13 @@ struct ColourScale {
 
     /// A value in shown units; NaN: missing_colour. high ≤ low: the middle of the map.
     [[nodiscard]] Rgb colour(double value) const;
+
+    /// The colours from low to high, evenly spaced: `bins` steps, or enough that between two of them
+    /// the map is straight.
+    [[nodiscard]] std::vector<Rgb> ramp() const;
+    /// Where a value lies on ramp() as a texture of one row: 0 … 1 from edge to edge,
+    /// beyond it outside the range. Domain: no NaN.
+    [[nodiscard]] double along(double value) const;
 };
 
 /// Round tick values in [low, high], about `wanted` of them (steps of 1, 2, 5 · 10^n).

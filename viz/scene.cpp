@@ -1,6 +1,7 @@
 #include "viz/scene.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -44,33 +45,61 @@ struct Beyond {
     bool below = false, above = false, missing = false;
 };
 
-/// Vertices get their colours, darkened where the light grazes.
-void paint(Detail& detail, const ColourScale& scale, double per_inside, const Camera& camera) {
+/// Vertices get their places on the ramp, and the shade of light that grazes.
+Beyond paint(Detail& detail, const ColourScale& scale, double per_inside, MeshPanel& panel) {
     Geometry& g = detail.geometry;
+    const Camera& camera = panel.camera;
     const std::size_t count = detail.values.size();
     g.rgb.resize(3 * count);
+    panel.along.resize(count);
+    panel.ramp = scale.ramp();
+    panel.stepped = scale.bins > 0;
+    panel.bare_colour = missing_colour;
     const Vec3 direction = (light.x() * camera.right + light.y() * camera.up + light.z() * camera.towards).normalized();
     const bool lit = !g.normals.empty();
-    // A table of colours: maps are smooth, 1024 steps are finer than 8 bits.
-    constexpr int steps = 1024;
-    std::vector<Rgb> table(steps + 1);
-    const double width = scale.high > scale.low ? scale.high - scale.low : 1.0;
-    for (int k = 0; k <= steps; ++k) table[static_cast<std::size_t>(k)] = scale.colour(scale.low + width * k / steps);
+    const double readable = 0.005 * (scale.high - scale.low);
+    std::atomic<bool> below{false};
+    std::atomic<bool> above{false};
+    std::atomic<bool> missing{false};
     parallel_for(static_cast<std::int64_t>(count), block_points, [&](std::int64_t first, std::int64_t last) {
+        Beyond here;
         for (std::int64_t i = first; i < last; ++i) {
             const auto v = static_cast<std::size_t>(i);
             const double value = detail.values[v] * per_inside;
-            const double x = (value - scale.low) / width;
-            const Rgb rgb = !(value == value) ? missing_colour : table[static_cast<std::size_t>(std::clamp(x, 0.0, 1.0) * steps)];
+            const bool known = value == value;
+            panel.along[v] = known ? static_cast<float>(scale.along(value)) : 0.0F;
+            here.missing = here.missing || !known;
+            here.below = here.below || value < scale.low - readable;
+            here.above = here.above || value > scale.high + readable;
             double shade = 1;
             if (lit) {
                 const Vec3 n(g.normals[3 * v], g.normals[3 * v + 1], g.normals[3 * v + 2]);
                 shade = shade_dark + (1 - shade_dark) * std::abs(n.dot(direction));
             }
-            for (std::size_t k = 0; k < 3; ++k) g.rgb[3 * v + k] = static_cast<std::uint8_t>(rgb[k] * shade + 0.5);
+            for (std::size_t k = 0; k < 3; ++k) g.rgb[3 * v + k] = static_cast<std::uint8_t>(255 * shade + 0.5);
         }
+        if (here.below) below = true;
+        if (here.above) above = true;
+        if (here.missing) missing = true;
     });
     g.normals = {};
+    return {below, above, missing};
+}
+
+/// Takes the cells of `size` corners out of which one has no value.
+Column<std::uint32_t> take_bare(Column<std::uint32_t>& cells, std::size_t size, const Column<float>& values) {
+    Column<std::uint32_t> bare;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i + size <= cells.size(); i += size) {
+        bool known = true;
+        for (std::size_t k = 0; k < size; ++k) known = known && values[cells[i + k]] == values[cells[i + k]];
+        for (std::size_t k = 0; k < size; ++k) {
+            if (known) cells[kept++] = cells[i + k];
+            else bare.push_back(cells[i + k]);
+        }
+    }
+    cells.resize(kept);
+    return bare;
 }
 
 void add_text(Sheet& sheet, double x, double y, std::string text, double size, Align align, Rgb rgb, bool bold = false) {
@@ -89,17 +118,34 @@ void add_title(Sheet& sheet, const MapTexts& texts, const Look& look, const Layo
         sheet.texts.push_back(std::move(note));
         return;
     }
-    for (auto part = texts.notes.rbegin(); part != texts.notes.rend(); ++part, note.y += 1.25 * layout.small_text) {
-        note.text = *part;
-        sheet.texts.push_back(fitted(note, note_width));
-    }
+    // Two lines: the first note, and the others above it.
+    FlatText others = note;
+    others.text.clear();
+    for (std::size_t k = 1; k < texts.notes.size(); ++k) others.text += (k > 1 ? "; " : "") + texts.notes[k];
+    sheet.texts.push_back(fitted(others, note_width));
+    note.text = texts.notes.empty() ? std::string() : texts.notes.front();
+    note.y += 1.25 * layout.small_text;
+    sheet.texts.push_back(fitted(note, note_width));
 }
 
-void add_legend(Sheet& sheet, const ColourScale& scale, const FieldInfo& field, bool missing, const Look& look, const Layout& layout, Rgb ink) {
+/// Beyond an end of the bar there are values: a point of the end's colour.
+void add_beyond(Sheet& sheet, const ColourScale& scale, bool above, double x, double width, double y, double height, Rgb frame) {
+    const Rgb rgb = scale.colour(above ? scale.high : scale.low);
+    const double sign = above ? 1 : -1;
+    constexpr int slices = 24;
+    for (int k = 0; k < slices; ++k) {
+        const double part = 1 - (k + 0.5) / slices;
+        const double low = sign > 0 ? y + height * k / slices : y - height * (k + 1) / slices;
+        sheet.quads.push_back({{x + 0.5 * width * (1 - part), low, width * part, height / slices + 0.3}, rgb});
+    }
+    sheet.lines.push_back({{{x, y}, {x + 0.5 * width, y + sign * height}, {x + width, y}}, 1.0, frame});
+}
+
+void add_legend(Sheet& sheet, const ColourScale& scale, const FieldInfo& field, const Beyond& beyond, const Look& look, const Layout& layout, Rgb ink) {
     const double x = look.width - layout.legend_width + 0.6 * layout.text;
     const double bar_width = 1.3 * layout.text;
-    const double bottom = layout.note_height + 6.4 * layout.text;
-    const double top = look.height - layout.title_height - 1.8 * layout.text;
+    const double bottom = layout.note_height + 7.2 * layout.text;
+    const double top = look.height - layout.title_height - 2.6 * layout.text;
     const double height = top - bottom;
     if (height < 3 * layout.text) return;
     const int cells = scale.bins > 0 ? scale.bins : static_cast<int>(std::clamp(height, 16.0, 512.0));
@@ -125,10 +171,13 @@ void add_legend(Sheet& sheet, const ColourScale& scale, const FieldInfo& field, 
         sheet.lines.push_back({{{x + bar_width, y}, {x + bar_width + 0.3 * layout.text, y}}, 1.0, frame});
         add_text(sheet, x + bar_width + 0.5 * layout.text, y, tick_text(tick, step), layout.small_text, Align::left, ink);
     }
+    const double point = 0.9 * layout.text;
+    if (beyond.above) add_beyond(sheet, scale, true, x, bar_width, top, point, frame);
+    if (beyond.below) add_beyond(sheet, scale, false, x, bar_width, bottom, point, frame);
     const std::string unit = field.unit.name.empty() ? std::string() : fmt::format("[{}]", field.unit.name);
-    add_text(sheet, x, top + 1.5 * layout.text, unit, layout.text, Align::left, ink, true);
-    if (missing) {
-        const double y = bottom - 1.5 * layout.text;
+    add_text(sheet, x, top + 2.1 * layout.text, unit, layout.text, Align::left, ink, true);
+    if (beyond.missing) {
+        const double y = bottom - 2.0 * layout.text;
         sheet.quads.push_back({{x, y - 0.4 * layout.text, bar_width, 0.8 * layout.text}, missing_colour});
         add_text(sheet, x + bar_width + 0.5 * layout.text, y, "no value", layout.small_text, Align::left, ink);
     }
@@ -307,7 +356,7 @@ Sheet map_sheet(const std::vector<MapPanel>& panels, const ColourScale& scale, c
     sheet.height = look.height;
     sheet.background = look.background;
     const Camera camera = map_camera(panels, look);
-    bool missing = false;
+    Beyond beyond;
     for (std::size_t k = 0; k < panels.size(); ++k) {
         const MapPanel& map = panels[k];
         MeshPanel panel;
@@ -323,9 +372,14 @@ Sheet map_sheet(const std::vector<MapPanel>& panels, const ColourScale& scale, c
         request.style = look.style;
         request.box = look.box;
         Detail detail = visible_detail(*map.surface, map.field->values, request);
-        missing = missing || std::any_of(detail.values.begin(), detail.values.end(), [](float v) { return !(v == v); });
-        paint(detail, scale, map.field->info.unit.per_inside, panel.camera);
+        const Beyond here = paint(detail, scale, map.field->info.unit.per_inside, panel);
+        beyond = {beyond.below || here.below, beyond.above || here.above, beyond.missing || here.missing};
         panel.geometry = std::move(detail.geometry);
+        if (here.missing) {
+            panel.bare_triangles = take_bare(panel.geometry.triangles, 3, detail.values);
+            panel.bare_segments = take_bare(panel.geometry.segments, 2, detail.values);
+            panel.bare_points = take_bare(panel.geometry.points, 1, detail.values);
+        }
         add_marks(sheet, map, panel, layout);
         if (!map.caption.empty()) {
             const double y = panel.rect.y + panel.rect.height + 0.5 * caption_lines * layout.text;
@@ -340,7 +394,7 @@ Sheet map_sheet(const std::vector<MapPanel>& panels, const ColourScale& scale, c
     }
     if (look.legend) {
         add_title(sheet, texts, look, layout, ink);
-        add_legend(sheet, scale, panels.front().field->info, missing, look, layout, ink);
+        add_legend(sheet, scale, panels.front().field->info, beyond, look, layout, ink);
     }
     return sheet;
 }
