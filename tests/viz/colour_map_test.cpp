@@ -1,5 +1,7 @@
 #include "viz/colour_map.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "core/error.h"
@@ -42,6 +44,29 @@ TEST(ColourScale, StepsInBins) {
     const ColourScale scale{make_colour_map("gray"), 0, 10, 2};
     EXPECT_EQ(scale.colour(0), scale.colour(4.9));
     EXPECT_NE(scale.colour(4.9), scale.colour(5.1));
+}
+
+TEST(ColourScale, RampHasTheColourOfEachValueAtItsPlace) {
+    for (const int bins : {0, 7}) {
+        const ColourScale scale{make_colour_map("viridis"), -2, 6, bins};
+        const std::vector<Rgb> ramp = scale.ramp();
+        for (double value = -3; value <= 7; value += 0.37) {
+            const double texel = std::clamp(scale.along(value), 0.0, 1.0) * static_cast<double>(ramp.size());
+            const Rgb at = ramp[std::min(ramp.size() - 1, static_cast<std::size_t>(texel))];
+            for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(at[k], scale.colour(value)[k], bins > 0 ? 0 : 2) << value << ' ' << bins;
+        }
+    }
+}
+
+TEST(ColourScale, CentredMapsHaveTheirMiddleAtZero) {
+    const ColourScale even{make_colour_map("coolwarm"), -4, 4, 0};
+    const ColourScale uneven{make_colour_map("coolwarm"), -1, 4, 0};
+    EXPECT_EQ(uneven.colour(0), even.colour(0));
+    EXPECT_EQ(uneven.colour(-1), even.colour(-1));
+    EXPECT_EQ(uneven.colour(4), even.colour(4));
+    // Where 0 is not in the range there is no middle to keep.
+    const ColourScale above{make_colour_map("coolwarm"), 1, 4, 0};
+    EXPECT_EQ(above.colour(1), make_colour_map("coolwarm").at(0));
 }
 
 TEST(Ticks, AreRound) {

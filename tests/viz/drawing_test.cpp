@@ -44,6 +44,33 @@ TEST(Drawing, GivesAPixelItsColour) {
     EXPECT_EQ(image.pixel(1, 1)[0], 255);
 }
 
+TEST(Drawing, GivesWhatLiesBetweenVerticesAColourOfTheRamp) {
+    Sheet sheet = red_square();
+    MeshPanel& panel = sheet.panels[0];
+    panel.ramp = {{255, 0, 0}, {0, 255, 0}, {0, 0, 255}};
+    panel.stepped = true;
+    for (const float at : {0.F, 1.F, 1.F, 0.F}) panel.along.push_back(at);  // from left to right
+    for (std::uint8_t& c : panel.geometry.rgb) c = 255;
+    const Image image = draw(sheet, "osmesa", 2);
+    // A mixture of the ends would be purple.
+    EXPECT_EQ(image.pixel(40, 30)[1], 255);
+    EXPECT_EQ(image.pixel(40, 30)[0], 0);
+    EXPECT_EQ(image.pixel(20, 30)[0], 255);
+    EXPECT_EQ(image.pixel(60, 30)[2], 255);
+}
+
+TEST(Drawing, DrawsCellsWithoutAValueInTheirOwnColour) {
+    Sheet sheet = red_square();
+    MeshPanel& panel = sheet.panels[0];
+    panel.ramp = {{255, 0, 0}, {0, 0, 255}};
+    panel.along = Column<float>(4, 0.F);
+    panel.bare_colour = {150, 150, 150};
+    for (std::uint8_t& c : panel.geometry.rgb) c = 255;
+    std::swap(panel.bare_triangles, panel.geometry.triangles);
+    const Image image = draw(sheet, "osmesa", 2);
+    for (int k = 0; k < 3; ++k) EXPECT_EQ(image.pixel(40, 30)[k], 150);
+}
+
 TEST(Drawing, GivesTheSamePixelsEveryTime) {
     const Image a = draw(red_square(), "osmesa", 2);
     const Image b = draw(red_square(), "osmesa", 2);

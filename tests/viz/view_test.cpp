@@ -40,6 +40,18 @@ TEST(View, ZoomShowsThatPartOfThePicture) {
     EXPECT_NEAR(part.mm_per_pixel, 0.5 * whole.mm_per_pixel, 1e-12);
 }
 
+TEST(View, FillsThePictureWithTheExtentAlongItsAxes) {
+    // A square stood on its corner: along the axes of the view it is as wide as it is, its box is wider.
+    const ViewAxes axes = axes_of(parse_view("45,90"));
+    Box3 extent;
+    for (const Vec3& p : {Vec3(10, 0, 0), Vec3(0, 10, 0), Vec3(-10, 0, 0), Vec3(0, -10, 4)}) extent.extend(axes * p);
+    const Camera c = camera_for(axes, extent, 100, 100, {});
+    EXPECT_NEAR(c.mm_per_pixel * 100, 1.03 * 10 * std::sqrt(2.0), 1e-9);
+    EXPECT_NEAR(c.depth, 2, 1e-9);
+    EXPECT_TRUE(c.shows(Vec3(10, 0, 0)));
+    EXPECT_FALSE(c.shows(Vec3(10, 10, 0)));
+}
+
 TEST(View, RefusesWhatIsNone) {
     EXPECT_THROW((void)parse_view("tpo"), UsageError);
     EXPECT_THROW((void)parse_view("10"), UsageError);
