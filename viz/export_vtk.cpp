@@ -54,7 +54,7 @@ Column<double> points_of(const ClSurface& surface) {
     const PointIndex count = surface.positions.size();
     Column<double> xyz(static_cast<std::size_t>(count) * 3);
     for (PointIndex i = 0; i < count; ++i) {
-        const Vec3 p = surface.positions[i].cast<double>() + surface.positions.origin;
+        const Vec3 p = surface.positions.absolute(i);
         for (int k = 0; k < 3; ++k) xyz[static_cast<std::size_t>(3 * i + k)] = p[k];
     }
     return xyz;

@@ -226,16 +226,30 @@ void add_ring(Sheet& sheet, const Vec2& at, double radius, double width, Rgb rgb
     sheet.lines.push_back(std::move(ring));
 }
 
+/// The parts of a line that are in the picture.
+std::vector<std::vector<Vec2>> strokes(const PointRange& range, const ClSurface& surface, const Camera& camera, const Look& look, const Vec2& corner) {
+    std::vector<std::vector<Vec2>> all;
+    bool goes_on = false;
+    for (PointIndex i = range.first; i <= range.last; ++i) {
+        const Vec3 p = surface.positions.absolute(i);
+        if (!shows(camera, look, p)) {
+            goes_on = false;
+            continue;
+        }
+        const Vec2 at = corner + camera.pixel(p);
+        if (!goes_on) all.emplace_back();
+        goes_on = true;
+        if (all.back().empty() || (at - all.back().back()).norm() >= 0.5) all.back().push_back(at);
+    }
+    for (std::vector<Vec2>& stroke : all) {
+        if (stroke.size() == 1) stroke.push_back(stroke[0] + Vec2(0.5, 0));
+    }
+    return all;
+}
+
 /// Black on a white edge is seen on every colour.
-void add_marks(Sheet& sheet, const MapPanel& map, const MeshPanel& panel, const Layout& layout) {
+void add_marks(Sheet& sheet, const MapPanel& map, const MeshPanel& panel, const Look& look, const Layout& layout) {
     const Vec2 corner(panel.rect.x, panel.rect.y);
-    const auto pixel = [&](PointIndex i) -> Vec2 {
-        const Vec3 p = map.surface->positions[i].cast<double>() + map.surface->positions.origin;
-        return corner + panel.camera.pixel(p);
-    };
-    const auto inside = [&](const Vec2& p) {
-        return p.x() >= corner.x() && p.y() >= corner.y() && p.x() <= corner.x() + panel.rect.width && p.y() <= corner.y() + panel.rect.height;
-    };
     constexpr Rgb white{255, 255, 255};
     constexpr Rgb black{0, 0, 0};
     const auto label = [&](Vec2 at, const std::string& text) {
@@ -250,35 +264,33 @@ void add_marks(Sheet& sheet, const MapPanel& map, const MeshPanel& panel, const 
     for (const LineMark& mark : map.lines) {
         bool labelled = false;
         for (const PointRange& range : mark.points) {
-            FlatLine line{{}, 0.35 * layout.text, white, true};
-            for (PointIndex i = range.first; i <= range.last; ++i) {
-                const Vec2 p = pixel(i);
-                if (p.allFinite() && inside(p) && (line.points.empty() || (p - line.points.back()).norm() >= 0.5)) line.points.push_back(p);
+            for (std::vector<Vec2>& stroke : strokes(range, *map.surface, panel.camera, look, corner)) {
+                if (!labelled) label(stroke.front(), mark.label);
+                labelled = true;
+                sheet.lines.push_back({stroke, 0.35 * layout.text, white, true});
+                sheet.lines.push_back({std::move(stroke), 0.17 * layout.text, black, false});
             }
-            if (line.points.empty()) continue;
-            if (line.points.size() == 1) line.points.push_back(line.points[0] + Vec2(0.5, 0));
-            const Vec2 first = line.points.front();
-            sheet.lines.push_back(line);
-            line.width = 0.17 * layout.text;
-            line.rgb = black;
-            line.under = false;
-            sheet.lines.push_back(std::move(line));
             // The first point of a marked line is ringed: there the line begins.
-            add_ring(sheet, first, 0.45 * layout.text, 0.15 * layout.text, black, false);
-            if (!labelled) label(first, mark.label);
-            labelled = true;
+            if (const Vec3 p = map.surface->positions.absolute(range.first); shows(panel.camera, look, p)) {
+                add_ring(sheet, corner + panel.camera.pixel(p), 0.45 * layout.text, 0.15 * layout.text, black, false);
+            }
         }
     }
     for (const PointMark& mark : map.points) {
-        const Vec2 p = pixel(mark.point);
-        if (!p.allFinite() || !inside(p)) continue;
-        add_ring(sheet, p, 0.75 * layout.text, 0.36 * layout.text, white, true);
-        add_ring(sheet, p, 0.75 * layout.text, 0.18 * layout.text, black, false);
-        label(p, mark.label);
+        const Vec3 p = map.surface->positions.absolute(mark.point);
+        if (!shows(panel.camera, look, p)) continue;
+        const Vec2 at = corner + panel.camera.pixel(p);
+        add_ring(sheet, at, 0.75 * layout.text, 0.36 * layout.text, white, true);
+        add_ring(sheet, at, 0.75 * layout.text, 0.18 * layout.text, black, false);
+        label(at, mark.label);
     }
 }
 
 }  // namespace
+
+bool shows(const Camera& camera, const Look& look, const Vec3& p) {
+    return p.allFinite() && camera.shows(p) && (look.box.isEmpty() || look.box.contains(p));
+}
 
 Box3 extent_of(const ClSurface& surface, const ViewAxes& axes) {
     const Positions& p = surface.positions;
@@ -380,7 +392,7 @@ Sheet map_sheet(const std::vector<MapPanel>& panels, const ColourScale& scale, c
             panel.bare_segments = take_bare(panel.geometry.segments, 2, detail.values);
             panel.bare_points = take_bare(panel.geometry.points, 1, detail.values);
         }
-        add_marks(sheet, map, panel, layout);
+        add_marks(sheet, map, panel, look, layout);
         if (!map.caption.empty()) {
             const double y = panel.rect.y + panel.rect.height + 0.5 * caption_lines * layout.text;
             sheet.texts.push_back(fitted({panel.rect.x + layout.margin, y, map.caption, layout.text, Align::left, true, ink},

@@ -57,6 +57,9 @@ struct MapTexts {
 /// What the map panels show: a camera of the panels' size. The box, where there is one, else all that is drawn.
 [[nodiscard]] Camera map_camera(const std::vector<MapPanel>& panels, const Look& look);
 
+/// Whether a position lies in the picture and, where there is one, in the box.
+[[nodiscard]] bool shows(const Camera& camera, const Look& look, const Vec3& p);
+
 /// The sheet of one map, or of two side by side on one scale.
 [[nodiscard]] Sheet map_sheet(const std::vector<MapPanel>& panels, const ColourScale& scale,
                               const MapTexts& texts, const Look& look);

@@ -38,7 +38,7 @@ void declare(po::options_description& options) {
         ("view", po::value<std::string>()->value_name("iso|top|front|left|right|back|bottom|AZ,EL"), "from where; AZ,EL in degrees (default: iso)")
         ("zoom", po::value<std::string>()->value_name("X0,Y0,X1,Y1"), "part of the map, as fractions from its upper left corner")
         ("box", po::value<std::string>()->value_name("X0,Y0,Z0,X1,Y1,Z1"), "part of the workpiece [mm]; the rest is left out")
-        ("range", po::value<std::string>()->value_name("auto|MIN,MAX|pLOW,pHIGH"), "values at the ends of the colours, or percentiles of the cutting points (default: auto, p1,p99)")
+        ("range", po::value<std::string>()->value_name("auto|MIN,MAX|pLOW,pHIGH"), "values at the ends of the colours, or percentiles of the cutting points shown (default: auto, p1,p99)")
         ("colormap", po::value<std::string>()->value_name("COLORMAP|RGB,RGB,…"), "a named map (`clsurf help colormaps`) or own stops, #RRGGBB,#RRGGBB,… (default: isurface; signed fields coolwarm)")
         ("bins", po::value<int>()->value_name("N"), "colours in N steps")
         ("mark-point", po::value<std::vector<long long>>()->value_name("N"), "ring a point; may be repeated")
@@ -178,6 +178,34 @@ viz::MapTexts texts_of(const Shown& shown, const RenderOptions& options, const s
     return texts;
 }
 
+/// What lies in the picture; nothing where all of the log does.
+ShownPoints shown_points(const ClSurface& surface, const viz::Look& look, const viz::Camera& camera) {
+    const viz::Zoom& zoom = look.zoom;
+    const bool whole = zoom.x0 <= 0 && zoom.y0 <= 0 && zoom.x1 >= 1 && zoom.y1 >= 1;
+    if (whole && look.box.isEmpty()) return {};
+    return [&surface, &look, camera](PointIndex i) { return viz::shows(camera, look, surface.positions.absolute(i)); };
+}
+
+/// A mark that the picture cannot show is said on stderr, since its lack may not be noticed.
+void warn_of_marks_outside(const Shown& shown, const RenderOptions& options, const viz::Camera& camera, const po::variables_map& values) {
+    Diagnostics diagnostics;
+    const auto outside = [&](PointIndex i) { return !viz::shows(camera, options.look, shown.surface.positions.absolute(i)); };
+    const auto warn = [&](const std::string& what) {
+        diagnostics.add({Severity::warning, "render.mark-outside", Place(), what + " lies outside the part that is shown", {}});
+    };
+    for (const PointIndex point : options.points) {
+        if (outside(point)) warn(fmt::format("point {}", point));
+    }
+    for (const LineNumber line : options.lines) {
+        bool seen = false;
+        for (const PointRange& range : shown.part.lines->points_of(line)) {
+            for (PointIndex i = range.first; i <= range.last && !seen; ++i) seen = !outside(i);
+        }
+        if (!seen) warn(fmt::format("line {}", line));
+    }
+    print(diagnostics, values);
+}
+
 ExitCode run(const po::variables_map& values) {
     const RenderOptions options = read_options(values);
     viz::preload_image_library();
@@ -198,12 +226,16 @@ ExitCode run(const po::variables_map& values) {
     panels.push_back(panel_of(after, options, before ? "after: " + base_name(options.part.log) : ""));
 
     clock.begin("choose the range");
-    ShownRange range = find_range(after.field, after.surface.passes, options.range);
-    if (before && options.range.kind != RangeRule::Kind::fixed) {
-        const ShownRange other = find_range(before->field, before->surface.passes, options.range);
-        range.low = std::min(range.low, other.low);
-        range.high = std::max(range.high, other.high);
-        range.note += ", of both logs";
+    const viz::Camera camera = viz::map_camera(panels, options.look);
+    warn_of_marks_outside(after, options, camera, values);
+    ShownRange range = find_range(after.field, after.surface.passes, options.range, shown_points(after.surface, options.look, camera));
+    if (before) {
+        const ShownRange other = find_range(before->field, before->surface.passes, options.range, shown_points(before->surface, options.look, camera));
+        range = {std::min(range.low, other.low), std::max(range.high, other.high), std::min(range.lowest, other.lowest),
+                 std::max(range.highest, other.highest), range.note + (options.range.kind == RangeRule::Kind::fixed ? "" : ", of both logs")};
+    }
+    if (range.lowest < range.low || range.highest > range.high) {
+        range.note += fmt::format("; values from {:.4g} to {:.4g}", range.lowest, range.highest);
     }
     const bool diverging = after.field.info.scale == FieldScale::diverging;
     viz::ColourScale scale{viz::make_colour_map(!options.colour_map.empty() ? options.colour_map : diverging ? "coolwarm" : "isurface"),

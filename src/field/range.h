@@ -1,6 +1,7 @@
 #pragma once
 // The range that a map shows, by rule: outliers and what does not cut must not flatten the colours.
 
+#include <functional>
 #include <string>
 
 #include "field/field.h"
@@ -15,12 +16,18 @@ struct RangeRule {
 };
 
 struct ShownRange {
-    double low = 0, high = 0;  ///< in shown units
+    double low = 0, high = 0;        ///< in shown units
+    double lowest = 0, highest = 0;  ///< of all cutting points that are shown
     std::string note;          ///< what the rule did, for the picture's footnote
 };
 
-/// `automatic`: 1st to 99th percentile of the cutting points; about 0 for diverging fields. Over at
-/// most 10^6 evenly spaced points. Throws InputError where no point has a value.
-[[nodiscard]] ShownRange find_range(const Field& field, const Passes& passes, const RangeRule& rule);
+/// Which points the picture shows; empty: all.
+using ShownPoints = std::function<bool(PointIndex)>;
+
+/// `automatic`: 1st to 99th percentile of the cutting points that are shown; about 0 for diverging
+/// fields. Over some 10^6 evenly spaced points. Throws InputError where no point has a value,
+/// UsageError where none is shown. O(points).
+[[nodiscard]] ShownRange find_range(const Field& field, const Passes& passes, const RangeRule& rule,
+                                    const ShownPoints& shown = {});
 
 }  // namespace clsurf

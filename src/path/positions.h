@@ -21,6 +21,8 @@ struct Positions {
         const auto at = static_cast<std::size_t>(i);
         return {x[at], y[at], z[at]};
     }
+    /// [mm], not relative to the origin.
+    [[nodiscard]] Vec3 absolute(PointIndex i) const { return (*this)[i].cast<double>() + origin; }
 };
 
 /// Gathers all points; the origin is the trajectory's first finite point. O(points), parallel.

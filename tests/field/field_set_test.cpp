@@ -95,6 +95,28 @@ TEST(Range, LeavesOutRapidsAndOutliers) {
     const ShownRange range = find_range(field, passes, {});
     EXPECT_NEAR(range.low, 1, 1);
     EXPECT_NEAR(range.high, 98, 1);
+    EXPECT_EQ(range.lowest, 0);
+    EXPECT_EQ(range.highest, 99);
+}
+
+TEST(Range, IsThatOfTheShownPoints) {
+    Field field;
+    field.values.resize(10'000);
+    for (std::size_t i = 0; i < 10'000; ++i) field.values[i] = static_cast<float>(i);
+    field.values[2500] = std::numeric_limits<float>::quiet_NaN();
+    Passes passes;
+    passes.push_back({0, 9999, PassKind::cut});
+    const auto shown = [](PointIndex i) { return i >= 2000 && i < 3000; };
+    const ShownRange range = find_range(field, passes, {}, shown);
+    EXPECT_NEAR(range.low, 2010, 1);
+    EXPECT_NEAR(range.high, 2990, 1);
+    EXPECT_EQ(range.lowest, 2000);
+    EXPECT_EQ(range.highest, 2999);
+    EXPECT_NE(range.note.find("1000 shown cutting points"), std::string::npos) << range.note;
+    const RangeRule fixed{RangeRule::Kind::fixed, -1, 1};
+    EXPECT_EQ(find_range(field, passes, fixed, shown).high, 1);
+    EXPECT_EQ(find_range(field, passes, fixed, shown).highest, 2999);
+    EXPECT_THROW((void)find_range(field, passes, {}, [](PointIndex) { return false; }), UsageError);
 }
 
 }  // namespace
