@@ -15,7 +15,12 @@ using Vec3f = Eigen::Vector3f;
 
 constexpr PointIndex part_points = 65536;
 constexpr float margin = 4.0F;          ///< [px] round the picture that is kept
-constexpr int longest_turn = 512;          ///< vertices from a link to where its passes see each other
+constexpr std::int64_t longest_gap = 512;  ///< vertices of a pass between two that have a neighbour, and of a seam
+constexpr float widest_seam = 2.2F;        ///< of an edge of a seam, in widths of the band that it goes on from
+constexpr double tangent_step_overs = 0.08;  ///< way on either side that gives the direction at a vertex
+constexpr float most_askew = 0.3F;         ///< cosine between the way and what lies across it
+constexpr float corner_play = 1.03F;       ///< growth of an edge that is still at the ends of its passes
+constexpr float closed_seam = 0.35F;       ///< width at which a seam ends, likewise
 constexpr std::int64_t longest_fan = 256;  ///< vertices of a neighbour that one step may span
 
 /// Vertices of a part of a pass.
@@ -23,6 +28,7 @@ struct Vertices {
     Column<PointIndex> points;
     Column<float> values;
     Column<std::uint8_t> joined;  ///< 1: goes on from the vertex before
+    Column<std::uint8_t> links;   ///< 1: on the way from one pass to the next
 };
 
 class Projector {
@@ -59,6 +65,7 @@ private:
 struct Part {
     PointIndex first = 0, last = -1;
     bool starts_pass = true;
+    bool link = false;
 };
 
 /// Cut passes in parts, in order.
@@ -71,7 +78,7 @@ std::vector<Part> parts_of(const Passes& passes) {
         const bool continues = k > 0 && passes[k - 1].kind != PassKind::rapid;
         for (PointIndex first = pass.first; first <= pass.last; first += part_points) {
             parts.push_back({first, std::min(pass.last, first + part_points - 1),
-                             first == pass.first && !continues});
+                             first == pass.first && !continues, pass.kind == PassKind::link});
         }
     }
     return parts;
@@ -107,6 +114,7 @@ void gather_vertices(const Projector& projector, const Part& part, std::span<con
         out.values.push_back(known > 0 ? static_cast<float>(sum / static_cast<double>(known))
                                        : std::numeric_limits<float>::quiet_NaN());
         out.joined.push_back(joins ? 1 : 0);
+        out.links.push_back(part.link ? 1 : 0);
         joins = true;
         begin = std::max(end, begin + 1);
     }
@@ -116,22 +124,26 @@ void gather_vertices(const Projector& projector, const Part& part, std::span<con
 class Bander {
 public:
     Bander(const ClSurface& surface, const Projector& projector, const Vertices& vertices, float step)
-        : s_(surface), projector_(projector), v_(vertices), reach_(6.0F * step) {}
+        : s_(surface), projector_(projector), v_(vertices), reach_(6.0F * step) {
+        const auto count = static_cast<std::int64_t>(v_.points.size());
+        for (const Side side : {Side::left, Side::right}) across(side).resize(v_.points.size());
+        parallel_for(count, 16384, [&](std::int64_t first, std::int64_t last) {
+            for (std::int64_t b = first; b < last; ++b) {
+                for (const Side side : {Side::left, Side::right}) across(side)[static_cast<std::size_t>(b)] = seen_across(b, side);
+            }
+        });
+        for (const Side side : {Side::left, Side::right}) drop_short(side);
+    }
 
     void bands(std::int64_t first, std::int64_t last, Column<std::uint32_t>& triangles,
                Column<std::uint32_t>& segments) const {
-        for (std::int64_t b = std::max<std::int64_t>(first, 1); b < last; ++b) {
-            if (v_.joined[static_cast<std::size_t>(b)] == 0) continue;
+        for (std::int64_t b = first; b < last; ++b) {
+            for (const Side side : {Side::left, Side::right}) close_ends(b, side, triangles);
+            if (!joined(b)) continue;
             bool alone = true;
             for (const Side side : {Side::left, Side::right}) {
-                const PointIndex i = point(b - 1);
-                const PointIndex j = point(b);
-                if (!s_.neighbours.has(side, i) || !s_.neighbours.has(side, j)) continue;
-                alone = false;
-                const PointIndex m = s_.neighbours.neighbour(side, i);
-                const PointIndex n = s_.neighbours.neighbour(side, j);
-                // Each gap is filled once, from its later pass.
-                if (m < i && n < j) band(b, m, n, triangles);
+                alone = alone && !(s_.neighbours.has(side, point(b - 1)) && s_.neighbours.has(side, point(b)));
+                if (has_earlier(b - 1, side) && has_earlier(b, side)) band(b, earlier(b - 1, side), earlier(b, side), triangles);
             }
             if (alone) {
                 segments.push_back(static_cast<std::uint32_t>(b - 1));
@@ -140,44 +152,177 @@ public:
         }
     }
 
-    /// Fills the turn from one pass to the next: a zigzag's end, from the last place where the passes
-    /// see each other to the link's outermost vertex.
-    void close_turn(const Pass& link, Column<std::uint32_t>& triangles) const {
-        const std::int64_t before = first_vertex_at(link.first);
-        std::int64_t b = first_vertex_at(link.last + 1);
+private:
+    /// Whether a vertex goes on from the one before.
+    [[nodiscard]] bool joined(std::int64_t vertex) const { return v_.joined[static_cast<std::size_t>(vertex)] != 0; }
+    [[nodiscard]] bool link(std::int64_t vertex) const { return v_.links[static_cast<std::size_t>(vertex)] != 0; }
+    [[nodiscard]] bool goes_on(std::int64_t vertex, int direction) const {
+        const std::int64_t next = vertex + direction;
+        return next >= 0 && next < static_cast<std::int64_t>(v_.points.size()) && joined(std::max(vertex, next));
+    }
+    [[nodiscard]] float distance(std::int64_t a, std::int64_t b) const {
+        return (s_.positions[point(a)] - s_.positions[point(b)]).norm();
+    }
+
+    static constexpr std::int32_t none = -1;   ///< across a vertex there is nothing
+    static constexpr std::int32_t later = -2;  ///< … a later part of the way, which makes the band itself
+
+    [[nodiscard]] Column<std::int32_t>& across(Side side) { return side == Side::left ? left_ : right_; }
+    [[nodiscard]] std::int32_t earlier(std::int64_t vertex, Side side) const {
+        return (side == Side::left ? left_ : right_)[static_cast<std::size_t>(vertex)];
+    }
+    /// Each gap is filled once, from its later pass.
+    [[nodiscard]] bool has_earlier(std::int64_t vertex, Side side) const { return earlier(vertex, side) >= 0; }
+
+    /// The vertex on the earlier pass that lies across the way at a vertex. Round a corner the chords by
+    /// which neighbours are found look along the bend: a neighbour that lies askew is none here, a seam
+    /// closes what that leaves open.
+    [[nodiscard]] std::int32_t seen_across(std::int64_t b, Side side) const {
+        const PointIndex i = point(b);
+        if (!s_.neighbours.has(side, i)) return none;
+        const PointIndex m = s_.neighbours.neighbour(side, i);
+        const std::int64_t a = m < i ? vertex_of(m) : -1;
+        if (m < i && a < 0) return none;
+        const auto way = static_cast<float>(tangent_step_overs * s_.step_over);
+        const Vec3f tangent = s_.positions[point(moved(b, +1, way))] - s_.positions[point(moved(b, -1, way))];
+        const Vec3f d = s_.positions[m < i ? point(a) : m] - s_.positions[i];
+        const float along = std::abs(d.dot(tangent));
+        // Vertices are not everywhere: the one across may be half a step off.
+        const float step = m < i ? distance(goes_on(a, -1) ? a - 1 : a, goes_on(a, +1) ? a + 1 : a) : 0.0F;
+        if (along > (most_askew * d.norm() + 0.5F * step) * tangent.norm()) return none;
+        return m < i ? static_cast<std::int32_t>(a) : later;
+    }
+
+    /// Whether the same pass lies across a vertex as across the one before.
+    [[nodiscard]] bool same_across(std::int64_t vertex, Side side) const {
+        if (!joined(vertex)) return false;
+        const std::int32_t now = earlier(vertex, side);
+        const std::int32_t before = earlier(vertex - 1, side);
+        if (now < 0 || before < 0) return now == before;
+        return distance(now, before) <= 0.6F * static_cast<float>(s_.step_over) + 3.0F * distance(vertex - 1, vertex);
+    }
+
+    /// A bend sees another bend across itself for a moment, and what follows a turn the pass beyond its
+    /// neighbour. What lies across for less than a step-over is no neighbour pass, unless the way comes
+    /// from outside the picture.
+    void drop_short(Side side) {
         const auto count = static_cast<std::int64_t>(v_.points.size());
-        // Gaps are filled from their later pass, so that is where the last band ended.
-        for (int looked = 0; b < count && looked < longest_turn; ++b, ++looked) {
-            if (b > 0 && v_.joined[static_cast<std::size_t>(b)] == 0) return;
-            for (const Side side : {Side::left, Side::right}) {
-                if (!s_.neighbours.has(side, point(b))) continue;
-                const PointIndex m = s_.neighbours.neighbour(side, point(b));
-                if (m >= link.first) continue;
-                const std::int64_t a = vertex_of(m);
-                if (a < 0 || a >= before || before - a > longest_turn) continue;
-                zip(a, b, triangles);
-                return;
+        constexpr std::int64_t grain = 16384;
+        std::vector<std::vector<std::int64_t>> found(static_cast<std::size_t>((count + grain - 1) / grain));
+        const auto least = static_cast<float>(s_.step_over);
+        parallel_for(count, grain, [&](std::int64_t first, std::int64_t last) {
+            for (std::int64_t b = first; b < last; ++b) {
+                if (earlier(b, side) == none || same_across(b, side)) continue;
+                float way = 0;
+                std::int64_t end = b + 1;
+                for (; end < count && way < least && same_across(end, side); ++end) way += distance(end - 1, end);
+                if (way >= least || !joined(b) || end == count || !joined(end)) continue;
+                for (std::int64_t v = b; v < end; ++v) found[static_cast<std::size_t>(first / grain)].push_back(v);
+            }
+        });
+        for (const std::vector<std::int64_t>& part : found) {
+            for (const std::int64_t v : part) across(side)[static_cast<std::size_t>(v)] = none;
+        }
+    }
+
+    /// A vertex some way [mm] on, or as far as the way goes on.
+    [[nodiscard]] std::int64_t moved(std::int64_t vertex, int direction, float way) const {
+        const std::int64_t from = vertex;
+        constexpr std::int64_t farthest = 32;
+        while (std::abs(vertex - from) < farthest && goes_on(vertex, direction)) {
+            vertex += direction;
+            if (distance(vertex, from) >= way) break;
+        }
+        return vertex;
+    }
+
+    /// The first vertex with any neighbour on a side, in a direction; −1: none that is joined and near.
+    [[nodiscard]] std::int64_t beyond_gap(std::int64_t vertex, int direction, Side side) const {
+        for (std::int64_t looked = 0; looked < longest_gap && goes_on(vertex, direction); ++looked) {
+            vertex += direction;
+            if (earlier(vertex, side) != none) return has_earlier(vertex, side) ? vertex : -1;
+        }
+        return -1;
+    }
+
+    /// Where the bands of a vertex end, a seam closes what is left open between the passes: at a turn up
+    /// to the turn, at the ends of two passes up to the line between the ends, at corners up to where
+    /// the bands begin again, and where a loop returns to itself up to its own beginning.
+    void close_ends(std::int64_t b, Side side, Column<std::uint32_t>& triangles) const {
+        if (!has_earlier(b, side)) return;
+        // A gap between two bands is closed from its end, from its beginning if that does.
+        if (!goes_on(b, +1) || (earlier(b + 1, side) == none && beyond_gap(b, +1, side) < 0)) {
+            (void)seam(b, +1, side, triangles);
+        }
+        if (goes_on(b, -1) && earlier(b - 1, side) != none) return;
+        const std::int64_t before = beyond_gap(b, -1, side);
+        if (before >= 0 && seam(before, +1, side, triangles)) return;
+        (void)seam(b, -1, side, triangles);
+    }
+
+    /// Goes on from the band's edge at own vertex b in a direction: the edge moves on either pass, so that
+    /// it stays short, until the passes meet. Where they do not, it stays between their ends.
+    /// Returns whether it came to the next band.
+    bool seam(std::int64_t b, int b_step, Side side, Column<std::uint32_t>& triangles) const {
+        std::int64_t a = earlier(b, side);
+        const int a_step = runs_along(a, b, b_step) ? b_step : -b_step;
+        const float width = distance(a, b);
+        const std::size_t begin = triangles.size();
+        std::size_t at_ends = begin;    // triangles up to the ends of the passes
+        std::size_t narrowest = begin;  // up to where the edge was shortest
+        float narrow = width;
+        bool through_links = false;
+        float most_at_ends = 0;  // width of the edge up to which it stays between the ends
+        for (std::int64_t moved = 0; moved < longest_gap; ++moved) {
+            if (a_step > 0 && b_step < 0 && b - a <= 1) return false;  // met in the turn
+            const bool a_may = goes_on(a, a_step) && (through_links || !link(a + a_step));
+            const bool b_may = goes_on(b, b_step) && (through_links || !link(b + b_step));
+            if (!a_may && !b_may) {
+                if (through_links) break;
+                at_ends = triangles.size();
+                through_links = true;
+                most_at_ends = corner_play * distance(a, b);
+                continue;
+            }
+            const float if_a = a_may ? distance(a + a_step, b) : std::numeric_limits<float>::infinity();
+            const float if_b = b_may ? distance(a, b + b_step) : std::numeric_limits<float>::infinity();
+            const float length = std::min(if_a, if_b);
+            if (length > widest_seam * width) break;
+            if (narrow < closed_seam * width && length > 1.5F * narrow) break;
+            if (if_a <= if_b) {
+                add(triangles, static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(a + a_step), static_cast<std::uint32_t>(b));
+                a += a_step;
+            } else {
+                add(triangles, static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b + b_step), static_cast<std::uint32_t>(b));
+                b += b_step;
+                if (has_earlier(b, side)) {
+                    if (fan(b, a, earlier(b, side), triangles)) return true;
+                    break;
+                }
+            }
+            // A pass ends somewhat before its corner: on to there.
+            if (length <= most_at_ends) at_ends = triangles.size();
+            else if (through_links) most_at_ends = 0;
+            if (length < narrow) {
+                narrow = length;
+                narrowest = triangles.size();
             }
         }
+        triangles.resize(narrow < closed_seam * width ? narrowest : at_ends);
+        return false;
     }
 
-private:
-    [[nodiscard]] std::int64_t first_vertex_at(PointIndex i) const {
-        return std::lower_bound(v_.points.begin(), v_.points.end(), i) - v_.points.begin();
-    }
-
-    /// Triangles between the vertices from a on and those from b back, until they meet.
-    void zip(std::int64_t a, std::int64_t b, Column<std::uint32_t>& triangles) const {
-        for (std::int64_t k = a + 1; k <= b; ++k) {
-            if (v_.joined[static_cast<std::size_t>(k)] == 0) return;
-        }
-        while (b - a >= 2) {
-            add(triangles, static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(a + 1), static_cast<std::uint32_t>(b));
-            ++a;
-            if (b - a < 2) break;
-            add(triangles, static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b - 1), static_cast<std::uint32_t>(b));
-            --b;
-        }
+    /// Whether the way at vertex a runs in the direction of the way at b, not against it.
+    [[nodiscard]] bool runs_along(std::int64_t a, std::int64_t b, int b_step) const {
+        const auto direction = [&](std::int64_t v, int from) -> Vec3f {
+            // Where the band is, the way is straighter than beyond its end.
+            const std::int64_t back = goes_on(v, -from) ? v - from : v;
+            const std::int64_t ahead = back == v && goes_on(v, from) ? v + from : v;
+            return (s_.positions[point(ahead)] - s_.positions[point(back)]) * static_cast<float>(from);
+        };
+        const Vec3f own = direction(b, b_step);
+        const Vec3f other = s_.positions[point(goes_on(a, +1) ? a + 1 : a)] - s_.positions[point(goes_on(a, -1) ? a - 1 : a)];
+        return own.dot(other) > 0;
     }
 
     [[nodiscard]] PointIndex point(std::int64_t vertex) const {
@@ -201,21 +346,24 @@ private:
         return best;
     }
 
-    /// Triangles between the own vertices b − 1, b and the neighbour's from point m to point n.
-    void band(std::int64_t b, PointIndex m, PointIndex n, Column<std::uint32_t>& triangles) const {
-        const std::int64_t from = vertex_of(m);
-        const std::int64_t to = vertex_of(n);
-        if (from < 0 || to < 0 || std::abs(to - from) > longest_fan) return;
+    /// Triangles between the own vertices b − 1, b and the neighbour's from one vertex to another.
+    void band(std::int64_t b, std::int64_t from, std::int64_t to, Column<std::uint32_t>& triangles) const {
+        if (!fan(b - 1, from, to, triangles)) return;
+        add(triangles, static_cast<std::uint32_t>(b - 1), static_cast<std::uint32_t>(to), static_cast<std::uint32_t>(b));
+    }
+
+    /// Triangles from a vertex to the neighbour's from one vertex to another. False where they are not
+    /// on one piece of the way, or far apart: a jump to another piece is no neighbour.
+    bool fan(std::int64_t own, std::int64_t from, std::int64_t to, Column<std::uint32_t>& triangles) const {
+        if (std::abs(to - from) > longest_fan) return false;
         const int direction = to >= from ? 1 : -1;
         for (std::int64_t k = from; k != to; k += direction) {
-            // A jump to another piece of the way is no neighbour.
-            if (v_.joined[static_cast<std::size_t>(std::max(k, k + direction))] == 0) return;
+            if (!goes_on(k, direction)) return false;
         }
-        const auto own = static_cast<std::uint32_t>(b - 1);
         for (std::int64_t k = from; k != to; k += direction) {
-            add(triangles, own, static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(k + direction));
+            add(triangles, static_cast<std::uint32_t>(own), static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(k + direction));
         }
-        add(triangles, own, static_cast<std::uint32_t>(to), static_cast<std::uint32_t>(b));
+        return true;
     }
 
     static void add(Column<std::uint32_t>& triangles, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
@@ -228,6 +376,7 @@ private:
     const Projector& projector_;
     const Vertices& v_;
     float reach_;
+    Column<std::int32_t> left_, right_;  ///< per vertex: the vertex across, or none, or later
 };
 
 template <typename T>
@@ -290,6 +439,7 @@ Detail visible_detail(const ClSurface& surface, std::span<const float> values,
         append(all.points, part.points);
         append(all.values, part.values);
         append(all.joined, part.joined);
+        append(all.links, part.links);
     }
     of_part.clear();
 
@@ -310,9 +460,6 @@ Detail visible_detail(const ClSurface& surface, std::span<const float> values,
         for (std::size_t piece = 0; piece < pieces; ++piece) {
             append(geometry.triangles, triangles[piece]);
             append(geometry.segments, segments[piece]);
-        }
-        for (const Pass& pass : surface.passes) {
-            if (pass.kind == PassKind::link) bander.close_turn(pass, geometry.triangles);
         }
         put_normals(geometry);
     } else if (request.style == Style::lines) {
