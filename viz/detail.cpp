@@ -19,8 +19,9 @@ constexpr std::int64_t longest_gap = 512;  ///< vertices of a pass between two t
 constexpr float widest_seam = 2.2F;        ///< of an edge of a seam, in widths of the band that it goes on from
 constexpr double tangent_step_overs = 0.08;  ///< way on either side that gives the direction at a vertex
 constexpr float most_askew = 0.3F;         ///< cosine between the way and what lies across it
+constexpr float least_width = 0.6F;        ///< of a band, in step-overs; a narrower one already runs into a corner
 constexpr float corner_play = 1.03F;       ///< growth of an edge that is still at the ends of its passes
-constexpr float closed_seam = 0.35F;       ///< width at which a seam ends, likewise
+constexpr float closed_seam = 0.5F;        ///< width at which a seam ends, likewise
 constexpr std::int64_t longest_fan = 256;  ///< vertices of a neighbour that one step may span
 
 /// Vertices of a part of a pass.
@@ -266,11 +267,12 @@ private:
     bool seam(std::int64_t b, int b_step, Side side, Column<std::uint32_t>& triangles) const {
         std::int64_t a = earlier(b, side);
         const int a_step = runs_along(a, b, b_step) ? b_step : -b_step;
-        const float width = distance(a, b);
+        const float first = distance(a, b);
+        const float width = std::max(first, least_width * static_cast<float>(s_.step_over));
         const std::size_t begin = triangles.size();
         std::size_t at_ends = begin;    // triangles up to the ends of the passes
         std::size_t narrowest = begin;  // up to where the edge was shortest
-        float narrow = width;
+        float narrow = first;
         bool through_links = false;
         float most_at_ends = 0;  // width of the edge up to which it stays between the ends
         for (std::int64_t moved = 0; moved < longest_gap; ++moved) {
@@ -288,7 +290,7 @@ private:
             const float if_b = b_may ? distance(a, b + b_step) : std::numeric_limits<float>::infinity();
             const float length = std::min(if_a, if_b);
             if (length > widest_seam * width) break;
-            if (narrow < closed_seam * width && length > 1.5F * narrow) break;
+            if (narrow < closed_seam * width && length > std::max(1.5F * narrow, closed_seam * width)) break;
             if (if_a <= if_b) {
                 add(triangles, static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(a + a_step), static_cast<std::uint32_t>(b));
                 a += a_step;

@@ -47,6 +47,22 @@ inline Positions spiral(double outer, int turns, double apart, double step) {
     return p;
 }
 
+/// Circles from radius `outer` inwards, each begun and ended on the X axis; from one a step inwards to the next.
+inline Positions loops(double outer, int count, double apart, double step) {
+    Positions p;
+    for (int k = 0; k < count; ++k) {
+        const double radius = outer - k * apart;
+        const auto n = static_cast<int>(2 * std::numbers::pi * radius / step);
+        for (int i = 0; i < n; ++i) {
+            const double angle = 2 * std::numbers::pi * i / n;
+            add(p, radius * std::cos(angle), radius * std::sin(angle), 0);
+        }
+        if (k + 1 < count) add_line(p, {radius, 0, 0}, {radius - apart, 0, 0}, step);
+        else add(p, radius, 0, 0);
+    }
+    return p;
+}
+
 inline Passes one_run(const Positions& p) {
     Passes runs;
     runs.push_back({0, p.size() - 1, PassKind::cut});

@@ -1,0 +1,96 @@
+// Detail: the triangles between passes leave nothing open, and end where the passes do.
+#include "viz/detail.h"
+
+#include <gtest/gtest.h>
+
+#include "path/way.h"
+#include "support/made_path.h"
+
+namespace clsurf::viz {
+namespace {
+
+constexpr double pixels_per_mm = 20;
+
+ClSurface surface_of(Positions positions, double step_over) {
+    ClSurface surface;
+    const Way way(positions);
+    surface.passes = find_passes(positions, way, test::one_run(positions), step_over);
+    surface.neighbours = find_neighbours(positions, surface.passes, way, step_over);
+    surface.positions = std::move(positions);
+    surface.step_over = step_over;
+    return surface;
+}
+
+/// Seen from above, 0,0 in the middle.
+Detail detail_of(const ClSurface& surface) {
+    DetailRequest request;
+    request.projection << pixels_per_mm, 0, 0, 500, 0, pixels_per_mm, 0, 500;
+    request.width = request.height = 1000;
+    return visible_detail(surface, std::vector<float>(static_cast<std::size_t>(surface.positions.size()), 1.0F), request);
+}
+
+class Covered {
+public:
+    explicit Covered(const Detail& detail) : g_(detail.geometry) {}
+    bool operator()(double x, double y) const {
+        for (std::size_t t = 0; t + 2 < g_.triangles.size(); t += 3) {
+            double side[3];
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Vec2 a = corner(t + k);
+                const Vec2 b = corner(t + (k + 1) % 3);
+                side[k] = (b.x() - a.x()) * (y - a.y()) - (b.y() - a.y()) * (x - a.x());
+            }
+            constexpr double play = 1e-6;
+            if ((side[0] >= -play && side[1] >= -play && side[2] >= -play) || (side[0] <= play && side[1] <= play && side[2] <= play)) return true;
+        }
+        return false;
+    }
+
+private:
+    [[nodiscard]] Vec2 corner(std::size_t k) const {
+        const std::size_t v = g_.triangles[k];
+        return Vec2(g_.xyz[3 * v] + g_.origin.x(), g_.xyz[3 * v + 1] + g_.origin.y());
+    }
+    const Geometry& g_;
+};
+
+TEST(Detail, LeavesNothingOpenWhereLoopsBegin) {
+    const ClSurface surface = surface_of(test::loops(10, 12, 0.4, 0.02), 0.4);
+    const Detail detail = detail_of(surface);
+    const Covered covered(detail);
+    for (double x = 5.65; x < 9.95; x += 0.043) {
+        for (double y = -0.6; y < 0.6; y += 0.037) EXPECT_TRUE(covered(x, y)) << x << ' ' << y;
+    }
+    EXPECT_FALSE(covered(5.5, 0.01));
+    EXPECT_FALSE(covered(10.1, 0.01));
+}
+
+TEST(Detail, EndsInALineWhereThePassesDo) {
+    // On a flank that rises along and across the passes what lies across one is not at its end.
+    Positions positions = test::zigzag(12, 20, 0.4, 0.02);
+    for (std::size_t i = 0; i < positions.x.size(); ++i) positions.z[i] = 0.7F * positions.x[i] + 0.7F * positions.y[i];
+    const ClSurface surface = surface_of(std::move(positions), 0.45);
+    const Detail detail = detail_of(surface);
+    const Covered covered(detail);
+    for (double y = 0.02; y < 4.38; y += 0.037) {
+        for (const double x : {0.02, 0.1, 0.3, 19.7, 19.9, 19.98}) EXPECT_TRUE(covered(x, y)) << x << ' ' << y;
+        EXPECT_FALSE(covered(-0.05, y)) << y;
+        EXPECT_FALSE(covered(20.05, y)) << y;
+    }
+}
+
+TEST(Detail, LeavesAMissingPassOpen) {
+    // Two zigzags, five step-overs apart.
+    Positions positions = test::zigzag(6, 10, 0.4, 0.02);
+    const Positions other = test::zigzag(6, 10, 0.4, 0.02);
+    for (PointIndex i = 0; i < other.size(); ++i) test::add(positions, other[i].x(), other[i].y() + 4.0, 0);
+    const ClSurface surface = surface_of(std::move(positions), 0.4);
+    const Detail detail = detail_of(surface);
+    const Covered covered(detail);
+    EXPECT_TRUE(covered(5, 1.9));
+    EXPECT_FALSE(covered(5, 3));
+    EXPECT_TRUE(covered(5, 4.1));
+}
+
+}  // namespace
+}  // namespace clsurf::viz
