@@ -19,6 +19,7 @@ constexpr std::int64_t longest_gap = 512;  ///< vertices of a pass between two t
 constexpr float widest_seam = 2.2F;        ///< of an edge of a seam, in widths of the band that it goes on from
 constexpr double tangent_step_overs = 0.08;  ///< way on either side that gives the direction at a vertex
 constexpr float most_askew = 0.3F;         ///< cosine between the way and what lies across it
+constexpr float missing_width = 1.7F;      ///< of a gap, in widths of those beside it, that a pass is missing from
 constexpr float least_width = 0.6F;        ///< of a band, in step-overs; a narrower one already runs into a corner
 constexpr float corner_play = 1.03F;       ///< growth of an edge that is still at the ends of its passes
 constexpr float closed_seam = 0.5F;        ///< width at which a seam ends, likewise
@@ -167,6 +168,7 @@ private:
 
     static constexpr std::int32_t none = -1;   ///< across a vertex there is nothing
     static constexpr std::int32_t later = -2;  ///< … a later part of the way, which makes the band itself
+    static constexpr std::int32_t apart = -3;  ///< … a pass that is not the next one: one is missing between
 
     [[nodiscard]] Column<std::int32_t>& across(Side side) { return side == Side::left ? left_ : right_; }
     [[nodiscard]] std::int32_t earlier(std::int64_t vertex, Side side) const {
@@ -191,7 +193,27 @@ private:
         // Vertices are not everywhere: the one across may be half a step off.
         const float step = m < i ? distance(goes_on(a, -1) ? a - 1 : a, goes_on(a, +1) ? a + 1 : a) : 0.0F;
         if (along > (most_askew * d.norm() + 0.5F * step) * tangent.norm()) return none;
-        return m < i ? static_cast<std::int32_t>(a) : later;
+        if (m > i) return later;
+        return misses_pass(i, m, side) ? apart : static_cast<std::int32_t>(a);
+    }
+
+    /// Whether a pass is missing between a point and the neighbour on a side: they lie much farther apart than
+    /// each from its neighbour on the other side, in space and seen from above. Passes even in plan
+    /// are farther apart in space on steep flanks, passes even in space are so in plan where it is flat.
+    [[nodiscard]] bool misses_pass(PointIndex i, PointIndex m, Side side) const {
+        const Vec3f gap = s_.positions[m] - s_.positions[i];
+        const Side other = side == Side::left ? Side::right : Side::left;
+        if (!s_.neighbours.has(other, i)) return false;
+        const Vec3f own = s_.positions[s_.neighbours.neighbour(other, i)] - s_.positions[i];
+        for (const Side beyond : {Side::left, Side::right}) {
+            if (!s_.neighbours.has(beyond, m)) continue;
+            const Vec3f next = s_.positions[s_.neighbours.neighbour(beyond, m)] - s_.positions[m];
+            if (next.dot(gap) <= 0) continue;  // of the two beside it the one away from here
+            constexpr float much = missing_width * missing_width;
+            return gap.squaredNorm() > much * own.norm() * next.norm() &&
+                   gap.head<2>().squaredNorm() > much * own.head<2>().norm() * next.head<2>().norm();
+        }
+        return false;
     }
 
     /// Whether the same pass lies across a vertex as across the one before.

@@ -80,16 +80,16 @@ TEST(Detail, EndsInALineWhereThePassesDo) {
 }
 
 TEST(Detail, LeavesAMissingPassOpen) {
-    // Two zigzags, five step-overs apart.
+    // Two zigzags, as one that lacks its seventh pass.
     Positions positions = test::zigzag(6, 10, 0.4, 0.02);
     const Positions other = test::zigzag(6, 10, 0.4, 0.02);
-    for (PointIndex i = 0; i < other.size(); ++i) test::add(positions, other[i].x(), other[i].y() + 4.0, 0);
+    for (PointIndex i = 0; i < other.size(); ++i) test::add(positions, other[i].x(), other[i].y() + 2.8, 0);
     const ClSurface surface = surface_of(std::move(positions), 0.4);
     const Detail detail = detail_of(surface);
     const Covered covered(detail);
     EXPECT_TRUE(covered(5, 1.9));
-    EXPECT_FALSE(covered(5, 3));
-    EXPECT_TRUE(covered(5, 4.1));
+    EXPECT_FALSE(covered(5, 2.41));
+    EXPECT_TRUE(covered(5, 2.9));
 }
 
 }  // namespace
