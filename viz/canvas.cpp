@@ -1,6 +1,7 @@
 #include "viz/canvas.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <vtkActor.h>
@@ -33,6 +34,7 @@
 namespace clsurf::viz {
 namespace {
 
+constexpr int flat_layers = 4;  ///< quads, lines under others, lines, texts
 constexpr int dpi = 72;  // one point of text is one pixel
 
 /// Our 32-bit vertex numbers as VTK cells of `size` vertices, without a copy. The column must outlive it.
@@ -255,7 +257,7 @@ Image draw(const Sheet& sheet, const std::string& gl, int supersample) {
     GlWindow gl_window(gl, width, height);
     vtkRenderWindow* window = gl_window.window();
     window->SetDPI(dpi);
-    window->SetNumberOfLayers(4);
+    window->SetNumberOfLayers(2 + flat_layers);
     const auto background = [&](vtkRenderer* renderer) {
         renderer->SetBackground(sheet.background[0] / 255.0, sheet.background[1] / 255.0, sheet.background[2] / 255.0);
     };
@@ -274,17 +276,16 @@ Image draw(const Sheet& sheet, const std::string& gl, int supersample) {
         place_camera(renderer, panel);
         renderers.push_back(renderer);
     }
-    // Flat things have no depth among each other: they are drawn one after the other, texts above all.
-    vtkNew<vtkRenderer> flat;
-    flat->SetLayer(2);
-    window->AddRenderer(flat);
-    add_quads(flat, sheet.quads, supersample);
-    add_lines(flat, sheet.lines, true, supersample);
-    add_lines(flat, sheet.lines, false, supersample);
-    vtkNew<vtkRenderer> texts;
-    texts->SetLayer(3);
-    window->AddRenderer(texts);
-    add_texts(texts, sheet.texts, supersample);
+    // Flat things have no depth among each other: each kind is a layer of its own.
+    std::array<vtkNew<vtkRenderer>, flat_layers> flat;
+    for (int k = 0; k < flat_layers; ++k) {
+        flat[static_cast<std::size_t>(k)]->SetLayer(2 + k);
+        window->AddRenderer(flat[static_cast<std::size_t>(k)]);
+    }
+    add_quads(flat[0], sheet.quads, supersample);
+    add_lines(flat[1], sheet.lines, true, supersample);
+    add_lines(flat[2], sheet.lines, false, supersample);
+    add_texts(flat[3], sheet.texts, supersample);
     return gl_window.render(supersample);
 }
 

@@ -154,7 +154,9 @@ std::string tick_text(double value, double step) {
     const double size = std::max(std::abs(value), step);
     if (size >= 1e6 || step < 1e-5) return fmt::format("{:.3g}", value);
     const int decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 6);
-    return fmt::format("{:.{}f}", value, decimals);
+    std::string text = fmt::format("{:.{}f}", value, decimals);
+    if (text.find_first_not_of("-0.") == std::string::npos && text[0] == '-') text.erase(0, 1);  // no "-0"
+    return text;
 }
 
 }  // namespace clsurf::viz

@@ -198,10 +198,11 @@ private:
     }
 
     /// Whether a pass is missing between a point and the neighbour on a side: they lie much farther apart than
-    /// each from its neighbour on the other side, in space and seen from above. Passes even in plan
+    /// each from its neighbour on the other side (and than a step-over), in space and seen from above. Passes even in plan
     /// are farther apart in space on steep flanks, passes even in space are so in plan where it is flat.
     [[nodiscard]] bool misses_pass(PointIndex i, PointIndex m, Side side) const {
         const Vec3f gap = s_.positions[m] - s_.positions[i];
+        if (gap.norm() < missing_width * static_cast<float>(s_.step_over)) return false;
         const Side other = side == Side::left ? Side::right : Side::left;
         if (!s_.neighbours.has(other, i)) return false;
         const Vec3f own = s_.positions[s_.neighbours.neighbour(other, i)] - s_.positions[i];

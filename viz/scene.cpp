@@ -141,6 +141,16 @@ void add_beyond(Sheet& sheet, const ColourScale& scale, bool above, double x, do
     sheet.lines.push_back({{{x, y}, {x + 0.5 * width, y + sign * height}, {x + width, y}}, 1.0, frame});
 }
 
+/// Round values; where the colours are steps, their edges, as many as have room.
+std::vector<double> legend_ticks(const ColourScale& scale, int wanted) {
+    if (!(scale.high > scale.low)) return {scale.low};
+    if (scale.bins == 0) return nice_ticks(scale.low, scale.high, std::max(2, wanted));
+    std::vector<double> edges;
+    const int each = (scale.bins - 1) / std::max(2, 2 * wanted) + 1;
+    for (int k = each; k < scale.bins; k += each) edges.push_back(scale.low + (scale.high - scale.low) * k / scale.bins);
+    return edges;
+}
+
 void add_legend(Sheet& sheet, const ColourScale& scale, const FieldInfo& field, const Beyond& beyond, const Look& look, const Layout& layout, Rgb ink) {
     const double x = look.width - layout.legend_width + 0.6 * layout.text;
     const double bar_width = 1.3 * layout.text;
@@ -155,14 +165,15 @@ void add_legend(Sheet& sheet, const ColourScale& scale, const FieldInfo& field, 
     }
     const Rgb frame = faint(ink, look.background);
     sheet.lines.push_back({{{x, bottom}, {x + bar_width, bottom}, {x + bar_width, top}, {x, top}, {x, bottom}}, 1.0, frame});
-    const std::vector<double> ticks = scale.high > scale.low ? nice_ticks(scale.low, scale.high, std::max(2, static_cast<int>(height / (3 * layout.text)))) : std::vector<double>{scale.low};
-    const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : 1.0;
+    const std::vector<double> ticks = legend_ticks(scale, static_cast<int>(height / (3 * layout.text)));
+    double step = ticks.size() > 1 ? ticks[1] - ticks[0] : 1.0;
+    if (scale.bins > 0) step /= 10;  // the edges of steps are not round
     // The ends of the range stand there exactly; ticks too near to them give way.
     const double near = 1.3 * layout.small_text / height * (scale.high - scale.low);
     for (const double end : {scale.low, scale.high}) {
         if (!(scale.high > scale.low) && end == scale.high) continue;
         const double y = end == scale.low ? bottom : top;
-        add_text(sheet, x + bar_width + 0.5 * layout.text, y, tick_text(end, step / 10), layout.small_text, Align::left, ink, true);
+        add_text(sheet, x + bar_width + 0.5 * layout.text, y, tick_text(end, scale.bins > 0 ? step : step / 10), layout.small_text, Align::left, ink, true);
     }
     for (const double tick : ticks) {
         if (tick - scale.low < near || scale.high - tick < near) continue;

@@ -164,17 +164,22 @@ viz::MapPanel panel_of(const Shown& shown, const RenderOptions& options, std::st
 
 std::string base_name(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
-viz::MapTexts texts_of(const Shown& shown, const RenderOptions& options, const std::string& range_note) {
+/// A log's name and what is in it.
+std::string log_text(const Shown& shown, const std::string& path) {
     PointIndex passes = 0;
     for (const Pass& pass : shown.surface.passes) passes += pass.kind == PassKind::cut ? 1 : 0;
+    return fmt::format("{} · {} points, {} passes", base_name(path), shown.part.log.records, passes);
+}
+
+viz::MapTexts texts_of(const Shown& shown, const RenderOptions& options, const std::vector<std::string>& range_notes) {
     viz::MapTexts texts;
     texts.title = fmt::format("{}, {} {}", shown.field.info.label, name_of(shown.part.path.role), options.look.style == viz::Style::surface ? "surface" : "path");
-    texts.subtitle = fmt::format("{} · {}{} · {} points, {} passes{}", base_name(options.part.program),
-                                 options.before.empty() ? "" : base_name(options.before) + " and ", base_name(options.part.log),
-                                 shown.part.log.records, passes,
-                                 shown.surface.step_over > 0 ? fmt::format(", {:.3g} mm apart", shown.surface.step_over) : "");
+    texts.subtitle = base_name(options.part.program);
+    // Of two logs each panel says its own.
+    if (options.before.empty()) texts.subtitle += " · " + log_text(shown, options.part.log);
+    if (options.before.empty() && shown.surface.step_over > 0) texts.subtitle += fmt::format(", {:.3g} mm apart", shown.surface.step_over);
     if (!shown.field.info.note.empty()) texts.notes.push_back(shown.field.info.note);
-    texts.notes.push_back(range_note);
+    texts.notes.insert(texts.notes.end(), range_notes.begin(), range_notes.end());
     return texts;
 }
 
@@ -221,9 +226,9 @@ ExitCode run(const po::variables_map& values) {
         other.log = options.before;
         before = prepare(other, options.field, clock);
         print(before->part.diagnostics, values);
-        panels.push_back(panel_of(*before, options, "before: " + base_name(options.before)));
+        panels.push_back(panel_of(*before, options, "before: " + log_text(*before, options.before)));
     }
-    panels.push_back(panel_of(after, options, before ? "after: " + base_name(options.part.log) : ""));
+    panels.push_back(panel_of(after, options, before ? "after: " + log_text(after, options.part.log) : ""));
 
     clock.begin("choose the range");
     const viz::Camera camera = viz::map_camera(panels, options.look);
@@ -232,16 +237,18 @@ ExitCode run(const po::variables_map& values) {
     if (before) {
         const ShownRange other = find_range(before->field, before->surface.passes, options.range, shown_points(before->surface, options.look, camera));
         range = {std::min(range.low, other.low), std::max(range.high, other.high), std::min(range.lowest, other.lowest),
-                 std::max(range.highest, other.highest), range.note + (options.range.kind == RangeRule::Kind::fixed ? "" : ", of both logs")};
+                 std::max(range.highest, other.highest), range.note + (options.range.kind == RangeRule::Kind::fixed ? "" : ", the wider of both logs")};
     }
+    std::vector<std::string> range_notes{range.note};
     if (range.lowest < range.low || range.highest > range.high) {
-        range.note += fmt::format("; values from {:.4g} to {:.4g}", range.lowest, range.highest);
+        const double readable = std::max(1e-3 * (range.high - range.low), 1e-6 * std::abs(range.high));
+        range_notes.push_back(fmt::format("values from {} to {}", viz::tick_text(range.lowest, readable), viz::tick_text(range.highest, readable)));
     }
     const bool diverging = after.field.info.scale == FieldScale::diverging;
     viz::ColourScale scale{viz::make_colour_map(!options.colour_map.empty() ? options.colour_map : diverging ? "coolwarm" : "isurface"),
                            range.low, range.high, options.bins};
     clock.begin("draw");
-    const viz::Image image = viz::draw_map(panels, scale, texts_of(after, options, range.note), options.look);
+    const viz::Image image = viz::draw_map(panels, scale, texts_of(after, options, range_notes), options.look);
     clock.begin("write the picture");
     output.write(viz::encode_png(image, fmt::format("clsurf map of {} from {}: {} {:g} to {:g} {}", base_name(options.part.program),
                                                     base_name(options.part.log), options.field, range.low, range.high, after.field.info.unit.name)));

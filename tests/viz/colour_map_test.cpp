@@ -74,6 +74,7 @@ TEST(Ticks, AreRound) {
     EXPECT_EQ(nice_ticks(-0.3, 0.3, 3), (std::vector<double>{-0.2, 0, 0.2}));
     EXPECT_EQ(tick_text(0.25, 0.05), "0.25");
     EXPECT_EQ(tick_text(1500, 500), "1500");
+    EXPECT_EQ(tick_text(-0.3, 10), "0");
 }
 
 }  // namespace

@@ -86,6 +86,16 @@ TEST(Drawing, PutsTextsAboveQuads) {
     EXPECT_TRUE(dark);
 }
 
+TEST(Drawing, PutsLinesAboveThoseUnderThem) {
+    Sheet sheet = red_square();
+    sheet.lines.push_back({{{10, 30}, {70, 30}}, 4, {0, 0, 0}, false});
+    sheet.lines.push_back({{{10, 30}, {70, 30}}, 12, {255, 255, 255}, true});
+    const Image image = draw(sheet, "osmesa", 2);
+    EXPECT_EQ(image.pixel(40, 30)[0], 0);
+    EXPECT_EQ(image.pixel(40, 34)[0], 255);
+    EXPECT_EQ(image.pixel(40, 34)[1], 255);
+}
+
 TEST(Drawing, RefusesAnUnknownContext) { EXPECT_THROW((void)make_gl_context("glx", 8, 8), UsageError); }
 
 }  // namespace
