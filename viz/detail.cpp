@@ -21,6 +21,8 @@ constexpr double tangent_step_overs = 0.08;  ///< way on either side that gives 
 constexpr float most_askew = 0.3F;         ///< cosine between the way and what lies across it
 constexpr float missing_width = 1.7F;      ///< of a gap, in widths of those beside it, that a pass is missing from
 constexpr float least_width = 0.6F;        ///< of a band, in step-overs; a narrower one already runs into a corner
+constexpr float widest_end = 1.5F;         ///< of a seam between two ends, in widths
+constexpr float leading_away = 0.85F;      ///< growth of the edge with the way, above which the way leads away
 constexpr float corner_play = 1.03F;       ///< growth of an edge that is still at the ends of its passes
 constexpr float closed_seam = 0.5F;        ///< width at which a seam ends, likewise
 constexpr std::int64_t longest_fan = 256;  ///< vertices of a neighbour that one step may span
@@ -298,6 +300,8 @@ private:
         float narrow = first;
         bool through_links = false;
         float most_at_ends = 0;  // width of the edge up to which it stays between the ends
+        float now = first;
+        bool turned = false;  // both ways lead away from each other
         for (std::int64_t moved = 0; moved < longest_gap; ++moved) {
             if (a_step > 0 && b_step < 0 && b - a <= 1) return false;  // met in the turn
             const bool a_may = goes_on(a, a_step) && (through_links || !link(a + a_step));
@@ -313,6 +317,13 @@ private:
             const float if_b = b_may ? distance(a, b + b_step) : std::numeric_limits<float>::infinity();
             const float length = std::min(if_a, if_b);
             if (length > widest_seam * width) break;
+            // Where a turn is not told from its passes its corners are their ends.
+            if (!turned && !through_links && now < widest_end * width && (!a_may || if_a - now > leading_away * distance(a, a + a_step)) &&
+                (!b_may || if_b - now > leading_away * distance(b, b + b_step))) {
+                at_ends = triangles.size();
+                turned = true;
+            }
+            now = length;
             if (narrow < closed_seam * width && length > std::max(1.5F * narrow, closed_seam * width)) break;
             if (if_a <= if_b) {
                 add(triangles, static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(a + a_step), static_cast<std::uint32_t>(b));
