@@ -241,9 +241,14 @@ FlatText fitted(FlatText text, double width) {
     for (std::size_t keep = whole.size(); keep > 4; --keep) {
         std::size_t head = keep / 2;
         std::size_t tail = whole.size() - (keep - head);
-        // Not inside a UTF-8 sequence.
-        while (head > 0 && (static_cast<unsigned char>(whole[head]) & 0xC0) == 0x80) --head;
-        while (tail < whole.size() && (static_cast<unsigned char>(whole[tail]) & 0xC0) == 0x80) ++tail;
+        // Not inside a UTF-8 sequence, nor inside a number, which would then be another one.
+        const auto inside = [&whole](std::size_t at) {
+            const auto in_number = [&whole](std::size_t k) { return (whole[k] >= '0' && whole[k] <= '9') || whole[k] == '.'; };
+            return at > 0 && at < whole.size() &&
+                   ((static_cast<unsigned char>(whole[at]) & 0xC0) == 0x80 || (in_number(at - 1) && in_number(at)));
+        };
+        while (inside(head)) --head;
+        while (inside(tail)) ++tail;
         text.text = whole.substr(0, head) + "…" + whole.substr(tail);
         if (text_width(text) <= width) return text;
     }

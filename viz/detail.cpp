@@ -16,6 +16,7 @@ using Vec3f = Eigen::Vector3f;
 constexpr PointIndex part_points = 65536;
 constexpr float margin = 4.0F;          ///< [px] round the picture that is kept
 constexpr std::int64_t longest_gap = 512;  ///< vertices of a pass between two that have a neighbour, and of a seam
+constexpr float longest_seam = 10.0F;       ///< way of both passes along a seam, in widths of the band; of a gap, in step-overs
 constexpr float widest_seam = 2.2F;        ///< of an edge of a seam, in widths of the band that it goes on from
 constexpr double tangent_step_overs = 0.08;  ///< way on either side that gives the direction at a vertex
 constexpr float most_askew = 0.3F;         ///< cosine between the way and what lies across it
@@ -225,7 +226,8 @@ private:
         const std::int32_t now = earlier(vertex, side);
         const std::int32_t before = earlier(vertex - 1, side);
         if (now < 0 || before < 0) return now == before;
-        return distance(now, before) <= 0.6F * static_cast<float>(s_.step_over) + 3.0F * distance(vertex - 1, vertex);
+        const float change = std::abs(distance(vertex, now) - distance(vertex - 1, before));
+        return change <= 0.3F * static_cast<float>(s_.step_over) + 0.5F * distance(vertex - 1, vertex);
     }
 
     /// A bend sees another bend across itself for a moment, and what follows a turn the pass beyond its
@@ -264,7 +266,10 @@ private:
 
     /// The first vertex with any neighbour on a side, in a direction; −1: none that is joined and near.
     [[nodiscard]] std::int64_t beyond_gap(std::int64_t vertex, int direction, Side side) const {
-        for (std::int64_t looked = 0; looked < longest_gap && goes_on(vertex, direction); ++looked) {
+        float way = 0;
+        const float longest = longest_seam * static_cast<float>(s_.step_over);
+        for (std::int64_t looked = 0; looked < longest_gap && way < longest && goes_on(vertex, direction); ++looked) {
+            way += distance(vertex, vertex + direction);
             vertex += direction;
             if (earlier(vertex, side) != none) return has_earlier(vertex, side) ? vertex : -1;
         }
@@ -291,7 +296,7 @@ private:
     /// Returns whether it came to the next band.
     bool seam(std::int64_t b, int b_step, Side side, Column<std::uint32_t>& triangles) const {
         std::int64_t a = earlier(b, side);
-        const int a_step = runs_along(a, b, b_step) ? b_step : -b_step;
+        const int a_step = step_across(a, b, b_step, side);
         const float first = distance(a, b);
         const float width = std::max(first, least_width * static_cast<float>(s_.step_over));
         const std::size_t begin = triangles.size();
@@ -301,6 +306,7 @@ private:
         bool through_links = false;
         float most_at_ends = 0;  // width of the edge up to which it stays between the ends
         float now = first;
+        float way = 0;  // of both passes
         bool turned = false;  // both ways lead away from each other
         for (std::int64_t moved = 0; moved < longest_gap; ++moved) {
             if (a_step > 0 && b_step < 0 && b - a <= 1) return false;  // met in the turn
@@ -316,7 +322,8 @@ private:
             const float if_a = a_may ? distance(a + a_step, b) : std::numeric_limits<float>::infinity();
             const float if_b = b_may ? distance(a, b + b_step) : std::numeric_limits<float>::infinity();
             const float length = std::min(if_a, if_b);
-            if (length > widest_seam * width) break;
+            way += if_a <= if_b ? distance(a, a + a_step) : distance(b, b + b_step);
+            if (length > widest_seam * width || way > longest_seam * width) break;
             // Where a turn is not told from its passes its corners are their ends.
             if (!turned && !through_links && now < widest_end * width && (!a_may || if_a - now > leading_away * distance(a, a + a_step)) &&
                 (!b_may || if_b - now > leading_away * distance(b, b + b_step))) {
@@ -348,17 +355,20 @@ private:
         return false;
     }
 
-    /// Whether the way at vertex a runs in the direction of the way at b, not against it.
-    [[nodiscard]] bool runs_along(std::int64_t a, std::int64_t b, int b_step) const {
-        const auto direction = [&](std::int64_t v, int from) -> Vec3f {
-            // Where the band is, the way is straighter than beyond its end.
-            const std::int64_t back = goes_on(v, -from) ? v - from : v;
-            const std::int64_t ahead = back == v && goes_on(v, from) ? v + from : v;
-            return (s_.positions[point(ahead)] - s_.positions[point(back)]) * static_cast<float>(from);
+    /// In which direction the other pass goes on where the own one goes in b_step: as along the band before,
+    /// or as it lies.
+    [[nodiscard]] int step_across(std::int64_t a, std::int64_t b, int b_step, Side side) const {
+        std::int64_t back = b;
+        constexpr int looked = 8;
+        for (int k = 0; k < looked && goes_on(back, -b_step); ++k) {
+            back -= b_step;
+            if (!has_earlier(back, side)) break;
+            if (earlier(back, side) != a) return earlier(back, side) < a ? 1 : -1;
+        }
+        const auto ends = [&](std::int64_t v) -> Vec3f {
+            return s_.positions[point(goes_on(v, +1) ? v + 1 : v)] - s_.positions[point(goes_on(v, -1) ? v - 1 : v)];
         };
-        const Vec3f own = direction(b, b_step);
-        const Vec3f other = s_.positions[point(goes_on(a, +1) ? a + 1 : a)] - s_.positions[point(goes_on(a, -1) ? a - 1 : a)];
-        return own.dot(other) > 0;
+        return ends(a).dot(ends(b)) > 0 ? b_step : -b_step;
     }
 
     [[nodiscard]] PointIndex point(std::int64_t vertex) const {

@@ -164,20 +164,20 @@ viz::MapPanel panel_of(const Shown& shown, const RenderOptions& options, std::st
 
 std::string base_name(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
-/// A log's name and what is in it.
-std::string log_text(const Shown& shown, const std::string& path) {
+std::string counts_of(const Shown& shown) {
     PointIndex passes = 0;
     for (const Pass& pass : shown.surface.passes) passes += pass.kind == PassKind::cut ? 1 : 0;
-    return fmt::format("{} · {} points, {} passes", base_name(path), shown.part.log.records, passes);
+    return fmt::format("{} points, {} passes{}", shown.part.log.records, passes,
+                       shown.surface.step_over > 0 ? fmt::format(", {:.3g} mm apart", shown.surface.step_over) : "");
 }
 
-viz::MapTexts texts_of(const Shown& shown, const RenderOptions& options, const std::vector<std::string>& range_notes) {
+viz::MapTexts texts_of(const Shown& shown, const std::optional<Shown>& before, const RenderOptions& options, const std::vector<std::string>& range_notes) {
     viz::MapTexts texts;
     texts.title = fmt::format("{}, {} {}", shown.field.info.label, name_of(shown.part.path.role), options.look.style == viz::Style::surface ? "surface" : "path");
-    texts.subtitle = base_name(options.part.program);
-    // Of two logs each panel says its own.
-    if (options.before.empty()) texts.subtitle += " · " + log_text(shown, options.part.log);
-    if (options.before.empty() && shown.surface.step_over > 0) texts.subtitle += fmt::format(", {:.3g} mm apart", shown.surface.step_over);
+    const std::string program = base_name(options.part.program);
+    // The captions of two panels name the logs.
+    texts.subtitle = before ? fmt::format("{} · before: {} · after: {}", program, counts_of(*before), counts_of(shown))
+                            : fmt::format("{} · {} · {}", program, base_name(options.part.log), counts_of(shown));
     if (!shown.field.info.note.empty()) texts.notes.push_back(shown.field.info.note);
     texts.notes.insert(texts.notes.end(), range_notes.begin(), range_notes.end());
     return texts;
@@ -226,9 +226,9 @@ ExitCode run(const po::variables_map& values) {
         other.log = options.before;
         before = prepare(other, options.field, clock);
         print(before->part.diagnostics, values);
-        panels.push_back(panel_of(*before, options, "before: " + log_text(*before, options.before)));
+        panels.push_back(panel_of(*before, options, "before: " + base_name(options.before)));
     }
-    panels.push_back(panel_of(after, options, before ? "after: " + log_text(after, options.part.log) : ""));
+    panels.push_back(panel_of(after, options, before ? "after: " + base_name(options.part.log) : ""));
 
     clock.begin("choose the range");
     const viz::Camera camera = viz::map_camera(panels, options.look);
@@ -248,7 +248,7 @@ ExitCode run(const po::variables_map& values) {
     viz::ColourScale scale{viz::make_colour_map(!options.colour_map.empty() ? options.colour_map : diverging ? "coolwarm" : "isurface"),
                            range.low, range.high, options.bins};
     clock.begin("draw");
-    const viz::Image image = viz::draw_map(panels, scale, texts_of(after, options, range_notes), options.look);
+    const viz::Image image = viz::draw_map(panels, scale, texts_of(after, before, options, range_notes), options.look);
     clock.begin("write the picture");
     output.write(viz::encode_png(image, fmt::format("clsurf map of {} from {}: {} {:g} to {:g} {}", base_name(options.part.program),
                                                     base_name(options.part.log), options.field, range.low, range.high, after.field.info.unit.name)));
