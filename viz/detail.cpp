@@ -26,6 +26,7 @@ constexpr float widest_end = 1.5F;         ///< of a seam between two ends, in w
 constexpr float leading_away = 0.85F;      ///< growth of the edge with the way, above which the way leads away
 constexpr float corner_play = 1.03F;       ///< growth of an edge that is still at the ends of its passes
 constexpr float closed_seam = 0.5F;        ///< width at which a seam ends, likewise
+constexpr float longest_fan_way = 8.0F;     ///< way of a neighbour that one step may span, in step-overs
 constexpr std::int64_t longest_fan = 256;  ///< vertices of a neighbour that one step may span
 
 /// Vertices of a part of a pass.
@@ -394,7 +395,11 @@ private:
 
     /// Triangles between the own vertices b − 1, b and the neighbour's from one vertex to another.
     void band(std::int64_t b, std::int64_t from, std::int64_t to, Column<std::uint32_t>& triangles) const {
-        if (!fan(b - 1, from, to, triangles)) return;
+        if (!fan(b - 1, from, to, triangles)) {
+            // A loop that returns to where it began: near, but not along the way.
+            if (distance(from, to) > 0.75F * static_cast<float>(s_.step_over) + distance(b - 1, b)) return;
+            add(triangles, static_cast<std::uint32_t>(b - 1), static_cast<std::uint32_t>(from), static_cast<std::uint32_t>(to));
+        }
         add(triangles, static_cast<std::uint32_t>(b - 1), static_cast<std::uint32_t>(to), static_cast<std::uint32_t>(b));
     }
 
@@ -403,8 +408,10 @@ private:
     bool fan(std::int64_t own, std::int64_t from, std::int64_t to, Column<std::uint32_t>& triangles) const {
         if (std::abs(to - from) > longest_fan) return false;
         const int direction = to >= from ? 1 : -1;
+        float way = 0;
         for (std::int64_t k = from; k != to; k += direction) {
-            if (!goes_on(k, direction)) return false;
+            way += distance(k, k + direction);
+            if (!goes_on(k, direction) || way > longest_fan_way * static_cast<float>(s_.step_over)) return false;
         }
         for (std::int64_t k = from; k != to; k += direction) {
             add(triangles, static_cast<std::uint32_t>(own), static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(k + direction));
