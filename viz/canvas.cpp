@@ -229,10 +229,12 @@ void add_texts(vtkRenderer* renderer, const std::vector<FlatText>& texts, int su
 
 double text_width(const FlatText& text) {
     vtkNew<vtkTextProperty> property;
-    set_up(property, text, 1);
+    // Texts are drawn larger and shrunk, and letters are not as wide as they would be at this size.
+    constexpr int larger = 2;
+    set_up(property, text, larger);
     int box[4] = {0, 0, 0, 0};
     vtkTextRenderer::GetInstance()->GetBoundingBox(property, text.text, box, dpi);
-    return box[1] - box[0] + 1;
+    return static_cast<double>(box[1] - box[0]) / larger + 1;
 }
 
 FlatText fitted(FlatText text, double width) {
