@@ -371,14 +371,13 @@ Camera map_camera(const std::vector<MapPanel>& panels, const Look& look) {
     return camera_for(axes, extent, width, height, look.zoom);
 }
 
-Sheet map_sheet(const std::vector<MapPanel>& panels, const ColourScale& scale, const MapTexts& texts, const Look& look) {
+Sheet map_sheet(const std::vector<MapPanel>& panels, const Camera& camera, const ColourScale& scale, const MapTexts& texts, const Look& look) {
     const Layout layout(look);
     const Rgb ink = ink_for(look.background);
     Sheet sheet;
     sheet.width = look.width;
     sheet.height = look.height;
     sheet.background = look.background;
-    const Camera camera = map_camera(panels, look);
     Beyond beyond;
     for (std::size_t k = 0; k < panels.size(); ++k) {
         const MapPanel& map = panels[k];
@@ -422,8 +421,8 @@ Sheet map_sheet(const std::vector<MapPanel>& panels, const ColourScale& scale, c
     return sheet;
 }
 
-Image draw_map(const std::vector<MapPanel>& panels, const ColourScale& scale, const MapTexts& texts, const Look& look) {
-    return draw(map_sheet(panels, scale, texts, look), look.gl, look.supersample);
+Image draw_map(const std::vector<MapPanel>& panels, const Camera& camera, const ColourScale& scale, const MapTexts& texts, const Look& look) {
+    return draw(map_sheet(panels, camera, scale, texts, look), look.gl, look.supersample);
 }
 
 }  // namespace clsurf::viz

@@ -60,12 +60,12 @@ struct MapTexts {
 /// Whether a position lies in the picture and, where there is one, in the box.
 [[nodiscard]] bool shows(const Camera& camera, const Look& look, const Vec3& p);
 
-/// The sheet of one map, or of two side by side on one scale.
-[[nodiscard]] Sheet map_sheet(const std::vector<MapPanel>& panels, const ColourScale& scale,
+/// The sheet of one map, or of two side by side on one scale; `camera` is map_camera's.
+[[nodiscard]] Sheet map_sheet(const std::vector<MapPanel>& panels, const Camera& camera, const ColourScale& scale,
                               const MapTexts& texts, const Look& look);
 
 /// Draws it. Throws SystemError, UsageError.
-[[nodiscard]] Image draw_map(const std::vector<MapPanel>& panels, const ColourScale& scale,
+[[nodiscard]] Image draw_map(const std::vector<MapPanel>& panels, const Camera& camera, const ColourScale& scale,
                              const MapTexts& texts, const Look& look);
 
 }  // namespace clsurf::viz

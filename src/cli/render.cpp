@@ -248,7 +248,7 @@ ExitCode run(const po::variables_map& values) {
     viz::ColourScale scale{viz::make_colour_map(!options.colour_map.empty() ? options.colour_map : diverging ? "coolwarm" : "isurface"),
                            range.low, range.high, options.bins};
     clock.begin("draw");
-    const viz::Image image = viz::draw_map(panels, scale, texts_of(after, before, options, range_notes), options.look);
+    const viz::Image image = viz::draw_map(panels, camera, scale, texts_of(after, before, options, range_notes), options.look);
     clock.begin("write the picture");
     output.write(viz::encode_png(image, fmt::format("clsurf map of {} from {}: {} {:g} to {:g} {}", base_name(options.part.program),
                                                     base_name(options.part.log), options.field, range.low, range.high, after.field.info.unit.name)));
