@@ -144,7 +144,9 @@ void read_metadata(Log& log, const Source& source) {
                 const auto found = entry.find(key);
                 return found != entry.end() && found->is_string() ? found->get<std::string>() : std::string();
             };
-            log.programs.push_back({text("name"), text("sha256")});
+            const auto size = entry.find("size");
+            log.programs.push_back({text("name"), text("sha256"), {}});
+            if (size != entry.end() && size->is_number_unsigned()) log.programs.back().size = size->get<std::uint64_t>();
         }
     }
     if (const auto offset = json.find("work_offset"); offset != json.end() && offset->is_array() && offset->size() >= 3) {

@@ -2,6 +2,7 @@
 
 #include "cli/options.h"
 #include "io/biip.h"
+#include "io/program_identity.h"
 
 namespace clsurf::cli {
 namespace {
@@ -9,7 +10,13 @@ namespace {
 ExitCode run(const po::variables_map& values) {
     const Log log = io::open_log(required(values, "LOG"), read_log_options(values));
     print(log.diagnostics, values);
-    io::write_biip(required(values, "output"), log.channels, log.records, log.period, log.metadata);
+    std::string metadata = log.metadata;
+    if (values.count("program") > 0) {
+        std::vector<ProgramReference> programs;
+        for (const std::string& path : values["program"].as<std::vector<std::string>>()) programs.push_back(io::identify(io::map_file(path)));
+        metadata = io::with_programs(metadata, programs);
+    }
+    io::write_biip(required(values, "output"), log.channels, log.records, log.period, metadata);
     return ExitCode::done;
 }
 
@@ -20,10 +27,16 @@ Subcommand convert_subcommand() {
         .name = "convert",
         .arguments = "LOG -o out.biip",
         .summary = "any readable log into BIIP",
-        .description = "Keeps the stored types and scales of binary logs; text becomes 64-bit floating point.\n\n"
-                       "  clsurf convert run.raw --layout run.layout.toml -o run.biip",
+        .description = "Keeps the stored types and scales of binary logs; text becomes 64-bit floating point.\n"
+                       "With --program the log knows its program: other subcommands then warn of an edited or another one.\n\n"
+                       "  clsurf convert run.raw --layout run.layout.toml -o run.biip\n"
+                       "  clsurf convert run.csv --program part.nc -o run.biip",
         .declare = [](po::options_description& options) {
-            options.add_options()("output,o", po::value<std::string>()->value_name("FILE"), "the BIIP log");
+            // clang-format off
+            options.add_options()
+                ("output,o", po::value<std::string>()->value_name("FILE"), "the BIIP log")
+                ("program", po::value<std::vector<std::string>>()->value_name("FILE"), "the program that ran (again: its subprograms); name, size and SHA-256 go into the log");
+            // clang-format on
             declare_log_options(options);
         },
         .positional = {"LOG"},

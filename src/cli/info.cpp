@@ -8,6 +8,7 @@
 #include "core/units.h"
 #include "io/json_text.h"
 #include "io/program_file.h"
+#include "io/program_identity.h"
 #include "log/health.h"
 #include "path/line_map.h"
 #include "path/toolpath_summary.h"
@@ -63,12 +64,14 @@ ExitCode run(const po::variables_map& values) {
     const bool json = values.count("json") > 0;
     std::vector<std::string> objects;
     std::optional<Program> program;
+    io::Source program_source;
     for (const std::string& path : values["FILE"].as<std::vector<std::string>>()) {
         const io::LogOptions log_options = read_log_options(values);
         const io::Source source = io::map_file(path);
         if (source.bytes.empty()) throw InputError(Place::of_file(source.name), "is empty, expected a program or a log");
         const bool is_log = io::recognise_log(source, log_options) != nullptr;
         if (!is_log) {
+            program_source = source;
             program = io::read_program(source, read_dialect(values), read_block_delete(values));
             const ToolpathSummary summary = summarise(program->motions);
             if (json) objects.push_back(io::program_json(*program, summary, program->diagnostics));
@@ -78,7 +81,10 @@ ExitCode run(const po::variables_map& values) {
         const Log log = io::open_log(source, log_options);
         Diagnostics diagnostics = log.diagnostics;
         diagnostics.append(check_health(log, program ? program->main().line_count() : 0));
-        if (program) judge_together(*program, log, diagnostics);
+        if (program) {
+            io::check_identity(program_source, log, diagnostics);
+            judge_together(*program, log, diagnostics);
+        }
         if (json) objects.push_back(io::log_json(log, diagnostics));
         else print_log(log, diagnostics);
     }

@@ -4,6 +4,7 @@
 
 #include "core/spelling.h"
 #include "io/program_file.h"
+#include "io/program_identity.h"
 
 namespace clsurf::cli {
 namespace {
@@ -52,7 +53,8 @@ PartOptions read_part_options(const po::variables_map& values) {
 Part load_part(const PartOptions& options, StageClock& clock) {
     Part part;
     clock.begin("read the program");
-    part.program = io::read_program(options.program, options.dialect, options.block_delete);
+    const io::Source program = io::map_file(options.program);
+    part.program = io::read_program(program, options.dialect, options.block_delete);
     clock.begin("open the log");
     part.log = io::open_log(options.log, options.log_options);
     if (part.log.records == 0) throw InputError(Place::of_file(part.log.name), "holds no records");
@@ -64,6 +66,7 @@ Part load_part(const PartOptions& options, StageClock& clock) {
     part.path = reconstruct(part.log, role, offset);
     part.diagnostics.append(part.program.diagnostics);
     part.diagnostics.append(part.log.diagnostics);
+    io::check_identity(program, part.log, part.diagnostics);
     clock.begin("map points to lines");
     const Trajectory mapped = reconstruct(part.log, mapping_role(part.log, role), offset);
     part.lines = std::make_unique<LineMap>(map_lines(mapped, part.log, part.program, options.use_line_channel, part.diagnostics));

@@ -30,7 +30,8 @@ struct Channel {
 
 struct ProgramReference {
     std::string name;
-    std::string sha256;  ///< hex; empty: not recorded
+    std::string sha256;  ///< 64 hexadecimal digits; empty: not recorded
+    std::optional<std::uint64_t> size;  ///< [bytes]
 };
 
 struct Log {

@@ -130,6 +130,21 @@ clsurf_cli_test(NAME export_vtkhdf ARGS export ${part} ${run} -o p.vtkhdf FILE p
 clsurf_cli_test(NAME export_biip ARGS export ${part} ${run} -o p.biip FILE p.biip)
 clsurf_cli_test(NAME export_unknown_form ARGS export ${part} ${run} -o p.xls EXIT 2 STDERR "must end in")
 clsurf_cli_test(NAME convert ARGS convert @LOGS@/mixed.csv --period 0.001 -o m.biip FILE m.biip)
+clsurf_cli_test(NAME convert_names_the_program
+  SETUP "cp ${part} part.nc; $CLSURF convert ${run} --program part.nc --program @DATA@/programs/mixed.ngc -o run.biip"
+  ARGS info part.nc run.biip STDOUT "positions lie 0.000[0-9] mm" NO_STDOUT "SHA-256")
+clsurf_cli_test(NAME edited_program_in_info
+  SETUP "cp ${part} part.nc; $CLSURF convert ${run} --program part.nc -o run.biip; echo '(edited)' >> part.nc"
+  ARGS info part.nc run.biip
+  STDOUT "warning: run.biip: part.nc was edited after the run: the log was recorded with part.nc .[0-9]+ bytes, SHA-256 [0-9a-f]+…., this file has")
+clsurf_cli_test(NAME edited_program_in_query
+  SETUP "cp ${part} part.nc; $CLSURF convert ${run} --program part.nc -o run.biip; echo '(edited)' >> part.nc"
+  ARGS query part.nc run.biip --point 5000 STDERR "part.nc was edited after the run" STDOUT "^line 638")
+clsurf_cli_test(NAME other_program_in_render
+  SETUP "$CLSURF convert ${run} --program @DATA@/programs/mixed.ngc -o run.biip"
+  ARGS render ${part} run.biip -o map.png --size 160x120 FILE map.png
+  STDERR "bottle_uneven.nc is another program than the one that ran: the log was recorded with mixed.ngc")
+clsurf_cli_test(NAME convert_missing_program ARGS convert ${run} --program nowhere.nc -o m.biip EXIT 3 STDERR "nowhere.nc: error: cannot open")
 clsurf_cli_test(NAME convert_without_period ARGS convert @LOGS@/mixed.csv -o m.biip EXIT 3 STDERR "sampling period")
 set(shot ${PROJECT_SOURCE_DIR}/tests/snapshots/baseline)
 clsurf_cli_test(NAME compare_same ARGS compare ${shot}/speed_iso.png ${shot}/speed_iso.png --json STDOUT "\"equal\": true")

@@ -1,13 +1,13 @@
-# clsurf_cli_test(NAME name ARGS word… [EXIT code] [STDOUT regex…] [STDERR regex…]
+# clsurf_cli_test(NAME name ARGS word… [EXIT code] [STDOUT regex…] [NO_STDOUT regex…] [STDERR regex…]
 #                 [FILE name…] [NO_FILE path…] [SETUP shell commands]):
 # runs the built program in an empty folder of its own and checks the exit code (0), that every
-# regex (extended, over all lines) is found, that the FILEs are there and not empty, and the NO_FILEs
-# are not. A run that fails (exit code above 1) must leave no new file at all.
+# regex (extended, over all lines) is found and no NO_STDOUT, that the FILEs are there and not empty,
+# and the NO_FILEs are not. A run that fails (exit code above 1) must leave no new file at all.
 #
 # In ARGS and SETUP, @DATA@ is the folder data of the project, @LOGS@ that of the unpacked logs.
 # SETUP may use $CLSURF, the program.
 function(clsurf_cli_test)
-  cmake_parse_arguments(PARSE_ARGV 0 TEST "" "NAME;EXIT;SETUP" "ARGS;STDOUT;STDERR;FILE;NO_FILE")
+  cmake_parse_arguments(PARSE_ARGV 0 TEST "" "NAME;EXIT;SETUP" "ARGS;STDOUT;NO_STDOUT;STDERR;FILE;NO_FILE")
   if(TEST_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "clsurf_cli_test ${TEST_NAME}: what is ${TEST_UNPARSED_ARGUMENTS}?")
   endif()
@@ -24,7 +24,7 @@ function(clsurf_cli_test)
     string(REPLACE ";" "\\;" TEST_SETUP "${TEST_SETUP}")
     list(APPEND words --setup "${TEST_SETUP}")
   endif()
-  foreach(check STDOUT STDERR FILE NO_FILE)
+  foreach(check STDOUT NO_STDOUT STDERR FILE NO_FILE)
     string(TOLOWER ${check} option)
     foreach(value IN LISTS TEST_${check})
       list(APPEND words --${option} ${value})

@@ -1,0 +1,70 @@
+#include "io/program_identity.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "io/sha256.h"
+
+namespace clsurf::io {
+namespace {
+
+constexpr std::size_t hash_digits = 64;
+
+bool same_hash(std::string_view a, std::string_view b) {
+    const auto lower = [](char c) { return c >= 'A' && c <= 'F' ? static_cast<char>(c - 'A' + 'a') : c; };
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](char x, char y) { return lower(x) == lower(y); });
+}
+
+std::string base_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
+
+std::string size_text(const ProgramReference& program) {
+    return program.size ? fmt::format("{} bytes, ", *program.size) : std::string();
+}
+
+std::string short_hash(const ProgramReference& program) { return program.sha256.substr(0, 12) + "…"; }
+
+}  // namespace
+
+ProgramReference identify(const Source& program) {
+    return {base_name(program.name), sha256(program.bytes), program.bytes.size()};
+}
+
+std::string with_programs(const std::string& metadata, std::span<const ProgramReference> programs) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::parse(metadata, nullptr, false);
+    if (!json.is_object()) json = nlohmann::ordered_json::object();
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const ProgramReference& program : programs) {
+        nlohmann::ordered_json entry{{"name", program.name}, {"sha256", program.sha256}};
+        if (program.size) entry["size"] = *program.size;
+        list.push_back(std::move(entry));
+    }
+    json["programs"] = std::move(list);
+    return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+void check_identity(const Source& program, const Log& log, Diagnostics& diagnostics) {
+    std::vector<const ProgramReference*> hashed;
+    for (const ProgramReference& known : log.programs) {
+        if (known.sha256.size() == hash_digits) hashed.push_back(&known);
+    }
+    if (hashed.empty()) return;
+    const ProgramReference given = identify(program);
+    for (const ProgramReference* known : hashed) {
+        if (same_hash(known->sha256, given.sha256)) return;
+    }
+    const auto namesake = std::find_if(hashed.begin(), hashed.end(), [&](const ProgramReference* known) {
+        return base_name(known->name) == given.name;
+    });
+    const bool edited = namesake != hashed.end();
+    const ProgramReference& ran = edited ? **namesake : *hashed.front();
+    diagnostics.add({Severity::warning, "log.program", Place::of_file(log.name),
+                     fmt::format("{} {}: the log was recorded with {} ({}SHA-256 {}), this file has {}SHA-256 {}",
+                                 program.name, edited ? "was edited after the run" : "is another program than the one that ran",
+                                 ran.name, size_text(ran), short_hash(ran), size_text(given), short_hash(given)),
+                     "lines and points belong together only as far as the two agree: take the file that ran"});
+}
+
+}  // namespace clsurf::io

@@ -1,0 +1,13 @@
+#pragma once
+// SHA-256 (FIPS 180-4): which program a log belongs to, as BIIP metadata names it.
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+namespace clsurf::io {
+
+/// 64 hexadecimal digits, lower case.
+[[nodiscard]] std::string sha256(std::span<const std::byte> bytes);
+
+}  // namespace clsurf::io
