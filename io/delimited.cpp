@@ -305,31 +305,10 @@ std::vector<Stretch> cut(std::string_view text, std::size_t begin) {
 /// Columns that the log owns.
 using OwnedColumns = std::vector<std::vector<double>>;
 
-double period_from_time(const std::vector<double>& time) {
-    std::vector<double> steps;
-    for (std::size_t i = 1; i < time.size() && steps.size() < 10001; ++i) {
-        const double step = time[i] - time[i - 1];
-        if (step > 0) steps.push_back(step);
-    }
-    if (steps.empty()) return 0;
-    auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-    std::nth_element(steps.begin(), middle, steps.end());
-    return *middle;
-}
-
-/// Lengths in inches become millimetres, as positions are everywhere.
-void convert_inches(ColumnPlan& plan) {
-    if (plan.unit != "in" && plan.unit != "inch") return;
-    plan.unit = "mm";
-    plan.scale *= 25.4;
-    plan.bias *= 25.4;
-}
-
 Log open_text(const Source& source, const LogOptions& options, const char* format) {
     std::optional<Mapping> mapping;
     if (!options.mapping.empty()) mapping = read_mapping(options.mapping);
-    TextPlan plan = plan_text(source, mapping ? &*mapping : nullptr);
-    for (ColumnPlan& column : plan.columns) convert_inches(column);
+    const TextPlan plan = plan_text(source, mapping ? &*mapping : nullptr);
     const bool halsampler = mapping && mapping->halsampler;
     std::vector<Stretch> stretches = cut(source.text(), plan.data_begin);
     parallel_for(static_cast<std::int64_t>(stretches.size()), 1, [&](std::int64_t first, std::int64_t last) {
@@ -371,19 +350,8 @@ Log open_text(const Source& source, const LogOptions& options, const char* forma
         log.channels.push_back(std::move(channel));
     }
     log.keep_alive = owned;
-    if (options.period) {
-        log.period = *options.period;
-    } else if (mapping && mapping->period) {
-        log.period = *mapping->period;
-    } else {
-        for (std::size_t c = 0; c < plan.columns.size(); ++c) {
-            if (plan.columns[c].name == "time") log.period = period_from_time((*owned)[c]);
-        }
-    }
-    if (!(log.period > 0)) {
-        throw InputError(Place::of_file(source.name), "the sampling period is not known: no rising channel 'time'",
-                         "give it with --period S, or as period_s in a mapping");
-    }
+    if (options.period) log.period = *options.period;
+    else if (mapping && mapping->period) log.period = *mapping->period;
     return log;
 }
 

@@ -6,6 +6,7 @@
 #include "io/delimited.h"
 #include "io/log_format.h"
 #include "io/record_layout.h"
+#include "log/channel.h"
 
 namespace clsurf::io {
 namespace {
@@ -49,7 +50,14 @@ Log open_log(const Source& source, const LogOptions& options) {
         throw InputError(Place::of_file(source.name), "is no log of a known format (" + names + ")",
                          "a foreign binary needs --layout FILE, a text without channel names --mapping FILE");
     }
-    return format->open(source, options);
+    Log log = format->open(source, options);
+    settle_units(log);
+    if (!(log.period > 0)) log.period = log.measured_period();
+    if (!(log.period > 0)) {
+        throw InputError(Place::of_file(source.name), "the sampling period is not known: no rising channel 'time'",
+                         "give it with --period S, or as period_s in a mapping");
+    }
+    return log;
 }
 
 }  // namespace clsurf::io

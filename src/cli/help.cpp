@@ -172,10 +172,10 @@ Subcommand help_subcommand() {
     return {
         .name = "help",
         .arguments = "[TOPIC]",
-        .summary = "a subcommand's options; fields, formats, dialects, colour maps",
+        .summary = "a subcommand's options; fields, channels, formats, dialects, colour maps",
         .description =
             "TOPIC is a subcommand, or a list of words that options take as values:\n"
-            "fields, formats, dialects, colormaps. Lists can be had as JSON.",
+            "fields, channels, formats, dialects, colormaps. Lists can be had as JSON.",
         .declare = [](po::options_description& options) { declare_json(options); },
         .positional = {"TOPIC"},
         .run = run,

@@ -5,6 +5,7 @@
 
 #include "field/field_table.h"
 #include "io/log_format.h"
+#include "log/channel.h"
 #include "program/dialect.h"
 #include "viz/colour_map.h"
 
@@ -32,6 +33,17 @@ std::vector<io::ListingRow> format_rows() {
     std::vector<io::ListingRow> rows;
     for (const io::LogFormat& format : io::log_formats()) {
         rows.push_back({std::string(format.name), "", std::string(format.summary)});
+    }
+    return rows;
+}
+
+std::vector<io::ListingRow> channel_rows() {
+    std::vector<io::ListingRow> rows;
+    for (const ChannelInfo& channel : known_channels()) {
+        const bool of_axis = channel.name.ends_with('.');
+        std::string unit(channel.unit);
+        if (!channel.rotary_unit.empty()) unit += ", " + std::string(channel.rotary_unit);
+        rows.push_back({std::string(channel.name) + (of_axis ? "x" : ""), unit, std::string(channel.meaning) + (of_axis ? "; likewise y, z, u, v, w, a, b, c" : "")});
     }
     return rows;
 }
@@ -66,6 +78,7 @@ std::span<const Vocabulary> vocabularies() {
         Vocabulary{"fields", "FIELD",
                    "what can be coloured, plotted and exported; every channel of a log besides",
                    field_rows},
+        Vocabulary{"channels", "CHANNEL", "names of a log's channels that have a meaning; any other is kept too", channel_rows},
         Vocabulary{"formats", "FORMAT", "log formats that are recognised", format_rows},
         Vocabulary{"dialects", "DIALECT", "languages of NC programs", dialect_rows},
         Vocabulary{"colormaps", "COLORMAP", "named colour maps", colour_map_rows},

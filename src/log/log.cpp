@@ -1,5 +1,7 @@
 #include "log/log.h"
 
+#include <algorithm>
+
 namespace clsurf {
 
 std::string_view name_of(Role role) {
@@ -36,6 +38,22 @@ bool Log::has(Role role) const {
 double Log::time_of(PointIndex point) const {
     if (const Channel* time = find("time")) return time->values.at(point);
     return static_cast<double>(point) * period;
+}
+
+double Log::measured_period() const {
+    const Channel* time = find("time");
+    if (time == nullptr) return 0;
+    constexpr PointIndex looked_at = 10'001;
+    std::vector<double> t(static_cast<std::size_t>(std::min(records, looked_at)));
+    copy_block(time->values, 0, t);
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < t.size(); ++i) {
+        if (t[i] > t[i - 1]) steps.push_back(t[i] - t[i - 1]);
+    }
+    if (steps.empty()) return 0;
+    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+    std::nth_element(steps.begin(), middle, steps.end());
+    return *middle;
 }
 
 }  // namespace clsurf

@@ -24,7 +24,7 @@ enum class Role : std::uint8_t { commanded, feedback, actual };
 
 struct Channel {
     std::string name;  ///< "cmd.x", "line", …: docs/formats/biip.md
-    std::string unit;  ///< as recorded, UTF-8
+    std::string unit;  ///< UTF-8; those of log/channel.h where the name is known
     ChannelView values;
 };
 
@@ -53,6 +53,8 @@ struct Log {
     [[nodiscard]] bool has(Role role) const;
     /// Time of a point since the first record [s]: the channel `time`, or index · period.
     [[nodiscard]] double time_of(PointIndex point) const;
+    /// The median rising step of the channel `time` over the first 10^4 records [s]; 0: not known.
+    [[nodiscard]] double measured_period() const;
 };
 
 }  // namespace clsurf

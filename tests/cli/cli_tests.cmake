@@ -7,6 +7,7 @@ clsurf_cli_test(NAME help ARGS --help STDOUT "subcommands:" "render" "exit codes
 clsurf_cli_test(NAME version ARGS --version STDOUT "^clsurf ${PROJECT_VERSION}")
 clsurf_cli_test(NAME help_of_a_subcommand ARGS help moves STDOUT "usage: clsurf moves" "--dialect DIALECT")
 clsurf_cli_test(NAME help_fields ARGS help fields STDOUT "speed +Path speed .mm/min.")
+clsurf_cli_test(NAME help_channels ARGS help channels STDOUT "line +physical line" "cmd.x.* .mm, deg.")
 clsurf_cli_test(NAME help_formats ARGS help formats STDOUT "biip")
 clsurf_cli_test(NAME help_dialects_as_json ARGS help dialects --json STDOUT "\"name\": \"heidenhain-iso\"")
 clsurf_cli_test(NAME help_colormaps ARGS help colormaps STDOUT "viridis")

@@ -25,6 +25,14 @@ TEST(Delimited, ReadsOurNamesUnitsAndPeriod) {
     EXPECT_DOUBLE_EQ(log.find("cmd.y")->values.at(0), 25.4);
 }
 
+TEST(Delimited, TakesThePeriodFromAClockOfAnyUnitAndOrigin) {
+    const test::TemporaryFolder folder;
+    const Log log = open(folder, "time [ms],cmd.x [um]\n70000,1500\n70004,1600\n70008,1700\n");
+    EXPECT_NEAR(log.period, 0.004, 1e-9);
+    EXPECT_NEAR(log.time_of(2), 0.008, 1e-9);
+    EXPECT_DOUBLE_EQ(log.find("cmd.x")->values.at(0), 1.5);
+}
+
 TEST(Delimited, UnderstandsSemicolonsWithDecimalCommas) {
     const test::TemporaryFolder folder;
     const Log log = open(folder, "time;cmd.x\n0;1,25\n0,001;1,5\n");

@@ -1,0 +1,120 @@
+#include "log/channel.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+
+namespace clsurf {
+namespace {
+
+constexpr auto table = std::to_array<ChannelInfo>({
+    {"cmd.", "mm", "deg", "commanded axis position after interpolation"},
+    {"fb.", "mm", "deg", "feedback axis position, motor encoder"},
+    {"act.", "mm", "deg", "actual axis position, linear or ring scale"},
+    {"line", "", "", "physical line of the program file, from 1; 0: no block is active"},
+    {"program", "", "", "index into the log's list of programs"},
+    {"time", "s", "", "time since the first record; default: record number times period"},
+    {"speed", "mm/min", "", "path speed as the controller saw it"},
+    {"override", "%", "", "feed override"},
+    {"spindle.speed", "1/min", "", "spindle speed"},
+    {"spindle.load", "%", "", "spindle load"},
+    {"current.", "A", "", "drive current of an axis"},
+    {"load.", "%", "", "drive load of an axis"},
+    {"torque.", "N·m", "", "drive torque of an axis"},
+});
+
+/// 1 `unit` is `factor` `settled`.
+struct Conversion {
+    std::string_view unit, settled;
+    double factor;
+};
+
+constexpr auto conversions = std::to_array<Conversion>({
+    {"mm", "mm", 1.0},
+    {"in", "mm", mm_per_inch},
+    {"inch", "mm", mm_per_inch},
+    {"m", "mm", 1e3},
+    {"um", "mm", 1e-3},
+    {"µm", "mm", 1e-3},  // U+00B5, micro sign
+    {"μm", "mm", 1e-3},  // U+03BC, Greek mu
+    {"nm", "mm", 1e-6},
+    {"deg", "deg", 1.0},
+    {"°", "deg", 1.0},
+    {"rad", "deg", deg_per_rad},
+    {"mdeg", "deg", 1e-3},
+    {"s", "s", 1.0},
+    {"ms", "s", 1e-3},
+    {"us", "s", 1e-6},
+    {"µs", "s", 1e-6},
+    {"μs", "s", 1e-6},
+    {"ns", "s", 1e-9},
+    {"mm/min", "mm/min", 1.0},
+    {"mm/s", "mm/min", seconds_per_minute},
+    {"m/min", "mm/min", 1e3},
+    {"in/min", "mm/min", mm_per_inch},
+});
+
+/// The unit that a channel of that name has; empty: its own.
+std::string_view unit_of(std::string_view name) {
+    for (const ChannelInfo& info : table) {
+        if (!info.name.ends_with('.')) {
+            if (info.name == name) return info.unit;
+            continue;
+        }
+        if (name.size() != info.name.size() + 1 || !name.starts_with(info.name)) continue;
+        const char axis = name.back();
+        const bool rotary = axis >= 'a' && axis <= 'c' && !info.rotary_unit.empty();
+        return rotary ? info.rotary_unit : info.unit;
+    }
+    return {};
+}
+
+void settle_unit(Log& log, Channel& channel) {
+    const std::string_view wanted = unit_of(channel.name);
+    if (channel.unit.empty()) {
+        channel.unit = std::string(wanted);
+        return;
+    }
+    const auto leads_to = [&](const Conversion& c) { return c.settled == wanted; };
+    // A current in mA, a load in per mille: nobody computes with them, they are shown as they are.
+    if (channel.unit == wanted || std::none_of(conversions.begin(), conversions.end(), leads_to)) return;
+    const auto found = std::find_if(conversions.begin(), conversions.end(),
+                                    [&](const Conversion& c) { return leads_to(c) && c.unit == channel.unit; });
+    if (found == conversions.end()) {
+        log.diagnostics.add({Severity::warning, "log.unit", Place::of_file(log.name),
+                             fmt::format("channel '{}' has the unit '{}', which is not understood: its values are taken as {}", channel.name, channel.unit, wanted), {}});
+        return;
+    }
+    log.diagnostics.add({Severity::note, "log.unit", Place::of_file(log.name),
+                         fmt::format("channel '{}' is recorded in {} and read in {}", channel.name, channel.unit, wanted), {}});
+    channel.values.scale *= found->factor;
+    channel.values.bias *= found->factor;
+    channel.unit = std::string(wanted);
+}
+
+/// Clocks that do not begin with the first record: a time of day, a time since 1970.
+void settle_time_origin(Log& log, Channel& time) {
+    if (log.records == 0) return;
+    const double origin = time.values.at(0);
+    if (!std::isfinite(origin) || origin == 0) return;
+    log.diagnostics.add({Severity::note, "log.time-origin", Place::of_point(log.name, 0),
+                         fmt::format("the clock begins at {:.6f} s; time is counted from the first record", origin), {}});
+    time.values.bias -= origin;
+}
+
+}  // namespace
+
+std::span<const ChannelInfo> known_channels() { return table; }
+
+void settle_units(Log& log) {
+    for (Channel& channel : log.channels) {
+        settle_unit(log, channel);
+        if (channel.name == "time") settle_time_origin(log, channel);
+    }
+}
+
+}  // namespace clsurf

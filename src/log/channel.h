@@ -1,0 +1,27 @@
+#pragma once
+// The names of channels, what they mean and which unit they have: one table. A channel that is not in
+// it is kept under its own name and unit.
+
+#include <span>
+#include <string_view>
+
+#include "log/log.h"
+
+namespace clsurf {
+
+struct ChannelInfo {
+    std::string_view name;         ///< "line"; with a dot at its end ("cmd."): an axis letter follows
+    std::string_view unit;         ///< empty: a count
+    std::string_view rotary_unit;  ///< of axes a, b, c where it is another one
+    std::string_view meaning;
+};
+
+/// Every name that the project knows.
+[[nodiscard]] std::span<const ChannelInfo> known_channels();
+
+/// Brings positions to mm and deg, speeds to mm/min and time to seconds since the first record, as
+/// the rest of the project reads them. Scale, bias and unit change, the raw values stay. Each change
+/// is a note `log.unit` or `log.time-origin`; a unit that is not understood is a warning.
+void settle_units(Log& log);
+
+}  // namespace clsurf
