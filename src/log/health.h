@@ -1,14 +1,25 @@
 #pragma once
-// Health: can a log be trusted? One pass over the raw channels; every finding is a diagnostic with a
-// point and a number.
+// Health: can a log be trusted? Every finding is a diagnostic with a place and a number.
 
 #include "log/log.h"
 
 namespace clsurf {
 
-/// Findings (codes): log.time-gap, log.time-back, log.jitter, log.jump, log.missing-value,
-/// log.missing-channel, log.stuck-line, log.line-range, log.offset, log.quantum, log.still.
-/// `program_lines`: lines of the program it ran, 0: not known. O(records), parallel.
-[[nodiscard]] Diagnostics check_health(const Log& log, std::uint32_t program_lines);
+/// Findings of one pass over the records (O(records · channels), parallel):
+/// - log.time-gap, log.time-back: records lost, a clock that goes back or stands still
+/// - log.jitter: the clock's steps differ by more than 5 % of a period, rms
+/// - log.jump: a step in position that no machine makes
+/// - log.missing-value: NaN
+/// - log.line-range, log.line-wild, log.line-stuck: line numbers that the program does not have, that
+///   flicker for one record, or that stay while the tool goes to and fro
+/// - log.still: an axis without motion (a warning where its commanded position moves)
+///
+/// Findings of samples spread over the log:
+/// - log.period: the clock's step is not the stated period
+/// - log.offset: feedback differs from commanded by a constant, which is no lag
+/// - log.quantum: positions come in steps
+///
+/// And log.missing-channel, log.empty. `program_lines`: lines of the program that ran, 0: not known.
+[[nodiscard]] Diagnostics check_health(const Log& log, LineNumber program_lines);
 
 }  // namespace clsurf

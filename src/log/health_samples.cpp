@@ -1,0 +1,136 @@
+#include "log/health_samples.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace clsurf {
+namespace {
+
+constexpr PointIndex sampled = 200'000;  ///< records in all
+constexpr PointIndex stretch = 1024;     ///< records in a row
+constexpr double worth_offset = 0.002;   ///< [mm] between commanded and measured
+constexpr double resting_step = 1e-4;    ///< [mm] per record that feedback may move at rest
+constexpr std::size_t least_resting = 50;
+constexpr std::size_t least_moving = 1000;  ///< records each way
+constexpr double sure_sigmas = 5;
+constexpr double correlated = 100;       ///< records that are one measurement: errors change slowly
+constexpr double least_quantum = 5e-6;   ///< [mm] or [deg]; finer steps are rounding of the file
+constexpr PointIndex quantum_records = 20'000;
+
+/// Commanded against measured along one axis.
+class AxisOffset {
+public:
+    void add(double commanded_step, double measured_step, double difference) {
+        if (!std::isfinite(difference)) return;
+        if (commanded_step == 0 && std::abs(measured_step) < resting_step) {
+            resting_.push_back(difference);
+            return;
+        }
+        if (commanded_step == 0) return;
+        // difference = offset − lag · step, least squares
+        ++(commanded_step > 0 ? forth_ : back_);
+        const double n = static_cast<double>(forth_ + back_);
+        const double step_off = commanded_step - mean_step_;
+        mean_step_ += step_off / n;
+        step_squares_ += step_off * (commanded_step - mean_step_);
+        const double difference_off = difference - mean_;
+        mean_ += difference_off / n;
+        squares_ += difference_off * (difference - mean_);
+        products_ += step_off * (difference - mean_);
+    }
+
+    /// [mm]; 0: none that is sure. `resting` says which kind it is.
+    [[nodiscard]] double offset(bool& resting) {
+        resting = resting_.size() >= least_resting;
+        if (resting) {
+            const auto middle = resting_.begin() + static_cast<std::ptrdiff_t>(resting_.size() / 2);
+            std::nth_element(resting_.begin(), middle, resting_.end());
+            return *middle;
+        }
+        if (forth_ < least_moving || back_ < least_moving) return 0;
+        const double n = static_cast<double>(forth_ + back_);
+        const double slope = products_ / step_squares_;
+        const double offset = mean_ - slope * mean_step_;
+        const double left = std::max(0.0, squares_ - slope * products_) / n;
+        const double deviation = std::sqrt(left * (1 / n + mean_step_ * mean_step_ / step_squares_) * correlated);
+        return std::abs(offset) > sure_sigmas * deviation ? offset : 0.0;
+    }
+
+private:
+    std::vector<double> resting_;
+    std::size_t forth_ = 0, back_ = 0;
+    double mean_step_ = 0, step_squares_ = 0, mean_ = 0, squares_ = 0, products_ = 0;
+};
+
+void check_offset_of_axis(const Log& log, const Channel& commanded, const Channel& measured, Diagnostics& found) {
+    AxisOffset axis;
+    std::vector<double> c, m;
+    const PointIndex stride = std::max<PointIndex>(stretch, log.records / (sampled / stretch));
+    for (PointIndex begin = 0; begin < log.records; begin += stride) {
+        const auto n = static_cast<std::size_t>(std::min(stretch, log.records - begin));
+        c.resize(n);
+        m.resize(n);
+        copy_block(commanded.values, begin, c);
+        copy_block(measured.values, begin, m);
+        for (std::size_t i = 1; i < n; ++i) axis.add(c[i] - c[i - 1], m[i] - m[i - 1], m[i] - c[i]);
+    }
+    bool resting = false;
+    const double offset = axis.offset(resting);
+    if (std::abs(offset) < worth_offset) return;
+    found.add({Severity::warning, "log.offset", Place::of_file(log.name),
+               fmt::format("{} differs from {} by {:.4f} {} {}: a constant offset, not a lag", measured.name, commanded.name, offset, commanded.unit,
+                           resting ? "while the axis rests" : "whichever way the axis moves"),
+               {}});
+}
+
+/// 0: no steps to be seen.
+double quantum_of(const Channel& channel, PointIndex records) {
+    const PointIndex n = std::min(records, quantum_records);
+    std::vector<double> values(static_cast<std::size_t>(n));
+    copy_block(channel.values, (records - n) / 2, values);
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < values.size(); ++i) {
+        const double step = std::abs(values[i] - values[i - 1]);
+        if (step > 0 && std::isfinite(step)) steps.push_back(step);
+    }
+    if (steps.size() < 100) return 0;
+    std::sort(steps.begin(), steps.end());
+    const double smallest = steps.front();
+    const auto whole = std::count_if(steps.begin(), steps.end(), [&](double step) {
+        const double ratio = step / smallest;
+        return std::abs(ratio - std::round(ratio)) < 0.02;
+    });
+    const double often = steps[steps.size() / 100];
+    const bool grid = smallest > least_quantum && often < 50 * smallest && static_cast<std::size_t>(whole) > steps.size() * 98 / 100;
+    return grid ? smallest : 0;
+}
+
+}  // namespace
+
+void check_offset(const Log& log, Diagnostics& found) {
+    for (const Role role : {Role::feedback, Role::actual}) {
+        for (const char axis : std::string_view("xyzuvwabc")) {
+            const Channel* commanded = log.find(fmt::format("{}.{}", prefix_of(Role::commanded), axis));
+            const Channel* measured = log.find(fmt::format("{}.{}", prefix_of(role), axis));
+            if (commanded != nullptr && measured != nullptr) check_offset_of_axis(log, *commanded, *measured, found);
+        }
+    }
+}
+
+void check_quantum(const Log& log, Diagnostics& found) {
+    for (const Role role : {Role::commanded, Role::feedback, Role::actual}) {
+        std::string text;
+        for (const Channel& channel : log.channels) {
+            if (!channel.name.starts_with(std::string(prefix_of(role)) + ".")) continue;
+            const double quantum = quantum_of(channel, log.records);
+            if (quantum > 0) text += fmt::format("{}{} {:.3g} {}", text.empty() ? "" : ", ", channel.name, quantum, channel.unit);
+        }
+        if (text.empty()) continue;
+        found.add({Severity::note, "log.quantum", Place::of_file(log.name), fmt::format("{} positions come in steps: {}", name_of(role), text), {}});
+    }
+}
+
+}  // namespace clsurf
