@@ -48,10 +48,10 @@ void print_log(const Log& log, const Diagnostics& diagnostics) {
 }
 
 /// Whether the log is one of this program: distances between the points and their lines.
-void judge_together(const Program& program, const Log& log, Diagnostics& diagnostics) {
+void judge_together(const Program& program, const Log& log, const std::optional<Vec3>& offset, Diagnostics& diagnostics) {
     const Role role = log.has(Role::commanded) ? Role::commanded : log.has(Role::feedback) ? Role::feedback : Role::actual;
     if (!log.has(role) || log.records == 0 || program.motions.size() == 0) return;
-    const Trajectory path = reconstruct(log, role, -log.work_offset.value_or(Vec3::Zero()));
+    const Trajectory path = reconstruct(log, role, -offset.value_or(log.work_offset.value_or(Vec3::Zero())));
     const LineMap lines = map_lines(path, log, program, true, diagnostics);
     const LineAgreement a = check_lines(path, program, lines);
     if (a.checked == 0) return;
@@ -83,7 +83,7 @@ ExitCode run(const po::variables_map& values) {
         diagnostics.append(check_health(log, program ? program->main().line_count() : 0));
         if (program) {
             io::check_identity(program_source, log, diagnostics);
-            judge_together(*program, log, diagnostics);
+            judge_together(*program, log, read_work_offset(values), diagnostics);
         }
         if (json) objects.push_back(io::log_json(log, diagnostics));
         else print_log(log, diagnostics);
@@ -100,12 +100,13 @@ Subcommand info_subcommand() {
         .arguments = "FILE…",
         .summary = "what a program or log holds, and whether it can be trusted",
         .description = "Programs and logs are told apart by content. A log that follows its program is judged\n"
-                       "against it: wrong program, wrong offset, lines that do not exist.\n\n"
+                       "against it: wrong program, lines that do not exist, a work offset that is missing.\n\n"
                        "  clsurf info part.nc run.biip",
         .declare = [](po::options_description& options) {
             options.add_options()("json", "one JSON object; of several files {\"files\": […]}");
             declare_program_options(options);
             declare_log_options(options);
+            declare_work_offset(options);
         },
         .positional = {"FILE…"},
         .run = run,

@@ -2,12 +2,14 @@
 // Option groups that several subcommands share, declared and read in one place each, so that an
 // option means the same everywhere.
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "cli/subcommand.h"
 #include "core/diagnostic.h"
+#include "core/geometry.h"
 #include "io/log_format.h"
 
 namespace clsurf::cli {
@@ -30,6 +32,10 @@ void declare_program_options(po::options_description& options);
 /// --layout, --mapping, --period
 void declare_log_options(po::options_description& options);
 [[nodiscard]] io::LogOptions read_log_options(const po::variables_map& values);
+
+/// --work-offset
+void declare_work_offset(po::options_description& options);
+[[nodiscard]] std::optional<Vec3> read_work_offset(const po::variables_map& values);
 
 /// --json
 void declare_json(po::options_description& options);

@@ -1,7 +1,5 @@
 #include "cli/part.h"
 
-#include <charconv>
-
 #include "core/spelling.h"
 #include "io/program_file.h"
 #include "io/program_identity.h"
@@ -25,10 +23,10 @@ Role mapping_role(const Log& log, Role shown) { return log.has(Role::commanded) 
 void declare_part(po::options_description& options) {
     declare_program_options(options);
     declare_log_options(options);
+    declare_work_offset(options);
     // clang-format off
     options.add_options()
         ("surface", po::value<std::string>()->value_name("commanded|feedback|actual"), "which positions (default: commanded, else what the log has)")
-        ("work-offset", po::value<std::string>()->value_name("X,Y,Z"), "machine position of the program's zero [mm] (default: what the log tells, else 0,0,0)")
         ("ignore-lines", "find the lines by geometry even where the log has a line channel");
     // clang-format on
 }
@@ -43,10 +41,7 @@ PartOptions read_part_options(const po::variables_map& values) {
     options.use_line_channel = values.count("ignore-lines") == 0;
     if (values.count("surface") > 0) options.role = parse_role(values["surface"].as<std::string>());
     else options.role_given = false;
-    if (values.count("work-offset") > 0) {
-        const std::vector<double> numbers = parse_numbers(values["work-offset"].as<std::string>(), "--work-offset", 3);
-        options.offset = Vec3(numbers[0], numbers[1], numbers[2]);
-    }
+    options.offset = read_work_offset(values);
     return options;
 }
 

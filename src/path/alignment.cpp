@@ -61,7 +61,8 @@ public:
                 }
             }
             way += length(m);
-            if (way > play + window_of_chord * chord + window_of_distance * nearest) break;
+            // Farther than lost the walk finds nothing: a whole program would be searched for each point.
+            if (way > play + window_of_chord * chord + window_of_distance * std::min(nearest, lost_distance)) break;
         }
         return best;
     }

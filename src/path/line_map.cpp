@@ -10,20 +10,24 @@
 
 #include "core/block.h"
 #include "path/alignment.h"
+#include "path/allowed_motions.h"
 #include "path/toolpath.h"
+#include "path/work_offset.h"
 
 namespace clsurf {
 namespace {
 
 constexpr PointIndex checked_stretches = 64;  ///< evenly spaced over the log
 constexpr PointIndex checked_stretch = 1600;  ///< points
-constexpr std::int64_t longest_merge = 1000;  ///< motions that a kernel makes one of
 /// A reported line agrees when the point lies this near to it [mm]: a corner tolerance of finishing
 /// (0.01 mm) with room for the two records by which a kernel's line leads its axes.
 constexpr double agreeing_distance = 0.05;
 constexpr double blending_distance = 1.0;  ///< [mm] G64 without a tolerance
 /// More disagreement than this among the checked points is worth a warning.
 constexpr double disagreeing_share = 0.005;
+/// Where most points are off, a work offset is looked for.
+constexpr double offset_share = 0.5;
+constexpr double sure_confidence = 0.9;  ///< of an aligned point
 
 PointKind point_kind(MotionKind kind) {
     switch (kind) {
@@ -161,24 +165,13 @@ double play_of(const Program& program) {
 double allowed_distance(const Toolpath& path, const LineMap& map, LineNumber before,
                         LineNumber line, const Vec3& position) {
     double best = std::numeric_limits<double>::quiet_NaN();
-    for (const std::uint32_t motion : map.motions_of(line)) {
-        // Back over the motions that were merged into this one, to the line reported before it.
-        std::int64_t first = std::int64_t{motion} - 1;
-        while (first > 0 && motion - first < longest_merge &&
-               path.motions().line[static_cast<std::size_t>(first)] != before) {
-            --first;
-        }
-        // A line that does not follow the one before (a loop, a jump) merged nothing.
-        if (first >= 0 && path.motions().line[static_cast<std::size_t>(first)] != before) {
-            first = std::int64_t{motion} - 1;
-        }
-        const std::int64_t last = std::min<std::int64_t>(path.size() - 1, std::int64_t{motion} + 1);
-        for (std::int64_t m = std::max<std::int64_t>(0, first - 1); m <= last; ++m) {
+    for_allowed_motions(path, map, before, line, [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t m = first; m <= last; ++m) {
             const double distance = path.foot(m, position).distance;
             if (!(best <= distance)) best = distance;
         }
-        if (best <= agreeing_distance) break;
-    }
+        return best <= agreeing_distance;
+    });
     return best;
 }
 
@@ -244,14 +237,51 @@ double off_confidence(double distance) {
     return distance <= agreeing_distance ? 1.0 : agreeing_distance / distance;
 }
 
+namespace {
+
+/// Part of the aligned points that are farther off than a finishing tolerance.
+double off_share(const LineMap& map) {
+    constexpr PointIndex looked_at = 10'000;
+    const PointIndex stride = std::max<PointIndex>(1, map.count() / looked_at);
+    PointIndex off = 0;
+    PointIndex all = 0;
+    for (PointIndex i = 0; i < map.count(); i += stride, ++all) off += map.confidence_at(i) < sure_confidence ? 1 : 0;
+    return all > 0 ? static_cast<double>(off) / static_cast<double>(all) : 0.0;
+}
+
+/// To a micrometre, as offsets are entered: "12.5", "-3".
+std::string decimals(double value) {
+    std::string text = fmt::format("{:.3f}", value);
+    text.resize(text.find_last_not_of('0') + 1);
+    if (text.back() == '.') text.pop_back();
+    return text == "-0" ? "0" : text;
+}
+
+void look_for_work_offset(const Trajectory& path, const Program& program, const LineMap* map, Diagnostics& diagnostics) {
+    const std::optional<Vec3> shift = find_shift(path, program, map);
+    if (!shift) return;
+    const Vec3 offset = -(path.offset + *shift);
+    diagnostics.add({Severity::warning, "map.work-offset", Place::of_file(path.name),
+                     fmt::format("the positions lie parallel to the programmed path, displaced by X {} Y {} Z {} mm", decimals(-shift->x()), decimals(-shift->y()), decimals(-shift->z())),
+                     fmt::format("--work-offset {},{},{} brings them onto it", decimals(offset.x()), decimals(offset.y()), decimals(offset.z()))});
+}
+
+}  // namespace
+
 LineMap map_lines(const Trajectory& path, const Log& log, const Program& program, bool use_channel,
                   Diagnostics& diagnostics) {
     const Channel* channel = use_channel ? log.find("line") : nullptr;
-    if (channel == nullptr) return align_lines(path, program, diagnostics);
+    if (channel == nullptr) {
+        LineMap map = align_lines(path, program, diagnostics);
+        if (off_share(map) > offset_share) look_for_work_offset(path, program, nullptr, diagnostics);
+        return map;
+    }
     LineMap map(channel->values, program, log.keep_alive);
     const LineAgreement agreement = check_lines(path, program, map);
-    if (static_cast<double>(agreement.disagreeing) >
-        disagreeing_share * static_cast<double>(agreement.checked)) {
+    const auto more_than = [&](double share) {
+        return static_cast<double>(agreement.disagreeing) > share * static_cast<double>(agreement.checked);
+    };
+    if (more_than(disagreeing_share)) {
         diagnostics.add(
             {Severity::warning, "map.disagreement", Place::of_point(log.name, agreement.worst),
              fmt::format("{} of {} checked points are farther than {} mm from the line that the log "
@@ -260,6 +290,7 @@ LineMap map_lines(const Trajectory& path, const Log& log, const Program& program
                          agreement.median_distance, agreement.worst_distance),
              "another program, another version of it, or another work offset?"});
     }
+    if (more_than(offset_share)) look_for_work_offset(path, program, &map, diagnostics);
     return map;
 }
 

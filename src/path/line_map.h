@@ -98,7 +98,8 @@ struct LineAgreement {
 [[nodiscard]] double off_confidence(double distance);
 
 /// The lines of a log: its channel where it has one (and `use_channel`), an alignment otherwise.
-/// Adds diagnostics `map.…` about disagreement.
+/// Adds diagnostics `map.…` about disagreement; where most points are off by the same translation,
+/// `map.work-offset` with the offset that brings them onto the path.
 [[nodiscard]] LineMap map_lines(const Trajectory& path, const Log& log, const Program& program,
                                 bool use_channel, Diagnostics& diagnostics);
 

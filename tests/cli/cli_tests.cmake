@@ -112,6 +112,18 @@ clsurf_cli_test(NAME info_of_good_raw ARGS info @LOGS@/petal_spiral.raw --layout
 clsurf_cli_test(NAME info_json ARGS info ${run} --json STDOUT "\"records\": 27517" "\"closed\": true")
 clsurf_cli_test(NAME info_program_json ARGS info ${part} --json STDOUT "\"feed\": 3704" "\"kind\": \"program\"")
 clsurf_cli_test(NAME info_wrong_program ARGS info @DATA@/programs/petal_loops_g64.ngc ${run} STDOUT "another program")
+# A log in machine coordinates: the offset is said, and passing it helps.
+set(displace "$CLSURF export ${part} ${run} -o run.csv --columns time,x,y,z,line --work-offset -312.5,48.125,101.3; sed -i '1s/.*/time,cmd.x,cmd.y,cmd.z,line/' run.csv")
+set(displace_without_lines "$CLSURF export ${part} ${run} -o run.csv --columns time,x,y,z --work-offset -312.5,48.125,101.3; sed -i '1s/.*/time,cmd.x,cmd.y,cmd.z/' run.csv")
+clsurf_cli_test(NAME work_offset_unknown SETUP "${displace}" ARGS info ${part} run.csv
+  STDOUT "displaced by X 312.5 Y -48.125 Z -101.3 mm" "hint: --work-offset 312.5,-48.125,-101.3 brings them onto it")
+clsurf_cli_test(NAME work_offset_unknown_without_lines SETUP "${displace_without_lines}"
+  ARGS query ${part} run.csv --point 5000 STDERR "hint: --work-offset 312.5,-48.125,-101.3 brings them onto it" STDOUT "confidence 0.0")
+clsurf_cli_test(NAME work_offset_given SETUP "${displace}" ARGS info ${part} run.csv --work-offset 312.5,-48.125,-101.3
+  STDOUT "positions lie 0.000[0-9] mm" NO_STDOUT "displaced" "another program")
+clsurf_cli_test(NAME work_offset_given_without_lines SETUP "${displace_without_lines}"
+  ARGS query ${part} run.csv --point 5000 --work-offset 312.5,-48.125,-101.3 STDOUT "^line 63[78]" "confidence 1.0")
+clsurf_cli_test(NAME work_offset_wrong ARGS info ${part} ${run} --work-offset 1,2 EXIT 2 STDERR "--work-offset: '1,2' is not 3 numbers")
 clsurf_cli_test(NAME info_layout ARGS info @LOGS@/petal_spiral.raw --layout @DATA@/logs/petal_spiral.layout.toml STDOUT "84271 records")
 clsurf_cli_test(NAME query_at ARGS query ${part} ${run} --at -5.87,0,2.45 STDOUT "^line 1768")
 clsurf_cli_test(NAME query_json ARGS query ${part} ${run} --point 5000 --json STDOUT "\"line\": 638" "\"confidence\": 1.0")
