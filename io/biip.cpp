@@ -17,7 +17,6 @@
 
 #include "core/block.h"
 #include "core/error.h"
-#include "io/atomic_file.h"
 #include "io/crc32c.h"
 
 namespace clsurf::io {
@@ -216,21 +215,15 @@ void put(std::string& bytes, std::size_t at, const T& value) {
     std::memcpy(bytes.data() + at, &value, sizeof value);
 }
 
-struct StoredChannel {
-    ScalarType type;
-    double scale;
-    std::uint32_t offset;
-};
-
 /// Copies values of one channel into records, as they are or as doubles.
-void store(const ChannelView& view, const StoredChannel& stored, PointIndex begin, PointIndex end,
+void store(const ChannelView& view, std::size_t offset, PointIndex begin, PointIndex end,
            std::vector<std::byte>& records, std::size_t record_bytes, std::vector<double>& scratch) {
     const std::size_t n = static_cast<std::size_t>(end - begin);
     if (view.bias == 0) {
         const std::size_t size = size_of(view.type);
         for (std::size_t i = 0; i < n; ++i) {
             const std::byte* from = view.first + (static_cast<std::size_t>(begin) + i) * view.stride;
-            std::byte* to = records.data() + i * record_bytes + stored.offset;
+            std::byte* to = records.data() + i * record_bytes + offset;
             if (view.big_endian) std::reverse_copy(from, from + size, to);
             else std::memcpy(to, from, size);
         }
@@ -238,31 +231,28 @@ void store(const ChannelView& view, const StoredChannel& stored, PointIndex begi
     }
     scratch.resize(n);
     copy_block(view, begin, scratch);
-    for (std::size_t i = 0; i < n; ++i) std::memcpy(records.data() + i * record_bytes + stored.offset, &scratch[i], 8);
+    for (std::size_t i = 0; i < n; ++i) std::memcpy(records.data() + i * record_bytes + offset, &scratch[i], 8);
 }
 
 }  // namespace
 
-void write_biip(const std::string& path, const std::vector<Channel>& channels, PointIndex records,
-                double period, const std::string& metadata) {
-    std::vector<StoredChannel> stored;
-    std::uint32_t record_bytes = 0;
-    for (const Channel& channel : channels) {
+BiipWriter::BiipWriter(const std::string& path, const std::vector<StoredChannel>& channels, double period,
+                       const std::string& metadata)
+    : file_(path) {
+    if (channels.empty()) throw UsageError("no channels to write");
+    for (const StoredChannel& channel : channels) {
         if (channel.name.size() >= name_bytes) throw UsageError("channel name '" + channel.name + "' is longer than 23 bytes");
         if (channel.unit.size() > unit_bytes) throw UsageError("unit '" + channel.unit + "' of channel '" + channel.name + "' is longer than 8 bytes");
-        const bool as_it_is = channel.values.bias == 0;
-        const ScalarType type = as_it_is ? channel.values.type : ScalarType::f64;
-        stored.push_back({type, as_it_is ? channel.values.scale : 1.0, record_bytes});
-        record_bytes += static_cast<std::uint32_t>(size_of(type));
+        offsets_.push_back(record_bytes_);
+        record_bytes_ += size_of(channel.type);
     }
-    if (channels.empty()) throw UsageError("no channels to write");
     std::string header(fixed_bytes + channels.size() * entry_bytes, '\0');
     header += metadata;
     header.resize((header.size() + 7) / 8 * 8, '\0');
     std::memcpy(header.data(), magic.data(), magic.size());
     put(header, 8, std::uint16_t{1});
     put(header, 12, static_cast<std::uint32_t>(header.size()));
-    put(header, 16, record_bytes);
+    put(header, 16, static_cast<std::uint32_t>(record_bytes_));
     put(header, 20, static_cast<std::uint32_t>(channels.size()));
     put(header, 32, period);
     put(header, 40, static_cast<std::uint32_t>(metadata.size()));
@@ -270,28 +260,44 @@ void write_biip(const std::string& path, const std::vector<Channel>& channels, P
         const std::size_t at = fixed_bytes + i * entry_bytes;
         std::memcpy(header.data() + at, channels[i].name.data(), channels[i].name.size());
         std::memcpy(header.data() + at + name_bytes, channels[i].unit.data(), channels[i].unit.size());
-        put(header, at + 32, static_cast<std::uint8_t>(stored[i].type));
-        put(header, at + 36, stored[i].offset);
-        put(header, at + 40, stored[i].scale);
+        put(header, at + 32, static_cast<std::uint8_t>(channels[i].type));
+        put(header, at + 36, static_cast<std::uint32_t>(offsets_[i]));
+        put(header, at + 40, channels[i].scale);
     }
     put(header, 44, crc32c(std::as_bytes(std::span(header))));
+    file_.write(header);
+}
 
-    AtomicFile file(path);
-    file.write(header);
+void BiipWriter::append(std::span<const std::byte> records) {
+    file_.write(records);
+    records_ += records.size() / record_bytes_;
+}
+
+void BiipWriter::close() {
+    // The count last: a file without it was not finished.
+    file_.write_at(24, std::as_bytes(std::span(&records_, 1)));
+    file_.commit();
+}
+
+void write_biip(const std::string& path, const std::vector<Channel>& channels, PointIndex records,
+                double period, const std::string& metadata) {
+    std::vector<StoredChannel> stored;
+    for (const Channel& channel : channels) {
+        const bool as_it_is = channel.values.bias == 0;
+        stored.push_back({channel.name, channel.unit, as_it_is ? channel.values.type : ScalarType::f64, as_it_is ? channel.values.scale : 1.0});
+    }
+    BiipWriter writer(path, stored, period, metadata);
     std::vector<std::byte> block;
     std::vector<double> scratch;
     for (PointIndex begin = 0; begin < records; begin += block_points) {
         const PointIndex end = std::min(records, begin + block_points);
-        block.resize(static_cast<std::size_t>(end - begin) * record_bytes);
+        block.resize(static_cast<std::size_t>(end - begin) * writer.record_bytes());
         for (std::size_t i = 0; i < channels.size(); ++i) {
-            store(channels[i].values, stored[i], begin, end, block, record_bytes, scratch);
+            store(channels[i].values, writer.offset_of(i), begin, end, block, writer.record_bytes(), scratch);
         }
-        file.write(block);
+        writer.append(block);
     }
-    // The count last: a file without it was not finished.
-    const auto count = static_cast<std::uint64_t>(records);
-    file.write_at(24, std::as_bytes(std::span(&count, 1)));
-    file.commit();
+    writer.close();
 }
 
 }  // namespace clsurf::io

@@ -7,7 +7,8 @@
 
 namespace clsurf::io {
 
-/// 64 hexadecimal digits, lower case.
-[[nodiscard]] std::string sha256(std::span<const std::byte> bytes);
+/// 64 hexadecimal digits, lower case. Takes the machine's own instructions where it has them;
+/// `plain`: not even then (tests compare the two).
+[[nodiscard]] std::string sha256(std::span<const std::byte> bytes, bool plain = false);
 
 }  // namespace clsurf::io

@@ -107,6 +107,17 @@ foreach(sample bottle_uneven.nc bottle_zigzag.nc dome_loops.nc transition_g61.nc
   clsurf_cli_test(NAME info_of_good_${name} ARGS info @DATA@/programs/${sample} @LOGS@/${name}.biip
     STDOUT "togo.*note: [^:]*: positions lie 0.0" NO_STDOUT "log, format.*(warning|error|remark|note:.*note:)")
 endforeach()
+# Made logs too, and twice the same.
+set(make_sample $<TARGET_FILE:clsurf_make_sample>)
+foreach(pattern zigzag one-way loops)
+  clsurf_cli_test(NAME info_of_made_${pattern}
+    SETUP "${make_sample} ${pattern} 100000 a.nc a.biip; cp a.nc first.nc; ${make_sample} ${pattern} 100000 a.nc b.biip; cmp a.nc first.nc; cmp a.biip b.biip"
+    ARGS info a.nc a.biip STDOUT "100000 records" "positions lie 0.0000 mm .median. and 0.0000 mm" NO_STDOUT "log, format.*(warning|error|remark|note:.*note:)")
+endforeach()
+clsurf_cli_test(NAME render_of_made_one_way SETUP "${make_sample} one-way 200000 a.nc a.biip"
+  ARGS render a.nc a.biip -o map.png --size 160x120 -v FILE map.png)
+add_test(NAME make_sample_usage COMMAND clsurf_make_sample spiral 100 a.nc a.biip)
+set_tests_properties(make_sample_usage PROPERTIES PASS_REGULAR_EXPRESSION "usage: clsurf_make_sample zigzag")
 clsurf_cli_test(NAME info_of_good_csv ARGS info @LOGS@/mixed.csv --period 0.001 STDOUT "nothing to remark")
 clsurf_cli_test(NAME info_of_good_raw ARGS info @LOGS@/petal_spiral.raw --layout @DATA@/logs/petal_spiral.layout.toml STDOUT "nothing to remark")
 clsurf_cli_test(NAME info_json ARGS info ${run} --json STDOUT "\"records\": 27517" "\"closed\": true")
