@@ -1,7 +1,9 @@
 #include "path/derivative.h"
 
 #include <cmath>
+#include <fstream>
 #include <random>
+#include <sstream>
 
 #include <gtest/gtest.h>
 
@@ -83,6 +85,43 @@ TEST(Derivative, StatesItsBandwidth) {
     const std::vector<double> v = derive(samples, 1);
     for (std::size_t i = 100; i < 3900; ++i) most = std::max(most, std::abs(v[i]));
     EXPECT_NEAR(most / (2 * M_PI * f), std::sqrt(0.5), 0.01);
+}
+
+/// A line of savgol_reference.csv, which SciPy wrote.
+struct Reference {
+    int window = 0, order = 0, derivative = 0;
+    std::vector<double> values;
+};
+
+std::vector<Reference> read_references() {
+    std::ifstream file(TEST_SOURCES "/path/savgol_reference.csv");
+    std::vector<Reference> references;
+    for (std::string line; std::getline(file, line);) {
+        std::istringstream fields(line);
+        Reference reference;
+        char comma = 0;
+        fields >> reference.window >> comma >> reference.order >> comma >> reference.derivative;
+        for (double value = 0; fields >> comma >> value;) reference.values.push_back(value);
+        references.push_back(std::move(reference));
+    }
+    return references;
+}
+
+TEST(Derivative, IsThatOfSciPyToItsEnds) {
+    const std::vector<Reference> references = read_references();
+    ASSERT_EQ(references.size(), 8u);
+    const std::vector<double>& signal = references.front().values;
+    ASSERT_EQ(signal.size(), 160u);
+    for (std::size_t k = 1; k < references.size(); ++k) {
+        const Reference& r = references[k];
+        const Differentiator d({r.window, r.order, r.derivative, 0.25});
+        std::vector<double> values(signal.size());
+        d.apply(signal, 0, {0, 159}, 0, values);
+        ASSERT_EQ(r.values.size(), values.size());
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            EXPECT_NEAR(values[i], r.values[i], 1e-9) << "window " << r.window << ", order " << r.order << ", derivative " << r.derivative << ", sample " << i;
+        }
+    }
 }
 
 }  // namespace
