@@ -196,6 +196,7 @@ TextPlan plan_text(const Source& source, const Mapping* mapping) {
     const std::vector<std::string> fields = split(line, plan.separator);
     const bool header = std::any_of(fields.begin(), fields.end(), [](const std::string& f) { return !f.empty() && !looks_like_number(f); });
     std::vector<ColumnPlan> named;
+    named.reserve(fields.size());
     for (const std::string& field : fields) named.push_back(header ? plan_from_header(field) : ColumnPlan{});
     plan.data_begin = static_cast<std::size_t>((header ? rest.data() : before.data()) - text.data());
     if (header && rest.empty()) plan.data_begin = text.size();
@@ -210,6 +211,7 @@ TextPlan plan_text(const Source& source, const Mapping* mapping) {
     }
     plan.columns.resize(fields.size());
     std::vector<std::string_view> names;
+    names.reserve(named.size());
     for (const ColumnPlan& c : named) names.push_back(c.name);
     for (const Mapping::Entry& entry : mapping->entries) {
         std::size_t column = fields.size();
