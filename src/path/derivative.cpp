@@ -8,6 +8,8 @@
 
 #include <Eigen/Dense>
 
+#include "core/vectorised.h"
+
 namespace clsurf {
 namespace {
 
@@ -15,8 +17,8 @@ constexpr double window_seconds = 0.020;
 constexpr double jerk_window_seconds = 0.040;
 
 /// out[i] = Σ w[k] · in[i + k]: a loop over taps with vectors along i.
-[[gnu::target_clones("avx2", "default")]] void convolve(const double* in, const double* weights,
-                                                        int taps, double* out, std::size_t n) {
+CLSURF_VECTORISED void convolve(const double* in, const double* weights,
+                                int taps, double* out, std::size_t n) {
     for (std::size_t i = 0; i < n; ++i) out[i] = weights[0] * in[i];
     for (int k = 1; k < taps; ++k) {
         const double w = weights[k];
@@ -61,11 +63,12 @@ DerivativeFilter derivative_filter(int derivative, double period) {
 }
 
 double DerivativeFilter::bandwidth() const {
-    const std::vector<double> weights = derivative_weights(points, order, derivative, points / 2);
+    const int middle_point = points / 2;
+    const std::vector<double> weights = derivative_weights(points, order, derivative, middle_point);
     const auto gain = [&](double f) {
         const double omega = 2 * std::numbers::pi * f * period;
         std::complex<double> sum = 0;
-        for (int k = 0; k < points; ++k) sum += weights[static_cast<std::size_t>(k)] * std::polar(1.0, omega * (k - points / 2));
+        for (int k = 0; k < points; ++k) sum += weights[static_cast<std::size_t>(k)] * std::polar(1.0, omega * (k - middle_point));
         return std::abs(sum) / std::pow(omega, derivative);
     };
     double low = 0;

@@ -4,12 +4,13 @@
 #include <cmath>
 
 #include "core/block.h"
+#include "core/vectorised.h"
 
 namespace clsurf {
 namespace {
 
-[[gnu::target_clones("avx2", "default")]] void measure(const float* x, const float* y, const float* z,
-                                                       float* steps, PointIndex first, PointIndex last) {
+CLSURF_VECTORISED void measure(const float* x, const float* y, const float* z,
+                               float* steps, PointIndex first, PointIndex last) {
     for (PointIndex i = first; i < last; ++i) {
         const float dx = x[i + 1] - x[i];
         const float dy = y[i + 1] - y[i];
