@@ -5,7 +5,21 @@
 #include <cctype>
 #include <cmath>
 
+#include <fmt/format.h>
+
 namespace clsurf {
+
+std::string words_text(const Block& block, const char* letters) {
+    std::string text;
+    for (const char* c = letters; *c != '\0'; ++c) {
+        if (block.words.given(*c)) text += fmt::format(" {}{:g}", *c, block.words.of(*c));
+    }
+    return text;
+}
+
+std::string code_text(int code) {
+    return code % 10 == 0 ? fmt::format("G{}", code / 10) : fmt::format("G{}.{}", code / 10, code % 10);
+}
 
 namespace {
 

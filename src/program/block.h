@@ -48,6 +48,12 @@ struct Block {
 /// Reads the words from the cursor to the end of the line. Throws ReadError.
 void read_block(Cursor& cursor, Variables& variables, DialectId dialect, Block& block);
 
+/// The words of these letters as they would be written, each after a blank: " P0.01 Q2".
+[[nodiscard]] std::string words_text(const Block& block, const char* letters);
+
+/// A code given in tenths: "G54.1".
+[[nodiscard]] std::string code_text(int code);
+
 /// A line without its comments, block-delete sign and number; blanks at both ends taken off.
 struct Statement {
     std::string text;          ///< same columns as the line: comments are replaced by blanks

@@ -29,26 +29,15 @@ constexpr auto noted_siemens = std::to_array<int>({
 
 bool is(const Block& block, char letter) { return block.words.given(letter); }
 
-std::string words_text(const Block& block, const char* letters) {
-    std::string text;
-    for (const char* c = letters; *c != '\0'; ++c) {
-        if (is(block, *c)) text += fmt::format(" {}{:g}", *c, block.words.of(*c));
-    }
-    return text;
-}
-
-std::string code_text(int code) {
-    return code % 10 == 0 ? fmt::format("G{}", code / 10) : fmt::format("G{}.{}", code / 10, code % 10);
-}
-
 constexpr auto cycle_codes = std::to_array<int>({730, 740, 760, 810, 820, 830, 840, 850, 860, 870, 880, 890, 843});
 
 /// The order in which the codes of one block work (RS274/NGC, table 8).
 int order_of(int code) {
     switch (code) {
         case 930: case 940: case 950: return 0;
+        case 170: case 180: case 190: return 1;
         case 40: return 2;
-        case 170: case 180: case 190: return 3;
+        case 400: case 410: case 420: case 411: case 421: return 3;
         case 200: case 210: case 700: case 710: case 7000: case 7100: return 1;
         case 430: case 431: case 432: case 434: case 440: case 490: return 4;
         case 530: return 6;
@@ -70,6 +59,7 @@ void Interpreter::execute(Block& block) {
         apply_keyword(keyword, block);
     }
     if (ended_) return;
+    if (dialect_ == DialectId::linuxcnc) change_tool(block);
     settle_codes(block);
     if (is(block, 'F') && !motion_suppressed_) state_.feed = block.words.of('F');
     if (is(block, 'S')) {
@@ -88,6 +78,7 @@ void Interpreter::execute(Block& block) {
         }
     }
     if (!motion_suppressed_) move(block);
+    if (dialect_ == DialectId::linuxcnc) keep_level_after_tool_change(block);
     report_unused(block);
     if (stops) {
         for (int i = 0; i < block.words.m_count; ++i) {
@@ -115,6 +106,7 @@ void Interpreter::settle_codes(Block& block) {
 }
 
 void Interpreter::apply_code(int code, Block& block, std::size_t column) {
+    refuse_in_compensation(code, block, column);
     if (apply_of_dialect(code, block, column)) return;
     apply_common(code, block, column);
 }
@@ -191,6 +183,8 @@ bool Interpreter::apply_of_dialect(int code, Block& block, std::size_t column) {
     switch (dialect_) {
         case DialectId::linuxcnc:
             switch (code) {
+                case 400: stop_compensation(); return true;
+                case 410: case 420: case 411: case 421: start_compensation(code, block, column); return true;
                 case 50: state_.motion = MotionMode::cubic_spline; return true;
                 case 51: state_.motion = MotionMode::quadratic_spline; return true;
                 case 52: state_.motion = MotionMode::nurbs; return true;
@@ -374,95 +368,6 @@ void Interpreter::apply_keyword(const Keyword& keyword, Block& block) {
     note(Severity::warning, "program.unknown-word", "'" + name + "' is not known", keyword.column);
 }
 
-void Interpreter::set_offsets(const Block& block) {
-    motion_suppressed_ = true;
-    const int level = is(block, 'L') ? static_cast<int>(block.words.of('L')) : 0;
-    if (level != 2 && level != 20) {
-        event("tool-table", "G10" + words_text(block, "LPRZXYIJQ"));
-        return;
-    }
-    int system = is(block, 'P') ? static_cast<int>(block.words.of('P')) : 0;
-    if (system == 0) system = state_.work_system;
-    const Vec3 machine = state_.to_machine(state_.position);
-    const Vec3 position = state_.position.array().isNaN().select(0.0, state_.position);
-    state_.rebase([&] {
-        WorkOffset& offset = state_.work_offsets[system];
-        if (is(block, 'R') && level == 2 && dialect_ == DialectId::linuxcnc) offset.rotation = block.words.of('R');
-        Vec3 reads = position;  // L20: the present position reads as the words, in that system
-        for (int axis = 0; axis < 3; ++axis) {
-            const char letter = "XYZ"[axis];
-            if (!is(block, letter)) continue;
-            const double value = block.words.of(letter) * state_.unit_mm;
-            reads[axis] = value;
-            if (level == 2) {
-                offset.shift[axis] = state_.incremental && dialect_ == DialectId::fanuc ? offset.shift[axis] + value : value;
-            }
-        }
-        if (level == 20) {
-            const Vec3 turned = ModalState::rotated(reads + state_.shift, offset.rotation);
-            for (int axis = 0; axis < 3; ++axis) {
-                const bool turns = axis < 2 && offset.rotation != 0;  // one word moves both zeros then
-                if (is(block, "XYZ"[axis]) || turns) offset.shift[axis] = machine[axis] - state_.tool_offset[axis] - turned[axis];
-            }
-        }
-    });
-}
-
-void Interpreter::shift_position(const Block& block) {
-    motion_suppressed_ = true;
-    const bool local = std::find(block.words.g.begin(), block.words.g.begin() + block.words.g_count, 520) !=
-                       block.words.g.begin() + block.words.g_count;
-    state_.rebase([&] {
-        const Vec3 position = state_.position;
-        for (int axis = 0; axis < 3; ++axis) {
-            const char letter = "XYZ"[axis];
-            if (!is(block, letter)) continue;
-            const double value = block.words.of(letter) * state_.unit_mm;
-            if (local) {
-                state_.shift[axis] = value;
-            } else {
-                const double now = std::isnan(position[axis]) ? 0.0 : position[axis];
-                state_.shift[axis] += now - value;
-            }
-        }
-        if (!local) state_.saved_shift = state_.shift;
-    });
-}
-
-void Interpreter::select_work_system(int number) {
-    if (number == state_.work_system) return;
-    state_.rebase([&] { state_.work_system = number; });
-    event("work-system", number >= 1 && number <= 6 ? fmt::format("G{}", 53 + number) : fmt::format("{}", number));
-}
-
-void Interpreter::tool_length(int code, const Block& block) {
-    if (code == 431) {
-        motion_suppressed_ = true;
-        state_.rebase([&] {
-            for (int axis = 0; axis < 3; ++axis) {
-                if (is(block, "XYZ"[axis])) state_.tool_offset[axis] = block.words.of("XYZ"[axis]) * state_.unit_mm;
-            }
-        });
-    } else if (code == 490) {
-        state_.rebase([&] { state_.tool_offset = Vec3::Zero(); });
-    }
-    event("tool-length", code_text(code) + words_text(block, "H"));
-}
-
-void Interpreter::reference(int code, const Block& block) {
-    motion_suppressed_ = true;
-    const Vec3 home = state_.from_machine(code == 280 ? state_.home : state_.second_home);
-    std::uint32_t named = 0;
-    for (const char c : {'X', 'Y', 'Z', 'A', 'B', 'C'}) named |= block.words.has & Words::bit(c);
-    if (named != 0) straight(MotionKind::rapid, target(block, machine_coordinates_), rotary_target(block));
-    // RS274: without axis words all axes go; with them only those.
-    Vec3 end = state_.position;
-    for (int axis = 0; axis < 3; ++axis) {
-        if (named == 0 || is(block, "XYZ"[axis])) end[axis] = home[axis];
-    }
-    straight(MotionKind::rapid, end, named == 0 ? Vec3(Vec3::Zero()) : state_.rotary);
-}
-
 void Interpreter::dwell(const Block& block) {
     // Fanuc's X and U belong to the dwell; RS274 lets a motion follow in the same block.
     motion_suppressed_ = dialect_ != DialectId::linuxcnc;
@@ -481,7 +386,7 @@ void Interpreter::dwell(const Block& block) {
         seconds = block.words.of('P');
     }
     if (seconds < 0) fail("negative dwell time");
-    push(MotionKind::dwell, state_.position, state_.rotary, static_cast<float>(seconds));
+    push(MotionKind::dwell, tool_position(), state_.rotary, static_cast<float>(seconds));
 }
 
 /// Words that no part of the interpreter has a meaning for.

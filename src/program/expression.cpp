@@ -75,7 +75,7 @@ void Variables::pop_locals() { locals_.pop_back(); }
 namespace {
 
 constexpr int deepest_nesting = 200;
-constexpr double equal_within = 1e-6;  ///< RS274/NGC compares with this tolerance
+constexpr double equal_within = 1e-6;  ///< RS274/NGC tests for equality with this tolerance
 
 enum class Operator : std::uint8_t {
     power, multiply, divide, modulo, integer_divide, add, subtract,
@@ -240,10 +240,10 @@ private:
             case Operator::subtract: return a - b;
             case Operator::equal: return same(a, b) ? 1 : 0;
             case Operator::unequal: return same(a, b) ? 0 : 1;
-            case Operator::greater: return a > b && !same(a, b) ? 1 : 0;
-            case Operator::greater_equal: return a > b || same(a, b) ? 1 : 0;
-            case Operator::less: return a < b && !same(a, b) ? 1 : 0;
-            case Operator::less_equal: return a < b || same(a, b) ? 1 : 0;
+            case Operator::greater: return a > b && !near(a, b) ? 1 : 0;
+            case Operator::greater_equal: return a > b || near(a, b) ? 1 : 0;
+            case Operator::less: return a < b && !near(a, b) ? 1 : 0;
+            case Operator::less_equal: return a < b || near(a, b) ? 1 : 0;
             case Operator::logical_and: return a != 0 && b != 0 ? 1 : 0;
             case Operator::logical_or: return a != 0 || b != 0 ? 1 : 0;
             case Operator::logical_xor: return (a != 0) != (b != 0) ? 1 : 0;
@@ -251,6 +251,8 @@ private:
         return 0;
     }
     static bool same(double a, double b) { return std::abs(a - b) < equal_within; }
+    /// RS274 orders exactly: a loop that counts by tenths ends where its sum ends.
+    [[nodiscard]] bool near(double a, double b) const { return dialect_ != DialectId::linuxcnc && same(a, b); }
 
     double unsigned_or_signed() {
         const char next = c_.peek();

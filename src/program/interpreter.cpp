@@ -25,7 +25,9 @@ Interpreter::Interpreter(SourceText text, const InterpreterOptions& options)
     indexes_.resize(1);
     indexed_.resize(1);
     // RS274's interpreter starts at its origin and retracts to R; the other controls stand wherever they stand.
+    if (options.tools) tools_ = *options.tools;
     if (dialect_ == DialectId::linuxcnc) {
+        if (!options.tools) tools_ = stand_alone_tools();
         state_.position = Vec3::Zero();
         state_.retract_to_r = true;
         program_.motions.start = Xyz(0, 0, 0);
@@ -99,7 +101,7 @@ bool Interpreter::run_plain(const Words& words) {
         return false;
     }
     const bool ordinary = (mode == MotionMode::rapid || mode == MotionMode::feed) && !state_.incremental &&
-                          state_.feed_mode == FeedMode::per_minute && modal_call_.empty() && nurbs_.empty() && !state_.diameter;
+                          state_.feed_mode == FeedMode::per_minute && modal_call_.empty() && nurbs_.empty() && !state_.diameter && !compensation_.on();
     if (!ordinary) return false;
     state_.motion = mode;
     const double unit = state_.unit_mm;
@@ -158,16 +160,19 @@ void Interpreter::event(const std::string& name, const std::string& value) {
 double Interpreter::parameter(int number) const {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     const double unit = state_.unit_mm;
-    const Vec3 known = state_.position.array().isNaN().select(0.0, state_.position);
-    const auto axis_of = [&](int first, const Vec3& lengths, const Vec3& angles) {
+    const double machine_unit = tools_.unit_mm;
+    const Vec3 at = tool_position();
+    const Vec3 known = at.array().isNaN().select(0.0, at);
+    const auto axis_of = [&](int first, const Vec3& lengths, const Vec3& angles, double per) {
         const int k = number - first;
-        return k < 3 ? lengths[k] / unit : k < 6 ? angles[k - 3] : 0.0;
+        return k < 3 ? lengths[k] / per : k < 6 ? angles[k - 3] : 0.0;
     };
+    const Vec3 none_turned = Vec3::Zero();
     if (dialect_ == DialectId::linuxcnc) {
-        if (number >= 5420 && number <= 5428) return axis_of(5420, known, state_.rotary);
-        if (number >= 5161 && number <= 5169) return axis_of(5161, state_.home, Vec3::Zero());
-        if (number >= 5181 && number <= 5189) return axis_of(5181, state_.second_home, Vec3::Zero());
-        if (number >= 5211 && number <= 5219) return axis_of(5211, -state_.shift, Vec3::Zero());
+        if (number >= 5420 && number <= 5428) return axis_of(5420, known, state_.rotary, unit);
+        if (number >= 5161 && number <= 5169) return axis_of(5161, state_.home, none_turned, machine_unit);
+        if (number >= 5181 && number <= 5189) return axis_of(5181, state_.second_home, none_turned, machine_unit);
+        if (number >= 5211 && number <= 5219) return axis_of(5211, -state_.shift, none_turned, machine_unit);
         if (number == 5220) return state_.work_system;
         if (number >= 5221 && number < 5221 + 9 * 20) {
             const int system = (number - 5221) / 20 + 1;
@@ -175,16 +180,24 @@ double Interpreter::parameter(int number) const {
             const auto found = state_.work_offsets.find(system);
             const WorkOffset offset = found == state_.work_offsets.end() ? WorkOffset{} : found->second;
             if (axis == 9) return offset.rotation;
-            return axis < 3 ? offset.shift[axis] / unit : 0.0;
+            return axis < 3 ? offset.shift[axis] / machine_unit : 0.0;
         }
-        if (number >= 5401 && number <= 5409) return axis_of(5401, state_.tool_offset, Vec3::Zero());
+        switch (number) {
+            case 5400: return tool_.number;
+            case 5410: return tool_.diameter / machine_unit;
+            case 5411: return tool_.front_angle;
+            case 5412: return tool_.back_angle;
+            case 5413: return tool_.orientation;
+            default: break;
+        }
+        if (number >= 5401 && number <= 5409) return axis_of(5401, tool_.offset, none_turned, machine_unit);
         return none;
     }
     if (dialect_ == DialectId::fanuc) {
         for (const int first : {5001, 5041}) {
-            if (number >= first && number < first + 6) return axis_of(first, known, state_.rotary);
+            if (number >= first && number < first + 6) return axis_of(first, known, state_.rotary, unit);
         }
-        if (number >= 5021 && number < 5027) return axis_of(5021, state_.to_machine(known), state_.rotary);
+        if (number >= 5021 && number < 5027) return axis_of(5021, state_.to_machine(known), state_.rotary, unit);
         if (number == 4003) return state_.incremental ? 91 : 90;
         if (number == 4006) return unit == 1 ? 21 : 20;
         if (number == 4109) return state_.feed;

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "program/program.h"
+#include "program/tool_table.h"
 
 namespace clsurf {
 
@@ -21,6 +22,7 @@ struct InterpreterOptions {
     const Dialect* dialect = nullptr;  ///< nullptr: detected from the text
     bool block_delete = true;          ///< skip blocks that begin with '/'
     SubprogramLoader load;             ///< empty: no other files
+    std::optional<ToolTable> tools;    ///< nullopt: for linuxcnc those of its stand-alone interpreter, else none
 };
 
 /// Interprets a program. Throws InputError with file, line and column: a wrong arc, a malformed

@@ -9,8 +9,10 @@
 #include "program/arc.h"
 #include "program/block.h"
 #include "program/control.h"
+#include "program/cutter_compensation.h"
 #include "program/interpreter.h"
 #include "program/modal_state.h"
+#include "program/tool_table.h"
 
 namespace clsurf {
 
@@ -56,13 +58,28 @@ private:
     bool apply_of_dialect(int code, Block& block, std::size_t column);
     void apply_m(int code, const Block& block);
     void apply_keyword(const Keyword& keyword, Block& block);
-    void set_offsets(const Block& block);       ///< G10
-    void shift_position(const Block& block);    ///< G92
-    void select_work_system(int number);
-    void tool_length(int code, const Block& block);
-    void reference(int code, const Block& block);  ///< G28, G30
     void dwell(const Block& block);
     void report_unused(const Block& block);
+
+    // offsets.cpp: work systems, tools, reference points
+    void set_offsets(const Block& block);       ///< G10
+    void set_tool(int level, const Block& block);  ///< G10 L1, L10, L11
+    void shift_position(const Block& block);    ///< G92
+    void select_work_system(int number);
+    void change_tool(const Block& block);       ///< T, M6, M61
+    void keep_level_after_tool_change(const Block& block);
+    [[nodiscard]] Tool tool_of(int number, std::size_t column);
+    void tool_length(int code, const Block& block);
+    void reference(int code, const Block& block);  ///< G28, G30
+
+    // compensated_motions.cpp: G40 … G42
+    void start_compensation(int code, const Block& block, std::size_t column);
+    void stop_compensation();
+    void refuse_in_compensation(int code, const Block& block, std::size_t column) const;
+    [[nodiscard]] Vec3 tool_position() const;   ///< where the motions end: not as programmed under G41 and G42
+    void compensated_straight(MotionKind kind, const Vec3& end, const Vec3& rotary);
+    void compensated_arc(const Arc& arc, bool clockwise, const Vec3& end, const Vec3& rotary);
+    void push_compensated(const CompensatedStep& step, MotionKind kind, const Vec3& end, const Vec3& rotary, Arc arc = {});
 
     // motions.cpp
     [[nodiscard]] Vec3 target(const Block& block, bool machine) const;
@@ -71,6 +88,8 @@ private:
     void move(const Block& block);
     void straight(MotionKind kind, const Vec3& end, const Vec3& rotary);
     void arc(const Block& block, bool clockwise);
+    void push_arc(Arc arc, bool clockwise, const Vec3& begin, const Vec3& end, const Vec3& rotary);
+    void probe(const Vec3& end, const Vec3& rotary);
     void spline(const Block& block);
     void nurbs_point(const Block& block);
     void nurbs_end();
@@ -98,6 +117,14 @@ private:
     Variables variables_;
     CycleState cycle_;
     Block block_;
+    ToolTable tools_;
+    int next_tool_ = 0;         ///< of the T word
+    Tool tool_;                 ///< in the spindle
+    CutterCompensation compensation_;
+    std::size_t open_motions_ = 0;      ///< the first motion whose end an inside corner may still move
+    std::int64_t compensation_ended_ = -1;  ///< motions before G40: the next one is a straight one
+    std::int64_t offset_changed_ = -1;      ///< motions before the tool offset changed last
+    Vec3 offset_change_ = Vec3::Zero();     ///< by how much, since those motions [mm]
 
     // Where it reads.
     std::size_t file_ = 0;

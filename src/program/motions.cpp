@@ -15,6 +15,8 @@ constexpr std::uint32_t rotary_axes = Words::bit('A') | Words::bit('B') | Words:
 constexpr std::uint32_t other_axes = Words::bit('U') | Words::bit('V') | Words::bit('W');
 constexpr std::uint32_t centres = Words::bit('I') | Words::bit('J') | Words::bit('K') | Words::bit('R');
 constexpr int most_turns = 100'000;
+constexpr double probe_retreat_mm = 0.254;  ///< 0.01 inch
+constexpr int first_probed_parameter = 5061, probe_result_parameter = 5070;
 
 bool names_motion(const Block& block) {
     const auto* first = block.words.g.data();
@@ -75,19 +77,15 @@ void Interpreter::move(const Block& block) {
             straight(MotionKind::feed, target(block, machine_coordinates_), rotary_target(block));
             return;
         case MotionMode::probe:
-            // A probing move cuts nothing and ends wherever it touches: noted, not a motion.
-            if (axes) {
-                state_.position = target(block, machine_coordinates_);
-                event("probe", fmt::format("{:.4f} {:.4f} {:.4f}", state_.position.x(), state_.position.y(), state_.position.z()));
-            }
+            if (axes) probe(target(block, machine_coordinates_), rotary_target(block));
             return;
         case MotionMode::rapid:
         case MotionMode::feed:
         case MotionMode::thread:
             // RS274 makes a motion of no length of a G0 or G1 that stands alone.
             if (!axes && !(dialect_ == DialectId::linuxcnc && names_motion(block))) return;
-            straight(state_.motion == MotionMode::rapid ? MotionKind::rapid : MotionKind::feed,
-                     target(block, machine_coordinates_), rotary_target(block));
+            compensated_straight(state_.motion == MotionMode::rapid ? MotionKind::rapid : MotionKind::feed,
+                                 target(block, machine_coordinates_), rotary_target(block));
             return;
         case MotionMode::cw:
         case MotionMode::ccw:
@@ -122,6 +120,7 @@ void Interpreter::straight(MotionKind kind, const Vec3& end, const Vec3& rotary)
 }
 
 void Interpreter::arc(const Block& block, bool clockwise) {
+    if (compensation_ended_ == program_.motions.size()) fail("the first motion after cutter compensation (G40) must be a straight one");
     ArcWords words;
     words.begin = state_.position.array().isNaN().select(0.0, state_.position);
     words.end = target(block, machine_coordinates_);
@@ -155,10 +154,31 @@ void Interpreter::arc(const Block& block, bool clockwise) {
     std::string error;
     Arc arc = resolve_arc(words, error);
     if (!error.empty()) fail(error, block.words.g_count > 0 ? block.words.g_column[0] : 1);
+    if (compensation_.active()) {
+        compensated_arc(arc, clockwise, words.end, rotary_target(block));
+    } else {
+        push_arc(arc, clockwise, words.begin, words.end, rotary_target(block));
+    }
+}
+
+void Interpreter::push_arc(Arc arc, bool clockwise, const Vec3& begin, const Vec3& end, const Vec3& rotary) {
     arc.motion = program_.motions.size();
     program_.motions.arcs.push_back(arc);
-    const double length = arc_length(arc, clockwise, words.begin, words.end);
-    push(clockwise ? MotionKind::cw : MotionKind::ccw, words.end, rotary_target(block), feed_for(length));
+    push(clockwise ? MotionKind::cw : MotionKind::ccw, end, rotary, feed_for(arc_length(arc, clockwise, begin, end)));
+}
+
+/// A probing move cuts nothing and ends wherever it touches: noted, not a motion. It is taken to touch
+/// at its end, and to stop a little before, as LinuxCNC's stand-alone interpreter has it.
+void Interpreter::probe(const Vec3& end, const Vec3& rotary) {
+    const Vec3 way = end - state_.position;
+    for (int axis = 0; axis < 3; ++axis) {
+        variables_.set(first_probed_parameter + axis, end[axis] / state_.unit_mm);
+        variables_.set(first_probed_parameter + 3 + axis, rotary[axis]);
+    }
+    variables_.set(probe_result_parameter, 0);
+    state_.position = way.norm() > 0 ? Vec3(end - probe_retreat_mm * way.normalized()) : end;
+    state_.rotary = rotary;
+    event("probe", fmt::format("{:.4f} {:.4f} {:.4f}", end.x(), end.y(), end.z()));
 }
 
 void Interpreter::push(MotionKind kind, const Vec3& end, const Vec3& rotary, float feed) {

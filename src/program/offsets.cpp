@@ -1,0 +1,187 @@
+// Offsets: work coordinate systems, G92, tools and their lengths, reference points.
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "program/interpreter_state.h"
+
+namespace clsurf {
+namespace {
+
+constexpr int last_work_system = 9;  ///< G59.3
+
+bool is(const Block& block, char letter) { return block.words.given(letter); }
+
+}  // namespace
+
+void Interpreter::set_offsets(const Block& block) {
+    motion_suppressed_ = true;
+    const int level = is(block, 'L') ? static_cast<int>(block.words.of('L')) : 0;
+    if (level != 2 && level != 20) {
+        if (dialect_ == DialectId::linuxcnc) set_tool(level, block);
+        event("tool-table", "G10" + words_text(block, "LPRZXYIJQ"));
+        return;
+    }
+    int system = is(block, 'P') ? static_cast<int>(block.words.of('P')) : 0;
+    if (system == 0) system = state_.work_system;
+    const Vec3 machine = state_.to_machine(state_.position);
+    const Vec3 position = state_.position.array().isNaN().select(0.0, state_.position);
+    state_.rebase([&] {
+        WorkOffset& offset = state_.work_offsets[system];
+        if (is(block, 'R') && level == 2 && dialect_ == DialectId::linuxcnc) offset.rotation = block.words.of('R');
+        Vec3 reads = position;  // L20: the present position reads as the words, in that system
+        for (int axis = 0; axis < 3; ++axis) {
+            const char letter = "XYZ"[axis];
+            if (!is(block, letter)) continue;
+            const double value = block.words.of(letter) * state_.unit_mm;
+            reads[axis] = value;
+            if (level == 2) {
+                offset.shift[axis] = state_.incremental && dialect_ == DialectId::fanuc ? offset.shift[axis] + value : value;
+            }
+        }
+        if (level == 20) {
+            const Vec3 turned = ModalState::rotated(reads + state_.shift, offset.rotation);
+            for (int axis = 0; axis < 3; ++axis) {
+                const bool turns = axis < 2 && offset.rotation != 0;  // one word moves both zeros then
+                if (is(block, "XYZ"[axis]) || turns) offset.shift[axis] = machine[axis] - state_.tool_offset[axis] - turned[axis];
+            }
+        }
+    });
+}
+
+void Interpreter::shift_position(const Block& block) {
+    motion_suppressed_ = true;
+    const bool local = std::find(block.words.g.begin(), block.words.g.begin() + block.words.g_count, 520) !=
+                       block.words.g.begin() + block.words.g_count;
+    state_.rebase([&] {
+        const Vec3 position = state_.position;
+        for (int axis = 0; axis < 3; ++axis) {
+            const char letter = "XYZ"[axis];
+            if (!is(block, letter)) continue;
+            const double value = block.words.of(letter) * state_.unit_mm;
+            if (local) {
+                state_.shift[axis] = value;
+            } else {
+                const double now = std::isnan(position[axis]) ? 0.0 : position[axis];
+                state_.shift[axis] += now - value;
+            }
+        }
+        if (!local) state_.saved_shift = state_.shift;
+    });
+}
+
+void Interpreter::select_work_system(int number) {
+    if (number == state_.work_system) return;
+    state_.rebase([&] { state_.work_system = number; });
+    event("work-system", number >= 1 && number <= 6 ? fmt::format("G{}", 53 + number) : fmt::format("{}", number));
+}
+
+/// Lines of the tool table: L1 gives a tool's values, L10 and L11 the offset with which the present
+/// position reads as the words, in the active system or (L11) in G59.3 without G92.
+void Interpreter::set_tool(int level, const Block& block) {
+    if (level != 1 && level != 10 && level != 11) fail(fmt::format("G10 L{} is not known", level));
+    if (!is(block, 'P')) fail("G10 L1, L10 and L11 need the tool's number (P)");
+    const int number = static_cast<int>(std::clamp(std::round(block.words.of('P')), 0.0, 1e6));
+    Tool tool = tools_.find(number) != nullptr ? *tools_.find(number) : Tool{number};
+    const auto length = [&](char letter) { return block.words.of(letter) * state_.unit_mm; };
+    ModalState fixture = state_;  // where the words count
+    if (level == 11) {
+        fixture.work_system = last_work_system;
+        fixture.shift = Vec3::Zero();
+    }
+    Vec3 reads = fixture.from_machine(state_.to_machine(state_.position));
+    for (int axis = 0; axis < 3; ++axis) {
+        if (is(block, "XYZ"[axis])) reads[axis] = length("XYZ"[axis]);
+    }
+    const Vec3 wanted = fixture.tool_offset + state_.to_machine(state_.position) - fixture.to_machine(reads);
+    for (int axis = 0; axis < 3; ++axis) {
+        if (is(block, "XYZ"[axis])) tool.offset[axis] = level == 1 ? length("XYZ"[axis]) : wanted[axis];
+    }
+    if (is(block, 'R')) tool.diameter = 2 * length('R');
+    if (is(block, 'I')) tool.front_angle = block.words.of('I');
+    if (is(block, 'J')) tool.back_angle = block.words.of('J');
+    if (is(block, 'Q')) tool.orientation = static_cast<int>(std::clamp(block.words.of('Q'), 0.0, 9.0));
+    tools_.tools[number] = tool;
+    if (tool_.number == number) tool_ = tool;
+}
+
+/// The tool of the table; one that is not there has neither length nor diameter, and is reported.
+Tool Interpreter::tool_of(int number, std::size_t column) {
+    if (const Tool* found = tools_.find(number)) return *found;
+    if (number != 0) {
+        note(Severity::warning, "program.tool-table",
+             fmt::format("tool {} is not in the tool table: read without length and diameter", number), column);
+    }
+    return Tool{number};
+}
+
+void Interpreter::change_tool(const Block& block) {
+    const auto whole = [&](char letter) { return static_cast<int>(std::clamp(std::round(block.words.of(letter)), 0.0, 1e8)); };
+    if (is(block, 'T')) next_tool_ = whole('T');
+    const auto* first = block.words.m.data();
+    for (const std::int32_t code : std::vector<std::int32_t>(first, first + block.words.m_count)) {
+        if (code != 6 && code != 61) continue;
+        if (compensation_.on()) fail("a tool cannot be changed while cutter compensation is on");
+        if (code == 61 && !is(block, 'Q')) fail("M61 needs the tool's number (Q)");
+        tool_ = tool_of(code == 61 ? whole('Q') : next_tool_, 0);
+    }
+}
+
+/// After the block of a tool change the stand-alone interpreter takes up the end of the last motion
+/// again, whatever length was taken off in between: T1 M6 G43 in one block leaves the position as it reads.
+void Interpreter::keep_level_after_tool_change(const Block& block) {
+    const auto* first = block.words.m.data();
+    const bool changed = std::find(first, first + block.words.m_count, 6) != first + block.words.m_count;
+    if (!changed || offset_changed_ != program_.motions.size()) return;
+    state_.position += offset_change_;
+    offset_change_ = Vec3::Zero();
+}
+
+void Interpreter::tool_length(int code, const Block& block) {
+    const auto words_move = [&](Vec3 offset) {
+        for (int axis = 0; axis < 3; ++axis) {
+            if (is(block, "XYZ"[axis])) offset[axis] = block.words.of("XYZ"[axis]) * state_.unit_mm;
+        }
+        return offset;
+    };
+    const auto table = [&](bool loaded) {
+        if (loaded) return tool_.offset;
+        const auto column = block.words.column['H' - 'A'];
+        return tool_of(static_cast<int>(std::clamp(std::round(block.words.of('H')), 0.0, 1e8)), column).offset;
+    };
+    Vec3 offset = state_.tool_offset;
+    if (code == 431) {
+        motion_suppressed_ = true;
+        offset = words_move(offset);
+    } else if (code == 490) {
+        offset = Vec3::Zero();
+    } else if (dialect_ == DialectId::linuxcnc && code == 430) {
+        offset = table(!is(block, 'H') || block.words.of('H') == 0);
+    } else if (dialect_ == DialectId::linuxcnc && code == 432) {
+        if (!is(block, 'H')) fail("G43.2 needs the tool's number (H)");
+        offset += table(false);
+    }
+    if (offset_changed_ != program_.motions.size()) offset_change_ = Vec3::Zero();
+    offset_changed_ = program_.motions.size();
+    offset_change_ += offset - state_.tool_offset;
+    state_.rebase([&] { state_.tool_offset = offset; });
+    event("tool-length", code_text(code) + words_text(block, "H"));
+}
+
+void Interpreter::reference(int code, const Block& block) {
+    motion_suppressed_ = true;
+    const Vec3 home = state_.from_machine(code == 280 ? state_.home : state_.second_home);
+    std::uint32_t named = 0;
+    for (const char c : {'X', 'Y', 'Z', 'A', 'B', 'C'}) named |= block.words.has & Words::bit(c);
+    if (named != 0) straight(MotionKind::rapid, target(block, machine_coordinates_), rotary_target(block));
+    // RS274: without axis words all axes go; with them only those.
+    Vec3 end = state_.position;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (named == 0 || is(block, "XYZ"[axis])) end[axis] = home[axis];
+    }
+    straight(MotionKind::rapid, end, named == 0 ? Vec3(Vec3::Zero()) : state_.rotary);
+}
+
+}  // namespace clsurf
