@@ -78,7 +78,7 @@ void Interpreter::execute(Block& block) {
         }
     }
     if (!motion_suppressed_) move(block);
-    if (dialect_ == DialectId::linuxcnc) keep_level_after_tool_change(block);
+    if (dialect_ == DialectId::linuxcnc) read_machine_position(block);
     report_unused(block);
     if (stops) {
         for (int i = 0; i < block.words.m_count; ++i) {
@@ -165,7 +165,9 @@ void Interpreter::apply_common(int code, Block& block, std::size_t column) {
         default: break;
     }
     if (std::find(cycle_codes.begin(), cycle_codes.end(), code) != cycle_codes.end()) {
-        if (state_.motion != MotionMode::cycle || state_.cycle != code) cycle_ = {};
+        // Another cycle needs its own words; the level where the first of them began stays.
+        if (state_.motion != MotionMode::cycle) cycle_ = {};
+        if (state_.cycle != code) cycle_ = CycleState{.initial = cycle_.initial};
         state_.motion = MotionMode::cycle;
         state_.cycle = code;
         return;

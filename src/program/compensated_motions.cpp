@@ -55,7 +55,10 @@ void Interpreter::start_compensation(int code, const Block& block, std::size_t c
 void Interpreter::stop_compensation() {
     const std::string error = compensation_.finish();
     if (!error.empty()) fail(error);
-    if (compensation_.entered()) compensation_ended_ = program_.motions.size();
+    if (compensation_.entered()) {
+        compensation_ended_ = program_.motions.size();
+        part_from_machine(tool_position() - state_.position);
+    }
     compensation_.stop();
     event("cutter-compensation", "G40");
 }

@@ -86,7 +86,7 @@ CompensatedStep CutterCompensation::arc(const Vec2& from, const Vec2& to, const 
     if (first_) return entry_arc(from, to, centre, counter_clockwise);
     CompensatedStep step;
     const double programmed = (from - centre).norm();
-    if (inside(counter_clockwise) && programmed <= radius_) {
+    if (inside(counter_clockwise) && programmed < radius_ - no_length) {
         step.error = fmt::format("the tool (radius {:.4f} mm) does not fit into an arc of radius {:.4f} mm", radius_, programmed);
         return step;
     }
@@ -137,7 +137,7 @@ CompensatedStep CutterCompensation::entry_arc(const Vec2& from, const Vec2& to, 
         step.error = fmt::format("the entry arc into cutter compensation must reach farther than the tool's radius ({:.4f} mm)", radius_);
         return step;
     }
-    if (inside(counter_clockwise) && (to - centre).norm() <= radius_) {
+    if (inside(counter_clockwise) && (to - centre).norm() < radius_ - no_length) {
         step.error = fmt::format("the tool (radius {:.4f} mm) does not fit into an arc of radius {:.4f} mm", radius_, (to - centre).norm());
         return step;
     }

@@ -35,7 +35,8 @@ Stroke stroke_of(int code) {
 
 void Interpreter::cycle(const Block& block) {
     const int code = state_.cycle;
-    if (code == 760 || code == 870) {
+    const bool from_below = code == 870 && dialect_ == DialectId::linuxcnc;
+    if (code == 760 || (code == 870 && !from_below)) {
         note(Severity::warning, "program.cycle", fmt::format("G{} is not carried out", code / 10));
         return;
     }
@@ -50,11 +51,14 @@ void Interpreter::cycle(const Block& block) {
     word(depth_letter, cycle_.z);
     word('Q', cycle_.q);
     if (block.words.given('P')) cycle_.p = block.words.of('P') * (dialect_ == DialectId::fanuc ? 0.001 : 1.0);
+    for (int k = 0; k < 3; ++k) word("IJK"[k], cycle_.ijk[k]);
     if (stroke.pecks && !(cycle_.q > 0)) fail(fmt::format("G{} needs Q greater than 0", code / 10));
 
     Vec3 position = state_.position.array().isNaN().select(0.0, state_.position);
     double level = position[c];
-    const double r = state_.incremental ? cycle_.r + level : cycle_.r;
+    // Increments of R count from where the first cycle began, whichever level the tool is at now.
+    if (std::isnan(cycle_.initial)) cycle_.initial = level;
+    const double r = state_.incremental ? cycle_.r + cycle_.initial : cycle_.r;
     const double bottom = state_.incremental ? r + cycle_.z : cycle_.z;
     if (r < bottom) fail(fmt::format("the cycle's R ({:g}) is below its bottom ({:g})", r, bottom));
     int repeats = 1;
@@ -68,7 +72,6 @@ void Interpreter::cycle(const Block& block) {
         end[c] = height;
         straight(kind, end, rotary);
     };
-    if (std::isnan(cycle_.initial)) cycle_.initial = level;
     if (level < r) {
         to(MotionKind::rapid, r);
         level = r;
@@ -79,6 +82,10 @@ void Interpreter::cycle(const Block& block) {
         hole[c] = state_.retract_to_r ? state_.position[c] : std::max(level, clear);  // as RS274 goes there
         straight(MotionKind::rapid, hole, rotary);
         to(MotionKind::rapid, r);
+        if (from_below) {
+            bore_back(r, bottom, clear, rotary);
+            continue;
+        }
         if (stroke.pecks) {
             if ((r - bottom) / cycle_.q > most_pecks) fail("too many pecks: Q is too small");
             for (double depth = r - cycle_.q; depth > bottom; depth -= cycle_.q) {
@@ -89,8 +96,37 @@ void Interpreter::cycle(const Block& block) {
         }
         to(MotionKind::feed, bottom);
         if (stroke.dwells) push(MotionKind::dwell, state_.position, state_.rotary, static_cast<float>(cycle_.p));
+        if (code == 880 && dialect_ == DialectId::linuxcnc) {
+            // The operator takes the tool out by hand: no motion of the program.
+            event("stop", "G88");
+            state_.position[c] = clear;
+            continue;
+        }
         to(stroke.feeds_out ? MotionKind::feed : MotionKind::rapid, clear);
     }
+}
+
+/// G87, back boring: in beside the hole, below it to its middle, up to K with feed, and out the same way.
+void Interpreter::bore_back(double r, double bottom, double clear, const Vec3& rotary) {
+    const int c = state_.plane_axis;
+    Vec3 aside = cycle_.ijk;
+    const double top = aside[c] + (state_.incremental ? bottom : 0.0);
+    aside[c] = 0;
+    const Vec3 hole = state_.position;
+    const auto to = [&](MotionKind kind, const Vec3& beside, double height) {
+        Vec3 end = hole + beside;
+        end[c] = height;
+        straight(kind, end, rotary);
+    };
+    const Vec3 middle = Vec3::Zero();
+    to(MotionKind::rapid, aside, r);
+    to(MotionKind::rapid, aside, bottom);
+    to(MotionKind::rapid, middle, bottom);
+    to(MotionKind::feed, middle, top);
+    to(MotionKind::feed, middle, bottom);
+    to(MotionKind::rapid, aside, bottom);
+    to(MotionKind::rapid, aside, clear);
+    to(MotionKind::rapid, middle, clear);
 }
 
 }  // namespace clsurf

@@ -29,6 +29,7 @@ struct Frame {
 
 struct CycleState {
     double r = 0, z = 0, q = 0;  ///< sticky words [mm]
+    Vec3 ijk = Vec3::Zero();     ///< of G87: the way aside, and the height to bore to [mm]
     double p = 0;                ///< dwell [s]
     double initial = std::numeric_limits<double>::quiet_NaN();  ///< level where the cycle began [mm]
 };
@@ -67,7 +68,8 @@ private:
     void shift_position(const Block& block);    ///< G92
     void select_work_system(int number);
     void change_tool(const Block& block);       ///< T, M6, M61
-    void keep_level_after_tool_change(const Block& block);
+    void part_from_machine(const Vec3& by);
+    void read_machine_position(const Block& block);
     [[nodiscard]] Tool tool_of(int number, std::size_t column);
     void tool_length(int code, const Block& block);
     void reference(int code, const Block& block);  ///< G28, G30
@@ -97,6 +99,7 @@ private:
     void push(MotionKind kind, const Vec3& end, const Vec3& rotary, float feed);
     [[nodiscard]] float feed_for(double length);
     void cycle(const Block& block);
+    void bore_back(double r, double bottom, double clear, const Vec3& rotary);
 
     // flow.cpp: control statements; true: the line was one
     bool control(const Statement& statement);
@@ -123,8 +126,8 @@ private:
     CutterCompensation compensation_;
     std::size_t open_motions_ = 0;      ///< the first motion whose end an inside corner may still move
     std::int64_t compensation_ended_ = -1;  ///< motions before G40: the next one is a straight one
-    std::int64_t offset_changed_ = -1;      ///< motions before the tool offset changed last
-    Vec3 offset_change_ = Vec3::Zero();     ///< by how much, since those motions [mm]
+    std::int64_t unread_since_ = -1;        ///< motions before the position and the machine parted
+    Vec3 unread_ = Vec3::Zero();            ///< from the position as it reads to the last motion's end [mm]
 
     // Where it reads.
     std::size_t file_ = 0;

@@ -43,8 +43,11 @@ Vec3 Interpreter::target(const Block& block, bool machine) const {
 
 /// LinuxCNC's polar words: @ radius, ^ angle about the work origin.
 void Interpreter::put_polar(const Block& block, Vec3& end) const {
+    if (block.words.given('X') || block.words.given('Y')) fail("polar words (@, ^) cannot stand beside X or Y");
+    if (state_.plane_axis != 2) fail("polar words (@, ^) need the XY plane (G17)");
     const Vec2 from(end.x(), end.y());
     const double radius_now = from.norm();
+    if (radius_now == 0 && (state_.incremental || !block.polar_angle)) fail("polar words (@, ^) at the origin: the angle is not known");
     const double angle_now = std::atan2(from.y(), from.x());
     double radius = radius_now;
     double angle = angle_now;

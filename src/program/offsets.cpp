@@ -129,14 +129,23 @@ void Interpreter::change_tool(const Block& block) {
     }
 }
 
-/// After the block of a tool change the stand-alone interpreter takes up the end of the last motion
-/// again, whatever length was taken off in between: T1 M6 G43 in one block leaves the position as it reads.
-void Interpreter::keep_level_after_tool_change(const Block& block) {
+/// From here on the end of the last motion is not what the position reads: a length was taken off, or
+/// compensation ended beside the programmed point.
+void Interpreter::part_from_machine(const Vec3& by) {
+    if (unread_since_ != program_.motions.size()) unread_ = Vec3::Zero();
+    unread_since_ = program_.motions.size();
+    unread_ += by;
+}
+
+/// After a tool change, or after waiting for an input, the interpreter takes up the end of the last
+/// motion again. The stand-alone one does so without the length that was taken off since: T1 M6 G43 in
+/// one block leaves the position as it reads.
+void Interpreter::read_machine_position(const Block& block) {
     const auto* first = block.words.m.data();
-    const bool changed = std::find(first, first + block.words.m_count, 6) != first + block.words.m_count;
-    if (!changed || offset_changed_ != program_.motions.size()) return;
-    state_.position += offset_change_;
-    offset_change_ = Vec3::Zero();
+    const bool reads = std::any_of(first, first + block.words.m_count, [](std::int32_t code) { return code == 6 || code == 66; });
+    if (!reads || unread_since_ != program_.motions.size()) return;
+    state_.position += unread_;
+    unread_ = Vec3::Zero();
 }
 
 void Interpreter::tool_length(int code, const Block& block) {
@@ -163,9 +172,7 @@ void Interpreter::tool_length(int code, const Block& block) {
         if (!is(block, 'H')) fail("G43.2 needs the tool's number (H)");
         offset += table(false);
     }
-    if (offset_changed_ != program_.motions.size()) offset_change_ = Vec3::Zero();
-    offset_changed_ = program_.motions.size();
-    offset_change_ += offset - state_.tool_offset;
+    part_from_machine(offset - state_.tool_offset);
     state_.rebase([&] { state_.tool_offset = offset; });
     event("tool-length", code_text(code) + words_text(block, "H"));
 }
