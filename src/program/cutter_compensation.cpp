@@ -14,7 +14,7 @@ constexpr double pi = std::numbers::pi;
 constexpr double flat_corner = 0.05;
 constexpr double no_length = 1e-9;     ///< [mm]
 constexpr double angle_play = 1e-9;    ///< [rad]
-constexpr double sweep_play = 1e-6;    ///< [rad]
+
 
 double angle_of(const Vec2& v) { return std::atan2(v.y(), v.x()); }
 Vec2 left_of(const Vec2& v) { return {-v.y(), v.x()}; }
@@ -157,7 +157,7 @@ CompensatedStep CutterCompensation::entry_arc(const Vec2& from, const Vec2& to, 
     open_.begin = from;
     open_.centre = middle;
     open_.radius = (end - middle).norm();
-    open_.sweep = sweep_of(from, end, middle, counter_clockwise);
+    open_.sweep = 2 * pi;  // LinuxCNC lets a corner cut into an entry arc as far as it goes
     open_.counter_clockwise = counter_clockwise;
     centre_ = end;
     step.moves.push_back({end, middle, true, counter_clockwise});
@@ -243,8 +243,9 @@ bool CutterCompensation::meet(const Vec2& corner, const Open& next, CompensatedS
 std::string CutterCompensation::check_reach(const Vec2& end) const {
     if (!open_.valid) return {};
     if (open_.is_arc) {
+        // A flat corner may have let it begin a little early.
         const double left = sweep_of(open_.begin, end, open_.centre, open_.counter_clockwise);
-        if (left > open_.sweep + sweep_play) return "an arc before an inside corner is too short: the tool would gouge";
+        if (left > open_.sweep + flat_corner) return "an arc before an inside corner is too short: the tool would gouge";
         return {};
     }
     if ((end - open_.begin).dot(open_.direction) < 0) return "a line before an inside corner is too short: the tool would gouge";
