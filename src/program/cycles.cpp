@@ -45,7 +45,7 @@ void Interpreter::cycle(const Block& block) {
     const int c = state_.plane_axis;  // the drilling axis
     const char depth_letter = "XYZ"[c];
     const auto word = [&](char letter, double& kept) {
-        if (block.words.given(letter)) kept = block.words.of(letter) * (letter == 'P' ? 1.0 : unit);
+        if (block.words.given(letter)) kept = block.words.of(letter);
     };
     word('R', cycle_.r);
     word(depth_letter, cycle_.z);
@@ -54,12 +54,12 @@ void Interpreter::cycle(const Block& block) {
     for (int k = 0; k < 3; ++k) word("IJK"[k], cycle_.ijk[k]);
     if (stroke.pecks && !(cycle_.q > 0)) fail(fmt::format("G{} needs Q greater than 0", code / 10));
 
-    Vec3 position = state_.position.array().isNaN().select(0.0, state_.position);
-    double level = position[c];
+    const Vec3 position = state_.position.array().isNaN().select(0.0, state_.position);
     // Increments of R count from where the first cycle began, whichever level the tool is at now.
-    if (std::isnan(cycle_.initial)) cycle_.initial = level;
-    const double r = state_.incremental ? cycle_.r + cycle_.initial : cycle_.r;
-    const double bottom = state_.incremental ? r + cycle_.z : cycle_.z;
+    if (std::isnan(cycle_.initial)) cycle_.initial = position[c];
+    const double r = cycle_.r * unit + (state_.incremental ? cycle_.initial : 0.0);
+    const double bottom = cycle_.z * unit + (state_.incremental ? r : 0.0);
+    const double peck = cycle_.q * unit;
     if (r < bottom) fail(fmt::format("the cycle's R ({:g}) is below its bottom ({:g})", r, bottom));
     int repeats = 1;
     for (const char letter : {'L', 'K'}) {
@@ -72,14 +72,13 @@ void Interpreter::cycle(const Block& block) {
         end[c] = height;
         straight(kind, end, rotary);
     };
-    if (level < r) {
-        to(MotionKind::rapid, r);
-        level = r;
-    }
+    // Up to R at once where the cycles began below it, even if the tool has come up since.
+    if (cycle_.initial < r) to(MotionKind::rapid, r);
     const double clear = state_.retract_to_r ? r : std::max(r, cycle_.initial);
     for (int k = 0; k < repeats; ++k) {
         Vec3 hole = target(block, machine_coordinates_);
-        hole[c] = state_.retract_to_r ? state_.position[c] : std::max(level, clear);  // as RS274 goes there
+        const double now = state_.position[c];
+        hole[c] = now < clear ? clear : now;
         straight(MotionKind::rapid, hole, rotary);
         to(MotionKind::rapid, r);
         if (from_below) {
@@ -87,8 +86,8 @@ void Interpreter::cycle(const Block& block) {
             continue;
         }
         if (stroke.pecks) {
-            if ((r - bottom) / cycle_.q > most_pecks) fail("too many pecks: Q is too small");
-            for (double depth = r - cycle_.q; depth > bottom; depth -= cycle_.q) {
+            if ((r - bottom) / peck > most_pecks) fail("too many pecks: Q is too small");
+            for (double depth = r - peck; depth > bottom; depth -= peck) {
                 to(MotionKind::feed, depth);
                 if (!stroke.breaks_chips) to(MotionKind::rapid, r);
                 to(MotionKind::rapid, depth + peck_clearance_mm);
@@ -102,14 +101,20 @@ void Interpreter::cycle(const Block& block) {
             state_.position[c] = clear;
             continue;
         }
-        to(stroke.feeds_out ? MotionKind::feed : MotionKind::rapid, clear);
+        if (stroke.feeds_out) {
+            // Feeds end at R; but LinuxCNC runs at feed all the way, except in G85.
+            const bool all_the_way = dialect_ == DialectId::linuxcnc && code != 850;
+            to(MotionKind::feed, all_the_way ? clear : r);
+            if (state_.position[c] == clear) continue;
+        }
+        to(MotionKind::rapid, clear);
     }
 }
 
 /// G87, back boring: in beside the hole, below it to its middle, up to K with feed, and out the same way.
 void Interpreter::bore_back(double r, double bottom, double clear, const Vec3& rotary) {
     const int c = state_.plane_axis;
-    Vec3 aside = cycle_.ijk;
+    Vec3 aside = cycle_.ijk * state_.unit_mm;
     const double top = aside[c] + (state_.incremental ? bottom : 0.0);
     aside[c] = 0;
     const Vec3 hole = state_.position;

@@ -28,8 +28,8 @@ struct Frame {
 };
 
 struct CycleState {
-    double r = 0, z = 0, q = 0;  ///< sticky words [mm]
-    Vec3 ijk = Vec3::Zero();     ///< of G87: the way aside, and the height to bore to [mm]
+    double r = 0, z = 0, q = 0;  ///< sticky words, as programmed
+    Vec3 ijk = Vec3::Zero();     ///< of G87: the way aside, and the height to bore to, as programmed
     double p = 0;                ///< dwell [s]
     double initial = std::numeric_limits<double>::quiet_NaN();  ///< level where the cycle began [mm]
 };
