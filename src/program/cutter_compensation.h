@@ -34,6 +34,7 @@ public:
     void stop();
 
     [[nodiscard]] bool on() const { return on_; }         ///< G41 or G42, whatever the radius
+    [[nodiscard]] bool left() const { return left_; }
     [[nodiscard]] bool active() const { return on_ && radius_ > 0; }
     [[nodiscard]] bool entered() const { return active() && !first_; }  ///< the entry move has been made
     /// Where the tool's centre is and what was programmed [mm]. Only after the entry move.

@@ -65,6 +65,13 @@ const double* Variables::find(const std::string& name) const {
     return global == names_.end() ? nullptr : &global->second;
 }
 
+std::optional<double> Variables::read(const std::string& name) const {
+    if (const double* found = find(name)) return *found;
+    if (!named_system_) return std::nullopt;
+    const double value = named_system_(name);
+    return std::isnan(value) ? std::nullopt : std::optional(value);
+}
+
 void Variables::set(const std::string& name, double value) {
     (name.starts_with('_') ? names_ : locals_.back().names)[name] = value;
 }
@@ -303,7 +310,7 @@ private:
             if (end == std::string_view::npos) throw ReadError{"'#<' is not closed by '>'", column, {}};
             const std::string key = folded_name(c_.text.substr(c_.at, end - c_.at));
             c_.at = end + 1;
-            if (const double* found = variables_.find(key)) return *found;
+            if (const std::optional<double> found = variables_.read(key)) return *found;
             throw ReadError{"variable #<" + key + "> was never set", column, {}};
         }
         return variables_.get(variable_number(value(), column));
@@ -381,7 +388,7 @@ private:
         if (c_.take('<')) {
             const std::size_t end = c_.text.find('>', c_.at);
             if (end == std::string_view::npos) throw ReadError{"'#<' is not closed by '>'", column, {}};
-            result = variables_.find(folded_name(c_.text.substr(c_.at, end - c_.at))) != nullptr ? 1 : 0;
+            result = variables_.read(folded_name(c_.text.substr(c_.at, end - c_.at))) ? 1 : 0;
             c_.at = end + 1;
         } else {
             result = variables_.has(variable_number(value(), column)) ? 1 : 0;

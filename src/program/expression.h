@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -20,7 +21,13 @@ public:
     /// `system(n)` answers for parameters that the controller keeps (positions, offsets); NaN: none.
     using System = std::function<double(int number)>;
 
-    explicit Variables(System system) : system_(std::move(system)) { push_locals(); }
+    /// The same for names: "_x", "_metric"; NaN: none.
+    using NamedSystem = std::function<double(const std::string& name)>;
+
+    explicit Variables(System system, NamedSystem named_system = {})
+        : system_(std::move(system)), named_system_(std::move(named_system)) {
+        push_locals();
+    }
 
     /// A numbered variable; what was never set reads as 0.
     [[nodiscard]] double get(int number) const;
@@ -29,6 +36,8 @@ public:
 
     /// A named variable ("_x" and other names that begin with an underscore are global in RS274).
     [[nodiscard]] const double* find(const std::string& name) const;
+    /// The same, or what the controller keeps under that name.
+    [[nodiscard]] std::optional<double> read(const std::string& name) const;
     void set(const std::string& name, double value);
 
     /// A new set of local variables (#1 … #33 and local names) for a call.
@@ -44,6 +53,7 @@ private:
     static bool is_local(int number) { return number >= 1 && number <= 33; }
 
     System system_;
+    NamedSystem named_system_;
     std::vector<Locals> locals_;
     std::unordered_map<int, double> numbers_;
     std::unordered_map<std::string, double> names_;

@@ -18,7 +18,8 @@ constexpr std::size_t shown_line_bytes = 4000;  ///< of a source line in a messa
 }  // namespace
 
 Interpreter::Interpreter(SourceText text, const InterpreterOptions& options)
-    : options_(options), variables_([this](int number) { return parameter(number); }) {
+    : options_(options), variables_([this](int number) { return parameter(number); },
+                                     [this](const std::string& name) { return named_parameter(name); }) {
     program_.dialect = options.dialect != nullptr ? options.dialect : &detect_dialect(text.text());
     dialect_ = program_.dialect->id;
     program_.files.push_back(std::move(text));
@@ -155,54 +156,6 @@ void Interpreter::note(Severity severity, const char* code, const std::string& t
 
 void Interpreter::event(const std::string& name, const std::string& value) {
     program_.events.push_back({program_.motions.size(), line_, name, value});
-}
-
-double Interpreter::parameter(int number) const {
-    constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    const double unit = state_.unit_mm;
-    const double machine_unit = tools_.unit_mm;
-    const Vec3 at = tool_position();
-    const Vec3 known = at.array().isNaN().select(0.0, at);
-    const auto axis_of = [&](int first, const Vec3& lengths, const Vec3& angles, double per) {
-        const int k = number - first;
-        return k < 3 ? lengths[k] / per : k < 6 ? angles[k - 3] : 0.0;
-    };
-    const Vec3 none_turned = Vec3::Zero();
-    if (dialect_ == DialectId::linuxcnc) {
-        if (number >= 5420 && number <= 5428) return axis_of(5420, known, state_.rotary, unit);
-        if (number >= 5161 && number <= 5169) return axis_of(5161, state_.home, none_turned, machine_unit);
-        if (number >= 5181 && number <= 5189) return axis_of(5181, state_.second_home, none_turned, machine_unit);
-        if (number >= 5211 && number <= 5219) return axis_of(5211, -state_.shift, none_turned, machine_unit);
-        if (number == 5220) return state_.work_system;
-        if (number >= 5221 && number < 5221 + 9 * 20) {
-            const int system = (number - 5221) / 20 + 1;
-            const int axis = (number - 5221) % 20;
-            const auto found = state_.work_offsets.find(system);
-            const WorkOffset offset = found == state_.work_offsets.end() ? WorkOffset{} : found->second;
-            if (axis == 9) return offset.rotation;
-            return axis < 3 ? offset.shift[axis] / machine_unit : 0.0;
-        }
-        switch (number) {
-            case 5400: return tool_.number;
-            case 5410: return tool_.diameter / machine_unit;
-            case 5411: return tool_.front_angle;
-            case 5412: return tool_.back_angle;
-            case 5413: return tool_.orientation;
-            default: break;
-        }
-        if (number >= 5401 && number <= 5409) return axis_of(5401, tool_.offset, none_turned, machine_unit);
-        return none;
-    }
-    if (dialect_ == DialectId::fanuc) {
-        for (const int first : {5001, 5041}) {
-            if (number >= first && number < first + 6) return axis_of(first, known, state_.rotary, unit);
-        }
-        if (number >= 5021 && number < 5027) return axis_of(5021, state_.to_machine(known), state_.rotary, unit);
-        if (number == 4003) return state_.incremental ? 91 : 90;
-        if (number == 4006) return unit == 1 ? 21 : 20;
-        if (number == 4109) return state_.feed;
-    }
-    return none;
 }
 
 Program parse_program(SourceText text, const InterpreterOptions& options) {

@@ -49,7 +49,10 @@ private:
     [[noreturn]] void fail(const std::string& what, std::size_t column = 0, const std::string& hint = {}) const;
     void note(Severity severity, const char* code, const std::string& text, std::size_t column = 0);
     void event(const std::string& name, const std::string& value);
-    [[nodiscard]] double parameter(int number) const;  ///< of the control; NaN: an ordinary variable
+
+    // parameters.cpp: of the control; NaN: an ordinary variable
+    [[nodiscard]] double parameter(int number) const;
+    [[nodiscard]] double named_parameter(const std::string& name) const;
 
     // codes.cpp: what words mean
     void execute(Block& block);
