@@ -198,7 +198,7 @@ bool Interpreter::apply_of_dialect(int code, Block& block, std::size_t column) {
                 case 100: set_offsets(block); return true;
                 case 281: state_.home = state_.to_machine(state_.position); motion_suppressed_ = true; return true;
                 case 301: state_.second_home = state_.to_machine(state_.position); motion_suppressed_ = true; return true;
-                case 331: state_.motion = MotionMode::thread; return true;
+                case 331: state_.motion = MotionMode::tap; return true;
                 case 382: case 383: case 384: case 385:
                     state_.motion = MotionMode::probe;
                     return true;

@@ -35,6 +35,10 @@ Stroke stroke_of(int code) {
 
 void Interpreter::cycle(const Block& block) {
     const int code = state_.cycle;
+    if (code == 760 && dialect_ == DialectId::linuxcnc) {
+        thread_cycle(block);
+        return;
+    }
     const bool from_below = code == 870 && dialect_ == DialectId::linuxcnc;
     if (code == 760 || (code == 870 && !from_below)) {
         note(Severity::warning, "program.cycle", fmt::format("G{} is not carried out", code / 10));

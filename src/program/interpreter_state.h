@@ -102,6 +102,8 @@ private:
     void push(MotionKind kind, const Vec3& end, const Vec3& rotary, float feed);
     [[nodiscard]] float feed_for(double length);
     void cycle(const Block& block);
+    void thread_cycle(const Block& block);   ///< G76
+    void tap(const Vec3& end, const Vec3& rotary);  ///< G33.1
     void bore_back(double r, double bottom, double clear, const Vec3& rotary);
 
     // flow.cpp: control statements; true: the line was one

@@ -13,7 +13,7 @@
 namespace clsurf {
 
 enum class MotionMode : std::uint8_t {
-    none, rapid, feed, cw, ccw, thread, cubic_spline, quadratic_spline, nurbs, probe, cycle,
+    none, rapid, feed, cw, ccw, thread, tap, cubic_spline, quadratic_spline, nurbs, probe, cycle,
 };
 
 enum class FeedMode : std::uint8_t { per_minute, per_revolution, inverse_time };

@@ -90,6 +90,9 @@ void Interpreter::move(const Block& block) {
             compensated_straight(state_.motion == MotionMode::rapid ? MotionKind::rapid : MotionKind::feed,
                                  target(block, machine_coordinates_), rotary_target(block));
             return;
+        case MotionMode::tap:
+            if (axes) tap(target(block, machine_coordinates_), rotary_target(block));
+            return;
         case MotionMode::cw:
         case MotionMode::ccw:
             if (axes || (block.words.has & centres) != 0) arc(block, state_.motion == MotionMode::cw);

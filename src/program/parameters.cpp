@@ -17,6 +17,7 @@ int code_of(MotionMode mode, int cycle) {
         case MotionMode::cw: return 20;
         case MotionMode::ccw: return 30;
         case MotionMode::thread: return 330;
+        case MotionMode::tap: return 331;
         case MotionMode::cubic_spline: return 50;
         case MotionMode::quadratic_spline: return 51;
         case MotionMode::nurbs: return 52;
