@@ -131,14 +131,7 @@ void Interpreter::apply_common(int code, Block& block, std::size_t column) {
         case 434: case 435: event("tool-centre-point", code_text(code)); return;
         case 520: case 920: case 921: case 922: case 923:
             if (code == 520 || code == 920) shift_position(block);
-            if (code == 921 || code == 922) {
-                state_.rebase([&] {
-                    if (code == 921) state_.saved_shift = Vec3::Zero();
-                    if (code == 922) state_.saved_shift = state_.shift;
-                    state_.shift = Vec3::Zero();
-                });
-            }
-            if (code == 923) state_.rebase([&] { state_.shift = state_.saved_shift; });
+            else restore_shift(code);
             return;
         case 530: machine_coordinates_ = true; return;
         case 540: case 550: case 560: case 570: case 580: case 590:
@@ -196,8 +189,7 @@ bool Interpreter::apply_of_dialect(int code, Block& block, std::size_t column) {
                     event("lathe", code_text(code));
                     return true;
                 case 100: set_offsets(block); return true;
-                case 281: state_.home = state_.to_machine(state_.position); motion_suppressed_ = true; return true;
-                case 301: state_.second_home = state_.to_machine(state_.position); motion_suppressed_ = true; return true;
+                case 281: case 301: keep_reference(code); return true;
                 case 331: state_.motion = MotionMode::tap; return true;
                 case 382: case 383: case 384: case 385:
                     state_.motion = MotionMode::probe;
@@ -281,6 +273,9 @@ void Interpreter::apply_m(int code, const Block& block) {
         case 7: case 8: case 9: event("coolant", fmt::format("M{}", code)); return;
         case 17:
             if (dialect_ == DialectId::siemens) leave(false);
+            return;
+        case 70: case 71: case 72: case 73:
+            if (dialect_ == DialectId::linuxcnc) keep_modes(code);
             return;
         case 98: case 99:
             if (dialect_ == DialectId::fanuc || dialect_ == DialectId::linuxcnc) {

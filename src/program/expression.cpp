@@ -259,7 +259,7 @@ private:
     }
     static bool same(double a, double b) { return std::abs(a - b) < equal_within; }
     /// RS274 orders exactly: a loop that counts by tenths ends where its sum ends.
-    [[nodiscard]] bool near(double a, double b) const { return dialect_ != DialectId::linuxcnc && same(a, b); }
+    [[nodiscard]] bool near(double a, double b) const { return dialect_ == DialectId::linuxcnc ? a == b : same(a, b); }
 
     double unsigned_or_signed() {
         const char next = c_.peek();

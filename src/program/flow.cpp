@@ -330,6 +330,8 @@ void Interpreter::call(const std::string& name, int repeats, bool locals, const 
     if (locals) variables_.push_locals();
     for (std::size_t k = 0; k < arguments.size() && k < 33; ++k) variables_.set(static_cast<int>(k) + 1, arguments[k]);
     frames_.push_back(std::move(frame));
+    kept_modes_.emplace_back();
+    restores_modes_.push_back(false);
     go_to(file, frames_.back().start_line);
 }
 
@@ -346,6 +348,9 @@ void Interpreter::leave(bool from_end_of_text) {
         go_to(frame.start_file, frame.start_line);
         return;
     }
+    if (restores_modes_.back() && kept_modes_.back()) restore_modes(*kept_modes_.back());
+    kept_modes_.pop_back();
+    restores_modes_.pop_back();
     if (frame.locals) variables_.pop_locals();
     counters_ = std::move(frame.counters);
     const std::size_t file = frame.file;

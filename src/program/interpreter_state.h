@@ -69,6 +69,10 @@ private:
     void set_offsets(const Block& block);       ///< G10
     void set_tool(int level, const Block& block);  ///< G10 L1, L10, L11
     void shift_position(const Block& block);    ///< G92
+    void restore_shift(int code);               ///< G92.1 … G92.3
+    void keep_modes(int code);                  ///< M70 … M73
+    void restore_modes(const ModalState& kept);
+    void keep_reference(int code);              ///< G28.1, G30.1
     void select_work_system(int number);
     void change_tool(const Block& block);       ///< T, M6, M61
     void part_from_machine(const Vec3& by);
@@ -141,6 +145,8 @@ private:
     std::size_t next_byte_ = 0;
     std::string_view current_;  ///< text of the line that runs
     std::vector<Frame> frames_;
+    std::vector<std::optional<ModalState>> kept_modes_{1};  ///< by level of calls: what M70 and M73 kept
+    std::vector<bool> restores_modes_{false};               ///< M73: they come back on return
     std::map<LineNumber, double> counters_;
     std::uint64_t jumps_ = 0;
     bool ended_ = false;

@@ -21,6 +21,7 @@ enum class FeedMode : std::uint8_t { per_minute, per_revolution, inverse_time };
 struct WorkOffset {
     Vec3 shift = Vec3::Zero();  ///< [mm]
     double rotation = 0;        ///< about z [deg]
+    Vec3 rotary = Vec3::Zero(); ///< A, B, C [deg]
 };
 
 struct ModalState {
@@ -42,9 +43,11 @@ struct ModalState {
     int work_system = 1;         ///< 1: G54
     std::map<int, WorkOffset> work_offsets;
     Vec3 shift = Vec3::Zero();        ///< G92 and G52 together [mm]
-    Vec3 saved_shift = Vec3::Zero();  ///< what G92.3 restores
+    Vec3 rotary_shift = Vec3::Zero(); ///< the same of A, B, C [deg]
+    Vec3 saved_shift = Vec3::Zero(), saved_rotary_shift = Vec3::Zero();  ///< what G92.3 restores
     Vec3 tool_offset = Vec3::Zero();  ///< [mm]
     Vec3 home = Vec3::Zero(), second_home = Vec3::Zero();  ///< G28, G30; machine coordinates
+    Vec3 home_rotary = Vec3::Zero(), second_home_rotary = Vec3::Zero();  ///< [deg]
 
     [[nodiscard]] WorkOffset work_offset() const {
         const auto found = work_offsets.find(work_system);
@@ -58,12 +61,16 @@ struct ModalState {
         const WorkOffset offset = work_offset();
         return rotated(m - tool_offset - offset.shift, -offset.rotation) - shift;
     }
+    /// From A, B, C as programmed to those of the machine [deg].
+    [[nodiscard]] Vec3 rotary_offset() const { return rotary_shift + work_offset().rotary; }
     /// Changes offsets by `change` while the machine stands still: the position is read anew.
     template <typename Change>
     void rebase(Change&& change) {
         const Vec3 machine = to_machine(position);
+        const Vec3 machine_rotary = rotary + rotary_offset();
         change();
         position = from_machine(machine);
+        rotary = machine_rotary - rotary_offset();
     }
 
     /// Turned about z by an angle [deg].

@@ -58,11 +58,16 @@ void Interpreter::put_polar(const Block& block, Vec3& end) const {
 }
 
 Vec3 Interpreter::rotary_target(const Block& block) const {
+    const bool machine = machine_coordinates_ && dialect_ == DialectId::linuxcnc;
     Vec3 target = state_.rotary;
     for (int axis = 0; axis < 3; ++axis) {
         const char letter = "ABC"[axis];
         if (!block.words.given(letter)) continue;
         const std::uint32_t bit = Words::bit(letter);
+        if (machine) {
+            target[axis] = block.words.of(letter) - state_.rotary_offset()[axis];
+            continue;
+        }
         const bool incremental = state_.incremental ? (block.absolute & bit) == 0 : (block.incremental & bit) != 0;
         target[axis] = (incremental ? target[axis] : 0.0) + block.words.of(letter);
     }

@@ -27,6 +27,7 @@ void Interpreter::set_offsets(const Block& block) {
     int system = is(block, 'P') ? static_cast<int>(block.words.of('P')) : 0;
     if (system == 0) system = state_.work_system;
     const Vec3 machine = state_.to_machine(state_.position);
+    const Vec3 machine_rotary = state_.rotary + state_.rotary_offset();
     const Vec3 position = state_.position.array().isNaN().select(0.0, state_.position);
     state_.rebase([&] {
         WorkOffset& offset = state_.work_offsets[system];
@@ -40,6 +41,12 @@ void Interpreter::set_offsets(const Block& block) {
             if (level == 2) {
                 offset.shift[axis] = state_.incremental && dialect_ == DialectId::fanuc ? offset.shift[axis] + value : value;
             }
+        }
+        for (int axis = 0; axis < 3; ++axis) {
+            const char letter = "ABC"[axis];
+            if (dialect_ != DialectId::linuxcnc || !is(block, letter)) continue;
+            const double value = block.words.of(letter);
+            offset.rotary[axis] = level == 2 ? value : machine_rotary[axis] - state_.rotary_shift[axis] - value;
         }
         if (level == 20) {
             const Vec3 turned = ModalState::rotated(reads + state_.shift, offset.rotation);
@@ -68,8 +75,67 @@ void Interpreter::shift_position(const Block& block) {
                 state_.shift[axis] += now - value;
             }
         }
-        if (!local) state_.saved_shift = state_.shift;
+        for (int axis = 0; axis < 3; ++axis) {
+            if (dialect_ != DialectId::linuxcnc || !is(block, "ABC"[axis])) continue;
+            const double value = block.words.of("ABC"[axis]);
+            state_.rotary_shift[axis] = local ? value : state_.rotary_shift[axis] + state_.rotary[axis] - value;
+        }
+        if (!local) {
+            state_.saved_shift = state_.shift;
+            state_.saved_rotary_shift = state_.rotary_shift;
+        }
     });
+}
+
+/// G92.1 takes the shift away for good, G92.2 keeps it for G92.3.
+void Interpreter::restore_shift(int code) {
+    state_.rebase([&] {
+        if (code == 923) {
+            state_.shift = state_.saved_shift;
+            state_.rotary_shift = state_.saved_rotary_shift;
+            return;
+        }
+        const bool keeps = code == 922;
+        state_.saved_shift = keeps ? state_.shift : Vec3(Vec3::Zero());
+        state_.saved_rotary_shift = keeps ? state_.rotary_shift : Vec3(Vec3::Zero());
+        state_.shift = Vec3::Zero();
+        state_.rotary_shift = Vec3::Zero();
+    });
+}
+
+/// M70 … M73 of LinuxCNC: modes are kept and come back; after M73 when the subprogram returns.
+void Interpreter::keep_modes(int code) {
+    std::optional<ModalState>& kept = kept_modes_.back();
+    if (code == 70 || code == 73) {
+        kept = state_;
+        if (code == 73) restores_modes_.back() = true;
+        return;
+    }
+    if (code == 71) {
+        kept.reset();
+        return;
+    }
+    if (!kept) {
+        note(Severity::warning, "program.modes", "M72 without M70 or M73 before it");
+        return;
+    }
+    restore_modes(*kept);
+}
+
+void Interpreter::restore_modes(const ModalState& kept) {
+    state_.unit_mm = kept.unit_mm;
+    state_.plane_axis = kept.plane_axis;
+    state_.incremental = kept.incremental;
+    state_.centre_absolute = kept.centre_absolute;
+    state_.feed_mode = kept.feed_mode;
+    state_.feed = kept.feed;
+    state_.spindle = kept.spindle;
+    state_.retract_to_r = kept.retract_to_r;
+    state_.diameter = kept.diameter;
+    select_work_system(kept.work_system);
+    if (kept.tool_offset.isZero()) state_.rebase([&] { state_.tool_offset = Vec3::Zero(); });
+    const bool shifted = !(kept.shift.isZero() && kept.rotary_shift.isZero());
+    if (!shifted && !(state_.shift.isZero() && state_.rotary_shift.isZero())) restore_shift(922);
 }
 
 void Interpreter::select_work_system(int number) {
@@ -177,18 +243,30 @@ void Interpreter::tool_length(int code, const Block& block) {
     event("tool-length", code_text(code) + words_text(block, "H"));
 }
 
+void Interpreter::keep_reference(int code) {
+    motion_suppressed_ = true;
+    (code == 281 ? state_.home : state_.second_home) = state_.to_machine(state_.position);
+    (code == 281 ? state_.home_rotary : state_.second_home_rotary) = state_.rotary + state_.rotary_offset();
+}
+
 void Interpreter::reference(int code, const Block& block) {
     motion_suppressed_ = true;
     const Vec3 home = state_.from_machine(code == 280 ? state_.home : state_.second_home);
+    const Vec3 home_rotary = (code == 280 ? state_.home_rotary : state_.second_home_rotary) - state_.rotary_offset();
     std::uint32_t named = 0;
     for (const char c : {'X', 'Y', 'Z', 'A', 'B', 'C'}) named |= block.words.has & Words::bit(c);
-    if (named != 0) straight(MotionKind::rapid, target(block, machine_coordinates_), rotary_target(block));
+    // RS274 goes to the intermediate point even where that is the present one: a new offset shows in it.
+    if (named != 0 || dialect_ == DialectId::linuxcnc) {
+        straight(MotionKind::rapid, target(block, machine_coordinates_), rotary_target(block));
+    }
     // RS274: without axis words all axes go; with them only those.
     Vec3 end = state_.position;
+    Vec3 rotary = state_.rotary;
     for (int axis = 0; axis < 3; ++axis) {
         if (named == 0 || is(block, "XYZ"[axis])) end[axis] = home[axis];
+        if (named == 0 || (is(block, "ABC"[axis]) && dialect_ == DialectId::linuxcnc)) rotary[axis] = home_rotary[axis];
     }
-    straight(MotionKind::rapid, end, named == 0 ? Vec3(Vec3::Zero()) : state_.rotary);
+    straight(MotionKind::rapid, end, rotary);
 }
 
 }  // namespace clsurf

@@ -42,9 +42,9 @@ double Interpreter::parameter(int number) const {
     const Vec3 none_turned = Vec3::Zero();
     if (dialect_ == DialectId::linuxcnc) {
         if (number >= 5420 && number <= 5428) return axis_of(5420, known, state_.rotary, unit);
-        if (number >= 5161 && number <= 5169) return axis_of(5161, state_.home, none_turned, machine_unit);
-        if (number >= 5181 && number <= 5189) return axis_of(5181, state_.second_home, none_turned, machine_unit);
-        if (number >= 5211 && number <= 5219) return axis_of(5211, state_.shift, none_turned, machine_unit);
+        if (number >= 5161 && number <= 5169) return axis_of(5161, state_.home, state_.home_rotary, machine_unit);
+        if (number >= 5181 && number <= 5189) return axis_of(5181, state_.second_home, state_.second_home_rotary, machine_unit);
+        if (number >= 5211 && number <= 5219) return axis_of(5211, state_.shift, state_.rotary_shift, machine_unit);
         if (number == 5220) return state_.work_system;
         if (number >= 5221 && number < 5221 + 9 * 20) {
             const int system = (number - 5221) / 20 + 1;
@@ -52,6 +52,7 @@ double Interpreter::parameter(int number) const {
             const auto found = state_.work_offsets.find(system);
             const WorkOffset offset = found == state_.work_offsets.end() ? WorkOffset{} : found->second;
             if (axis == 9) return offset.rotation;
+            if (axis >= 3 && axis < 6) return offset.rotary[axis - 3];
             return axis < 3 ? offset.shift[axis] / machine_unit : 0.0;
         }
         switch (number) {
@@ -88,7 +89,8 @@ double Interpreter::named_parameter(const std::string& name) const {
         const std::string turning(1, "abc"[k]);
         if (name == "_" + linear) return at[k] / unit;
         if (name == "_abs_" + linear) return machine[k] / unit;
-        if (name == "_" + turning || name == "_abs_" + turning) return state_.rotary[k];
+        if (name == "_" + turning) return state_.rotary[k];
+        if (name == "_abs_" + turning) return state_.rotary[k] + state_.rotary_offset()[k];
         if (name == "_" + std::string(1, "uvw"[k])) return 0;  // axes that are not carried on
     }
     const int system = state_.work_system;
