@@ -6,44 +6,10 @@
 
 #include "core/error.h"
 #include "io/program_file.h"
+#include "program/motion_rows.h"
 
 namespace clsurf {
 namespace {
-
-Program parse(const std::string& text, const char* dialect) {
-    const auto kept = std::make_shared<std::string>(text);
-    InterpreterOptions options;
-    options.dialect = find_dialect(dialect);
-    return parse_program(SourceText("test.nc", *kept, kept), options);
-}
-
-/// "kind x y z" of every motion.
-std::vector<std::string> motions(const Program& program) {
-    std::vector<std::string> all;
-    static constexpr const char* kinds[] = {"rapid", "feed", "cw", "ccw", "dwell", "spline"};
-    const auto number = [](double v) {
-        std::string text = std::to_string(std::round(v * 1e4) / 1e4 + 0.0);
-        text.erase(text.find_last_not_of('0') + 1);
-        if (text.ends_with('.')) text.pop_back();
-        return text == "-0" ? std::string("0") : text;
-    };
-    const Motions& m = program.motions;
-    for (std::size_t i = 0; i < m.kind.size(); ++i) {
-        all.push_back(std::string(kinds[static_cast<int>(m.kind[i])]) + " " + number(m.end[i].x) + " " + number(m.end[i].y) + " " + number(m.end[i].z));
-    }
-    return all;
-}
-
-using Rows = std::vector<std::string>;
-
-std::string error_of(const std::string& text, const char* dialect) {
-    try {
-        (void)parse(text, dialect);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
-}
 
 TEST(Interpreter, KeepsModalMotionAndAxes) {
     EXPECT_EQ(motions(parse("G0 X1 Y2 Z3\nG1 F60 X2\nY5\nG0Z9\n", "fanuc")), (Rows{"rapid 1 2 3", "feed 2 2 3", "feed 2 5 3", "rapid 2 5 9"}));

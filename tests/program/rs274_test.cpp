@@ -1,0 +1,149 @@
+// Rules of RS274 as LinuxCNC has them; the answers are worked out on paper beside each program.
+
+#include <gtest/gtest.h>
+
+#include "program/motion_rows.h"
+
+namespace clsurf {
+namespace {
+
+std::string inside_comp(const std::string& path) {
+    return "G41.1 D4\nG1 F60 X10\nX20\n" + path + "G40\nG1 X50\n";
+}
+
+TEST(CutterCompensation, GoesAroundAnOutsideCornerAndComesBackToTheProgrammedPath) {
+    // Radius 2 on the right: below the first line, then a quarter circle about (20, 0), then beside X 20.
+    const Program p = parse("G42.1 D4\nG1 F60 X10\nX20\nY10\nG40\nG1 X50\n", "linuxcnc");
+    EXPECT_EQ(motions(p), (Rows{"feed 10 -2 0", "feed 20 -2 0", "ccw 22 0 0", "feed 22 10 0", "feed 50 10 0"}));
+    ASSERT_EQ(p.motions.arcs.size(), 1u);
+    EXPECT_DOUBLE_EQ(p.motions.arcs[0].centre.x, 20.0);
+}
+
+TEST(CutterCompensation, CutsAnInsideCornerShort) {
+    // A right angle to the left: both lines end and begin at (18, 2). A plunge in the corner goes along.
+    EXPECT_EQ(motions(parse(inside_comp("Z-1\nY10\n"), "linuxcnc")),
+              (Rows{"feed 10 2 0", "feed 18 2 0", "feed 18 2 -1", "feed 18 10 -1", "feed 50 10 -1"}));
+}
+
+TEST(CutterCompensation, KeepsBesideArcs) {
+    // Outside a half circle of radius 3 the tool's centre runs on radius 5, which Y 2 meets at 23 ± √21;
+    // inside one it runs on radius 1, after turning about both of its ends.
+    EXPECT_EQ(motions(parse(inside_comp("G2 X26 I3\nG1 X30\n"), "linuxcnc")),
+              (Rows{"feed 10 2 0", "feed 18.4174 2 0", "cw 27.5826 2 0", "feed 30 2 0", "feed 50 0 0"}));
+    EXPECT_EQ(motions(parse(inside_comp("G3 X26 I3\nG1 X30\n"), "linuxcnc")),
+              (Rows{"feed 10 2 0", "feed 20 2 0", "cw 22 0 0", "ccw 24 0 0", "cw 26 2 0", "feed 30 2 0", "feed 50 0 0"}));
+}
+
+TEST(CutterCompensation, JoinsArcsWhereTheirTracksCross) {
+    // Radii 3 and 7 grow to 5 and 9 about (23, 0) and (33, 0): 10 apart, they cross 2.2 on, √20.16 up.
+    EXPECT_EQ(motions(parse(inside_comp("G2 X26 I3\nG2 X40 I7\nG1 Y-5\n"), "linuxcnc")),
+              (Rows{"feed 10 2 0", "feed 18.4174 2 0", "cw 25.2 4.49 0", "cw 42 0 0", "feed 42 -5 0", "feed 50 -5 0"}));
+}
+
+TEST(CutterCompensation, EntersByAnArcThatEndsTangent) {
+    // To (8, 10) beside the end, with its centre on Y 10 as far from the origin: −2.25.
+    const Program p = parse("G41.1 D4\nG3 F60 X10 Y10 J10\nG1 Y20\nG40\n", "linuxcnc");
+    EXPECT_EQ(motions(p), (Rows{"ccw 8 10 0", "feed 8 20 0"}));
+    EXPECT_DOUBLE_EQ(p.motions.arcs[0].centre.x, -2.25);
+}
+
+TEST(CutterCompensation, WorksInTheLathesPlane) {
+    // G18 turns from Z to X: right of +X is +Z.
+    EXPECT_EQ(motions(parse("G18 G42.1 D4\nG1 F60 X10\nX20\n", "linuxcnc")), (Rows{"feed 10 0 2", "feed 20 0 2"}));
+}
+
+TEST(CutterCompensation, SaysWhyATooLargeToolCannotGoThere) {
+    EXPECT_NE(error_of(inside_comp("X0 Y4\n"), "linuxcnc").find("the tool would gouge"), std::string::npos);
+    EXPECT_NE(error_of("G41.1 D4\nG1 F60 X1\n", "linuxcnc").find("must be longer than the tool's radius"), std::string::npos);
+    EXPECT_NE(error_of(inside_comp("G3 X22 I1\n"), "linuxcnc").find("does not fit into an arc of radius 1.0000 mm"), std::string::npos);
+    EXPECT_NE(error_of("G41.1\n", "linuxcnc").find("needs the tool's diameter (D)"), std::string::npos);
+    EXPECT_NE(error_of(inside_comp("G41.1 D4\n"), "linuxcnc").find("is on already"), std::string::npos);
+    EXPECT_NE(error_of(inside_comp("G28\n"), "linuxcnc").find("G28 cannot be used while cutter compensation is on"), std::string::npos);
+    EXPECT_NE(error_of(inside_comp("X30\nG40\nG2 X32 I1\n"), "linuxcnc").find("must be a straight one"), std::string::npos);
+    EXPECT_NE(error_of("G19 G41.1 D4\n", "linuxcnc").find("needs the XY or the XZ plane"), std::string::npos);
+}
+
+TEST(ToolTable, IsThatOfTheStandAloneInterpreter) {
+    // T1: 0.511 inch long, 0.125 inch wide. Its length is taken off where nothing says Z.
+    EXPECT_EQ(motions(parse("T1 M6\nG43\nG0 X1\nG41\nG1 F60 X10\n", "linuxcnc")), (Rows{"rapid 1 0 -12.9794", "feed 10 1.5875 -12.9794"}));
+    // In the block of the change the position stays; G43.2 adds, G43.1 gives, G49 ends.
+    EXPECT_EQ(motions(parse("T2 M6 G43\nG0 X1\nG43.2 H1\nG0 X2\nG43.1 Z1\nG0 X3\nG49\nG0 X4\n", "linuxcnc")),
+              (Rows{"rapid 1 0 0", "rapid 2 0 -12.9794", "rapid 3 0 1.54", "rapid 4 0 2.54"}));
+    // G10 L1 sets, L10 makes the position read: 5 with offset −5.
+    EXPECT_EQ(motions(parse("T1 M6\nG10 L1 P1 Z2\nG43 G0 X1\nG10 L10 P1 Z5\nG43 G0 X[#5403*25.4]\n", "linuxcnc")),
+              (Rows{"rapid 1 0 -2", "rapid -5 0 5"}));
+}
+
+TEST(ToolTable, OfTheUserComesFirst) {
+    const auto text = std::make_shared<std::string>("T7 M6\nG43\nG0 X1\nT9 M6\n");
+    InterpreterOptions options;
+    options.dialect = find_dialect("linuxcnc");
+    options.tools.emplace();
+    options.tools->tools[7] = Tool{.number = 7, .offset = Vec3(0, 0, 10)};
+    const Program p = parse_program(SourceText("test.nc", *text, text), options);
+    EXPECT_EQ(motions(p), (Rows{"rapid 1 0 -10"}));
+    EXPECT_EQ(p.diagnostics.count("program.tool-table"), 1u);  // T9
+}
+
+TEST(Cycles, CountIncrementsFromWhereTheyBegan) {
+    // Begun at 10: R 8, bottom 7; after two holes R -3 is still from 10.
+    EXPECT_EQ(motions(parse("G0 Z10\nG91 G99 G81 X1 Z-1 R-2 F60 L2\nX2 R-3\n", "linuxcnc")),
+              (Rows{"rapid 0 0 10", "rapid 1 0 10", "rapid 1 0 8", "feed 1 0 7", "rapid 1 0 8", "rapid 2 0 8", "rapid 2 0 8", "feed 2 0 7", "rapid 2 0 8",
+                    "rapid 4 0 8", "rapid 4 0 7", "feed 4 0 6", "rapid 4 0 7"}));
+}
+
+TEST(Cycles, BoreFromBelow) {
+    EXPECT_EQ(motions(parse("G98 G0 Z3\nG87 X3 Z-1 R1 I1 J1 K0.5 F60\n", "linuxcnc")),
+              (Rows{"rapid 0 0 3", "rapid 3 0 3", "rapid 3 0 1", "rapid 4 1 1", "rapid 4 1 -1", "rapid 3 0 -1", "feed 3 0 0.5", "feed 3 0 -1",
+                    "rapid 4 1 -1", "rapid 4 1 3", "rapid 3 0 3"}));
+}
+
+TEST(Cycles, LeaveABoreWithFeedToR) {
+    EXPECT_EQ(motions(parse("G98 G0 Z5\nG85 Z-2 R1 F60\nG89 Z-2 R1 P0\n", "linuxcnc")),
+              (Rows{"rapid 0 0 5", "rapid 0 0 5", "rapid 0 0 1", "feed 0 0 -2", "feed 0 0 1", "rapid 0 0 5", "rapid 0 0 5", "rapid 0 0 1", "feed 0 0 -2",
+                    "dwell 0 0 -2", "feed 0 0 5"}));
+}
+
+TEST(Cycles, CutThreadsInPasses) {
+    // Crest at X 9, cuts at 8.4 and 8; clear of them by crest and depth, 2; both tapers rise by 1 over 0.5.
+    EXPECT_EQ(motions(parse("G18 G0 X10 Z5\nS100 M3\nG76 P1 Z-10 I-1 J0.6 K1 E0.5 L3\n", "linuxcnc")),
+              (Rows{"rapid 10 0 5", "rapid 10.4 0 5", "feed 9.4 0 5", "feed 8.4 0 4.5", "feed 8.4 0 -9.5", "feed 9.4 0 -10", "rapid 10.4 0 -10",
+                    "rapid 10 0 5", "feed 9 0 5", "feed 8 0 4.5", "feed 8 0 -9.5", "feed 9 0 -10", "rapid 10 0 -10", "rapid 10 0 -10"}));
+    // R 2 keeps the area: J·√n; Q 45 slides by the depth.
+    EXPECT_EQ(motions(parse("G18 G0 X10 Z5\nS100 M3\nG76 P1 Z-10 I-1 J1 K1.2 R2 Q45\n", "linuxcnc"))[1], "rapid 10.2 0 4");
+    EXPECT_NE(error_of("G18 G0 X10 Z5\nG76 P1 Z-10 I-1 K1\n", "linuxcnc").find("J is missing"), std::string::npos);
+}
+
+TEST(Probing, EndsAtTheProgrammedPoint) {
+    // The stand-alone interpreter's probe touches there, 5061 … tell, and stops 0.254 mm before.
+    EXPECT_EQ(motions(parse("G38.2 Z-2 F60\nG0 X#5063\nG0 Z#5070\n", "linuxcnc")), (Rows{"rapid -2 0 -1.746", "rapid -2 0 0"}));
+}
+
+TEST(Modes, AreKeptAndComeBack) {
+    EXPECT_EQ(motions(parse("M70\nG20 G91\nM72\nG0 X1\nX1\n", "linuxcnc")), (Rows{"rapid 1 0 0", "rapid 1 0 0"}));
+    EXPECT_EQ(motions(parse("o1 sub\nM73\nG20 G0 X1\no1 endsub\no1 call\nG0 X1\n", "linuxcnc")), (Rows{"rapid 25.4 0 0", "rapid 1 0 0"}));
+}
+
+TEST(Offsets, MoveRotaryAxesToo) {
+    const Program p = parse("G0 A5\nG92 A7\nG0 A9\nG10 L2 P1 A4\nG0 X1\n", "linuxcnc");
+    // 9 reads 5 after the zero moved by 4.
+    EXPECT_NEAR(p.motions.rotary[1].x * 180 / 3.14159265358979, 9, 1e-9);
+    EXPECT_NEAR(p.motions.rotary[2].x * 180 / 3.14159265358979, 5, 1e-9);
+}
+
+TEST(Parameters, TellModesByName) {
+    EXPECT_EQ(motions(parse("G91 G1 F60 X3 Y4\nG90\nG0 X[#<_x>+#<_metric>] Y[#<_motion_mode>] Z[EXISTS[#<_nothing>]]\n", "linuxcnc")),
+              (Rows{"feed 3 4 0", "rapid 4 10 0"}));
+}
+
+TEST(Expressions, OrderExactlyAndEqualWithATolerance) {
+    EXPECT_EQ(motions(parse("#1=0.00000001\nG0 X[#1 GT 0] Y[#1 EQ 0] Z[1 LE 1]\n", "linuxcnc")), (Rows{"rapid 1 1 1"}));
+}
+
+TEST(PolarWords, NeedAnAngleAndTheirPlane) {
+    EXPECT_NE(error_of("G91 G1 F60 @5\n", "linuxcnc").find("the angle is not known"), std::string::npos);
+    EXPECT_NE(error_of("G1 F60 X1 ^5\n", "linuxcnc").find("beside X or Y"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace clsurf
