@@ -195,8 +195,7 @@ bool Interpreter::apply_of_dialect(int code, Block& block, std::size_t column) {
                     state_.motion = MotionMode::probe;
                     return true;
                 case 700: case 710: case 711: case 712: case 720: case 721: case 722:
-                    note(Severity::warning, "program.cycle", code_text(code) + ": the lathe cycle is not carried out", column);
-                    motion_suppressed_ = true;
+                    lathe_cycle(code, Block(block), column);
                     return true;
                 case 690: return false;
                 default: return false;

@@ -57,6 +57,13 @@ void CutterCompensation::stop() {
     open_ = {};
 }
 
+Vec2 CutterCompensation::enter_beside(const Vec2& from, const Vec2& direction) {
+    first_ = false;
+    open_ = {};
+    centre_ = from + side() * radius_ * left_of(direction);
+    return centre_;
+}
+
 std::string CutterCompensation::finish() {
     return entered() ? check_reach(centre_) : std::string();
 }

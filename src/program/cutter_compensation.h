@@ -32,6 +32,8 @@ public:
     /// Left of the path for true. A radius below zero changes the side, one of zero does nothing. [mm]
     void start(bool left, double radius);
     void stop();
+    /// Begins beside a point instead of with an entry move: where the tool's centre is then.
+    Vec2 enter_beside(const Vec2& from, const Vec2& direction);
 
     [[nodiscard]] bool on() const { return on_; }         ///< G41 or G42, whatever the radius
     [[nodiscard]] bool left() const { return left_; }

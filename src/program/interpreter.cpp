@@ -69,24 +69,25 @@ void Interpreter::go_to(std::size_t file, LineNumber line) {
 }
 
 void Interpreter::run_lines() {
-    Words words;
-    while (!ended_) {
-        if (next_byte_ >= program_.files[file_].text().size()) {
-            leave(true);
-            continue;
-        }
-        current_ = next_line();
-        if (read_plain(current_, words) == PlainResult::plain) {
-            if (run_plain(words)) continue;
-            if (dialect_ != DialectId::siemens && dialect_ != DialectId::heidenhain_iso) {
-                block_.clear();
-                block_.words = words;
-                execute(block_);
-                continue;
-            }
-        }
-        run_block(current_);
+    while (!ended_) run_line();
+}
+
+void Interpreter::run_line() {
+    if (next_byte_ >= program_.files[file_].text().size()) {
+        leave(true);
+        return;
     }
+    current_ = next_line();
+    if (read_plain(current_, plain_) == PlainResult::plain) {
+        if (run_plain(plain_)) return;
+        if (dialect_ != DialectId::siemens && dialect_ != DialectId::heidenhain_iso) {
+            block_.clear();
+            block_.words = plain_;
+            execute(block_);
+            return;
+        }
+    }
+    run_block(current_);
 }
 
 /// G0, G1 or nothing, with axis words and feed: what nearly every block of a finishing program is.

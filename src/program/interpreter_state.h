@@ -42,6 +42,7 @@ public:
 private:
     // interpreter.cpp: lines, calls, output
     void run_lines();
+    void run_line();
     void run_block(std::string_view line);
     bool run_plain(const Words& words);
     [[nodiscard]] std::string_view next_line();
@@ -108,6 +109,9 @@ private:
     void cycle(const Block& block);
     void thread_cycle(const Block& block);   ///< G76
     void tap(const Vec3& end, const Vec3& rotary);  ///< G33.1
+    void lathe_cycle(int code, const Block& words, std::size_t column);  ///< G70 … G72
+    [[nodiscard]] Vec2 record_profile(const std::string& name, std::vector<CompensatedMove>& profile);
+    void follow(const std::vector<CompensatedMove>& moves);  ///< with feed, in the XZ plane
     void bore_back(double r, double bottom, double clear, const Vec3& rotary);
 
     // flow.cpp: control statements; true: the line was one
@@ -129,6 +133,7 @@ private:
     Variables variables_;
     CycleState cycle_;
     Block block_;
+    Words plain_;               ///< of the line that runs, where it is plain
     ToolTable tools_;
     int next_tool_ = 0;         ///< of the T word
     Tool tool_;                 ///< in the spindle
