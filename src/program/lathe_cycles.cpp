@@ -13,6 +13,7 @@ namespace clsurf {
 namespace {
 
 constexpr double same = 1e-9;       ///< [mm]
+constexpr double no_pocket = 0.01;  ///< of this depth: joints of the profile may be that rough [mm]
 constexpr int most_cuts = 100'000;
 
 Vec2 zx(const Vec3& p) { return {p.z(), p.x()}; }
@@ -86,15 +87,15 @@ bool rises(const Vec2& first, const std::vector<CompensatedMove>& moves, const F
     Vec2 from = first;
     for (const CompensatedMove& move : moves) {
         const Vec2 way = move.end - from;
-        if (way[frame.feed] * frame.onwards < -same || way[frame.depth] * frame.outwards < -same) return false;
+        if (way[frame.feed] * frame.onwards < -no_pocket || way[frame.depth] * frame.outwards < -no_pocket) return false;
         if (move.is_arc) {
             // Monotone arcs stay in one quadrant about their centre.
             const double middle = 0.5 * (angle_of(from - move.centre) + angle_of(move.end - move.centre));
             const Vec2 out = (from - move.centre).norm() * Vec2(std::cos(middle), std::sin(middle));
             const Vec2 half = move.centre + ((out.dot(0.5 * (from + move.end) - move.centre) < 0) ? Vec2(-out) : out);
             for (const int axis : {0, 1}) {
-                const double low = std::min(from[axis], move.end[axis]) - same;
-                const double high = std::max(from[axis], move.end[axis]) + same;
+                const double low = std::min(from[axis], move.end[axis]) - no_pocket;
+                const double high = std::max(from[axis], move.end[axis]) + no_pocket;
                 if (half[axis] < low || half[axis] > high) return false;
             }
         }
@@ -179,7 +180,9 @@ void Interpreter::lathe_cycle(int code, const Block& words, std::size_t column) 
     Frame2 frame;
     if (code >= 720) std::swap(frame.feed, frame.depth);
     const Vec2 start = zx(called_from);
-    frame.onwards = profile.back().end[frame.feed] < begin[frame.feed] ? -1 : 1;
+    double onwards = profile.back().end[frame.feed] - begin[frame.feed];
+    if (std::abs(onwards) < same) onwards = begin[frame.feed] - start[frame.feed];
+    frame.onwards = onwards < 0 ? -1 : 1;
     frame.outwards = start[frame.depth] < begin[frame.depth] ? -1 : 1;
     const bool left = (frame.feed == 0) == (frame.onwards * frame.outwards > 0);
     const auto go = [&](const Vec2& to, MotionKind kind = MotionKind::rapid) {

@@ -114,6 +114,34 @@ TEST(Cycles, CutThreadsInPasses) {
     EXPECT_NE(error_of("G18 G0 X10 Z5\nG76 P1 Z-10 I-1 K1\n", "linuxcnc").find("J is missing"), std::string::npos);
 }
 
+const std::string turned = "G18 G0 X50 Z6\nF60\no100 sub\nG0 X20 Z0\nG1 Z-5\nX24\nX30 Z-10\no100 endsub\n";
+
+TEST(LatheCycles, RoughAlongZFromTheStartToTheProfile) {
+    // Cuts at X 32, 28, 24, each from the line between the start and the profile's begin, back out by R
+    // at 45°; then the profile, and out to X 32.
+    EXPECT_EQ(motions(parse(turned + "G71 Q100 X32 Z3 I4 R1\n", "linuxcnc")),
+              (Rows{"rapid 50 0 6", "rapid 32 0 3", "rapid 32 0 3",
+                    "rapid 32 0 3", "feed 32 0 -10", "rapid 33 0 -9", "rapid 33 0 2", "rapid 32 0 3",
+                    "rapid 28 0 2", "feed 28 0 -8.3333", "rapid 29 0 -7.3333", "rapid 29 0 1", "rapid 28 0 2",
+                    "rapid 24 0 1", "feed 24 0 -5", "rapid 25 0 -4", "rapid 25 0 0", "rapid 24 0 1",
+                    "rapid 20 0 0", "feed 20 0 -5", "feed 24 0 -5", "feed 30 0 -10", "feed 32 0 -10"}));
+}
+
+TEST(LatheCycles, FinishInPassesBesideTheProfile) {
+    // D 1 in two passes: half a millimetre off, inside corner at (20.5, -4.5), then the profile itself.
+    const std::vector<std::string> all = motions(parse(turned + "G70 Q100 X32 Z3 D1 P2\n", "linuxcnc"));
+    ASSERT_EQ(all.size(), 13u);
+    EXPECT_EQ(Rows(all.begin() + 1, all.begin() + 5), (Rows{"rapid 32 0 3", "rapid 32 0 3", "rapid 20.5 0 0", "feed 20.5 0 -4.5"}));
+    EXPECT_EQ(Rows(all.end() - 4, all.end()), (Rows{"rapid 20 0 0", "feed 20 0 -5", "feed 24 0 -5", "feed 30 0 -10"}));
+}
+
+TEST(LatheCycles, SayWhatTheyDoNotCut) {
+    const Program p = parse("G18 F60\no1 sub\nG0 X20 Z0\nG1 Z-5\nX18\nZ-10\nX30\no1 endsub\nG71 Q1 X32 Z2 I1\n", "linuxcnc");
+    EXPECT_EQ(p.diagnostics.count("program.cycle"), 1u);
+    EXPECT_EQ(p.motions.size(), 0);
+    EXPECT_NE(error_of("G18 F60\nG71 Q9 X1 Z1 I1\n", "linuxcnc").find("subprogram '9' is neither"), std::string::npos);
+}
+
 TEST(Probing, EndsAtTheProgrammedPoint) {
     // The stand-alone interpreter's probe touches there, 5061 … tell, and stops 0.254 mm before.
     EXPECT_EQ(motions(parse("G38.2 Z-2 F60\nG0 X#5063\nG0 Z#5070\n", "linuxcnc")), (Rows{"rapid -2 0 -1.746", "rapid -2 0 0"}));
