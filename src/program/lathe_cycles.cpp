@@ -116,6 +116,7 @@ Vec2 Interpreter::record_profile(const std::string& name, std::vector<Compensate
     Motions& m = program_.motions;
     const auto first = static_cast<std::size_t>(m.size());
     const std::size_t first_arc = m.arcs.size();
+    const std::size_t first_event = program_.events.size();
     call(name, 1, true, {});
     const std::size_t depth = frames_.size();
     while (!ended_ && frames_.size() >= depth) run_line();
@@ -140,6 +141,7 @@ Vec2 Interpreter::record_profile(const std::string& name, std::vector<Compensate
     if (!m.rotary.empty()) m.rotary.resize(first);
     if (!m.file.empty()) m.file.resize(first);
     m.arcs.resize(first_arc);
+    for (std::size_t i = first_event; i < program_.events.size(); ++i) program_.events[i].motion = m.size();
     state_ = state;
     block_ = block;
     machine_coordinates_ = false;
