@@ -1,35 +1,9 @@
 #include "io/json_text.h"
 
-#include <cmath>
-
-#include <nlohmann/json.hpp>
-
 #include "core/units.h"
+#include "io/json_value.h"
 
 namespace clsurf::io {
-namespace {
-
-using Json = nlohmann::ordered_json;
-
-std::string dump(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
-
-/// JSON has no NaN and no infinity.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-Json vector(const Vec3& v) { return Json::array({number(v.x()), number(v.y()), number(v.z())}); }
-
-Json list(const Diagnostics& diagnostics) {
-    Json all = Json::array();
-    for (const Diagnostic& d : diagnostics.summary()) {
-        Json entry{{"severity", name_of(d.severity)}, {"code", d.code}, {"where", d.where.text()}, {"text", d.text}};
-        if (!d.hint.empty()) entry["hint"] = d.hint;
-        all.push_back(std::move(entry));
-    }
-    return all;
-}
-
-}  // namespace
-
 std::string program_json(const Program& program, const ToolpathSummary& s, const Diagnostics& diagnostics) {
     Json json{{"kind", "program"},
               {"file", program.main().name()},
@@ -37,7 +11,7 @@ std::string program_json(const Program& program, const ToolpathSummary& s, const
               {"lines", program.main().line_count()},
               {"motions", {{"rapid", s.rapids}, {"feed", s.feeds}, {"arc", s.arcs}, {"dwell", s.dwells}}},
               {"cutting_length_mm", number(s.cutting_length)}};
-    json["bounds_mm"] = s.bounds.isEmpty() ? Json(nullptr) : Json::array({vector(s.bounds.min()), vector(s.bounds.max())});
+    json["bounds_mm"] = box(s.bounds);
     json["diagnostics"] = list(diagnostics);
     return dump(json);
 }

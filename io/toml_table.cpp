@@ -28,8 +28,7 @@ void TomlFile::fail(const toml::node& node, const std::string& what, const std::
 
 void TomlFile::fail(const std::string& what) const { throw InputError(Place::of_file(name_), what); }
 
-void TomlFile::allow(const toml::table& table, std::initializer_list<std::string_view> keys) const {
-    const std::vector<std::string_view> known(keys);
+void TomlFile::allow(const toml::table& table, const std::vector<std::string_view>& known) const {
     for (const auto& [key, node] : table) {
         bool found = false;
         for (const std::string_view candidate : known) found = found || candidate == key.str();

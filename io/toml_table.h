@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <toml++/toml.h>
 
@@ -23,7 +24,8 @@ public:
     [[noreturn]] void fail(const toml::node& node, const std::string& what, const std::string& hint = {}) const;
     [[noreturn]] void fail(const std::string& what) const;
     /// Every key of the table is one of these; a suggestion otherwise.
-    void allow(const toml::table& table, std::initializer_list<std::string_view> keys) const;
+    void allow(const toml::table& table, std::initializer_list<std::string_view> keys) const { allow(table, std::vector<std::string_view>(keys)); }
+    void allow(const toml::table& table, const std::vector<std::string_view>& keys) const;
     [[nodiscard]] std::optional<double> number(const toml::table& table, std::string_view key) const;
     [[nodiscard]] std::optional<std::string> text(const toml::table& table, std::string_view key) const;
     /// A whole number in [low, high].

@@ -9,6 +9,7 @@ namespace clsurf::cli {
 std::span<const Subcommand> subcommands() {
     static const std::vector<Subcommand> table{
         render_subcommand(),
+        check_subcommand(),
         query_subcommand(),
         info_subcommand(),
         moves_subcommand(),

@@ -13,13 +13,13 @@
 #include "core/spelling.h"
 #include "field/field_table.h"
 #include "path/derivative.h"
+#include "path/pieces.h"
 
 namespace clsurf {
 namespace {
 
 constexpr PointIndex stretch_points = 4096;  ///< of a block, worked on at once: fits the L1 cache
 constexpr PointIndex error_halo = 256;       ///< commanded points that the contour error looks round
-constexpr double gap = 1.5;                  ///< periods between records that end a piece
 
 Unit unit_of_channel(const std::string& text) {
     // Channels stay in the unit in which they were recorded: shown as they are.
@@ -28,41 +28,6 @@ Unit unit_of_channel(const std::string& text) {
         if (text == name) return {name, 1.0};
     }
     return unit::none;
-}
-
-std::vector<PointRange> pieces_of(const Log& log, const Passes& passes) {
-    std::vector<PointRange> pieces;
-    bool joined = false;
-    PassKind before = PassKind::rapid;
-    for (const Pass& pass : passes) {
-        joined = !pieces.empty() && pass.kind == PassKind::cut && before == PassKind::cut;
-        if (joined) {
-            pieces.back().last = pass.last;
-        } else {
-            pieces.push_back({pass.first, pass.last});
-        }
-        before = pass.kind;
-    }
-    const Channel* time = log.find("time");
-    if (time == nullptr) return pieces;
-    // Where records are missing the window must not reach across.
-    std::vector<PointRange> whole;
-    std::vector<double> t;
-    for (PointRange piece : pieces) {
-        for (PointIndex begin = piece.first; begin < piece.last; begin += block_points) {
-            const PointIndex end = std::min(piece.last, begin + block_points);
-            t.resize(static_cast<std::size_t>(end - begin + 1));
-            copy_block(time->values, begin, t);
-            for (std::size_t i = 1; i < t.size(); ++i) {
-                if (t[i] - t[i - 1] <= gap * log.period) continue;
-                const PointIndex cut = begin + static_cast<PointIndex>(i);
-                whole.push_back({piece.first, cut - 1});
-                piece.first = cut;
-            }
-        }
-        whole.push_back(piece);
-    }
-    return whole;
 }
 
 /// Positions of one role with room round them, and what is derived from them.
@@ -80,7 +45,7 @@ void read(const Trajectory& path, PointIndex first, PointIndex last, std::array<
 }  // namespace
 
 FieldSet::FieldSet(const Log& log, const Trajectory& path, const Passes& passes)
-    : log_(log), path_(path), pieces_(pieces_of(log, passes)) {}
+    : log_(log), path_(path), pieces_(smooth_pieces(log, passes)) {}
 
 namespace {
 

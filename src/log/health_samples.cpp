@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "log/quantum.h"
+
 namespace clsurf {
 namespace {
 
@@ -17,8 +19,6 @@ constexpr std::size_t least_resting = 50;
 constexpr std::size_t least_moving = 1000;  ///< records each way
 constexpr double sure_sigmas = 5;
 constexpr double correlated = 100;       ///< records that are one measurement: errors change slowly
-constexpr double least_quantum = 5e-6;   ///< [mm] or [deg]; finer steps are rounding of the file
-constexpr PointIndex quantum_records = 20'000;
 
 /// Commanded against measured along one axis.
 class AxisOffset {
@@ -86,28 +86,6 @@ void check_offset_of_axis(const Log& log, const Channel& commanded, const Channe
                {}});
 }
 
-/// 0: no steps to be seen.
-double quantum_of(const Channel& channel, PointIndex records) {
-    const PointIndex n = std::min(records, quantum_records);
-    std::vector<double> values(static_cast<std::size_t>(n));
-    copy_block(channel.values, (records - n) / 2, values);
-    std::vector<double> steps;
-    for (std::size_t i = 1; i < values.size(); ++i) {
-        const double step = std::abs(values[i] - values[i - 1]);
-        if (step > 0 && std::isfinite(step)) steps.push_back(step);
-    }
-    if (steps.size() < 100) return 0;
-    std::sort(steps.begin(), steps.end());
-    const double smallest = steps.front();
-    const auto whole = std::count_if(steps.begin(), steps.end(), [&](double step) {
-        const double ratio = step / smallest;
-        return std::abs(ratio - std::round(ratio)) < 0.02;
-    });
-    const double often = steps[steps.size() / 100];
-    const bool grid = smallest > least_quantum && often < 50 * smallest && static_cast<std::size_t>(whole) > steps.size() * 98 / 100;
-    return grid ? smallest : 0;
-}
-
 }  // namespace
 
 void check_offset(const Log& log, Diagnostics& found) {
@@ -125,7 +103,7 @@ void check_quantum(const Log& log, Diagnostics& found) {
         std::string text;
         for (const Channel& channel : log.channels) {
             if (!channel.name.starts_with(std::string(prefix_of(role)) + ".")) continue;
-            const double quantum = quantum_of(channel, log.records);
+            const double quantum = quantum_of(channel.values);
             if (quantum > 0) text += fmt::format("{}{} {:.3g} {}", text.empty() ? "" : ", ", channel.name, quantum, channel.unit);
         }
         if (text.empty()) continue;

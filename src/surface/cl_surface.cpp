@@ -7,9 +7,60 @@
 namespace clsurf {
 namespace {
 
-/// A loop or a spiral has come round where its neighbour lies in the same piece: there the piece
-/// is cut, so that every turn is a pass.
-Passes cut_at_returns(const Passes& passes, const Adjacency& neighbours) {
+constexpr double jog_reach = 4.0;   ///< step-overs of way round a seam in which the link of a loop is looked for
+constexpr float jog_half = 0.25F;   ///< step-overs of way from a point to the ends of its own chord
+constexpr float run_near = 0.6F;    ///< … and of the chords before and after it
+constexpr float run_far = 2.0F;
+constexpr float jog_cosine = 0.7F;  ///< a jog turns off by more than 45° and comes back into the old direction
+
+/// Where closed loops are joined by a step sideways: what runs along, jogs, and runs along again.
+class JogFinder {
+public:
+    JogFinder(const Positions& positions, const Way& way, double step_over)
+        : p_(positions), way_(way), step_over_(static_cast<float>(step_over)) {}
+
+    /// The jog nearest round a seam inside a pass; empty: a spiral has none.
+    [[nodiscard]] PointRange jog_at(PointIndex seam, const PointRange& pass) const {
+        const PointIndex first = back(seam, static_cast<float>(jog_reach), pass.first);
+        const PointIndex last = ahead(seam, static_cast<float>(jog_reach), pass.last);
+        PointRange jog;
+        for (PointIndex i = first; i <= last; ++i) {
+            if (!jogs(i, pass)) continue;
+            if (jog.size() <= 0) jog.first = i;
+            jog.last = i;
+        }
+        return jog;
+    }
+
+private:
+    [[nodiscard]] PointIndex back(PointIndex i, float step_overs, PointIndex limit) const {
+        float gone = 0;
+        while (i > limit && gone < step_overs * step_over_) gone += way_.step(--i);
+        return i;
+    }
+    [[nodiscard]] PointIndex ahead(PointIndex i, float step_overs, PointIndex limit) const {
+        float gone = 0;
+        while (i < limit && gone < step_overs * step_over_) gone += way_.step(i++);
+        return i;
+    }
+    [[nodiscard]] bool jogs(PointIndex i, const PointRange& pass) const {
+        const auto direction = [&](PointIndex from, PointIndex to) { return (p_[to] - p_[from]).normalized(); };
+        const Eigen::Vector3f here = direction(back(i, jog_half, pass.first), ahead(i, jog_half, pass.last));
+        const PointIndex near_back = back(i, run_near, pass.first);
+        const PointIndex near_ahead = ahead(i, run_near, pass.last);
+        const Eigen::Vector3f before = direction(back(near_back, run_far - run_near, pass.first), near_back);
+        const Eigen::Vector3f after = direction(near_ahead, ahead(near_ahead, run_far - run_near, pass.last));
+        return before.dot(after) > jog_cosine && here.dot(before) < jog_cosine && here.dot(after) < jog_cosine;
+    }
+
+    const Positions& p_;
+    const Way& way_;
+    float step_over_;
+};
+
+/// A loop or a spiral has come round where its neighbour lies in the same piece: there the piece is
+/// cut, so that every turn is a pass. Adds the steps sideways from loop to loop to `jogs`.
+Passes cut_at_returns(const Passes& passes, const Adjacency& neighbours, const JogFinder& finder, std::vector<PointRange>& jogs) {
     Passes turns;
     for (const Pass& pass : passes) {
         if (pass.kind != PassKind::cut) {
@@ -27,6 +78,8 @@ Passes cut_at_returns(const Passes& passes, const Adjacency& neighbours) {
                 return false;
             }();
             if (!returned) continue;
+            const PointRange jog = finder.jog_at(i, {first, pass.last});
+            if (jog.size() > 0) jogs.push_back(jog);
             turns.push_back({first, i - 1, PassKind::cut});
             first = i;
         }
@@ -50,7 +103,7 @@ ClSurface stitch(Positions positions, const LineMap& lines, double step_over) {
     }
     const Passes passes = find_passes(surface.positions, way, runs, surface.step_over);
     surface.neighbours = find_neighbours(surface.positions, passes, way, surface.step_over);
-    surface.passes = cut_at_returns(passes, surface.neighbours);
+    surface.passes = cut_at_returns(passes, surface.neighbours, JogFinder(surface.positions, way, surface.step_over), surface.jogs);
     return surface;
 }
 

@@ -3,6 +3,8 @@
 // for each point its neighbours on both adjacent passes. The mesh that is drawn, the mismatch that
 // is measured and the normal that turns a lag into a depth all come from it.
 
+#include <vector>
+
 #include "path/passes.h"
 #include "path/positions.h"
 #include "surface/adjacency.h"
@@ -12,6 +14,7 @@ namespace clsurf {
 struct ClSurface {
     Positions positions;
     Passes passes;         ///< by turns back and by returning to themselves (a turn of a spiral is one)
+    std::vector<PointRange> jogs;  ///< steps sideways from one closed loop to the next, in order
     Adjacency neighbours;
     double step_over = 0;  ///< [mm]; 0: a single pass, no neighbours
 };

@@ -183,3 +183,24 @@ clsurf_cli_test(NAME compare_same ARGS compare ${shot}/speed_iso.png ${shot}/spe
 clsurf_cli_test(NAME compare_different ARGS compare ${shot}/speed_iso.png ${shot}/speed_top.png --diff d.png EXIT 1 FILE d.png)
 clsurf_cli_test(NAME compare_no_image ARGS compare @DATA@/programs/mixed.ngc @DATA@/programs/mixed.ngc EXIT 3 STDERR "cannot be read as an image")
 clsurf_cli_test(NAME compare_updates SETUP "cp ${shot}/speed_iso.png a.png" ARGS compare a.png b.png --update FILE b.png)
+
+# ---- the predictor ----
+clsurf_cli_test(NAME check_text ARGS check ${part} ${run} --tool ball:6
+  STDOUT "point_spacing +-20.0 +-84.8" "2408-2568" "scallop between clean passes with ball:6: 7")
+clsurf_cli_test(NAME check_json ARGS check ${part} ${run} --json
+  STDOUT "\"cause\": \"point_spacing\"" "\"within_budget\": true" "\"worst_severity\": 4")
+clsurf_cli_test(NAME check_csv ARGS check ${part} ${run} --format csv -o marks.csv FILE marks.csv)
+clsurf_cli_test(NAME check_sarif ARGS check ${part} ${run} --format sarif
+  STDOUT "\"version\": \"2.1.0\"" "\"startLine\": 2408" "\"ruleId\": \"point_spacing\"")
+clsurf_cli_test(NAME check_budget_held SETUP "echo 'max_defects = 1000' > part.toml" ARGS check ${part} ${run} --budget part.toml
+  STDOUT "max_defects .* held")
+clsurf_cli_test(NAME check_budget_not_held SETUP "echo 'max_depth_um = 5' > part.toml" ARGS check ${part} ${run} --budget part.toml -o report.txt
+  EXIT 1 FILE report.txt)
+clsurf_cli_test(NAME check_budget_unknown_key SETUP "echo 'max_dept_um = 5' > part.toml" ARGS check ${part} ${run} --budget part.toml
+  EXIT 3 STDERR "part.toml:1" "unknown key 'max_dept_um'" "did you mean 'max_depth_um'")
+clsurf_cli_test(NAME check_budget_negative SETUP "echo 'max_depth_um = -5' > part.toml" ARGS check ${part} ${run} --budget part.toml
+  EXIT 3 STDERR "part.toml:1" "must not be negative")
+clsurf_cli_test(NAME check_budget_missing ARGS check ${part} ${run} --budget nowhere.toml EXIT 3 STDERR "nowhere.toml: error: cannot open")
+clsurf_cli_test(NAME check_wrong_tool ARGS check ${part} ${run} --tool cone:6 EXIT 2 STDERR "cone:6.*not a ball, bull or flat tool")
+clsurf_cli_test(NAME check_two_formats ARGS check ${part} ${run} --json --format csv EXIT 2 STDERR "--json and --format")
+clsurf_cli_test(NAME check_of_the_commanded_path ARGS check ${part} ${run} --surface commanded STDOUT "no measured positions")

@@ -1,0 +1,132 @@
+// clsurf_planted: the predictor measured on logs with planted defects.
+//
+//   clsurf_planted score [CASES [SEED [hard]]]   a line per shape: recall, precision, places, lines, depths
+//   clsurf_planted curve [CASES [SEED]]          recall against amplitude
+//   clsurf_planted write SHAPE SEED PREFIX       PREFIX.nc and PREFIX.biip, what is planted on stdout
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "io/atomic_file.h"
+#include "io/biip.h"
+#include "planted_score.h"
+
+namespace clsurf::planted {
+namespace {
+
+constexpr Shape shapes[] = {Shape::zigzag, Shape::one_way, Shape::loops, Shape::spiral};
+
+double percentile(std::vector<double> values, double p) {
+    if (values.empty()) return 0;
+    for (double& v : values) v = std::abs(v);
+    std::sort(values.begin(), values.end());
+    return values[static_cast<std::size_t>(p * static_cast<double>(values.size() - 1))];
+}
+
+void print(std::string_view name, const Score& s, const Score& clean) {
+    fmt::print("{:<8} recall {:.3f} ({} of {})  precision {:.3f} ({} of {})  clean: {} false in {} points  place {}  lines {}  cause {}  depth error p50 {:.1f} % p95 {:.1f} %\n",
+               name, s.recall(), s.found, s.planted, s.precision(), s.right, s.reported, clean.reported, clean.points, s.placed, s.lined, s.named,
+               100 * percentile(s.depth_errors, 0.5), 100 * percentile(s.depth_errors, 0.95));
+}
+
+int score_shapes(int cases, std::uint64_t seed, bool hard) {
+    Score all;
+    Score all_clean;
+    for (const Shape shape : shapes) {
+        Score planted;
+        Score clean;
+        for (int k = 0; k < cases; ++k) {
+            const bool is_clean = k % 4 == 3;
+            const PlantedLog log = make_planted_log(random_recipe(seed + static_cast<std::uint64_t>(k), shape, is_clean, hard));
+            const Score one = score(log, judge(log));
+            (is_clean ? clean : planted) += one;
+            const bool odd = is_clean ? one.reported > 0 : one.found < one.planted || one.right < one.reported;
+            if (odd) fmt::print("  {} seed {}: found {} of {}, right {} of {}\n", name_of(shape), seed + static_cast<std::uint64_t>(k), one.found, one.planted, one.right, one.reported);
+        }
+        print(name_of(shape), planted, clean);
+        all += planted;
+        all_clean += clean;
+    }
+    print("all", all, all_clean);
+    return all.recall() >= 0.95 && all.precision() >= 0.95 ? 0 : 1;
+}
+
+/// One defect of a given kind and amplitude on each log.
+int print_curve(int cases, std::uint64_t seed) {
+    struct Row {
+        Kind kind;
+        std::vector<double> amplitudes;
+        double shown;
+        std::string_view unit;
+    };
+    const std::vector<Row> rows{{Kind::speed, {0.01, 0.02, 0.03, 0.04, 0.05, 0.07, 0.10}, 100, "%"},
+                                {Kind::oscillation, {0.01, 0.02, 0.03, 0.04, 0.05, 0.07, 0.10}, 100, "%"},
+                                {Kind::lag, {0.0005, 0.001, 0.0012, 0.0015, 0.002, 0.003, 0.005}, 1000, "µm"}};
+    for (const Row& row : rows) {
+        for (const double amplitude : row.amplitudes) {
+            Score sum;
+            for (int k = 0; k < cases; ++k) {
+                const Shape shape = shapes[k % 4];
+                Recipe recipe = random_recipe(seed + static_cast<std::uint64_t>(k), shape, false, true);
+                recipe.defects.resize(1);
+                recipe.defects[0].kind = row.kind;
+                recipe.defects[0].amplitude = row.kind == Kind::lag && k % 8 >= 4 ? -amplitude : amplitude;
+                const PlantedLog log = make_planted_log(recipe);
+                sum += score(log, judge(log));
+            }
+            fmt::print("{:<12} {:5.2f} {:<2}  recall {:.3f}  precision {:.3f}  depth error p50 {:.1f} %\n", name_of(row.kind), amplitude * row.shown, row.unit,
+                       sum.recall(), sum.precision(), 100 * percentile(sum.depth_errors, 0.5));
+        }
+    }
+    return 0;
+}
+
+int write(const std::string& shape, std::uint64_t seed, const std::string& prefix) {
+    const auto* found = std::find_if(std::begin(shapes), std::end(shapes), [&](Shape s) { return name_of(s) == shape; });
+    if (found == std::end(shapes)) throw std::invalid_argument("SHAPE is zigzag, one-way, loops or spiral");
+    const PlantedLog log = make_planted_log(random_recipe(seed, *found, false, false));
+    io::AtomicFile program(prefix + ".nc");
+    program.write(log.program);
+    program.commit();
+    const Log view = as_log(log);
+    io::write_biip(prefix + ".biip", view.channels, view.records, view.period, "{}");
+    for (std::size_t d = 0; d < log.truth.size(); ++d) {
+        const Defect& defect = log.recipe.defects[d];
+        fmt::print("{} {:+g}: passes {} to {} every {}, points", name_of(defect.kind), defect.amplitude, defect.first_pass + 1, defect.last_pass + 1, defect.every);
+        const std::vector<PointIndex>& truth = log.truth[d];
+        for (std::size_t k = 0; k < truth.size(); ++k) {
+            if (k == 0 || truth[k] != truth[k - 1] + 1) fmt::print(" {}", truth[k]);
+            if (k + 1 == truth.size() || truth[k + 1] != truth[k] + 1) fmt::print("-{}", truth[k]);
+        }
+        fmt::print("\n");
+    }
+    return 0;
+}
+
+int run(const std::vector<std::string>& words) {
+    const auto count = [&](std::size_t k, int otherwise) { return words.size() > k ? std::stoi(words[k]) : otherwise; };
+    if (!words.empty() && words[0] == "score") return score_shapes(count(1, 20), static_cast<std::uint64_t>(count(2, 1)), words.size() > 3 && words[3] == "hard");
+    if (!words.empty() && words[0] == "curve") return print_curve(count(1, 16), static_cast<std::uint64_t>(count(2, 1)));
+    if (words.size() == 4 && words[0] == "write") return write(words[1], static_cast<std::uint64_t>(count(2, 1)), words[3]);
+    std::fputs("usage: clsurf_planted score [CASES [SEED [hard]]] | curve [CASES [SEED]] | write SHAPE SEED PREFIX\n", stderr);
+    return 2;
+}
+
+}  // namespace
+}  // namespace clsurf::planted
+
+int main(int argc, char** argv) {
+    try {
+        return clsurf::planted::run({argv + 1, argv + argc});
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "clsurf_planted: {}\n", error.what());
+        return 1;
+    }
+}

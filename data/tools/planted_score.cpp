@@ -1,0 +1,156 @@
+#include "planted_score.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "path/line_map.h"
+#include "path/pieces.h"
+#include "program/interpreter.h"
+#include "quality/signals.h"
+
+namespace clsurf::planted {
+namespace {
+
+constexpr double found_within = 0.2;     ///< [mm]
+constexpr double true_within = 0.8;      ///< [mm]
+constexpr double share_enough = 0.3;
+
+/// Points by cell, for a yes or no within a radius.
+class Near {
+public:
+    Near(const PlantedLog& log, const std::vector<PointIndex>& points, double radius) : log_(log), radius_(radius) {
+        for (const PointIndex i : points) cells_[key(at(i), 0, 0, 0)].push_back(i);
+    }
+    [[nodiscard]] bool has(const Vec3& p) const {
+        for (int dx = -1; dx <= 1; ++dx) {
+            for (int dy = -1; dy <= 1; ++dy) {
+                for (int dz = -1; dz <= 1; ++dz) {
+                    const auto cell = cells_.find(key(p, dx, dy, dz));
+                    if (cell == cells_.end()) continue;
+                    for (const PointIndex i : cell->second) {
+                        if ((at(i) - p).norm() <= radius_) return true;
+                    }
+                }
+            }
+        }
+        return false;
+    }
+    [[nodiscard]] double share(const std::vector<PointIndex>& points) const {
+        const auto inside = std::count_if(points.begin(), points.end(), [&](PointIndex i) { return has(at(i)); });
+        return points.empty() ? 0.0 : static_cast<double>(inside) / static_cast<double>(points.size());
+    }
+    [[nodiscard]] Vec3 at(PointIndex i) const {
+        const auto k = static_cast<std::size_t>(i);
+        return {log_.commanded[0][k], log_.commanded[1][k], log_.commanded[2][k]};
+    }
+
+private:
+    [[nodiscard]] std::int64_t key(const Vec3& p, int dx, int dy, int dz) const {
+        const auto c = [&](double v, int d) { return (static_cast<std::int64_t>(std::floor(v / radius_)) + d) & 0x1fffff; };
+        return c(p.x(), dx) << 42 | c(p.y(), dy) << 21 | c(p.z(), dz);
+    }
+
+    const PlantedLog& log_;
+    double radius_;
+    std::unordered_map<std::int64_t, std::vector<PointIndex>> cells_;
+};
+
+std::vector<PointIndex> points_of(const clsurf::Defect& defect) {
+    std::vector<PointIndex> points;
+    for (const DefectRun& run : defect.runs) {
+        for (PointIndex i = run.points.first; i <= run.points.last; ++i) points.push_back(i);
+    }
+    return points;
+}
+
+Cause cause_of(Kind kind) {
+    return kind == Kind::speed ? Cause::feed_drop : kind == Kind::oscillation ? Cause::oscillation : Cause::lag_step;
+}
+
+/// The lines at both ends of each planted stretch are those of a reported run on that pass, ±1.
+bool lines_match(const PlantedLog& log, const std::vector<PointIndex>& truth, const clsurf::Defect& defect) {
+    for (std::size_t k = 0; k < truth.size();) {
+        std::size_t end = k;
+        while (end < truth.size() && log.pass[static_cast<std::size_t>(truth[end])] == log.pass[static_cast<std::size_t>(truth[k])]) ++end;
+        const auto first = static_cast<long long>(log.line[static_cast<std::size_t>(truth[k])]);
+        const auto last = static_cast<long long>(log.line[static_cast<std::size_t>(truth[end - 1])]);
+        const bool matched = std::any_of(defect.runs.begin(), defect.runs.end(), [&](const DefectRun& run) {
+            return std::abs(static_cast<long long>(run.first_line) - first) <= 1 && std::abs(static_cast<long long>(run.last_line) - last) <= 1;
+        });
+        if (matched) return true;
+        k = end;
+    }
+    return false;
+}
+
+}  // namespace
+
+QualityReport judge(const PlantedLog& planted) {
+    const Log log = as_log(planted);
+    const Program program = parse_program(SourceText("planted.nc", planted.program, nullptr), {});
+    Diagnostics diagnostics;
+    const Trajectory path = reconstruct(log, Role::commanded, Vec3::Zero());
+    const Trajectory measured = reconstruct(log, Role::feedback, Vec3::Zero());
+    const LineMap lines = map_lines(path, log, program, true, diagnostics);
+    const ClSurface surface = stitch(gather(path), lines);
+    const Signals signals = derive_signals(surface, path, &measured, smooth_pieces(log, surface.passes), std::max(1.0, 2 * surface.step_over));
+    return find_defects(surface, signals, lines, program, log.period, {});
+}
+
+Score score(const PlantedLog& planted, const QualityReport& report) {
+    Score result;
+    result.points = static_cast<PointIndex>(planted.line.size());
+    result.planted = static_cast<int>(planted.truth.size());
+    result.reported = static_cast<int>(report.defects.size());
+    std::vector<PointIndex> all_truth;
+    for (const auto& truth : planted.truth) all_truth.insert(all_truth.end(), truth.begin(), truth.end());
+    std::vector<PointIndex> flagged;
+    const Near near_truth(planted, all_truth, true_within);
+    for (const clsurf::Defect& defect : report.defects) {
+        const std::vector<PointIndex> points = points_of(defect);
+        flagged.insert(flagged.end(), points.begin(), points.end());
+        if (near_truth.share(points) >= share_enough) ++result.right;
+    }
+    const Near near_flagged(planted, flagged, found_within);
+    for (std::size_t d = 0; d < planted.truth.size(); ++d) {
+        const std::vector<PointIndex>& truth = planted.truth[d];
+        if (near_flagged.share(truth) < share_enough) continue;
+        ++result.found;
+        // The report that covers most of it.
+        const clsurf::Defect* best = nullptr;
+        double most = 0;
+        for (const clsurf::Defect& defect : report.defects) {
+            const double share = Near(planted, points_of(defect), found_within).share(truth);
+            if (share > most) {
+                most = share;
+                best = &defect;
+            }
+        }
+        const Near near_place(planted, truth, planted.recipe.step_over);
+        if (near_place.has(best->position)) ++result.placed;
+        if (lines_match(planted, truth, *best)) ++result.lined;
+        if (best->cause == cause_of(planted.recipe.defects[d].kind)) ++result.named;
+        if (planted.recipe.defects[d].kind == Kind::lag) {
+            const double wanted = planted.recipe.defects[d].amplitude;
+            const double got = best->pit ? -best->depth : best->depth;
+            result.depth_errors.push_back(got / wanted - 1);
+        }
+    }
+    return result;
+}
+
+Score& Score::operator+=(const Score& other) {
+    planted += other.planted;
+    found += other.found;
+    reported += other.reported;
+    right += other.right;
+    points += other.points;
+    placed += other.placed;
+    lined += other.lined;
+    named += other.named;
+    depth_errors.insert(depth_errors.end(), other.depth_errors.begin(), other.depth_errors.end());
+    return *this;
+}
+
+}  // namespace clsurf::planted

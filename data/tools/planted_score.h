@@ -1,0 +1,31 @@
+#pragma once
+// What a predictor makes of planted logs: how many defects it finds, how many it invents, and how far
+// off its places, lines and depths are.
+
+#include "planted_log.h"
+#include "quality/defects.h"
+
+namespace clsurf::planted {
+
+/// The project's own way from a log to its report.
+[[nodiscard]] QualityReport judge(const PlantedLog& planted);
+
+struct Score {
+    int planted = 0;    ///< defects
+    int found = 0;      ///< with a flagged point within 0.2 mm of 30 % of their points
+    int reported = 0;   ///< regions
+    int right = 0;      ///< with 30 % of their points within 0.8 mm of a planted one
+    PointIndex points = 0;
+    std::vector<double> depth_errors;  ///< relative, of lag defects found
+    int placed = 0;                    ///< found with the position within a step-over of a planted point
+    int lined = 0;                     ///< found with the planted lines inside the reported ones, ±1
+    int named = 0;                     ///< found under their cause
+
+    Score& operator+=(const Score& other);
+    [[nodiscard]] double recall() const { return planted > 0 ? static_cast<double>(found) / planted : 1.0; }
+    [[nodiscard]] double precision() const { return reported > 0 ? static_cast<double>(right) / reported : 1.0; }
+};
+
+[[nodiscard]] Score score(const PlantedLog& planted, const QualityReport& report);
+
+}  // namespace clsurf::planted

@@ -1,0 +1,13 @@
+#pragma once
+// A budget as a TOML file: `max_depth_um = 5` and the other names of docs/reference/budget.md.
+
+#include <string>
+
+#include "quality/verdict.h"
+
+namespace clsurf::io {
+
+/// Throws InputError: unreadable, an unknown key, a value that is not a number ≥ 0.
+[[nodiscard]] Budget read_budget(const std::string& path);
+
+}  // namespace clsurf::io

@@ -1,0 +1,153 @@
+#include "io/quality_report.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "io/json_value.h"
+
+namespace clsurf::io {
+namespace {
+
+double um(double mm) { return mm * um_per_mm; }
+double per_minute(double per_second) { return per_second * seconds_per_minute; }
+
+/// "passes", "lines" and "points" of runs, side by side.
+void add_runs(Json& json, const std::vector<DefectRun>& runs) {
+    Json passes = Json::array();
+    Json lines = Json::array();
+    Json points = Json::array();
+    for (const DefectRun& run : runs) {
+        passes.push_back(run.pass);
+        lines.push_back(Json::array({run.first_line, run.last_line}));
+        points.push_back(Json::array({run.points.first, run.points.last}));
+    }
+    json["passes"] = std::move(passes);
+    json["lines"] = std::move(lines);
+    json["points"] = std::move(points);
+}
+
+Json defect_json(const Defect& d, std::size_t id) {
+    Json json{{"id", id},
+              {"severity", d.severity},
+              {"cause", name_of(d.cause)},
+              {"position_mm", vector(d.position)},
+              {"bounds_mm", box(d.bounds)},
+              {"area_mm2", number(d.area)},
+              {"length_mm", number(d.length)},
+              {"depth_um", number(um(d.depth))},
+              {"shape", d.pit ? "pit" : "bulge"},
+              {"speed_jump_mm_min", number(per_minute(d.speed_jump))},
+              {"speed_jump_percent", number(100 * d.speed_mismatch)},
+              {"acceleration_jump_mm_s2", number(d.acceleration_jump)},
+              {"score", number(d.score)},
+              {"point", d.point}};
+    add_runs(json, d.runs);
+    Json beside;
+    add_runs(beside, d.neighbours);
+    json["neighbours"] = std::move(beside);
+    return json;
+}
+
+Json defects_json(const std::vector<Defect>& defects) {
+    Json all = Json::array();
+    for (std::size_t i = 0; i < defects.size(); ++i) all.push_back(defect_json(defects[i], i + 1));
+    return all;
+}
+
+double coverage(const QualityReport& r) { return r.points > 0 ? 100.0 * static_cast<double>(r.compared) / static_cast<double>(r.points) : 0.0; }
+
+}  // namespace
+
+std::string quality_json(const ReportedQuality& q) {
+    const QualityReport& r = *q.report;
+    int worst = 0;
+    for (const Defect& d : r.defects) worst = std::max(worst, d.severity);
+    Json budget = Json::array();
+    for (const BudgetLine& line : q.budget) {
+        budget.push_back({{"name", line.name}, {"limit", number(line.limit)}, {"measured", number(line.measured)}, {"held", line.held}});
+    }
+    const auto quantity = [&](const std::array<float, quantities>& values, Quantity which) { return static_cast<double>(values[index_of(which)]); };
+    Json thresholds{{"speed_percent", number(100 * quantity(r.thresholds.of, Quantity::speed))},
+                    {"acceleration_mm_s2", number(quantity(r.thresholds.of, Quantity::acceleration))},
+                    {"lag_um", r.has_lag ? number(um(quantity(r.thresholds.of, Quantity::lag))) : Json(nullptr)},
+                    {"relief_um", number(um(quantity(r.thresholds.of, Quantity::relief)))}};
+    Json summary{{"points", r.points},
+                 {"passes", r.passes},
+                 {"defects", r.defects.size()},
+                 {"expected", r.expected.size()},
+                 {"worst_severity", worst},
+                 {"scallop_um", number(um(q.scallop))},
+                 {"step_over_mm", number(r.step_over)},
+                 {"coverage_percent", number(coverage(r))},
+                 {"measured_positions", r.has_lag},
+                 {"speed_mismatch_p99_percent", number(100 * quantity(r.thresholds.p99, Quantity::speed))},
+                 {"acceleration_mismatch_p99_mm_s2", number(quantity(r.thresholds.p99, Quantity::acceleration))},
+                 {"thresholds", std::move(thresholds)},
+                 {"filter", r.note},
+                 {"tool", to_text(q.tool)},
+                 {"budget", std::move(budget)},
+                 {"within_budget", all_held(q.budget)}};
+    return dump(Json{{"defects", defects_json(r.defects)},
+                     {"expected", defects_json(r.expected)},
+                     {"summary", std::move(summary)},
+                     {"diagnostics", list(*q.diagnostics)}});
+}
+
+std::string quality_csv(const ReportedQuality& q) {
+    std::string text =
+        "id,severity,cause,pass,first_line,last_line,first_point,last_point,x [mm],y [mm],z [mm],depth [µm],shape,"
+        "speed jump [mm/min],acceleration jump [mm/s²],length [mm],area [mm²],score\n";
+    for (std::size_t i = 0; i < q.report->defects.size(); ++i) {
+        const Defect& d = q.report->defects[i];
+        for (const DefectRun& run : d.runs) {
+            text += fmt::format("{},{},{},{},{},{},{},{},{:.4f},{:.4f},{:.4f},{:.3f},{},{:.1f},{:.1f},{:.3f},{:.4f},{:.2f}\n", i + 1, d.severity, name_of(d.cause),
+                                run.pass, run.first_line, run.last_line, run.points.first, run.points.last, d.position.x(), d.position.y(), d.position.z(),
+                                um(d.depth), d.pit ? "pit" : "bulge", per_minute(d.speed_jump), d.acceleration_jump, d.length, d.area, d.score);
+        }
+    }
+    return text;
+}
+
+std::string quality_text(const ReportedQuality& q) {
+    const QualityReport& r = *q.report;
+    std::string text;
+    const auto lines_of = [](const DefectRun& run) {
+        if (run.first_line == 0) return std::string("-");
+        return run.first_line == run.last_line ? fmt::format("{}", run.first_line) : fmt::format("{}-{}", run.first_line, run.last_line);
+    };
+    if (!r.defects.empty()) {
+        text += fmt::format("{:>3} {:>3} {:<13} {:>9} {:>10} {:>7} {:<28} {}\n", "no", "sev", "cause", "depth µm", "speed %", "mm", "at X Y Z [mm]", "lines");
+    }
+    for (std::size_t i = 0; i < r.defects.size(); ++i) {
+        const Defect& d = r.defects[i];
+        std::string lines;
+        constexpr std::size_t shown = 4;
+        for (std::size_t k = 0; k < std::min(shown, d.runs.size()); ++k) lines += (k > 0 ? ", " : "") + lines_of(d.runs[k]);
+        if (d.runs.size() > shown) lines += fmt::format(" and {} more", d.runs.size() - shown);
+        const double percent = std::copysign(100 * d.speed_mismatch, d.speed_jump);
+        text += fmt::format("{:>3} {:>3} {:<13} {:>8} {:>9} {:>7} {:<28} {}\n", i + 1, d.severity, name_of(d.cause), fmt::format("{:+.1f}", d.pit ? -um(d.depth) : um(d.depth)),
+                            fmt::format("{:+.1f}", percent), fmt::format("{:.1f}", d.length),
+                            fmt::format("{:.2f} {:.2f} {:.2f}", d.position.x(), d.position.y(), d.position.z()), lines);
+    }
+    if (r.passes < 2 || r.step_over <= 0) {
+        text += "no adjacent passes: nothing to compare\n";
+    } else {
+        text += fmt::format("{}{} defects on {} passes, {:.3g} mm apart; {:.1f} % of {} cutting points compared with both neighbours\n", r.defects.empty() ? "" : "\n",
+                            r.defects.empty() ? "no" : fmt::format("{}", r.defects.size()), r.passes, r.step_over, coverage(r), r.points);
+        text += fmt::format("thresholds: speed {:.1f} %, acceleration {:.0f} mm/s²", 100 * r.thresholds.of[index_of(Quantity::speed)],
+                            r.thresholds.of[index_of(Quantity::acceleration)]);
+        if (r.has_lag) text += fmt::format(", lag {:.1f} µm", um(r.thresholds.of[index_of(Quantity::lag)]));
+        text += fmt::format(", relief of the passes {:.1f} µm; {}\n", um(r.thresholds.of[index_of(Quantity::relief)]), r.note);
+        if (q.scallop > 0) text += fmt::format("scallop between clean passes with {}: {:.2f} µm\n", to_text(q.tool), um(q.scallop));
+        if (!r.has_lag) text += "no measured positions: depths are those of the commanded path alone\n";
+        if (!r.expected.empty()) text += fmt::format("{} more at the border of the part, where a pass has one neighbour only: not counted\n", r.expected.size());
+    }
+    for (const BudgetLine& line : q.budget) {
+        text += fmt::format("budget {:<28} {:>10.4g} of {:<10.4g} {}\n", line.name, line.measured, line.limit, line.held ? "held" : "NOT HELD");
+    }
+    return text;
+}
+
+}  // namespace clsurf::io

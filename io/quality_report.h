@@ -1,0 +1,34 @@
+#pragma once
+// The predictor's report as JSON, CSV, SARIF 2.1.0 and as a table for people.
+
+#include <string>
+#include <vector>
+
+#include "core/diagnostic.h"
+#include "program/program.h"
+#include "quality/defects.h"
+#include "quality/tool.h"
+#include "quality/verdict.h"
+
+namespace clsurf::io {
+
+/// A report with what it was made from.
+struct ReportedQuality {
+    const QualityReport* report = nullptr;
+    const Program* program = nullptr;
+    std::string log;       ///< its name
+    Tool tool;
+    double scallop = 0;    ///< [mm] between clean passes
+    std::vector<BudgetLine> budget;
+    const Diagnostics* diagnostics = nullptr;
+};
+
+/// Keys: docs/reference/json.md.
+[[nodiscard]] std::string quality_json(const ReportedQuality& quality);
+/// One row per run of a defect, columns named with their units.
+[[nodiscard]] std::string quality_csv(const ReportedQuality& quality);
+/// One result per defect on the program's line, so that editors and code review show it.
+[[nodiscard]] std::string quality_sarif(const ReportedQuality& quality);
+[[nodiscard]] std::string quality_text(const ReportedQuality& quality);
+
+}  // namespace clsurf::io

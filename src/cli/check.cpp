@@ -1,0 +1,100 @@
+// clsurf check: adjacent-path discontinuities and the marks that they will leave.
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "cli/part.h"
+#include "cli/quality.h"
+#include "io/atomic_file.h"
+#include "io/budget_file.h"
+#include "io/quality_report.h"
+
+namespace clsurf::cli {
+namespace {
+
+using Writer = std::string (*)(const io::ReportedQuality&);
+
+Writer writer_of(const std::string& format) {
+    static const std::map<std::string, Writer, std::less<>> writers{
+        {"text", io::quality_text}, {"json", io::quality_json}, {"csv", io::quality_csv}, {"sarif", io::quality_sarif}};
+    return writers.at(format);
+}
+
+std::string format_of(const po::variables_map& values) {
+    if (values.count("format") > 0) {
+        if (values.count("json") > 0) throw UsageError("--json and --format say the same");
+        return values["format"].as<std::string>();
+    }
+    return values.count("json") > 0 ? "json" : "text";
+}
+
+ExitCode run(const po::variables_map& values) {
+    const Writer write = writer_of(format_of(values));
+    PartOptions options = read_part_options(values);
+    const std::optional<Role> measured = take_measured_role(options);
+    const QualityOptions quality_options = read_quality_options(values);
+    Budget budget;
+    if (values.count("budget") > 0) budget = io::read_budget(values["budget"].as<std::string>());
+    std::unique_ptr<io::AtomicFile> output;
+    if (values.count("output") > 0) output = std::make_unique<io::AtomicFile>(values["output"].as<std::string>());
+
+    StageClock clock(read_common(values), 7);
+    Part part = load_part(options, clock);
+    clock.begin("stitch the surface");
+    const ClSurface surface = stitch(part);
+    const Quality quality = judge(part, surface, measured, quality_options, clock);
+
+    io::ReportedQuality reported;
+    reported.report = &quality.report;
+    reported.program = &part.program;
+    reported.log = part.log.name;
+    reported.tool = quality_options.tool;
+    reported.scallop = quality.scallop;
+    reported.budget = hold(quality.report, budget);
+    reported.diagnostics = &part.diagnostics;
+    clock.end();
+    if (format_of(values) != "json") print(part.diagnostics, values);
+    const std::string text = write(reported);
+    if (output) {
+        output->write(text);
+        output->commit();
+    } else {
+        std::fputs(text.c_str(), stdout);
+    }
+    return all_held(reported.budget) ? ExitCode::done : ExitCode::check_failed;
+}
+
+}  // namespace
+
+Subcommand check_subcommand() {
+    return {
+        .name = "check",
+        .arguments = "PROGRAM LOG",
+        .summary = "adjacent-path discontinuities and predicted marks, with lines, causes and micrometres",
+        .description = "Compares every pass with the passes beside it: speed, acceleration, and where the axes run off\n"
+                       "the commanded path. What differs enough to leave a mark is listed, worst first, with the lines\n"
+                       "at fault and how deep it will be. With a budget, exit code 1 says that it was not held.\n\n"
+                       "  clsurf check part.nc run.biip --tool ball:6\n"
+                       "  clsurf check part.nc run.biip --tool ball:6 --budget part.toml --format sarif -o part.sarif",
+        .declare =
+            [](po::options_description& options) {
+                declare_quality(options);
+                // clang-format off
+                options.add_options()
+                    ("budget", po::value<std::string>()->value_name("FILE"), "limits as TOML; exit code 1 where one is not held")
+                    ("format", po::value<std::string>()->value_name("text|json|csv|sarif"), "form of the report (default: text)")
+                    ("json", "the same as --format json")
+                    ("output,o", po::value<std::string>()->value_name("FILE"), "the report's file (default: standard output)");
+                // clang-format on
+                declare_part(options);
+            },
+        .positional = {"PROGRAM", "LOG"},
+        .run = run,
+    };
+}
+
+}  // namespace clsurf::cli

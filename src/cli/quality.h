@@ -1,0 +1,36 @@
+#pragma once
+// Quality: a part judged by the predictor, with the options that `check` and `render` share.
+
+#include <optional>
+
+#include "cli/part.h"
+#include "quality/defects.h"
+#include "quality/tool.h"
+
+namespace clsurf::cli {
+
+struct QualityOptions {
+    Tool tool;
+    bool tool_given = false;
+    QualityRules rules;
+};
+
+/// --tool.
+void declare_quality(po::options_description& options);
+[[nodiscard]] QualityOptions read_quality_options(const po::variables_map& values);
+
+struct Quality {
+    QualityReport report;
+    Signals signals;
+    double scallop = 0;  ///< [mm] 0: not known
+};
+
+/// Options for load_part(): passes are compared where they were commanded, so --surface names what
+/// heights are measured from. Returns that role, or the most truthful one where none is named.
+[[nodiscard]] std::optional<Role> take_measured_role(PartOptions& options);
+
+/// Measures heights from `measured`, or from the most truthful positions that the log has besides
+/// the commanded ones (actual, then feedback). Adds diagnostics `quality.…` to the part's.
+[[nodiscard]] Quality judge(Part& part, const ClSurface& surface, std::optional<Role> measured, const QualityOptions& options, StageClock& clock);
+
+}  // namespace clsurf::cli

@@ -1,0 +1,35 @@
+#pragma once
+// What makes a pass differ: read from the shape of the mismatch along the pass, and from what the
+// program does there.
+
+#include <span>
+
+#include "path/toolpath.h"
+#include "quality/defects.h"
+#include "quality/suspects.h"
+
+namespace clsurf {
+
+class CauseFinder {
+public:
+    /// All must outlive it.
+    CauseFinder(const ClSurface& surface, const Signals& signals, const LineMap& lines, const Program& program, const Way& way)
+        : surface_(surface), signals_(signals), lines_(lines), toolpath_(program.motions, Vec3::Zero()), way_(way) {}
+
+    /// `sites`: those of the defect's runs, in order; its neighbours are known.
+    [[nodiscard]] Cause cause_of(const Defect& defect, std::span<const Suspect> sites) const;
+
+private:
+    [[nodiscard]] bool spaced_otherwise(const Defect& defect) const;
+    [[nodiscard]] bool turns(const DefectRun& run) const;
+    [[nodiscard]] bool begins_with_reversal(const DefectRun& run) const;
+    [[nodiscard]] double spacing(std::span<const DefectRun> runs) const;
+
+    const ClSurface& surface_;
+    const Signals& signals_;
+    const LineMap& lines_;
+    Toolpath toolpath_;
+    const Way& way_;
+};
+
+}  // namespace clsurf

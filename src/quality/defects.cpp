@@ -1,0 +1,343 @@
+#include "quality/defects.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "core/block.h"
+#include "path/way.h"
+#include "quality/cause.h"
+#include "quality/suspects.h"
+
+namespace clsurf {
+namespace {
+
+constexpr float half_of_peak = 0.5F;
+constexpr double shown_percentile = 0.9;    ///< of a plateau: its height without the noise's own peak
+constexpr double smallest_area = 1.0;       ///< squared step-overs
+constexpr float least_speed_share = 0.5F;   ///< of its threshold, for what only the acceleration shows …
+constexpr float strong_alone = 1.3F;        ///< … and of the acceleration's own
+constexpr std::size_t fewest_sites = 2;
+constexpr double effect_seconds = 0.020;    ///< by which a height may outlast the motion that makes it
+
+double percentile(std::vector<double> values, double p) {
+    if (values.empty()) return 0;
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(std::lround(p * static_cast<double>(values.size() - 1)));
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+}
+
+/// Quantities that are grouped together.
+using Family = std::span<const Quantity>;
+constexpr std::array motion_family{Quantity::speed, Quantity::acceleration};
+constexpr std::array lag_family{Quantity::lag};
+constexpr std::array relief_family{Quantity::relief};
+
+float largest(const std::array<float, quantities>& values, Family family) {
+    float most = 0;
+    for (const Quantity q : family) most = std::max(most, values[index_of(q)]);
+    return most;
+}
+
+/// The quantity that shows a group best: the first of its family that is there at all. Accelerations
+/// are the edges of something else, and speak only where nothing else does.
+Quantity main_quantity(std::span<const Suspect> group, Family family) {
+    for (const Quantity q : family) {
+        const bool there = std::any_of(group.begin(), group.end(), [&](const Suspect& s) { return s.share[index_of(q)] >= half_of_peak; });
+        if (there) return q;
+    }
+    return family.back();
+}
+
+int severity_of(double depth, float score, bool heights_known, const QualityRules& rules) {
+    if (!heights_known) return score < 1.5F ? 1 : score < 3 ? 2 : 3;
+    int severity = 1;
+    for (const double limit : rules.depth_of_severity) severity += depth >= limit ? 1 : 0;
+    // A speed step that leaves no height still shows on a glossy surface: the chips change.
+    return std::max(severity, score >= 2 ? 2 : 1);
+}
+
+class Builder {
+public:
+    Builder(const ClSurface& surface, const Signals& signals, const LineMap& lines, const CauseFinder& causes, const Way& way,
+            const Thresholds& thresholds, const QualityRules& rules)
+        : surface_(surface), signals_(signals), lines_(lines), causes_(causes), way_(way), thresholds_(thresholds), rules_(rules) {
+        std::int64_t number = 0;
+        for (const Pass& pass : surface.passes) numbers_.push_back(pass.kind == PassKind::cut ? ++number : 0);
+    }
+
+    [[nodiscard]] std::int64_t cut_passes() const { return numbers_.empty() ? 0 : *std::max_element(numbers_.begin(), numbers_.end()); }
+
+    /// The sites of a group that are its defect: on each pass, where the main quantity reaches half of
+    /// its peak there; short dips between are its own (an oscillation crosses zero).
+    [[nodiscard]] std::vector<Suspect> core_of(std::span<const Suspect> group, Quantity quantity) const {
+        const std::size_t q = index_of(quantity);
+        const auto share = [q](const Suspect& s) { return s.share[q]; };
+        float peak = 0;
+        for (const Suspect& s : group) peak = std::max(peak, share(s));
+        const float enough = std::min(1.0F, half_of_peak * peak);  // a pass that is hardly suspect is not at fault
+        std::vector<Suspect> core;
+        for_each_run(group, [&](std::span<const Suspect> run) {
+            float run_peak = 0;
+            for (const Suspect& s : run) run_peak = std::max(run_peak, share(s));
+            if (run_peak < enough) return;
+            const auto strong = [&](const Suspect& s) { return share(s) >= half_of_peak * run_peak; };
+            for (std::size_t k = 0; k < run.size(); ++k) {
+                if (!strong(run[k])) continue;
+                std::size_t last = k;
+                for (std::size_t j = k + 1; j < run.size() && !way_.at_least(run[last].point, run[j].point, joined_); ++j) {
+                    if (strong(run[j])) last = j;
+                }
+                core.insert(core.end(), run.begin() + static_cast<std::ptrdiff_t>(k), run.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+                k = last;
+            }
+        });
+        return core;
+    }
+
+    /// The defect that the sites of a core make, in the order of their points.
+    [[nodiscard]] Defect build(std::span<const Suspect> core, Quantity quantity, Family family) const {
+        Defect defect;
+        defect.quantity = quantity;
+        const auto weaker = [&](const Suspect& a, const Suspect& b) { return a.share[index_of(quantity)] < b.share[index_of(quantity)]; };
+        defect.point = std::max_element(core.begin(), core.end(), weaker)->point;
+        defect.position = surface_.positions[defect.point].cast<double>() + surface_.positions.origin;
+        for (const Suspect& s : core) defect.score = std::max(defect.score, largest(s.score, family));
+        for_each_run(core, [&](std::span<const Suspect> run) { defect.runs.push_back(run_of(run.front().pass, {run.front().point, run.back().point})); });
+        measure(core, defect);
+        defect.neighbours = neighbours_of(core, defect.runs);
+        defect.cause = causes_.cause_of(defect, core);
+        defect.severity = severity_of(defect.depth, defect.score, signals_.measured || defect.quantity == Quantity::relief, rules_);
+        return defect;
+    }
+
+    /// The border of the part shows what it always shows: all that starts the defect has one neighbour.
+    [[nodiscard]] static bool at_border(std::span<const Suspect> core, Family family) {
+        return std::all_of(core.begin(), core.end(), [&](const Suspect& s) { return s.border || largest(s.score, family) < 1; });
+    }
+
+private:
+    [[nodiscard]] DefectRun run_of(std::size_t pass, PointRange points) const {
+        DefectRun run{numbers_[pass], points, 0, 0};
+        std::vector<LineNumber> lines(static_cast<std::size_t>(points.size()));
+        lines_.read(points.first, lines);
+        for (const LineNumber line : lines) {
+            if (line == 0) continue;
+            run.first_line = run.first_line == 0 ? line : std::min(run.first_line, line);
+            run.last_line = std::max(run.last_line, line);
+        }
+        return run;
+    }
+
+    /// f(run) for the stretches of sites of one pass that hang together.
+    template <typename F>
+    void for_each_run(std::span<const Suspect> sites, F&& f) const {
+        for (std::size_t k = 0; k < sites.size();) {
+            std::size_t end = k + 1;
+            while (end < sites.size() && sites[end].pass == sites[k].pass && !way_.at_least(sites[end - 1].point, sites[end].point, joined_)) ++end;
+            f(sites.subspan(k, end - k));
+            k = end;
+        }
+    }
+
+    void measure(std::span<const Suspect> core, Defect& defect) const {
+        std::vector<double> heights;
+        std::vector<double> speeds;
+        std::vector<double> mismatches;
+        std::vector<double> accelerations;
+        double signed_height = 0;
+        double signed_speed = 0;
+        for (const Suspect& s : core) {
+            const float lag = s.comparison.residual[index_of(Quantity::lag)];
+            const float relief = s.comparison.residual[index_of(Quantity::relief)];
+            // The relief of measured and commanded path differ by the lag; where there is no lag it is all.
+            const bool by_relief = defect.quantity == Quantity::relief || !(lag == lag);
+            const float height = by_relief ? relief : lag;
+            if (height == height) {
+                heights.push_back(std::abs(height));
+                signed_height += height;
+            }
+            if (s.comparison.speed_jump == s.comparison.speed_jump) {
+                speeds.push_back(std::abs(s.comparison.speed_jump));
+                signed_speed += s.comparison.speed_jump;
+                mismatches.push_back(std::abs(s.comparison.residual[index_of(Quantity::speed)]));
+            }
+            const float a = s.comparison.step[index_of(Quantity::acceleration)];
+            if (a == a) accelerations.push_back(a);
+            defect.bounds.extend(surface_.positions[s.point].cast<double>() + surface_.positions.origin);
+        }
+        defect.depth = percentile(heights, shown_percentile);
+        defect.pit = signed_height < 0;
+        defect.speed_jump = std::copysign(percentile(speeds, shown_percentile), signed_speed);
+        defect.speed_mismatch = percentile(mismatches, shown_percentile);
+        defect.acceleration_jump = percentile(accelerations, shown_percentile);
+        for (const DefectRun& run : defect.runs) {
+            const double length = way_.to(run.points.last) - way_.to(run.points.first);
+            defect.length = std::max(defect.length, length);
+            defect.area += length * surface_.step_over;
+        }
+    }
+
+    /// The stretches beside `runs` on passes that are not at fault.
+    [[nodiscard]] std::vector<DefectRun> neighbours_of(std::span<const Suspect> core, const std::vector<DefectRun>& runs) const {
+        struct Beside {
+            std::size_t pass;
+            PointRange points;
+        };
+        std::vector<Beside> found;
+        for (const Suspect& s : core) {
+            for (const Station& at : {s.comparison.beside_left, s.comparison.beside_right}) {
+                if (!at.exists()) continue;
+                const PointIndex n = at.nearest();
+                const std::size_t pass = pass_of(surface_.passes, n);
+                const auto same = std::find_if(found.begin(), found.end(), [&](const Beside& b) { return b.pass == pass; });
+                if (same == found.end()) {
+                    found.push_back({pass, {n, n}});
+                } else {
+                    same->points.first = std::min(same->points.first, n);
+                    same->points.last = std::max(same->points.last, n);
+                }
+            }
+        }
+        std::vector<DefectRun> clean;
+        for (const Beside& b : found) {
+            const bool at_fault = std::any_of(runs.begin(), runs.end(), [&](const DefectRun& r) { return r.pass == numbers_[b.pass]; });
+            if (!at_fault) clean.push_back(run_of(b.pass, b.points));
+        }
+        std::sort(clean.begin(), clean.end(), [](const DefectRun& a, const DefectRun& b) { return a.points.first < b.points.first; });
+        return clean;
+    }
+
+    const ClSurface& surface_;
+    const Signals& signals_;
+    const LineMap& lines_;
+    const CauseFinder& causes_;
+    const Way& way_;
+    const Thresholds& thresholds_;
+    const QualityRules& rules_;
+    double joined_ = std::max(1.0, 2 * surface_.step_over);  ///< [mm] of way between sites that hang together
+    std::vector<std::int64_t> numbers_;  ///< of the cut passes, by index
+};
+
+bool worse(const Defect& a, const Defect& b) {
+    if (a.severity != b.severity) return a.severity > b.severity;
+    if (a.depth != b.depth) return a.depth > b.depth;
+    return a.point < b.point;
+}
+
+/// A defect with the sites that it was built from.
+struct Built {
+    Defect defect;
+    std::vector<Suspect> core;
+    bool border = false;
+};
+
+/// An acceleration that changes no speed worth a word leaves no mark: noise of the second derivative.
+bool stands_alone(std::span<const Suspect> core) {
+    const bool speed_differs = std::any_of(core.begin(), core.end(), [](const Suspect& s) { return s.share[index_of(Quantity::speed)] >= least_speed_share; });
+    const bool strong = std::any_of(core.begin(), core.end(), [](const Suspect& s) { return s.score[index_of(Quantity::acceleration)] >= strong_alone; });
+    return speed_differs && strong;
+}
+
+/// The defects of one family of quantities.
+std::vector<Built> build_family(const std::vector<Suspect>& suspects, Family family, const ClSurface& surface, const Way& way, const Builder& builder) {
+    std::vector<Suspect> mine;
+    for (const Suspect& s : suspects) {
+        if (largest(s.share, family) >= half_of_peak) mine.push_back(s);
+    }
+    std::vector<Built> built;
+    for (const std::vector<Suspect>& group : group_suspects(mine, surface, way)) {
+        const bool starts = std::any_of(group.begin(), group.end(), [&](const Suspect& s) { return largest(s.score, family) >= 1; });
+        if (!starts) continue;
+        const Quantity quantity = main_quantity(group, family);
+        // Cut back, a group may fall apart: weak suspects had joined several defects.
+        for (std::vector<Suspect>& core : group_suspects(builder.core_of(group, quantity), surface, way)) {
+            const bool strong = std::any_of(core.begin(), core.end(), [&](const Suspect& s) { return largest(s.score, family) >= 1; });
+            if (core.size() < fewest_sites || (!strong && quantity != Quantity::speed)) continue;
+            if (quantity == Quantity::acceleration && !stands_alone(core)) continue;
+            Defect defect = builder.build(core, quantity, family);
+            if (defect.area < smallest_area * surface.step_over * surface.step_over) continue;
+            const bool border = Builder::at_border(core, family);
+            built.push_back({std::move(defect), std::move(core), border});
+        }
+    }
+    return built;
+}
+
+/// Heights that lie where the motion differs are its effect: at least half of their sites are in one
+/// of the runs, with a little room round them.
+bool explained_by(const Built& height, const std::vector<Built>& motions, PointIndex room) {
+    for (const Built& motion : motions) {
+        const auto inside = std::count_if(height.core.begin(), height.core.end(), [&](const Suspect& s) {
+            return std::any_of(motion.defect.runs.begin(), motion.defect.runs.end(),
+                               [&](const DefectRun& run) { return s.point >= run.points.first - room && s.point <= run.points.last + room; });
+        });
+        if (2 * static_cast<std::size_t>(inside) >= height.core.size()) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+std::string_view name_of(Cause cause) {
+    switch (cause) {
+        case Cause::feed_drop: return "feed_drop";
+        case Cause::oscillation: return "oscillation";
+        case Cause::lag_step: return "lag_step";
+        case Cause::point_spacing: return "point_spacing";
+        case Cause::corner: return "corner";
+        case Cause::reversal: return "reversal";
+        case Cause::pass_end: return "pass_end";
+    }
+    return "";
+}
+
+std::string_view description_of(Cause cause) {
+    switch (cause) {
+        case Cause::feed_drop: return "runs at another speed than the passes beside it";
+        case Cause::oscillation: return "its speed swings about that of the passes beside it";
+        case Cause::lag_step: return "the axes run off the commanded path otherwise than beside it";
+        case Cause::point_spacing: return "the program's points lie otherwise than on the passes beside it";
+        case Cause::corner: return "the programmed path turns there";
+        case Cause::reversal: return "an axis turns back there";
+        case Cause::pass_end: return "the pass begins or ends there";
+    }
+    return "";
+}
+
+QualityReport find_defects(const ClSurface& surface, const Signals& signals, const LineMap& lines, const Program& program,
+                           double period, const QualityRules& rules) {
+    QualityReport report;
+    report.step_over = surface.step_over;
+    report.has_lag = signals.measured;
+    report.note = signals.note;
+    report.thresholds = measure_thresholds(surface, signals, rules.thresholds);
+    const Way way(surface.positions);
+    const CauseFinder causes(surface, signals, lines, program, way);
+    const Builder builder(surface, signals, lines, causes, way, report.thresholds, rules);
+    report.passes = builder.cut_passes();
+    for (const Pass& pass : surface.passes) report.points += pass.kind == PassKind::cut ? pass.size() : 0;
+    report.compared = count_compared(surface, signals);
+
+    const std::vector<Suspect> suspects = find_suspects(surface, signals, report.thresholds, period);
+    std::vector<Built> all = build_family(suspects, motion_family, surface, way, builder);
+    const std::size_t motions = all.size();
+    const PointIndex room = std::lround(std::min(effect_seconds / period, 1e6));
+    for (const Family family : {Family(lag_family), Family(relief_family)}) {
+        const std::vector<Built> before(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(family.front() == Quantity::lag ? motions : all.size()));
+        for (Built& height : build_family(suspects, family, surface, way, builder)) {
+            if (!explained_by(height, before, room)) all.push_back(std::move(height));
+        }
+    }
+    for (Built& built : all) {
+        if (built.border) built.defect.cause = Cause::pass_end;
+        (built.border ? report.expected : report.defects).push_back(std::move(built.defect));
+    }
+    std::sort(report.defects.begin(), report.defects.end(), worse);
+    std::sort(report.expected.begin(), report.expected.end(), worse);
+    return report;
+}
+
+}  // namespace clsurf

@@ -1,0 +1,82 @@
+#pragma once
+// Defects: places where a pass differs from its neighbours enough to leave a mark, each with its
+// cause, depth and the program lines on both sides.
+//
+// Judged are sites, a point every few milliseconds. A site is suspect where its residual passes half
+// the threshold, and it starts a defect where residual and step both pass it. Suspects are joined along
+// their pass, across to the neighbour and over one clean pass (the lag of a zigzag shows on every
+// second one); groups without a start are dropped. What is left is cut back on each pass to where its
+// main quantity is at least half of its peak there. Motion (speed and acceleration) and heights are
+// grouped apart, so that a lag all over the part does not hide a slow pass; a height that lies where
+// the motion differs belongs to that.
+
+#include <string_view>
+#include <vector>
+
+#include "path/line_map.h"
+#include "quality/mismatch.h"
+
+namespace clsurf {
+
+enum class Cause : std::uint8_t {
+    feed_drop,      ///< slower (or faster) than its neighbours over a stretch
+    oscillation,    ///< the speed swings about that of the neighbours
+    lag_step,       ///< the axes leave the commanded path otherwise than beside it
+    point_spacing,  ///< the program's own points lie otherwise than beside it
+    corner,         ///< the programmed path turns there
+    reversal,       ///< an axis turns back there
+    pass_end,       ///< the pass begins or ends there
+};
+[[nodiscard]] std::string_view name_of(Cause cause);         ///< "feed_drop"
+[[nodiscard]] std::string_view description_of(Cause cause);  ///< "slower than its neighbours"
+
+/// A stretch of one pass.
+struct DefectRun {
+    std::int64_t pass = 0;  ///< number of the cut pass, from 1
+    PointRange points;
+    LineNumber first_line = 0, last_line = 0;  ///< of these points; 0: no line
+};
+
+struct Defect {
+    int severity = 1;     ///< 1 trace, 2 visible on a glossy surface, 3 can be felt, 4 reject
+    Cause cause = Cause::feed_drop;
+    Quantity quantity = Quantity::speed;  ///< that shows it best
+    float score = 0;      ///< peak over threshold
+    Vec3 position = Vec3::Zero();  ///< [mm] on the CL surface: where it is strongest
+    PointIndex point = 0;          ///< there
+    Box3 bounds;                   ///< [mm]
+    double area = 0;               ///< [mm²]
+    double length = 0;             ///< [mm] along the feed, of the longest run
+    double depth = 0;              ///< [mm] ≥ 0, predicted step against the neighbours along the normal
+    bool pit = false;              ///< below its neighbours; else a bulge, which they cut down again
+    double speed_jump = 0;         ///< [mm/s] signed, against the neighbours
+    double speed_mismatch = 0;     ///< ≥ 0, the same relative to the neighbours' speed
+    double acceleration_jump = 0;  ///< [mm/s²] ≥ 0
+    std::vector<DefectRun> runs;        ///< of the passes at fault, in the order of their points
+    std::vector<DefectRun> neighbours;  ///< the clean passes beside them
+};
+
+struct QualityRules {
+    ThresholdRule thresholds;
+    double end_zone = 0;   ///< [mm] at the ends of passes that is not judged; 0: max(1 mm, 2 step-overs)
+    std::array<double, 3> depth_of_severity{0.002, 0.005, 0.020};  ///< [mm] where 2, 3, 4 begin
+};
+
+struct QualityReport {
+    std::vector<Defect> defects;   ///< worst first
+    std::vector<Defect> expected;  ///< at outermost passes: what a part's border always shows
+    Thresholds thresholds;
+    PointIndex points = 0;         ///< of cut passes
+    PointIndex compared = 0;       ///< of them, with a neighbour on both sides and away from the ends
+    std::int64_t passes = 0;       ///< cut passes
+    double step_over = 0;          ///< [mm]
+    bool has_lag = false;          ///< measured positions were there
+    std::string note;              ///< the windows
+};
+
+/// All discontinuities between adjacent passes. `lines` names them; `program` tells corners and point
+/// spacing. O(points + suspects log suspects), parallel; the same for any number of threads.
+[[nodiscard]] QualityReport find_defects(const ClSurface& surface, const Signals& signals, const LineMap& lines,
+                                         const Program& program, double period, const QualityRules& rules);
+
+}  // namespace clsurf

@@ -1,0 +1,187 @@
+#include "quality/mismatch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "core/block.h"
+
+namespace clsurf {
+namespace {
+
+constexpr float none = std::numeric_limits<float>::quiet_NaN();
+constexpr std::size_t sampled_points = 200'000;
+constexpr float normal_deviation = 1.4826F;  ///< standard deviations per median absolute deviation
+constexpr float along_or_against = 0.866F;   ///< cos 30°: neighbours run along with the feed or against it
+constexpr std::size_t fewest_passes = 2;     ///< for a median
+
+/// What is compared, at a place.
+struct Values {
+    float speed = none;
+    float lag = none;
+    float relief = none;
+    Eigen::Vector3f acceleration = Eigen::Vector3f::Constant(none);
+};
+
+/// Median of one quantity over places; NaN with fewer than two.
+template <typename Read>
+float median_of(std::span<const Values> places, Read&& read) {
+    std::array<float, 2 * Comparer::passes_aside> values;
+    std::size_t count = 0;
+    for (const Values& place : places) {
+        const float value = read(place);
+        if (value == value) values[count++] = value;
+    }
+    if (count < fewest_passes) return none;
+    std::sort(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count));
+    const std::size_t middle = count / 2;
+    return count % 2 == 1 ? values[middle] : 0.5F * (values[middle - 1] + values[middle]);
+}
+
+float larger(float a, float b) { return !(a == a) || b > a ? b : a; }
+
+/// How much a column changes over two periods at a point: commanded and measured positions of a
+/// record may be taken a period apart, on each of two passes.
+float change_of_two_periods(const Column<float>& column, PointIndex point) {
+    constexpr PointIndex reach = 3;
+    if (point < reach || point + reach >= static_cast<PointIndex>(column.size())) return 0;
+    const float change = std::abs(column[static_cast<std::size_t>(point + reach)] - column[static_cast<std::size_t>(point - reach)]) / reach;
+    return change == change ? change : 0;
+}
+
+float percentile(std::vector<float>& values, double p) {
+    if (values.empty()) return none;
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(p * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+}
+
+}  // namespace
+
+Comparison Comparer::compare(PointIndex point) const {
+    Comparison result;
+    result.step.fill(none);
+    result.residual.fill(none);
+    const Station here{point, 0};
+    const Eigen::Vector3f normal = signals_.normal[point];
+    const auto values_at = [&](const Station& at) {
+        Values v;
+        v.speed = interpolate(signals_.speed, at);
+        v.acceleration = {interpolate(signals_.acceleration.x, at), interpolate(signals_.acceleration.y, at), interpolate(signals_.acceleration.z, at)};
+        // Normals of steep walls turn round with the feed: the height is counted along the own one.
+        const float sign = signals_.normal[at.nearest()].dot(normal) < 0 ? -1.0F : 1.0F;
+        if (signals_.measured) v.lag = sign * interpolate(signals_.lag, at);
+        v.relief = sign * interpolate(signals_.relief, at);
+        return v;
+    };
+    const Values mine = values_at(here);
+
+    std::array<std::array<Values, passes_aside>, 2> beside_it;
+    std::array<int, 2> count{0, 0};
+    float speed_step = none;
+    for (const Side side : {Side::left, Side::right}) {
+        const auto s = static_cast<std::size_t>(side);
+        Station before = here;
+        Station at = beside(surface_, here, signals_.feed[point], side);
+        (side == Side::left ? result.beside_left : result.beside_right) = at;
+        while (count[s] < passes_aside && at.exists()) {
+            const Eigen::Vector3f feed = signals_.feed[at.nearest()];
+            const bool runs_along = std::abs(feed.dot(signals_.feed[before.nearest()])) > along_or_against;
+            if (signals_.zone[static_cast<std::size_t>(at.nearest())] == Zone::outside || !runs_along) break;
+            beside_it[s][static_cast<std::size_t>(count[s]++)] = values_at(at);
+            const Station next = beyond(surface_, before, at, feed);
+            before = at;
+            at = next;
+        }
+        if (count[s] == 0) continue;
+        const Values& adjacent = beside_it[s][0];
+        const auto widen = [&](Quantity q, float difference) {
+            float& step = result.step[index_of(q)];
+            step = larger(step, difference);
+        };
+        speed_step = larger(speed_step, std::abs(mine.speed - adjacent.speed));
+        widen(Quantity::acceleration, (mine.acceleration - adjacent.acceleration).norm());
+        widen(Quantity::lag, std::abs(mine.lag - adjacent.lag));
+        widen(Quantity::relief, std::abs(mine.relief - adjacent.relief));
+    }
+    result.left = count[0];
+    result.right = count[1];
+    // As many on either side, so that what changes evenly from pass to pass drops out; all of one side
+    // where the other has none.
+    const int even = std::min(count[0], count[1]);
+    std::array<Values, 2 * passes_aside> all;
+    std::size_t n = 0;
+    for (std::size_t s = 0; s < 2; ++s) {
+        for (int k = 0; k < (even > 0 ? even : count[s]); ++k) all[n++] = beside_it[s][static_cast<std::size_t>(k)];
+    }
+    const std::span<const Values> places(all.data(), n);
+    const float usual = median_of(places, [](const Values& v) { return v.speed; });
+    const float reference = std::max(usual == usual ? usual : mine.speed, least_speed_);
+    result.step[index_of(Quantity::speed)] = speed_step / reference;
+    result.play[index_of(Quantity::speed)] = change_of_two_periods(signals_.speed, point) / reference;
+    if (signals_.measured) result.play[index_of(Quantity::lag)] = change_of_two_periods(signals_.lag, point);
+    result.speed_jump = mine.speed - usual;
+    result.residual[index_of(Quantity::speed)] = result.speed_jump / reference;
+    result.residual[index_of(Quantity::lag)] = mine.lag - median_of(places, [](const Values& v) { return v.lag; });
+    result.residual[index_of(Quantity::relief)] = mine.relief - median_of(places, [](const Values& v) { return v.relief; });
+    Eigen::Vector3f consensus;
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+        consensus[axis] = median_of(places, [axis](const Values& v) { return v.acceleration[axis]; });
+    }
+    result.residual[index_of(Quantity::acceleration)] = (mine.acceleration - consensus).norm();
+    return result;
+}
+
+Thresholds measure_thresholds(const ClSurface& surface, const Signals& signals, const ThresholdRule& rule) {
+    Thresholds thresholds;
+    std::vector<PointIndex> points;
+    const auto count = static_cast<PointIndex>(signals.zone.size());
+    PointIndex inner = 0;
+    for (const Zone zone : signals.zone) inner += zone == Zone::outside ? 0 : 1;
+    const PointIndex stride = std::max<PointIndex>(1, inner / static_cast<PointIndex>(sampled_points));
+    PointIndex seen = 0;
+    for (PointIndex i = 0; i < count; ++i) {
+        if (signals.zone[static_cast<std::size_t>(i)] != Zone::outside && seen++ % stride == 0) points.push_back(i);
+    }
+    std::vector<float> values;
+    for (const PointIndex i : points) {
+        const float speed = signals.speed[static_cast<std::size_t>(i)];
+        if (speed == speed) values.push_back(speed);
+    }
+    thresholds.usual_speed = percentile(values, 0.95);
+    values.clear();
+    for (const PointIndex i : points) {
+        const float a = signals.acceleration[i].norm();
+        if (a == a) values.push_back(a);
+    }
+    thresholds.usual_acceleration = percentile(values, 0.99);
+
+    const Comparer comparer(surface, signals, thresholds.usual_speed);
+    std::vector<std::array<float, quantities>> steps(points.size());
+    parallel_for(static_cast<std::int64_t>(points.size()), 4096, [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t k = first; k < last; ++k) steps[static_cast<std::size_t>(k)] = comparer.compare(points[static_cast<std::size_t>(k)]).step;
+    });
+    const std::array<float, quantities> least{rule.speed, rule.acceleration * thresholds.usual_acceleration,
+                                             std::max(rule.height, rule.lag_quanta * signals.quantum), std::max(rule.height, rule.relief_quanta * signals.quantum)};
+    for (std::size_t q = 0; q < quantities; ++q) {
+        values.clear();
+        for (const auto& step : steps) {
+            if (step[q] == step[q]) values.push_back(step[q]);
+        }
+        thresholds.p99[q] = percentile(values, 0.99);
+        const float median = percentile(values, 0.5);
+        for (float& v : values) v = std::abs(v - median);
+        const float spread = normal_deviation * percentile(values, 0.5);
+        thresholds.median[q] = median;
+        thresholds.spread[q] = spread;
+        const float own = median + (q == index_of(Quantity::acceleration) ? rule.acceleration_spreads : rule.spreads) * spread;
+        // Facets of the program itself are texture, however high, where they are everywhere: no cap.
+        const float most = q == index_of(Quantity::relief) ? std::numeric_limits<float>::infinity() : rule.most * least[q];
+        thresholds.of[q] = own == own ? std::max(least[q], std::min(own, most)) : least[q];
+    }
+    return thresholds;
+}
+
+}  // namespace clsurf

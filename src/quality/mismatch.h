@@ -1,0 +1,74 @@
+#pragma once
+// Mismatch: how a point differs from the places beside it on the neighbour passes.
+//
+// Two measures for each quantity. The *step* is the largest difference to the two adjacent passes: it
+// is what shows on the part. The *residual* is the difference to the median over up to five passes on
+// each side: it tells which of the two passes is at fault, and it is nothing where all passes change
+// together. Accelerations are compared as vectors in the workpiece frame: along the path, one pass of
+// a zigzag brakes where the next one speeds up.
+
+#include <array>
+#include <cstdint>
+
+#include "quality/signals.h"
+#include "surface/station.h"
+
+namespace clsurf {
+
+enum class Quantity : std::uint8_t { speed, acceleration, lag, relief };
+inline constexpr std::size_t quantities = 4;
+[[nodiscard]] constexpr std::size_t index_of(Quantity q) { return static_cast<std::size_t>(q); }
+
+/// Speeds relative to that of the neighbours, accelerations [mm/s²], heights [mm].
+struct Comparison {
+    std::array<float, quantities> step;      ///< ≥ 0; NaN: not known
+    std::array<float, quantities> residual;  ///< signed; of the acceleration the length; NaN: not known
+    std::array<float, quantities> play{};    ///< of the step, where log and place agree to a period only
+    float speed_jump = 0;                    ///< residual of the speed [mm/s]
+    int left = 0, right = 0;                 ///< passes that were compared with
+    Station beside_left, beside_right;       ///< on the adjacent passes
+};
+
+class Comparer {
+public:
+    static constexpr int passes_aside = 5;
+
+    /// Both must outlive it. `usual_speed` [mm/s]: speeds below a quarter of it are not compared
+    /// relative to themselves.
+    Comparer(const ClSurface& surface, const Signals& signals, float usual_speed)
+        : surface_(surface), signals_(signals), least_speed_(0.25F * usual_speed) {}
+
+    /// O(1): passes_aside steps to each side.
+    [[nodiscard]] Comparison compare(PointIndex point) const;
+
+private:
+    const ClSurface& surface_;
+    const Signals& signals_;
+    float least_speed_;
+};
+
+/// Above which step a place is a discontinuity, per quantity, and what it was found from.
+struct Thresholds {
+    std::array<float, quantities> of{};
+    std::array<float, quantities> median{};  ///< of the steps
+    std::array<float, quantities> spread{};  ///< robust standard deviation of the steps
+    std::array<float, quantities> p99{};     ///< 99th percentile of the steps
+    float usual_speed = 0;                   ///< [mm/s] 95th percentile of the judged points
+    float usual_acceleration = 0;            ///< [mm/s²] 99th percentile
+};
+
+struct ThresholdRule {
+    float speed = 0.03F;         ///< least threshold, relative to the neighbours' speed
+    float acceleration = 0.15F;  ///< least threshold, relative to the usual acceleration
+    float height = 0.0015F;      ///< least threshold [mm] …
+    float lag_quanta = 1.5F;     ///< … and in steps of the positions: all of a pass may be rounded the same way,
+    float relief_quanta = 2.4F;  ///< and a relief hangs on three passes
+    float spreads = 6;           ///< above the median; a part's own scatter is no defect …
+    float acceleration_spreads = 9;  ///< (the length of a vector of noise reaches farther)
+    float most = 3;              ///< … but at most so many times the least one: a bad part must not hide itself
+};
+
+/// Thresholds from some 10^5 evenly spaced judged points. The same for any number of threads.
+[[nodiscard]] Thresholds measure_thresholds(const ClSurface& surface, const Signals& signals, const ThresholdRule& rule);
+
+}  // namespace clsurf

@@ -1,0 +1,18 @@
+#pragma once
+// Scallop of ball-end passes in closed form, and what it gives as roughness. Exact circles, not the
+// parabola; ISO 4287 names.
+
+namespace clsurf {
+
+/// Height of the cusp [mm] between two passes of a ball of radius `ball` [mm] whose contact points
+/// lie `step_over` [mm] apart (a chord), on a surface of normal radius `rho` [mm] across the feed:
+/// > 0 convex, < 0 concave, infinite: flat. Throws std::domain_error where passes do not meet
+/// (step_over ≥ 2 ball) or the ball gouges (concave, ball ≥ |rho|).
+[[nodiscard]] double scallop_height(double ball, double step_over, double rho);
+
+/// Ra of a periodic profile of parabolas of height h: 4 h / (9 √3). Same unit as h.
+[[nodiscard]] double scallop_ra(double height);
+/// Rq of the same profile: h √(4/45).
+[[nodiscard]] double scallop_rq(double height);
+
+}  // namespace clsurf

@@ -1,0 +1,303 @@
+#include "quality/signals.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "core/block.h"
+#include "log/quantum.h"
+#include "path/way.h"
+#include "surface/station.h"
+
+namespace clsurf {
+namespace {
+
+constexpr float none = std::numeric_limits<float>::quiet_NaN();
+constexpr double speed_seconds = 0.010;    ///< window: an oscillation of 20 ms keeps four fifths of its height
+constexpr double height_seconds = 0.015;   ///< window of the mean that heights are smoothed with
+constexpr double longest_lag = 0.1;        ///< [s] that the measured position may come after the commanded one
+constexpr PointIndex shortest_reach = 64;  ///< points
+constexpr PointIndex longest_reach = 4096;
+constexpr PointIndex lead = 16;            ///< points that it may come before: logs that were put together
+constexpr float farthest_lag = 2.0F;       ///< step-overs; farther, the paths have nothing to do with each other
+constexpr double longest_ramp = 5.0;       ///< [mm]
+constexpr double rise_seconds = 0.005;     ///< in which the speed of a ramp rises …
+constexpr float least_rise = 0.005F;       ///< … by this share at least
+constexpr float slowest = 1e-3F;           ///< [mm/s]; slower, the feed has no direction
+
+int window_points(double seconds, double period, int least) {
+    return std::max(least, static_cast<int>(std::lround(std::min(seconds / period, 2000.0))) | 1);
+}
+
+using Axes = std::array<std::vector<double>, 3>;
+
+void read(const Trajectory& path, PointIndex first, PointIndex last, Axes& out) {
+    for (std::vector<double>& axis : out) axis.resize(static_cast<std::size_t>(last - first + 1));
+    path.read(first, out[0], out[1], out[2]);
+}
+
+/// Mean over the window round each value that is there; at least half the window must be.
+class Smoother {
+public:
+    explicit Smoother(int points) : half_(points / 2) {}
+    [[nodiscard]] PointIndex reach() const { return half_; }
+
+    /// Means for raw[skip …], out.size() of them.
+    void apply(std::span<const float> raw, std::size_t skip, std::span<float> out) const {
+        const auto half = static_cast<std::size_t>(half_);
+        // The window shrinks evenly towards the ends: an uneven one would lean on slopes.
+        for (std::size_t k = 0; k < out.size(); ++k) {
+            const std::size_t at = skip + k;
+            const std::size_t reach = std::min({half, at, raw.size() - 1 - at});
+            double sum = 0;
+            int count = 0;
+            for (std::size_t i = at - reach; i <= at + reach; ++i) {
+                if (!(raw[i] == raw[i])) continue;
+                sum += raw[i];
+                ++count;
+            }
+            const bool enough = count > half_ || (count > 0 && count == static_cast<int>(2 * reach + 1));
+            out[k] = enough && raw[at] == raw[at] ? static_cast<float>(sum / count) : none;
+        }
+    }
+
+private:
+    int half_;
+};
+
+/// f(piece, first, last) for every stretch of every piece, last inclusive, in parallel.
+template <typename F>
+void for_each_stretch(PointIndex count, const std::vector<PointRange>& pieces, F&& f) {
+    for_each_block(count, [&](PointIndex begin, PointIndex end) {
+        auto piece = std::upper_bound(pieces.begin(), pieces.end(), begin,
+                                      [](PointIndex p, const PointRange& r) { return p < r.first; });
+        if (piece != pieces.begin()) --piece;
+        for (; piece != pieces.end() && piece->first < end; ++piece) {
+            const PointIndex first = std::max(begin, piece->first);
+            const PointIndex last = std::min(end - 1, piece->last);
+            if (first <= last) f(*piece, first, last);
+        }
+    });
+}
+
+class Deriver {
+public:
+    Deriver(const ClSurface& surface, const Trajectory& path, const Trajectory* measured, Signals& out)
+        : surface_(surface),
+          path_(path),
+          measured_(measured),
+          out_(out),
+          speed_({window_points(speed_seconds, path.period, 5), 2, 1, path.period}),
+          acceleration_(derivative_filter(2, path.period)),
+          smoother_(window_points(height_seconds, path.period, 1)),
+          reach_(std::clamp(static_cast<PointIndex>(std::lround(std::min(longest_lag / path.period, 1e6))), shortest_reach, longest_reach)) {}
+
+    [[nodiscard]] std::string note() const {
+        return fmt::format("speed over {} points ({:.3g} ms), acceleration over {} ({:.3g} ms), heights over {} ({:.3g} ms)",
+                           speed_.filter().points, ms(speed_.filter().points), acceleration_.filter().points,
+                           ms(acceleration_.filter().points), 2 * smoother_.reach() + 1, ms(static_cast<int>(2 * smoother_.reach() + 1)));
+    }
+
+    void derive_motion(PointRange piece, PointIndex first, PointIndex last) const {
+        const PointIndex reach = std::max(speed_.reach(), acceleration_.reach());
+        const PointIndex from = std::max(piece.first, first - reach);
+        const PointIndex to = std::min(piece.last, last + reach);
+        Axes samples;
+        read(path_, from, to, samples);
+        const auto n = static_cast<std::size_t>(last - first + 1);
+        Axes v;
+        Axes a;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            v[axis].resize(n);
+            a[axis].resize(n);
+            speed_.apply(samples[axis], from, piece, first, v[axis]);
+            acceleration_.apply(samples[axis], from, piece, first, a[axis]);
+        }
+        for (std::size_t k = 0; k < n; ++k) {
+            const auto i = first + static_cast<PointIndex>(k);
+            const Vec3 velocity(v[0][k], v[1][k], v[2][k]);
+            const double speed = velocity.norm();
+            out_.speed[static_cast<std::size_t>(i)] = static_cast<float>(speed);
+            const Eigen::Vector3f feed = speed > slowest ? Eigen::Vector3f((velocity / speed).cast<float>()) : Eigen::Vector3f::Constant(none);
+            out_.feed.set(i, feed);
+            out_.acceleration.set(i, Vec3(a[0][k], a[1][k], a[2][k]).cast<float>());
+        }
+    }
+
+    /// Normals and heights; after derive_motion() of everything.
+    void derive_heights(PointRange piece, PointIndex first, PointIndex last) const {
+        const PointIndex from = std::max(piece.first, first - smoother_.reach());
+        const PointIndex to = std::min(piece.last, last + smoother_.reach());
+        std::vector<Eigen::Vector3f> normals(static_cast<std::size_t>(to - from + 1));
+        std::vector<float> relief(normals.size());
+        for (PointIndex i = from; i <= to; ++i) {
+            const auto k = static_cast<std::size_t>(i - from);
+            relief[k] = measure_relief(i, normals[k]);
+            if (i >= first && i <= last) out_.normal.set(i, normals[k]);
+        }
+        const auto skip = static_cast<std::size_t>(first - from);
+        const auto n = static_cast<std::size_t>(last - first + 1);
+        smoother_.apply(relief, skip, {out_.relief.data() + first, n});
+        if (measured_ == nullptr) return;
+        std::vector<float>& lag = relief;
+        measure_lag(from, to, normals, lag);
+        smoother_.apply(lag, skip, {out_.lag.data() + first, n});
+    }
+
+private:
+    [[nodiscard]] double ms(int points) const { return 1e3 * points * path_.period; }
+
+    /// The normal at a point, and how far the point lies above the chord between its neighbours.
+    float measure_relief(PointIndex i, Eigen::Vector3f& normal) const {
+        normal.setConstant(none);
+        const Eigen::Vector3f feed = out_.feed[i];
+        const Positions& p = surface_.positions;
+        const Eigen::Vector3f here = p[i];
+        const Station left = beside(surface_, {i, 0}, feed, Side::left);
+        const Station right = beside(surface_, {i, 0}, feed, Side::right);
+        if (!left.exists() && !right.exists()) return none;
+        const Eigen::Vector3f a = left.exists() ? position_at(p, left) : here;
+        const Eigen::Vector3f b = right.exists() ? position_at(p, right) : here;
+        const Eigen::Vector3f across = a - b;
+        normal = feed.cross(across).normalized();
+        if (!left.exists() || !right.exists()) return none;
+        const float share = (here - b).dot(across) / across.squaredNorm();
+        if (!(share > 0.2F && share < 0.8F)) return none;
+        return (here - b - share * across).dot(normal);
+    }
+
+    void measure_lag(PointIndex from, PointIndex to, const std::vector<Eigen::Vector3f>& normals, std::vector<float>& lag) const {
+        const PointIndex begin = std::max<PointIndex>(0, from - lead - 1);
+        const PointIndex end = std::min(path_.count - 1, to + reach_);
+        Axes commanded;
+        Axes measured;
+        read(path_, from, to, commanded);
+        read(*measured_, begin, end, measured);
+        const auto at = [&](PointIndex m) {
+            const auto k = static_cast<std::size_t>(m - begin);
+            return Vec3(measured[0][k], measured[1][k], measured[2][k]);
+        };
+        PointIndex m = from;
+        for (PointIndex i = from; i <= to; ++i) {
+            const auto k = static_cast<std::size_t>(i - from);
+            lag[k] = none;
+            const Vec3 here(commanded[0][k], commanded[1][k], commanded[2][k]);
+            const Vec3 feed = out_.feed[i].cast<double>();
+            const auto along = [&](PointIndex q) { return (at(q) - here).dot(feed); };
+            // The first crossing after where the last one was; a little before it where it went back.
+            m = std::clamp(m, std::max(begin + 1, i - lead), std::min(end, i + reach_));
+            while (m > std::max(begin + 1, i - lead) && along(m - 1) >= 0) --m;
+            while (m < std::min(end, i + reach_) && along(m) < 0) ++m;
+            const double after = along(m);
+            const double before = along(m - 1);
+            if (!(after >= 0 && before < 0)) continue;
+            const double share = before / (before - after);
+            const Vec3 off = at(m - 1) + share * (at(m) - at(m - 1)) - here;
+            if (off.norm() > farthest_lag * surface_.step_over) continue;
+            lag[k] = static_cast<float>(off.dot(normals[k].cast<double>()));
+        }
+    }
+
+    const ClSurface& surface_;
+    const Trajectory& path_;
+    const Trajectory* measured_;
+    Signals& out_;
+    Differentiator speed_, acceleration_;
+    Smoother smoother_;
+    PointIndex reach_;
+};
+
+/// The finest step of the axes: one that moves in step-overs only would seem to have a coarse one.
+float quantum_of_axes(const Trajectory& role) {
+    double finest = 0;
+    for (const ChannelView& axis : role.axes) {
+        const double quantum = quantum_of(axis);
+        if (quantum > 0 && (finest == 0 || quantum < finest)) finest = quantum;
+    }
+    return static_cast<float>(finest);
+}
+
+/// The zones at one end of a piece, walked from `end` inwards in `direction`.
+void mark_end(PointIndex end, PointIndex count, int direction, double end_zone, PointIndex stride, const Way& way, Signals& signals) {
+    double gone = 0;
+    float before = 0;
+    bool ramp = true;
+    for (PointIndex k = 0; k < count; ++k) {
+        const PointIndex i = end + direction * k;
+        const auto at = static_cast<std::size_t>(i);
+        if (gone < end_zone) {
+            signals.zone[at] = Zone::outside;
+        } else if (ramp && gone < end_zone + longest_ramp) {
+            if (signals.zone[at] == Zone::inner) signals.zone[at] = Zone::ramp;
+        } else {
+            return;
+        }
+        if (k % stride == 0) {
+            const float speed = signals.speed[at];
+            if (gone >= end_zone && !(speed > (1 + least_rise) * before)) ramp = false;
+            before = speed;
+        }
+        if (k + 1 < count) gone += way.step(direction > 0 ? i : i - 1);
+    }
+}
+
+/// Marks what may be compared with what.
+void mark_zones(const ClSurface& surface, const std::vector<PointRange>& pieces, double end_zone, double period, Signals& signals) {
+    const Way way(surface.positions);
+    std::fill(signals.zone.begin(), signals.zone.end(), Zone::outside);
+    for (const Pass& pass : surface.passes) {
+        if (pass.kind == PassKind::cut) std::fill(signals.zone.begin() + pass.first, signals.zone.begin() + pass.last + 1, Zone::inner);
+    }
+    const auto stride = std::max<PointIndex>(1, std::lround(std::min(rise_seconds / period, 1e6)));
+    for (const PointRange& piece : pieces) {
+        mark_end(piece.first, piece.size(), +1, end_zone, stride, way, signals);
+        mark_end(piece.last, piece.size(), -1, end_zone, stride, way, signals);
+    }
+}
+
+/// Pieces cut where loops are joined: the speed sideways is not that of the pass.
+std::vector<PointRange> cut_at_jogs(const std::vector<PointRange>& pieces, const std::vector<PointRange>& jogs) {
+    std::vector<PointRange> cut;
+    auto jog = jogs.begin();
+    for (PointRange piece : pieces) {
+        for (; jog != jogs.end() && jog->first <= piece.last; ++jog) {
+            if (jog->first <= piece.first) continue;
+            cut.push_back({piece.first, jog->first - 1});
+            cut.push_back({jog->first, std::min(jog->last, piece.last)});
+            piece.first = cut.back().last + 1;
+        }
+        if (piece.size() > 0) cut.push_back(piece);
+    }
+    return cut;
+}
+
+}  // namespace
+
+Signals derive_signals(const ClSurface& surface, const Trajectory& path, const Trajectory* measured,
+                       const std::vector<PointRange>& smooth, double end_zone) {
+    Signals signals;
+    const std::vector<PointRange> pieces = cut_at_jogs(smooth, surface.jogs);
+    const auto count = static_cast<std::size_t>(path.count);
+    signals.speed.resize(count);
+    signals.feed.resize(count);
+    signals.acceleration.resize(count);
+    signals.normal.resize(count);
+    signals.relief.resize(count);
+    signals.zone.resize(count);
+    signals.measured = measured != nullptr;
+    if (measured != nullptr) signals.lag.resize(count);
+    for (const Trajectory* role : {&path, measured}) {
+        if (role != nullptr) signals.quantum = std::max(signals.quantum, quantum_of_axes(*role));
+    }
+    const Deriver deriver(surface, path, measured, signals);
+    signals.note = deriver.note();
+    for_each_stretch(path.count, pieces, [&](PointRange piece, PointIndex first, PointIndex last) { deriver.derive_motion(piece, first, last); });
+    for_each_stretch(path.count, pieces, [&](PointRange piece, PointIndex first, PointIndex last) { deriver.derive_heights(piece, first, last); });
+    mark_zones(surface, pieces, end_zone, path.period, signals);
+    return signals;
+}
+
+}  // namespace clsurf

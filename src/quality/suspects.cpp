@@ -1,0 +1,142 @@
+#include "quality/suspects.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "core/block.h"
+
+namespace clsurf {
+namespace {
+
+constexpr double site_seconds = 0.005;
+constexpr float site_way = 0.1F;        ///< step-overs
+constexpr float suspect_share = 0.5F;   ///< of a threshold
+constexpr double joined_along = 1.0;    ///< [mm] of way between suspects of one pass, or two step-overs
+constexpr float joined_beside = 1.0F;   ///< step-overs along the feed between suspects of two passes
+
+/// How far residual and step pass the thresholds, together.
+void judge(Suspect& suspect, const Thresholds& thresholds) {
+    for (std::size_t q = 0; q < quantities; ++q) {
+        const float share = std::abs(suspect.comparison.residual[q]) / thresholds.of[q];
+        if (!(share == share)) continue;
+        suspect.share[q] = share;
+        const float step = (suspect.comparison.step[q] - suspect.comparison.play[q]) / thresholds.of[q];
+        suspect.score[q] = step == step ? std::min(step, 2 * share) : 0;
+    }
+}
+
+/// A difference is no surprise where there is no pass on one side, or where a pass begins or ends
+/// beside one that goes on.
+bool is_border(const Suspect& suspect, const Signals& signals) {
+    const Comparison& c = suspect.comparison;
+    if (c.left == 0 || c.right == 0) return true;
+    const auto ramps = [&](PointIndex i) { return signals.zone[static_cast<std::size_t>(i)] == Zone::ramp; };
+    return ramps(suspect.point) || ramps(c.beside_left.nearest()) || ramps(c.beside_right.nearest());
+}
+
+/// Sets of suspects that were joined.
+class Groups {
+public:
+    explicit Groups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
+    std::size_t root(std::size_t i) {
+        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+        return i;
+    }
+    void join(std::size_t a, std::size_t b) {
+        a = root(a);
+        b = root(b);
+        parent_[std::max(a, b)] = std::min(a, b);
+    }
+
+private:
+    std::vector<std::size_t> parent_;
+};
+
+}  // namespace
+
+std::size_t pass_of(const Passes& passes, PointIndex point) {
+    const auto after = std::upper_bound(passes.begin(), passes.end(), point, [](PointIndex p, const Pass& pass) { return p < pass.first; });
+    return static_cast<std::size_t>(after - passes.begin()) - 1;
+}
+
+PointIndex count_compared(const ClSurface& surface, const Signals& signals) {
+    const PointIndex count = surface.positions.size();
+    std::vector<PointIndex> of_block(static_cast<std::size_t>((count + block_points - 1) / block_points));
+    for_each_block(count, [&](PointIndex first, PointIndex last) {
+        PointIndex& mine = of_block[static_cast<std::size_t>(first / block_points)];
+        for (PointIndex i = first; i < last; ++i) {
+            if (signals.zone[static_cast<std::size_t>(i)] != Zone::outside && surface.neighbours.has(Side::left, i) && surface.neighbours.has(Side::right, i)) ++mine;
+        }
+    });
+    return std::accumulate(of_block.begin(), of_block.end(), PointIndex{0});
+}
+
+std::vector<Suspect> find_suspects(const ClSurface& surface, const Signals& signals, const Thresholds& thresholds, double period) {
+    const PointIndex count = surface.positions.size();
+    const Comparer comparer(surface, signals, thresholds.usual_speed);
+    const auto stride = std::max<PointIndex>(1, std::lround(std::min(site_seconds / period, 1e6)));
+    const auto least_way = site_way * static_cast<float>(surface.step_over);
+    std::vector<std::vector<Suspect>> of_block(static_cast<std::size_t>((count + block_points - 1) / block_points));
+    for_each_block(count, [&](PointIndex first, PointIndex last) {
+        std::vector<Suspect>& mine = of_block[static_cast<std::size_t>(first / block_points)];
+        std::size_t pass = pass_of(surface.passes, first);
+        PointIndex before = -1;
+        for (PointIndex i = first + (stride - first % stride) % stride; i < last; i += stride) {
+            if (signals.zone[static_cast<std::size_t>(i)] == Zone::outside) continue;
+            if (before >= 0 && (surface.positions[i] - surface.positions[before]).norm() < least_way) continue;
+            before = i;
+            Suspect suspect;
+            suspect.comparison = comparer.compare(i);
+            judge(suspect, thresholds);
+            if (*std::max_element(suspect.share.begin(), suspect.share.end()) < suspect_share) continue;
+            while (surface.passes[pass].last < i) ++pass;
+            suspect.point = i;
+            suspect.pass = pass;
+            suspect.border = is_border(suspect, signals);
+            mine.push_back(suspect);
+        }
+    });
+    std::vector<Suspect> suspects;
+    for (const std::vector<Suspect>& block : of_block) suspects.insert(suspects.end(), block.begin(), block.end());
+    return suspects;
+}
+
+std::vector<std::vector<Suspect>> group_suspects(const std::vector<Suspect>& suspects, const ClSurface& surface, const Way& way) {
+    Groups groups(suspects.size());
+    const double along = std::max(joined_along, 2 * surface.step_over);
+    const float beside = joined_beside * static_cast<float>(surface.step_over);
+    /// Joins a suspect with those of another pass round a point of it.
+    const auto join_near = [&](std::size_t k, PointIndex point) {
+        const auto after = std::lower_bound(suspects.begin(), suspects.end(), point, [](const Suspect& s, PointIndex p) { return s.point < p; });
+        const Eigen::Vector3f place = surface.positions[point];
+        for (const auto& found : {after, after == suspects.begin() ? after : after - 1}) {
+            if (found == suspects.end() || (surface.positions[found->point] - place).norm() > beside) continue;
+            groups.join(k, static_cast<std::size_t>(found - suspects.begin()));
+        }
+    };
+    for (std::size_t k = 0; k < suspects.size(); ++k) {
+        const Suspect& s = suspects[k];
+        if (k > 0 && !way.at_least(suspects[k - 1].point, s.point, along)) groups.join(k - 1, k);
+        for (const Side side : {Side::left, Side::right}) {
+            if (!surface.neighbours.has(side, s.point)) continue;
+            const PointIndex adjacent = surface.neighbours.neighbour(side, s.point);
+            join_near(k, adjacent);
+            // Over one clean pass.
+            for (const Side other : {Side::left, Side::right}) {
+                if (!surface.neighbours.has(other, adjacent)) continue;
+                const PointIndex next = surface.neighbours.neighbour(other, adjacent);
+                const Eigen::Vector3f on = surface.positions[next] - surface.positions[adjacent];
+                if (on.dot(surface.positions[adjacent] - surface.positions[s.point]) > 0) join_near(k, next);
+            }
+        }
+    }
+    std::map<std::size_t, std::vector<Suspect>> by_root;
+    for (std::size_t k = 0; k < suspects.size(); ++k) by_root[groups.root(k)].push_back(suspects[k]);
+    std::vector<std::vector<Suspect>> result;
+    for (auto& [root, group] : by_root) result.push_back(std::move(group));
+    return result;
+}
+
+}  // namespace clsurf

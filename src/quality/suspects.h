@@ -1,0 +1,36 @@
+#pragma once
+// Suspects: the sites of a surface that differ from their neighbour passes, and how they belong
+// together.
+
+#include <array>
+#include <vector>
+
+#include "path/way.h"
+#include "quality/mismatch.h"
+
+namespace clsurf {
+
+struct Suspect {
+    PointIndex point = 0;
+    std::size_t pass = 0;     ///< index into surface.passes
+    bool border = false;            ///< no pass on one side, or the pass beside it begins or ends there
+    std::array<float, quantities> share{};  ///< |residual| over threshold
+    std::array<float, quantities> score{};  ///< the same, where the step passes it too; from 1 on a defect starts
+    Comparison comparison;
+};
+
+/// The pass that holds a point. O(log passes).
+[[nodiscard]] std::size_t pass_of(const Passes& passes, PointIndex point);
+
+/// Points of cut passes that have a neighbour on both sides and lie away from the ends. O(points).
+[[nodiscard]] PointIndex count_compared(const ClSurface& surface, const Signals& signals);
+
+/// Sites whose residual passes half a threshold, in the order of their points. A site is a point
+/// every 5 ms that lies a tenth of a step-over or more from the one before. O(points), parallel.
+[[nodiscard]] std::vector<Suspect> find_suspects(const ClSurface& surface, const Signals& signals, const Thresholds& thresholds, double period);
+
+/// Suspects that hang together along a pass, across to the next one or over one clean pass; each group
+/// in the order of its points. O(suspects log suspects).
+[[nodiscard]] std::vector<std::vector<Suspect>> group_suspects(const std::vector<Suspect>& suspects, const ClSurface& surface, const Way& way);
+
+}  // namespace clsurf

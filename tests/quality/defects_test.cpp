@@ -1,0 +1,117 @@
+#include "quality/defects.h"
+
+#include <gtest/gtest.h>
+
+#include "core/parallel.h"
+#include "io/log_format.h"
+#include "io/program_file.h"
+#include "path/pieces.h"
+#include "planted_score.h"
+#include "quality/verdict.h"
+
+namespace clsurf {
+namespace {
+
+using planted::Shape;
+
+constexpr Shape shapes[] = {Shape::zigzag, Shape::one_way, Shape::loops, Shape::spiral};
+
+class Planted : public testing::TestWithParam<Shape> {};
+
+TEST_P(Planted, DefectsAreFoundAndNothingElse) {
+    planted::Score sum;
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+        const planted::PlantedLog log = planted::make_planted_log(planted::random_recipe(seed, GetParam(), false, seed == 2));
+        sum += planted::score(log, planted::judge(log));
+    }
+    EXPECT_EQ(sum.found, sum.planted);
+    EXPECT_EQ(sum.right, sum.reported);
+    EXPECT_EQ(sum.placed, sum.planted);
+    EXPECT_EQ(sum.lined, sum.planted);
+    EXPECT_EQ(sum.named, sum.planted);
+    for (const double error : sum.depth_errors) EXPECT_NEAR(error, 0, 0.15);
+}
+
+TEST_P(Planted, ACleanLogIsClean) {
+    for (std::uint64_t seed = 11; seed <= 12; ++seed) {
+        const planted::PlantedLog log = planted::make_planted_log(planted::random_recipe(seed, GetParam(), true, false));
+        const QualityReport report = planted::judge(log);
+        EXPECT_TRUE(report.defects.empty()) << planted::name_of(GetParam()) << " seed " << seed;
+        EXPECT_GT(report.compared, report.points / 2);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, Planted, testing::ValuesIn(shapes), [](const auto& shape) {
+    std::string name(planted::name_of(shape.param));
+    std::erase(name, '-');
+    return name;
+});
+
+TEST(Defects, AreTheSameForAnyNumberOfThreads) {
+    const planted::PlantedLog log = planted::make_planted_log(planted::random_recipe(5, Shape::zigzag, false, false));
+    set_thread_count(1);
+    const QualityReport one = planted::judge(log);
+    set_thread_count(4);
+    const QualityReport four = planted::judge(log);
+    set_thread_count(0);
+    ASSERT_EQ(one.defects.size(), four.defects.size());
+    ASSERT_FALSE(one.defects.empty());
+    for (std::size_t i = 0; i < one.defects.size(); ++i) {
+        EXPECT_EQ(one.defects[i].point, four.defects[i].point);
+        EXPECT_EQ(one.defects[i].depth, four.defects[i].depth);
+        EXPECT_EQ(one.defects[i].area, four.defects[i].area);
+    }
+}
+
+TEST(Defects, OfARecordedPartAreWhereTheProgramHasThem) {
+    // Five passes of the sample have a stretch of points 0.02 mm apart, where the kernel falls from
+    // 3000 to some 600 mm/min (data/programs/README.md).
+    const Program program = io::read_program(SAMPLE_DATA "/programs/bottle_uneven.nc", "", true);
+    const Log log = io::open_log(SAMPLE_LOGS "/bottle_uneven.biip", {});
+    Diagnostics diagnostics;
+    const Trajectory path = reconstruct(log, Role::commanded, Vec3::Zero());
+    const Trajectory measured = reconstruct(log, Role::feedback, Vec3::Zero());
+    const LineMap lines = map_lines(path, log, program, true, diagnostics);
+    const ClSurface surface = stitch(gather(path), lines);
+    const Signals signals = derive_signals(surface, path, &measured, smooth_pieces(log, surface.passes), 1.0);
+    const QualityReport report = find_defects(surface, signals, lines, program, log.period, {});
+    for (const double y : {-5.6, -2.8, 0.0, 2.8, 5.6}) {
+        const auto here = std::find_if(report.defects.begin(), report.defects.end(), [&](const Defect& d) {
+            return d.cause == Cause::point_spacing && d.speed_jump < -30 && d.bounds.min().y() < y + 0.1 && d.bounds.max().y() > y - 0.1;
+        });
+        ASSERT_NE(here, report.defects.end()) << "y = " << y;
+        // The dense lines: their pass holds more than a hundred of them.
+        const bool dense = std::any_of(here->runs.begin(), here->runs.end(), [](const DefectRun& run) { return run.last_line - run.first_line > 100; });
+        EXPECT_TRUE(dense) << "y = " << y;
+    }
+}
+
+TEST(Verdict, HoldsEveryLimitThatIsSet) {
+    QualityReport report;
+    report.points = 100;
+    report.compared = 80;
+    report.defects.resize(2);
+    report.defects[0].depth = 0.006;
+    report.defects[0].severity = 3;
+    report.defects[0].speed_mismatch = 0.25;
+    EXPECT_TRUE(hold(report, {}).empty());
+    Budget budget;
+    budget.max_depth_um = 6;
+    budget.max_defects = 2;
+    budget.max_speed_mismatch_percent = 25;
+    budget.min_coverage_percent = 80;
+    EXPECT_TRUE(all_held(hold(report, budget)));
+    budget.max_depth_um = 5.9;
+    EXPECT_FALSE(all_held(hold(report, budget)));
+    budget.max_depth_um = 6;
+    budget.min_coverage_percent = 81;
+    EXPECT_FALSE(all_held(hold(report, budget)));
+    budget.min_coverage_percent.reset();
+    budget.max_severity = 2;
+    const std::vector<BudgetLine> lines = hold(report, budget);
+    EXPECT_FALSE(all_held(lines));
+    EXPECT_EQ(lines.size(), 4U);
+}
+
+}  // namespace
+}  // namespace clsurf
