@@ -237,6 +237,55 @@ void add_ring(Sheet& sheet, const Vec2& at, double radius, double width, Rgb rgb
     sheet.lines.push_back(std::move(ring));
 }
 
+/// The parts of a closed line that are in the picture.
+std::vector<std::vector<Vec2>> strokes(const std::vector<Vec3>& corners, const Camera& camera, const Look& look, const Vec2& corner) {
+    std::vector<std::vector<Vec2>> all;
+    bool goes_on = false;
+    for (const Vec3& p : corners) {
+        if (!shows(camera, look, p)) {
+            goes_on = false;
+            continue;
+        }
+        if (!goes_on) all.emplace_back();
+        goes_on = true;
+        all.back().push_back(corner + camera.pixel(p));
+    }
+    std::erase_if(all, [](const std::vector<Vec2>& stroke) { return stroke.size() < 2; });
+    return all;
+}
+
+/// Outlines with their numbers above them; a number that would lie on another is left out.
+void add_outlines(Sheet& sheet, const MapPanel& map, const MeshPanel& panel, const Look& look, const Layout& layout) {
+    const Vec2 corner(panel.rect.x, panel.rect.y);
+    constexpr Rgb white{255, 255, 255};
+    constexpr Rgb black{0, 0, 0};
+    std::vector<Rect> taken;
+    for (const OutlineMark& mark : map.outlines) {
+        Vec2 top(0, -1);
+        for (const std::vector<Vec3>& corners : mark.lines) {
+            for (std::vector<Vec2>& stroke : strokes(corners, panel.camera, look, corner)) {
+                for (const Vec2& p : stroke) {
+                    if (p.y() > top.y()) top = p;
+                }
+                sheet.lines.push_back({stroke, 0.2 * layout.text, white, true});
+                sheet.lines.push_back({std::move(stroke), 0.08 * layout.text, black, false});
+            }
+        }
+        if (top.y() < 0 || mark.label.empty()) continue;
+        FlatText text{top.x(), top.y() + 0.75 * layout.small_text, mark.label, layout.small_text, Align::centre, true, black};
+        const double width = text_width(text) + 6;
+        text.x = std::clamp(text.x, corner.x() + 0.5 * width, corner.x() + panel.rect.width - 0.5 * width);
+        const Rect box{text.x - 0.5 * width, text.y - 0.62 * layout.small_text, width, 1.24 * layout.small_text};
+        const bool overlaps = std::any_of(taken.begin(), taken.end(), [&](const Rect& other) {
+            return box.x < other.x + other.width && other.x < box.x + box.width && box.y < other.y + other.height && other.y < box.y + box.height;
+        });
+        if (overlaps) continue;
+        taken.push_back(box);
+        sheet.quads.push_back({box, white});
+        sheet.texts.push_back(std::move(text));
+    }
+}
+
 /// The parts of a line that are in the picture.
 std::vector<std::vector<Vec2>> strokes(const PointRange& range, const ClSurface& surface, const Camera& camera, const Look& look, const Vec2& corner) {
     std::vector<std::vector<Vec2>> all;
@@ -287,6 +336,7 @@ void add_marks(Sheet& sheet, const MapPanel& map, const MeshPanel& panel, const 
             }
         }
     }
+    add_outlines(sheet, map, panel, look, layout);
     for (const PointMark& mark : map.points) {
         const Vec3 p = map.surface->positions.absolute(mark.point);
         if (!shows(panel.camera, look, p)) continue;

@@ -36,6 +36,13 @@ struct LineMark {
     std::string label;
 };
 
+/// Closed lines on the surface under one label, the worst first: where labels would lie on each other,
+/// the first stays.
+struct OutlineMark {
+    std::vector<std::vector<Vec3>> lines;  ///< corners [mm]
+    std::string label;
+};
+
 /// One map: what one log shows.
 struct MapPanel {
     const ClSurface* surface = nullptr;
@@ -43,6 +50,7 @@ struct MapPanel {
     std::string caption;  ///< "before", "after"; empty where there is one panel
     std::vector<PointMark> points;
     std::vector<LineMark> lines;
+    std::vector<OutlineMark> outlines;
 };
 
 struct MapTexts {

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/part.h"
+#include "cli/fields.h"
 #include "core/block.h"
 #include "io/atomic_file.h"
 #include "io/export_table.h"
@@ -13,7 +13,7 @@
 namespace clsurf::cli {
 namespace {
 
-io::ExportColumn column_of(const std::string& name, const Part& part, const ClSurface& surface) {
+io::ExportColumn column_of(const std::string& name, const Part& part, const ClSurface& surface, Fields& fields) {
     const auto count = static_cast<std::size_t>(part.log.records);
     io::ExportColumn column;
     column.name = name;
@@ -47,7 +47,7 @@ io::ExportColumn column_of(const std::string& name, const Part& part, const ClSu
         column.values.resize(count);
         for (std::size_t i = 0; i < count; ++i) column.values[i] = static_cast<float>(part.lines->confidence_at(static_cast<PointIndex>(i)));
     } else {
-        Field field = FieldSet(part.log, part.path, surface.passes).get(name);
+        Field field = fields.get(name);
         column.unit = std::string(field.info.unit.name);
         column.values = std::move(field.values);
         if (field.info.unit.per_inside != 1) {
@@ -92,7 +92,8 @@ ExitCode run(const po::variables_map& values) {
     const ClSurface surface = stitch(part);
     clock.begin("write the columns");
     std::vector<io::ExportColumn> columns;
-    for (const std::string& name : names) columns.push_back(column_of(name, part, surface));
+    Fields fields(part, surface);
+    for (const std::string& name : names) columns.push_back(column_of(name, part, surface, fields));
     if (ending == ".csv") io::write_csv(output, columns);
     else if (ending == ".biip") io::write_biip_table(output, columns, part.log.period, "{}");
     else write_vtk(output, ending == ".vtkhdf", surface, columns);

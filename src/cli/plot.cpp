@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/part.h"
+#include "cli/fields.h"
 #include "io/atomic_file.h"
 #include "viz/chart.h"
 #include "viz/image_library.h"
@@ -94,7 +94,7 @@ ExitCode run(const po::variables_map& values) {
     print(part.diagnostics, values);
     clock.begin("stitch the surface");
     const ClSurface surface = stitch(part);
-    const FieldSet fields(part.log, part.path, surface.passes);
+    Fields fields(part, surface);
     const std::vector<double> x = x_values(part, options.over_length);
     const PointRange range = shown_range(options, part, x);
     if (options.line) options.points.push_back(part.lines->points_of(*options.line).front().first);

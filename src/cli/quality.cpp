@@ -46,12 +46,16 @@ std::optional<Role> take_measured_role(PartOptions& options) {
     return role;
 }
 
+Signals signals_of(const Part& part, const ClSurface& surface, std::optional<Role> wanted, const QualityRules& rules) {
+    const std::optional<Trajectory> measured = measured_of(part, wanted);
+    const double end_zone = rules.end_zone > 0 ? rules.end_zone : std::max(least_end_zone, end_zone_step_overs * surface.step_over);
+    return derive_signals(surface, part.path, measured ? &*measured : nullptr, smooth_pieces(part.log, surface.passes), end_zone);
+}
+
 Quality judge(Part& part, const ClSurface& surface, std::optional<Role> wanted, const QualityOptions& options, StageClock& clock) {
     Quality quality;
     clock.begin("derive the signals");
-    const std::optional<Trajectory> measured = measured_of(part, wanted);
-    const double end_zone = options.rules.end_zone > 0 ? options.rules.end_zone : std::max(least_end_zone, end_zone_step_overs * surface.step_over);
-    quality.signals = derive_signals(surface, part.path, measured ? &*measured : nullptr, smooth_pieces(part.log, surface.passes), end_zone);
+    quality.signals = signals_of(part, surface, wanted, options.rules);
     clock.begin("find the defects");
     quality.report = find_defects(surface, quality.signals, *part.lines, part.program, part.log.period, options.rules);
     if (surface.step_over <= 0) {

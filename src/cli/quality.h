@@ -19,6 +19,10 @@ struct QualityOptions {
 void declare_quality(po::options_description& options);
 [[nodiscard]] QualityOptions read_quality_options(const po::variables_map& values);
 
+/// Signals of a part, heights from `measured` or, where nothing is wanted, from the most truthful
+/// positions that the log has besides the commanded ones (actual, then feedback).
+[[nodiscard]] Signals signals_of(const Part& part, const ClSurface& surface, std::optional<Role> measured, const QualityRules& rules);
+
 struct Quality {
     QualityReport report;
     Signals signals;
@@ -29,8 +33,7 @@ struct Quality {
 /// heights are measured from. Returns that role, or the most truthful one where none is named.
 [[nodiscard]] std::optional<Role> take_measured_role(PartOptions& options);
 
-/// Measures heights from `measured`, or from the most truthful positions that the log has besides
-/// the commanded ones (actual, then feedback). Adds diagnostics `quality.…` to the part's.
+/// The whole of it. Adds diagnostics `quality.…` to the part's.
 [[nodiscard]] Quality judge(Part& part, const ClSurface& surface, std::optional<Role> measured, const QualityOptions& options, StageClock& clock);
 
 }  // namespace clsurf::cli

@@ -5,10 +5,12 @@
 
 #include <fmt/format.h>
 
-#include "cli/part.h"
+#include "cli/fields.h"
+#include "cli/quality.h"
 #include "core/spelling.h"
 #include "field/range.h"
 #include "io/atomic_file.h"
+#include "quality/outline.h"
 #include "viz/image_library.h"
 #include "viz/scene.h"
 
@@ -25,6 +27,7 @@ struct RenderOptions {
     int bins = 0;
     std::vector<PointIndex> points;
     std::vector<LineNumber> lines;
+    bool defects = false;
     viz::Look look;
 };
 
@@ -43,6 +46,7 @@ void declare(po::options_description& options) {
         ("bins", po::value<int>()->value_name("N"), "colours in N steps")
         ("mark-point", po::value<std::vector<long long>>()->value_name("N"), "ring a point; may be repeated")
         ("mark-line", po::value<std::vector<long long>>()->value_name("N"), "draw the points of a line bold; may be repeated")
+        ("defects", "outline and number what `clsurf check` finds")
         ("before", po::value<std::string>()->value_name("LOG"), "another log of the program, drawn beside it on the same scale")
         ("size", po::value<std::string>()->value_name("WxH"), "size in pixels (default: 1600x1200)")
         ("background", po::value<std::string>()->value_name("white|black|#RRGGBB"), "behind the map (default: white)")
@@ -124,6 +128,7 @@ RenderOptions read_options(const po::variables_map& values) {
             options.lines.push_back(static_cast<LineNumber>(n));
         }
     }
+    options.defects = values.count("defects") > 0;
     options.look = read_look(values);
     return options;
 }
@@ -133,21 +138,44 @@ struct Shown {
     Part part;
     ClSurface surface;
     Field field;
+    std::vector<viz::OutlineMark> defects;
 };
 
-Shown prepare(const PartOptions& options, const std::string& field, StageClock& clock) {
+/// What `check` finds, as outlines: passes are compared where they were commanded, heights measured
+/// from the positions that are shown.
+std::vector<viz::OutlineMark> outline_defects(Part& part, const ClSurface& surface, StageClock& clock) {
+    std::vector<viz::OutlineMark> outlines;
+    const auto add = [&](const ClSurface& judged, std::optional<Role> measured) {
+        const Quality quality = judge(part, judged, measured, {}, clock);
+        for (std::size_t i = 0; i < quality.report.defects.size(); ++i) {
+            outlines.push_back({outlines_of(quality.report.defects[i], judged), fmt::format("{}", i + 1)});
+        }
+    };
+    if (part.path.role == Role::commanded || !part.log.has(Role::commanded)) {
+        add(surface, std::nullopt);
+        return outlines;
+    }
+    const Trajectory shown = part.path;
+    part.path = reconstruct(part.log, Role::commanded, shown.offset);
+    add(stitch(part), shown.role);
+    part.path = shown;
+    return outlines;
+}
+
+Shown prepare(const PartOptions& options, const std::string& field, bool defects, StageClock& clock) {
     Shown shown;
     shown.part = load_part(options, clock);
     clock.begin("stitch the surface");
     shown.surface = stitch(shown.part);
     clock.begin("compute the field");
-    shown.field = FieldSet(shown.part.log, shown.part.path, shown.surface.passes).get(field);
+    shown.field = Fields(shown.part, shown.surface).get(field);
+    if (defects) shown.defects = outline_defects(shown.part, shown.surface, clock);
     clock.end();
     return shown;
 }
 
 viz::MapPanel panel_of(const Shown& shown, const RenderOptions& options, std::string caption) {
-    viz::MapPanel panel{&shown.surface, &shown.field, std::move(caption), {}, {}};
+    viz::MapPanel panel{&shown.surface, &shown.field, std::move(caption), {}, {}, shown.defects};
     for (const PointIndex point : options.points) {
         if (point < 0 || point >= shown.part.log.records) {
             throw UsageError(fmt::format("--mark-point {}: the log has points 0 … {}", point, shown.part.log.records - 1));
@@ -179,6 +207,7 @@ viz::MapTexts texts_of(const Shown& shown, const std::optional<Shown>& before, c
     texts.subtitle = before ? fmt::format("{} · before: {} · after: {}", program, counts_of(*before), counts_of(shown))
                             : fmt::format("{} · {} · {}", program, base_name(options.part.log), counts_of(shown));
     if (!shown.field.info.note.empty()) texts.notes.push_back(shown.field.info.note);
+    if (options.defects) texts.notes.push_back(shown.defects.empty() ? "no defects" : fmt::format("{} defects, 1 the worst", shown.defects.size()));
     texts.notes.insert(texts.notes.end(), range_notes.begin(), range_notes.end());
     return texts;
 }
@@ -215,16 +244,16 @@ ExitCode run(const po::variables_map& values) {
     const RenderOptions options = read_options(values);
     viz::preload_image_library();
     io::AtomicFile output(options.output);  // a name that cannot be written fails before the work
-    constexpr int stages_of_a_part = 5;
+    const int stages_of_a_part = options.defects ? 7 : 5;
     StageClock clock(read_common(values), stages_of_a_part * (options.before.empty() ? 1 : 2) + 3);
-    const Shown after = prepare(options.part, options.field, clock);
+    const Shown after = prepare(options.part, options.field, options.defects, clock);
     print(after.part.diagnostics, values);
     std::vector<viz::MapPanel> panels;
     std::optional<Shown> before;
     if (!options.before.empty()) {
         PartOptions other = options.part;
         other.log = options.before;
-        before = prepare(other, options.field, clock);
+        before = prepare(other, options.field, options.defects, clock);
         print(before->part.diagnostics, values);
         panels.push_back(panel_of(*before, options, "before: " + base_name(options.before)));
     }

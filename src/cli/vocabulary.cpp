@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "field/field_table.h"
+#include "cli/fields.h"
 #include "io/log_format.h"
 #include "log/channel.h"
 #include "program/dialect.h"
@@ -22,10 +22,7 @@ std::vector<io::ListingRow> dialect_rows() {
 
 std::vector<io::ListingRow> field_rows() {
     std::vector<io::ListingRow> rows;
-    for (const FieldRow& field : field_table()) {
-        rows.push_back(
-            {std::string(field.name), std::string(field.unit.name), std::string(field.label)});
-    }
+    for (const FieldInfo& field : all_fields(nullptr)) rows.push_back({field.name, std::string(field.unit.name), field.label});
     return rows;
 }
 

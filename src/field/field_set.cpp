@@ -157,15 +157,16 @@ FieldInfo info_of(const Channel& channel, std::string_view name) {
     return {std::string(name), "Channel " + channel.name, unit_of_channel(channel.unit), FieldScale::sequential, {}};
 }
 
-[[noreturn]] void unknown_field(const Log& log, std::string_view name) {
-    const std::vector<FieldInfo> fields = known_fields(&log);
+}  // namespace
+
+void unknown_field(std::string_view name, const std::vector<FieldInfo>& fields) {
     std::vector<std::string_view> names;
     for (const FieldInfo& f : fields) names.push_back(f.name);
     const std::string nearest = did_you_mean(name, names);
     throw UsageError("unknown field '" + std::string(name) + "'", nearest.empty() ? "`clsurf help fields` lists them" : nearest);
 }
 
-}  // namespace
+bool FieldSet::has(std::string_view name) const { return find_field_row(name) != nullptr || name == "time" || channel_of(log_, name) != nullptr; }
 
 Field FieldSet::get(std::string_view name) const {
     Field field;
@@ -186,7 +187,7 @@ Field FieldSet::get(std::string_view name) const {
         return field;
     }
     const Channel* channel = channel_of(log_, name);
-    if (channel == nullptr) unknown_field(log_, name);
+    if (channel == nullptr) unknown_field(name, known_fields(&log_));
     field.info = info_of(*channel, name);
     for_each_block(log_.records, [&](PointIndex first, PointIndex last) {
         std::array<double, 2048> scratch;
@@ -201,7 +202,7 @@ Field FieldSet::get(std::string_view name) const {
 
 std::vector<double> FieldSet::values(std::string_view name, PointRange points) const {
     const FieldRow* row = find_field_row(name);
-    if (row == nullptr) unknown_field(log_, name);
+    if (row == nullptr) unknown_field(name, known_fields(&log_));
     std::vector<float> computed(static_cast<std::size_t>(points.size()));
     compute_range(*row, plan_for(*row, log_, path_), path_, pieces_, points, computed.data());
     return {computed.begin(), computed.end()};

@@ -20,6 +20,9 @@ public:
     /// neighbouring turns of a spiral count as one piece.
     FieldSet(const Log& log, const Trajectory& path, const Passes& passes);
 
+    /// The table or the log has a field of that name.
+    [[nodiscard]] bool has(std::string_view name) const;
+
     /// One value per point. Throws UsageError: an unknown field (with a suggestion), a field that
     /// needs a role that the log does not have. O(points), parallel.
     [[nodiscard]] Field get(std::string_view name) const;
@@ -32,6 +35,9 @@ private:
     const Trajectory& path_;
     std::vector<PointRange> pieces_;  ///< for derivatives, in order
 };
+
+/// Throws UsageError: none of `fields` is called that; the nearest is suggested.
+[[noreturn]] void unknown_field(std::string_view name, const std::vector<FieldInfo>& fields);
 
 /// All fields by name: those of the table, then the log's channels (nullptr: no log).
 [[nodiscard]] std::vector<FieldInfo> known_fields(const Log* log);

@@ -92,7 +92,7 @@ bool CauseFinder::begins_with_reversal(const DefectRun& run) const {
 }
 
 Cause CauseFinder::cause_of(const Defect& defect, std::span<const Suspect> sites) const {
-    if (defect.quantity == Quantity::relief || spaced_otherwise(defect)) return Cause::point_spacing;
+    if (defect.quantity == Quantity::relief || (defect.quantity != Quantity::lag && spaced_otherwise(defect))) return Cause::point_spacing;
     const auto most_runs = [&](auto&& test) {
         const auto runs = std::count_if(defect.runs.begin(), defect.runs.end(), test);
         return 2 * runs > static_cast<std::ptrdiff_t>(defect.runs.size());

@@ -312,7 +312,7 @@ QualityReport find_defects(const ClSurface& surface, const Signals& signals, con
     QualityReport report;
     report.step_over = surface.step_over;
     report.has_lag = signals.measured;
-    report.note = signals.note;
+    report.note = signals.speed_note + ", " + signals.acceleration_note + ", " + signals.height_note;
     report.thresholds = measure_thresholds(surface, signals, rules.thresholds);
     const Way way(surface.positions);
     const CauseFinder causes(surface, signals, lines, program, way);

@@ -69,7 +69,7 @@ Comparison Comparer::compare(PointIndex point) const {
     const auto values_at = [&](const Station& at) {
         Values v;
         v.speed = interpolate(signals_.speed, at);
-        v.acceleration = {interpolate(signals_.acceleration.x, at), interpolate(signals_.acceleration.y, at), interpolate(signals_.acceleration.z, at)};
+        v.acceleration = vector_at(signals_.acceleration, at);
         // Normals of steep walls turn round with the feed: the height is counted along the own one.
         const float sign = signals_.normal[at.nearest()].dot(normal) < 0 ? -1.0F : 1.0F;
         if (signals_.measured) v.lag = sign * interpolate(signals_.lag, at);

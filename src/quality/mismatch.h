@@ -19,6 +19,11 @@ enum class Quantity : std::uint8_t { speed, acceleration, lag, relief };
 inline constexpr std::size_t quantities = 4;
 [[nodiscard]] constexpr std::size_t index_of(Quantity q) { return static_cast<std::size_t>(q); }
 
+/// A vector at a station, linear between the points.
+[[nodiscard]] inline Eigen::Vector3f vector_at(const Vectors& v, const Station& at) {
+    return {interpolate(v.x, at), interpolate(v.y, at), interpolate(v.z, at)};
+}
+
 /// Speeds relative to that of the neighbours, accelerations [mm/s²], heights [mm].
 struct Comparison {
     std::array<float, quantities> step;      ///< ≥ 0; NaN: not known

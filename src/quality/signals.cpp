@@ -95,10 +95,11 @@ public:
           smoother_(window_points(height_seconds, path.period, 1)),
           reach_(std::clamp(static_cast<PointIndex>(std::lround(std::min(longest_lag / path.period, 1e6))), shortest_reach, longest_reach)) {}
 
-    [[nodiscard]] std::string note() const {
-        return fmt::format("speed over {} points ({:.3g} ms), acceleration over {} ({:.3g} ms), heights over {} ({:.3g} ms)",
-                           speed_.filter().points, ms(speed_.filter().points), acceleration_.filter().points,
-                           ms(acceleration_.filter().points), 2 * smoother_.reach() + 1, ms(static_cast<int>(2 * smoother_.reach() + 1)));
+    void note_windows(Signals& signals) const {
+        const auto note = [&](std::string_view what, int points) { return fmt::format("{} over {} points ({:.3g} ms)", what, points, 1e3 * points * path_.period); };
+        signals.speed_note = note("speed", speed_.filter().points);
+        signals.acceleration_note = note("acceleration", acceleration_.filter().points);
+        signals.height_note = note("heights", static_cast<int>(2 * smoother_.reach() + 1));
     }
 
     void derive_motion(PointRange piece, PointIndex first, PointIndex last) const {
@@ -148,8 +149,6 @@ public:
     }
 
 private:
-    [[nodiscard]] double ms(int points) const { return 1e3 * points * path_.period; }
-
     /// The normal at a point, and how far the point lies above the chord between its neighbours.
     float measure_relief(PointIndex i, Eigen::Vector3f& normal) const {
         normal.setConstant(none);
@@ -293,7 +292,7 @@ Signals derive_signals(const ClSurface& surface, const Trajectory& path, const T
         if (role != nullptr) signals.quantum = std::max(signals.quantum, quantum_of_axes(*role));
     }
     const Deriver deriver(surface, path, measured, signals);
-    signals.note = deriver.note();
+    deriver.note_windows(signals);
     for_each_stretch(path.count, pieces, [&](PointRange piece, PointIndex first, PointIndex last) { deriver.derive_motion(piece, first, last); });
     for_each_stretch(path.count, pieces, [&](PointRange piece, PointIndex first, PointIndex last) { deriver.derive_heights(piece, first, last); });
     mark_zones(surface, pieces, end_zone, path.period, signals);

@@ -50,7 +50,7 @@ struct Signals {
     Column<Zone> zone;     ///< what a point can be compared with
     bool measured = false;       ///< there is a lag
     float quantum = 0;           ///< [mm] coarsest step in which the positions come; 0: none seen
-    std::string note;            ///< the windows, for reports
+    std::string speed_note, acceleration_note, height_note;  ///< the windows, "speed over 11 points (11 ms)"
 };
 
 /// `path` is what `surface` was gathered from; `measured` the feedback or actual positions, or nullptr.

@@ -31,7 +31,7 @@ const std::map<std::string, std::set<std::string>> rooms{
     {"surface", {"core", "machine", "path"}},
     {"field", {"core", "machine", "log", "path", "surface"}},
     {"motion", {"core", "program", "machine", "log"}},
-    {"quality", {"core", "program", "log", "path", "surface"}},
+    {"quality", {"core", "program", "log", "path", "surface", "field"}},
     {"optimize",
      {"core", "program", "machine", "log", "path", "surface", "field", "quality", "motion"}},
     {"io",

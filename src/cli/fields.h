@@ -1,0 +1,31 @@
+#pragma once
+// Fields of a part: those of the field table, the log's channels and the predictor's, by one name.
+
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "cli/part.h"
+#include "quality/signals.h"
+
+namespace clsurf::cli {
+
+class Fields {
+public:
+    /// Both must outlive it.
+    Fields(const Part& part, const ClSurface& surface) : part_(part), surface_(surface), set_(part.log, part.path, surface.passes) {}
+
+    /// One value per point. Throws UsageError: unknown (with a suggestion), or the log lacks what it needs.
+    [[nodiscard]] Field get(std::string_view name);
+
+private:
+    const Part& part_;
+    const ClSurface& surface_;
+    FieldSet set_;
+    std::unique_ptr<Signals> signals_;  ///< derived when the first field needs them
+};
+
+/// All of them by name; with a log its channels too.
+[[nodiscard]] std::vector<FieldInfo> all_fields(const Log* log);
+
+}  // namespace clsurf::cli
