@@ -72,7 +72,7 @@ bool CauseFinder::turns(const DefectRun& run) const {
     PointIndex behind = run.points.first;
     for (PointIndex i = run.points.first; i <= run.points.last; ++i) {
         while (behind < i && way_.at_least(behind, i, corner_way)) ++behind;
-        const float cosine = signals_.feed[behind].dot(signals_.feed[i]);
+        const float cosine = signals_.feed(behind).dot(signals_.feed(i));
         if (cosine < corner_cosine) return true;
     }
     return false;
@@ -81,10 +81,10 @@ bool CauseFinder::turns(const DefectRun& run) const {
 bool CauseFinder::begins_with_reversal(const DefectRun& run) const {
     PointIndex from = run.points.first;
     while (from > 0 && !way_.at_least(from, run.points.first, reversal_way)) --from;
-    const Eigen::Vector3f before = signals_.feed[from];
+    const Eigen::Vector3f before = signals_.feed(from);
     PointIndex to = run.points.first;
     while (to < run.points.last && !way_.at_least(run.points.first, to, reversal_way)) ++to;
-    const Eigen::Vector3f after = signals_.feed[to];
+    const Eigen::Vector3f after = signals_.feed(to);
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
         if (before[axis] * after[axis] < 0 && std::min(std::abs(before[axis]), std::abs(after[axis])) > axis_moves) return true;
     }

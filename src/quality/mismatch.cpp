@@ -12,42 +12,36 @@ namespace clsurf {
 namespace {
 
 constexpr float none = std::numeric_limits<float>::quiet_NaN();
-constexpr std::size_t sampled_points = 200'000;
+constexpr std::size_t sampled_points = 50'000;
 constexpr float normal_deviation = 1.4826F;  ///< standard deviations per median absolute deviation
 constexpr float along_or_against = 0.866F;   ///< cos 30°: neighbours run along with the feed or against it
 constexpr std::size_t fewest_passes = 2;     ///< for a median
 
-/// What is compared, at a place.
-struct Values {
-    float speed = none;
-    float lag = none;
-    float relief = none;
-    Eigen::Vector3f acceleration = Eigen::Vector3f::Constant(none);
-};
-
 /// Median of one quantity over places; NaN with fewer than two.
 template <typename Read>
-float median_of(std::span<const Values> places, Read&& read) {
+float median_of(std::span<const Compared> places, Read&& read) {
     std::array<float, 2 * Comparer::passes_aside> values;
     std::size_t count = 0;
-    for (const Values& place : places) {
+    for (const Compared& place : places) {
         const float value = read(place);
-        if (value == value) values[count++] = value;
+        if (!(value == value)) continue;
+        std::size_t k = count++;
+        for (; k > 0 && values[k - 1] > value; --k) values[k] = values[k - 1];
+        values[k] = value;
     }
     if (count < fewest_passes) return none;
-    std::sort(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count));
     const std::size_t middle = count / 2;
     return count % 2 == 1 ? values[middle] : 0.5F * (values[middle - 1] + values[middle]);
 }
 
 float larger(float a, float b) { return !(a == a) || b > a ? b : a; }
 
-/// How much a column changes over two periods at a point: commanded and measured positions of a
+/// How much a signal changes over two periods at a point: commanded and measured positions of a
 /// record may be taken a period apart, on each of two passes.
-float change_of_two_periods(const Column<float>& column, PointIndex point) {
+float change_of_two_periods(const Signals& signals, float Sample::*signal, PointIndex point) {
     constexpr PointIndex reach = 3;
-    if (point < reach || point + reach >= static_cast<PointIndex>(column.size())) return 0;
-    const float change = std::abs(column[static_cast<std::size_t>(point + reach)] - column[static_cast<std::size_t>(point - reach)]) / reach;
+    if (point < reach || point + reach >= signals.size()) return 0;
+    const float change = std::abs(signals[point + reach].*signal - signals[point - reach].*signal) / reach;
     return change == change ? change : 0;
 }
 
@@ -60,43 +54,50 @@ float percentile(std::vector<float>& values, double p) {
 
 }  // namespace
 
+Compared compared_at(const Signals& signals, const Station& at, const Eigen::Vector3f& normal) {
+    const Sample& a = signals[at.point];
+    Compared result{a.speed, a.lag, a.relief, vector_of(a.acceleration)};
+    if (at.fraction > 0) {
+        const Sample& b = signals[at.point + 1];
+        result.speed += at.fraction * (b.speed - a.speed);
+        result.lag += at.fraction * (b.lag - a.lag);
+        result.relief += at.fraction * (b.relief - a.relief);
+        result.acceleration += at.fraction * (vector_of(b.acceleration) - vector_of(a.acceleration));
+    }
+    if (signals.normal(at.nearest()).dot(normal) < 0) {
+        result.lag = -result.lag;
+        result.relief = -result.relief;
+    }
+    return result;
+}
+
 Comparison Comparer::compare(PointIndex point) const {
     Comparison result;
     result.step.fill(none);
     result.residual.fill(none);
     const Station here{point, 0};
-    const Eigen::Vector3f normal = signals_.normal[point];
-    const auto values_at = [&](const Station& at) {
-        Values v;
-        v.speed = interpolate(signals_.speed, at);
-        v.acceleration = vector_at(signals_.acceleration, at);
-        // Normals of steep walls turn round with the feed: the height is counted along the own one.
-        const float sign = signals_.normal[at.nearest()].dot(normal) < 0 ? -1.0F : 1.0F;
-        if (signals_.measured) v.lag = sign * interpolate(signals_.lag, at);
-        v.relief = sign * interpolate(signals_.relief, at);
-        return v;
-    };
-    const Values mine = values_at(here);
+    const Eigen::Vector3f normal = signals_.normal(point);
+    const Compared mine = compared_at(signals_, here, normal);
 
-    std::array<std::array<Values, passes_aside>, 2> beside_it;
+    std::array<std::array<Compared, passes_aside>, 2> beside_it;
     std::array<int, 2> count{0, 0};
     float speed_step = none;
     for (const Side side : {Side::left, Side::right}) {
         const auto s = static_cast<std::size_t>(side);
         Station before = here;
-        Station at = beside(surface_, here, signals_.feed[point], side);
+        Station at = beside(surface_, here, signals_.feed(point), side);
         (side == Side::left ? result.beside_left : result.beside_right) = at;
         while (count[s] < passes_aside && at.exists()) {
-            const Eigen::Vector3f feed = signals_.feed[at.nearest()];
-            const bool runs_along = std::abs(feed.dot(signals_.feed[before.nearest()])) > along_or_against;
-            if (signals_.zone[static_cast<std::size_t>(at.nearest())] == Zone::outside || !runs_along) break;
-            beside_it[s][static_cast<std::size_t>(count[s]++)] = values_at(at);
+            const Eigen::Vector3f feed = signals_.feed(at.nearest());
+            const bool runs_along = std::abs(feed.dot(signals_.feed(before.nearest()))) > along_or_against;
+            if (signals_[at.nearest()].zone == Zone::outside || !runs_along) break;
+            beside_it[s][static_cast<std::size_t>(count[s]++)] = compared_at(signals_, at, normal);
             const Station next = beyond(surface_, before, at, feed);
             before = at;
             at = next;
         }
         if (count[s] == 0) continue;
-        const Values& adjacent = beside_it[s][0];
+        const Compared& adjacent = beside_it[s][0];
         const auto widen = [&](Quantity q, float difference) {
             float& step = result.step[index_of(q)];
             step = larger(step, difference);
@@ -111,24 +112,24 @@ Comparison Comparer::compare(PointIndex point) const {
     // As many on either side, so that what changes evenly from pass to pass drops out; all of one side
     // where the other has none.
     const int even = std::min(count[0], count[1]);
-    std::array<Values, 2 * passes_aside> all;
+    std::array<Compared, 2 * passes_aside> all;
     std::size_t n = 0;
     for (std::size_t s = 0; s < 2; ++s) {
         for (int k = 0; k < (even > 0 ? even : count[s]); ++k) all[n++] = beside_it[s][static_cast<std::size_t>(k)];
     }
-    const std::span<const Values> places(all.data(), n);
-    const float usual = median_of(places, [](const Values& v) { return v.speed; });
+    const std::span<const Compared> places(all.data(), n);
+    const float usual = median_of(places, [](const Compared& v) { return v.speed; });
     const float reference = std::max(usual == usual ? usual : mine.speed, least_speed_);
     result.step[index_of(Quantity::speed)] = speed_step / reference;
-    result.play[index_of(Quantity::speed)] = change_of_two_periods(signals_.speed, point) / reference;
-    if (signals_.measured) result.play[index_of(Quantity::lag)] = change_of_two_periods(signals_.lag, point);
+    result.play[index_of(Quantity::speed)] = change_of_two_periods(signals_, &Sample::speed, point) / reference;
+    if (signals_.measured) result.play[index_of(Quantity::lag)] = change_of_two_periods(signals_, &Sample::lag, point);
     result.speed_jump = mine.speed - usual;
     result.residual[index_of(Quantity::speed)] = result.speed_jump / reference;
-    result.residual[index_of(Quantity::lag)] = mine.lag - median_of(places, [](const Values& v) { return v.lag; });
-    result.residual[index_of(Quantity::relief)] = mine.relief - median_of(places, [](const Values& v) { return v.relief; });
+    result.residual[index_of(Quantity::lag)] = mine.lag - median_of(places, [](const Compared& v) { return v.lag; });
+    result.residual[index_of(Quantity::relief)] = mine.relief - median_of(places, [](const Compared& v) { return v.relief; });
     Eigen::Vector3f consensus;
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
-        consensus[axis] = median_of(places, [axis](const Values& v) { return v.acceleration[axis]; });
+        consensus[axis] = median_of(places, [axis](const Compared& v) { return v.acceleration[axis]; });
     }
     result.residual[index_of(Quantity::acceleration)] = (mine.acceleration - consensus).norm();
     return result;
@@ -137,23 +138,23 @@ Comparison Comparer::compare(PointIndex point) const {
 Thresholds measure_thresholds(const ClSurface& surface, const Signals& signals, const ThresholdRule& rule) {
     Thresholds thresholds;
     std::vector<PointIndex> points;
-    const auto count = static_cast<PointIndex>(signals.zone.size());
+    const PointIndex count = signals.size();
     PointIndex inner = 0;
-    for (const Zone zone : signals.zone) inner += zone == Zone::outside ? 0 : 1;
+    for (const Sample& sample : signals.samples) inner += sample.zone == Zone::outside ? 0 : 1;
     const PointIndex stride = std::max<PointIndex>(1, inner / static_cast<PointIndex>(sampled_points));
     PointIndex seen = 0;
     for (PointIndex i = 0; i < count; ++i) {
-        if (signals.zone[static_cast<std::size_t>(i)] != Zone::outside && seen++ % stride == 0) points.push_back(i);
+        if (signals[i].zone != Zone::outside && seen++ % stride == 0) points.push_back(i);
     }
     std::vector<float> values;
     for (const PointIndex i : points) {
-        const float speed = signals.speed[static_cast<std::size_t>(i)];
+        const float speed = signals[i].speed;
         if (speed == speed) values.push_back(speed);
     }
     thresholds.usual_speed = percentile(values, 0.95);
     values.clear();
     for (const PointIndex i : points) {
-        const float a = signals.acceleration[i].norm();
+        const float a = signals.acceleration(i).norm();
         if (a == a) values.push_back(a);
     }
     thresholds.usual_acceleration = percentile(values, 0.99);

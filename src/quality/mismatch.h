@@ -19,10 +19,15 @@ enum class Quantity : std::uint8_t { speed, acceleration, lag, relief };
 inline constexpr std::size_t quantities = 4;
 [[nodiscard]] constexpr std::size_t index_of(Quantity q) { return static_cast<std::size_t>(q); }
 
-/// A vector at a station, linear between the points.
-[[nodiscard]] inline Eigen::Vector3f vector_at(const Vectors& v, const Station& at) {
-    return {interpolate(v.x, at), interpolate(v.y, at), interpolate(v.z, at)};
-}
+/// What is compared, at a place.
+struct Compared {
+    float speed, lag, relief;
+    Eigen::Vector3f acceleration;
+};
+
+/// The signals at a station, linear between the points. Heights are counted along `normal`: normals of
+/// steep walls turn round with the feed.
+[[nodiscard]] Compared compared_at(const Signals& signals, const Station& at, const Eigen::Vector3f& normal);
 
 /// Speeds relative to that of the neighbours, accelerations [mm/s²], heights [mm].
 struct Comparison {
@@ -73,7 +78,7 @@ struct ThresholdRule {
     float most = 3;              ///< … but at most so many times the least one: a bad part must not hide itself
 };
 
-/// Thresholds from some 10^5 evenly spaced judged points. The same for any number of threads.
+/// Thresholds from some 50,000 evenly spaced judged points. The same for any number of threads.
 [[nodiscard]] Thresholds measure_thresholds(const ClSurface& surface, const Signals& signals, const ThresholdRule& rule);
 
 }  // namespace clsurf

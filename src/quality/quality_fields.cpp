@@ -19,7 +19,7 @@ template <typename Difference>
 float largest_beside(const ClSurface& surface, const Signals& signals, PointIndex i, Difference&& difference) {
     float most = none;
     for (const Side side : {Side::left, Side::right}) {
-        const Station at = beside(surface, {i, 0}, signals.feed[i], side);
+        const Station at = beside(surface, {i, 0}, signals.feed(i), side);
         if (!at.exists()) continue;
         const float d = difference(at);
         if (!(std::abs(most) >= std::abs(d))) most = d == d ? d : most;
@@ -28,17 +28,17 @@ float largest_beside(const ClSurface& surface, const Signals& signals, PointInde
 }
 
 float speed_mismatch(const ClSurface& surface, const Signals& signals, PointIndex i) {
-    const float own = signals.speed[static_cast<std::size_t>(i)];
-    return largest_beside(surface, signals, i, [&](const Station& at) { return own - interpolate(signals.speed, at); });
+    const float own = signals[i].speed;
+    return largest_beside(surface, signals, i, [&](const Station& at) { return own - compared_at(signals, at, signals.normal(i)).speed; });
 }
 
 float acceleration_mismatch(const ClSurface& surface, const Signals& signals, PointIndex i) {
-    const Eigen::Vector3f own = signals.acceleration[i];
-    return largest_beside(surface, signals, i, [&](const Station& at) { return (own - vector_at(signals.acceleration, at)).norm(); });
+    const Eigen::Vector3f own = signals.acceleration(i);
+    return largest_beside(surface, signals, i, [&](const Station& at) { return (own - compared_at(signals, at, signals.normal(i)).acceleration).norm(); });
 }
 
 float height(const ClSurface&, const Signals& signals, PointIndex i) {
-    return (signals.measured ? signals.lag : signals.relief)[static_cast<std::size_t>(i)];
+    return signals.measured ? signals[i].lag : signals[i].relief;
 }
 
 struct Row {
@@ -86,7 +86,7 @@ Field quality_field(std::string_view name, const ClSurface& surface, const Signa
     std::vector<PointIndex> with(static_cast<std::size_t>((count + block_points - 1) / block_points));
     for_each_block(count, [&](PointIndex first, PointIndex last) {
         for (PointIndex i = first; i < last; ++i) {
-            const bool compared = signals.zone[static_cast<std::size_t>(i)] != Zone::outside;
+            const bool compared = signals[i].zone != Zone::outside;
             const float value = compared ? row.value(surface, signals, i) : none;
             field.values[static_cast<std::size_t>(i)] = value;
             if (value == value) ++with[static_cast<std::size_t>(first / block_points)];

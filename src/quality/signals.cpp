@@ -121,10 +121,13 @@ public:
             const auto i = first + static_cast<PointIndex>(k);
             const Vec3 velocity(v[0][k], v[1][k], v[2][k]);
             const double speed = velocity.norm();
-            out_.speed[static_cast<std::size_t>(i)] = static_cast<float>(speed);
-            const Eigen::Vector3f feed = speed > slowest ? Eigen::Vector3f((velocity / speed).cast<float>()) : Eigen::Vector3f::Constant(none);
-            out_.feed.set(i, feed);
-            out_.acceleration.set(i, Vec3(a[0][k], a[1][k], a[2][k]).cast<float>());
+            Sample& sample = out_[i];
+            sample.speed = static_cast<float>(speed);
+            sample.lag = none;
+            for (Eigen::Index axis = 0; axis < 3; ++axis) {
+                sample.feed[axis] = speed > slowest ? static_cast<float>(velocity[axis] / speed) : none;
+                sample.acceleration[axis] = static_cast<float>(a[static_cast<std::size_t>(axis)][k]);
+            }
         }
     }
 
@@ -137,22 +140,24 @@ public:
         for (PointIndex i = from; i <= to; ++i) {
             const auto k = static_cast<std::size_t>(i - from);
             relief[k] = measure_relief(i, normals[k]);
-            if (i >= first && i <= last) out_.normal.set(i, normals[k]);
+            if (i >= first && i <= last) Eigen::Map<Eigen::Vector3f>(out_[i].normal) = normals[k];
         }
         const auto skip = static_cast<std::size_t>(first - from);
-        const auto n = static_cast<std::size_t>(last - first + 1);
-        smoother_.apply(relief, skip, {out_.relief.data() + first, n});
+        std::vector<float> smooth(static_cast<std::size_t>(last - first + 1));
+        smoother_.apply(relief, skip, smooth);
+        for (std::size_t k = 0; k < smooth.size(); ++k) out_[first + static_cast<PointIndex>(k)].relief = smooth[k];
         if (measured_ == nullptr) return;
         std::vector<float>& lag = relief;
         measure_lag(from, to, normals, lag);
-        smoother_.apply(lag, skip, {out_.lag.data() + first, n});
+        smoother_.apply(lag, skip, smooth);
+        for (std::size_t k = 0; k < smooth.size(); ++k) out_[first + static_cast<PointIndex>(k)].lag = smooth[k];
     }
 
 private:
     /// The normal at a point, and how far the point lies above the chord between its neighbours.
     float measure_relief(PointIndex i, Eigen::Vector3f& normal) const {
         normal.setConstant(none);
-        const Eigen::Vector3f feed = out_.feed[i];
+        const Eigen::Vector3f feed = out_.feed(i);
         const Positions& p = surface_.positions;
         const Eigen::Vector3f here = p[i];
         const Station left = beside(surface_, {i, 0}, feed, Side::left);
@@ -184,7 +189,7 @@ private:
             const auto k = static_cast<std::size_t>(i - from);
             lag[k] = none;
             const Vec3 here(commanded[0][k], commanded[1][k], commanded[2][k]);
-            const Vec3 feed = out_.feed[i].cast<double>();
+            const Vec3 feed = out_.feed(i).cast<double>();
             const auto along = [&](PointIndex q) { return (at(q) - here).dot(feed); };
             // The first crossing after where the last one was; a little before it where it went back.
             m = std::clamp(m, std::max(begin + 1, i - lead), std::min(end, i + reach_));
@@ -226,16 +231,16 @@ void mark_end(PointIndex end, PointIndex count, int direction, double end_zone, 
     bool ramp = true;
     for (PointIndex k = 0; k < count; ++k) {
         const PointIndex i = end + direction * k;
-        const auto at = static_cast<std::size_t>(i);
+        Sample& sample = signals[i];
         if (gone < end_zone) {
-            signals.zone[at] = Zone::outside;
+            sample.zone = Zone::outside;
         } else if (ramp && gone < end_zone + longest_ramp) {
-            if (signals.zone[at] == Zone::inner) signals.zone[at] = Zone::ramp;
+            if (sample.zone == Zone::inner) sample.zone = Zone::ramp;
         } else {
             return;
         }
         if (k % stride == 0) {
-            const float speed = signals.speed[at];
+            const float speed = sample.speed;
             if (gone >= end_zone && !(speed > (1 + least_rise) * before)) ramp = false;
             before = speed;
         }
@@ -246,9 +251,9 @@ void mark_end(PointIndex end, PointIndex count, int direction, double end_zone, 
 /// Marks what may be compared with what.
 void mark_zones(const ClSurface& surface, const std::vector<PointRange>& pieces, double end_zone, double period, Signals& signals) {
     const Way way(surface.positions);
-    std::fill(signals.zone.begin(), signals.zone.end(), Zone::outside);
     for (const Pass& pass : surface.passes) {
-        if (pass.kind == PassKind::cut) std::fill(signals.zone.begin() + pass.first, signals.zone.begin() + pass.last + 1, Zone::inner);
+        const Zone zone = pass.kind == PassKind::cut ? Zone::inner : Zone::outside;
+        for (PointIndex i = pass.first; i <= pass.last; ++i) signals[i].zone = zone;
     }
     const auto stride = std::max<PointIndex>(1, std::lround(std::min(rise_seconds / period, 1e6)));
     for (const PointRange& piece : pieces) {
@@ -279,15 +284,8 @@ Signals derive_signals(const ClSurface& surface, const Trajectory& path, const T
                        const std::vector<PointRange>& smooth, double end_zone) {
     Signals signals;
     const std::vector<PointRange> pieces = cut_at_jogs(smooth, surface.jogs);
-    const auto count = static_cast<std::size_t>(path.count);
-    signals.speed.resize(count);
-    signals.feed.resize(count);
-    signals.acceleration.resize(count);
-    signals.normal.resize(count);
-    signals.relief.resize(count);
-    signals.zone.resize(count);
+    signals.samples.resize(static_cast<std::size_t>(path.count));
     signals.measured = measured != nullptr;
-    if (measured != nullptr) signals.lag.resize(count);
     for (const Trajectory* role : {&path, measured}) {
         if (role != nullptr) signals.quantum = std::max(signals.quantum, quantum_of_axes(*role));
     }

@@ -12,27 +12,6 @@
 
 namespace clsurf {
 
-/// Three columns that are one vector per point.
-struct Vectors {
-    Column<float> x, y, z;
-
-    void resize(std::size_t size) {
-        x.resize(size);
-        y.resize(size);
-        z.resize(size);
-    }
-    [[nodiscard]] Eigen::Vector3f operator[](PointIndex i) const {
-        const auto at = static_cast<std::size_t>(i);
-        return {x[at], y[at], z[at]};
-    }
-    void set(PointIndex i, const Eigen::Vector3f& v) {
-        const auto at = static_cast<std::size_t>(i);
-        x[at] = v.x();
-        y[at] = v.y();
-        z[at] = v.z();
-    }
-};
-
 /// Where on a pass a point lies.
 enum class Zone : std::uint8_t {
     outside,  ///< not on a cut pass, or next to where a pass begins or ends: not compared
@@ -40,17 +19,32 @@ enum class Zone : std::uint8_t {
     inner,
 };
 
+/// What is known of a point, side by side: whoever compares passes looks at all of it at once, on a
+/// dozen passes at a time, and pays for every cache line.
+struct Sample {
+    float speed;            ///< [mm/s] of the surface's own positions
+    float lag;              ///< [mm] how far the measured path runs above (+) the commanded one, along the normal; NaN: none
+    float relief;           ///< [mm] how far the point lies above the chord between its neighbours, along the normal
+    float acceleration[3];  ///< [mm/s²]
+    float feed[3];          ///< unit vector; NaN where the tool stands
+    float normal[3];        ///< unit vector of the CL surface, feed × (left − right); NaN: no neighbour
+    Zone zone;
+};
+
+[[nodiscard]] inline Eigen::Map<const Eigen::Vector3f> vector_of(const float (&v)[3]) { return Eigen::Map<const Eigen::Vector3f>(v); }
+
 struct Signals {
-    Column<float> speed;   ///< [mm/s] of the surface's own positions
-    Vectors feed;          ///< unit vector; NaN where the tool stands
-    Vectors acceleration;  ///< [mm/s²]
-    Vectors normal;        ///< unit vector of the CL surface, feed × (left − right); NaN: no neighbour
-    Column<float> lag;     ///< [mm] how far the measured path runs above (+) the commanded one, along the normal; NaN: none
-    Column<float> relief;  ///< [mm] how far the point lies above the chord between its neighbours, along the normal
-    Column<Zone> zone;     ///< what a point can be compared with
-    bool measured = false;       ///< there is a lag
-    float quantum = 0;           ///< [mm] coarsest step in which the positions come; 0: none seen
+    Column<Sample> samples;  ///< one per point
+    bool measured = false;   ///< there is a lag
+    float quantum = 0;       ///< [mm] coarsest step in which the positions come; 0: none seen
     std::string speed_note, acceleration_note, height_note;  ///< the windows, "speed over 11 points (11 ms)"
+
+    [[nodiscard]] PointIndex size() const { return static_cast<PointIndex>(samples.size()); }
+    [[nodiscard]] const Sample& operator[](PointIndex i) const { return samples[static_cast<std::size_t>(i)]; }
+    [[nodiscard]] Sample& operator[](PointIndex i) { return samples[static_cast<std::size_t>(i)]; }
+    [[nodiscard]] Eigen::Map<const Eigen::Vector3f> feed(PointIndex i) const { return vector_of((*this)[i].feed); }
+    [[nodiscard]] Eigen::Map<const Eigen::Vector3f> acceleration(PointIndex i) const { return vector_of((*this)[i].acceleration); }
+    [[nodiscard]] Eigen::Map<const Eigen::Vector3f> normal(PointIndex i) const { return vector_of((*this)[i].normal); }
 };
 
 /// `path` is what `surface` was gathered from; `measured` the feedback or actual positions, or nullptr.

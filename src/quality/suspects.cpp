@@ -32,7 +32,7 @@ void judge(Suspect& suspect, const Thresholds& thresholds) {
 bool is_border(const Suspect& suspect, const Signals& signals) {
     const Comparison& c = suspect.comparison;
     if (c.left == 0 || c.right == 0) return true;
-    const auto ramps = [&](PointIndex i) { return signals.zone[static_cast<std::size_t>(i)] == Zone::ramp; };
+    const auto ramps = [&](PointIndex i) { return signals[i].zone == Zone::ramp; };
     return ramps(suspect.point) || ramps(c.beside_left.nearest()) || ramps(c.beside_right.nearest());
 }
 
@@ -67,7 +67,7 @@ PointIndex count_compared(const ClSurface& surface, const Signals& signals) {
     for_each_block(count, [&](PointIndex first, PointIndex last) {
         PointIndex& mine = of_block[static_cast<std::size_t>(first / block_points)];
         for (PointIndex i = first; i < last; ++i) {
-            if (signals.zone[static_cast<std::size_t>(i)] != Zone::outside && surface.neighbours.has(Side::left, i) && surface.neighbours.has(Side::right, i)) ++mine;
+            if (signals[i].zone != Zone::outside && surface.neighbours.has(Side::left, i) && surface.neighbours.has(Side::right, i)) ++mine;
         }
     });
     return std::accumulate(of_block.begin(), of_block.end(), PointIndex{0});
@@ -84,7 +84,7 @@ std::vector<Suspect> find_suspects(const ClSurface& surface, const Signals& sign
         std::size_t pass = pass_of(surface.passes, first);
         PointIndex before = -1;
         for (PointIndex i = first + (stride - first % stride) % stride; i < last; i += stride) {
-            if (signals.zone[static_cast<std::size_t>(i)] == Zone::outside) continue;
+            if (signals[i].zone == Zone::outside) continue;
             if (before >= 0 && (surface.positions[i] - surface.positions[before]).norm() < least_way) continue;
             before = i;
             Suspect suspect;

@@ -18,8 +18,8 @@ using test::MadeSurface;
 template <typename F>
 void for_each_inner(const Signals& s, F&& f) {
     std::int64_t seen = 0;
-    for (PointIndex i = 0; i < static_cast<PointIndex>(s.zone.size()); ++i) {
-        if (s.zone[static_cast<std::size_t>(i)] != Zone::inner) continue;
+    for (PointIndex i = 0; i < s.size(); ++i) {
+        if (s[i].zone != Zone::inner) continue;
         f(i);
         ++seen;
     }
@@ -31,7 +31,7 @@ TEST(Signals, ALagAlongThePathIsNoHeight) {
     const MadeSurface made = test::flat_zigzag(9, 30, 0.4, 50, [](const Vec3& p, const Vec3& feed) { return Vec3(p - 1.0 * feed); });
     const Signals s = made.signals();
     for_each_inner(s, [&](PointIndex i) {
-        const float lag = s.lag[static_cast<std::size_t>(i)];
+        const float lag = s[i].lag;
         if (lag == lag) {
             EXPECT_NEAR(lag, 0.0F, 1e-6F) << i;
         }
@@ -43,7 +43,7 @@ TEST(Signals, AnOffsetAlongTheNormalIsTheHeight) {
     const Signals s = made.signals();
     std::int64_t with = 0;
     for_each_inner(s, [&](PointIndex i) {
-        const float lag = s.lag[static_cast<std::size_t>(i)];
+        const float lag = s[i].lag;
         if (!(lag == lag)) return;  // the outermost passes have a normal by one side only, but have one
         EXPECT_NEAR(lag, 0.005F, 1e-6F) << i;
         ++with;
@@ -55,15 +55,15 @@ TEST(Signals, TheNormalPointsUpWhicheverWayThePassRuns) {
     const MadeSurface made = test::flat_zigzag(9, 30, 0.4, 50, {});
     const Signals s = made.signals();
     EXPECT_FALSE(s.measured);
-    for_each_inner(s, [&](PointIndex i) { EXPECT_NEAR(s.normal[i].z(), 1.0F, 1e-5F); });
+    for_each_inner(s, [&](PointIndex i) { EXPECT_NEAR(s.normal(i).z(), 1.0F, 1e-5F); });
 }
 
 TEST(Signals, SpeedAndAccelerationAreThoseOfTheWay) {
     const MadeSurface made = test::flat_zigzag(9, 30, 0.4, 50, {});
     const Signals s = made.signals();
     for_each_inner(s, [&](PointIndex i) {
-        EXPECT_NEAR(s.speed[static_cast<std::size_t>(i)], 50.0F, 1e-2F);
-        EXPECT_NEAR(s.acceleration[i].norm(), 0.0F, 1.0F);
+        EXPECT_NEAR(s[i].speed, 50.0F, 1e-2F);
+        EXPECT_NEAR(s.acceleration(i).norm(), 0.0F, 1.0F);
     });
 }
 
