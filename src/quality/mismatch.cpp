@@ -71,7 +71,7 @@ Compared compared_at(const Signals& signals, const Station& at, const Eigen::Vec
     return result;
 }
 
-Comparison Comparer::compare(PointIndex point) const {
+Comparison Comparer::compare(PointIndex point, int aside) const {
     Comparison result;
     result.step.fill(none);
     result.residual.fill(none);
@@ -87,11 +87,12 @@ Comparison Comparer::compare(PointIndex point) const {
         Station before = here;
         Station at = beside(surface_, here, signals_.feed(point), side);
         (side == Side::left ? result.beside_left : result.beside_right) = at;
-        while (count[s] < passes_aside && at.exists()) {
+        while (count[s] < aside && at.exists()) {
             const Eigen::Vector3f feed = signals_.feed(at.nearest());
             const bool runs_along = std::abs(feed.dot(signals_.feed(before.nearest()))) > along_or_against;
             if (signals_[at.nearest()].zone == Zone::outside || !runs_along) break;
             beside_it[s][static_cast<std::size_t>(count[s]++)] = compared_at(signals_, at, normal);
+            if (count[s] == aside) break;
             const Station next = beyond(surface_, before, at, feed);
             before = at;
             at = next;
@@ -162,7 +163,7 @@ Thresholds measure_thresholds(const ClSurface& surface, const Signals& signals, 
     const Comparer comparer(surface, signals, thresholds.usual_speed);
     std::vector<std::array<float, quantities>> steps(points.size());
     parallel_for(static_cast<std::int64_t>(points.size()), 4096, [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t k = first; k < last; ++k) steps[static_cast<std::size_t>(k)] = comparer.compare(points[static_cast<std::size_t>(k)]).step;
+        for (std::int64_t k = first; k < last; ++k) steps[static_cast<std::size_t>(k)] = comparer.compare(points[static_cast<std::size_t>(k)], 1).step;
     });
     const std::array<float, quantities> least{rule.speed, rule.acceleration * thresholds.usual_acceleration,
                                              std::max(rule.height, rule.lag_quanta * signals.quantum), std::max(rule.height, rule.relief_quanta * signals.quantum)};

@@ -48,8 +48,8 @@ public:
     Comparer(const ClSurface& surface, const Signals& signals, float usual_speed)
         : surface_(surface), signals_(signals), least_speed_(0.25F * usual_speed) {}
 
-    /// O(1): passes_aside steps to each side.
-    [[nodiscard]] Comparison compare(PointIndex point) const;
+    /// O(1): up to `aside` passes on each side. With one, the steps are the same, residuals mean little.
+    [[nodiscard]] Comparison compare(PointIndex point, int aside = passes_aside) const;
 
 private:
     const ClSurface& surface_;

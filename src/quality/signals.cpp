@@ -18,6 +18,7 @@ namespace {
 constexpr float none = std::numeric_limits<float>::quiet_NaN();
 constexpr double speed_seconds = 0.010;    ///< window: an oscillation of 20 ms keeps four fifths of its height
 constexpr double height_seconds = 0.015;   ///< window of the mean that heights are smoothed with
+constexpr PointIndex relief_every = 3;     ///< points: normals and reliefs are those of every third
 constexpr double longest_lag = 0.1;        ///< [s] that the measured position may come after the commanded one
 constexpr PointIndex shortest_reach = 64;  ///< points
 constexpr PointIndex longest_reach = 4096;
@@ -39,28 +40,28 @@ void read(const Trajectory& path, PointIndex first, PointIndex last, Axes& out) 
     path.read(first, out[0], out[1], out[2]);
 }
 
-/// Mean over the window round each value that is there; at least half the window must be.
+/// Mean over the window round a value, of those that are there; at least half the window must be.
 class Smoother {
 public:
     explicit Smoother(int points) : half_(points / 2) {}
     [[nodiscard]] PointIndex reach() const { return half_; }
 
-    /// Means for raw[skip …], out.size() of them.
-    void apply(std::span<const float> raw, std::size_t skip, std::span<float> out) const {
+    /// Means for raw[skip …], out.size() of them. `every`: one in so many points has a value at all.
+    void apply(std::span<const float> raw, std::size_t skip, std::size_t every, std::span<float> out) const {
         const auto half = static_cast<std::size_t>(half_);
         // The window shrinks evenly towards the ends: an uneven one would lean on slopes.
         for (std::size_t k = 0; k < out.size(); ++k) {
             const std::size_t at = skip + k;
             const std::size_t reach = std::min({half, at, raw.size() - 1 - at});
-            double sum = 0;
-            int count = 0;
+            float sum = 0;
+            std::size_t count = 0;
             for (std::size_t i = at - reach; i <= at + reach; ++i) {
-                if (!(raw[i] == raw[i])) continue;
-                sum += raw[i];
-                ++count;
+                const bool there = raw[i] == raw[i];
+                sum += there ? raw[i] : 0.0F;
+                count += there ? 1 : 0;
             }
-            const bool enough = count > half_ || (count > 0 && count == static_cast<int>(2 * reach + 1));
-            out[k] = enough && raw[at] == raw[at] ? static_cast<float>(sum / count) : none;
+            const bool enough = count > 0 && 2 * every * count >= 2 * reach + 1;
+            out[k] = enough ? sum / static_cast<float>(count) : none;
         }
     }
 
@@ -139,17 +140,25 @@ public:
         std::vector<float> relief(normals.size());
         for (PointIndex i = from; i <= to; ++i) {
             const auto k = static_cast<std::size_t>(i - from);
-            relief[k] = measure_relief(i, normals[k]);
+            if (i % relief_every == 0 || i == piece.first) {
+                relief[k] = measure_relief(i, normals[k]);
+            } else {
+                // Between two of them the normal hardly turns.
+                relief[k] = none;
+                const PointIndex before = std::max(piece.first, i - i % relief_every);
+                if (before >= from) normals[k] = normals[static_cast<std::size_t>(before - from)];
+                else (void)measure_relief(before, normals[k]);
+            }
             if (i >= first && i <= last) Eigen::Map<Eigen::Vector3f>(out_[i].normal) = normals[k];
         }
         const auto skip = static_cast<std::size_t>(first - from);
         std::vector<float> smooth(static_cast<std::size_t>(last - first + 1));
-        smoother_.apply(relief, skip, smooth);
+        smoother_.apply(relief, skip, static_cast<std::size_t>(relief_every), smooth);
         for (std::size_t k = 0; k < smooth.size(); ++k) out_[first + static_cast<PointIndex>(k)].relief = smooth[k];
         if (measured_ == nullptr) return;
         std::vector<float>& lag = relief;
         measure_lag(from, to, normals, lag);
-        smoother_.apply(lag, skip, smooth);
+        smoother_.apply(lag, skip, 1, smooth);
         for (std::size_t k = 0; k < smooth.size(); ++k) out_[first + static_cast<PointIndex>(k)].lag = smooth[k];
     }
 

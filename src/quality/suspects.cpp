@@ -17,7 +17,7 @@ constexpr double joined_along = 1.0;    ///< [mm] of way between suspects of one
 constexpr float joined_beside = 1.0F;   ///< step-overs along the feed between suspects of two passes
 
 /// How far residual and step pass the thresholds, together.
-void judge(Suspect& suspect, const Thresholds& thresholds) {
+void measure(Suspect& suspect, const Thresholds& thresholds) {
     for (std::size_t q = 0; q < quantities; ++q) {
         const float share = std::abs(suspect.comparison.residual[q]) / thresholds.of[q];
         if (!(share == share)) continue;
@@ -73,34 +73,106 @@ PointIndex count_compared(const ClSurface& surface, const Signals& signals) {
     return std::accumulate(of_block.begin(), of_block.end(), PointIndex{0});
 }
 
-std::vector<Suspect> find_suspects(const ClSurface& surface, const Signals& signals, const Thresholds& thresholds, double period) {
-    const PointIndex count = surface.positions.size();
-    const Comparer comparer(surface, signals, thresholds.usual_speed);
-    const auto stride = std::max<PointIndex>(1, std::lround(std::min(site_seconds / period, 1e6)));
-    const auto least_way = site_way * static_cast<float>(surface.step_over);
-    std::vector<std::vector<Suspect>> of_block(static_cast<std::size_t>((count + block_points - 1) / block_points));
-    for_each_block(count, [&](PointIndex first, PointIndex last) {
-        std::vector<Suspect>& mine = of_block[static_cast<std::size_t>(first / block_points)];
-        std::size_t pass = pass_of(surface.passes, first);
-        PointIndex before = -1;
-        for (PointIndex i = first + (stride - first % stride) % stride; i < last; i += stride) {
-            if (signals[i].zone == Zone::outside) continue;
-            if (before >= 0 && (surface.positions[i] - surface.positions[before]).norm() < least_way) continue;
-            before = i;
-            Suspect suspect;
-            suspect.comparison = comparer.compare(i);
-            judge(suspect, thresholds);
-            if (*std::max_element(suspect.share.begin(), suspect.share.end()) < suspect_share) continue;
-            while (surface.passes[pass].last < i) ++pass;
-            suspect.point = i;
-            suspect.pass = pass;
-            suspect.border = is_border(suspect, signals);
-            mine.push_back(suspect);
+namespace {
+
+class SuspectFinder {
+public:
+    SuspectFinder(const ClSurface& surface, const Signals& signals, const Thresholds& thresholds, double period)
+        : surface_(surface),
+          signals_(signals),
+          thresholds_(thresholds),
+          comparer_(surface, signals, thresholds.usual_speed),
+          stride_(std::max<PointIndex>(1, std::lround(std::min(site_seconds / period, 1e6)))),
+          judged_(static_cast<std::size_t>(signals.size() / stride_ + 1), 0) {}
+
+    std::vector<Suspect> find() {
+        std::vector<PointIndex> frontier = judge(sites_with_step());
+        while (!frontier.empty()) frontier = judge(beside_all(frontier));
+        std::sort(suspects_.begin(), suspects_.end(), [](const Suspect& a, const Suspect& b) { return a.point < b.point; });
+        return std::move(suspects_);
+    }
+
+private:
+    /// Sites whose step to an adjacent pass is half a threshold or more.
+    [[nodiscard]] std::vector<PointIndex> sites_with_step() const {
+        const PointIndex count = signals_.size();
+        const auto least_way = site_way * static_cast<float>(surface_.step_over);
+        std::vector<std::vector<PointIndex>> of_block(static_cast<std::size_t>((count + block_points - 1) / block_points));
+        for_each_block(count, [&](PointIndex first, PointIndex last) {
+            std::vector<PointIndex>& mine = of_block[static_cast<std::size_t>(first / block_points)];
+            PointIndex before = -1;
+            for (PointIndex i = first + (stride_ - first % stride_) % stride_; i < last; i += stride_) {
+                if (signals_[i].zone == Zone::outside) continue;
+                if (before >= 0 && (surface_.positions[i] - surface_.positions[before]).norm() < least_way) continue;
+                before = i;
+                const Comparison c = comparer_.compare(i, 1);
+                bool steps = false;
+                for (std::size_t q = 0; q < quantities; ++q) steps = steps || c.step[q] >= suspect_share * thresholds_.of[q];
+                if (steps) mine.push_back(i);
+            }
+        });
+        std::vector<PointIndex> sites;
+        for (const std::vector<PointIndex>& block : of_block) sites.insert(sites.end(), block.begin(), block.end());
+        return sites;
+    }
+
+    /// The sites on both sides of suspects.
+    [[nodiscard]] std::vector<PointIndex> beside_all(const std::vector<PointIndex>& points) const {
+        std::vector<PointIndex> sites;
+        for (const PointIndex i : points) {
+            for (const Side side : {Side::left, Side::right}) {
+                if (!surface_.neighbours.has(side, i)) continue;
+                const PointIndex site = (surface_.neighbours.neighbour(side, i) + stride_ / 2) / stride_ * stride_;
+                if (site < signals_.size() && signals_[site].zone != Zone::outside) sites.push_back(site);
+            }
         }
-    });
-    std::vector<Suspect> suspects;
-    for (const std::vector<Suspect>& block : of_block) suspects.insert(suspects.end(), block.begin(), block.end());
-    return suspects;
+        return sites;
+    }
+
+    /// Looks at those that were not looked at yet. Returns the suspects among them.
+    std::vector<PointIndex> judge(const std::vector<PointIndex>& sites) {
+        std::vector<PointIndex> fresh;
+        for (const PointIndex site : sites) {
+            std::uint8_t& judged = judged_[static_cast<std::size_t>(site / stride_)];
+            if (judged == 0) fresh.push_back(site);
+            judged = 1;
+        }
+        constexpr std::int64_t grain = 1024;
+        const auto count = static_cast<std::int64_t>(fresh.size());
+        std::vector<std::vector<Suspect>> of_piece(static_cast<std::size_t>((count + grain - 1) / grain));
+        parallel_for(count, grain, [&](std::int64_t first, std::int64_t last) {
+            for (std::int64_t k = first; k < last; ++k) {
+                Suspect suspect;
+                suspect.point = fresh[static_cast<std::size_t>(k)];
+                suspect.comparison = comparer_.compare(suspect.point);
+                measure(suspect, thresholds_);
+                if (*std::max_element(suspect.share.begin(), suspect.share.end()) < suspect_share) continue;
+                suspect.pass = pass_of(surface_.passes, suspect.point);
+                suspect.border = is_border(suspect, signals_);
+                of_piece[static_cast<std::size_t>(first / grain)].push_back(suspect);
+            }
+        });
+        std::vector<PointIndex> found;
+        for (const std::vector<Suspect>& piece : of_piece) {
+            for (const Suspect& suspect : piece) found.push_back(suspect.point);
+            suspects_.insert(suspects_.end(), piece.begin(), piece.end());
+        }
+        return found;
+    }
+
+    const ClSurface& surface_;
+    const Signals& signals_;
+    const Thresholds& thresholds_;
+    Comparer comparer_;
+    PointIndex stride_;
+    Column<std::uint8_t> judged_;  ///< by site
+    std::vector<Suspect> suspects_;
+};
+
+}  // namespace
+
+std::vector<Suspect> find_suspects(const ClSurface& surface, const Signals& signals, const Thresholds& thresholds, double period) {
+    return SuspectFinder(surface, signals, thresholds, period).find();
 }
 
 std::vector<std::vector<Suspect>> group_suspects(const std::vector<Suspect>& suspects, const ClSurface& surface, const Way& way) {

@@ -26,7 +26,9 @@ struct Suspect {
 [[nodiscard]] PointIndex count_compared(const ClSurface& surface, const Signals& signals);
 
 /// Sites whose residual passes half a threshold, in the order of their points. A site is a point
-/// every 5 ms that lies a tenth of a step-over or more from the one before. O(points), parallel.
+/// every 5 ms that lies a tenth of a step-over or more from the one before. Only sites with a step are
+/// looked at with all passes around, and then what lies beside a suspect: the inner passes of a band
+/// have no step of their own. O(points), parallel; the same for any number of threads.
 [[nodiscard]] std::vector<Suspect> find_suspects(const ClSurface& surface, const Signals& signals, const Thresholds& thresholds, double period);
 
 /// Suspects that hang together along a pass, across to the next one or over one clean pass; each group
