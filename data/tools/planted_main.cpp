@@ -2,7 +2,7 @@
 //
 //   clsurf_planted score [CASES [SEED [hard]]]   a line per shape: recall, precision, places, lines, depths
 //   clsurf_planted curve [CASES [SEED]]          recall against amplitude
-//   clsurf_planted write SHAPE SEED PREFIX       PREFIX.nc and PREFIX.biip, what is planted on stdout
+//   clsurf_planted write SHAPE SEED PREFIX [hard]       PREFIX.nc and PREFIX.biip, what is planted on stdout
 
 #include <algorithm>
 #include <cmath>
@@ -88,10 +88,10 @@ int print_curve(int cases, std::uint64_t seed) {
     return 0;
 }
 
-int write(const std::string& shape, std::uint64_t seed, const std::string& prefix) {
+int write(const std::string& shape, std::uint64_t seed, const std::string& prefix, bool hard) {
     const auto* found = std::find_if(std::begin(shapes), std::end(shapes), [&](Shape s) { return name_of(s) == shape; });
     if (found == std::end(shapes)) throw std::invalid_argument("SHAPE is zigzag, one-way, loops or spiral");
-    const PlantedLog log = make_planted_log(random_recipe(seed, *found, false, false));
+    const PlantedLog log = make_planted_log(random_recipe(seed, *found, false, hard));
     io::AtomicFile program(prefix + ".nc");
     program.write(log.program);
     program.commit();
@@ -112,10 +112,11 @@ int write(const std::string& shape, std::uint64_t seed, const std::string& prefi
 
 int run(const std::vector<std::string>& words) {
     const auto count = [&](std::size_t k, int otherwise) { return words.size() > k ? std::stoi(words[k]) : otherwise; };
-    if (!words.empty() && words[0] == "score") return score_shapes(count(1, 20), static_cast<std::uint64_t>(count(2, 1)), words.size() > 3 && words[3] == "hard");
+    if (!words.empty() && words[0] == "score") return score_shapes(count(1, 20), static_cast<std::uint64_t>(count(2, 1)), !words.empty() && words.back() == "hard");
     if (!words.empty() && words[0] == "curve") return print_curve(count(1, 16), static_cast<std::uint64_t>(count(2, 1)));
-    if (words.size() == 4 && words[0] == "write") return write(words[1], static_cast<std::uint64_t>(count(2, 1)), words[3]);
-    std::fputs("usage: clsurf_planted score [CASES [SEED [hard]]] | curve [CASES [SEED]] | write SHAPE SEED PREFIX\n", stderr);
+    const bool hard = !words.empty() && words.back() == "hard";
+    if (words.size() >= 4 && words[0] == "write") return write(words[1], static_cast<std::uint64_t>(count(2, 1)), words[3], hard);
+    std::fputs("usage: clsurf_planted score [CASES [SEED [hard]]] | curve [CASES [SEED]] | write SHAPE SEED PREFIX [hard]\n", stderr);
     return 2;
 }
 

@@ -15,10 +15,11 @@ namespace clsurf {
 namespace {
 
 constexpr float half_of_peak = 0.5F;
+constexpr float weak_run = 0.25F;           ///< of the strongest run of its group
 constexpr double shown_percentile = 0.9;    ///< of a plateau: its height without the noise's own peak
 constexpr double smallest_area = 1.0;       ///< squared step-overs
-constexpr float least_speed_share = 0.5F;   ///< of its threshold, for what only the acceleration shows …
-constexpr float strong_alone = 1.3F;        ///< … and of the acceleration's own
+constexpr float least_speed_share = 0.6F;   ///< of its threshold, for what only the acceleration shows …
+constexpr float strong_alone = 1.5F;        ///< … and of the acceleration's own
 constexpr std::size_t fewest_sites = 2;
 constexpr double effect_seconds = 0.020;    ///< by which a height may outlast the motion that makes it
 
@@ -72,17 +73,22 @@ public:
 
     /// The sites of a group that are its defect: on each pass, where the main quantity reaches half of
     /// its peak there; short dips between are its own (an oscillation crosses zero).
-    [[nodiscard]] std::vector<Suspect> core_of(std::span<const Suspect> group, Quantity quantity) const {
+    /// Runs that are much weaker than the strongest go to `rest`: something else, that hangs together
+    /// with it by chance.
+    [[nodiscard]] std::vector<Suspect> core_of(std::span<const Suspect> group, Quantity quantity, std::vector<Suspect>& rest) const {
         const std::size_t q = index_of(quantity);
         const auto share = [q](const Suspect& s) { return s.share[q]; };
         float peak = 0;
         for (const Suspect& s : group) peak = std::max(peak, share(s));
-        const float enough = std::min(1.0F, half_of_peak * peak);  // a pass that is hardly suspect is not at fault
+        const float enough = std::max(std::min(1.0F, half_of_peak * peak), weak_run * peak);  // a pass that is hardly suspect is not at fault
         std::vector<Suspect> core;
         for_each_run(group, [&](std::span<const Suspect> run) {
             float run_peak = 0;
             for (const Suspect& s : run) run_peak = std::max(run_peak, share(s));
-            if (run_peak < enough) return;
+            if (run_peak < enough) {
+                rest.insert(rest.end(), run.begin(), run.end());
+                return;
+            }
             const auto strong = [&](const Suspect& s) { return share(s) >= half_of_peak * run_peak; };
             for (std::size_t k = 0; k < run.size(); ++k) {
                 if (!strong(run[k])) continue;
@@ -234,11 +240,14 @@ struct Built {
     bool border = false;
 };
 
-/// An acceleration that changes no speed worth a word leaves no mark: noise of the second derivative.
-bool stands_alone(std::span<const Suspect> core) {
-    const bool speed_differs = std::any_of(core.begin(), core.end(), [](const Suspect& s) { return s.share[index_of(Quantity::speed)] >= least_speed_share; });
-    const bool strong = std::any_of(core.begin(), core.end(), [](const Suspect& s) { return s.score[index_of(Quantity::acceleration)] >= strong_alone; });
-    return speed_differs && strong;
+/// A start: where a score reaches 1. In the motion, accelerations start a defect only where they are
+/// strong and change the speed by something: noise of the second derivative leaves no mark.
+bool starts_defect(std::span<const Suspect> sites, Family family) {
+    const auto any = [&](auto&& test) { return std::any_of(sites.begin(), sites.end(), test); };
+    if (family.size() == 1) return any([&](const Suspect& s) { return s.score[index_of(family.front())] >= 1; });
+    return any([](const Suspect& s) { return s.score[index_of(Quantity::speed)] >= 1; }) ||
+           (any([](const Suspect& s) { return s.score[index_of(Quantity::acceleration)] >= strong_alone; }) &&
+            any([](const Suspect& s) { return s.share[index_of(Quantity::speed)] >= least_speed_share; }));
 }
 
 /// The defects of one family of quantities.
@@ -248,15 +257,19 @@ std::vector<Built> build_family(const std::vector<Suspect>& suspects, Family fam
         if (largest(s.share, family) >= half_of_peak) mine.push_back(s);
     }
     std::vector<Built> built;
-    for (const std::vector<Suspect>& group : group_suspects(mine, surface, way)) {
-        const bool starts = std::any_of(group.begin(), group.end(), [&](const Suspect& s) { return largest(s.score, family) >= 1; });
-        if (!starts) continue;
+    std::vector<std::vector<Suspect>> groups = group_suspects(mine, surface, way);
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        const std::vector<Suspect> group = std::move(groups[g]);
+        if (!starts_defect(group, family)) continue;
         const Quantity quantity = main_quantity(group, family);
         // Cut back, a group may fall apart: weak suspects had joined several defects.
-        for (std::vector<Suspect>& core : group_suspects(builder.core_of(group, quantity), surface, way)) {
-            const bool strong = std::any_of(core.begin(), core.end(), [&](const Suspect& s) { return largest(s.score, family) >= 1; });
-            if (core.size() < fewest_sites || (!strong && quantity != Quantity::speed)) continue;
-            if (quantity == Quantity::acceleration && !stands_alone(core)) continue;
+        std::vector<Suspect> rest;
+        const std::vector<Suspect> strong_sites = builder.core_of(group, quantity, rest);
+        if (rest.size() < group.size()) {
+            for (std::vector<Suspect>& left : group_suspects(rest, surface, way)) groups.push_back(std::move(left));
+        }
+        for (std::vector<Suspect>& core : group_suspects(strong_sites, surface, way)) {
+            if (core.size() < fewest_sites || !starts_defect(core, family)) continue;
             Defect defect = builder.build(core, quantity, family);
             if (defect.area < smallest_area * surface.step_over * surface.step_over) continue;
             const bool border = Builder::at_border(core, family);
