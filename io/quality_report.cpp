@@ -28,7 +28,7 @@ void add_runs(Json& json, const std::vector<DefectRun>& runs) {
     json["points"] = std::move(points);
 }
 
-Json defect_json(const Defect& d, std::size_t id) {
+Json defect_json(const Defect& d, std::size_t id, double scallop) {
     Json json{{"id", id},
               {"severity", d.severity},
               {"cause", name_of(d.cause)},
@@ -37,6 +37,7 @@ Json defect_json(const Defect& d, std::size_t id) {
               {"area_mm2", number(d.area)},
               {"length_mm", number(d.length)},
               {"depth_um", number(um(d.depth))},
+              {"depth_scallops", scallop > 0 ? number(d.depth / scallop) : Json(nullptr)},
               {"shape", d.pit ? "pit" : "bulge"},
               {"speed_jump_mm_min", number(per_minute(d.speed_jump))},
               {"speed_jump_percent", number(100 * d.speed_mismatch)},
@@ -50,9 +51,18 @@ Json defect_json(const Defect& d, std::size_t id) {
     return json;
 }
 
-Json defects_json(const std::vector<Defect>& defects) {
+Json defects_json(const ReportedQuality& q) {
     Json all = Json::array();
-    for (std::size_t i = 0; i < defects.size(); ++i) all.push_back(defect_json(defects[i], i + 1));
+    for (std::size_t i = 0; i < q.report->defects.size(); ++i) {
+        all.push_back(defect_json(q.report->defects[i], i + 1, q.scallop));
+        if (i < q.colour_differences.size()) all.back()["delta_e00"] = number(q.colour_differences[i]);
+    }
+    return all;
+}
+
+Json expected_json(const ReportedQuality& q) {
+    Json all = Json::array();
+    for (std::size_t i = 0; i < q.report->expected.size(); ++i) all.push_back(defect_json(q.report->expected[i], i + 1, q.scallop));
     return all;
 }
 
@@ -89,8 +99,8 @@ std::string quality_json(const ReportedQuality& q) {
                  {"tool", to_text(q.tool)},
                  {"budget", std::move(budget)},
                  {"within_budget", all_held(q.budget)}};
-    return dump(Json{{"defects", defects_json(r.defects)},
-                     {"expected", defects_json(r.expected)},
+    return dump(Json{{"defects", defects_json(q)},
+                     {"expected", expected_json(q)},
                      {"summary", std::move(summary)},
                      {"diagnostics", list(*q.diagnostics)}});
 }

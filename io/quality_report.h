@@ -18,12 +18,13 @@ struct ReportedQuality {
     const Program* program = nullptr;
     std::string log;       ///< its name
     Tool tool;
-    double scallop = 0;    ///< [mm] between clean passes
+    double scallop = 0;    ///< [mm] between clean passes; 0: not known
+    std::vector<double> colour_differences;  ///< ΔE00 of each defect's speed and that beside it, in the map of speeds
     std::vector<BudgetLine> budget;
     const Diagnostics* diagnostics = nullptr;
 };
 
-/// Keys: docs/reference/json.md.
+/// Keys: docs/predictor.md.
 [[nodiscard]] std::string quality_json(const ReportedQuality& quality);
 /// One row per run of a defect, columns named with their units.
 [[nodiscard]] std::string quality_csv(const ReportedQuality& quality);

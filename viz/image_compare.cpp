@@ -4,26 +4,11 @@
 #include <array>
 #include <cmath>
 
+#include "viz/colour_difference.h"
 #include "viz/image_library.h"
 
 namespace clsurf::viz {
 namespace {
-
-using Lab = std::array<double, 3>;
-
-double linear(double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }
-
-/// sRGB → CIE L*a*b* (D65).
-Lab lab_of(const std::array<double, 3>& rgb) {
-    const double r = linear(rgb[0]);
-    const double g = linear(rgb[1]);
-    const double b = linear(rgb[2]);
-    const auto f = [](double t) { return t > 216.0 / 24389 ? std::cbrt(t) : (24389.0 / 27 * t + 16) / 116; };
-    const double x = f((0.4124564 * r + 0.3575761 * g + 0.1804375 * b) / 0.95047);
-    const double y = f(0.2126729 * r + 0.7151522 * g + 0.0721750 * b);
-    const double z = f((0.0193339 * r + 0.1191920 * g + 0.9503041 * b) / 1.08883);
-    return {116 * y - 16, 500 * (x - y), 200 * (y - z)};
-}
 
 Lab mean_lab(const Image& image, int x, int y) {
     std::array<double, 3> sum{};

@@ -9,9 +9,11 @@
 
 #include "cli/part.h"
 #include "cli/quality.h"
+#include "field/range.h"
 #include "io/atomic_file.h"
 #include "io/budget_file.h"
 #include "io/quality_report.h"
+#include "viz/colour_difference.h"
 
 namespace clsurf::cli {
 namespace {
@@ -30,6 +32,18 @@ std::string format_of(const po::variables_map& values) {
         return values["format"].as<std::string>();
     }
     return values.count("json") > 0 ? "json" : "text";
+}
+
+/// How different a defect and the passes beside it look in the map that `render` draws by default.
+std::vector<double> colour_differences(const QualityReport& report, const Part& part, const ClSurface& surface) {
+    std::vector<double> differences;
+    if (report.defects.empty()) return differences;
+    const Field speed = FieldSet(part.log, part.path, surface.passes).get("speed");
+    const ShownRange range = find_range(speed, surface.passes, {}, {});
+    const viz::ColourScale scale{viz::make_colour_map("isurface"), range.low, range.high, 0};
+    const auto look = [&](double mm_s) { return viz::lab_of(scale.colour(mm_s * speed.info.unit.per_inside)); };
+    for (const Defect& defect : report.defects) differences.push_back(viz::delta_e00(look(defect.speed), look(defect.speed_beside)));
+    return differences;
 }
 
 ExitCode run(const po::variables_map& values) {
@@ -54,6 +68,7 @@ ExitCode run(const po::variables_map& values) {
     reported.log = part.log.name;
     reported.tool = quality_options.tool;
     reported.scallop = quality.scallop;
+    reported.colour_differences = colour_differences(quality.report, part, surface);
     reported.budget = hold(quality.report, budget);
     reported.diagnostics = &part.diagnostics;
     clock.end();

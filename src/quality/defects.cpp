@@ -108,7 +108,10 @@ public:
         Defect defect;
         defect.quantity = quantity;
         const auto weaker = [&](const Suspect& a, const Suspect& b) { return a.share[index_of(quantity)] < b.share[index_of(quantity)]; };
-        defect.point = std::max_element(core.begin(), core.end(), weaker)->point;
+        const Suspect& strongest = *std::max_element(core.begin(), core.end(), weaker);
+        defect.point = strongest.point;
+        defect.speed = signals_[strongest.point].speed;
+        defect.speed_beside = defect.speed - strongest.comparison.speed_jump;
         defect.position = surface_.positions[defect.point].cast<double>() + surface_.positions.origin;
         for (const Suspect& s : core) defect.score = std::max(defect.score, largest(s.score, family));
         for_each_run(core, [&](std::span<const Suspect> run) { defect.runs.push_back(run_of(run.front().pass, {run.front().point, run.back().point})); });
