@@ -1,8 +1,12 @@
 // The stages of `render` that are ours, on a zigzag made in memory: bytes or points per second.
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <benchmark/benchmark.h>
+#include <nanoflann.hpp>
 
+#include "core/block.h"
 #include "path/step_over.h"
 #include "program/interpreter.h"
 #include "support/made_path.h"
@@ -72,6 +76,53 @@ void walk_both_neighbours(benchmark::State& state) {
     state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations()) * p.size());
 }
 BENCHMARK(walk_both_neighbours)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+/// Positions as nanoflann reads them.
+struct Cloud {
+    const Positions& p;
+    [[nodiscard]] std::size_t kdtree_get_point_count() const { return static_cast<std::size_t>(p.size()); }
+    [[nodiscard]] float kdtree_get_pt(std::size_t i, std::size_t axis) const { return axis == 0 ? p.x[i] : axis == 1 ? p.y[i] : p.z[i]; }
+    template <typename Box>
+    bool kdtree_get_bbox(Box&) const { return false; }
+};
+
+/// The same question to a k-d tree, as it is usually put: of the points within 1.6 step-overs, the nearest
+/// on the left and on the right that is not the own pass. Both threads.
+void ask_a_tree_for_both_neighbours(benchmark::State& state) {
+    using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Cloud>, Cloud, 3>;
+    const Positions& p = made_zigzag();
+    const Cloud cloud{p};
+    constexpr float step_over = 0.25F;
+    constexpr float reach = 1.6F * step_over;
+    for (auto _ : state) {
+        const Tree tree(3, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(16));
+        Adjacency found;
+        found.left.resize(static_cast<std::size_t>(p.size()));
+        found.right.resize(static_cast<std::size_t>(p.size()));
+        for_each_block(p.size(), [&](PointIndex first, PointIndex last) {
+            std::vector<std::pair<std::uint32_t, float>> near;
+            for (PointIndex i = first; i < last; ++i) {
+                const Eigen::Vector3f here = p[i];
+                tree.radiusSearch(here.data(), reach * reach, near, nanoflann::SearchParams(0, 0.0F, true));
+                const Eigen::Vector3f feed = p[std::min(i + 1, p.size() - 1)] - p[std::max<PointIndex>(i - 1, 0)];
+                std::int32_t sides[2] = {Adjacency::none, Adjacency::none};
+                for (const auto& item : near) {
+                    const auto n = static_cast<PointIndex>(item.first);
+                    const Eigen::Vector3f d = p[n] - here;
+                    const float across = feed.x() * d.y() - feed.y() * d.x();
+                    if (std::abs(across) < 0.5F * step_over * feed.norm()) continue;  // the own pass
+                    std::int32_t& side = sides[across > 0 ? 0 : 1];
+                    if (side == Adjacency::none) side = static_cast<std::int32_t>(n - i);
+                }
+                found.left[static_cast<std::size_t>(i)] = sides[0];
+                found.right[static_cast<std::size_t>(i)] = sides[1];
+            }
+        });
+        benchmark::DoNotOptimize(found);
+    }
+    state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations()) * p.size());
+}
+BENCHMARK(ask_a_tree_for_both_neighbours)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 }  // namespace
 }  // namespace clsurf
