@@ -30,6 +30,19 @@ double percentile(std::vector<double> values, double p) {
     return *at;
 }
 
+/// The height of a plateau of values, signed: of those with the sign of the largest one. NaN are left out.
+double plateau(const std::vector<double>& values) {
+    double largest = 0;
+    for (const double v : values) {
+        if (std::abs(v) > std::abs(largest)) largest = v;
+    }
+    std::vector<double> same;
+    for (const double v : values) {
+        if (v * largest > 0) same.push_back(std::abs(v));
+    }
+    return std::copysign(percentile(same, shown_percentile), largest);
+}
+
 /// Quantities that are grouped together.
 using Family = std::span<const Quantity>;
 constexpr std::array motion_family{Quantity::speed, Quantity::acceleration};
@@ -112,7 +125,7 @@ public:
         defect.point = strongest.point;
         defect.speed = signals_[strongest.point].speed;
         defect.speed_beside = defect.speed - strongest.comparison.speed_jump;
-        defect.position = surface_.positions[defect.point].cast<double>() + surface_.positions.origin;
+        defect.position = surface_.positions.absolute(defect.point);
         for (const Suspect& s : core) defect.score = std::max(defect.score, largest(s.score, family));
         for_each_run(core, [&](std::span<const Suspect> run) { defect.runs.push_back(run_of(run.front().pass, {run.front().point, run.back().point})); });
         measure(core, defect);
@@ -156,32 +169,23 @@ private:
         std::vector<double> speeds;
         std::vector<double> mismatches;
         std::vector<double> accelerations;
-        double signed_height = 0;
-        double signed_speed = 0;
         for (const Suspect& s : core) {
-            const float lag = s.comparison.residual[index_of(Quantity::lag)];
-            const float relief = s.comparison.residual[index_of(Quantity::relief)];
-            // The relief of measured and commanded path differ by the lag; where there is no lag it is all.
+            const Comparison& c = s.comparison;
+            const float lag = c.residual[index_of(Quantity::lag)];
+            // Measured and commanded relief differ by the lag; where there is no lag the relief is all.
             const bool by_relief = defect.quantity == Quantity::relief || !(lag == lag);
-            const float height = by_relief ? relief : lag;
-            if (height == height) {
-                heights.push_back(std::abs(height));
-                signed_height += height;
-            }
-            if (s.comparison.speed_jump == s.comparison.speed_jump) {
-                speeds.push_back(std::abs(s.comparison.speed_jump));
-                signed_speed += s.comparison.speed_jump;
-                mismatches.push_back(std::abs(s.comparison.residual[index_of(Quantity::speed)]));
-            }
-            const float a = s.comparison.step[index_of(Quantity::acceleration)];
-            if (a == a) accelerations.push_back(a);
-            defect.bounds.extend(surface_.positions[s.point].cast<double>() + surface_.positions.origin);
+            heights.push_back(by_relief ? c.residual[index_of(Quantity::relief)] : lag);
+            speeds.push_back(c.speed_jump);
+            mismatches.push_back(c.residual[index_of(Quantity::speed)]);
+            accelerations.push_back(c.step[index_of(Quantity::acceleration)]);
+            defect.bounds.extend(surface_.positions.absolute(s.point));
         }
-        defect.depth = percentile(heights, shown_percentile);
-        defect.pit = signed_height < 0;
-        defect.speed_jump = std::copysign(percentile(speeds, shown_percentile), signed_speed);
-        defect.speed_mismatch = percentile(mismatches, shown_percentile);
-        defect.acceleration_jump = percentile(accelerations, shown_percentile);
+        const double height = plateau(heights);
+        defect.depth = std::abs(height);
+        defect.pit = height < 0;
+        defect.speed_jump = plateau(speeds);
+        defect.speed_mismatch = std::abs(plateau(mismatches));
+        defect.acceleration_jump = plateau(accelerations);
         for (const DefectRun& run : defect.runs) {
             const double length = way_.to(run.points.last) - way_.to(run.points.first);
             defect.length = std::max(defect.length, length);
