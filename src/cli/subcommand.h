@@ -44,6 +44,7 @@ struct Subcommand {
 [[nodiscard]] Subcommand convert_subcommand();
 [[nodiscard]] Subcommand export_subcommand();
 [[nodiscard]] Subcommand info_subcommand();
+[[nodiscard]] Subcommand machine_subcommand();
 [[nodiscard]] Subcommand moves_subcommand();
 [[nodiscard]] Subcommand plot_subcommand();
 [[nodiscard]] Subcommand query_subcommand();

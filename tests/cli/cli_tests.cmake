@@ -204,3 +204,23 @@ clsurf_cli_test(NAME check_budget_missing ARGS check ${part} ${run} --budget now
 clsurf_cli_test(NAME check_wrong_tool ARGS check ${part} ${run} --tool cone:6 EXIT 2 STDERR "cone:6.*not a ball, bull or flat tool")
 clsurf_cli_test(NAME check_two_formats ARGS check ${part} ${run} --json --format csv EXIT 2 STDERR "--json and --format")
 clsurf_cli_test(NAME check_of_the_commanded_path ARGS check ${part} ${run} --surface commanded STDOUT "no measured positions")
+
+# ---- machine files ----
+clsurf_cli_test(NAME machine_defaults ARGS machine --defaults STDOUT "lookahead_blocks = 500" "position_gain = 100")
+clsurf_cli_test(NAME machine_defaults_can_be_used SETUP "$CLSURF machine --defaults > m.toml" ARGS machine --check m.toml STDOUT "m.toml: three-axis mill: can be used")
+clsurf_cli_test(NAME machine_sample_is_the_default SETUP "$CLSURF machine --defaults | cmp - @DATA@/machines/three_axis_mill.toml"
+  ARGS machine --check @DATA@/machines/linuxcnc_logs.toml STDOUT "can be used")
+clsurf_cli_test(NAME machine_unknown_key SETUP "printf '[path]\\nmax_sped = 5\\n' > m.toml" ARGS machine --check m.toml
+  EXIT 3 STDERR "m.toml:2" "unknown key 'max_sped'" "did you mean 'max_speed'")
+clsurf_cli_test(NAME machine_zero_limit SETUP "printf '[path]\\nmax_jerk = 0\\n' > m.toml" ARGS machine --check m.toml
+  EXIT 3 STDERR "m.toml:2" "'max_jerk' is 0, expected more than 0")
+clsurf_cli_test(NAME machine_travel_reversed SETUP "printf '[[axis]]\\nname = \"x\"\\ntravel = [5, -5]\\n' > m.toml" ARGS machine --check m.toml
+  EXIT 3 STDERR "m.toml:3" "travel is reversed")
+clsurf_cli_test(NAME machine_axis_twice SETUP "printf '[[axis]]\\nname = \"x\"\\n[[axis]]\\nname = \"x\"\\n' > m.toml" ARGS machine --check m.toml
+  EXIT 3 STDERR "m.toml:4" "axis 'x' is there twice")
+clsurf_cli_test(NAME machine_unknown_corner SETUP "printf '[controller]\\ncorner = \"stpo\"\\n' > m.toml" ARGS machine --check m.toml
+  EXIT 3 STDERR "m.toml:2" "'stpo', which is not known" "did you mean 'stop'")
+clsurf_cli_test(NAME machine_loop_does_not_settle SETUP "printf '[[axis]]\\nname = \"x\"\\n[axis.servo]\\nposition_gain = 300\\nvelocity_time_constant = 0.004\\n' > m.toml"
+  ARGS machine --check m.toml EXIT 3 STDERR "m.toml:3" "does not settle")
+clsurf_cli_test(NAME machine_missing_file ARGS machine --check nowhere.toml EXIT 3 STDERR "nowhere.toml: error: cannot open")
+clsurf_cli_test(NAME machine_needs_one ARGS machine EXIT 2 STDERR "one of --defaults and --check")

@@ -1,0 +1,167 @@
+// Machine files: speeds mm/min, accelerations mm/s², jerks mm/s³, lengths mm, times s.
+#include "io/machine_file.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "core/spelling.h"
+#include "core/units.h"
+#include "io/toml_table.h"
+
+namespace clsurf::io {
+namespace {
+
+constexpr double no_bound = std::numeric_limits<double>::infinity();
+
+enum class Low : unsigned char { above_zero, zero };
+
+/// Takes the value of a key, if it is given and possible: value = given · factor.
+void take(const TomlFile& file, const toml::table& table, std::string_view key, double& value, Low low,
+          double factor = 1.0, double high = no_bound) {
+    const std::optional<double> given = file.number(table, key);
+    if (!given) return;
+    const bool possible = (low == Low::zero ? *given >= 0 : *given > 0) && *given <= high;
+    if (!possible) {
+        const std::string from = low == Low::zero ? "0 or more" : "more than 0";
+        const std::string to = high < no_bound ? fmt::format(", at most {}", high) : std::string();
+        file.fail(*table.get(key), fmt::format("'{}' is {}, expected {}{}", key, *given, from, to));
+    }
+    value = *given * factor;
+}
+
+/// One of the words of a key.
+std::string_view take_word(const TomlFile& file, const toml::table& table, std::string_view key,
+                           std::span<const std::string_view> words) {
+    const std::optional<std::string> given = file.text(table, key);
+    if (!given) return {};
+    const auto found = std::find(words.begin(), words.end(), *given);
+    if (found == words.end()) {
+        std::string hint = did_you_mean(*given, words);
+        if (hint.empty()) hint = fmt::format("one of: {}", fmt::join(words, ", "));
+        file.fail(*table.get(key), fmt::format("'{}' is '{}', which is not known", key, *given), hint);
+    }
+    return *found;
+}
+
+void read_controller(const TomlFile& file, const toml::table& table, ControllerSettings& c) {
+    file.allow(table, {"period", "lookahead_blocks", "corner", "tolerance", "chord_tolerance", "feed_override"});
+    take(file, table, "period", c.period, Low::above_zero, 1.0, 1.0);
+    if (const auto blocks = file.integer(table, "lookahead_blocks", 2, 100000)) c.lookahead_blocks = static_cast<int>(*blocks);
+    const std::array<std::string_view, 2> modes{name_of(CornerMode::arc), name_of(CornerMode::stop)};
+    if (const std::string_view mode = take_word(file, table, "corner", modes); !mode.empty()) {
+        c.corner = mode == modes[0] ? CornerMode::arc : CornerMode::stop;
+    }
+    take(file, table, "tolerance", c.tolerance, Low::above_zero);
+    take(file, table, "chord_tolerance", c.chord_tolerance, Low::above_zero);
+    constexpr double percent = 0.01;
+    take(file, table, "feed_override", c.feed_override, Low::above_zero, percent, 1000);
+}
+
+void read_path(const TomlFile& file, const toml::table& table, PathLimits& path) {
+    file.allow(table, {"max_speed", "max_acceleration", "max_normal_acceleration", "max_jerk"});
+    take(file, table, "max_speed", path.max_speed, Low::above_zero, 1 / seconds_per_minute);
+    take(file, table, "max_acceleration", path.max_acceleration, Low::above_zero);
+    take(file, table, "max_normal_acceleration", path.max_normal_acceleration, Low::above_zero);
+    take(file, table, "max_jerk", path.max_jerk, Low::above_zero);
+}
+
+void read_travel(const TomlFile& file, const toml::table& table, MachineAxis& axis) {
+    const toml::node* node = table.get("travel");
+    if (node == nullptr) return;
+    const toml::array* ends = node->as_array();
+    if (ends == nullptr || ends->size() != 2 || !ends->get(0)->is_number() || !ends->get(1)->is_number()) {
+        file.fail(*node, "'travel' must be two numbers, [low, high]");
+    }
+    axis.travel_low = *ends->get(0)->value<double>();
+    axis.travel_high = *ends->get(1)->value<double>();
+    if (!(axis.travel_low < axis.travel_high)) {
+        file.fail(*node, fmt::format("travel is reversed: [{}, {}]", axis.travel_low, axis.travel_high));
+    }
+}
+
+void read_servo(const TomlFile& file, const toml::table& table, double period, ServoModel& servo) {
+    file.allow(table, {"position_gain", "velocity_feedforward", "velocity_time_constant", "quantum", "noise"});
+    // A discrete loop with a gain of more than 1/period per step swings up.
+    take(file, table, "position_gain", servo.position_gain, Low::above_zero, 1.0, 1 / period);
+    take(file, table, "velocity_feedforward", servo.velocity_feedforward, Low::zero, 1.0, 2.0);
+    take(file, table, "velocity_time_constant", servo.velocity_time_constant, Low::zero);
+    take(file, table, "quantum", servo.quantum, Low::zero);
+    take(file, table, "noise", servo.noise, Low::zero);
+    // Kv·T_v of 1 and more: the loop s(1 + s T_v) + Kv rings with hardly any damping.
+    if (servo.position_gain * servo.velocity_time_constant >= 1) {
+        file.fail(table, fmt::format("the loop does not settle: position_gain {} · velocity_time_constant {} must be less than 1",
+                                     servo.position_gain, servo.velocity_time_constant));
+    }
+}
+
+void read_axis(const TomlFile& file, const toml::table& table, std::array<bool, 3>& seen, Machine& machine) {
+    file.allow(table, {"name", "travel", "max_speed", "max_acceleration", "max_jerk", "servo"});
+    const std::string_view name = take_word(file, table, "name", axis_names);
+    if (name.empty()) file.fail(table, "axis without 'name'");
+    const auto index = static_cast<std::size_t>(std::find(axis_names.begin(), axis_names.end(), name) - axis_names.begin());
+    if (seen[index]) file.fail(*table.get("name"), fmt::format("axis '{}' is there twice", name));
+    seen[index] = true;
+    MachineAxis& axis = machine.axes[index];
+    read_travel(file, table, axis);
+    take(file, table, "max_speed", axis.max_speed, Low::above_zero, 1 / seconds_per_minute);
+    take(file, table, "max_acceleration", axis.max_acceleration, Low::above_zero);
+    take(file, table, "max_jerk", axis.max_jerk, Low::zero);
+    if (const toml::table* servo = file.section(table, "servo")) read_servo(file, *servo, machine.controller.period, axis.servo);
+}
+
+}  // namespace
+
+Machine read_machine(const std::string& path) {
+    const TomlFile file(path);
+    const toml::table& root = file.root();
+    file.allow(root, {"name", "controller", "path", "axis", "kinematics"});
+    Machine machine;
+    machine.name = file.text(root, "name").value_or(machine.name);
+    if (const toml::table* table = file.section(root, "controller")) read_controller(file, *table, machine.controller);
+    if (const toml::table* table = file.section(root, "path")) read_path(file, *table, machine.path);
+    if (const toml::array* axes = file.tables(root, "axis")) {
+        std::array<bool, 3> seen{};
+        for (const toml::node& node : *axes) read_axis(file, *node.as_table(), seen, machine);
+    }
+    if (const toml::table* table = file.section(root, "kinematics")) {
+        file.allow(*table, {"type"});
+        constexpr std::array<std::string_view, 1> types{"xyz"};
+        take_word(file, *table, "type", types);
+    }
+    return machine;
+}
+
+std::string machine_text(const Machine& machine) {
+    const ControllerSettings& c = machine.controller;
+    const PathLimits& p = machine.path;
+    std::string text = "# Speeds mm/min, accelerations mm/s², jerks mm/s³, lengths mm, times s.\n";
+    text += fmt::format("name = \"{}\"\n\n[controller]\n", machine.name);
+    text += fmt::format("period = {}                # interpolation period\n", c.period);
+    text += fmt::format("lookahead_blocks = {}\n", c.lookahead_blocks);
+    text += fmt::format("corner = \"{}\"                # arc: rounded inside the tolerance; stop: exact stop\n", name_of(c.corner));
+    text += fmt::format("tolerance = {}              # of corners and path; G64 P in a program replaces it\n", c.tolerance);
+    text += fmt::format("chord_tolerance = {}       # of the steps of a period against arcs\n", c.chord_tolerance);
+    text += fmt::format("feed_override = {}           # %, of programmed feeds\n\n[path]\n", c.feed_override * 100);
+    text += fmt::format("max_speed = {}\n", p.max_speed * seconds_per_minute);
+    text += fmt::format("max_acceleration = {}        # tangential\n", p.max_acceleration);
+    text += fmt::format("max_normal_acceleration = {}\n", p.max_normal_acceleration);
+    text += fmt::format("max_jerk = {}               # tangential\n", p.max_jerk);
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+        const MachineAxis& a = machine.axes[i];
+        text += fmt::format("\n[[axis]]\nname = \"{}\"\ntravel = [{}, {}]\n", axis_names[i], a.travel_low, a.travel_high);
+        text += fmt::format("max_speed = {}\nmax_acceleration = {}\n", a.max_speed * seconds_per_minute, a.max_acceleration);
+        text += fmt::format("max_jerk = {}               # 0: not limited\n[axis.servo]\n", a.max_jerk);
+        text += fmt::format("position_gain = {}            # 1/s\n", a.servo.position_gain);
+        text += fmt::format("velocity_feedforward = {}    # 1: no lag at constant speed\n", a.servo.velocity_feedforward);
+        text += fmt::format("velocity_time_constant = {}\n", a.servo.velocity_time_constant);
+        text += fmt::format("quantum = {}               # encoder step; 0: none\n", a.servo.quantum);
+        text += fmt::format("noise = {}                    # rms\n", a.servo.noise);
+    }
+    text += "\n[kinematics]\ntype = \"xyz\"\n";
+    return text;
+}
+
+}  // namespace clsurf::io

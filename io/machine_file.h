@@ -1,0 +1,17 @@
+#pragma once
+// Machine files (docs/formats/machine.md).
+
+#include <string>
+
+#include "machine/machine.h"
+
+namespace clsurf::io {
+
+/// Reads and judges a machine file; keys that are not given keep their default. Throws InputError
+/// with the line: unknown key or axis, wrong type, a limit that is not greater than 0, travel reversed.
+[[nodiscard]] Machine read_machine(const std::string& path);
+
+/// A machine file with every key.
+[[nodiscard]] std::string machine_text(const Machine& machine);
+
+}  // namespace clsurf::io

@@ -1,0 +1,61 @@
+#pragma once
+// Machine: what the controller's stand-in has to keep to, and how the drives follow. A value with
+// the defaults of `clsurf machine --defaults`; io/machine_file.h reads it from TOML.
+
+#include <array>
+#include <string>
+#include <string_view>
+
+namespace clsurf {
+
+/// Position loop of one axis with a first-order velocity loop in it.
+struct ServoModel {
+    double position_gain = 100;           ///< Kv [1/s]
+    double velocity_feedforward = 0.96;   ///< 1: no lag at constant speed
+    double velocity_time_constant = 0.002;  ///< [s]; 0: the velocity loop is ideal
+    double quantum = 0.0001;              ///< encoder step [mm]; 0: none
+    double noise = 0;                     ///< rms [mm]
+};
+
+struct MachineAxis {
+    double travel_low = -400, travel_high = 400;  ///< [mm], in the machine's coordinates
+    double max_speed = 250;         ///< [mm/s]
+    double max_acceleration = 2000; ///< [mm/s²]
+    double max_jerk = 80000;        ///< [mm/s³]; 0: not limited
+    ServoModel servo;
+};
+
+enum class CornerMode : unsigned char {
+    arc,   ///< rounded inside the tolerance, passed without a stop
+    stop,  ///< exact stop at every corner
+};
+
+/// The word of a machine file.
+[[nodiscard]] std::string_view name_of(CornerMode mode);
+
+struct ControllerSettings {
+    double period = 0.001;          ///< interpolation period [s]
+    int lookahead_blocks = 500;
+    CornerMode corner = CornerMode::arc;
+    double tolerance = 0.01;        ///< of corners and path [mm]; G64 P replaces it
+    double chord_tolerance = 0.002; ///< of the steps of a period against arcs [mm]
+    double feed_override = 1;       ///< of programmed feeds, not of rapids
+};
+
+struct PathLimits {
+    double max_speed = 250;                 ///< [mm/s]
+    double max_acceleration = 2000;         ///< tangential [mm/s²]
+    double max_normal_acceleration = 1500;  ///< [mm/s²]
+    double max_jerk = 50000;                ///< tangential [mm/s³]
+};
+
+inline constexpr std::array<std::string_view, 3> axis_names{"x", "y", "z"};
+
+struct Machine {
+    std::string name = "three-axis mill";
+    ControllerSettings controller;
+    PathLimits path;
+    std::array<MachineAxis, 3> axes;  ///< x, y, z
+};
+
+}  // namespace clsurf
