@@ -16,6 +16,7 @@ std::span<const Subcommand> subcommands() {
         plot_subcommand(),
         export_subcommand(),
         convert_subcommand(),
+        simulate_subcommand(),
         compare_subcommand(),
         machine_subcommand(),
         help_subcommand(),

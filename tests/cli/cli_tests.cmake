@@ -224,3 +224,23 @@ clsurf_cli_test(NAME machine_loop_does_not_settle SETUP "printf '[[axis]]\\nname
   ARGS machine --check m.toml EXIT 3 STDERR "m.toml:3" "does not settle")
 clsurf_cli_test(NAME machine_missing_file ARGS machine --check nowhere.toml EXIT 3 STDERR "nowhere.toml: error: cannot open")
 clsurf_cli_test(NAME machine_needs_one ARGS machine EXIT 2 STDERR "one of --defaults and --check")
+
+# ---- the controller stood in for ----
+set(simulated @DATA@/programs/bottle_uneven.nc)
+clsurf_cli_test(NAME simulate_text ARGS simulate ${simulated} -o run.biip STDOUT "greatest jerk" "off the path +0.00[45]" FILE run.biip)
+clsurf_cli_test(NAME simulate_json ARGS simulate ${simulated} --machine @DATA@/machines/linuxcnc_logs.toml -o run.biip --json
+  STDOUT "\"limits_ok\": true" "\"points\": [0-9]+" "\"speed_mm_min\"" FILE run.biip)
+clsurf_cli_test(NAME simulate_log_is_trusted SETUP "$CLSURF simulate ${simulated} -o run.biip" ARGS info ${simulated} run.biip
+  NO_STDOUT "warning" STDOUT "limit")
+clsurf_cli_test(NAME simulate_log_renders SETUP "$CLSURF simulate ${simulated} -o run.biip"
+  ARGS render ${simulated} run.biip -o why.png --size 160x120 --color limit FILE why.png)
+clsurf_cli_test(NAME simulate_without_output ARGS simulate ${simulated} EXIT 2 STDERR "output")
+clsurf_cli_test(NAME simulate_wrong_start ARGS simulate ${simulated} -o run.biip --start 1,2 EXIT 2 STDERR "--start")
+clsurf_cli_test(NAME simulate_bad_machine SETUP "printf '[path]\\nmax_speed = -1\\n' > m.toml" ARGS simulate ${simulated} --machine m.toml -o run.biip
+  EXIT 3 STDERR "m.toml:2" "'max_speed' is -1" NO_FILE run.biip)
+clsurf_cli_test(NAME simulate_rotary_axis SETUP "printf 'G1 X1 F100\\nG1 X2 A5\\n' > a.nc" ARGS simulate a.nc -o run.biip
+  EXIT 3 STDERR "a.nc:2" "a rotary axis moves" NO_FILE run.biip)
+clsurf_cli_test(NAME simulate_feed_of_zero SETUP "printf 'G1 X1 F100\\nG1 X2 F0\\n' > a.nc" ARGS simulate a.nc -o run.biip
+  EXIT 3 STDERR "a.nc:2" "without a feed" NO_FILE run.biip)
+clsurf_cli_test(NAME simulate_outside_the_travel SETUP "printf 'G1 X1000 F9000\\n' > a.nc" ARGS simulate a.nc -o run.biip
+  STDERR "a.nc:1: warning: x leaves its travel" FILE run.biip)

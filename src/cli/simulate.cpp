@@ -1,0 +1,89 @@
+// clsurf simulate: the controller stood in for.
+
+#include <fmt/format.h>
+
+#include "cli/options.h"
+#include "cli/progress_bar.h"
+#include "core/units.h"
+#include "io/machine_file.h"
+#include "io/program_file.h"
+#include "io/program_identity.h"
+#include "io/simulated_log.h"
+
+namespace clsurf::cli {
+namespace {
+
+std::string summary_text(const SimulationSummary& s) {
+    std::string text = fmt::format("{} points, {:.3f} s\n", s.points, s.duration);
+    text += fmt::format("{:<24} {:.0f} mm/min\n", "greatest path speed", s.max_speed * seconds_per_minute);
+    const auto row = [&](const char* name, const Vec3& v, const char* unit) {
+        text += fmt::format("{:<24} x {:.0f}, y {:.0f}, z {:.0f} {}\n", name, v.x(), v.y(), v.z(), unit);
+    };
+    row("greatest acceleration", s.max_acceleration, "mm/s²");
+    row("greatest jerk", s.max_jerk, "mm/s³");
+    text += fmt::format("{:<24} {:.4f} mm\n", "off the path", s.path_deviation);
+    for (std::size_t i = 0; i < s.ruled.size(); ++i) {
+        if (s.ruled[i] == 0) continue;
+        text += fmt::format("{:<24} {:5.1f} % of the points\n", name_of(static_cast<Ruling>(i)), 100.0 * static_cast<double>(s.ruled[i]) / static_cast<double>(s.points));
+    }
+    return text;
+}
+
+ExitCode run(const po::variables_map& values) {
+    const std::string output = required(values, "output");
+    const Machine machine = values.count("machine") > 0 ? io::read_machine(values["machine"].as<std::string>()) : Machine{};
+    Vec3 start = Vec3::Zero();
+    if (values.count("start") > 0) {
+        const std::vector<double> given = parse_numbers(values["start"].as<std::string>(), "--start", 3);
+        start = Vec3(given[0], given[1], given[2]);
+    }
+    const std::string path = required(values, "PROGRAM");
+    const io::Source source = io::map_file(path);
+    const Program program = io::read_program(source, read_dialect(values), read_block_delete(values));
+    io::SimulatedLogWriter log(output, machine, io::with_programs("{}", std::vector<ProgramReference>{io::identify(source)}));
+    ProgressBar bar(read_common(values));
+    const SimulationSummary summary = simulate(
+        program, machine, start, [&](std::span<const SimulatedPoint> points) { log.append(points); }, bar.callback());
+    log.close();
+    bar.clear();
+    Diagnostics diagnostics = program.diagnostics;
+    diagnostics.append(summary.diagnostics);
+    if (read_json(values)) {
+        write_to_stdout(io::simulation_json(summary, diagnostics));
+    } else {
+        print(diagnostics, values);
+        write_to_stdout(summary_text(summary));
+    }
+    return ExitCode::done;
+}
+
+}  // namespace
+
+Subcommand simulate_subcommand() {
+    return {
+        .name = "simulate",
+        .arguments = "PROGRAM -o run.biip",
+        .summary = "the controller stood in for: the log that a machine would write",
+        .description = "Plans and interpolates a program as a controller does, with limits of speed, acceleration and jerk, corners rounded inside the tolerance\n"
+                       "and a look-ahead, follows it with a servo loop an axis, and writes commanded and feedback positions, line, speed,\n"
+                       "and in the channel limit what ruled each point: 0 at rest, 1 feed, 2 axis or path speed, 3 acceleration, 4 jerk,\n"
+                       "5 corner tolerance, 6 chord error, 7 the end of the look-ahead, 8 feed override.\n\n"
+                       "  clsurf simulate part.nc --machine mill.toml -o run.biip\n"
+                       "  clsurf render part.nc run.biip --color limit -o why_slow.png",
+        .declare =
+            [](po::options_description& options) {
+                // clang-format off
+                options.add_options()
+                    ("output,o", po::value<std::string>()->value_name("FILE"), "the BIIP log")
+                    ("machine", po::value<std::string>()->value_name("FILE"), "machine file (default: that of clsurf machine --defaults)")
+                    ("start", po::value<std::string>()->value_name("X,Y,Z"), "where the axes stand before the program, mm (default: 0,0,0)");
+                // clang-format on
+                declare_json(options);
+                declare_program_options(options);
+            },
+        .positional = {"PROGRAM"},
+        .run = run,
+    };
+}
+
+}  // namespace clsurf::cli

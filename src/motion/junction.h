@@ -1,0 +1,19 @@
+#pragma once
+// Where two blocks meet: how much the direction turns, and how fast a curvature may be passed.
+
+#include "core/geometry.h"
+
+namespace clsurf {
+
+/// Deflection between unit directions [rad]: 0 straight on, π reversal. By atan2, which is good
+/// near both ends, where acos is not.
+[[nodiscard]] double deflection(const Vec3& in, const Vec3& out);
+
+/// The speed at which the chord of one period leaves an arc by `error` [mm/s]
+/// (Li et al. 2025, Eq. 8; for radius ≤ error: a period is half a turn).
+[[nodiscard]] double chord_speed(double radius, double error, double period);
+
+/// The speed at which an arc takes the whole normal acceleration, √(a r) [mm/s].
+[[nodiscard]] double arc_speed(double radius, double normal_acceleration);
+
+}  // namespace clsurf

@@ -1,0 +1,166 @@
+#include "motion/lookahead.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clsurf {
+namespace {
+
+constexpr double holds = 1 + 1e-9;     ///< part of a limit that counts as held
+constexpr double braking_play = 1e-9;  ///< of a start speed, for rounding in reach()
+
+/// The greatest speed and acceleration of a profile between two times.
+struct Extremes {
+    double speed = 0, acceleration = 0;
+    bool ramping = false;
+};
+
+Extremes extremes(const SCurve& profile, double from, const MotionState& at_from, double to, const MotionState& at_to) {
+    Extremes e;
+    const double cruise_begins = profile.end_of(2);
+    const double cruise_ends = profile.end_of(3);
+    e.speed = from <= cruise_ends && to >= cruise_begins ? profile.peak_speed() : std::max(at_from.speed, at_to.speed);
+    e.ramping = from < cruise_begins || to > cruise_ends;
+    e.acceleration = std::max(std::abs(at_from.acceleration), std::abs(at_to.acceleration));
+    for (const int peak : {1, 5}) {  // the acceleration is greatest where its jerk part ends
+        const double begins = profile.end_of(peak - 1);
+        if (from <= profile.end_of(peak) && to >= begins) e.acceleration = std::max(e.acceleration, std::abs(profile.start_of(peak).acceleration));
+    }
+    return e;
+}
+
+}  // namespace
+
+bool scan_speeds(std::span<const Stretch> stretches, std::span<double> speeds) {
+    const double present = speeds.front();
+    for (std::size_t i = stretches.size(); i-- > 0;) {
+        const Stretch& s = stretches[i];
+        if (speeds[i] > speeds[i + 1]) speeds[i] = std::min(speeds[i], reach(speeds[i + 1], s.length, s.acceleration, s.jerk));
+    }
+    if (speeds.front() < present * (1 - braking_play)) return false;
+    speeds.front() = present;
+    for (std::size_t i = 0; i < stretches.size(); ++i) {
+        const Stretch& s = stretches[i];
+        if (speeds[i + 1] > speeds[i]) speeds[i + 1] = std::min(speeds[i + 1], reach(speeds[i], s.length, s.acceleration, s.jerk));
+    }
+    return true;
+}
+
+void WindowPlanner::set_limits(Run& run, std::span<const Span> spans) const {
+    run.length = 0;
+    run.speed = 0;
+    run.acceleration = run.jerk = std::numeric_limits<double>::infinity();
+    for (std::size_t i = run.first; i < run.last; ++i) {
+        const Span& s = spans[i];
+        run.length += s.length;
+        run.speed = std::max(run.speed, run.eased ? s.moving_cap : s.cap);
+        run.acceleration = std::min(run.acceleration, run.eased ? s.moving_acceleration : s.acceleration);
+        run.jerk = std::min(run.jerk, run.eased ? s.moving_jerk : s.jerk);
+    }
+    run.checked = false;
+}
+
+WindowPlanner::Verdict WindowPlanner::judge(const Run& run, std::span<const Span> spans) const {
+    Verdict verdict;
+    double way = 0;
+    double from = 0;
+    MotionState at_from = run.profile.at(0);
+    for (std::size_t i = run.first; i < run.last; ++i) {
+        const Span& s = spans[i];
+        way += s.length;
+        const bool last = i + 1 == run.last;
+        const double to = last ? run.profile.duration() : run.profile.time_at(way);
+        const MotionState at_to = run.profile.at(to);
+        const Extremes e = extremes(run.profile, from, at_from, to, at_to);
+        const double v = e.speed;
+        double worst = v / s.cap;
+        bool at_cap = true;
+        if (e.ramping) {
+            for (int k = 0; k < 3; ++k) {
+                const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(k)];
+                const double acceleration = (s.slope[k] * e.acceleration + s.bend[k] * v * v) / axis.max_acceleration;
+                if (acceleration > worst) worst = acceleration, at_cap = false;
+                if (axis.max_jerk <= 0) continue;
+                const double jerk = (s.slope[k] * run.profile.jerk() + 3 * s.bend[k] * v * e.acceleration + s.twist[k] * v * v * v) / axis.max_jerk;
+                if (jerk > worst) worst = jerk, at_cap = false;
+            }
+        }
+        if (worst > verdict.worst) verdict = {worst, at_cap, i};
+        from = to;
+        at_from = at_to;
+    }
+    return verdict;
+}
+
+/// The worst span becomes a run of its own.
+void WindowPlanner::divide(const Run& run, const Verdict& verdict, std::vector<Run>& into) const {
+    const auto part = [&](std::size_t first, std::size_t last) {
+        if (first >= last) return;
+        Run r;
+        r.first = first;
+        r.last = last;
+        into.push_back(r);
+    };
+    part(run.first, verdict.span);
+    part(verdict.span, verdict.span + 1);
+    part(verdict.span + 1, run.last);
+}
+
+bool WindowPlanner::plan(std::span<const Span> spans, double start_speed, std::span<const std::size_t> nodes) {
+    runs_.clear();
+    std::size_t begin = 0;
+    for (std::size_t n = 0; n <= nodes.size(); ++n) {
+        const std::size_t end = n < nodes.size() ? nodes[n] : spans.size();
+        if (end <= begin) continue;
+        Run run;
+        run.first = begin;
+        run.last = end;
+        set_limits(run, spans);
+        runs_.push_back(run);
+        begin = end;
+    }
+    const auto end_cap = [&](const Run& run, std::size_t span) { return run.eased ? spans[span].moving_cap : spans[span].cap; };
+    while (true) {
+        stretches_.clear();
+        speeds_.clear();
+        for (const Run& run : runs_) {
+            stretches_.push_back({run.length, run.acceleration, run.jerk});
+            const double before = speeds_.empty() ? start_speed : std::min(end_cap(runs_[speeds_.size() - 1], run.first - 1), end_cap(run, run.first));
+            speeds_.push_back(before);
+        }
+        speeds_.push_back(0);
+        if (!scan_speeds(stretches_, speeds_)) return false;
+        bool changed = false;
+        next_.clear();
+        for (std::size_t r = 0; r < runs_.size(); ++r) {
+            Run& run = runs_[r];
+            if (!run.checked || run.start_speed != speeds_[r] || run.end_speed != speeds_[r + 1]) {
+                run.start_speed = speeds_[r];
+                run.end_speed = speeds_[r + 1];
+                // A start speed that was planned with other limits may be above these by rounding.
+                run.speed = std::max({run.speed, run.start_speed, run.end_speed});
+                run.profile = plan_scurve(run.length, run.start_speed, run.end_speed, {run.speed, run.acceleration, run.acceleration, run.jerk}).profile;
+                if (!(run.profile.length() > 0)) return false;
+                const Verdict verdict = judge(run, spans);
+                run.checked = verdict.worst <= holds;
+                if (!run.checked) {
+                    changed = true;
+                    if (run.last - run.first > 1 && (verdict.at_cap || run.eased)) {
+                        const std::size_t before = next_.size();
+                        divide(run, verdict, next_);
+                        for (std::size_t k = before; k < next_.size(); ++k) set_limits(next_[k], spans);
+                        continue;
+                    }
+                    if (run.eased) return false;  // the start speed is above what this span allows while braking
+                    run.eased = true;
+                    set_limits(run, spans);
+                }
+            }
+            next_.push_back(run);
+        }
+        runs_.swap(next_);
+        if (!changed) return true;
+    }
+}
+
+}  // namespace clsurf

@@ -1,0 +1,65 @@
+#pragma once
+// Look-ahead: speeds at the nodes between blocks, and the planning of a window of spans as runs.
+//
+// The scan goes backward and forward once (jerk-limited: the reach of a ramp in place of v² = 2aL,
+// which leaves blocks that no jerk-limited profile can run). Zero acceleration at every node would
+// waste time in short blocks, so that spans are joined to *runs*, each planned as one seven-phase
+// profile. A run's profile is held against the limits of every span in it, with the speed and
+// acceleration it has there; where one does not hold, the run gets lower tangential limits or is
+// divided at the worst span. A single span always holds: the scan is the guarantee.
+
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "motion/path_stream.h"
+#include "motion/scurve.h"
+
+namespace clsurf {
+
+/// A stretch between two nodes, for the scan.
+struct Stretch {
+    double length = 0, acceleration = 0, jerk = 0;
+};
+
+/// Lowers node speeds to what can be run: node i lies before stretch i. On entry `speeds` holds the
+/// limit of each node, the first one the present speed. False: the present speed is too high to
+/// brake from. O(stretches).
+[[nodiscard]] bool scan_speeds(std::span<const Stretch> stretches, std::span<double> speeds);
+
+/// Spans [first, last) of a window run as one profile.
+struct Run {
+    std::size_t first = 0, last = 0;
+    bool eased = false;  ///< with the tangential limits that its most bent span leaves
+    double length = 0, acceleration = 0, jerk = 0, speed = 0;
+    double start_speed = 0, end_speed = 0;
+    bool checked = false;  ///< profile belongs to these speeds and holds
+    SCurve profile;
+};
+
+class WindowPlanner {
+public:
+    explicit WindowPlanner(const Machine& machine) : machine_(&machine) {}
+
+    /// Plans spans from a speed to rest at their end. `nodes`: span numbers where a node has to be. False:
+    /// the start speed cannot be braked from with these nodes. The runs stay until the next call.
+    [[nodiscard]] bool plan(std::span<const Span> spans, double start_speed, std::span<const std::size_t> nodes);
+    [[nodiscard]] const std::vector<Run>& runs() const { return runs_; }
+
+private:
+    struct Verdict {
+        double worst = 0;      ///< greatest part of a limit, 1: just held
+        bool at_cap = false;   ///< it is the speed itself, with no acceleration
+        std::size_t span = 0;  ///< where
+    };
+    void set_limits(Run& run, std::span<const Span> spans) const;
+    [[nodiscard]] Verdict judge(const Run& run, std::span<const Span> spans) const;
+    void divide(const Run& run, const Verdict& verdict, std::vector<Run>& into) const;
+
+    const Machine* machine_;
+    std::vector<Run> runs_, next_;
+    std::vector<Stretch> stretches_;
+    std::vector<double> speeds_;
+};
+
+}  // namespace clsurf

@@ -1,0 +1,151 @@
+#pragma once
+// PathStream: a program's path as the controller runs it, in spans with bounds on its derivatives.
+//
+// Between exact stops, corners are rounded inside the tolerance by adding to the programmed path
+// p(u), u its way, for each joint at u_i with a jump Δt of the tangent and Δk of the curvature,
+//
+//     Δt · (w − |d|)³ / (6 w²)      +      Δk · d (v − |d|)³ / (12 v²),      d = u − u_i,
+//
+// where |d| < w (< v). The first is what smoothing p with a triangle of half-width w adds at a corner;
+// the second takes the jump out of the second derivative. The sum is C² with a bounded third
+// derivative, so that a speed profile with bounded jerk gives axis positions with bounded jerk (a
+// circular transition arc, whose curvature jumps, does not). Neighbouring roundings may overlap: dense
+// polylines are smoothed over many blocks.
+//
+// The widths hold the tolerance by construction: the deviation D at a corner is at most
+// Σ |Δt_j| (w_j − |d|)³/(6 w_j²), convex between corners, and multiplying all w_j of that sum by
+// f < 1 makes it at most f D.
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <string_view>
+#include <vector>
+
+#include "core/geometry.h"
+#include "machine/machine.h"
+#include "motion/path_element.h"
+#include "program/program.h"
+
+namespace clsurf {
+
+/// What ruled the speed of a point: the values of the channel `limit`.
+enum class Ruling : std::uint8_t {
+    none = 0,               ///< at rest
+    feed = 1,               ///< programmed feed
+    axis_speed = 2,         ///< speed of an axis, or of the path
+    axis_acceleration = 3,  ///< acceleration of an axis, of the path, or normal to it
+    jerk = 4,
+    corner_tolerance = 5,   ///< jerk in a corner as round as the tolerance lets it be
+    chord_error = 6,
+    lookahead_end = 7,      ///< braking to a stop, or to the end of the known blocks
+    feed_override = 8,
+};
+
+/// "feed", "axis speed", …
+[[nodiscard]] std::string_view name_of(Ruling ruling);
+
+/// Where the position on a span comes from, and how fast it may be passed.
+struct Span {
+    PathElement base;
+    double from = 0;    ///< way on the element where the span begins [mm]
+    double length = 0;  ///< [mm]
+    std::array<Vec3, 5> rounding{};  ///< Σ rounding[k] τᵏ, τ from the span's begin
+    bool rounded = false;
+    std::int64_t block = 0;  ///< number of its element in the section
+
+    // Greatest values on the span: of the first to third derivative of the position by the way, an axis each.
+    Vec3 slope = Vec3::Zero(), bend = Vec3::Zero(), twist = Vec3::Zero();
+    double greatest_slope = 0, greatest_bend = 0;  ///< of the vectors
+    // Speed allowed with no tangential acceleration, and why.
+    double cap = 0;
+    Ruling ruling = Ruling::none;
+    // Tangential limits of a straight path with these slopes.
+    double acceleration = 0, jerk = 0;
+    // A lower speed that leaves at least half of both, and what it leaves.
+    double moving_cap = 0, moving_acceleration = 0, moving_jerk = 0;
+
+    /// Position τ after the span's begin; `deviation`: how far the rounding moves it [mm]; `pace`: the
+    /// length of its first derivative, path speed over speed along the programmed way.
+    [[nodiscard]] Vec3 at(double tau, double& deviation, double& pace) const;
+};
+
+class PathStream {
+public:
+    /// Joints to each side that a rounding may cross: bounds the blocks that must be known.
+    static constexpr std::int64_t reach_of_a_joint = 20;
+
+    /// Both must outlive it. `start`: where the axes stand; coordinates that the program has not
+    /// set stay there [mm].
+    PathStream(const Program& program, const Machine& machine, const Vec3& start);
+
+    /// Goes to the next section, the way between two exact stops. False: the program has ended.
+    /// Throws InputError (feed 0, rotary axes, splines).
+    bool begin_section();
+    /// The next span of the section in order; false: none is left.
+    bool next(Span& span);
+    /// Wait after the section [s]; known when next() has returned false.
+    [[nodiscard]] double dwell() const { return dwell_; }
+    /// Line of the dwell; 0: none.
+    [[nodiscard]] LineNumber dwell_line() const { return dwell_line_; }
+    /// Motions taken so far, of all.
+    [[nodiscard]] std::int64_t motions_taken() const { return next_motion_; }
+    /// Where the axes stand before the first section.
+    [[nodiscard]] const Vec3& position() const { return at_; }
+    /// Where the section ends; known when next() has returned false.
+    [[nodiscard]] const Vec3& section_end() const { return section_end_; }
+
+private:
+    struct Joint {
+        double at = 0;  ///< way from the section's begin [mm]
+        Vec3 turn = Vec3::Zero(), bend = Vec3::Zero();  ///< Δt; Δk [1/mm]
+        double turning = 0;    ///< |Δt|
+        double tolerance = 0;
+        double width = 0, bend_width = 0;
+        double deviation = 0;  ///< of the overlapping roundings, before they are scaled
+        double scale = 1;
+    };
+
+    bool pull();
+    bool stops_between(const PathElement& before, const PathElement& after) const;
+    void add_joint(const PathElement& before, const PathElement& after);
+    void settle();
+    void settle_width(std::int64_t i);
+    void make_spans(std::int64_t element);
+    void add_roundings(Span& span, double begin, std::int64_t element) const;
+    void set_limits(Span& span) const;
+    [[nodiscard]] bool next_element(PathElement& element);
+    void follow_events(std::int64_t motion);
+
+    Joint& joint(std::int64_t i) { return joints_[static_cast<std::size_t>(i - first_joint_)]; }
+    [[nodiscard]] const Joint& joint(std::int64_t i) const { return joints_[static_cast<std::size_t>(i - first_joint_)]; }
+
+    const Program* program_;
+    const Machine* machine_;
+    bool has_arcs_ = false;
+    Vec3 at_;                          ///< end of the last element taken
+    std::int64_t next_motion_ = 0;
+    std::size_t next_event_ = 0;
+    double tolerance_ = 0;             ///< in force; 0: exact path
+    bool waiting_ = false;             ///< an element is read that begins the next section
+    PathElement waiting_element_;
+    double dwell_ = 0;
+    LineNumber dwell_line_ = 0;
+    double pending_dwell_ = 0;         ///< met before the next element
+    LineNumber pending_dwell_line_ = 0;
+
+    // The section: elements from first_element_ on; joint i lies between elements i and i + 1.
+    std::deque<PathElement> elements_;
+    std::deque<double> ends_;          ///< way to each element's end [mm]
+    std::deque<Joint> joints_;
+    std::int64_t first_element_ = 0, first_joint_ = 0;
+    std::int64_t element_count_ = 0;
+    bool closed_ = false;
+    double closed_at_ = 0;
+    Vec3 section_end_;
+    std::int64_t widths_done_ = 0, deviations_done_ = 0, scales_done_ = 0, spans_done_ = 0;
+    std::deque<Span> ready_;
+    std::vector<double> cuts_;  ///< scratch of make_spans()
+};
+
+}  // namespace clsurf

@@ -1,0 +1,43 @@
+#include "motion/servo.h"
+
+#include <cmath>
+
+namespace clsurf {
+namespace {
+
+/// splitmix64 (Steele, Lea, Flood 2014): uniform in [0, 1).
+double uniform(std::uint64_t& state) {
+    state += 0x9E3779B97F4A7C15U;
+    std::uint64_t z = state;
+    z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9U;
+    z = (z ^ (z >> 27U)) * 0x94D049BB133111EBU;
+    z ^= z >> 31U;
+    return static_cast<double>(z >> 11U) * 0x1p-53;
+}
+
+/// Sum of twelve uniform numbers less six: mean 0, variance 1, bounded.
+double noise_of_one(std::uint64_t& state) {
+    double sum = -6;
+    for (int i = 0; i < 12; ++i) sum += uniform(state);
+    return sum;
+}
+
+}  // namespace
+
+ServoLoop::ServoLoop(const ServoModel& model, double period, double start, std::uint64_t seed)
+    : gain_(model.position_gain), feedforward_(model.velocity_feedforward),
+      // Exact for a reference that is constant over the period.
+      velocity_step_(model.velocity_time_constant > 0 ? 1 - std::exp(-period / model.velocity_time_constant) : 1.0),
+      quantum_(model.quantum), noise_(model.noise), period_(period), commanded_(start), position_(start), random_(seed) {}
+
+double ServoLoop::follow(double commanded) {
+    const double reference = gain_ * (commanded_ - position_) + feedforward_ * (commanded - commanded_) / period_;
+    velocity_ += velocity_step_ * (reference - velocity_);
+    position_ += velocity_ * period_;
+    commanded_ = commanded;
+    double read = position_;
+    if (noise_ > 0) read += noise_ * noise_of_one(random_);
+    return quantum_ > 0 ? std::round(read / quantum_) * quantum_ : read;
+}
+
+}  // namespace clsurf

@@ -1,0 +1,42 @@
+#pragma once
+// The controller stood in for: a program and a machine → what its interpolation log would hold.
+
+#include <functional>
+#include <span>
+
+#include "core/diagnostic.h"
+#include "core/progress.h"
+#include "machine/machine.h"
+#include "motion/path_stream.h"
+
+namespace clsurf {
+
+/// A record of the log: the positions at the end of a period.
+struct SimulatedPoint {
+    Vec3 commanded = Vec3::Zero(), feedback = Vec3::Zero();  ///< [mm]
+    double speed = 0;  ///< of the commanded path [mm/s]
+    LineNumber line = 0;
+    Ruling limit = Ruling::none;
+};
+
+/// What a run was like, measured on the points themselves by differences.
+struct SimulationSummary {
+    PointIndex points = 0;
+    double duration = 0;        ///< [s]
+    double max_speed = 0;       ///< of the path [mm/s]
+    Vec3 max_axis_speed = Vec3::Zero(), max_acceleration = Vec3::Zero(), max_jerk = Vec3::Zero();
+    double path_deviation = 0;  ///< greatest distance that rounding took a point from the path [mm]
+    bool limits_ok = true;      ///< no limit of an axis or the path's speed exceeded by more than 0.1 %
+    bool tolerance_ok = true;
+    std::array<PointIndex, 9> ruled{};  ///< points by Ruling
+    Diagnostics diagnostics;
+};
+
+using PointSink = std::function<void(std::span<const SimulatedPoint>)>;
+
+/// Plans, interpolates and follows a program; points go to `sink` in order, block by block.
+/// Memory: of the look-ahead. Throws InputError (feed 0, rotary axes, splines).
+[[nodiscard]] SimulationSummary simulate(const Program& program, const Machine& machine, const Vec3& start,
+                                         const PointSink& sink, const Progress& progress);
+
+}  // namespace clsurf
