@@ -53,9 +53,9 @@ void WindowPlanner::set_limits(Run& run, std::span<const Span> spans) const {
     for (std::size_t i = run.first; i < run.last; ++i) {
         const Span& s = spans[i];
         run.length += s.length;
-        run.speed = std::max(run.speed, run.eased ? s.moving_cap : s.cap);
-        run.acceleration = std::min(run.acceleration, run.eased ? s.moving_acceleration : s.acceleration);
-        run.jerk = std::min(run.jerk, run.eased ? s.moving_jerk : s.jerk);
+        run.speed = std::max(run.speed, run.eased ? s.eased[easing_].cap : s.cap);
+        run.acceleration = std::min(run.acceleration, run.eased ? s.eased[easing_].acceleration : s.acceleration);
+        run.jerk = std::min(run.jerk, run.eased ? s.eased[easing_].jerk : s.jerk);
     }
     run.checked = false;
 }
@@ -107,6 +107,26 @@ void WindowPlanner::divide(const Run& run, const Verdict& verdict, std::vector<R
 }
 
 bool WindowPlanner::plan(std::span<const Span> spans, double start_speed, std::span<const std::size_t> nodes) {
+    double shortest = std::numeric_limits<double>::infinity();
+    for (std::size_t easing = 0; easing < Span::easings; ++easing) {
+        if (!plan_with(easing, spans, start_speed, nodes)) continue;
+        double time = 0;
+        bool bent = false;
+        for (const Run& run : runs_) {
+            time += run.profile.duration();
+            bent = bent || run.eased;
+        }
+        if (time < shortest) {
+            shortest = time;
+            best_.swap(runs_);
+        }
+        if (!bent) break;  // the others would be the same
+    }
+    return std::isfinite(shortest);
+}
+
+bool WindowPlanner::plan_with(std::size_t easing, std::span<const Span> spans, double start_speed, std::span<const std::size_t> nodes) {
+    easing_ = easing;
     runs_.clear();
     std::size_t begin = 0;
     for (std::size_t n = 0; n <= nodes.size(); ++n) {
@@ -119,7 +139,7 @@ bool WindowPlanner::plan(std::span<const Span> spans, double start_speed, std::s
         runs_.push_back(run);
         begin = end;
     }
-    const auto end_cap = [&](const Run& run, std::size_t span) { return run.eased ? spans[span].moving_cap : spans[span].cap; };
+    const auto end_cap = [&](const Run& run, std::size_t span) { return run.eased ? spans[span].eased[easing_].cap : spans[span].cap; };
     while (true) {
         stretches_.clear();
         speeds_.clear();

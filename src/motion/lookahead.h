@@ -6,7 +6,8 @@
 // waste time in short blocks, so that spans are joined to *runs*, each planned as one seven-phase
 // profile. A run's profile is held against the limits of every span in it, with the speed and
 // acceleration it has there; where one does not hold, the run gets lower tangential limits or is
-// divided at the worst span. A single span always holds: the scan is the guarantee.
+// divided at the worst span. A single span always holds: the scan is the guarantee. How much of the limits
+// ramps through bends should get is tried in a few ways for each window, and the fastest plan is taken.
 
 #include <limits>
 #include <span>
@@ -44,7 +45,7 @@ public:
     /// Plans spans from a speed to rest at their end. `nodes`: span numbers where a node has to be. False:
     /// the start speed cannot be braked from with these nodes. The runs stay until the next call.
     [[nodiscard]] bool plan(std::span<const Span> spans, double start_speed, std::span<const std::size_t> nodes);
-    [[nodiscard]] const std::vector<Run>& runs() const { return runs_; }
+    [[nodiscard]] const std::vector<Run>& runs() const { return best_; }
 
 private:
     struct Verdict {
@@ -52,12 +53,14 @@ private:
         bool at_cap = false;   ///< it is the speed itself, with no acceleration
         std::size_t span = 0;  ///< where
     };
+    [[nodiscard]] bool plan_with(std::size_t easing, std::span<const Span> spans, double start_speed, std::span<const std::size_t> nodes);
     void set_limits(Run& run, std::span<const Span> spans) const;
     [[nodiscard]] Verdict judge(const Run& run, std::span<const Span> spans) const;
     void divide(const Run& run, const Verdict& verdict, std::vector<Run>& into) const;
 
     const Machine* machine_;
-    std::vector<Run> runs_, next_;
+    std::size_t easing_ = 0;  ///< of the spans, in force in plan_with()
+    std::vector<Run> runs_, next_, best_;
     std::vector<Stretch> stretches_;
     std::vector<double> speeds_;
 };

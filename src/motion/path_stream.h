@@ -62,8 +62,12 @@ struct Span {
     Ruling ruling = Ruling::none;
     // Tangential limits of a straight path with these slopes.
     double acceleration = 0, jerk = 0;
-    // A lower speed that leaves at least half of both, and what it leaves.
-    double moving_cap = 0, moving_acceleration = 0, moving_jerk = 0;
+    // Lower speeds that leave more or less of the tangential limits, and what they leave.
+    struct Easing {
+        double cap = 0, acceleration = 0, jerk = 0;
+    };
+    static constexpr std::size_t easings = 3;
+    std::array<Easing, easings> eased{};
 
     /// Position τ after the span's begin; `deviation`: how far the rounding moves it [mm]; `pace`: the
     /// length of its first derivative, path speed over speed along the programmed way.

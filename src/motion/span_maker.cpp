@@ -14,6 +14,13 @@ namespace {
 constexpr std::int64_t reach_of_a_joint = PathStream::reach_of_a_joint;
 constexpr double least_span = 1e-9;  ///< [mm] nearer cuts are one
 constexpr double most_turn = 0.75;   ///< [rad] of an arc in one span: limits of axes change round it
+constexpr double share_of_bend = 0.5;  ///< of the jerk that a twist leaves: for accelerating in a bend
+// An easing is the greatest speed that leaves these parts of the tangential limits: much, for long
+// ramps through bends; little, where speeds stay nearly the same.
+struct LeastLeft {
+    double acceleration, jerk;
+};
+constexpr std::array<LeastLeft, Span::easings> least_left{{{0.5, 0.5}, {0.2, 0.3}, {0.1, 0.15}}};
 constexpr int checked_points = 5;    ///< of a span whose bounds are not at its ends
 
 /// Adds factor · (a + b τ)(c + e τ)³ to a polynomial in τ.
@@ -159,34 +166,43 @@ void PathStream::set_limits(Span& span) const {
         limit(arc_speed(radius, path.max_normal_acceleration), Ruling::axis_acceleration);
         limit(chord_speed(radius, machine_->controller.chord_tolerance, machine_->controller.period), Ruling::chord_error);
     }
-    // The greatest speed that leaves half of the tangential limits, by halving: what is left falls with speed.
+    // What a speed leaves of the tangential limits. In a bend an acceleration costs jerk too, 3 y″ v a,
+    // as much at once as the tangential jerk itself: what the twist leaves is shared between them.
     const auto left = [&](double speed, double& acceleration, double& jerk) {
         acceleration = span.acceleration;
-        for (int i = 0; i < 3; ++i) {
-            const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(i)];
-            if (span.slope[i] > 0) acceleration = std::min(acceleration, (axis.max_acceleration - span.bend[i] * speed * speed) / span.slope[i]);
-        }
-        acceleration = std::max(acceleration, 0.0);
-        // The jerk that an acceleration costs in a bend grows with it: 3 y″ v a.
         jerk = span.jerk;
         for (int i = 0; i < 3; ++i) {
             const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(i)];
-            if (axis.max_jerk <= 0 || span.slope[i] <= 0) continue;
-            jerk = std::min(jerk, (axis.max_jerk - span.twist[i] * speed * speed * speed - 3 * span.bend[i] * speed * acceleration) / span.slope[i]);
+            if (span.slope[i] > 0) acceleration = std::min(acceleration, (axis.max_acceleration - span.bend[i] * speed * speed) / span.slope[i]);
+            if (axis.max_jerk <= 0 || span.bend[i] <= 0) continue;
+            const double room = axis.max_jerk - span.twist[i] * speed * speed * speed;
+            acceleration = std::min(acceleration, share_of_bend * room / (3 * span.bend[i] * speed));
         }
-        return acceleration >= 0.5 * span.acceleration && jerk >= 0.5 * span.jerk;
+        acceleration = std::max(acceleration, 0.0);
+        for (int i = 0; i < 3; ++i) {
+            const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(i)];
+            if (axis.max_jerk <= 0 || span.slope[i] <= 0) continue;
+            const double room = axis.max_jerk - span.twist[i] * speed * speed * speed;
+            jerk = std::min(jerk, (room - 3 * span.bend[i] * speed * acceleration) / span.slope[i]);
+        }
     };
-    double low = 0;
-    double high = span.cap;
-    span.moving_cap = high;
-    if (!left(high, span.moving_acceleration, span.moving_jerk)) {
+    for (std::size_t e = 0; e < least_left.size(); ++e) {
+        Span::Easing& eased = span.eased[e];
+        const auto enough = [&](double speed) {
+            left(speed, eased.acceleration, eased.jerk);
+            return eased.acceleration >= least_left[e].acceleration * span.acceleration && eased.jerk >= least_left[e].jerk * span.jerk;
+        };
+        eased.cap = span.cap;
+        if (enough(span.cap)) continue;
+        double low = 0;
+        double high = span.cap;
         constexpr int halvings = 40;
         for (int k = 0; k < halvings && high - low > 1e-3 * high; ++k) {
             const double middle = 0.5 * (low + high);
-            (left(middle, span.moving_acceleration, span.moving_jerk) ? low : high) = middle;
+            (enough(middle) ? low : high) = middle;
         }
-        span.moving_cap = low;
-        left(low, span.moving_acceleration, span.moving_jerk);
+        eased.cap = low;
+        left(low, eased.acceleration, eased.jerk);
     }
 }
 
