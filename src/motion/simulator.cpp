@@ -99,7 +99,7 @@ private:
 /// Runs the planned profiles against the clock of the interpolator.
 class Interpolator {
 public:
-    Interpolator(const Machine& machine, Recorder& recorder) : machine_(&machine), recorder_(&recorder), period_(machine.controller.period) {}
+    Interpolator(double period, Recorder& recorder) : recorder_(&recorder), period_(period) {}
 
     [[nodiscard]] double next_sample() const { return static_cast<double>(recorder_->points()) * period_; }
 
@@ -141,11 +141,10 @@ private:
     [[nodiscard]] Ruling ruling(const Run& run, const Span& span, int phase, bool to_rest) const {
         if (phase == 3) return span.ruling;
         if (to_rest && phase > 3) return Ruling::lookahead_end;
-        if (phase == 1 || phase == 5) return Ruling::axis_acceleration;
-        return run.profile.duration() > 0 ? Ruling::jerk : span.ruling;
+        // An eased run keeps its acceleration low for the jerk that it costs in bends.
+        return (phase == 1 || phase == 5) && !run.eased ? Ruling::axis_acceleration : Ruling::jerk;
     }
 
-    const Machine* machine_;
     Recorder* recorder_;
     double period_;
     double time_ = 0;
@@ -218,7 +217,7 @@ SimulationSummary simulate(const Program& program, const Machine& machine, const
     PathStream stream(program, machine, start);
     const Vec3 from = stream.position();
     Recorder recorder(program, machine, from, sink);
-    Interpolator interpolator(machine, recorder);
+    Interpolator interpolator(machine.controller.period, recorder);
     Controller controller(machine, stream, interpolator);
     const auto report = [&] {
         if (progress) progress("plan and interpolate", static_cast<double>(stream.motions_taken()) / static_cast<double>(std::max<std::int64_t>(1, program.motions.size())));
