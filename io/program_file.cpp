@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/spelling.h"
 #include "io/mapped_file.h"
+#include "io/tool_table_file.h"
 #include "program/interpreter.h"
 
 namespace clsurf::io {
@@ -36,14 +37,15 @@ std::optional<SourceText> load_beside(const std::filesystem::path& folder, const
 
 }  // namespace
 
-Program read_program(const std::string& path, const std::string& dialect, bool block_delete) {
-    return read_program(map_file(path), dialect, block_delete);
+Program read_program(const std::string& path, const ProgramOptions& options) {
+    return read_program(map_file(path), options);
 }
 
-Program read_program(const Source& source, const std::string& dialect, bool block_delete) {
+Program read_program(const Source& source, const ProgramOptions& wanted) {
     InterpreterOptions options;
-    options.block_delete = block_delete;
-    if (!dialect.empty()) {
+    options.block_delete = wanted.block_delete;
+    if (!wanted.tools.empty()) options.tools = read_tool_table(map_file(wanted.tools));
+    if (const std::string& dialect = wanted.dialect; !dialect.empty()) {
         options.dialect = find_dialect(dialect);
         if (options.dialect == nullptr) {
             std::vector<std::string_view> names;

@@ -8,12 +8,16 @@
 
 namespace clsurf::io {
 
-/// Reads and interprets a program ("-": standard input). `dialect` empty: detected. Subprograms
-/// that the program calls by name are looked for beside it.
-/// Throws InputError (unreadable, empty, wrong arc, endless loop), UsageError (unknown dialect).
-[[nodiscard]] Program read_program(const std::string& path, const std::string& dialect,
-                                   bool block_delete = true);
-[[nodiscard]] Program read_program(const Source& source, const std::string& dialect,
-                                   bool block_delete = true);
+struct ProgramOptions {
+    std::string dialect;       ///< empty: detected
+    bool block_delete = true;  ///< skip blocks that begin with '/'
+    std::string tools;         ///< path of a tool table (io/tool_table_file.h); empty: none
+};
+
+/// Reads and interprets a program ("-": standard input). Subprograms that the program calls by name
+/// are looked for beside it.
+/// Throws InputError (unreadable, empty, wrong arc, endless loop, tool table), UsageError (unknown dialect).
+[[nodiscard]] Program read_program(const std::string& path, const ProgramOptions& options = {});
+[[nodiscard]] Program read_program(const Source& source, const ProgramOptions& options = {});
 
 }  // namespace clsurf::io

@@ -72,7 +72,7 @@ ExitCode run(const po::variables_map& values) {
         const bool is_log = io::recognise_log(source, log_options) != nullptr;
         if (!is_log) {
             program_source = source;
-            program = io::read_program(source, read_dialect(values), read_block_delete(values));
+            program = io::read_program(source, read_program_options(values));
             const ToolpathSummary summary = summarise(program->motions);
             if (json) objects.push_back(io::program_json(*program, summary, program->diagnostics));
             else print_program(*program, summary, program->diagnostics);

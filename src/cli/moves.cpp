@@ -8,8 +8,7 @@ namespace clsurf::cli {
 namespace {
 
 ExitCode run(const po::variables_map& values) {
-    const Program program = io::read_program(required(values, "PROGRAM"), read_dialect(values),
-                                             read_block_delete(values));
+    const Program program = io::read_program(required(values, "PROGRAM"), read_program_options(values));
     print(program.diagnostics, values);
     io::write_moves_csv(program.motions, write_to_stdout);
     return ExitCode::done;

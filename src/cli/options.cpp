@@ -36,17 +36,17 @@ void declare_program_options(po::options_description& options) {
     // clang-format off
     options.add_options()
         ("dialect", po::value<std::string>()->value_name("DIALECT"), "language of the program (default: detected; see `clsurf help dialects`)")
-        ("block-delete", po::value<std::string>()->value_name("on|off"), "skip blocks that begin with / (default: on)");
+        ("block-delete", po::value<std::string>()->value_name("on|off"), "skip blocks that begin with / (default: on)")
+        ("tools", po::value<std::string>()->value_name("FILE"), "tool table in LinuxCNC's format, mm: lengths for G43, diameters for G41 and G42");
     // clang-format on
 }
 
-bool read_block_delete(const po::variables_map& values) {
-    if (values.count("block-delete") == 0) return true;
-    return values["block-delete"].as<std::string>() == "on";
-}
-
-std::string read_dialect(const po::variables_map& values) {
-    return values.count("dialect") > 0 ? values["dialect"].as<std::string>() : std::string();
+io::ProgramOptions read_program_options(const po::variables_map& values) {
+    io::ProgramOptions options;
+    if (values.count("dialect") > 0) options.dialect = values["dialect"].as<std::string>();
+    if (values.count("block-delete") > 0) options.block_delete = values["block-delete"].as<std::string>() == "on";
+    if (values.count("tools") > 0) options.tools = values["tools"].as<std::string>();
+    return options;
 }
 
 void declare_log_options(po::options_description& options) {

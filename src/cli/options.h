@@ -11,6 +11,7 @@
 #include "core/diagnostic.h"
 #include "core/geometry.h"
 #include "io/log_format.h"
+#include "io/program_file.h"
 
 namespace clsurf::cli {
 
@@ -24,10 +25,9 @@ struct CommonOptions {
 void declare_common(po::options_description& options);
 [[nodiscard]] CommonOptions read_common(const po::variables_map& values);
 
-/// --dialect, --block-delete
+/// --dialect, --block-delete, --tools
 void declare_program_options(po::options_description& options);
-[[nodiscard]] std::string read_dialect(const po::variables_map& values);
-[[nodiscard]] bool read_block_delete(const po::variables_map& values);
+[[nodiscard]] io::ProgramOptions read_program_options(const po::variables_map& values);
 
 /// --layout, --mapping, --period
 void declare_log_options(po::options_description& options);

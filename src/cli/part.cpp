@@ -35,8 +35,7 @@ PartOptions read_part_options(const po::variables_map& values) {
     PartOptions options;
     options.program = required(values, "PROGRAM");
     options.log = required(values, "LOG");
-    options.dialect = read_dialect(values);
-    options.block_delete = read_block_delete(values);
+    options.program_options = read_program_options(values);
     options.log_options = read_log_options(values);
     options.use_line_channel = values.count("ignore-lines") == 0;
     if (values.count("surface") > 0) options.role = parse_role(values["surface"].as<std::string>());
@@ -49,7 +48,7 @@ Part load_part(const PartOptions& options, StageClock& clock) {
     Part part;
     clock.begin("read the program");
     const io::Source program = io::map_file(options.program);
-    part.program = io::read_program(program, options.dialect, options.block_delete);
+    part.program = io::read_program(program, options.program_options);
     clock.begin("open the log");
     part.log = io::open_log(options.log, options.log_options);
     if (part.log.records == 0) throw InputError(Place::of_file(part.log.name), "holds no records");

@@ -19,8 +19,7 @@ namespace clsurf::cli {
 
 struct PartOptions {
     std::string program, log;
-    std::string dialect;
-    bool block_delete = true;
+    io::ProgramOptions program_options;
     io::LogOptions log_options;
     Role role = Role::commanded;
     bool role_given = true;         ///< false: commanded where the log has it
@@ -28,7 +27,7 @@ struct PartOptions {
     bool use_line_channel = true;
 };
 
-/// --dialect, --block-delete, --layout, --mapping, --period, --surface, --work-offset, --ignore-lines.
+/// --dialect, --block-delete, --tools, --layout, --mapping, --period, --surface, --work-offset, --ignore-lines.
 void declare_part(po::options_description& options);
 [[nodiscard]] PartOptions read_part_options(const po::variables_map& values);
 

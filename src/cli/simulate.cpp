@@ -39,7 +39,7 @@ ExitCode run(const po::variables_map& values) {
     }
     const std::string path = required(values, "PROGRAM");
     const io::Source source = io::map_file(path);
-    const Program program = io::read_program(source, read_dialect(values), read_block_delete(values));
+    const Program program = io::read_program(source, read_program_options(values));
     io::SimulatedLogWriter log(output, machine, io::with_programs("{}", std::vector<ProgramReference>{io::identify(source)}));
     ProgressBar bar(read_common(values));
     const SimulationSummary summary = simulate(

@@ -53,6 +53,15 @@ clsurf_cli_test(NAME program_with_a_wrong_arc
   SETUP "printf 'G0 X0 Y0\\nG2 X10 Y0 I4 J0 F100\\n' > part.nc" ARGS moves part.nc EXIT 3
   STDERR "part.nc:2:" "4" "6")
 
+# ---- tool tables ----
+clsurf_cli_test(NAME tools_of_the_user
+  SETUP "printf 'T7 D4 Z10\\n' > part.tbl; printf 'T7 M6\\nG43\\nG0 X1\\nG41 D7\\nG1 X10 F60\\n' > part.ngc"
+  ARGS moves part.ngc --dialect linuxcnc --tools part.tbl STDOUT "3,rapid,1,0,-10," "5,feed,10,2,-10,")
+clsurf_cli_test(NAME tools_missing SETUP "echo 'G0 X7' > part.nc" ARGS moves part.nc --tools nowhere.tbl EXIT 3
+  STDERR "nowhere.tbl: error: cannot open")
+clsurf_cli_test(NAME tools_malformed SETUP "echo 'G0 X7' > part.nc; echo 'T1 D' > part.tbl" ARGS info part.nc --tools part.tbl
+  EXIT 3 STDERR "part.tbl:1:5: error: expected a number after D")
+
 # ---- logs that cannot be used ----
 set(part @DATA@/programs/bottle_uneven.nc)
 clsurf_cli_test(NAME log_missing ARGS render ${part} nowhere.biip -o map.png EXIT 3 STDERR "nowhere.biip: error: cannot open")

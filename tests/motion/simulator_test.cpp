@@ -23,7 +23,7 @@ struct Recorded {
 Recorded run(const std::string& text, const Machine& machine) {
     auto kept = std::make_shared<const std::string>(text);
     io::Source source{"made.ngc", std::as_bytes(std::span(kept->data(), kept->size())), kept};
-    const Program program = io::read_program(source, "linuxcnc");
+    const Program program = io::read_program(source, {.dialect = "linuxcnc", .tools = {}});
     Recorded recorded;
     recorded.summary = simulate(program, machine, Vec3::Zero(), [&](std::span<const SimulatedPoint> p) { recorded.points.insert(recorded.points.end(), p.begin(), p.end()); }, {});
     return recorded;

@@ -19,7 +19,7 @@ struct Sample {
 };
 
 double right_share(const Sample& sample) {
-    const Program program = io::read_program(std::string(SAMPLE_DATA "/programs/") + sample.program, "");
+    const Program program = io::read_program(std::string(SAMPLE_DATA "/programs/") + sample.program);
     io::LogOptions options;
     if (*sample.layout != 0) options.layout = std::string(SAMPLE_DATA "/logs/") + sample.layout;
     if (sample.period > 0) options.period = sample.period;
@@ -67,7 +67,7 @@ INSTANTIATE_TEST_SUITE_P(Recorded, Alignment,
                                          Sample{"mixed.ngc", "mixed.csv", "", 0.001}));
 
 TEST(LineMap, WarnsOfALogThatBelongsToAnotherProgram) {
-    const Program program = io::read_program(SAMPLE_DATA "/programs/petal_loops_g64.ngc", "");
+    const Program program = io::read_program(SAMPLE_DATA "/programs/petal_loops_g64.ngc");
     const Log log = io::open_log(SAMPLE_LOGS "/bottle_uneven.biip", {});
     const Trajectory path = reconstruct(log, Role::commanded, Vec3::Zero());
     Diagnostics diagnostics;
@@ -78,7 +78,7 @@ TEST(LineMap, WarnsOfALogThatBelongsToAnotherProgram) {
 }
 
 TEST(LineMap, FindsItsPlaceInALogThatBeginsInTheMiddle) {
-    const Program program = io::read_program(SAMPLE_DATA "/programs/bottle_uneven.nc", "");
+    const Program program = io::read_program(SAMPLE_DATA "/programs/bottle_uneven.nc");
     const Log log = io::open_log(SAMPLE_LOGS "/bottle_uneven.biip", {});
     Trajectory path = reconstruct(log, Role::commanded, Vec3::Zero());
     constexpr PointIndex cut = 12'000;

@@ -21,7 +21,7 @@ struct Displaced {
     Log log;
     Trajectory path;
     explicit Displaced(const Sample& sample)
-        : program(io::read_program(std::string(SAMPLE_DATA "/programs/") + sample.program, "")),
+        : program(io::read_program(std::string(SAMPLE_DATA "/programs/") + sample.program)),
           log(io::open_log(std::string(SAMPLE_LOGS "/") + sample.log, {})),
           path(reconstruct(log, Role::commanded, displaced)) {}
     /// Only the points from `first` on, `count` of them.

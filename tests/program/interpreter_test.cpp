@@ -138,7 +138,7 @@ TEST(Dialect, IsDetectedFromItsWords) {
 }
 
 TEST(Program, ReadsARealFiveAxisProgram) {
-    const Program p = io::read_program(SAMPLE_DATA "/programs/keychain.mpf", "");
+    const Program p = io::read_program(SAMPLE_DATA "/programs/keychain.mpf");
     EXPECT_EQ(p.dialect->name, "siemens");
     EXPECT_GT(p.motions.size(), 500);
     EXPECT_EQ(p.diagnostics.count("program.unknown-word"), 0u);

@@ -66,7 +66,7 @@ TEST(Defects, AreTheSameForAnyNumberOfThreads) {
 TEST(Defects, OfARecordedPartAreWhereTheProgramHasThem) {
     // Five passes of the sample have a stretch of points 0.02 mm apart, where the kernel falls from
     // 3000 to some 600 mm/min (data/programs/README.md).
-    const Program program = io::read_program(SAMPLE_DATA "/programs/bottle_uneven.nc", "", true);
+    const Program program = io::read_program(SAMPLE_DATA "/programs/bottle_uneven.nc");
     const Log log = io::open_log(SAMPLE_LOGS "/bottle_uneven.biip", {});
     Diagnostics diagnostics;
     const Trajectory path = reconstruct(log, Role::commanded, Vec3::Zero());
