@@ -26,12 +26,21 @@ namespace {
 /// RS274 takes blanks inside numbers: "1 0 . 5" is 10.5. The digits move together, what follows stays.
 void close_numbers(std::string& text) {
     const auto of_number = [](char c) { return is_digit(c) || c == '.'; };
-    for (std::size_t i = 0; i + 1 < text.size(); ++i) {
-        if (!of_number(text[i]) || text[i + 1] != ' ') continue;
-        const std::size_t next = text.find_first_not_of(' ', i + 1);
-        if (next == std::string::npos || !of_number(text[next])) continue;
-        std::swap(text[i + 1], text[next]);
+    std::size_t to = 0;      // where the next character goes
+    std::size_t blanks = 0;  // after a number, held back
+    bool in_number = false;
+    for (const char c : text) {
+        if (c == ' ' && in_number) {
+            ++blanks;
+            continue;
+        }
+        if (!of_number(c)) {
+            for (; blanks > 0; --blanks) text[to++] = ' ';
+        }
+        in_number = of_number(c);
+        text[to++] = c;
     }
+    for (; blanks > 0; --blanks) text[to++] = ' ';
 }
 
 }  // namespace
@@ -60,7 +69,10 @@ Statement clean_line(std::string_view line, DialectId dialect) {
         std::fill(text.begin() + static_cast<std::ptrdiff_t>(i), text.begin() + static_cast<std::ptrdiff_t>(stop), ' ');
         i = stop - 1;
     }
-    if (dialect == DialectId::heidenhain_iso) std::replace(text.begin(), text.end(), '*', ' ');
+    if (dialect == DialectId::heidenhain_iso) {
+        std::replace(text.begin(), text.end(), '*', ' ');
+        std::replace(text.begin(), text.end(), '~', ' ');  // a block that goes on
+    }
     if (dialect == DialectId::linuxcnc && text.find('"') == std::string::npos) close_numbers(text);
     while (!text.empty() && text.back() == ' ') text.pop_back();
     std::size_t at = text.find_first_not_of(' ');
@@ -68,12 +80,14 @@ Statement clean_line(std::string_view line, DialectId dialect) {
         text.clear();
         return statement;
     }
-    if (text[at] == '/') {
+    const auto take_skip = [&](std::size_t slash) {
+        if (slash >= text.size() || text[slash] != '/') return;
         statement.deleted = true;
-        text[at] = ' ';
+        text[slash] = ' ';
         // A skip level, /1 … /9.
-        if (at + 1 < text.size() && is_digit(text[at + 1]) && dialect != DialectId::linuxcnc) text[at + 1] = ' ';
-    }
+        if (slash + 1 < text.size() && is_digit(text[slash + 1]) && dialect != DialectId::linuxcnc) text[slash + 1] = ' ';
+    };
+    take_skip(at);
     // "%" alone begins and ends a tape; "%name" is a program's name.
     if (text[at] == '%') {
         statement.tape_mark = true;
@@ -87,6 +101,7 @@ Statement clean_line(std::string_view line, DialectId dialect) {
         std::size_t end = at + 1;
         while (end < text.size() && (is_digit(text[end]) || text[end] == '.' || text[end] == ' ')) ++end;
         std::fill(text.begin() + static_cast<std::ptrdiff_t>(at), text.begin() + static_cast<std::ptrdiff_t>(end), ' ');
+        take_skip(end);
     }
     return statement;
 }
@@ -95,7 +110,7 @@ namespace {
 
 struct NumberedAssignment {
     int number;
-    double value;
+    std::optional<double> value;  ///< nullopt: vacant
 };
 struct NamedAssignment {
     std::string name;
@@ -127,7 +142,10 @@ public:
                 throw ReadError{std::string("expected a word, found '") + next + "'", c_.column(), {}};
             }
         }
-        for (const NumberedAssignment& a : numbered_) variables_.set(a.number, a.value);
+        for (const NumberedAssignment& a : numbered_) {
+            if (a.value) variables_.set(a.number, *a.value);
+            else variables_.forget(a.number);
+        }
         for (const NamedAssignment& a : named_) variables_.set(a.name, a.value);
     }
 
@@ -150,7 +168,8 @@ private:
         const double number = read_value(c_, variables_, dialect_);
         if (!(number >= 0 && number < 1e6)) throw ReadError{"no such variable number", column, {}};
         expect_equals();
-        numbered_.push_back({static_cast<int>(std::lround(number)), right_side()});
+        const std::optional<double> value = dialect_ == DialectId::fanuc ? evaluate_or_vacant(c_, variables_, dialect_) : right_side();
+        numbered_.push_back({static_cast<int>(std::lround(number)), value});
     }
     void expect_equals() {
         if (!c_.take('=')) throw ReadError{"expected '=' after the variable", c_.column(), {}};
@@ -182,6 +201,8 @@ private:
                 throw ReadError{std::string("word ") + letter + " is given twice", column, {}};
             }
             block_.words.set(letter, value, column);
+            const bool counted = dialect_ == DialectId::fanuc && letter >= 'I' && letter <= 'K';
+            if (counted) block_.centres.emplace_back(letter, value);
         }
     }
 
@@ -207,7 +228,8 @@ private:
             unknown(1);
             return;
         }
-        put(letter, read_value(c_, variables_, dialect_), column);
+        // A word with a vacant variable of Fanuc is not there.
+        if (const std::optional<double> value = read_or_vacant(c_, variables_, dialect_)) put(letter, *value, column);
     }
 
     /// After a letter only a function's name may stand for a value: `Xsin[30]`.
@@ -241,12 +263,21 @@ private:
             ++c_.at;
             return;
         }
+        if (first == '"' && !block_.keywords.empty()) {  // EXTCALL "NAME"
+            const std::size_t end = c_.text.find('"', c_.at + 1);
+            if (end == std::string_view::npos) throw ReadError{"'\"' is not closed", column, {}};
+            block_.keywords.back().arguments = std::string(c_.text.substr(c_.at, end + 1 - c_.at));
+            block_.keywords.back().has_arguments = true;
+            c_.at = end + 1;
+            return;
+        }
         if (!is_letter(first) && first != '_' && first != '$') {
             throw ReadError{std::string("expected a word, found '") + first + "'", column, {}};
         }
-        const std::string id = c_.identifier();
+        std::string id = c_.identifier();
         Cursor after = c_;
         after.at += id.size();
+        if (after.peek() == '[') id += element_index(after);
         // G1, X10, Z-5: a letter with its number.
         const std::size_t letters = static_cast<std::size_t>(
             std::find_if(id.begin(), id.end(), [](char ch) { return !is_letter(ch); }) - id.begin());
@@ -270,6 +301,38 @@ private:
             --c_.at;
         }
         keyword(id, after, column);
+    }
+
+    /// "[2,0]" of an array's element, evaluated; axis names stay ("[X]").
+    std::string element_index(Cursor& after) {
+        const std::size_t column = after.column();
+        const std::size_t close = after.text.find(']', after.at);
+        if (close == std::string_view::npos) throw ReadError{"'[' is not closed", column, {}};
+        Cursor inside = after;
+        after.at = close + 1;
+        ++inside.at;
+        const std::string axis = inside.identifier();
+        if (axis.size() == 1 && axis != "R") return "[" + axis + "]";
+        std::string index = "[";
+        do {
+            if (index.size() > 1) index += ',';
+            index += std::to_string(std::lround(evaluate(inside, variables_, dialect_)));
+        } while (inside.take(','));
+        if (!inside.take(']')) throw ReadError{"'[' is not closed", column, {}};
+        after.at = inside.at;
+        return index + "]";
+    }
+
+    /// IC(…): whether it stands here, and its value.
+    double incremental_value(bool& incremental) {
+        for (const auto& [name, adds] : {std::pair{std::string_view("IC"), true}, std::pair{std::string_view("AC"), false}}) {
+            Cursor inside = c_;
+            if (!inside.take_word(name) || inside.peek() != '(') continue;
+            c_ = inside;
+            incremental = adds;
+            return read_value(c_, variables_, dialect_);
+        }
+        return evaluate(c_, variables_, dialect_);
     }
 
     void keyword(const std::string& id, Cursor after, std::size_t column) {
@@ -328,6 +391,15 @@ private:
             put(letter, evaluate(c_, variables_, dialect_), column);
             return;
         }
+        if (id == "RP") {
+            block_.polar_radius = incremental_value(block_.polar_radius_incremental);
+            return;
+        }
+        if (id == "AP") {
+            block_.polar_angle = incremental_value(block_.polar_angle_incremental);
+            return;
+        }
+        static constexpr std::array<std::string_view, 11> of_blocks{"AR", "RPL", "I1", "J1", "K1", "RND", "RNDM", "CHR", "CHF", "ANG", "DISR"};
         const double value = evaluate(c_, variables_, dialect_);
         if (id == "CR") {
             put('R', value, column);
@@ -335,9 +407,13 @@ private:
             block_.extra_turns = static_cast<int>(std::clamp(std::round(value), 0.0, 1e6));
         } else if (id.size() > 1 && id[0] == 'R' && id.find_first_not_of("0123456789", 1) == std::string::npos && id.size() < 7) {
             variables_.set(100000 + std::stoi(id.substr(1)), value);
-        } else if (variables_.find(id) != nullptr) {
+        } else if (id.starts_with("R[")) {
+            variables_.set(100000 + std::stoi(id.substr(2)), value);
+        } else if (std::find(of_blocks.begin(), of_blocks.end(), id) != of_blocks.end()) {
+            block_.named.emplace_back(id, value);
+        } else if (variables_.find(id.substr(0, id.find('['))) != nullptr) {
             variables_.set(id, value);
-        } else if (id[0] == 'S' || id[0] == 'M' || id[0] == 'H') {
+        } else if (id[0] == 'S' || id[0] == 'M' || id[0] == 'H' || id == "LIMS" || id == "ADIS" || id == "ADISPOS" || id == "P") {
             block_.keywords.push_back({id + "=", std::to_string(value), true, column});  // S1=, M2=
         } else {
             block_.unknown.push_back({id + "=", column});

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "program/cursor.h"
@@ -30,9 +31,20 @@ struct Block {
     Words words;
     std::uint32_t absolute = 0, incremental = 0;  ///< letters given as AC(…), IC(…)
     int extra_turns = 0;                          ///< TURN=
-    std::optional<double> polar_radius, polar_angle;  ///< @ and ^ of LinuxCNC, as written
+    std::optional<double> polar_radius, polar_angle;  ///< @ and ^ of LinuxCNC, RP= and AP= of Siemens, as written
+    bool polar_radius_incremental = false, polar_angle_incremental = false;  ///< IC(…)
+    std::vector<std::pair<std::string, double>> named;  ///< words of several letters: AR=, RPL=, I1=
+    std::vector<std::pair<char, double>> centres; ///< every I, J, K of Fanuc, which macro calls count
     std::vector<Keyword> keywords;
     std::vector<UnknownWord> unknown;
+
+    /// The value of a word of several letters.
+    [[nodiscard]] std::optional<double> value_of(std::string_view name) const {
+        for (const auto& [key, value] : named) {
+            if (key == name) return value;
+        }
+        return std::nullopt;
+    }
 
     void clear() {
         words.clear();
@@ -40,6 +52,9 @@ struct Block {
         extra_turns = 0;
         polar_radius.reset();
         polar_angle.reset();
+        polar_radius_incremental = polar_angle_incremental = false;
+        named.clear();
+        centres.clear();
         keywords.clear();
         unknown.clear();
     }

@@ -18,15 +18,9 @@ struct NotedCode {
 };
 constexpr auto noted_everywhere = std::to_array<NotedCode>({
     {400, "cutter-compensation"}, {610, "path-mode"}, {611, "path-mode"}, {640, "path-mode"},
-    {960, "spindle-mode"}, {970, "spindle-mode"}, {80, "unused"}, {150, "polar"}, {130, "unused"},
-    {690, "rotation"}, {500, "scaling"}, {670, "modal-macro"},
+    {960, "spindle-mode"}, {970, "spindle-mode"}, {80, "unused"}, {130, "unused"},
+    
 });
-constexpr auto noted_siemens = std::to_array<int>({
-    90,  250, 260, 270, 330, 340, 350, 500, 600, 601, 602, 603, 2500, 4500, 4510, 4600, 4610, 4620,
-    6010, 6020, 6030, 620, 621, 641, 6410, 6420, 6430, 6440, 6450, 1470, 1480, 2470, 2480, 3470, 3480,
-    1400, 1410, 1420, 1430, 3400, 3410, 4000, 5000, 5100, 9610, 9710, 9730,
-});
-
 bool is(const Block& block, char letter) { return block.words.given(letter); }
 
 constexpr auto cycle_codes = std::to_array<int>({730, 740, 760, 810, 820, 830, 840, 850, 860, 870, 880, 890, 843});
@@ -38,7 +32,7 @@ int order_of(int code) {
         case 170: case 180: case 190: return 1;
         case 40: return 2;
         case 400: case 410: case 420: case 411: case 421: return 3;
-        case 200: case 210: case 700: case 710: case 7000: case 7100: return 1;
+        case 200: case 210: case 700: case 710: return 1;
         case 430: case 431: case 432: case 434: case 440: case 490: return 4;
         case 530: return 6;
         case 900: case 910: case 901: case 911: return 7;
@@ -55,12 +49,16 @@ void Interpreter::execute(Block& block) {
     machine_coordinates_ = false;
     motion_suppressed_ = false;
     call_program_ = -1;
+    arc_by_points_ = arc_by_points_ && block.words.g_count == 0;  // CIP stays until the next G code
+    if (data_entry_ && !is_data_end(block)) return;
+    if (macro_call(block)) return;
     for (const Keyword& keyword : block.keywords) {
         apply_keyword(keyword, block);
     }
     if (ended_) return;
-    if (dialect_ == DialectId::linuxcnc) change_tool(block);
+    change_tool(block);
     settle_codes(block);
+    take_pole(block);
     if (is(block, 'F') && !motion_suppressed_) state_.feed = block.words.of('F');
     if (is(block, 'S')) {
         if (block.words.of('S') < 0) note(Severity::warning, "program.spindle", "negative spindle speed");
@@ -77,6 +75,7 @@ void Interpreter::execute(Block& block) {
             apply_m(code, block);
         }
     }
+    const std::int64_t before = program_.motions.size();
     if (!motion_suppressed_) move(block);
     if (dialect_ == DialectId::linuxcnc) read_machine_position(block);
     report_unused(block);
@@ -90,6 +89,8 @@ void Interpreter::execute(Block& block) {
     }
     if (ended_) return;
     if (dialect_ != DialectId::linuxcnc) call_from_words(block);
+    const bool calls = modal_call_.active && frames_.size() == modal_call_.level && program_.motions.size() > before;
+    if (calls) run_modal_call();
 }
 
 void Interpreter::settle_codes(Block& block) {
@@ -97,7 +98,12 @@ void Interpreter::settle_codes(Block& block) {
     std::array<int, Words::most_codes> sequence{};
     for (int i = 0; i < count; ++i) sequence[static_cast<std::size_t>(i)] = i;
     std::stable_sort(sequence.begin(), sequence.begin() + count, [&](int a, int b) {
-        return order_of(block.words.g[static_cast<std::size_t>(a)]) < order_of(block.words.g[static_cast<std::size_t>(b)]);
+        const auto order = [&](int k) {
+            const int code = block.words.g[static_cast<std::size_t>(k)];
+            // Heidenhain's G54 is no work system: its words count as G90 or G91 has it.
+            return dialect_ == DialectId::heidenhain_iso && code == 540 ? order_of(520) : order_of(code);
+        };
+        return order(a) < order(b);
     });
     for (int i = 0; i < count; ++i) {
         const auto k = static_cast<std::size_t>(sequence[static_cast<std::size_t>(i)]);
@@ -128,7 +134,10 @@ void Interpreter::apply_common(int code, Block& block, std::size_t column) {
         case 280: case 300: reference(code, block); return;
         case 330: state_.motion = MotionMode::thread; return;
         case 430: case 431: case 432: case 440: case 490: tool_length(code, block); return;
-        case 434: case 435: event("tool-centre-point", code_text(code)); return;
+        case 434: case 435:
+            tool_length(code, block);
+            event("tool-centre-point", code_text(code));
+            return;
         case 520: case 920: case 921: case 922: case 923:
             if (code == 520 || code == 920) shift_position(block);
             else restore_shift(code);
@@ -152,8 +161,11 @@ void Interpreter::apply_common(int code, Block& block, std::size_t column) {
         case 980: state_.retract_to_r = false; return;
         case 990: state_.retract_to_r = true; return;
         case 410: case 420: case 411: case 421:
-            note(Severity::warning, "program.cutter-compensation",
-                 code_text(code) + ": the path is read as programmed, without cutter compensation", column);
+            compensate_by_table(code, block, column);
+            return;
+        case 400:
+            if (!compensation_.on()) break;
+            stop_compensation();
             return;
         default: break;
     }
@@ -200,69 +212,9 @@ bool Interpreter::apply_of_dialect(int code, Block& block, std::size_t column) {
                 case 690: return false;
                 default: return false;
             }
-        case DialectId::fanuc:
-            switch (code) {
-                case 50: case 51: case 80: case 81:
-                    event("high-speed", code_text(code) + words_text(block, "PQR"));
-                    motion_suppressed_ = (block.words.has & (Words::bit('X') | Words::bit('Y') | Words::bit('Z'))) == 0;
-                    block.words.has &= ~(Words::bit('P') | Words::bit('Q') | Words::bit('R'));
-                    return true;
-                case 90:
-                    return false;
-                case 100: set_offsets(block); return true;
-                case 650: motion_suppressed_ = true; return true;  // its words are arguments (flow.cpp)
-                case 502: note(Severity::warning, "program.polygon", "G50.2 is not carried out", column); return true;
-                case 510:
-                    note(Severity::warning, "program.scaling", "G51: scaling is not carried out, the path is read as programmed", column);
-                    motion_suppressed_ = true;
-                    return true;
-                case 680: case 682:
-                    note(Severity::warning, "program.rotation", code_text(code) + ": rotation is not carried out, the path is read as programmed", column);
-                    motion_suppressed_ = true;
-                    return true;
-                default: return false;
-            }
-        case DialectId::siemens:
-            switch (code) {
-                case 700: case 7000: state_.unit_mm = mm_per_inch; return true;
-                case 710: case 7100: state_.unit_mm = 1; return true;
-                case 530: case 1530: machine_coordinates_ = true; return true;
-                case 5000: select_work_system(0); return true;
-                case 740: case 750:
-                    event("reference", code_text(code));
-                    motion_suppressed_ = true;
-                    return true;
-                case 1100: case 1110: case 1120:
-                    note(Severity::warning, "program.polar", code_text(code) + ": polar coordinates are not carried out", column);
-                    motion_suppressed_ = true;
-                    return true;
-                case 280: case 300: case 430: case 520: case 920: return false;
-                default: break;
-            }
-            if (code >= 5050 && code <= 5990) {
-                select_work_system((code - 5050) / 10 + 5);
-                return true;
-            }
-            if (std::find(noted_siemens.begin(), noted_siemens.end(), code) != noted_siemens.end()) {
-                event("mode", code_text(code));
-                return true;
-            }
-            return false;
-        case DialectId::heidenhain_iso:
-            switch (code) {
-                case 700: state_.unit_mm = mm_per_inch; return true;
-                case 710: state_.unit_mm = 1; return true;
-                case 300: case 310:  // blank form
-                case 990: case 980:
-                    motion_suppressed_ = true;
-                    return true;
-                case 290: event("pole", words_text(block, "IJK")); motion_suppressed_ = true; return true;
-                case 60: case 70: case 100: case 110: case 120: case 130: case 150: case 160: case 240: case 250: case 270:
-                    note(Severity::warning, "program.unknown-word", code_text(code) + " is not carried out", column);
-                    motion_suppressed_ = true;
-                    return true;
-                default: return false;
-            }
+        case DialectId::fanuc: return apply_fanuc(code, block, column);
+        case DialectId::siemens: return apply_siemens(code, block, column);
+        case DialectId::heidenhain_iso: return apply_heidenhain(code, block, column);
     }
     return false;
 }
@@ -289,7 +241,7 @@ void Interpreter::apply_m(int code, const Block& block) {
                     // M99 P: back to that block of the caller.
                     const double number = block.words.of('P');
                     leave(false);
-                    const LineNumber line = find_block_number(program_.files[file_], number, 0, 0);
+                    const LineNumber line = find_block(number, 0, 0);
                     if (line == 0) fail(fmt::format("M99 P{:g}: there is no block N{:g}", number, number));
                     go_to(file_, line);
                 } else {
@@ -297,75 +249,18 @@ void Interpreter::apply_m(int code, const Block& block) {
                 }
             }
             return;
+        case 91: case 92:
+            if (dialect_ == DialectId::heidenhain_iso) {
+                machine_coordinates_ = code == 91;
+                if (code == 92) note(Severity::warning, "program.unknown-word", "M92: the machine's second zero is not known");
+                return;
+            }
+            event("m-code", fmt::format("M{}", code));
+            return;
         default:
             event("m-code", fmt::format("M{}", code) + words_text(block, "PQ"));
             return;
     }
-}
-
-void Interpreter::apply_keyword(const Keyword& keyword, Block& block) {
-    const std::string& name = keyword.name;
-    if (name == "SUPA" || name == "G153") {
-        machine_coordinates_ = true;
-        return;
-    }
-    if (name == "TRAORI" || name == "TRAFOOF" || name == "CYCLE832" || name == "FFWON" || name == "FFWOF" ||
-        name == "SOFT" || name == "BRISK" || name.starts_with("COMP")) {
-        event(name == "TRAORI" || name == "TRAFOOF" ? "tool-centre-point" : name == "CYCLE832" ? "high-speed" : "mode",
-              keyword.has_arguments ? name + "(" + keyword.arguments + ")" : name);
-        return;
-    }
-    if (name == "MCALL") {
-        modal_call_.clear();
-        event("modal-call", "MCALL");
-        return;
-    }
-    // What follows MCALL in the block is called after every motion.
-    const bool after_mcall = std::any_of(block.keywords.begin(), block.keywords.end(),
-                                         [&](const Keyword& k) { return k.name == "MCALL"; });
-    if (after_mcall) {
-        modal_call_ = name;
-        note(Severity::warning, "program.modal-call",
-             "MCALL " + name + ": the strokes at each position are not known, the positions are read", keyword.column);
-        return;
-    }
-    if (name == "T=" || name == "TLPREP" ) {
-        event("tool", "T=\"" + keyword.arguments + "\"");
-        return;
-    }
-    static constexpr auto noted = std::to_array<std::string_view>({
-        "CYCLE800", "MSG", "COMPOF", "COMPON", "FNORM", "FLIN", "FCUB", "FFWON", "G0", "STOPRE", "AMIRROR",
-        "AROT", "ROT", "TRANS", "ATRANS", "SCALE", "ASCALE", "MIRROR", "ORIWKS", "ORIMKS", "ORIAXES", "ORIVECT",
-        "OTOL", "CTOL", "UPATH", "SPATH", "DIAMOF", "DIAMON", "CDOF", "CUT2D", "CUT2DF", "ORISOF", "WORKPIECE"});
-    const bool frame = name == "AROT" || name == "ROT" || name == "TRANS" || name == "ATRANS" || name == "SCALE" ||
-                       name == "ASCALE" || name == "MIRROR" || name == "AMIRROR";
-    if (frame) {
-        // The words belong to the frame, not to a motion. Positions stay those of the programmed frame.
-        event("frame", name + words_text(block, "XYZABC"));
-        motion_suppressed_ = true;
-        block.words.has = 0;
-        return;
-    }
-    if (std::find(noted.begin(), noted.end(), name) != noted.end() || name.ends_with("=")) {
-        event("mode", keyword.has_arguments ? name + "(" + keyword.arguments + ")" : name);
-        return;
-    }
-    if (name.starts_with("CYCLE") || name.starts_with("HOLES") || name.starts_with("POCKET") || name.starts_with("SLOT")) {
-        note(Severity::warning, "program.cycle", name + " is not carried out", keyword.column);
-        return;
-    }
-    if (dialect_ == DialectId::siemens) {
-        const int repeats = is(block, 'P') ? static_cast<int>(std::clamp(block.words.of('P'), 1.0, 9999.0)) : 1;
-        if (indexed_[file_] || options_.load) {
-            const bool here = index(file_).find(ControlKind::label, name) >= 0;
-            if (here || (options_.load && options_.load(name))) {
-                call(name, repeats, true, {});
-                motion_suppressed_ = true;
-                return;
-            }
-        }
-    }
-    note(Severity::warning, "program.unknown-word", "'" + name + "' is not known", keyword.column);
 }
 
 void Interpreter::dwell(const Block& block) {
@@ -393,6 +288,10 @@ void Interpreter::dwell(const Block& block) {
 void Interpreter::report_unused(const Block& block) {
     for (const UnknownWord& word : block.unknown) {
         note(Severity::warning, "program.unknown-word", "'" + word.text + "' is not known", word.column);
+    }
+    for (const auto& [name, value] : block.named) {
+        const bool corner = name == "RND" || name == "RNDM" || name == "CHR" || name == "CHF" || name == "ANG" || name == "DISR";
+        if (corner) note(Severity::warning, "program.corner", fmt::format("{}={:g} is not carried out: the corner is read as programmed", name, value));
     }
     for (const char letter : {'V', 'W', 'U', 'E'}) {
         if (!is(block, letter) || motion_suppressed_) continue;

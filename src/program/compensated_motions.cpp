@@ -52,7 +52,43 @@ void Interpreter::start_compensation(int code, const Block& block, std::size_t c
     event("cutter-compensation", fmt::format("{} D{:g}", code_text(code), diameter));
 }
 
+/// G41 and G42 of the controls: Fanuc's D is a row of the table, the others take the tool in the
+/// spindle. Mirroring turns the side round.
+void Interpreter::compensate_by_table(int code, const Block& block, std::size_t column) {
+    if (tools_.tools.empty()) {
+        note(Severity::warning, "program.cutter-compensation",
+             code_text(code) + ": the path is read as programmed, without cutter compensation (--tools gives the diameters)", column);
+        return;
+    }
+    double diameter = tool_.diameter;
+    if (dialect_ == DialectId::fanuc) {
+        if (block.words.given('D')) radius_number_ = static_cast<int>(std::clamp(std::round(block.words.of('D')), 0.0, 1e6));
+        diameter = tool_of(radius_number_, column).diameter;
+    }
+    if (compensation_.on()) stop_compensation();
+    if (diameter == 0) {
+        note(Severity::warning, "program.cutter-compensation",
+             code_text(code) + ": the tool has no diameter, the path is read as programmed", column);
+    }
+    const std::optional<ProgramFrame::Circle> circle = state_.frame.circle(state_.plane_axis);
+    if (!circle) fail("cutter compensation in a tilted or unevenly scaled frame is not supported", column);
+    compensation_.start((code == 410) != circle->reversed, 0.5 * diameter);
+    enters_beside_ = true;
+    event("cutter-compensation", fmt::format("{} D{:g}", code_text(code), diameter));
+}
+
+/// The controls go to the point beside the begin of the first compensated motion: the ends of the
+/// motions since G41 are moved there when that one is known.
+void Interpreter::enter_compensation(const Vec2& direction) {
+    const int axis = state_.plane_axis;
+    const Vec2 beside = compensation_.enter_beside(in_plane(state_.position, axis), direction);
+    Motions& m = program_.motions;
+    for (std::size_t i = open_motions_; i < m.end.size() && entry_programmed_; ++i) m.end[i] = Xyz(from_plane(beside, m.end[i].vec()[axis], axis));
+    enters_beside_ = entry_programmed_ = false;
+}
+
 void Interpreter::stop_compensation() {
+    enters_beside_ = entry_programmed_ = false;
     const std::string error = compensation_.finish();
     if (!error.empty()) fail(error);
     if (compensation_.entered()) {
@@ -64,7 +100,7 @@ void Interpreter::stop_compensation() {
 }
 
 void Interpreter::refuse_in_compensation(int code, const Block& block, std::size_t column) const {
-    if (!compensation_.on()) return;
+    if (!compensation_.on() || dialect_ != DialectId::linuxcnc) return;
     const bool other_plane = std::find(plane_codes.begin(), plane_codes.end(), code) != plane_codes.end() &&
                              plane_codes[static_cast<std::size_t>(state_.plane_axis)] != code;
     const bool system_moves = code == 100 && block.words.given('L') && (block.words.of('L') == 2 || block.words.of('L') == 20);
@@ -84,11 +120,28 @@ void Interpreter::compensated_straight(MotionKind kind, const Vec3& end, const V
         return;
     }
     const int axis = state_.plane_axis;
+    if (enters_beside_) {
+        const Vec2 way = in_plane(end, axis) - in_plane(state_.position, axis);
+        if (!entry_programmed_ || way.isZero()) {
+            if (!entry_programmed_) open_motions_ = program_.motions.end.size();
+            entry_programmed_ = entry_programmed_ || !way.isZero();
+            if (!entry_programmed_) open_motions_ = program_.motions.end.size() + 1;
+            straight(kind, end, rotary);
+            return;
+        }
+        enter_compensation(way.normalized());
+    }
     push_compensated(compensation_.line(in_plane(state_.position, axis), in_plane(end, axis)), kind, end, rotary);
 }
 
 void Interpreter::compensated_arc(const Arc& arc, bool clockwise, const Vec3& end, const Vec3& rotary) {
     const int axis = state_.plane_axis;
+    if (enters_beside_) {
+        const Vec2 out = in_plane(state_.position, axis) - in_plane(arc.centre.vec(), axis);
+        const Vec2 tangent = clockwise ? Vec2(out.y(), -out.x()) : Vec2(-out.y(), out.x());
+        if (!entry_programmed_) fail("cutter compensation must begin with a straight motion");
+        enter_compensation(tangent.normalized());
+    }
     const CompensatedStep step = compensation_.arc(in_plane(state_.position, axis), in_plane(end, axis),
                                                    in_plane(arc.centre.vec(), axis), !clockwise);
     push_compensated(step, MotionKind::feed, end, rotary, arc);

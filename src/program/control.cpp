@@ -118,6 +118,7 @@ Control parse_fanuc(std::string_view statement) {
         std::size_t at = find_word(statement, "GOTO", c.at);
         if (at != std::string_view::npos) {
             control.kind = ControlKind::if_go_to;
+            control.target = at + 4;
             Cursor target{statement, at + 4};
             control.label = number_label(target);
             return control;
@@ -132,7 +133,7 @@ Control parse_fanuc(std::string_view statement) {
         c.skip_blanks();
         c.at += 4;
         control.kind = ControlKind::go_to;
-        control.rest = c.at;
+        control.target = c.at;
         control.label = number_label(c);
         return control;
     }
@@ -204,7 +205,10 @@ Control parse_siemens(std::string_view statement) {
         control.rest = after.at;
         if (id == "LOOP") control.rest = std::string_view::npos;
         if (id == "REPEAT" && !after.identifier().empty()) {
-            throw ReadError{"REPEAT of a section is not known", c.column(), {}};
+            control.kind = ControlKind::repeat_section;
+            control.label = after.identifier();
+            control.rest = after.at + after.text.substr(after.at).find_first_not_of(' ') + control.label.size();
+            return control;
         }
         if (row.kind == ControlKind::if_begin) {
             const std::size_t at = find_word(statement, "GOTO", after.at);
@@ -268,6 +272,7 @@ ControlIndex::ControlIndex(const SourceText& text, DialectId dialect) {
         }
         if (control.kind == ControlKind::none) continue;
         control.line = line;
+        if (control.kind == ControlKind::sub || control.kind == ControlKind::label) named_[control.label].push_back(static_cast<int>(controls_.size()));
         controls_.push_back(std::move(control));
     }
     match();
@@ -344,21 +349,18 @@ int ControlIndex::at_line(LineNumber line) const {
 }
 
 int ControlIndex::find(ControlKind kind, const std::string& label, LineNumber line, int direction) const {
-    const auto matches = [&](const Control& c) { return c.kind == kind && c.label == label; };
-    const int count = static_cast<int>(controls_.size());
-    if (direction < 0) {
-        for (int i = count - 1; i >= 0; --i) {
-            const Control& c = controls_[static_cast<std::size_t>(i)];
-            if (c.line < line && matches(c)) return i;
-        }
-        return -1;
-    }
-    for (int i = 0; i < count; ++i) {
+    const auto named = named_.find(label);
+    if (named == named_.end()) return -1;
+    int before = -1;
+    int first = -1;
+    for (const int i : named->second) {
         const Control& c = controls_[static_cast<std::size_t>(i)];
-        if (c.line > line && matches(c)) return i;
+        if (c.kind != kind) continue;
+        if (first < 0) first = i;
+        if (c.line < line) before = i;
+        if (c.line > line && direction >= 0) return i;
     }
-    if (direction > 0 || line == 0) return -1;
-    return find(kind, label, 0, 0);
+    return direction < 0 ? before : direction == 0 && line != 0 ? first : -1;
 }
 
 int ControlIndex::loop_around(LineNumber line, const std::string& label) const {
@@ -373,11 +375,9 @@ int ControlIndex::loop_around(LineNumber line, const std::string& label) const {
     return best;
 }
 
-LineNumber find_block_number(const SourceText& text, double number, LineNumber line, int direction) {
-    LineNumber before = 0;
+BlockNumbers::BlockNumbers(const SourceText& text) {
     LineNumber at = 0;
     std::string_view rest = text.text();
-    LineNumber first = 0;
     while (!rest.empty()) {
         ++at;
         const std::size_t end = rest.find('\n');
@@ -386,13 +386,21 @@ LineNumber find_block_number(const SourceText& text, double number, LineNumber l
         while (!here.empty() && (is_blank(here.front()) || here.front() == '/')) here.remove_prefix(1);
         if (here.empty() || upper(here.front()) != 'N') continue;
         double value = 0;
-        if (read_decimal(here, 1, value) == 1 || value != number) continue;
-        if (first == 0) first = at;
-        if (at > line && direction >= 0) return at;
-        if (at < line) before = at;
+        if (read_decimal(here, 1, value) != 1) lines_.emplace_back(value, at);
     }
-    if (direction < 0) return before;
-    return direction == 0 ? first : 0;
+    std::sort(lines_.begin(), lines_.end());
+}
+
+LineNumber BlockNumbers::find(double number, LineNumber line, int direction) const {
+    const auto after = std::upper_bound(lines_.begin(), lines_.end(), std::pair(number, line));
+    if (direction >= 0 && after != lines_.end() && after->first == number) return after->second;
+    if (direction > 0) return 0;
+    if (direction == 0) {
+        const auto first = std::lower_bound(lines_.begin(), lines_.end(), std::pair(number, LineNumber{0}));
+        return first != lines_.end() && first->first == number ? first->second : 0;
+    }
+    const auto before = std::lower_bound(lines_.begin(), lines_.end(), std::pair(number, line));
+    return before != lines_.begin() && std::prev(before)->first == number ? std::prev(before)->second : 0;
 }
 
 }  // namespace clsurf

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "core/point.h"
@@ -24,6 +26,7 @@ enum class ControlKind : std::uint8_t {
     break_loop, continue_loop,
     go_to, if_go_to, if_then,             // IF […] GOTO n, IF […] THEN …
     label,                                // a place to jump to; a program number
+    repeat_section,                       // REPEAT LABEL P=n: from the label on, n times more
     end_loop,                             // end of an endless loop
 };
 
@@ -31,6 +34,7 @@ struct Control {
     ControlKind kind = ControlKind::none;
     std::string label;      ///< O-word, DO number, GOTO target, label: upper or lower case as compared
     std::size_t rest = 0;   ///< byte of the statement where its expression or arguments begin
+    std::size_t target = 0; ///< of IF … GOTO: byte where the target begins
     int direction = 0;      ///< of a GOTO: +1 forward, −1 backward, 0 both
     LineNumber line = 0;    ///< where it stands, in an index
     int partner = -1;       ///< index of its other end: while ↔ end, if → its endif
@@ -59,11 +63,20 @@ private:
     void match();
 
     std::vector<Control> controls_;
+    std::unordered_map<std::string, std::vector<int>> named_;  ///< subs and labels, in order
 };
 
-/// The line of block number `number` nearest after `line` in `direction` (0: forward, then from the
-/// start), or 0. O(text).
-[[nodiscard]] LineNumber find_block_number(const SourceText& text, double number, LineNumber line,
-                                           int direction);
+/// The lines of all block numbers of a text. Built when a jump first needs it. O(text).
+class BlockNumbers {
+public:
+    BlockNumbers() = default;
+    explicit BlockNumbers(const SourceText& text);
+    /// The line of block `number` nearest after `line` in `direction` (0: forward, then from the
+    /// start), or 0. O(log lines).
+    [[nodiscard]] LineNumber find(double number, LineNumber line, int direction) const;
+
+private:
+    std::vector<std::pair<double, LineNumber>> lines_;  ///< sorted
+};
 
 }  // namespace clsurf

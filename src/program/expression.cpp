@@ -3,6 +3,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "core/units.h"
@@ -35,20 +36,22 @@ std::string Cursor::identifier() {
     return name;
 }
 
-double Variables::get(int number) const {
-    if (is_local(number)) {
-        const auto found = locals_.back().numbers.find(number);
-        return found == locals_.back().numbers.end() ? 0.0 : found->second;
-    }
-    if (system_) {
+double Variables::get(int number) const { return this->number(number).value_or(0.0); }
+
+std::optional<double> Variables::number(int number) const {
+    if (!is_local(number) && system_) {
         const double value = system_(number);
         if (value == value) return value;
     }
-    const auto found = numbers_.find(number);
-    return found == numbers_.end() ? 0.0 : found->second;
+    const auto& numbers = is_local(number) ? locals_.back().numbers : numbers_;
+    const auto found = numbers.find(number);
+    return found == numbers.end() ? std::nullopt : std::optional(found->second);
 }
 
+void Variables::forget(int number) { (is_local(number) ? locals_.back().numbers : numbers_).erase(number); }
+
 void Variables::set(int number, double value) {
+    if (!is_local(number) && writer_ && writer_(number, value)) return;
     (is_local(number) ? locals_.back().numbers : numbers_)[number] = value;
 }
 
@@ -82,6 +85,7 @@ void Variables::pop_locals() { locals_.pop_back(); }
 namespace {
 
 constexpr int deepest_nesting = 200;
+constexpr double vacant = std::numeric_limits<double>::quiet_NaN();  ///< of Fanuc: a variable that was never set
 constexpr double equal_within = 1e-6;  ///< RS274/NGC tests for equality with this tolerance
 
 enum class Operator : std::uint8_t {
@@ -229,6 +233,14 @@ private:
     }
 
     double apply(Operator op, double a, double b, std::size_t column) const {
+        if (std::isnan(a) || std::isnan(b)) {
+            // A vacant variable equals only another; everywhere else it is 0.
+            const bool both = std::isnan(a) && std::isnan(b);
+            if (op == Operator::equal) return both ? 1 : 0;
+            if (op == Operator::unequal) return both ? 0 : 1;
+            a = std::isnan(a) ? 0 : a;
+            b = std::isnan(b) ? 0 : b;
+        }
         switch (op) {
             case Operator::power: return std::pow(a, b);
             case Operator::multiply: return a * b;
@@ -313,7 +325,9 @@ private:
             if (const std::optional<double> found = variables_.read(key)) return *found;
             throw ReadError{"variable #<" + key + "> was never set", column, {}};
         }
-        return variables_.get(variable_number(value(), column));
+        const int number = variable_number(value(), column);
+        if (dialect_ != DialectId::fanuc) return variables_.get(number);
+        return number == 0 ? vacant : variables_.number(number).value_or(vacant);
     }
 
     static int variable_number(double v, std::size_t column) {
@@ -369,7 +383,8 @@ private:
             // `SIN[1]` and `sin#1` alike: the name ends where the letters of the function end.
             if (id != row.name) continue;
             c_.at += id.size();
-            const double argument = value();
+            const double given = value();
+            const double argument = std::isnan(given) ? 0 : given;
             const double result = row.value(argument);
             if (std::isnan(result) && !std::isnan(argument)) {
                 throw ReadError{std::string(row.name) + " of " + std::to_string(argument) + " is not defined", column, {}};
@@ -409,10 +424,37 @@ private:
             ++c_.at;
             return variables_.get(100000 + variable_number(bracketed('[', ']'), column));
         }
+        if (dialect_ == DialectId::siemens) return siemens_variable(id, column);
         if (const double* found = variables_.find(id)) {
             c_.at += id.size();
             return *found;
         }
+        throw ReadError{"'" + id + "' is neither a function nor a variable that was set", column, {}};
+    }
+
+    /// A declared name, an element of a declared array (0 until it is set), or what the control keeps.
+    double siemens_variable(const std::string& id, std::size_t column) {
+        c_.skip_blanks();
+        c_.at += id.size();
+        std::string key = id;
+        if (c_.peek() == '[') {
+            ++c_.at;
+            key += '[';
+            const std::string axis = c_.identifier();
+            if (axis.size() == 1 && axis != "R") {
+                ++c_.at;
+                key += axis;
+            } else {
+                do {
+                    if (key.back() != '[') key += ',';
+                    key += std::to_string(std::lround(expression(0)));
+                } while (c_.take(','));
+            }
+            if (!c_.take(']')) throw ReadError{"'[' is not closed", column, {}};
+            key += ']';
+        }
+        if (const std::optional<double> found = variables_.read(key)) return *found;
+        if (key.size() > id.size() && variables_.find(id) != nullptr) return 0;
         throw ReadError{"'" + id + "' is neither a function nor a variable that was set", column, {}};
     }
 
@@ -425,11 +467,21 @@ private:
 }  // namespace
 
 double evaluate(Cursor& cursor, const Variables& variables, DialectId dialect) {
-    return Reader(cursor, variables, dialect).expression(0);
+    return evaluate_or_vacant(cursor, variables, dialect).value_or(0.0);
+}
+
+std::optional<double> evaluate_or_vacant(Cursor& cursor, const Variables& variables, DialectId dialect) {
+    const double value = Reader(cursor, variables, dialect).expression(0);
+    return std::isnan(value) ? std::nullopt : std::optional(value);
+}
+
+std::optional<double> read_or_vacant(Cursor& cursor, const Variables& variables, DialectId dialect) {
+    const double value = Reader(cursor, variables, dialect).value();
+    return std::isnan(value) ? std::nullopt : std::optional(value);
 }
 
 double read_value(Cursor& cursor, const Variables& variables, DialectId dialect) {
-    return Reader(cursor, variables, dialect).value();
+    return read_or_vacant(cursor, variables, dialect).value_or(0.0);
 }
 
 }  // namespace clsurf

@@ -24,8 +24,11 @@ public:
     /// The same for names: "_x", "_metric"; NaN: none.
     using NamedSystem = std::function<double(const std::string& name)>;
 
-    explicit Variables(System system, NamedSystem named_system = {})
-        : system_(std::move(system)), named_system_(std::move(named_system)) {
+    /// Writes a parameter that the controller keeps; false: it is an ordinary variable.
+    using Writer = std::function<bool(int number, double value)>;
+
+    explicit Variables(System system, NamedSystem named_system = {}, Writer writer = {})
+        : system_(std::move(system)), named_system_(std::move(named_system)), writer_(std::move(writer)) {
         push_locals();
     }
 
@@ -33,6 +36,10 @@ public:
     [[nodiscard]] double get(int number) const;
     void set(int number, double value);
     [[nodiscard]] bool has(int number) const;
+    /// Makes it a variable that was never set.
+    void forget(int number);
+    /// nullopt: never set, nor kept by the controller.
+    [[nodiscard]] std::optional<double> number(int number) const;
 
     /// A named variable ("_x" and other names that begin with an underscore are global in RS274).
     [[nodiscard]] const double* find(const std::string& name) const;
@@ -54,6 +61,7 @@ private:
 
     System system_;
     NamedSystem named_system_;
+    Writer writer_;
     std::vector<Locals> locals_;
     std::unordered_map<int, double> numbers_;
     std::unordered_map<std::string, double> names_;
@@ -62,6 +70,10 @@ private:
 /// Reads an expression (or a single value) at the cursor and evaluates it. Throws ReadError: a
 /// malformed expression, a division by zero, a name that was never set, nesting over 200.
 [[nodiscard]] double evaluate(Cursor& cursor, const Variables& variables, DialectId dialect);
+
+/// The same of Fanuc's macros, where a variable that was never set is vacant: nullopt. In sums it is 0.
+[[nodiscard]] std::optional<double> evaluate_or_vacant(Cursor& cursor, const Variables& variables, DialectId dialect);
+[[nodiscard]] std::optional<double> read_or_vacant(Cursor& cursor, const Variables& variables, DialectId dialect);
 
 /// A single value at the cursor: a number, a variable, a bracketed expression, a function, with sign.
 [[nodiscard]] double read_value(Cursor& cursor, const Variables& variables, DialectId dialect);

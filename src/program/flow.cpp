@@ -46,6 +46,7 @@ bool Interpreter::control(const Statement& statement) {
             return true;
         }
     }
+    if (dialect_ == DialectId::heidenhain_iso && (q_function(text) || call_label(text))) return true;
     const Control parsed = parse_control(text, dialect_);
     if (parsed.kind == ControlKind::none) return false;
     const auto condition = [&](std::size_t at) {
@@ -157,6 +158,20 @@ bool Interpreter::control(const Statement& statement) {
             counters_[line_] = std::floor(count + 1e-6) - 1;
             return true;
         }
+        case ControlKind::repeat_section: {
+            Cursor c{text, parsed.rest};
+            double times = 1;
+            if (c.take_word("P")) {
+                if (!c.take('=')) throw ReadError{"expected '=' after P", c.column(), {}};
+                times = evaluate(c, variables_, dialect_);
+            }
+            if (c.peek() != '\0') throw ReadError{"REPEAT between two labels is not supported", c.column(), {}};
+            const int at = index(file_).find(ControlKind::label, parsed.label, line_, -1);
+            if (at < 0) fail(fmt::format("REPEAT: there is no label '{}' before it", parsed.label));
+            const LineNumber begin = index(file_).all()[static_cast<std::size_t>(at)].line;
+            repeat_from(begin, times);
+            return true;
+        }
         case ControlKind::repeat_end: {
             const Control& begin = partner_of(own(), "endrepeat");
             double& left = counters_[begin.line];
@@ -215,7 +230,7 @@ bool Interpreter::control(const Statement& statement) {
             LineNumber line = 0;
             std::string label = parsed.label;
             if (label.empty() && dialect_ == DialectId::fanuc) {
-                Cursor c{text, parsed.rest};
+                Cursor c{text, parsed.target};
                 label = fmt::format("{}", std::lround(read_value(c, variables_, dialect_)));
             }
             const bool number = dialect_ == DialectId::fanuc ||
@@ -224,10 +239,11 @@ bool Interpreter::control(const Statement& statement) {
                 const std::string digits = dialect_ == DialectId::fanuc ? label : label.substr(1);
                 double value = 0;
                 if (read_decimal(digits, 0, value) > 0) {
-                    line = find_block_number(program_.files[file_], value, line_, parsed.direction);
+                    line = find_block(value, line_, parsed.direction);
                 }
             } else {
-                const int at = index(file_).find(ControlKind::label, label, line_, parsed.direction);
+                // Backwards from the end of this line: its own label counts.
+                const int at = index(file_).find(ControlKind::label, label, line_ + (parsed.direction < 0 ? 1 : 0), parsed.direction);
                 if (at >= 0) line = index(file_).all()[static_cast<std::size_t>(at)].line;
             }
             if (line == 0) fail(fmt::format("there is no block to go to: '{}'", label));
@@ -252,7 +268,10 @@ bool Interpreter::control(const Statement& statement) {
             }
             const std::string word = text.substr(std::min(parsed.rest, text.size()));
             if (dialect_ == DialectId::siemens && word.find_first_not_of(' ') != std::string::npos && text.find(':') != std::string::npos) {
-                Cursor c{text, parsed.rest};
+                Statement after_label = statement;
+                std::fill(after_label.text.begin(), after_label.text.begin() + static_cast<std::ptrdiff_t>(parsed.rest), ' ');
+                if (control(after_label)) return true;
+                Cursor c{after_label.text, 0};
                 read_block(c, variables_, dialect_, block_);
                 execute(block_);
             }
@@ -262,6 +281,18 @@ bool Interpreter::control(const Statement& statement) {
         case ControlKind::none: return false;
     }
     return false;
+}
+
+/// Back to a line, `times` times; then on.
+void Interpreter::repeat_from(LineNumber begin, double times) {
+    const auto found = counters_.try_emplace(line_, std::floor(times)).first;
+    if (!(found->second >= 1)) {
+        counters_.erase(found);
+        return;
+    }
+    found->second -= 1;
+    count_jump();
+    go_to(file_, begin);
 }
 
 /// DEF REAL a, b=5: names that exist from here on.
@@ -278,6 +309,9 @@ void Interpreter::siemens_definition(const std::string& definition) {
         c.skip_blanks();
         c.at += name.size();
         double value = 0;
+        if (c.take('[')) {  // an array: its elements are 0
+            while (!c.done() && !c.take(']')) ++c.at;
+        }
         if (c.take('=')) {
             if (c.peek() == '"') {
                 const std::size_t end = definition.find('"', c.at + 1);
@@ -289,6 +323,25 @@ void Interpreter::siemens_definition(const std::string& definition) {
         variables_.set(name, value);
         if (!c.take(',')) break;
     }
+}
+
+LineNumber Interpreter::find_block(double number, LineNumber line, int direction) {
+    auto found = numbers_.find(file_);
+    if (found == numbers_.end()) found = numbers_.emplace(file_, BlockNumbers(program_.files[file_])).first;
+    return found->second.find(number, line, direction);
+}
+
+/// Reads a subprogram's file once, whatever how often it is called.
+bool Interpreter::load(const std::string& name) {
+    if (loaded_.contains(name)) return true;
+    std::optional<SourceText> text = options_.load ? options_.load(name) : std::nullopt;
+    if (!text) return false;
+    if (program_.files.size() >= 65535) fail("too many subprogram files");
+    loaded_.emplace(name, program_.files.size());
+    program_.files.push_back(std::move(*text));
+    indexes_.emplace_back();
+    indexed_.push_back(false);
+    return true;
 }
 
 void Interpreter::call(const std::string& name, int repeats, bool locals, const std::vector<double>& arguments) {
@@ -307,13 +360,8 @@ void Interpreter::call(const std::string& name, int repeats, bool locals, const 
     if (at >= 0) {
         line = indexes_[file].all()[static_cast<std::size_t>(at)].line;
     } else {
-        std::optional<SourceText> loaded = options_.load ? options_.load(name) : std::nullopt;
-        if (!loaded) fail(fmt::format("subprogram '{}' is neither in the program nor beside it", name));
-        if (program_.files.size() >= 65535) fail("too many subprogram files");
-        file = program_.files.size();
-        program_.files.push_back(std::move(*loaded));
-        indexes_.emplace_back();
-        indexed_.push_back(false);
+        if (!load(name)) fail(fmt::format("subprogram '{}' is neither in the program nor beside it", name));
+        file = loaded_.at(name);
         const int begin = index(file).find(kind, name);
         if (begin >= 0) line = indexes_[file].all()[static_cast<std::size_t>(begin)].line;
     }
@@ -328,7 +376,9 @@ void Interpreter::call(const std::string& name, int repeats, bool locals, const 
     frame.counters = std::move(counters_);
     counters_.clear();
     if (locals) variables_.push_locals();
-    for (std::size_t k = 0; k < arguments.size() && k < 33; ++k) variables_.set(static_cast<int>(k) + 1, arguments[k]);
+    for (std::size_t k = 0; k < arguments.size() && k < 33; ++k) {
+        if (!std::isnan(arguments[k])) variables_.set(static_cast<int>(k) + 1, arguments[k]);
+    }
     frames_.push_back(std::move(frame));
     kept_modes_.emplace_back();
     restores_modes_.push_back(false);
@@ -338,7 +388,8 @@ void Interpreter::call(const std::string& name, int repeats, bool locals, const 
 void Interpreter::leave(bool from_end_of_text) {
     if (frames_.empty()) {
         ended_ = true;
-        if (!from_end_of_text) event("end", "return from the main program");
+        if (from_end_of_text) note(Severity::note, "program.no-end", "the program ends without M2 or M30");
+        else event("end", "return from the main program");
         return;
     }
     Frame& frame = frames_.back();
@@ -359,26 +410,10 @@ void Interpreter::leave(bool from_end_of_text) {
     go_to(file, line + 1);
 }
 
-/// M98 P…, G65 P… with argument letters, L5 and L5,2 of Siemens and Heidenhain.
+/// M98 P…, L5 and L5,2 of Siemens and Heidenhain.
 void Interpreter::call_from_words(const Block& block) {
-    const bool macro = dialect_ == DialectId::fanuc &&
-                       std::find(block.words.g.begin(), block.words.g.begin() + block.words.g_count, 650) !=
-                           block.words.g.begin() + block.words.g_count;
     if (call_program_ == -2) fail("M98 needs the program's number (P)");
     int repeats = block.words.given('L') ? static_cast<int>(std::clamp(block.words.of('L'), 1.0, 99999.0)) : 1;
-    if (macro) {
-        if (!block.words.given('P')) fail("G65 needs the program's number (P)");
-        // A B C I J K D E F H M Q R S T U V W X Y Z → #1 … #26 (argument specification I).
-        static constexpr std::pair<char, int> numbers[] = {
-            {'A', 1}, {'B', 2}, {'C', 3}, {'I', 4}, {'J', 5}, {'K', 6}, {'D', 7}, {'E', 8}, {'F', 9}, {'H', 11},
-            {'Q', 17}, {'R', 18}, {'S', 19}, {'T', 20}, {'U', 21}, {'V', 22}, {'W', 23}, {'X', 24}, {'Y', 25}, {'Z', 26}};
-        std::vector<double> arguments(26, 0.0);
-        for (const auto& [letter, number] : numbers) {
-            if (block.words.given(letter)) arguments[static_cast<std::size_t>(number - 1)] = block.words.of(letter);
-        }
-        call(fmt::format("{}", static_cast<long>(block.words.of('P'))), repeats, true, arguments);
-        return;
-    }
     if (call_program_ >= 0) {
         int number = call_program_;
         // P0031234: three times program 1234, where no L says so.

@@ -14,12 +14,14 @@ namespace clsurf {
 namespace {
 
 constexpr std::size_t shown_line_bytes = 4000;  ///< of a source line in a message
+constexpr std::size_t shown_text_bytes = 400;   ///< of a message, which may name a word of any length
 
 }  // namespace
 
 Interpreter::Interpreter(SourceText text, const InterpreterOptions& options)
     : options_(options), variables_([this](int number) { return parameter(number); },
-                                     [this](const std::string& name) { return named_parameter(name); }) {
+                                     [this](const std::string& name) { return named_parameter(name); },
+                                     [this](int number, double value) { return write_parameter(number, value); }) {
     program_.dialect = options.dialect != nullptr ? options.dialect : &detect_dialect(text.text());
     dialect_ = program_.dialect->id;
     program_.files.push_back(std::move(text));
@@ -36,6 +38,10 @@ Interpreter::Interpreter(SourceText text, const InterpreterOptions& options)
 }
 
 Program Interpreter::run() {
+    const std::string_view text = program_.files[0].text();
+    if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) {
+        throw InputError(Place::of_file(program_.files[0].name()), "is UTF-16 text, expected ASCII or UTF-8", "convert it first, as with iconv -f UTF-16 -t UTF-8");
+    }
     run_lines();
     if (!nurbs_.empty()) note(Severity::warning, "program.open-spline", "a spline is not closed at the end");
     Motions& m = program_.motions;
@@ -103,7 +109,7 @@ bool Interpreter::run_plain(const Words& words) {
         return false;
     }
     const bool ordinary = (mode == MotionMode::rapid || mode == MotionMode::feed) && !state_.incremental &&
-                          state_.feed_mode == FeedMode::per_minute && modal_call_.empty() && nurbs_.empty() && !state_.diameter && !compensation_.on();
+                          state_.feed_mode == FeedMode::per_minute && !modal_call_.active && !polar_.on && !state_.frame.active() && nurbs_.empty() && !state_.diameter && !compensation_.on();
     if (!ordinary) return false;
     state_.motion = mode;
     const double unit = state_.unit_mm;
@@ -132,10 +138,19 @@ void Interpreter::run_block(std::string_view line) {
         }
         if (statement.deleted && options_.block_delete) return;
         if (statement.text.empty()) return;
-        if (control(statement)) return;
-        Cursor cursor{statement.text, 0};
-        read_block(cursor, variables_, dialect_, block_);
-        execute(block_);
+        if (!control(statement)) {
+            Cursor cursor{statement.text, 0};
+            read_block(cursor, variables_, dialect_, block_);
+            execute(block_);
+        }
+        if (!unknown_name_.empty()) {
+            note(Severity::warning, "program.variable", unknown_name_ + " of the control is not known: read as 0");
+            unknown_name_.clear();
+        }
+        if (unknown_parameter_ != 0) {
+            note(Severity::warning, "program.variable", fmt::format("#{} of the control is not known: read as vacant", unknown_parameter_));
+            unknown_parameter_ = 0;
+        }
     } catch (const ReadError& error) {
         fail(error.what, error.column, error.hint);
     }
@@ -144,7 +159,7 @@ void Interpreter::run_block(std::string_view line) {
 void Interpreter::fail(const std::string& what, std::size_t column, const std::string& hint) const {
     Place place = Place::of_line(program_.files[file_].name(), line_, static_cast<std::uint32_t>(column));
     place.source = std::string(current_.substr(0, shown_line_bytes));
-    throw InputError(std::move(place), what, hint);
+    throw InputError(std::move(place), what.substr(0, shown_text_bytes), hint);
 }
 
 void Interpreter::note(Severity severity, const char* code, const std::string& text, std::size_t column) {
@@ -152,7 +167,7 @@ void Interpreter::note(Severity severity, const char* code, const std::string& t
     if (program_.diagnostics.count(code) < Diagnostics::kept_of_a_code) {
         place.source = std::string(current_.substr(0, shown_line_bytes));
     }
-    program_.diagnostics.add({severity, code, std::move(place), text, {}});
+    program_.diagnostics.add({severity, code, std::move(place), text.substr(0, shown_text_bytes), {}});
 }
 
 void Interpreter::event(const std::string& name, const std::string& value) {

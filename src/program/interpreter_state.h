@@ -1,7 +1,9 @@
 #pragma once
 // What the parts of the interpreter share (interpreter.cpp: lines and calls; codes.cpp: what words
-// mean; cycles.cpp: canned cycles; flow.cpp: control statements). Not for other rooms.
+// mean; fanuc.cpp, siemens.cpp, heidenhain.cpp: what they mean there; cycles.cpp: canned cycles;
+// flow.cpp: control statements). Not for other rooms.
 
+#include <array>
 #include <map>
 #include <string>
 #include <vector>
@@ -33,6 +35,43 @@ struct CycleState {
     double p = 0;                ///< dwell [s]
     double initial = std::numeric_limits<double>::quiet_NaN();  ///< level where the cycle began [mm]
 };
+
+/// What a cycle does between R and its bottom.
+struct Stroke {
+    bool dwells = false, feeds_out = false, pecks = false, breaks_chips = false;
+};
+
+/// Fanuc's G66 and Siemens' MCALL: called after every block that moves, at the level of calls where
+/// it was given.
+struct ModalCall {
+    bool active = false;
+    std::string name;
+    int repeats = 1;
+    std::vector<double> arguments;  ///< NaN: not given
+    std::size_t level = 0;          ///< of calls
+    std::size_t column = 0;
+};
+
+/// Polar coordinates of Fanuc's G16, Siemens' RP= AP= and Heidenhain's G10 … G13.
+struct PolarState {
+    bool on = false;                ///< G16
+    Vec3 pole = Vec3::Zero();       ///< [mm], programmed coordinates
+    double radius = 0;              ///< [mm]
+    double angle = 0;               ///< [deg]
+};
+
+/// Fanuc's parts of the frame: local zero, then rotation, then scaling, then mirroring.
+struct FanucFrame {
+    ProgramFrame local, rotation, scaling, mirror;
+    double angle = 0;               ///< of the rotation [deg]
+};
+
+/// Heidenhain's parts of the frame, and in which order they came.
+struct HeidenhainFrames {
+    std::array<ProgramFrame, 4> frame;
+    std::vector<std::size_t> order;
+};
+enum class ArcKind : std::uint8_t { about_pole, by_radius, tangential };
 
 class Interpreter {
 public:
@@ -66,6 +105,46 @@ private:
     void dwell(const Block& block);
     void report_unused(const Block& block);
 
+    // fanuc.cpp
+    bool apply_fanuc(int code, Block& block, std::size_t column);
+    [[nodiscard]] Vec3 frame_centre(const Block& block, const Vec3& now) const;
+    void settle_fanuc_frame();
+    void rotate_frame(const Block& block, std::size_t column);  ///< G68
+    void scale_frame(const Block& block);                       ///< G51
+    void mirror_frame(int code, const Block& block);            ///< G50.1, G51.1
+    void local_zero(const Block& block);                        ///< G52
+    [[nodiscard]] long macro_program(const Block& block, int code, std::size_t column) const;
+    [[nodiscard]] std::vector<double> macro_arguments(const Block& block) const;
+    bool macro_call(const Block& block);                        ///< G65
+    bool set_fanuc_offsets(int level, const Block& block);      ///< G10; true: a work offset
+    [[nodiscard]] WorkOffset* offset_of_variable(int number, int& axis);
+    bool write_parameter(int number, double value);
+    [[nodiscard]] double fanuc_parameter(int number, const Vec3& known) const;
+
+    [[nodiscard]] bool is_data_end(const Block& block);         ///< G11
+
+    // siemens.cpp, siemens_cycles.cpp
+    bool apply_siemens(int code, Block& block, std::size_t column);
+    void set_pole(int code, const Block& block);                ///< G110 … G112
+    bool siemens_frame(const Keyword& keyword, Block& block);   ///< true: the keyword was one
+    [[nodiscard]] std::vector<std::optional<double>> arguments_of(const Keyword& keyword) const;
+    bool call_siemens(const std::string& name, const Keyword& keyword, int repeats);
+    void start_modal_call(const Keyword& called);
+    bool siemens_cycle(const Keyword& keyword);
+    void drill_siemens(const std::string& name, const std::vector<double>& values);
+    void peck_siemens(double reference, double r, const std::vector<double>& depths, bool breaks_chips, double dwell_above, const Vec3& rotary);
+    void hole_pattern(const std::string& name, const std::vector<double>& values, std::size_t column);
+
+    // heidenhain.cpp
+    bool apply_heidenhain(int code, Block& block, std::size_t column);
+    void set_heidenhain_frame(std::size_t kind, const ProgramFrame& frame);
+    [[nodiscard]] bool block_mentions(char letter, const Block& block) const;
+    void take_pole(const Block& block);
+    bool arc_of_heidenhain(const Block& block, ArcWords& words);
+    [[nodiscard]] Vec2 end_tangent(int u, int v) const;
+    bool q_function(std::string_view text);                     ///< D00 … D13
+    bool call_label(std::string_view text);                     ///< L5,3
+
     // offsets.cpp: work systems, tools, reference points
     void set_offsets(const Block& block);       ///< G10
     void set_tool(int level, const Block& block);  ///< G10 L1, L10, L11
@@ -84,6 +163,8 @@ private:
 
     // compensated_motions.cpp: G40 … G42
     void start_compensation(int code, const Block& block, std::size_t column);
+    void compensate_by_table(int code, const Block& block, std::size_t column);
+    void enter_compensation(const Vec2& direction);
     void stop_compensation();
     void refuse_in_compensation(int code, const Block& block, std::size_t column) const;
     [[nodiscard]] Vec3 tool_position() const;   ///< where the motions end: not as programmed under G41 and G42
@@ -92,7 +173,11 @@ private:
     void push_compensated(const CompensatedStep& step, MotionKind kind, const Vec3& end, const Vec3& rotary, Arc arc = {});
 
     // motions.cpp
-    [[nodiscard]] Vec3 target(const Block& block, bool machine) const;
+    [[nodiscard]] Vec3 target(const Block& block, bool machine);
+    [[nodiscard]] Vec3 read_axes(const Block& block, bool machine);
+    void put_about_pole(const Block& block, Vec3& end);  ///< G16, RP= AP=, G10 … G13
+    bool arc_of_dialect(const Block& block, ArcWords& words);
+    void flatten_arc(const Arc& arc, bool clockwise, const Vec3& begin, const Vec3& end, const Vec3& rotary);
     void put_polar(const Block& block, Vec3& end) const;
     [[nodiscard]] Vec3 rotary_target(const Block& block) const;
     void move(const Block& block);
@@ -112,6 +197,12 @@ private:
     void lathe_cycle(int code, const Block& words, std::size_t column);  ///< G70 … G72
     [[nodiscard]] Vec2 record_profile(const std::string& name, std::vector<CompensatedMove>& profile);
     void follow(const std::vector<CompensatedMove>& moves);  ///< with feed, in the XZ plane
+    void go_to_level(MotionKind kind, double height, const Vec3& rotary);
+    void drill(const Stroke& stroke, double r, double bottom, double clear, const std::vector<double>& depths, const Vec3& rotary);
+    [[nodiscard]] Vec3 edge_shift() const;
+    void step_aside(const Vec3& by, const Vec3& rotary);
+    void bore_fine(double bottom, double clear, const Vec3& rotary);
+    void bore_back_shifted(double r, double top, double clear, const Vec3& rotary);
     void bore_back(double r, double bottom, double clear, const Vec3& rotary);
 
     // flow.cpp: control statements; true: the line was one
@@ -120,15 +211,21 @@ private:
     void siemens_definition(const std::string& statement);
     void call(const std::string& name, int repeats, bool locals, const std::vector<double>& arguments);
     void call_from_words(const Block& block);   ///< M98, G65, L…
+    void repeat_from(LineNumber begin, double times);
+    void run_modal_call();
     void leave(bool from_end_of_text);
     void count_jump();
     [[nodiscard]] const ControlIndex& index(std::size_t file);
+    [[nodiscard]] LineNumber find_block(double number, LineNumber line, int direction);
+    [[nodiscard]] bool load(const std::string& name);  ///< false: no such file
 
     InterpreterOptions options_;
     Program program_;
     DialectId dialect_;
     std::vector<ControlIndex> indexes_;
     std::vector<bool> indexed_;
+    std::map<std::string, std::size_t> loaded_;  ///< files of subprograms, by the name they were called by
+    std::map<std::size_t, BlockNumbers> numbers_;  ///< of files in which a jump went to a block number
     ModalState state_;
     Variables variables_;
     CycleState cycle_;
@@ -139,6 +236,10 @@ private:
     Tool tool_;                 ///< in the spindle
     CutterCompensation compensation_;
     std::size_t open_motions_ = 0;      ///< the first motion whose end an inside corner may still move
+    bool enters_beside_ = false;        ///< G41 of the controls: where the entry ends, the next motion tells
+    bool entry_programmed_ = false;     ///< the entry move has been read
+    int length_number_ = 0, radius_number_ = 0;  ///< Fanuc's H and D
+    bool feed_missed_ = false;          ///< a cutting motion without feed has been reported
     std::int64_t compensation_ended_ = -1;  ///< motions before G40: the next one is a straight one
     std::int64_t unread_since_ = -1;        ///< motions before the position and the machine parted
     Vec3 unread_ = Vec3::Zero();            ///< from the position as it reads to the last motion's end [mm]
@@ -161,7 +262,21 @@ private:
     bool machine_coordinates_ = false;  ///< G53, SUPA
     bool motion_suppressed_ = false;    ///< the axis words belong to G10, G92, G28 …
     int call_program_ = -1;
-    std::string modal_call_;            ///< MCALL
+    ModalCall modal_call_;              ///< G66, MCALL
+    PolarState polar_;
+    FanucFrame fanuc_frame_;
+    Vec3 local_zero_ = Vec3::Zero(), mirror_at_ = Vec3::Zero();  ///< G52, G51.1 [mm]
+    std::array<bool, 3> mirrored_{};
+    bool data_entry_ = false;           ///< G10 L50 … G11: lines are parameters of the control
+    bool arc_by_points_ = false;        ///< CIP
+    HeidenhainFrames heidenhain_frames_;
+    Vec3 datum_ = Vec3::Zero();         ///< Heidenhain's G54 [mm]
+    double turned_by_ = 0;              ///< its G73 [deg]
+    ArcKind arc_kind_ = ArcKind::about_pole;
+    bool polar_line_ = false;           ///< its G10 … G16: R and H give the end
+    bool last_clockwise_ = false;
+    mutable std::string unknown_name_;  ///< of a variable of the control that the block has read
+    mutable int unknown_parameter_ = 0; ///< that the block has read
     std::vector<Vec3> nurbs_;           ///< x, y, weight
     int nurbs_order_ = 3;
     Vec2 spline_out_ = Vec2::Zero();    ///< P Q of the cubic spline before

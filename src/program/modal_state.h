@@ -9,6 +9,7 @@
 
 #include "core/geometry.h"
 #include "core/units.h"
+#include "program/program_frame.h"
 
 namespace clsurf {
 
@@ -37,8 +38,9 @@ struct ModalState {
     bool retract_to_r = false;   ///< G99
     bool diameter = false;       ///< G7: X is a diameter
 
-    Vec3 position = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< [mm], programmed
+    Vec3 position = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< [mm], of the work system
     Vec3 rotary = Vec3::Zero();  ///< A, B, C [deg]
+    ProgramFrame frame;          ///< from programmed coordinates to `position`
 
     int work_system = 1;         ///< 1: G54
     std::map<int, WorkOffset> work_offsets;
@@ -49,6 +51,8 @@ struct ModalState {
     Vec3 home = Vec3::Zero(), second_home = Vec3::Zero();  ///< G28, G30; machine coordinates
     Vec3 home_rotary = Vec3::Zero(), second_home_rotary = Vec3::Zero();  ///< [deg]
 
+    /// The position as the program's words count it [mm].
+    [[nodiscard]] Vec3 programmed() const { return frame.to_programmed(position); }
     [[nodiscard]] WorkOffset work_offset() const {
         const auto found = work_offsets.find(work_system);
         return found == work_offsets.end() ? WorkOffset{} : found->second;

@@ -15,6 +15,8 @@ constexpr std::uint32_t rotary_axes = Words::bit('A') | Words::bit('B') | Words:
 constexpr std::uint32_t other_axes = Words::bit('U') | Words::bit('V') | Words::bit('W');
 constexpr std::uint32_t centres = Words::bit('I') | Words::bit('J') | Words::bit('K') | Words::bit('R');
 constexpr int most_turns = 100'000;
+/// Pieces that a curve is flattened to: chords within 1 µm of it for curves of finishing size.
+constexpr int curve_pieces = 100;
 constexpr double probe_retreat_mm = 0.254;  ///< 0.01 inch
 constexpr int first_probed_parameter = 5061, probe_result_parameter = 5070;
 
@@ -25,8 +27,17 @@ bool names_motion(const Block& block) {
 
 }  // namespace
 
-Vec3 Interpreter::target(const Block& block, bool machine) const {
-    Vec3 base = machine ? state_.to_machine(state_.position) : state_.position;
+Vec3 Interpreter::target(const Block& block, bool machine) {
+    return machine ? state_.from_machine(read_axes(block, true)) : state_.frame.to_work(read_axes(block, false));
+}
+
+/// The axis words in machine or in programmed coordinates.
+Vec3 Interpreter::read_axes(const Block& block, bool machine) {
+    Vec3 base = machine ? state_.to_machine(state_.position) : state_.programmed();
+    if ((polar_.on || polar_line_) && !machine) {
+        put_about_pole(block, base);
+        return base;
+    }
     for (int axis = 0; axis < 3; ++axis) {
         const char letter = "XYZ"[axis];
         if (!block.words.given(letter)) continue;
@@ -37,8 +48,11 @@ Vec3 Interpreter::target(const Block& block, bool machine) const {
         const double from = std::isnan(base[axis]) ? 0.0 : base[axis];
         base[axis] = incremental ? from + value : value;
     }
-    if (block.polar_radius || block.polar_angle) put_polar(block, base);
-    return machine ? state_.from_machine(base) : base;
+    if (block.polar_radius || block.polar_angle) {
+        if (dialect_ == DialectId::linuxcnc) put_polar(block, base);
+        else put_about_pole(block, base);
+    }
+    return base;
 }
 
 /// LinuxCNC's polar words: @ radius, ^ angle about the work origin.
@@ -75,7 +89,8 @@ Vec3 Interpreter::rotary_target(const Block& block) const {
 }
 
 void Interpreter::move(const Block& block) {
-    const bool axes = (block.words.has & (linear_axes | rotary_axes | other_axes)) != 0 || block.polar_radius || block.polar_angle;
+    const bool axes = (block.words.has & (linear_axes | rotary_axes | other_axes)) != 0 || block.polar_radius || block.polar_angle ||
+                      (polar_line_ && (block.words.has & (Words::bit('R') | Words::bit('H'))) != 0);
     switch (state_.motion) {
         case MotionMode::none:
             if (!axes) return;
@@ -100,7 +115,7 @@ void Interpreter::move(const Block& block) {
             return;
         case MotionMode::cw:
         case MotionMode::ccw:
-            if (axes || (block.words.has & centres) != 0) arc(block, state_.motion == MotionMode::cw);
+            if (axes || (block.words.has & centres) != 0 || !block.named.empty()) arc(block, state_.motion == MotionMode::cw);
             return;
         case MotionMode::cubic_spline:
         case MotionMode::quadratic_spline:
@@ -133,13 +148,17 @@ void Interpreter::straight(MotionKind kind, const Vec3& end, const Vec3& rotary)
 void Interpreter::arc(const Block& block, bool clockwise) {
     if (compensation_ended_ == program_.motions.size()) fail("the first motion after cutter compensation (G40) must be a straight one");
     ArcWords words;
-    words.begin = state_.position.array().isNaN().select(0.0, state_.position);
-    words.end = target(block, machine_coordinates_);
+    // In programmed coordinates; the frame takes the arc as a whole.
+    words.begin = state_.programmed();
+    words.begin = words.begin.array().isNaN().select(0.0, words.begin);
+    words.end = machine_coordinates_ ? state_.frame.to_programmed(target(block, true)) : read_axes(block, false);
     words.end = words.end.array().isNaN().select(words.begin, words.end);
     words.axis = state_.plane_axis;
     words.clockwise = clockwise;
     const bool heidenhain = dialect_ == DialectId::heidenhain_iso;
-    if (block.words.given('R')) {
+    if (arc_of_dialect(block, words)) {
+        clockwise = words.clockwise;
+    } else if (block.words.given('R')) {
         words.has_radius = true;
         words.radius = block.words.of('R') * state_.unit_mm;
     } else {
@@ -165,10 +184,41 @@ void Interpreter::arc(const Block& block, bool clockwise) {
     std::string error;
     Arc arc = resolve_arc(words, error);
     if (!error.empty()) fail(error, block.words.g_count > 0 ? block.words.g_column[0] : 1);
+    const std::optional<ProgramFrame::Circle> circle = state_.frame.circle(arc.axis);
+    if (!circle) {
+        flatten_arc(arc, clockwise, words.begin, words.end, rotary_target(block));
+        return;
+    }
+    const Vec3 begin = state_.frame.to_work(words.begin);
+    const Vec3 end = state_.frame.to_work(words.end);
+    arc.centre = Xyz(state_.frame.to_work(arc.centre.vec()));
+    arc.axis = static_cast<std::uint8_t>(circle->axis);
+    clockwise = clockwise != circle->reversed;
     if (compensation_.active()) {
-        compensated_arc(arc, clockwise, words.end, rotary_target(block));
+        compensated_arc(arc, clockwise, end, rotary_target(block));
     } else {
-        push_arc(arc, clockwise, words.begin, words.end, rotary_target(block));
+        push_arc(arc, clockwise, begin, end, rotary_target(block));
+    }
+}
+
+/// An arc that its frame makes an ellipse, or tilts out of the principal planes.
+void Interpreter::flatten_arc(const Arc& arc, bool clockwise, const Vec3& begin, const Vec3& end, const Vec3& rotary) {
+    if (compensation_.on()) fail("cutter compensation of an arc in a tilted or unevenly scaled frame is not supported");
+    const int u = (arc.axis + 1) % 3;
+    const int v = (arc.axis + 2) % 3;
+    const Vec3 centre = arc.centre.vec();
+    Vec3 flat = end;
+    flat[arc.axis] = begin[arc.axis];
+    const double radius = std::hypot(begin[u] - centre[u], begin[v] - centre[v]);
+    const double sweep = arc_length(arc, clockwise, begin, flat) / radius * (clockwise ? -1 : 1);
+    const double first = std::atan2(begin[v] - centre[v], begin[u] - centre[u]);
+    const Vec3 turned_from = state_.rotary;
+    for (int k = 1; k <= curve_pieces; ++k) {
+        const double part = static_cast<double>(k) / curve_pieces;
+        Vec3 p = begin + part * (end - begin);
+        p[u] = centre[u] + radius * std::cos(first + part * sweep);
+        p[v] = centre[v] + radius * std::sin(first + part * sweep);
+        straight(MotionKind::spline, state_.frame.to_work(k == curve_pieces ? end : p), turned_from + part * (rotary - turned_from));
     }
 }
 
@@ -196,6 +246,10 @@ void Interpreter::push(MotionKind kind, const Vec3& end, const Vec3& rotary, flo
     Motions& m = program_.motions;
     if (m.kind.size() >= 0xfffffff0u) fail("the program has more than 4·10^9 motions");
     if (end.array().isInf().any()) fail("a position is not finite");
+    if (feed == 0 && kind != MotionKind::dwell && !feed_missed_) {
+        feed_missed_ = true;
+        note(Severity::warning, "program.no-feed", state_.feed == 0 ? "a cutting motion without feed (F); said once" : "a cutting motion with a feed of 0 (is the spindle speed missing?); said once");
+    }
     m.kind.push_back(kind);
     m.end.push_back(Xyz(end));
     m.feed.push_back(feed);
@@ -213,9 +267,6 @@ void Interpreter::push(MotionKind kind, const Vec3& end, const Vec3& rotary, flo
 }
 
 namespace {
-
-/// Pieces that a curve is flattened to: chords within 1 µm of it for curves of finishing size.
-constexpr int curve_pieces = 100;
 
 Vec2 bezier(const std::vector<Vec2>& control, double t) {
     std::vector<Vec2> p = control;

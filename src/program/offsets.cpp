@@ -19,6 +19,7 @@ bool is(const Block& block, char letter) { return block.words.given(letter); }
 void Interpreter::set_offsets(const Block& block) {
     motion_suppressed_ = true;
     const int level = is(block, 'L') ? static_cast<int>(block.words.of('L')) : 0;
+    if (dialect_ == DialectId::fanuc && set_fanuc_offsets(level, block)) return;
     if (level != 2 && level != 20) {
         if (dialect_ == DialectId::linuxcnc) set_tool(level, block);
         event("tool-table", "G10" + words_text(block, "LPRZXYIJQ"));
@@ -39,7 +40,7 @@ void Interpreter::set_offsets(const Block& block) {
             const double value = block.words.of(letter) * state_.unit_mm;
             reads[axis] = value;
             if (level == 2) {
-                offset.shift[axis] = state_.incremental && dialect_ == DialectId::fanuc ? offset.shift[axis] + value : value;
+                offset.shift[axis] = value;
             }
         }
         for (int axis = 0; axis < 3; ++axis) {
@@ -186,13 +187,27 @@ Tool Interpreter::tool_of(int number, std::size_t column) {
 void Interpreter::change_tool(const Block& block) {
     const auto whole = [&](char letter) { return static_cast<int>(std::clamp(std::round(block.words.of(letter)), 0.0, 1e8)); };
     if (is(block, 'T')) next_tool_ = whole('T');
+    // A block with T calls the tool in Heidenhain's dialect; Siemens takes its length with the edge D1.
+    bool changed = false;
+    if (dialect_ == DialectId::heidenhain_iso && is(block, 'T')) {
+        tool_ = tools_.tools.empty() ? Tool{next_tool_} : tool_of(next_tool_, block.words.column['T' - 'A']);
+        changed = true;
+    }
     const auto* first = block.words.m.data();
     for (const std::int32_t code : std::vector<std::int32_t>(first, first + block.words.m_count)) {
-        if (code != 6 && code != 61) continue;
+        if (code != 6 && (code != 61 || dialect_ != DialectId::linuxcnc)) continue;
         if (compensation_.on()) fail("a tool cannot be changed while cutter compensation is on");
         if (code == 61 && !is(block, 'Q')) fail("M61 needs the tool's number (Q)");
-        tool_ = tool_of(code == 61 ? whole('Q') : next_tool_, 0);
+        // Without a table the other dialects have nothing to look up.
+        const bool known = dialect_ == DialectId::linuxcnc || !tools_.tools.empty();
+        tool_ = known ? tool_of(code == 61 ? whole('Q') : next_tool_, 0) : Tool{next_tool_};
+        changed = true;
     }
+    const bool own_length = dialect_ == DialectId::siemens || dialect_ == DialectId::heidenhain_iso;
+    const bool edge = dialect_ == DialectId::siemens && is(block, 'D');
+    if (!own_length || tools_.tools.empty() || !(changed || edge)) return;
+    const Vec3 offset = edge && block.words.of('D') == 0 ? Vec3(Vec3::Zero()) : tool_.offset;
+    state_.rebase([&] { state_.tool_offset = offset; });
 }
 
 /// From here on the end of the last motion is not what the position reads: a length was taken off, or
@@ -237,6 +252,9 @@ void Interpreter::tool_length(int code, const Block& block) {
     } else if (dialect_ == DialectId::linuxcnc && code == 432) {
         if (!is(block, 'H')) fail("G43.2 needs the tool's number (H)");
         offset += table(false);
+    } else if (dialect_ == DialectId::fanuc && (code == 430 || code == 440 || code == 434 || code == 435) && !tools_.tools.empty()) {
+        if (is(block, 'H')) length_number_ = static_cast<int>(std::clamp(std::round(block.words.of('H')), 0.0, 1e8));
+        offset = tool_of(length_number_, is(block, 'H') ? block.words.column['H' - 'A'] : 0).offset * (code == 440 ? -1.0 : 1.0);
     }
     part_from_machine(offset - state_.tool_offset);
     state_.rebase([&] { state_.tool_offset = offset; });

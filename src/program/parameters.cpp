@@ -66,20 +66,16 @@ double Interpreter::parameter(int number) const {
         if (number >= 5401 && number <= 5409) return axis_of(5401, tool_.offset, none_turned, machine_unit);
         return none;
     }
-    if (dialect_ == DialectId::fanuc) {
-        for (const int first : {5001, 5041}) {
-            if (number >= first && number < first + 6) return axis_of(first, known, state_.rotary, unit);
-        }
-        if (number >= 5021 && number < 5027) return axis_of(5021, state_.to_machine(known), state_.rotary, unit);
-        if (number == 4003) return state_.incremental ? 91 : 90;
-        if (number == 4006) return unit == 1 ? 21 : 20;
-        if (number == 4109) return state_.feed;
-    }
+    if (dialect_ == DialectId::fanuc) return fanuc_parameter(number, known);
     return none;
 }
 
 /// Names of LinuxCNC, "Predefined Named Parameters"; those of what a program cannot know are missing.
 double Interpreter::named_parameter(const std::string& name) const {
+    if (dialect_ == DialectId::siemens && name.starts_with('$')) {
+        unknown_name_ = name;
+        return 0;
+    }
     if (dialect_ != DialectId::linuxcnc || name.size() < 2) return none;
     const double unit = state_.unit_mm;
     const Vec3 at = tool_position();

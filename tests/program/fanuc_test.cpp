@@ -1,0 +1,164 @@
+// Fanuc and HNC; the answers are worked out on paper beside each program.
+
+#include <gtest/gtest.h>
+
+#include "program/motion_rows.h"
+
+namespace clsurf {
+namespace {
+
+Rows rows(const std::string& text) { return motions(parse(text, "fanuc")); }
+
+Program parse_with_tool(const std::string& text, const char* dialect) {
+    const auto kept = std::make_shared<std::string>(text);
+    InterpreterOptions options;
+    options.dialect = find_dialect(dialect);
+    options.tools.emplace();
+    options.tools->tools[1] = Tool{.number = 1, .offset = Vec3(0, 0, 50), .diameter = 4};
+    return parse_program(SourceText("test.nc", *kept, kept), options);
+}
+
+TEST(FanucFrame, TurnsAboutItsCentre) {
+    // About (10, 0) by 90°: (20, 0) → (10, 10), (20, 5) → (5, 10). Increments turn too.
+    EXPECT_EQ(rows("G0 X0 Y0 Z0\nG68 X10 Y0 R90\nG1 F60 X20 Y0\nG91 Y5\nG90 G69 X1 Y1\n"),
+              (Rows{"rapid 0 0 0", "feed 10 10 0", "feed 5 10 0", "feed 1 1 0"}));
+    // Without a centre: about the present position.
+    EXPECT_EQ(rows("G0 X5 Y0 Z0\nG68 R180\nG1 F60 X6 Y1\n"), (Rows{"rapid 5 0 0", "feed 4 -1 0"}));
+}
+
+TEST(FanucFrame, TurnsArcsWithTheirCentres) {
+    const Program p = parse("G0 X0 Y0 Z0\nG68 X0 Y0 R90\nG2 F60 X10 Y0 I5 J0\n", "fanuc");
+    EXPECT_EQ(motions(p), (Rows{"rapid 0 0 0", "cw 0 10 0"}));
+    EXPECT_NEAR(p.motions.arcs.at(0).centre.y, 5, 1e-12);
+}
+
+TEST(FanucFrame, TurnsAboutAnyAxisInSpace) {
+    // About Y by 90°: X → −Z, Z → X. Half a circle in XY stands in YZ: G19, turned the same way.
+    const Program p = parse("G0 X0 Y0 Z0\nG68 X0 Y0 Z0 I0 J1 K0 R90\nG1 F60 X10\nG3 X-10 Y0 I-10 J0\n", "fanuc");
+    EXPECT_EQ(motions(p), (Rows{"rapid 0 0 0", "feed 0 0 -10", "ccw 0 0 10"}));
+    EXPECT_EQ(p.motions.arcs.at(0).axis, 0);
+    // Tilted by 45° it lies in no principal plane: chords.
+    const Program tilted = parse("G0 X0 Y0 Z0\nG68 X0 Y0 Z0 I0 J1 K0 R45\nG1 F60 X10\nG3 X-10 Y0 I-10 J0\n", "fanuc");
+    EXPECT_EQ(motions(tilted).size(), 102u);
+    EXPECT_EQ(motions(tilted)[51], "spline 0 10 0");
+}
+
+TEST(FanucFrame, ScalesAndMirrors) {
+    // About (10, 10) by 2 (P2000): (20, 10) → (30, 10). G50 ends it.
+    EXPECT_EQ(rows("G0 X0 Y0 Z0\nG51 X10 Y10 Z0 P2000\nG1 F60 X20 Y10\nG50 X20\n"), (Rows{"rapid 0 0 0", "feed 30 10 0", "feed 20 10 0"}));
+    // I −1: mirrored about X 5; a clockwise arc comes out counter-clockwise.
+    EXPECT_EQ(rows("G0 X0 Y0 Z0\nG51 X5 Y0 I-1000 J1000\nG1 F60 X0\nG2 X2 I1\n"), (Rows{"rapid 0 0 0", "feed 10 0 0", "ccw 8 0 0"}));
+    EXPECT_EQ(rows("G0 X0 Y0 Z0\nG51.1 X0\nG1 F60 X3\nG50.1 X0\nX3\n"), (Rows{"rapid 0 0 0", "feed -3 0 0", "feed 3 0 0"}));
+    // Uneven factors make an ellipse: chords; its top is at Y 20.
+    const Rows ellipse = rows("G0 X0 Y0 Z0\nG51 X0 Y0 I1000 J2000\nG1 F60 X10 Y0\nG3 X-10 I-10\n");
+    EXPECT_EQ(ellipse[51], "spline 0 20 0");
+    EXPECT_NE(error_of("G51 P0\n", "fanuc").find("a factor of 0"), std::string::npos);
+}
+
+TEST(FanucFrame, MirrorsThenScalesThenTurnsInItsLocalZero) {
+    // (1, 0) → mirrored (−1, 0) → scaled (−2, 0) → turned (0, −2) → local zero (10, 18).
+    EXPECT_EQ(rows("G0 X0 Y0 Z0\nG52 X10 Y20\nG51.1 X0\nG51 X0 Y0 P2\nG68 X0 Y0 R90\nG1 F60 X1 Y0\n"), (Rows{"rapid 0 0 0", "feed 10 18 0"}));
+    EXPECT_EQ(rows("G0 X0 Y0 Z0\nG52 X10\nG1 F60 X1\nG52 X0\nX1\n"), (Rows{"rapid 0 0 0", "feed 11 0 0", "feed 1 0 0"}));
+}
+
+TEST(FanucPolar, CountsFromTheZeroOrFromThePosition) {
+    // Bolt circle of 100 mm: 30°, 150° (the radius stays), 270°.
+    EXPECT_EQ(rows("G0 X0 Y0 Z0\nG90 G16\nG0 X100 Y30\nY150\nY270\nG15 X0 Y0\n"),
+              (Rows{"rapid 0 0 0", "rapid 86.6025 50 0", "rapid -86.6025 50 0", "rapid 0 -100 0", "rapid 0 0 0"}));
+    // G91: 10 from where the tool is, each angle added to the one before.
+    EXPECT_EQ(rows("G0 X5 Y0 Z0\nG16 G91\nG1 F60 X10 Y0\nX10 Y90\n"), (Rows{"rapid 5 0 0", "feed 15 0 0", "feed 15 10 0"}));
+    // G18: Z is the radius, X the angle.
+    EXPECT_EQ(rows("G0 X0 Y0 Z0\nG18 G16\nG1 F60 Z10 X90\n"), (Rows{"rapid 0 0 0", "feed 10 0 0"}));
+}
+
+TEST(FanucMacro, PassesArgumentsAndKnowsVacantOnes) {
+    // B is not given: vacant, so Y#2 is not there. M is #13.
+    EXPECT_EQ(rows("G0 X0 Y7 Z0\nG1 F60\nG65 P9 A3 M5\nM30\nO9\nIF [#2 NE #0] GOTO 5\nX#1 Y#2 Z#13\nN5 M99\n"), (Rows{"rapid 0 7 0", "feed 3 7 5"}));
+    // Specification II: the second I is #7, its K #9.
+    EXPECT_EQ(rows("G0 X0 Y0 Z0\nG1 F60\nG65 P9 I1 J2 K3 I4 K6\nM30\nO9\nX#4 Y#7 Z#9\nM99\n"), (Rows{"rapid 0 0 0", "feed 1 4 6"}));
+    // The words of G65 are arguments: F is not a feed.
+    EXPECT_NEAR(parse("G1 F60 X1\nG65 P9 F600\nM30\nO9\nX2\nM99\n", "fanuc").motions.feed[1], 1, 1e-6);
+}
+
+TEST(FanucMacro, CallsModallyAfterEveryMotion) {
+    EXPECT_EQ(rows("G0 X0 Y0 Z0\nG66 P9 A2\nX1\nX2\nG67\nX3\nM30\nO9\nG1 F60 Z-#1\nG0 Z0\nM99\n"),
+              (Rows{"rapid 0 0 0", "rapid 1 0 0", "feed 1 0 -2", "rapid 1 0 0", "rapid 2 0 0", "feed 2 0 -2", "rapid 2 0 0", "rapid 3 0 0"}));
+}
+
+TEST(FanucMacro, JumpsLoopsAndReturnsToABlock) {
+    EXPECT_EQ(rows("G0 X0 Y0 Z0\n#100=30\nGOTO #100\nX9\nN30 X1\nM98 P20007\nX9\nN50 X2\nM30\nO7\nG91 Y1\nG90 M99\n"),
+              (Rows{"rapid 0 0 0", "rapid 1 0 0", "rapid 1 1 0", "rapid 1 2 0", "rapid 9 2 0", "rapid 2 2 0"}));
+    EXPECT_EQ(rows("G0 X0 Y0 Z0\nM98 P7 L1\nX9\nN50 X2\nM30\nO7\nX5\nM99 P50\n"), (Rows{"rapid 0 0 0", "rapid 5 0 0", "rapid 2 0 0"}));
+    EXPECT_EQ(rows("G0 X0 Y0 Z0\n#1=0\nWHILE[#1LT2]DO1\n#1=#1+1\nIF[#1EQ2]THEN #2=5\nX#1\nEND1\nX#2\n"),
+              (Rows{"rapid 0 0 0", "rapid 1 0 0", "rapid 2 0 0", "rapid 5 0 0"}));
+}
+
+TEST(FanucMacro, EndsAtItsAlarmAndReportsUnknownVariables) {
+    const Program p = parse("G0 X1\n#1=#3011\n#3000=1(TOO DEEP)\nX2\n", "fanuc");
+    EXPECT_EQ(p.motions.size(), 1);
+    EXPECT_EQ(p.diagnostics.count("program.alarm"), 1u);
+    ASSERT_EQ(p.diagnostics.count("program.variable"), 1u);
+    EXPECT_EQ(p.diagnostics.kept()[0].where.text(), "test.nc:2");
+}
+
+TEST(FanucOffsets, AreSetByG10AndByVariables) {
+    // G55 lies 5 to the right of G54 (both ways), G54.1 P1 10 up; the machine stays.
+    EXPECT_EQ(rows("G54 G0 X0 Y0 Z0\nG10 L2 P2 X5\nG55\nG53 X7\nG10 L20 P1 X5 Y10\nG54.1 P1\nG53 Y12\nG54 P1 X1 Y1\n"),
+              (Rows{"rapid 0 0 0", "rapid 2 0 0", "rapid 2 2 0", "rapid 1 1 0"}));
+    EXPECT_EQ(rows("G54 G0 X0 Y0 Z0\n#5241=5\nG55 X#5241\nG91 G10 L2 P2 X1\nG90 G53 X0\n"), (Rows{"rapid 0 0 0", "rapid 5 0 0", "rapid -6 0 0"}));
+}
+
+TEST(FanucCycles, CrossAtTheLevelWhereTheyAre) {
+    EXPECT_EQ(rows("G0 X0 Y0 Z10\nG99 G81 X1 R2 Z-1 F60\nX2 K2\nG98 X3\nG80\n"),
+              (Rows{"rapid 0 0 10", "rapid 1 0 10", "rapid 1 0 2", "feed 1 0 -1", "rapid 1 0 2", "rapid 2 0 2", "rapid 2 0 2", "feed 2 0 -1", "rapid 2 0 2",
+                    "rapid 2 0 2", "rapid 2 0 2", "feed 2 0 -1", "rapid 2 0 2", "rapid 3 0 2", "rapid 3 0 2", "feed 3 0 -1", "rapid 3 0 10"}));
+}
+
+TEST(FanucCycles, BoreFineAndFromBehind) {
+    // G76: aside by Q along X, out, back. G87: aside, to R below, back, up to Z.
+    EXPECT_EQ(rows("G0 X0 Y0 Z10\nG98 G76 X1 R2 Z-5 Q0.5 F60\n"),
+              (Rows{"rapid 0 0 10", "rapid 1 0 10", "rapid 1 0 2", "feed 1 0 -5", "rapid 1.5 0 -5", "rapid 1.5 0 10", "rapid 1 0 10"}));
+    EXPECT_EQ(rows("G0 X0 Y0 Z10\nG98 G87 X1 R-8 Z-5 Q0.5 F60\n"),
+              (Rows{"rapid 0 0 10", "rapid 1 0 10", "rapid 1.5 0 10", "rapid 1.5 0 -8", "rapid 1 0 -8", "feed 1 0 -5", "rapid 1.5 0 -5", "rapid 1.5 0 10", "rapid 1 0 10"}));
+}
+
+TEST(FanucCycles, TapWithDwellInMilliseconds) {
+    const Program p = parse("G0 X0 Y0 Z10\nG99 G84 R2 Z-5 P500 F60\n", "fanuc");
+    EXPECT_EQ(motions(p), (Rows{"rapid 0 0 10", "rapid 0 0 10", "rapid 0 0 2", "feed 0 0 -5", "dwell 0 0 -5", "feed 0 0 2"}));
+    EXPECT_FLOAT_EQ(p.motions.feed[4], 0.5F);
+}
+
+TEST(FanucTools, GiveLengthsAndRadii) {
+    // The tool's end goes where Z says; where nothing has said it, the length shows.
+    EXPECT_EQ(motions(parse_with_tool("G54 G0 X0 Y0 Z100\nG43 H1\nX1\nZ20\nG49 X2\n", "fanuc")),
+              (Rows{"rapid 0 0 100", "rapid 1 0 50", "rapid 1 0 20", "rapid 2 0 70"}));
+    // Radius 2 on the left of +Y: the entry ends at X 8 beside the begin of the cut, not beside its own way.
+    EXPECT_EQ(motions(parse_with_tool("G0 X0 Y0 Z0\nG41 D1 G1 X10 F60\nY20\nX30\nG40 X40\n", "fanuc")),
+              (Rows{"rapid 0 0 0", "feed 8 0 0", "feed 8 20 0", "cw 10 22 0", "feed 30 22 0", "feed 40 20 0"}));
+    const Program none = parse("G41 D1 G1 X10 F60\n", "fanuc");
+    EXPECT_EQ(none.diagnostics.count("program.cutter-compensation"), 1u);
+}
+
+TEST(FanucModes, AreNotedAndTheRestReported) {
+    const Program p = parse("G5.1 Q1 R1\nG08 P1\nG0 X1 Y0 Z0\nG2.2 X1 Y1 R1 F60\nG68.2 X0 Y0 Z0 I0 J0 K0\nX5 ,R2\n", "fanuc");
+    EXPECT_EQ(p.events.at(0).name, "high-speed");
+    EXPECT_EQ(p.diagnostics.count("program.rotation"), 1u);
+    EXPECT_EQ(p.diagnostics.count("program.unknown-word"), 2u);  // the involute, ,R2
+    EXPECT_EQ(p.diagnostics.kept()[0].where.text(), "test.nc:4:1");
+}
+
+TEST(FanucBlocks, AreSkippedAtEveryLevel) {
+    EXPECT_EQ(rows("G0 X1 Y0 Z0\n/X2\n/3 X3\nN5 /9 X4\n"), (Rows{"rapid 1 0 0"}));
+}
+
+TEST(Programs, TellOfMissingFeedsEndsAndAxes) {
+    const Program p = parse("G1 X1\nG0 X2 U5\n", "fanuc");
+    EXPECT_EQ(p.diagnostics.count("program.no-feed"), 1u);
+    EXPECT_EQ(p.diagnostics.count("program.no-end"), 1u);
+    EXPECT_EQ(p.diagnostics.count("program.axis"), 1u);
+    EXPECT_EQ(p.diagnostics.kept()[0].where.text(), "test.nc:1");
+    EXPECT_EQ(parse("G1 X1 F1\nM30\n", "fanuc").diagnostics.count("program.no-end"), 0u);
+}
+
+}  // namespace
+}  // namespace clsurf

@@ -1,0 +1,129 @@
+// SINUMERIK; the answers are worked out on paper beside each program.
+
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include "program/motion_rows.h"
+
+namespace clsurf {
+namespace {
+
+Rows rows(const std::string& text) { return motions(parse(text, "siemens")); }
+
+TEST(SiemensFrames, ReplaceOrAdd) {
+    // TRANS replaces, ATRANS adds; TRANS alone ends all.
+    EXPECT_EQ(rows("G0 X0 Y0 Z0\nTRANS X10 Y5\nX1 Y0\nATRANS Z3\nX2 Z0\nTRANS X1\nX0 Y0 Z0\nTRANS\nX0\n"),
+              (Rows{"rapid 0 0 0", "rapid 11 5 0", "rapid 12 5 3", "rapid 1 0 0", "rapid 0 0 0"}));
+    // Turned by 90° in the moved frame: (2, 0) → (10, 2). Then the axes of the turned frame: +1 in its X.
+    EXPECT_EQ(rows("G0 X0 Y0 Z0\nTRANS X10\nAROT RPL=90\nX2 Y0\nATRANS X1\nX2 Y0\n"), (Rows{"rapid 0 0 0", "rapid 10 2 0", "rapid 10 3 0"}));
+    EXPECT_EQ(rows("G0 X0 Y0 Z0\nMIRROR X0\nX2 Y1\nASCALE X3\nX2\n"), (Rows{"rapid 0 0 0", "rapid -2 1 0", "rapid -6 1 0"}));
+    // ROT X90: Y → Z; an arc of G17 is one of G18, Y down: turned the same way about −Y, so the other way about +Y.
+    EXPECT_EQ(rows("G0 X0 Y0 Z0\nROT X90\nG1 F60 Y5\nG3 X0 Y-5 I0 J-5\n"), (Rows{"rapid 0 0 0", "feed 0 0 5", "cw 0 0 -5"}));
+    EXPECT_NE(error_of("SCALE X0\n", "siemens").find("a factor of 0"), std::string::npos);
+}
+
+TEST(SiemensPoles, AreAtTheToolTheZeroOrTheLastPole) {
+    // Poles (10, 10), one right of the tool (11, 15), three above that one (11, 18).
+    EXPECT_EQ(rows("G0 X0 Y0 Z0\nG111 X10 Y10\nG1 F60 RP=5 AP=0\nAP=90\nG110 X1\nRP=2 AP=180\nG112 Y3\nRP=2 AP=90\n"),
+              (Rows{"rapid 0 0 0", "feed 15 10 0", "feed 10 15 0", "feed 9 15 0", "feed 11 20 0"}));
+    // Increments of angle and radius.
+    EXPECT_EQ(rows("G0 X10 Y0 Z0\nG111 X0 Y0\nG1 F60 AP=IC(90)\nRP=IC(5)\n"), (Rows{"rapid 10 0 0", "feed 0 10 0", "feed 0 15 0"}));
+    // An arc about the pole.
+    const Program p = parse("G0 X10 Y0 Z0\nG111 X0 Y0\nG3 F60 RP=10 AP=90\n", "siemens");
+    EXPECT_EQ(motions(p), (Rows{"rapid 10 0 0", "ccw 0 10 0"}));
+    EXPECT_NEAR(p.motions.arcs.at(0).centre.x, 0, 1e-12);
+}
+
+TEST(SiemensArcs, ByAngleByPointsAndByRadius) {
+    // AR with I J: a quarter about (10, 0) ends at (10, −10). AR with the end: half a circle of chord 10.
+    Program p = parse("G0 X0 Y0 Z0\nG3 F60 I10 J0 AR=90\nG2 X20 Y-10 AR=180\n", "siemens");
+    EXPECT_EQ(motions(p), (Rows{"rapid 0 0 0", "ccw 10 -10 0", "cw 20 -10 0"}));
+    EXPECT_NEAR(p.motions.arcs.at(1).centre.x, 15, 1e-9);
+    // Through (5, 5): half a circle above, clockwise, about (5, 0).
+    p = parse("G0 X0 Y0 Z0\nCIP X10 Y0 I1=5 J1=5 F60\nCIP X10 Y10 I1=15 J1=5\nG1 X0\n", "siemens");
+    EXPECT_EQ(motions(p), (Rows{"rapid 0 0 0", "cw 10 0 0", "ccw 10 10 0", "feed 0 10 0"}));
+    EXPECT_NEAR(p.motions.arcs.at(0).centre.x, 5, 1e-9);
+    EXPECT_NE(error_of("G0 X0 Y0 Z0\nCIP X10 I1=5 F60\n", "siemens").find("on a line"), std::string::npos);
+    // CR negative: the long way; TURN: a full circle more.
+    p = parse("G0 X0 Y0 Z0\nG2 X10 Y0 CR=-10 F60\nG3 X0 Y0 Z-6 I-5 J0 TURN=2\n", "siemens");
+    EXPECT_GT(p.motions.arcs.at(0).centre.y, 0);
+    EXPECT_EQ(p.motions.arcs.at(1).turns, 3);
+}
+
+TEST(SiemensCycles, DrillOnceOrAfterEveryMotion) {
+    // RTP 10, RFP 0, SDIS 2, DP −5.
+    EXPECT_EQ(rows("G0 X1 Y1 Z20 F60\nCYCLE81(10,0,2,-5)\n"), (Rows{"rapid 1 1 20", "rapid 1 1 2", "feed 1 1 -5", "rapid 1 1 10"}));
+    EXPECT_EQ(rows("G0 X0 Y0 Z10 F60\nMCALL CYCLE82(10,0,2,,4,0.5)\nX1\nX2\nMCALL\nX3\n"),
+              (Rows{"rapid 0 0 10", "rapid 1 0 10", "rapid 1 0 2", "feed 1 0 -4", "dwell 1 0 -4", "rapid 1 0 10", "rapid 2 0 10", "rapid 2 0 2", "feed 2 0 -4",
+                    "dwell 2 0 -4", "rapid 2 0 10", "rapid 3 0 10"}));
+    // Tapping goes out with feed, boring with CYCLE85 too.
+    EXPECT_EQ(rows("G0 X1 Y1 Z10 F60\nCYCLE84(10,0,2,-5,,,,,1)\n"), (Rows{"rapid 1 1 10", "rapid 1 1 2", "feed 1 1 -5", "feed 1 1 2", "rapid 1 1 10"}));
+    const Program p = parse("G0 X1 Y1 Z10 F60\nCYCLE85(10,0,2,-5,,0,120,240)\n", "siemens");
+    EXPECT_EQ(motions(p), (Rows{"rapid 1 1 10", "rapid 1 1 2", "feed 1 1 -5", "feed 1 1 2", "rapid 1 1 10"}));
+    EXPECT_FLOAT_EQ(p.motions.feed[2], 2);
+    EXPECT_FLOAT_EQ(p.motions.feed[3], 4);
+    EXPECT_EQ(rows("G0 X1 Y1 Z10 F60\nCYCLE86(10,0,2,-5,,0,3,-0.5,0,0)\n"),
+              (Rows{"rapid 1 1 10", "rapid 1 1 2", "feed 1 1 -5", "rapid 0.5 1 -5", "rapid 0.5 1 2", "rapid 0.5 1 10", "rapid 1 1 10"}));
+}
+
+TEST(SiemensCycles, PeckByDegression) {
+    // 20 deep, 8 first, 3 less each: 8, 5, then 3; 4 are left, so 3 no more but 2 and 2 (ends 8, 13, 16, 18, 20).
+    EXPECT_EQ(rows("G0 X0 Y0 Z5 F60\nCYCLE83(5,0,1,-20,,-8,,3,0,0,1,0)\n"),
+              (Rows{"rapid 0 0 5", "rapid 0 0 1", "feed 0 0 -8", "feed 0 0 -7", "feed 0 0 -13", "feed 0 0 -12", "feed 0 0 -16", "feed 0 0 -15", "feed 0 0 -18",
+                    "feed 0 0 -17", "feed 0 0 -20", "rapid 0 0 5"}));
+    // Chips taken out: to R and back to 0.6 above.
+    EXPECT_EQ(rows("G0 X0 Y0 Z5 F60\nCYCLE83(5,0,1,-4,,,2,0,0,0,1,1)\n"),
+              (Rows{"rapid 0 0 5", "rapid 0 0 1", "feed 0 0 -2", "rapid 0 0 1", "rapid 0 0 -1.4", "feed 0 0 -4", "rapid 0 0 5"}));
+}
+
+TEST(SiemensCycles, FollowPatternsAndReportPockets) {
+    EXPECT_EQ(rows("G0 X0 Y0 Z5 F60\nMCALL CYCLE81(5,0,1,-2)\nHOLES1(10,0,90,1,2,2)\nMCALL\n"),
+              (Rows{"rapid 0 0 5", "rapid 10 1 5", "rapid 10 1 1", "feed 10 1 -2", "rapid 10 1 5", "rapid 10 3 5", "rapid 10 3 1", "feed 10 3 -2", "rapid 10 3 5"}));
+    EXPECT_EQ(rows("G0 X0 Y0 Z5\nHOLES2(0,0,10,0,0,4)\n"), (Rows{"rapid 0 0 5", "rapid 10 0 5", "rapid 0 10 5", "rapid -10 0 5", "rapid 0 -10 5"}));
+    EXPECT_EQ(rows("G0 X0 Y0 Z5\nCYCLE801(0,0,0,5,2,2,2)\n"), (Rows{"rapid 0 0 5", "rapid 0 0 5", "rapid 5 0 5", "rapid 5 2 5", "rapid 0 2 5"}));
+    const Program p = parse("G0 X0\nPOCKET3(5,0,1,-5)\n", "siemens");
+    ASSERT_EQ(p.diagnostics.count("program.cycle"), 1u);
+    EXPECT_EQ(p.diagnostics.kept()[0].where.text(), "test.nc:2:1");
+}
+
+TEST(SiemensFlow, JumpsAndLoops) {
+    EXPECT_EQ(rows("DEF INT _N=0\nG0 X0 Y0 Z0\nAGAIN: _N=_N+1\nX=_N\nIF _N<2 GOTOB AGAIN\nGOTOF DONE\nX99\nDONE:\nFOR R1=5 TO 6\nY=R1\nENDFOR\nWHILE R1>5\nR1=R1-1\nENDWHILE\nZ=R1\n"
+                   "LOOP\nR1=R1+1\nIF R1==8\nGOTOF OUT\nENDIF\nENDLOOP\nOUT: X=R1\nREPEAT\nR1=R1+1\nUNTIL R1>=10\nY=R1\nM30\n"),
+              (Rows{"rapid 0 0 0", "rapid 1 0 0", "rapid 2 0 0", "rapid 2 5 0", "rapid 2 6 0", "rapid 2 6 5", "rapid 8 6 5", "rapid 8 10 5"}));
+    // A section is repeated from its label on, twice more.
+    EXPECT_EQ(rows("G0 X0 Y0 Z0\nSECTION: G91 X1\nREPEAT SECTION P=2\nG90 Y1\nM30\n"), (Rows{"rapid 0 0 0", "rapid 1 0 0", "rapid 2 0 0", "rapid 3 0 0", "rapid 3 1 0"}));
+}
+
+TEST(SiemensFlow, CallsFilesBesideTheProgramWithArguments) {
+    const std::map<std::string, std::string> files{{"SLOT_A", "PROC SLOT_A(REAL _X, REAL _D=3)\nG1 F60 X=_X Z=-_D\nRET\n"}, {"L12", "G0 Y12\nM17\n"}};
+    const auto text = std::make_shared<std::string>("G0 X0 Y0 Z0\nSLOT_A(4,2)\nSLOT_A(5)\nL12\nEXTCALL \"SLOT_A\"\nEXTCALL(\"/nc/_N_L12_SPF\")\nM30\n");
+    InterpreterOptions options;
+    options.dialect = find_dialect("siemens");
+    options.load = [&](const std::string& name) -> std::optional<SourceText> {
+        const auto found = files.find(name);
+        if (found == files.end()) return std::nullopt;
+        return SourceText(name, found->second, nullptr);
+    };
+    EXPECT_EQ(motions(parse_program(SourceText("test.nc", *text, text), options)),
+              (Rows{"rapid 0 0 0", "feed 4 0 -2", "feed 5 0 -3", "rapid 5 12 -3", "feed 0 12 -3", "rapid 0 12 -3"}));
+    EXPECT_NE(error_of("EXTCALL(\"NOWHERE\")\n", "siemens").find("test.nc:1:1: error: subprogram 'NOWHERE' is neither"), std::string::npos);
+}
+
+TEST(SiemensVariables, AreNumbersArraysAndTheControls) {
+    const Program p = parse("DEF REAL A[3], B=2\nDEF STRING[20] NAME=\"X\"\nA[1]=B*3\nR[5]=7\nG0 X=A[1] Y=R5 Z=A[2]\nX=$P_UIFR[1]+1\n", "siemens");
+    EXPECT_EQ(motions(p), (Rows{"rapid 6 7 0", "rapid 1 7 0"}));
+    EXPECT_EQ(p.diagnostics.count("program.variable"), 1u);
+}
+
+TEST(SiemensModes, AreNotedOrHalveDiameters) {
+    EXPECT_EQ(rows("G0 X0 Y0 Z0\nDIAMON\nX10\nDIAMOF\nX10\n"), (Rows{"rapid 0 0 0", "rapid 5 0 0", "rapid 10 0 0"}));
+    const Program p = parse("G0 X1 FNORM STOPRE\nMSG(\"ROUGH (1)\")\nG642 SOFT\nX2 RND=2\nASPLINE X3\n", "siemens");
+    EXPECT_EQ(p.diagnostics.count("program.corner"), 1u);
+    EXPECT_EQ(p.diagnostics.count("program.spline"), 1u);
+    EXPECT_EQ(p.diagnostics.count("program.unknown-word"), 0u);
+    EXPECT_EQ(p.motions.size(), 3);
+}
+
+}  // namespace
+}  // namespace clsurf
