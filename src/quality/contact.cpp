@@ -1,0 +1,34 @@
+#include "quality/contact.h"
+
+#include <cmath>
+#include <limits>
+
+namespace clsurf {
+namespace {
+
+constexpr double level = 1e-9;  ///< sine of a normal's tilt below which it is the axis
+
+}  // namespace
+
+double outline_height(const Tool& tool, double rho) {
+    if (rho > tool.radius) return std::numeric_limits<double>::infinity();
+    const double bottom = tool.radius - tool.corner;
+    if (rho <= bottom) return 0;
+    const double out = rho - bottom;
+    return tool.corner - std::sqrt(std::max(0.0, tool.corner * tool.corner - out * out));
+}
+
+Vec3 contact_offset(const Tool& tool, const Vec3& normal) {
+    const double tilt = std::hypot(normal.x(), normal.y());
+    const double bottom = tool.radius - tool.corner;
+    Vec3 offset = tool.corner * (Vec3::UnitZ() - normal);
+    if (bottom > 0 && tilt > level) offset -= bottom / tilt * Vec3(normal.x(), normal.y(), 0);
+    return offset;
+}
+
+double contact_radius(const Tool& tool, const Vec3& normal) {
+    const double bottom = tool.radius - tool.corner;
+    return bottom > 0 ? tool.corner + bottom / std::hypot(normal.x(), normal.y()) : tool.corner;
+}
+
+}  // namespace clsurf
