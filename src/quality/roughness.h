@@ -1,0 +1,46 @@
+#pragma once
+// Roughness of profiles (ISO 4287, Gaussian filter of ISO 16610-21) and of areas (ISO 25178-2). Lengths
+// and heights in one unit throughout, mm here.
+
+#include <span>
+#include <vector>
+
+namespace clsurf {
+
+/// Of a profile as it is, about its mean. Rz is the height from lowest to highest.
+struct ProfileHeights {
+    double ra = 0, rq = 0, rz = 0;
+};
+/// O(points). Nothing to measure (no points): zeros.
+[[nodiscard]] ProfileHeights profile_heights(std::span<const double> z);
+
+/// The waviness: the mean line of a Gaussian filter that halves waves of length `cutoff`. At the ends
+/// the weights of what is there are scaled up. Domain: step, cutoff > 0. O(points · cutoff / step).
+[[nodiscard]] std::vector<double> gaussian_mean_line(std::span<const double> z, double step, double cutoff);
+
+/// The cut-off [mm] for scallops so far apart: 0.8 mm, for wider ones what ISO 4288 gives for such a
+/// spacing of profile elements: 2.5 mm above 0.4 mm, 8 mm above 1.3 mm.
+[[nodiscard]] double cutoff_for(double step_over);
+
+/// Roughness of a profile: what the filter leaves, in the middle of it.
+struct Roughness {
+    double ra = 0, rq = 0;
+    double rz = 0;      ///< mean over the sampling lengths of the height from lowest to highest
+    double length = 0;  ///< that was evaluated; 0: nothing was
+    int sampling_lengths = 0;
+    double cutoff = 0;
+};
+
+/// Evaluates up to five sampling lengths of one cut-off each, in the middle, with half a cut-off left
+/// out at both ends, where the filter does not know enough; of a profile shorter than two cut-offs all
+/// is one sampling length. Domain: z finite.
+[[nodiscard]] Roughness roughness_of(std::span<const double> z, double step, double cutoff);
+
+/// Of an area about its mean; NaN: no value. Sz is the height from lowest to highest.
+struct AreaHeights {
+    double sa = 0, sq = 0, sz = 0;
+    std::size_t cells = 0;  ///< that have a value
+};
+[[nodiscard]] AreaHeights area_heights(std::span<const float> z);
+
+}  // namespace clsurf
