@@ -13,7 +13,7 @@ namespace clsurf {
 struct DerivativeFilter {
     int points = 21;     ///< of the window, odd
     int order = 2;       ///< of the polynomial
-    int derivative = 1;  ///< 1, 2, 3
+    int derivative = 1;  ///< 1, 2, 3; 0: the smoothed value itself
     double period = 0;   ///< [s]
 
     /// Frequency at which the filter gives 1/√2 of the true derivative [Hz].

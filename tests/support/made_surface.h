@@ -28,11 +28,15 @@ struct MadeSurface {
 /// Measured position of a commanded one; empty: no measured positions.
 using Measure = std::function<Vec3(const Vec3& commanded, const Vec3& feed)>;
 
-inline MadeSurface made_zigzag(const std::vector<double>& speeds, double length, double apart, const Measure& measure) {
+/// Where the plane's points really lie: a rotation, a curved surface; empty: on the plane. Keeps distances.
+using Place = std::function<Vec3(const Vec3& flat)>;
+
+inline MadeSurface made_zigzag(const std::vector<double>& speeds, double length, double apart, const Measure& measure, const Place& place = {}) {
     constexpr double period = 0.001;
     std::vector<Vec3> points;
     std::vector<Vec3> off;
-    const auto add = [&](const Vec3& p, const Vec3& feed) {
+    const auto add = [&](const Vec3& flat, const Vec3& feed) {
+        const Vec3 p = place ? place(flat) : flat;
         points.push_back(p);
         off.push_back(measure ? measure(p, feed) : p);
     };
@@ -78,8 +82,8 @@ inline MadeSurface made_zigzag(const std::vector<double>& speeds, double length,
     return made;
 }
 
-inline MadeSurface flat_zigzag(int passes, double length, double apart, double speed, const Measure& measure) {
-    return made_zigzag(std::vector<double>(static_cast<std::size_t>(passes), speed), length, apart, measure);
+inline MadeSurface flat_zigzag(int passes, double length, double apart, double speed, const Measure& measure, const Place& place = {}) {
+    return made_zigzag(std::vector<double>(static_cast<std::size_t>(passes), speed), length, apart, measure, place);
 }
 
 inline MadeSurface zigzag_of_speeds(const std::vector<double>& speeds, double length, double apart) { return made_zigzag(speeds, length, apart, {}); }

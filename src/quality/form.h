@@ -1,0 +1,49 @@
+#pragma once
+// Form: the smooth surface that a formed one is measured against, since the design surface is not known:
+// the one through the commanded contact points. What is left over it are scallops, lags and marks.
+//
+// At the knots of a grid, a step-over apart, a quadratic is fitted to the contact points within three
+// step-overs (tricube weights by distance; the fit is repeated twice with bisquare weights, so that one
+// pass that the program put elsewhere does not bend it). Between knots their quadratics run into each
+// other. Three step-overs: a form of 0.1 mm⁻³ (fourth derivative) then gives less than 0.3 µm of error
+// at 0.3 mm, and ten would give 30 µm; sharp edges of the form are rounded within that distance.
+
+#include <array>
+#include <vector>
+
+#include "quality/formed_surface.h"
+
+namespace clsurf {
+
+class Form {
+public:
+    /// For places inside `region`. O(contact points near it + knots), parallel.
+    Form(const FormedSurface& formed, const Box2& region);
+
+    /// Turns heights of FormedSurface::map() into deviations [mm] along the form's normal, + outside
+    /// of it; NaN stays, and becomes what has no form (no passes near). Parallel over rows.
+    void subtract(const MapFrame& frame, std::int64_t first_row, std::span<float> z) const;
+
+    /// The form's height [mm] over FormedSurface::level(), and its slopes; NaN: none.
+    struct Facet {
+        double z = 0, zx = 0, zy = 0;
+    };
+    [[nodiscard]] Facet at(const Vec2& place) const;
+
+private:
+    /// a0 + a1 x + a2 y + a3 x² + a4 xy + a5 y², x and y in pitches from the knot; a0 NaN: no fit.
+    using Knot = std::array<float, 6>;
+
+    struct Samples;
+    void fit(std::int64_t column, std::int64_t row, const Samples& samples);
+
+    Vec2 corner_ = Vec2::Zero();
+    double pitch_ = 1;
+    std::int64_t columns_ = 0, rows_ = 0;
+    std::vector<Knot> knots_;
+};
+
+/// FormedSurface::map() with the form taken off: deviations [mm].
+void map_deviation(const FormedSurface& formed, const Form& form, const MapFrame& frame, const TakeRows& take);
+
+}  // namespace clsurf

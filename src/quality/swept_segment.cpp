@@ -1,0 +1,195 @@
+#include "quality/swept_segment.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/vectorised.h"
+
+namespace clsurf {
+namespace {
+
+/// Columns of a row that lie in the strip, last exclusive.
+struct Columns {
+    int first, last;
+};
+
+/// Where low ≤ a + b x ≤ high holds, taken off `from` … `to`.
+inline void narrow(float a, float b, float low, float high, float& from, float& to) {
+    if (b == 0.0F) {
+        if (a < low || a > high) to = from - 1;
+        return;
+    }
+    const float p = (low - a) / b;
+    const float q = (high - a) / b;
+    from = std::max(from, std::min(p, q));
+    to = std::min(to, std::max(p, q));
+}
+
+/// A row seen from the segment: along = s + dx x, across = w − dy x.
+struct Row {
+    float s, w;
+    Columns columns;
+};
+
+inline Row row_of(const SweptSegment& g, const CellBlock& cells, int row) {
+    const float y = static_cast<float>(row) * cells.cell - g.y;
+    Row r{-g.x * g.dx + y * g.dy, g.x * g.dy + y * g.dx, {0, 0}};
+    float from = 0;
+    float to = static_cast<float>(cells.columns - 1) * cells.cell;
+    narrow(r.s, g.dx, g.along_low, g.along_high, from, to);
+    narrow(r.w, -g.dy, g.across_low, g.across_high, from, to);
+    if (from <= to) {
+        constexpr float rounding = 0.01F;  // of a cell: the last column must not be lost to it
+        r.columns.first = static_cast<int>(std::ceil(from / cells.cell - rounding));
+        r.columns.last = std::min(cells.columns, static_cast<int>(std::floor(to / cells.cell + rounding)) + 1);
+    }
+    return r;
+}
+
+/// Rows that the strip can touch.
+Columns rows_of(const SweptSegment& g, const CellBlock& cells) {
+    const float a = g.dy * g.along_low;
+    const float b = g.dy * g.along_high;
+    const float c = g.dx * g.across_low;
+    const float d = g.dx * g.across_high;
+    const float low = g.y + std::min(a, b) + std::min(c, d);
+    const float high = g.y + std::max(a, b) + std::max(c, d);
+    const auto last = static_cast<float>(cells.rows);
+    return {static_cast<int>(std::clamp(std::floor(low / cells.cell), 0.0F, last)),
+            static_cast<int>(std::clamp(std::floor(high / cells.cell) + 1, 0.0F, last))};
+}
+
+/// One row under a ball: the loop that all the time goes into.
+CLSURF_VECTORISED void lower_row(float* z, int count, float s, float ds, float w, float dw, float radius, float sine, float slope, float length, float tip) {
+    const float squared = radius * radius;
+    for (int k = 0; k < count; ++k) {
+        const auto x = static_cast<float>(k);
+        const float along = s + ds * x;
+        const float across = w + dw * x;
+        const float rest = squared - across * across;
+        const float half = std::sqrt(rest > 0 ? rest : 0.0F);
+        // The tangent of slope touches the circle of this section `half · sine` from its middle.
+        float at = along - half * sine;
+        at = at < 0 ? 0.0F : at;
+        at = at > length ? length : at;
+        const float off = along - at;
+        const float q = rest - off * off;
+        const float height = tip + slope * at + (radius - std::sqrt(q > 0 ? q : 0.0F));
+        const float lowered = height < z[k] ? height : z[k];
+        z[k] = q >= 0 ? lowered : z[k];
+    }
+}
+
+void lower_ball(float radius, const SweptSegment& g, const CellBlock& cells) {
+    const float sine = g.slope / std::sqrt(1 + g.slope * g.slope);
+    const Columns rows = rows_of(g, cells);
+    for (int row = rows.first; row < rows.last; ++row) {
+        const Row r = row_of(g, cells, row);
+        if (r.columns.first >= r.columns.last) continue;
+        const float x = static_cast<float>(r.columns.first) * cells.cell;
+        lower_row(cells.z + static_cast<std::ptrdiff_t>(row) * cells.columns + r.columns.first, r.columns.last - r.columns.first, r.s + g.dx * x, g.dx * cells.cell,
+                  r.w - g.dy * x, -g.dy * cells.cell, radius, sine, g.slope, g.length, g.z);
+    }
+}
+
+/// For a bull-nose tool: how far before the axis its section, `across` beside the axis, is touched by a
+/// tangent of this slope; by halving, the slope of the section rises all the way.
+float touched_before(const Tool& tool, float across, float slope) {
+    const auto radius = static_cast<float>(tool.radius);
+    const auto corner = static_cast<float>(tool.corner);
+    const float bottom = radius - corner;
+    const float end = std::sqrt(std::max(0.0F, radius * radius - across * across));
+    float low = std::sqrt(std::max(0.0F, bottom * bottom - across * across));
+    float high = end;
+    if (slope == 0) return 0;
+    constexpr int halvings = 20;
+    for (int k = 0; k < halvings; ++k) {
+        const float u = 0.5F * (low + high);
+        const float rho = std::sqrt(u * u + across * across);
+        const float out = rho - bottom;
+        const float up = corner * corner - out * out;
+        const bool steeper = up <= 0 || out * u > std::abs(slope) * rho * std::sqrt(up);
+        (steeper ? high : low) = u;
+    }
+    return std::copysign(0.5F * (low + high), slope);
+}
+
+/// The same for many places across: it depends on nothing else.
+class Touched {
+public:
+    Touched(const Tool& tool, const SweptSegment& g) : low_(std::max(g.across_low, static_cast<float>(-tool.radius))) {
+        const float high = std::min(g.across_high, static_cast<float>(tool.radius));
+        const float step = std::max(high - low_, 1e-6F) / intervals;
+        per_mm_ = 1 / step;
+        for (std::size_t k = 0; k < before_.size(); ++k) before_[k] = touched_before(tool, low_ + static_cast<float>(k) * step, g.slope);
+    }
+    [[nodiscard]] float before(float across) const {
+        const float at = std::clamp((across - low_) * per_mm_, 0.0F, static_cast<float>(intervals) - 0.001F);
+        const auto k = static_cast<std::size_t>(at);
+        return before_[k] + (at - static_cast<float>(k)) * (before_[k + 1] - before_[k]);
+    }
+
+private:
+    static constexpr int intervals = 32;
+    float low_, per_mm_ = 1;
+    std::array<float, intervals + 1> before_{};
+};
+
+void lower_bull(const Tool& tool, const SweptSegment& g, const CellBlock& cells) {
+    const Touched touched(tool, g);
+    const auto radius = static_cast<float>(tool.radius);
+    const auto corner = static_cast<float>(tool.corner);
+    const float bottom = radius - corner;
+    const Columns rows = rows_of(g, cells);
+    for (int row = rows.first; row < rows.last; ++row) {
+        const Row r = row_of(g, cells, row);
+        float* const z = cells.z + static_cast<std::ptrdiff_t>(row) * cells.columns;
+        for (int column = r.columns.first; column < r.columns.last; ++column) {
+            const float x = static_cast<float>(column) * cells.cell;
+            const float along = r.s + g.dx * x;
+            const float across = r.w - g.dy * x;
+            const float at = std::clamp(along - touched.before(across), 0.0F, g.length);
+            const float off = along - at;
+            const float rho = std::sqrt(off * off + across * across);
+            if (rho > radius) continue;
+            const float out = std::max(0.0F, rho - bottom);
+            const float height = g.z + g.slope * at + (corner - std::sqrt(std::max(0.0F, corner * corner - out * out)));
+            z[column] = std::min(z[column], height);
+        }
+    }
+}
+
+void lower_flat(const Tool& tool, const SweptSegment& g, const CellBlock& cells) {
+    const auto radius = static_cast<float>(tool.radius);
+    const Columns rows = rows_of(g, cells);
+    for (int row = rows.first; row < rows.last; ++row) {
+        const Row r = row_of(g, cells, row);
+        float* const z = cells.z + static_cast<std::ptrdiff_t>(row) * cells.columns;
+        for (int column = r.columns.first; column < r.columns.last; ++column) {
+            const float x = static_cast<float>(column) * cells.cell;
+            const float along = r.s + g.dx * x;
+            const float across = r.w - g.dy * x;
+            const float rest = radius * radius - across * across;
+            if (rest < 0) continue;
+            const float half = std::sqrt(rest);
+            const float first = std::max(0.0F, along - half);
+            const float last = std::min(g.length, along + half);
+            if (first > last) continue;
+            // The bottom stands over the cell all the way between: the lower end counts.
+            z[column] = std::min(z[column], g.z + g.slope * (g.slope >= 0 ? first : last));
+        }
+    }
+}
+
+}  // namespace
+
+void lower(const Tool& tool, const SweptSegment& segment, const CellBlock& cells) {
+    switch (tool.kind) {
+        case ToolKind::ball: return lower_ball(static_cast<float>(tool.radius), segment, cells);
+        case ToolKind::bull: return lower_bull(tool, segment, cells);
+        case ToolKind::flat: return lower_flat(tool, segment, cells);
+    }
+}
+
+}  // namespace clsurf
