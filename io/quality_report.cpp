@@ -55,6 +55,7 @@ Json defects_json(const ReportedQuality& q) {
     Json all = Json::array();
     for (std::size_t i = 0; i < q.report->defects.size(); ++i) {
         all.push_back(defect_json(q.report->defects[i], i + 1, q.scallop));
+        if (q.formed != nullptr) all.back()["formed_um"] = number(um(q.formed->marks[i]));
         if (i < q.colour_differences.size()) all.back()["delta_e00"] = number(q.colour_differences[i]);
     }
     return all;
@@ -64,6 +65,18 @@ Json expected_json(const ReportedQuality& q) {
     Json all = Json::array();
     for (std::size_t i = 0; i < q.report->expected.size(); ++i) all.push_back(defect_json(q.report->expected[i], i + 1, q.scallop));
     return all;
+}
+
+void add_roughness(Json& summary, const FormedReport& f) {
+    const auto known = [&](double mm) { return f.patches > 0 ? number(um(mm)) : Json(nullptr); };
+    summary["ra_um"] = known(f.ra);
+    summary["rz_um"] = known(f.rz);
+    summary["rz_most_um"] = known(f.rz_most);
+    summary["sa_um"] = known(f.sa);
+    summary["sq_um"] = known(f.sq);
+    summary["sz_um"] = known(f.sz);
+    summary["roughness_cutoff_mm"] = number(f.cutoff);
+    summary["roughness_patches"] = f.patches;
 }
 
 double coverage(const QualityReport& r) { return r.points > 0 ? 100.0 * static_cast<double>(r.compared) / static_cast<double>(r.points) : 0.0; }
@@ -99,6 +112,7 @@ std::string quality_json(const ReportedQuality& q) {
                  {"tool", to_text(q.tool)},
                  {"budget", std::move(budget)},
                  {"within_budget", all_held(q.budget)}};
+    if (q.formed != nullptr) add_roughness(summary, *q.formed);
     return dump(Json{{"defects", defects_json(q)},
                      {"expected", expected_json(q)},
                      {"summary", std::move(summary)},
@@ -128,7 +142,8 @@ std::string quality_text(const ReportedQuality& q) {
         return run.first_line == run.last_line ? fmt::format("{}", run.first_line) : fmt::format("{}-{}", run.first_line, run.last_line);
     };
     if (!r.defects.empty()) {
-        text += fmt::format("{:>3} {:>3} {:<13} {:>9} {:>10} {:>7} {:<28} {}\n", "no", "sev", "cause", "depth µm", "speed %", "mm", "at X Y Z [mm]", "lines");
+        text += fmt::format("{:>3} {:>3} {:<13} {:>9} {:>10} {:>7}{} {:<28} {}\n", "no", "sev", "cause", "depth µm", "speed %", "mm", q.formed != nullptr ? "  formed µm" : "",
+                            "at X Y Z [mm]", "lines");
     }
     for (std::size_t i = 0; i < r.defects.size(); ++i) {
         const Defect& d = r.defects[i];
@@ -137,8 +152,10 @@ std::string quality_text(const ReportedQuality& q) {
         for (std::size_t k = 0; k < std::min(shown, d.runs.size()); ++k) lines += (k > 0 ? ", " : "") + lines_of(d.runs[k]);
         if (d.runs.size() > shown) lines += fmt::format(" and {} more", d.runs.size() - shown);
         const double percent = std::copysign(100 * d.speed_mismatch, d.speed_jump);
-        text += fmt::format("{:>3} {:>3} {:<13} {:>8} {:>9} {:>7} {:<28} {}\n", i + 1, d.severity, name_of(d.cause), fmt::format("{:+.1f}", d.pit ? -um(d.depth) : um(d.depth)),
-                            fmt::format("{:+.1f}", percent), fmt::format("{:.1f}", d.length),
+        const double formed = q.formed != nullptr ? um(q.formed->marks[i]) : 0;
+        const std::string mark = q.formed == nullptr ? "" : fmt::format(" {:>10}", formed == formed ? fmt::format("{:.1f}", formed) : "-");
+        text += fmt::format("{:>3} {:>3} {:<13} {:>8} {:>9} {:>7}{} {:<28} {}\n", i + 1, d.severity, name_of(d.cause), fmt::format("{:+.1f}", d.pit ? -um(d.depth) : um(d.depth)),
+                            fmt::format("{:+.1f}", percent), fmt::format("{:.1f}", d.length), mark,
                             fmt::format("{:.2f} {:.2f} {:.2f}", d.position.x(), d.position.y(), d.position.z()), lines);
     }
     if (r.passes < 2 || r.step_over <= 0) {
@@ -151,6 +168,10 @@ std::string quality_text(const ReportedQuality& q) {
         if (r.has_lag) text += fmt::format(", lag {:.1f} µm", um(r.thresholds.of[index_of(Quantity::lag)]));
         text += fmt::format(", relief of the passes {:.1f} µm; {}\n", um(r.thresholds.of[index_of(Quantity::relief)]), r.note);
         if (q.scallop > 0) text += fmt::format("scallop between clean passes with {}: {:.2f} µm\n", to_text(q.tool), um(q.scallop));
+        if (q.formed != nullptr && q.formed->patches > 0) {
+            const FormedReport& f = *q.formed;
+            text += fmt::format("formed surface, {} patches: Ra {:.2f}, Rz {:.2f} (at most {:.2f}), Sa {:.2f}, Sz {:.2f} µm, cut-off {:g} mm\n", f.patches, um(f.ra), um(f.rz), um(f.rz_most), um(f.sa), um(f.sz), f.cutoff);
+        }
         if (!r.has_lag) text += "no measured positions: depths are those of the commanded path alone\n";
         if (!r.expected.empty()) text += fmt::format("{} more at the border of the part, where a pass has one neighbour only: not counted\n", r.expected.size());
     }

@@ -7,6 +7,7 @@
 #include "core/diagnostic.h"
 #include "program/program.h"
 #include "quality/defects.h"
+#include "quality/formed_report.h"
 #include "quality/tool.h"
 #include "quality/verdict.h"
 
@@ -20,6 +21,7 @@ struct ReportedQuality {
     Tool tool;
     double scallop = 0;    ///< [mm] between clean passes; 0: not known
     std::vector<double> colour_differences;  ///< ΔE00 of each defect's speed and that beside it, in the map of speeds
+    const FormedReport* formed = nullptr;  ///< nullptr: the tool is not known
     std::vector<BudgetLine> budget;
     const Diagnostics* diagnostics = nullptr;
 };

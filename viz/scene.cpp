@@ -417,7 +417,7 @@ Camera map_camera(const std::vector<MapPanel>& panels, const Look& look) {
     if (!look.box.isEmpty()) return camera_for(look.view, look.box, width, height, look.zoom);
     const ViewAxes axes = axes_of(look.view);
     Box3 extent;
-    for (const MapPanel& map : panels) extent.extend(extent_of(*map.surface, axes));
+    for (const MapPanel& map : panels) extent.extend(map.relief != nullptr ? extent_of(*map.relief, axes) : extent_of(*map.surface, axes));
     return camera_for(axes, extent, width, height, look.zoom);
 }
 
@@ -443,7 +443,7 @@ Sheet map_sheet(const std::vector<MapPanel>& panels, const Camera& camera, const
         request.height = camera.height + 2 * static_cast<int>(std::ceil(room));
         request.style = look.style;
         request.box = look.box;
-        Detail detail = visible_detail(*map.surface, map.field->values, request);
+        Detail detail = map.relief != nullptr ? relief_detail(*map.relief, map.field->values, request) : visible_detail(*map.surface, map.field->values, request);
         const Beyond here = paint(detail, scale, map.field->info.unit.per_inside, panel);
         beyond = {beyond.below || here.below, beyond.above || here.above, beyond.missing || here.missing};
         panel.geometry = std::move(detail.geometry);

@@ -9,6 +9,7 @@
 #include "surface/cl_surface.h"
 #include "viz/canvas.h"
 #include "viz/detail.h"
+#include "viz/relief.h"
 #include "viz/view.h"
 
 namespace clsurf::viz {
@@ -51,6 +52,7 @@ struct MapPanel {
     std::vector<PointMark> points;
     std::vector<LineMark> lines;
     std::vector<OutlineMark> outlines;
+    const Relief* relief = nullptr;  ///< drawn in place of the surface; the field is then one of its vertices
 };
 
 struct MapTexts {

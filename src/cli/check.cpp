@@ -56,7 +56,7 @@ ExitCode run(const po::variables_map& values) {
     std::unique_ptr<io::AtomicFile> output;
     if (values.count("output") > 0) output = std::make_unique<io::AtomicFile>(values["output"].as<std::string>());
 
-    StageClock clock(read_common(values), 7);
+    StageClock clock(read_common(values), 8);
     Part part = load_part(options, clock);
     clock.begin("stitch the surface");
     const ClSurface surface = stitch(part);
@@ -69,6 +69,7 @@ ExitCode run(const po::variables_map& values) {
     reported.tool = quality_options.tool;
     reported.scallop = quality.scallop;
     reported.colour_differences = colour_differences(quality.report, part, surface);
+    reported.formed = quality.formed ? &*quality.formed : nullptr;
     reported.budget = hold(quality.report, budget);
     reported.diagnostics = &part.diagnostics;
     clock.end();

@@ -5,28 +5,30 @@
 #include "io/program_identity.h"
 
 namespace clsurf::cli {
-namespace {
 
 Role parse_role(const std::string& text) {
     const std::string_view names[] = {"commanded", "feedback", "actual"};
     for (const Role role : {Role::commanded, Role::feedback, Role::actual}) {
         if (text == name_of(role)) return role;
     }
-    throw UsageError("--surface: '" + text + "' is not commanded, feedback or actual", did_you_mean(text, names));
+    throw UsageError("'" + text + "' is not commanded, feedback or actual", did_you_mean(text, names));
 }
+
+namespace {
 
 /// The role that lines are found by: what was commanded, where it is there.
 Role mapping_role(const Log& log, Role shown) { return log.has(Role::commanded) ? Role::commanded : shown; }
 
 }  // namespace
 
-void declare_part(po::options_description& options) {
+void declare_part(po::options_description& options, bool can_form) {
     declare_program_options(options);
     declare_log_options(options);
     declare_work_offset(options);
     // clang-format off
     options.add_options()
-        ("surface", po::value<std::string>()->value_name("commanded|feedback|actual"), "which positions (default: commanded, else what the log has)")
+        ("surface", po::value<std::string>()->value_name(can_form ? "commanded|feedback|actual|formed" : "commanded|feedback|actual"),
+            can_form ? "which positions (default: commanded, else what the log has), or what the tool leaves standing; that needs --tool" : "which positions (default: commanded, else what the log has)")
         ("ignore-lines", "find the lines by geometry even where the log has a line channel");
     // clang-format on
 }
@@ -38,8 +40,10 @@ PartOptions read_part_options(const po::variables_map& values) {
     options.program_options = read_program_options(values);
     options.log_options = read_log_options(values);
     options.use_line_channel = values.count("ignore-lines") == 0;
-    if (values.count("surface") > 0) options.role = parse_role(values["surface"].as<std::string>());
-    else options.role_given = false;
+    options.role_given = values.count("surface") > 0;
+    options.formed = options.role_given && values["surface"].as<std::string>() == "formed";
+    if (options.formed) options.role_given = false;
+    if (options.role_given) options.role = parse_role(values["surface"].as<std::string>());
     options.offset = read_work_offset(values);
     return options;
 }

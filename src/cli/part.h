@@ -23,13 +23,18 @@ struct PartOptions {
     io::LogOptions log_options;
     Role role = Role::commanded;
     bool role_given = true;         ///< false: commanded where the log has it
+    bool formed = false;            ///< --surface formed
     std::optional<Vec3> offset;     ///< [mm], workpiece = machine − offset
     bool use_line_channel = true;
 };
 
 /// --dialect, --block-delete, --tools, --layout, --mapping, --period, --surface, --work-offset, --ignore-lines.
-void declare_part(po::options_description& options);
+/// `can_form`: --surface may be `formed` too.
+void declare_part(po::options_description& options, bool can_form = false);
 [[nodiscard]] PartOptions read_part_options(const po::variables_map& values);
+
+/// "commanded", "feedback" or "actual". Throws UsageError.
+[[nodiscard]] Role parse_role(const std::string& text);
 
 struct Part {
     Program program;

@@ -12,7 +12,8 @@ namespace {
 constexpr double end_zone_step_overs = 2;
 constexpr double least_end_zone = 1.0;  ///< [mm]
 
-/// The positions that heights are measured from; nothing where the log has only those that are shown.
+}  // namespace
+
 std::optional<Trajectory> measured_of(const Part& part, std::optional<Role> wanted) {
     if (part.path.role != Role::commanded || wanted == Role::commanded) return std::nullopt;
     if (wanted) return reconstruct(part.log, *wanted, part.path.offset);
@@ -22,12 +23,10 @@ std::optional<Trajectory> measured_of(const Part& part, std::optional<Role> want
     return std::nullopt;
 }
 
-}  // namespace
-
 void declare_quality(po::options_description& options) {
     // clang-format off
     options.add_options()
-        ("tool", po::value<std::string>()->value_name("ball:D|bull:D,R|flat:D"), "the tool, diameter and corner radius in mm; tells the scallop");
+        ("tool", po::value<std::string>()->value_name("ball:D|bull:D,R|flat:D"), "the tool, diameter and corner radius in mm; tells scallop, roughness and how deep marks are once the neighbours have cut");
     // clang-format on
 }
 
@@ -63,6 +62,13 @@ Quality judge(Part& part, const ClSurface& surface, std::optional<Role> wanted, 
     }
     if (options.tool_given && options.tool.kind == ToolKind::ball && surface.step_over > 0 && surface.step_over < 2 * options.tool.radius) {
         quality.scallop = scallop_height(options.tool.radius, surface.step_over, std::numeric_limits<double>::infinity());
+    }
+    if (options.tool_given && surface.step_over > 0) {
+        clock.begin("measure the formed surface");
+        const std::optional<Trajectory> measured = measured_of(part, wanted);
+        const std::vector<PointRange> pieces = smooth_pieces(part.log, surface.passes);
+        const FormedSurface formed(surface, quality.signals, measured ? *measured : part.path, pieces, options.tool);
+        quality.formed = measure_formed(formed, quality.signals, quality.report);
     }
     return quality;
 }

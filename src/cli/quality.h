@@ -5,6 +5,7 @@
 
 #include "cli/part.h"
 #include "quality/defects.h"
+#include "quality/formed_report.h"
 #include "quality/tool.h"
 
 namespace clsurf::cli {
@@ -27,11 +28,16 @@ struct Quality {
     QualityReport report;
     Signals signals;
     double scallop = 0;  ///< [mm] 0: not known
+    std::optional<FormedReport> formed;  ///< where the tool is known
 };
 
 /// Options for load_part(): passes are compared where they were commanded, so --surface names what
 /// heights are measured from. Returns that role, or the most truthful one where none is named.
 [[nodiscard]] std::optional<Role> take_measured_role(PartOptions& options);
+
+/// The positions that heights are measured from: `wanted`, or the most truthful ones that the log has
+/// besides the commanded ones; nothing where it has only those that are shown.
+[[nodiscard]] std::optional<Trajectory> measured_of(const Part& part, std::optional<Role> wanted);
 
 /// The whole of it. Adds diagnostics `quality.…` to the part's.
 [[nodiscard]] Quality judge(Part& part, const ClSurface& surface, std::optional<Role> measured, const QualityOptions& options, StageClock& clock);

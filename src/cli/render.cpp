@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "cli/fields.h"
+#include "cli/formed.h"
 #include "cli/quality.h"
 #include "core/spelling.h"
 #include "field/range.h"
@@ -28,13 +29,17 @@ struct RenderOptions {
     std::vector<PointIndex> points;
     std::vector<LineNumber> lines;
     bool defects = false;
+    Tool tool;                  ///< of the formed surface
+    std::optional<Role> swept;  ///< its positions; none: the most truthful
     viz::Look look;
 };
 
 void declare(po::options_description& options) {
-    declare_part(options);
+    declare_part(options, true);
+    declare_quality(options);
     // clang-format off
     options.add_options()
+        ("swept", po::value<std::string>()->value_name("commanded|feedback|actual"), "positions that the formed surface's tool runs along (default: actual, else feedback, else commanded)")
         ("output,o", po::value<std::string>()->value_name("FILE"), "the picture (PNG)")
         ("color", po::value<std::string>()->value_name("FIELD"), "what is coloured (default: speed; `clsurf help fields`)")
         ("style", po::value<std::string>()->value_name("surface|lines|points"), "how the map is drawn (default: surface)")
@@ -106,6 +111,19 @@ viz::Look read_look(const po::variables_map& values) {
     return look;
 }
 
+void read_formed(const po::variables_map& values, RenderOptions& options) {
+    if (!options.part.formed) {
+        for (const char* name : {"tool", "swept"}) {
+            if (values.count(name) > 0) throw UsageError(fmt::format("--{} is of the formed surface only", name), "--surface formed --tool ball:6");
+        }
+        return;
+    }
+    options.tool = required_tool(values, "--surface formed", "--surface formed --tool ball:6");
+    if (values.count("swept") > 0) options.swept = parse_role(values["swept"].as<std::string>());
+    if (values.count("color") > 0) throw UsageError("--color is not of the formed surface: it shows micrometres over its form");
+    if (options.look.style != viz::Style::surface) throw UsageError("--style is not of the formed surface: it is drawn as one");
+}
+
 RenderOptions read_options(const po::variables_map& values) {
     RenderOptions options;
     options.part = read_part_options(values);
@@ -130,6 +148,7 @@ RenderOptions read_options(const po::variables_map& values) {
     }
     options.defects = values.count("defects") > 0;
     options.look = read_look(values);
+    read_formed(values, options);
     return options;
 }
 
@@ -138,8 +157,19 @@ struct Shown {
     Part part;
     ClSurface surface;
     Field field;
+    std::optional<viz::Relief> relief;  ///< the formed surface, whose vertices have the field then
     std::vector<viz::OutlineMark> defects;
 };
+
+/// The formed surface in place of the positions', as fine as the picture shows it.
+void form(Shown& shown, const RenderOptions& options, StageClock& clock) {
+    const viz::Camera camera = viz::map_camera({viz::MapPanel{&shown.surface, nullptr, {}, {}, {}}}, options.look);
+    const FormedPart formed(shown.part, shown.surface, options.swept, options.tool, clock);
+    FormedMap map = make_formed_map(formed, options.look.box, camera);
+    clock.end();
+    shown.field = std::move(map.field);
+    shown.relief = std::move(map.relief);
+}
 
 /// What `check` finds, as outlines: passes are compared where they were commanded, heights measured
 /// from the positions that are shown.
@@ -168,7 +198,7 @@ Shown prepare(const PartOptions& options, const std::string& field, bool defects
     clock.begin("stitch the surface");
     shown.surface = stitch(shown.part);
     clock.begin("compute the field");
-    shown.field = Fields(shown.part, shown.surface).get(field);
+    if (!options.formed) shown.field = Fields(shown.part, shown.surface).get(field);
     if (defects) shown.defects = outline_defects(shown.part, shown.surface, clock);
     clock.end();
     return shown;
@@ -176,6 +206,7 @@ Shown prepare(const PartOptions& options, const std::string& field, bool defects
 
 viz::MapPanel panel_of(const Shown& shown, const RenderOptions& options, std::string caption) {
     viz::MapPanel panel{&shown.surface, &shown.field, std::move(caption), {}, {}, shown.defects};
+    if (shown.relief) panel.relief = &*shown.relief;
     for (const PointIndex point : options.points) {
         if (point < 0 || point >= shown.part.log.records) {
             throw UsageError(fmt::format("--mark-point {}: the log has points 0 … {}", point, shown.part.log.records - 1));
@@ -202,6 +233,7 @@ std::string counts_of(const Shown& shown) {
 viz::MapTexts texts_of(const Shown& shown, const std::optional<Shown>& before, const RenderOptions& options, const std::vector<std::string>& range_notes) {
     viz::MapTexts texts;
     texts.title = fmt::format("{}, {} {}", shown.field.info.label, name_of(shown.part.path.role), options.look.style == viz::Style::surface ? "surface" : "path");
+    if (shown.relief) texts.title = fmt::format("{}, {}", shown.field.info.label, to_text(options.tool));
     const std::string program = base_name(options.part.program);
     // The captions of two panels name the logs.
     texts.subtitle = before ? fmt::format("{} · before: {} · after: {}", program, counts_of(*before), counts_of(shown))
@@ -212,12 +244,16 @@ viz::MapTexts texts_of(const Shown& shown, const std::optional<Shown>& before, c
     return texts;
 }
 
-/// What lies in the picture; nothing where all of the log does.
-ShownPoints shown_points(const ClSurface& surface, const viz::Look& look, const viz::Camera& camera) {
-    const viz::Zoom& zoom = look.zoom;
-    const bool whole = zoom.x0 <= 0 && zoom.y0 <= 0 && zoom.x1 >= 1 && zoom.y1 >= 1;
-    if (whole && look.box.isEmpty()) return {};
-    return [&surface, &look, camera](PointIndex i) { return viz::shows(camera, look, surface.positions.absolute(i)); };
+/// The range of what lies in the picture.
+ShownRange range_of(const Shown& shown, const RenderOptions& options, const viz::Camera& camera) {
+    const viz::Zoom& zoom = options.look.zoom;
+    const bool whole = zoom.x0 <= 0 && zoom.y0 <= 0 && zoom.x1 >= 1 && zoom.y1 >= 1 && options.look.box.isEmpty();
+    const auto in_picture = [&](PointIndex i) { return viz::shows(camera, options.look, shown.relief ? shown.relief->at(i) : shown.surface.positions.absolute(i)); };
+    const ShownPoints points = whole ? ShownPoints() : ShownPoints(in_picture);
+    if (!shown.relief) return find_range(shown.field, shown.surface.passes, options.range, points);
+    Passes all;
+    all.push_back({0, static_cast<PointIndex>(shown.field.values.size()) - 1, PassKind::cut});
+    return find_range(shown.field, all, options.range, points);
 }
 
 /// A mark that the picture cannot show is said on stderr, since its lack may not be noticed.
@@ -246,7 +282,8 @@ ExitCode run(const po::variables_map& values) {
     io::AtomicFile output(options.output);  // a name that cannot be written fails before the work
     const int stages_of_a_part = options.defects ? 7 : 5;
     StageClock clock(read_common(values), stages_of_a_part * (options.before.empty() ? 1 : 2) + 3);
-    const Shown after = prepare(options.part, options.field, options.defects, clock);
+    Shown after = prepare(options.part, options.field, options.defects, clock);
+    if (options.part.formed) form(after, options, clock);
     print(after.part.diagnostics, values);
     std::vector<viz::MapPanel> panels;
     std::optional<Shown> before;
@@ -254,6 +291,7 @@ ExitCode run(const po::variables_map& values) {
         PartOptions other = options.part;
         other.log = options.before;
         before = prepare(other, options.field, options.defects, clock);
+        if (other.formed) form(*before, options, clock);
         print(before->part.diagnostics, values);
         panels.push_back(panel_of(*before, options, "before: " + base_name(options.before)));
     }
@@ -262,9 +300,9 @@ ExitCode run(const po::variables_map& values) {
     clock.begin("choose the range");
     const viz::Camera camera = viz::map_camera(panels, options.look);
     warn_of_marks_outside(after, options, camera, values);
-    ShownRange range = find_range(after.field, after.surface.passes, options.range, shown_points(after.surface, options.look, camera));
+    ShownRange range = range_of(after, options, camera);
     if (before) {
-        const ShownRange other = find_range(before->field, before->surface.passes, options.range, shown_points(before->surface, options.look, camera));
+        const ShownRange other = range_of(*before, options, camera);
         range = {std::min(range.low, other.low), std::max(range.high, other.high), std::min(range.lowest, other.lowest),
                  std::max(range.highest, other.highest), range.note + (options.range.kind == RangeRule::Kind::fixed ? "" : ", the wider of both logs")};
     }
@@ -280,7 +318,7 @@ ExitCode run(const po::variables_map& values) {
     const viz::Image image = viz::draw_map(panels, camera, scale, texts_of(after, before, options, range_notes), options.look);
     clock.begin("write the picture");
     output.write(viz::encode_png(image, fmt::format("clsurf map of {} from {}: {} {:g} to {:g} {}", base_name(options.part.program),
-                                                    base_name(options.part.log), options.field, range.low, range.high, after.field.info.unit.name)));
+                                                    base_name(options.part.log), after.field.info.name, range.low, range.high, after.field.info.unit.name)));
     output.commit();
     return ExitCode::done;
 }
@@ -295,7 +333,8 @@ Subcommand render_subcommand() {
         .description = "Maps each logged point to its line, puts the cutter-location surface back together from\n"
                        "neighbouring passes, colours it by a field and draws it without a display.\n\n"
                        "  clsurf render part.nc run.biip -o map.png\n"
-                       "  clsurf render part.nc run.biip -o map.png --color acceleration --view top --range 0,800",
+                       "  clsurf render part.nc run.biip -o map.png --color acceleration --view top --range 0,800\n"
+                       "  clsurf render part.nc run.biip -o map.png --surface formed --tool ball:6",
         .declare = declare,
         .positional = {"PROGRAM", "LOG"},
         .run = run,

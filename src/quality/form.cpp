@@ -18,6 +18,9 @@ constexpr double least_spread = 0.0003;  ///< [mm] what rounding to a micrometre
 constexpr double stiffness = 1e-6;       ///< of what the points do not tell, a single pass's slope across
 constexpr float none = std::numeric_limits<float>::quiet_NaN();
 
+constexpr std::int64_t finer = 4;        ///< squares of a knot's, a side, that lie inside or not
+constexpr double on_line = 0.3;          ///< step-overs: so near to a contact point is inside
+
 using Terms = Eigen::Matrix<double, 6, 1>;
 
 Terms terms(double x, double y) {
@@ -32,7 +35,21 @@ Terms terms(double x, double y) {
 struct Form::Samples {
     std::vector<Vec3> points;          ///< sorted by square
     std::vector<std::size_t> start;    ///< of each square
+    std::int64_t columns = 0, rows = 0;
     double level = 0;
+
+    /// f(point) for those in the squares about a square, until it returns false.
+    template <typename F>
+    void for_each_near(std::int64_t column, std::int64_t row, std::int64_t squares, F&& f) const {
+        const std::int64_t from = std::clamp<std::int64_t>(column - squares, 0, columns - 1);
+        const std::int64_t to = std::clamp<std::int64_t>(column + squares, 0, columns - 1);
+        for (std::int64_t r = std::max<std::int64_t>(0, row - squares); r <= std::min(rows - 1, row + squares); ++r) {
+            const std::size_t end = start[static_cast<std::size_t>(r * columns + to) + 1];
+            for (std::size_t k = start[static_cast<std::size_t>(r * columns + from)]; k < end; ++k) {
+                if (!f(points[k])) return;
+            }
+        }
+    }
 };
 
 Form::Form(const FormedSurface& formed, const Box2& region) {
@@ -50,6 +67,8 @@ Form::Form(const FormedSurface& formed, const Box2& region) {
     std::vector<Vec3> found = formed.contacts(wide, 0.5 * pitch_);
     Samples samples;
     samples.level = formed.level();
+    samples.columns = columns_;
+    samples.rows = rows_;
     samples.start.assign(static_cast<std::size_t>(columns_ * rows_) + 1, 0);
     // Points beside the grid belong to its outermost squares.
     const auto square = [&](const Vec3& p) {
@@ -66,6 +85,37 @@ Form::Form(const FormedSurface& formed, const Box2& region) {
     parallel_for(columns_ * rows_, 64, [&](std::int64_t first, std::int64_t last) {
         for (std::int64_t k = first; k < last; ++k) fit(k % columns_, k / columns_, samples);
     });
+    const std::int64_t fine_columns = finer * columns_;
+    inside_.resize(static_cast<std::size_t>(fine_columns * finer * rows_));
+    parallel_for(static_cast<std::int64_t>(inside_.size()), 1024, [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t k = first; k < last; ++k) {
+            const Vec2 off(static_cast<double>(k % fine_columns), static_cast<double>(k / fine_columns));
+            inside_[static_cast<std::size_t>(k)] = is_inside(corner_ + pitch_ / finer * (off + Vec2::Constant(0.5)), samples) ? 1 : 0;
+        }
+    });
+}
+
+bool Form::is_inside(const Vec2& place, const Samples& samples) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    Vec2 way = Vec2::Zero();
+    const Vec2 at = (place - corner_) / pitch_;
+    samples.for_each_near(static_cast<std::int64_t>(at.x()), static_cast<std::int64_t>(at.y()), static_cast<std::int64_t>(reach), [&](const Vec3& p) {
+        const Vec2 off = p.head<2>() - place;
+        if (off.squaredNorm() >= nearest) return true;
+        nearest = off.squaredNorm();
+        way = off;
+        return true;
+    });
+    if (!(nearest <= reach * reach * pitch_ * pitch_)) return false;
+    if (std::sqrt(nearest) < on_line * pitch_) return true;
+    bool found = false;
+    samples.for_each_near(static_cast<std::int64_t>(at.x()), static_cast<std::int64_t>(at.y()), static_cast<std::int64_t>(reach), [&](const Vec3& p) {
+        const Vec2 off = p.head<2>() - place;
+        // Not only just beyond a right angle: an outermost pass that is curved would enclose what lies beside it.
+        found = off.dot(way) < -0.5 * off.norm() * way.norm();
+        return !found;
+    });
+    return found;
 }
 
 void Form::fit(std::int64_t column, std::int64_t row, const Samples& samples) {
@@ -76,13 +126,12 @@ void Form::fit(std::int64_t column, std::int64_t row, const Samples& samples) {
     Knot& knot = knots_[static_cast<std::size_t>(row * columns_ + column)];
     knot.fill(none);
     const Vec2 here = corner_ + pitch_ * Vec2(static_cast<double>(column), static_cast<double>(row));
-    constexpr auto squares = static_cast<std::int64_t>(reach);
+    // A knot stands at the corner of four squares.
     const auto for_each_near = [&](auto&& f) {
-        for (std::int64_t r = std::max<std::int64_t>(0, row - squares - 1); r <= std::min(rows_ - 1, row + squares); ++r) {
-            const std::int64_t from = std::max<std::int64_t>(0, column - squares - 1);
-            const std::int64_t to = std::min(columns_ - 1, column + squares);
-            for (std::size_t k = samples.start[static_cast<std::size_t>(r * columns_ + from)]; k < samples.start[static_cast<std::size_t>(r * columns_ + to) + 1]; ++k) f(samples.points[k]);
-        }
+        samples.for_each_near(column, row, static_cast<std::int64_t>(reach) + 1, [&](const Vec3& p) {
+            f(p);
+            return true;
+        });
     };
     double nearest = std::numeric_limits<double>::infinity();
     double base = 0;
@@ -137,7 +186,8 @@ Form::Facet Form::at(const Vec2& place) const {
     const auto r = static_cast<std::int64_t>(std::floor(v));
     Facet sum;
     double weights = 0;
-    if (c >= 0 && r >= 0 && c + 1 < columns_ && r + 1 < rows_) {
+    const bool on_grid = c >= 0 && r >= 0 && c + 1 < columns_ && r + 1 < rows_;
+    if (on_grid && inside_[static_cast<std::size_t>(static_cast<std::int64_t>(v * finer) * finer * columns_ + static_cast<std::int64_t>(u * finer))] != 0) {
         for (int k = 0; k < 4; ++k) {
             const std::int64_t kc = c + k % 2;
             const std::int64_t kr = r + k / 2;

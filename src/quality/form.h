@@ -21,10 +21,10 @@ public:
     Form(const FormedSurface& formed, const Box2& region);
 
     /// Turns heights of FormedSurface::map() into deviations [mm] along the form's normal, + outside
-    /// of it; NaN stays, and becomes what has no form (no passes near). Parallel over rows.
+    /// of it; NaN stays, and becomes what has no form: beyond the outermost contact points. Parallel.
     void subtract(const MapFrame& frame, std::int64_t first_row, std::span<float> z) const;
 
-    /// The form's height [mm] over FormedSurface::level(), and its slopes; NaN: none.
+    /// The form's height [mm] over FormedSurface::level(), and its slopes; NaN: none there.
     struct Facet {
         double z = 0, zx = 0, zy = 0;
     };
@@ -36,11 +36,14 @@ private:
 
     struct Samples;
     void fit(std::int64_t column, std::int64_t row, const Samples& samples);
+    /// Whether contact points lie on all sides of a place: beyond the outermost pass stands the tool's flank.
+    [[nodiscard]] bool is_inside(const Vec2& place, const Samples& samples) const;
 
     Vec2 corner_ = Vec2::Zero();
     double pitch_ = 1;
     std::int64_t columns_ = 0, rows_ = 0;
     std::vector<Knot> knots_;
+    std::vector<std::uint8_t> inside_;  ///< on a grid four times as fine
 };
 
 /// FormedSurface::map() with the form taken off: deviations [mm].

@@ -305,24 +305,26 @@ void FormedSurface::map(const MapFrame& frame, const TakeRows& take) const {
 std::vector<Vec3> FormedSurface::contacts(const Box2& box, double spacing) const {
     std::vector<Vec3> found;
     const std::vector<std::size_t> near = stretches_in(box);
-    for (const std::size_t k : near) {
-        const Stretch& stretch = stretches_[k];
-        std::optional<Vec3> before;
+    for (const std::size_t number : near) {
+        const Stretch& stretch = stretches_[number];
+        bool goes_on = false;
+        Vec3 before = Vec3::Zero();
         for (PointIndex i = stretch.first; i <= stretch.last; ++i) {
             const Vec3 at = contact(i);
             if (!at.allFinite()) {
-                before.reset();
+                goes_on = false;
                 continue;
             }
-            const double way = before ? (at - *before).norm() : spacing;
+            const double way = goes_on ? (at - before).norm() : spacing;
             if (way < spacing) continue;
             // Points farther apart than that: as many between them as are missing.
-            const double pieces = before ? std::min(std::floor(way / spacing), most_between) : 1;
-            for (double k = 1; k <= pieces; ++k) {
-                const Vec3 between = before ? Vec3(*before + k / pieces * (at - *before)) : at;
+            const int pieces = goes_on ? static_cast<int>(std::min(way / spacing, most_between)) : 1;
+            for (int k = 1; k <= pieces; ++k) {
+                const Vec3 between = goes_on ? Vec3(before + (at - before) * k / pieces) : at;
                 if (box.contains(between.head<2>())) found.push_back(between);
             }
             before = at;
+            goes_on = true;
         }
     }
     return found;

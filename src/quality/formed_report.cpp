@@ -1,0 +1,178 @@
+#include "quality/formed_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/parallel.h"
+
+namespace clsurf {
+namespace {
+
+constexpr double steps_per_pass = 200;    ///< a cusp's tip is then met to a hundredth of its height
+constexpr std::size_t patches_wanted = 24;
+constexpr double profile_cutoffs = 6;     ///< five sampling lengths and half of one at both ends
+constexpr double patch_cutoffs = 2;       ///< side of a patch
+constexpr double passes_aside = 5.5;      ///< of a mark's profile
+constexpr double mark_within = 1.0;       ///< step-overs from the middle that the mark lies in
+constexpr std::size_t least_pieces = 4;   ///< of a mark's profile
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+/// Deviations of a row of a map that begins at `from`.
+std::vector<double> row_of(const FormedSurface& formed, const Vec2& from, const Vec2& along, double step, std::int64_t count) {
+    const MapFrame frame{from, along, step, count, 1};
+    const Form form(formed, frame.bounds(0, 0, count, 1));
+    std::vector<double> row;
+    map_deviation(formed, form, frame, [&](std::int64_t, std::span<float> z) { row.assign(z.begin(), z.end()); });
+    return row;
+}
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+/// Across the feed in the plane, and the step-over as it is seen from above: on a slope it is shorter.
+struct Across {
+    Vec2 at = Vec2::Zero(), direction = Vec2::UnitY();
+    double step_over = 0;
+    bool known = false;
+};
+
+Across across_at(const FormedSurface& formed, const Signals& signals, PointIndex point) {
+    Across a;
+    const Eigen::Vector3f feed = signals.feed[point];
+    const Vec3 contact = formed.contact(point);
+    const Vec2 flat = feed.head<2>().cast<double>();
+    if (!contact.allFinite() || !feed.allFinite() || flat.norm() < 0.1) return a;
+    a.at = contact.head<2>();
+    a.direction = Vec2(-flat.y(), flat.x()).normalized();
+    // The direction across that lies in the surface.
+    const Vec3 in_surface = signals.normal[point].cross(feed).cast<double>();
+    a.step_over = formed.surface().step_over * std::clamp(in_surface.head<2>().norm() / std::max(in_surface.norm(), 1e-9), 0.2, 1.0);
+    a.known = true;
+    return a;
+}
+
+/// Evenly spaced points of cut passes that can be compared, by number.
+std::vector<PointIndex> spread_points(const Signals& signals) {
+    std::vector<PointIndex> found;
+    const auto count = static_cast<PointIndex>(signals.zone.size());
+    const auto inner = [&](PointIndex i) { return signals.zone[static_cast<std::size_t>(i)] == Zone::inner && signals.normal[i].allFinite(); };
+    for (std::size_t k = 0; k < patches_wanted; ++k) {
+        const auto first = static_cast<PointIndex>(static_cast<double>(count) * static_cast<double>(k) / patches_wanted);
+        const auto end = static_cast<PointIndex>(static_cast<double>(count) * static_cast<double>(k + 1) / patches_wanted);
+        // From the middle of its share on, so that patches do not crowd where a pass begins.
+        const PointIndex middle = (first + end) / 2;
+        PointIndex i = middle;
+        while (i < end && !inner(i)) ++i;
+        if (i == end) {
+            i = first;
+            while (i < middle && !inner(i)) ++i;
+            if (i == middle) continue;
+        }
+        found.push_back(i);
+    }
+    return found;
+}
+
+}  // namespace
+
+FormedProfile measure_profile(const FormedSurface& formed, const Vec2& from, const Vec2& to) {
+    FormedProfile profile;
+    const double length = (to - from).norm();
+    const double spacing = formed.surface().step_over > 0 ? formed.surface().step_over : 20 * formed.usual_cell();
+    const auto pieces = static_cast<std::int64_t>(std::max(1.0, std::ceil(length * steps_per_pass / spacing)));
+    profile.step = length / static_cast<double>(pieces);
+    profile.deviation = row_of(formed, from, (to - from) / length, profile.step, pieces + 1);
+    std::size_t run = 0;
+    for (std::size_t k = 0; k < profile.deviation.size(); ++k) {
+        run = std::isfinite(profile.deviation[k]) ? run + 1 : 0;
+        if (run > profile.count) {
+            profile.count = run;
+            profile.first = k + 1 - run;
+        }
+    }
+    profile.roughness = roughness_of(std::span(profile.deviation).subspan(profile.first, profile.count), profile.step, cutoff_for(formed.surface().step_over));
+    return profile;
+}
+
+double mark_depth(std::span<const double> deviation, double step, double step_over, bool pit) {
+    const auto piece = static_cast<std::size_t>(std::max(1.0, std::round(step_over / step)));
+    std::vector<double> valleys;
+    std::vector<double> cusps;
+    for (std::size_t first = 0; first + piece <= deviation.size(); first += piece) {
+        const auto part = deviation.subspan(first, piece);
+        if (!std::all_of(part.begin(), part.end(), [](double v) { return std::isfinite(v); })) continue;
+        const auto [low, high] = std::minmax_element(part.begin(), part.end());
+        valleys.push_back(*low);
+        cusps.push_back(*high);
+    }
+    if (valleys.size() < least_pieces) return none;
+    const double middle = 0.5 * static_cast<double>(deviation.size() - 1);
+    double low = median(valleys);
+    double high = median(cusps);
+    const double valley = low;
+    const double cusp = high;
+    for (std::size_t k = 0; k < deviation.size(); ++k) {
+        if (!std::isfinite(deviation[k]) || std::abs(static_cast<double>(k) - middle) * step > mark_within * step_over) continue;
+        low = std::min(low, deviation[k]);
+        high = std::max(high, deviation[k]);
+    }
+    return pit ? valley - low : high - cusp;
+}
+
+FormedReport measure_formed(const FormedSurface& formed, const Signals& signals, const QualityReport& report) {
+    FormedReport result;
+    result.marks.assign(report.defects.size(), none);
+    const double s = formed.surface().step_over;
+    if (s <= 0) return result;
+    result.cutoff = cutoff_for(s);
+
+    struct Patch {
+        Roughness profile;
+        AreaHeights area;
+    };
+    const std::vector<PointIndex> points = spread_points(signals);
+    std::vector<Patch> patches(points.size());
+    parallel_for(static_cast<std::int64_t>(points.size() + report.defects.size()), 1, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t k = begin; k < end; ++k) {
+            const auto at = static_cast<std::size_t>(k);
+            const bool is_patch = at < points.size();
+            const Across across = across_at(formed, signals, is_patch ? points[at] : report.defects[at - points.size()].point);
+            if (!across.known) continue;
+            if (is_patch) {
+                const Vec2 half = 0.5 * profile_cutoffs * result.cutoff * across.direction;
+                patches[at].profile = measure_profile(formed, across.at - half, across.at + half).roughness;
+                const Vec2 corner = Vec2::Constant(0.5 * patch_cutoffs * result.cutoff);
+                const Box2 box(across.at - corner, across.at + corner);
+                const Form form(formed, box);
+                std::vector<float> cells;
+                map_deviation(formed, form, frame_of(box, formed.usual_cell()), [&](std::int64_t, std::span<float> z) { cells.insert(cells.end(), z.begin(), z.end()); });
+                patches[at].area = area_heights(cells);
+                continue;
+            }
+            const double step = across.step_over / steps_per_pass;
+            const auto count = static_cast<std::int64_t>(2 * passes_aside * steps_per_pass) + 1;
+            const Vec2 from = across.at - passes_aside * across.step_over * across.direction;
+            const Defect& defect = report.defects[at - points.size()];
+            result.marks[at - points.size()] = mark_depth(row_of(formed, from, across.direction, step, count), step, across.step_over, defect.pit);
+        }
+    });
+    for (const Patch& patch : patches) {
+        if (patch.profile.length <= 0 || patch.area.cells == 0) continue;
+        ++result.patches;
+        result.ra += patch.profile.ra;
+        result.rz += patch.profile.rz;
+        result.rz_most = std::max(result.rz_most, patch.profile.rz);
+        result.sa += patch.area.sa;
+        result.sq += patch.area.sq;
+        result.sz = std::max(result.sz, patch.area.sz);
+    }
+    if (result.patches == 0) return result;
+    for (double* mean : {&result.ra, &result.rz, &result.sa, &result.sq}) *mean /= result.patches;
+    return result;
+}
+
+}  // namespace clsurf

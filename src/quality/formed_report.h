@@ -1,0 +1,43 @@
+#pragma once
+// FormedReport: roughness and marks of a part, measured on its formed surface in patches, so that the
+// cost does not grow with the part: some patches spread evenly over the cutting points tell roughness,
+// and a profile across each defect tells how deep it is once its neighbours have cut.
+
+#include <vector>
+
+#include "quality/defects.h"
+#include "quality/form.h"
+#include "quality/roughness.h"
+
+namespace clsurf {
+
+struct FormedReport {
+    int patches = 0;         ///< that could be measured; 0: nothing below is known
+    double ra = 0, rz = 0;   ///< [mm] mean over the patches' profiles across the feed
+    double rz_most = 0;      ///< [mm] of the roughest profile
+    double sa = 0, sq = 0;   ///< [mm] mean over the patches, form taken off
+    double sz = 0;           ///< [mm] of the roughest patch; cells see the tip of a cusp to a tenth of it
+    double cutoff = 0;       ///< [mm] of the profiles' filter
+    std::vector<double> marks;  ///< [mm] ≥ 0 per defect of the report; NaN: not known there
+};
+
+/// A profile across the formed surface.
+struct FormedProfile {
+    double step = 0;                ///< [mm] between values
+    std::vector<double> deviation;  ///< [mm] over the form; NaN: nothing was cut, or no form there
+    std::size_t first = 0, count = 0;  ///< the longest stretch without gaps …
+    Roughness roughness;               ///< … and its roughness
+};
+
+/// From one place to another [mm], both ends included, a value at least every 1/200 of a step-over.
+[[nodiscard]] FormedProfile measure_profile(const FormedSurface& formed, const Vec2& from, const Vec2& to);
+
+/// The depth [mm] ≥ 0 of a mark in the middle of a profile over `passes` step-overs to each side: how
+/// far the lowest place within one step-over is below the usual valley (`pit`), or the highest above the
+/// usual cusp. Usual: the median over the pieces of a step-over's length. NaN: not enough is known.
+[[nodiscard]] double mark_depth(std::span<const double> deviation, double step, double step_over, bool pit);
+
+/// Some 24 patches and every defect of `report`. Parallel.
+[[nodiscard]] FormedReport measure_formed(const FormedSurface& formed, const Signals& signals, const QualityReport& report);
+
+}  // namespace clsurf

@@ -1,0 +1,30 @@
+#pragma once
+// Relief: a height map as a mesh, for maps of what is not a point of the log.
+
+#include <span>
+
+#include "core/column.h"
+#include "core/geometry.h"
+#include "viz/detail.h"
+
+namespace clsurf::viz {
+
+struct Relief {
+    Vec3 origin = Vec3::Zero();  ///< [mm] of the first vertex's x and y, and of all heights
+    double pitch = 0;            ///< [mm] between vertices
+    std::int64_t columns = 0, rows = 0;
+    Column<float> z;             ///< [mm] row by row; NaN: no vertex
+
+    [[nodiscard]] Vec3 at(std::int64_t i) const {
+        return origin + Vec3(pitch * static_cast<double>(i % columns), pitch * static_cast<double>(i / columns), z[static_cast<std::size_t>(i)]);
+    }
+};
+
+/// Extent along the axes of a view [mm]. O(vertices).
+[[nodiscard]] Box3 extent_of(const Relief& relief, const Eigen::Matrix3d& axes);
+
+/// Its triangles with `values` per vertex, lit; vertices without a height or a value, and those outside of the
+/// request's box, are left out. O(vertices).
+[[nodiscard]] Detail relief_detail(const Relief& relief, std::span<const float> values, const DetailRequest& request);
+
+}  // namespace clsurf::viz
