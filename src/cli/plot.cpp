@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "cli/fields.h"
+#include "cli/profile.h"
 #include "io/atomic_file.h"
 #include "viz/chart.h"
 #include "viz/image_library.h"
@@ -87,6 +88,7 @@ PointRange shown_range(const PlotOptions& options, const Part& part, const std::
 
 ExitCode run(const po::variables_map& values) {
     PlotOptions options = read_options(values);
+    if (asks_for_profile(values)) return plot_profile(values, options.part, options.look, options.output);
     viz::preload_image_library();
     io::AtomicFile output(options.output);
     StageClock clock(read_common(values), 5);
@@ -135,7 +137,8 @@ Subcommand plot_subcommand() {
         .arguments = "PROGRAM LOG -o curve.png",
         .summary = "signal curves over time or path length",
         .description = "One chart a field, stacked, every extreme kept however long the log is.\n\n"
-                       "  clsurf plot part.nc run.biip -o curve.png --fields speed,acceleration --line 1204",
+                       "  clsurf plot part.nc run.biip -o curve.png --fields speed,acceleration --line 1204\n"
+                       "  clsurf plot part.nc run.biip -o cut.png --profile 10,0,10,5 --tool ball:6",
         .declare =
             [](po::options_description& options) {
                 // clang-format off
@@ -150,6 +153,7 @@ Subcommand plot_subcommand() {
                     ("size", po::value<std::string>()->value_name("WxH"), "size in pixels (default: 1600x900)")
                     ("gl", po::value<std::string>()->value_name("osmesa|egl"), "what draws: the processor, or a graphics card (default: osmesa)");
                 // clang-format on
+                declare_profile(options);
                 declare_part(options);
             },
         .positional = {"PROGRAM", "LOG"},

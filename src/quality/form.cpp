@@ -19,7 +19,10 @@ constexpr double stiffness = 1e-6;       ///< of what the points do not tell, a 
 constexpr float none = std::numeric_limits<float>::quiet_NaN();
 
 constexpr std::int64_t finer = 4;        ///< squares of a knot's, a side, that lie inside or not
-constexpr double on_line = 0.3;          ///< step-overs: so near to a contact point is inside
+constexpr double sample_spacing = 0.25;  ///< step-overs along the passes
+constexpr double on_line = 0.15;         ///< step-overs: so near to a contact point is inside
+constexpr double opposite = -0.7;        ///< cosine to the nearest contact point of what lies on the other side: along
+                                         ///< an outermost pass, points to both sides of the nearest one do not count
 
 using Terms = Eigen::Matrix<double, 6, 1>;
 
@@ -64,7 +67,7 @@ Form::Form(const FormedSurface& formed, const Box2& region) {
     const Vec2 room = Vec2::Constant((reach + 1) * pitch_);
     wide.extend(Vec2(region.min() - room));
     wide.extend(Vec2(region.max() + room));
-    std::vector<Vec3> found = formed.contacts(wide, 0.5 * pitch_);
+    std::vector<Vec3> found = formed.contacts(wide, sample_spacing * pitch_);
     Samples samples;
     samples.level = formed.level();
     samples.columns = columns_;
@@ -111,8 +114,7 @@ bool Form::is_inside(const Vec2& place, const Samples& samples) const {
     bool found = false;
     samples.for_each_near(static_cast<std::int64_t>(at.x()), static_cast<std::int64_t>(at.y()), static_cast<std::int64_t>(reach), [&](const Vec3& p) {
         const Vec2 off = p.head<2>() - place;
-        // Not only just beyond a right angle: an outermost pass that is curved would enclose what lies beside it.
-        found = off.dot(way) < -0.5 * off.norm() * way.norm();
+        found = off.dot(way) < opposite * off.norm() * way.norm();
         return !found;
     });
     return found;
