@@ -86,9 +86,11 @@ bool lines_match(const PlantedLog& log, const std::vector<PointIndex>& truth, co
 
 }  // namespace
 
+Program program_of(const PlantedLog& planted) { return parse_program(SourceText("planted.nc", planted.program, nullptr), {}); }
+
 QualityReport judge(const PlantedLog& planted) {
     const Log log = as_log(planted);
-    const Program program = parse_program(SourceText("planted.nc", planted.program, nullptr), {});
+    const Program program = program_of(planted);
     Diagnostics diagnostics;
     const Trajectory path = reconstruct(log, Role::commanded, Vec3::Zero());
     const Trajectory measured = reconstruct(log, Role::feedback, Vec3::Zero());

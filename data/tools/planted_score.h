@@ -3,9 +3,13 @@
 // off its places, lines and depths are.
 
 #include "planted_log.h"
+#include "program/program.h"
 #include "quality/defects.h"
 
 namespace clsurf::planted {
+
+/// Its program, read.
+[[nodiscard]] Program program_of(const PlantedLog& planted);
 
 /// The project's own way from a log to its report.
 [[nodiscard]] QualityReport judge(const PlantedLog& planted);

@@ -11,7 +11,7 @@
 namespace clsurf::cli {
 namespace {
 
-constexpr double most_cells = 4e8;     ///< of a picture; beyond, cells grow
+constexpr double most_cells = 1e8;     ///< of a picture; beyond, cells grow
 constexpr double least_tilt = 0.2;     ///< sine of the view's elevation below which the plan cannot be told from the picture
 
 /// What the picture can show, in plan, of heights between two.
@@ -93,8 +93,8 @@ FormedPart::FormedPart(const Part& part, const ClSurface& surface, std::optional
     clock.begin("sweep the tool");
     measured_ = measured_of(part, role);
     const std::vector<PointRange> pieces = smooth_pieces(part.log, surface.passes);
-    signals_ = derive_signals(surface, part.path, nullptr, pieces, std::max(1.0, 2 * surface.step_over));
-    formed_.emplace(surface, signals_, measured_ ? *measured_ : part.path, pieces, tool);
+    signals_ = derive_signals(surface, part.path, measured_ ? &*measured_ : nullptr, pieces, std::max(1.0, 2 * surface.step_over));
+    formed_.emplace(surface, signals_, part.path.role, measured_ ? *measured_ : part.path, pieces, tool);
 }
 
 FormedMap make_formed_map(const FormedPart& part, const Box3& box, const viz::Camera& camera) {

@@ -67,7 +67,7 @@ Quality judge(Part& part, const ClSurface& surface, std::optional<Role> wanted, 
         clock.begin("measure the formed surface");
         const std::optional<Trajectory> measured = measured_of(part, wanted);
         const std::vector<PointRange> pieces = smooth_pieces(part.log, surface.passes);
-        const FormedSurface formed(surface, quality.signals, measured ? *measured : part.path, pieces, options.tool);
+        const FormedSurface formed(surface, quality.signals, part.path.role, measured ? *measured : part.path, pieces, options.tool);
         quality.formed = measure_formed(formed, quality.signals, quality.report);
     }
     return quality;

@@ -21,7 +21,7 @@ constexpr float none = std::numeric_limits<float>::quiet_NaN();
 constexpr std::int64_t finer = 4;        ///< squares of a knot's, a side, that lie inside or not
 constexpr double sample_spacing = 0.25;  ///< step-overs along the passes
 constexpr double on_line = 0.15;         ///< step-overs: so near to a contact point is inside
-constexpr double opposite = -0.7;        ///< cosine to the nearest contact point of what lies on the other side: along
+constexpr double opposite = -0.9;        ///< cosine to the nearest contact point of what lies on the other side: along
                                          ///< an outermost pass, points to both sides of the nearest one do not count
 
 using Terms = Eigen::Matrix<double, 6, 1>;

@@ -18,7 +18,8 @@ constexpr double smooth_seconds = 0.015;     ///< as heights are (signals.cpp)
 constexpr PointIndex stretch_points = 64;
 constexpr std::int64_t tile_cells = 256;     ///< a side: 256 kB, which the L2 cache holds
 constexpr double step_overs_aside = 1.5;     ///< half width of the strip where passes lie as they should …
-constexpr double deepest_followed = 0.020;   ///< [mm] … or as far as a pit of this depth reaches
+constexpr double least_followed = 0.002;     ///< [mm] … or as far as the pits that are there reach, of this depth …
+constexpr double deepest_followed = 0.020;   ///< [mm] … up to this one
 constexpr double rough = 0.0005;             ///< [mm] what is left of noise moves the contact along the way
 constexpr float least_up = 0.05F;            ///< of the normal: steeper walls have no height
 constexpr double most_between = 1000;         ///< contact points between two positions
@@ -69,9 +70,10 @@ struct FormedSurface::Tile {
     CellBlock cells;
 };
 
-FormedSurface::FormedSurface(const ClSurface& surface, const Signals& signals, const Trajectory& swept, const std::vector<PointRange>& pieces, const Tool& tool)
+FormedSurface::FormedSurface(const ClSurface& surface, const Signals& signals, Role surface_role, const Trajectory& swept, const std::vector<PointRange>& pieces, const Tool& tool)
     : surface_(surface),
       signals_(signals),
+      surface_role_(surface_role),
       swept_(swept),
       tool_(tool),
       smoother_({smoother_points(swept.period), 2, 0, swept.period}),
@@ -131,6 +133,30 @@ Vec3 FormedSurface::contact(PointIndex point) const {
     return surface_.positions.absolute(point) + contact_offset(tool_, normal.cast<double>());
 }
 
+/// How far the tool may run below its neighbours about a stretch [mm].
+double FormedSurface::depth_of(const Stretch& stretch) const {
+    if (swept_.role != surface_role_ && !signals_.measured) return deepest_followed;
+    double depth = least_followed;
+    constexpr PointIndex stride = 8;
+    const PointIndex end = std::min(swept_.count, stretch.last + stretch_points);
+    for (PointIndex i = std::max<PointIndex>(0, stretch.first - stretch_points); i < end; i += stride) {
+        const auto at = static_cast<std::size_t>(i);
+        // Below the chord between both neighbours by d is below one of them by no more than twice that.
+        double below = signals_.relief[at] < 0 ? -2.0 * signals_.relief[at] : 0.0;
+        if (swept_.role != surface_role_) {
+            float highest = 0;
+            for (const Side side : {Side::left, Side::right}) {
+                if (!surface_.neighbours.has(side, i)) continue;
+                const float above = signals_.lag[static_cast<std::size_t>(surface_.neighbours.neighbour(side, i))] - signals_.lag[at];
+                if (above > highest) highest = above;
+            }
+            below += highest;
+        }
+        depth = std::max(depth, below);
+    }
+    return std::min(depth, deepest_followed);
+}
+
 /// How wide the strip must be: where neighbours lie far apart, and as far as a pit reaches. Where two
 /// outlines of radius q, s apart, differ by d in height, the lower one cuts to s/2 + q d/s.
 void FormedSurface::measure(Stretch& stretch) const {
@@ -139,6 +165,8 @@ void FormedSurface::measure(Stretch& stretch) const {
     const double s = surface_.step_over;
     double aside = s > 0 ? step_overs_aside * s : most;
     double before = 2 * usual_cell();
+    const double depth = depth_of(stretch);
+    double steepest = 0;
     const Positions& p = surface_.positions;
     std::vector<double> axes[3];
     for (std::vector<double>& axis : axes) axis.resize(static_cast<std::size_t>(stretch.last - stretch.first + (stretch.goes_on ? 2 : 1)));
@@ -157,8 +185,9 @@ void FormedSurface::measure(Stretch& stretch) const {
         const Eigen::Vector2f here = flat(p[i]) + off.head<2>().cast<float>();
         offsets.extend(Eigen::Vector2f(off.head<2>().cast<float>()));
         const double radius = contact_radius(tool_, normal);
-        if (s > 0) aside = std::max(aside, 0.5 * s + radius * deepest_followed / s);
+        if (s > 0) aside = std::max(aside, 0.5 * s + radius * depth / s);
         before = std::max(before, std::sqrt(2 * radius * rough));
+        if (const float climb = std::abs(signals_.feed[i].z()); climb > steepest) steepest = climb;
         for (const Side side : {Side::left, Side::right}) {
             if (!surface_.neighbours.has(side, i)) continue;
             const PointIndex j = surface_.neighbours.neighbour(side, i);
@@ -167,9 +196,10 @@ void FormedSurface::measure(Stretch& stretch) const {
             if ((there - here).allFinite()) aside = std::max(aside, static_cast<double>((there - here).norm()));
         }
     }
-    stretch.aside = static_cast<float>(std::min(aside, most));
+    aside = std::min(aside, most);
+    stretch.aside = static_cast<float>(aside);
     // On a slope, what is cut beside the contact line lies ahead of it or behind.
-    stretch.before = static_cast<float>(std::min(before + 0.5 * aside * aside / tool_.radius, most));
+    stretch.before = static_cast<float>(std::min(before + 0.5 * steepest * aside * aside / tool_.radius, most));
     if (tips.isEmpty() || offsets.isEmpty()) return;
     // Between the normals that were looked at, and where the segments' own slope differs, the contact moves a little.
     const double room = std::hypot(stretch.aside, stretch.before) + 0.1 * tool_.radius;

@@ -47,10 +47,11 @@ using TakeRows = std::function<void(std::int64_t first_row, std::span<float> z)>
 
 class FormedSurface {
 public:
-    /// `surface` and `signals` (its normals) tell the contact, `swept` is what the tool did: commanded,
-    /// feedback or actual positions of the same points. All must outlive it. `pieces` (path/pieces.h)
-    /// bound the smoothing. O(points), parallel.
-    FormedSurface(const ClSurface& surface, const Signals& signals, const Trajectory& swept, const std::vector<PointRange>& pieces, const Tool& tool);
+    /// `surface`, gathered from the positions of `surface_role`, and `signals` (its normals) tell the
+    /// contact, `swept` is what the tool did: commanded, feedback or actual positions of the same
+    /// points. Signals with a lag of the swept positions make narrower strips do. All must outlive it.
+    /// `pieces` (path/pieces.h) bound the smoothing. O(points), parallel.
+    FormedSurface(const ClSurface& surface, const Signals& signals, Role surface_role, const Trajectory& swept, const std::vector<PointRange>& pieces, const Tool& tool);
 
     /// A twentieth of a step-over [mm]; without neighbours a fiftieth of the tool's radius.
     [[nodiscard]] double usual_cell() const { return surface_.step_over > 0 ? surface_.step_over / 20 : tool_.radius / 50; }
@@ -85,6 +86,7 @@ private:
     struct Tile;
 
     void cut_stretches();
+    [[nodiscard]] double depth_of(const Stretch& stretch) const;
     void measure(Stretch& stretch) const;
     void read_swept(const Stretch& stretch, std::vector<double> (&axes)[3]) const;
     void lower_by(const Stretch& stretch, const Tile& tile) const;
@@ -93,6 +95,7 @@ private:
 
     const ClSurface& surface_;
     const Signals& signals_;
+    Role surface_role_;
     const Trajectory& swept_;
     Tool tool_;
     std::vector<PointRange> pieces_;  ///< those that are swept

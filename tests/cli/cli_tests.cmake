@@ -210,6 +210,18 @@ clsurf_cli_test(NAME check_budget_unknown_key SETUP "echo 'max_dept_um = 5' > pa
 clsurf_cli_test(NAME check_budget_negative SETUP "echo 'max_depth_um = -5' > part.toml" ARGS check ${part} ${run} --budget part.toml
   EXIT 3 STDERR "part.toml:1" "must not be negative")
 clsurf_cli_test(NAME check_budget_missing ARGS check ${part} ${run} --budget nowhere.toml EXIT 3 STDERR "nowhere.toml: error: cannot open")
+clsurf_cli_test(NAME check_roughness ARGS check ${part} ${run} --tool ball:6 --json STDOUT "\"rz_um\": [0-9.]+" "\"ra_um\": [0-9.]+" "\"sa_um\"" "\"sz_um\"" "\"formed_um\"")
+clsurf_cli_test(NAME check_without_a_tool_has_no_roughness ARGS check ${part} ${run} --json NO_STDOUT "rz_um" "formed_um")
+clsurf_cli_test(NAME render_formed ARGS render ${part} ${run} --surface formed --tool ball:6 --size 400x300 -o map.png FILE map.png)
+clsurf_cli_test(NAME render_formed_bull_along_the_commanded_path
+  ARGS render ${part} ${run} --surface formed --tool bull:6,1 --swept commanded --view top --size 400x300 -o map.png FILE map.png)
+clsurf_cli_test(NAME render_formed_without_a_tool ARGS render ${part} ${run} --surface formed -o map.png EXIT 2 STDERR "needs to know the tool" "--tool ball:6")
+clsurf_cli_test(NAME render_tool_without_formed ARGS render ${part} ${run} --tool ball:6 -o map.png EXIT 2 STDERR "--tool is of the formed surface only")
+clsurf_cli_test(NAME render_formed_with_a_field ARGS render ${part} ${run} --surface formed --tool ball:6 --color speed -o map.png EXIT 2 STDERR "--color")
+clsurf_cli_test(NAME formed_is_no_surface_to_query ARGS check ${part} ${run} --surface formed EXIT 2 STDERR "not one of")
+clsurf_cli_test(NAME profile_without_a_tool ARGS plot ${part} ${run} --profile 0,0,1,1 -o cut.png EXIT 2 STDERR "needs to know the tool")
+clsurf_cli_test(NAME profile_and_fields ARGS plot ${part} ${run} --profile 0,0,1,1 --tool ball:6 --fields speed -o cut.png EXIT 2 STDERR "--fields is of curves")
+clsurf_cli_test(NAME profile_where_nothing_was_cut ARGS plot ${part} ${run} --profile 900,900,901,900 --tool ball:6 -o cut.png EXIT 2 STDERR "nothing was cut")
 clsurf_cli_test(NAME check_wrong_tool ARGS check ${part} ${run} --tool cone:6 EXIT 2 STDERR "cone:6.*not a ball, bull or flat tool")
 clsurf_cli_test(NAME check_two_formats ARGS check ${part} ${run} --json --format csv EXIT 2 STDERR "--json and --format")
 clsurf_cli_test(NAME check_of_the_commanded_path ARGS check ${part} ${run} --surface commanded STDOUT "no measured positions")

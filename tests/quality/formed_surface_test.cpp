@@ -28,7 +28,7 @@ struct Made {
         for (const Pass& pass : made.surface.passes) pieces.push_back({pass.first, pass.last});
     }
     [[nodiscard]] FormedSurface formed(const Tool& tool) const {
-        return {made.surface, signals, made.has_measured ? made.measured : made.path, pieces, tool};
+        return {made.surface, signals, Role::commanded, made.has_measured ? made.measured : made.path, pieces, tool};
     }
 };
 
@@ -207,7 +207,7 @@ TEST(FormedSurface, AHighLinkLeavesNothing) {
         if (pass.kind != PassKind::link) continue;
         for (PointIndex i = pass.first; i <= pass.last; ++i) lifted.positions.z[static_cast<std::size_t>(i)] += 2;
     }
-    const FormedSurface without(lifted, low.signals, low.made.path, low.pieces, ball(3));
+    const FormedSurface without(lifted, low.signals, Role::commanded, low.made.path, low.pieces, ball(3));
     const auto cut = [](const FormedSurface& formed) {
         std::ptrdiff_t cells = 0;
         formed.map(frame_of(Box2(Vec2(-2, -2), Vec2(8, 5)), 0.05), [&](std::int64_t, std::span<float> z) { cells += std::count_if(z.begin(), z.end(), [](float v) { return v == v; }); });

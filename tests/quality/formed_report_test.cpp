@@ -1,0 +1,119 @@
+#include "quality/formed_report.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "path/pieces.h"
+#include "planted_score.h"
+#include "quality/scallop.h"
+
+namespace clsurf {
+namespace {
+
+/// A planted log as far as its formed surface.
+struct Planted {
+    explicit Planted(const planted::Recipe& recipe) : made(planted::make_planted_log(recipe)) {}
+
+    planted::PlantedLog made;
+    Log log = planted::as_log(made);
+    Program program = planted::program_of(made);
+    Diagnostics diagnostics;
+    Trajectory path = reconstruct(log, Role::commanded, Vec3::Zero());
+    Trajectory measured = reconstruct(log, Role::feedback, Vec3::Zero());
+    LineMap lines = map_lines(path, log, program, true, diagnostics);
+    ClSurface surface = stitch(gather(path), lines);
+    std::vector<PointRange> pieces = smooth_pieces(log, surface.passes);
+    Signals signals = derive_signals(surface, path, &measured, pieces, 1.0);
+    FormedSurface formed{surface, signals, Role::commanded, measured, pieces, {ToolKind::ball, 3, 3}};
+    QualityReport report = find_defects(surface, signals, lines, program, log.period, {});
+    FormedReport result = measure_formed(formed, signals, report);
+};
+
+planted::Recipe recipe_with(double amplitude, planted::Shape shape, planted::Surface surface) {
+    planted::Recipe recipe;
+    recipe.shape = shape;
+    recipe.surface = surface;
+    planted::Defect defect;
+    defect.kind = planted::Kind::lag;
+    defect.first_pass = defect.last_pass = 14;
+    defect.from = 10;
+    defect.to = 13;
+    defect.amplitude = amplitude;
+    if (amplitude != 0) recipe.defects.push_back(defect);
+    return recipe;
+}
+
+TEST(FormedReport, APlantedPitOfFiveMicrometresShowsAsFive) {
+    for (const planted::Shape shape : {planted::Shape::zigzag, planted::Shape::one_way, planted::Shape::loops}) {
+        const Planted pit(recipe_with(-0.005, shape, planted::Surface::transition));
+        ASSERT_EQ(pit.report.defects.size(), 1U) << planted::name_of(shape);
+        EXPECT_TRUE(pit.report.defects[0].pit);
+        EXPECT_NEAR(pit.result.marks[0], 0.005, 0.0005) << planted::name_of(shape) << ", found " << pit.report.defects[0].depth;
+    }
+}
+
+TEST(FormedReport, APlantedBulgeIsCutDownByItsNeighbours) {
+    const double h = scallop_height(3, 0.3, std::numeric_limits<double>::infinity());
+    const Planted bulge(recipe_with(0.006, planted::Shape::zigzag, planted::Surface::transition));
+    ASSERT_EQ(bulge.report.defects.size(), 1U);
+    // Its cusps are h (1 + δ/4h)², those beside it h: less than half of the 6 µm are left over them.
+    const double cusp = h * (1 + 0.006 / (4 * h)) * (1 + 0.006 / (4 * h));
+    EXPECT_NEAR(bulge.result.marks[0], cusp - h, 0.0006);
+}
+
+TEST(FormedReport, RoughnessOfACleanPartIsThatOfItsScallops) {
+    for (const planted::Surface surface : {planted::Surface::transition, planted::Surface::wave}) {
+        planted::Recipe recipe = recipe_with(0, planted::Shape::zigzag, surface);
+        recipe.noise = 0;
+        recipe.give = 0;
+        const Planted clean(recipe);
+        const double h = scallop_height(3, 0.3, std::numeric_limits<double>::infinity());
+        EXPECT_GT(clean.result.patches, 15);
+        EXPECT_NEAR(clean.result.rz, h, 0.15 * h);  // the surface's own roundness is 4 %, the log's micrometre the rest
+        EXPECT_NEAR(clean.result.ra, scallop_ra(h), 0.1 * scallop_ra(h));
+        EXPECT_NEAR(clean.result.sa, scallop_ra(h), 0.1 * scallop_ra(h));
+    }
+}
+
+TEST(FormedReport, AMarkIsReadAgainstTheUsualValleysAndCusps) {
+    // Eleven pieces of a parabola 4 high; in the middle one that is 3 lower, and one 2 higher at its edge.
+    std::vector<double> z;
+    for (int k = 0; k <= 1100; ++k) {
+        const double x = (k % 100) / 50.0 - 1;
+        z.push_back(4 * x * x);
+    }
+    const std::vector<double> clean = z;
+    EXPECT_NEAR(mark_depth(clean, 0.01, 1, true), 0, 1e-12);
+    EXPECT_NEAR(mark_depth(clean, 0.01, 1, false), 0, 1e-12);
+    for (std::size_t k = 500; k < 600; ++k) z[k] -= 3;
+    EXPECT_NEAR(mark_depth(z, 0.01, 1, true), 3, 1e-12);
+    z = clean;
+    for (std::size_t k = 500; k < 600; ++k) z[k] += 2;
+    EXPECT_NEAR(mark_depth(z, 0.01, 1, false), 2, 1e-12);
+    // Far from the middle, it is another mark.
+    z = clean;
+    for (std::size_t k = 100; k < 200; ++k) z[k] -= 3;
+    EXPECT_NEAR(mark_depth(z, 0.01, 1, true), 0, 1e-12);
+    EXPECT_TRUE(std::isnan(mark_depth(std::vector<double>(1100, std::nan("")), 0.01, 1, true)));
+}
+
+TEST(Form, OnACurvedSurfaceItPassesThroughTheContacts) {
+    const Planted clean(recipe_with(0, planted::Shape::zigzag, planted::Surface::wave));
+    const Form form(clean.formed, clean.formed.bounds());
+    std::vector<double> off;
+    for (const Vec3& p : clean.formed.contacts(clean.formed.bounds(), 0.3)) {
+        const Form::Facet facet = form.at(p.head<2>());
+        if (facet.z == facet.z) off.push_back(std::abs(facet.z + clean.formed.level() - p.z()));
+    }
+    ASSERT_GT(off.size(), 1000U);
+    std::sort(off.begin(), off.end());
+    EXPECT_LT(off[off.size() / 2], 0.0005);  // the log's positions are whole micrometres
+    EXPECT_LT(off[off.size() * 99 / 100], 0.0015);
+    EXPECT_TRUE(std::isnan(form.at(Vec2(12, -1)).z));  // beside the outermost pass
+}
+
+}  // namespace
+}  // namespace clsurf
