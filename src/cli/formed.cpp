@@ -93,7 +93,7 @@ FormedPart::FormedPart(const Part& part, const ClSurface& surface, std::optional
     clock.begin("sweep the tool");
     measured_ = measured_of(part, role);
     const std::vector<PointRange> pieces = smooth_pieces(part.log, surface.passes);
-    signals_ = derive_signals(surface, part.path, measured_ ? &*measured_ : nullptr, pieces, std::max(1.0, 2 * surface.step_over));
+    signals_ = signals_of(part, surface, role, {});
     formed_.emplace(surface, signals_, part.path.role, measured_ ? *measured_ : part.path, pieces, tool);
 }
 

@@ -163,7 +163,9 @@ struct Shown {
 
 /// The formed surface in place of the positions', as fine as the picture shows it.
 void form(Shown& shown, const RenderOptions& options, StageClock& clock) {
-    const viz::Camera camera = viz::map_camera({viz::MapPanel{&shown.surface, nullptr, {}, {}, {}}}, options.look);
+    viz::MapPanel panel;
+    panel.surface = &shown.surface;
+    const viz::Camera camera = viz::map_camera({panel}, options.look);
     const FormedPart formed(shown.part, shown.surface, options.swept, options.tool, clock);
     FormedMap map = make_formed_map(formed, options.look.box, camera);
     clock.end();

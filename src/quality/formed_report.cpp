@@ -42,14 +42,14 @@ struct Across {
 
 Across across_at(const FormedSurface& formed, const Signals& signals, PointIndex point) {
     Across a;
-    const Eigen::Vector3f feed = signals.feed[point];
+    const Eigen::Vector3f feed = signals.feed(point);
     const Vec3 contact = formed.contact(point);
     const Vec2 flat = feed.head<2>().cast<double>();
     if (!contact.allFinite() || !feed.allFinite() || flat.norm() < 0.1) return a;
     a.at = contact.head<2>();
     a.direction = Vec2(-flat.y(), flat.x()).normalized();
     // The direction across that lies in the surface.
-    const Vec3 in_surface = signals.normal[point].cross(feed).cast<double>();
+    const Vec3 in_surface = signals.normal(point).cross(feed).cast<double>();
     a.step_over = formed.surface().step_over * std::clamp(in_surface.head<2>().norm() / std::max(in_surface.norm(), 1e-9), 0.2, 1.0);
     a.known = true;
     return a;
@@ -58,8 +58,8 @@ Across across_at(const FormedSurface& formed, const Signals& signals, PointIndex
 /// Evenly spaced points of cut passes that can be compared, by number.
 std::vector<PointIndex> spread_points(const Signals& signals) {
     std::vector<PointIndex> found;
-    const auto count = static_cast<PointIndex>(signals.zone.size());
-    const auto inner = [&](PointIndex i) { return signals.zone[static_cast<std::size_t>(i)] == Zone::inner && signals.normal[i].allFinite(); };
+    const auto count = signals.size();
+    const auto inner = [&](PointIndex i) { return signals[i].zone == Zone::inner && signals.normal(i).allFinite(); };
     for (std::size_t k = 0; k < patches_wanted; ++k) {
         const auto first = static_cast<PointIndex>(static_cast<double>(count) * static_cast<double>(k) / patches_wanted);
         const auto end = static_cast<PointIndex>(static_cast<double>(count) * static_cast<double>(k + 1) / patches_wanted);

@@ -114,22 +114,22 @@ void FormedSurface::cut_stretches() {
 
 /// The normal of a point, or of the next one that has one: links have no neighbours of their own.
 Eigen::Vector3f FormedSurface::normal_of(PointIndex point, PointRange within) const {
-    const auto known = [&](PointIndex i) { return signals_.normal[i].allFinite(); };
-    if (known(point)) return signals_.normal[point];
+    const auto known = [&](PointIndex i) { return signals_.normal(i).allFinite(); };
+    if (known(point)) return signals_.normal(point);
     const PointIndex count = swept_.count;
     for (PointIndex off = 1; off <= normal_reach; ++off) {
-        if (point - off >= std::max<PointIndex>(0, within.first - normal_reach) && known(point - off)) return signals_.normal[point - off];
-        if (point + off < std::min(count, within.last + normal_reach) && known(point + off)) return signals_.normal[point + off];
+        if (point - off >= std::max<PointIndex>(0, within.first - normal_reach) && known(point - off)) return signals_.normal(point - off);
+        if (point + off < std::min(count, within.last + normal_reach) && known(point + off)) return signals_.normal(point + off);
     }
     // A single pass: upright but for the slope along the way.
     const Eigen::Vector3f up = Eigen::Vector3f::UnitZ();
-    const Eigen::Vector3f feed = signals_.feed[point];
+    const Eigen::Vector3f feed = signals_.feed(point);
     if (!feed.allFinite() || std::abs(feed.z()) > 0.99F) return up;
     return (up - feed.z() * feed).normalized();
 }
 
 Vec3 FormedSurface::contact(PointIndex point) const {
-    const Eigen::Vector3f normal = signals_.normal[point];
+    const Eigen::Vector3f normal = signals_.normal(point);
     return surface_.positions.absolute(point) + contact_offset(tool_, normal.cast<double>());
 }
 
@@ -140,14 +140,13 @@ double FormedSurface::depth_of(const Stretch& stretch) const {
     constexpr PointIndex stride = 8;
     const PointIndex end = std::min(swept_.count, stretch.last + stretch_points);
     for (PointIndex i = std::max<PointIndex>(0, stretch.first - stretch_points); i < end; i += stride) {
-        const auto at = static_cast<std::size_t>(i);
         // Below the chord between both neighbours by d is below one of them by no more than twice that.
-        double below = signals_.relief[at] < 0 ? -2.0 * signals_.relief[at] : 0.0;
+        double below = signals_[i].relief < 0 ? -2.0 * signals_[i].relief : 0.0;
         if (swept_.role != surface_role_) {
             float highest = 0;
             for (const Side side : {Side::left, Side::right}) {
                 if (!surface_.neighbours.has(side, i)) continue;
-                const float above = signals_.lag[static_cast<std::size_t>(surface_.neighbours.neighbour(side, i))] - signals_.lag[at];
+                const float above = signals_[surface_.neighbours.neighbour(side, i)].lag - signals_[i].lag;
                 if (above > highest) highest = above;
             }
             below += highest;
@@ -187,7 +186,7 @@ void FormedSurface::measure(Stretch& stretch) const {
         const double radius = contact_radius(tool_, normal);
         if (s > 0) aside = std::max(aside, 0.5 * s + radius * depth / s);
         before = std::max(before, std::sqrt(2 * radius * rough));
-        if (const float climb = std::abs(signals_.feed[i].z()); climb > steepest) steepest = climb;
+        if (const float climb = std::abs(signals_.feed(i).z()); climb > steepest) steepest = climb;
         for (const Side side : {Side::left, Side::right}) {
             if (!surface_.neighbours.has(side, i)) continue;
             const PointIndex j = surface_.neighbours.neighbour(side, i);
