@@ -18,7 +18,7 @@ struct ReportedQuality {
     const QualityReport* report = nullptr;
     const Program* program = nullptr;
     std::string log;       ///< its name
-    Tool tool;
+    CuttingTool tool;
     double scallop = 0;    ///< [mm] between clean passes; 0: not known
     std::vector<double> colour_differences;  ///< ΔE00 of each defect's speed and that beside it, in the map of speeds
     const FormedReport* formed = nullptr;  ///< nullptr: the tool is not known

@@ -84,12 +84,12 @@ private:
 
 }  // namespace
 
-Tool required_tool(const po::variables_map& values, const std::string& what, const std::string& example) {
+CuttingTool required_tool(const po::variables_map& values, const std::string& what, const std::string& example) {
     if (values.count("tool") == 0) throw UsageError(what + " needs to know the tool", "say it with --tool: " + example);
     return parse_tool(values["tool"].as<std::string>());
 }
 
-FormedPart::FormedPart(const Part& part, const ClSurface& surface, std::optional<Role> role, const Tool& tool, StageClock& clock) {
+FormedPart::FormedPart(const Part& part, const ClSurface& surface, std::optional<Role> role, const CuttingTool& tool, StageClock& clock) {
     clock.begin("sweep the tool");
     measured_ = measured_of(part, role);
     const std::vector<PointRange> pieces = smooth_pieces(part.log, surface.passes);

@@ -13,7 +13,7 @@ class FormedPart {
 public:
     /// Sweeps `tool` along the role's positions (none: the most truthful ones of the log) of the part,
     /// whose path is the commanded one where the log has it. Both must outlive it.
-    FormedPart(const Part& part, const ClSurface& surface, std::optional<Role> role, const Tool& tool, StageClock& clock);
+    FormedPart(const Part& part, const ClSurface& surface, std::optional<Role> role, const CuttingTool& tool, StageClock& clock);
     FormedPart(const FormedPart&) = delete;
     FormedPart& operator=(const FormedPart&) = delete;
 
@@ -27,7 +27,7 @@ private:
 };
 
 /// --tool, or a UsageError that says what needs it, with an example.
-[[nodiscard]] Tool required_tool(const po::variables_map& values, const std::string& what, const std::string& example);
+[[nodiscard]] CuttingTool required_tool(const po::variables_map& values, const std::string& what, const std::string& example);
 
 /// What a map of the formed surface is drawn from.
 struct FormedMap {

@@ -29,7 +29,7 @@ bool asks_for_profile(const po::variables_map& values) {
 }
 
 ExitCode plot_profile(const po::variables_map& values, PartOptions options, viz::ChartLook look, const std::string& output_name) {
-    const Tool tool = required_tool(values, "--profile", "--profile 10,0,10,5 --tool ball:6");
+    const CuttingTool tool = required_tool(values, "--profile", "--profile 10,0,10,5 --tool ball:6");
     const std::vector<double> ends = parse_numbers(values["profile"].as<std::string>(), "--profile", 4);
     const Vec2 from(ends[0], ends[1]);
     const Vec2 to(ends[2], ends[3]);

@@ -11,7 +11,7 @@
 namespace clsurf::cli {
 
 struct QualityOptions {
-    Tool tool;
+    CuttingTool tool;
     bool tool_given = false;
     QualityRules rules;
 };

@@ -29,7 +29,7 @@ struct RenderOptions {
     std::vector<PointIndex> points;
     std::vector<LineNumber> lines;
     bool defects = false;
-    Tool tool;                  ///< of the formed surface
+    CuttingTool tool;                  ///< of the formed surface
     std::optional<Role> swept;  ///< its positions; none: the most truthful
     viz::Look look;
 };

@@ -10,7 +10,7 @@ constexpr double level = 1e-9;  ///< sine of a normal's tilt below which it is t
 
 }  // namespace
 
-double outline_height(const Tool& tool, double rho) {
+double outline_height(const CuttingTool& tool, double rho) {
     if (rho > tool.radius) return std::numeric_limits<double>::infinity();
     const double bottom = tool.radius - tool.corner;
     if (rho <= bottom) return 0;
@@ -18,7 +18,7 @@ double outline_height(const Tool& tool, double rho) {
     return tool.corner - std::sqrt(std::max(0.0, tool.corner * tool.corner - out * out));
 }
 
-Vec3 contact_offset(const Tool& tool, const Vec3& normal) {
+Vec3 contact_offset(const CuttingTool& tool, const Vec3& normal) {
     const double tilt = std::hypot(normal.x(), normal.y());
     const double bottom = tool.radius - tool.corner;
     Vec3 offset = tool.corner * (Vec3::UnitZ() - normal);
@@ -26,7 +26,7 @@ Vec3 contact_offset(const Tool& tool, const Vec3& normal) {
     return offset;
 }
 
-double contact_radius(const Tool& tool, const Vec3& normal) {
+double contact_radius(const CuttingTool& tool, const Vec3& normal) {
     const double bottom = tool.radius - tool.corner;
     return bottom > 0 ? tool.corner + bottom / std::hypot(normal.x(), normal.y()) : tool.corner;
 }

@@ -9,15 +9,15 @@
 namespace clsurf {
 
 /// Height [mm] of the tool's outline over its tip, `rho` [mm] from the axis; infinite beyond its radius.
-[[nodiscard]] double outline_height(const Tool& tool, double rho);
+[[nodiscard]] double outline_height(const CuttingTool& tool, double rho);
 
 /// From the tip to the cutter-contact point [mm], for a unit normal out of the part, n.z ≥ 0:
 /// c ẑ − (R − c) n_xy/|n_xy| − c n with radius R and corner radius c. Where the normal is the axis, a
 /// flat bottom touches with all of itself: its middle, the tip, is given.
-[[nodiscard]] Vec3 contact_offset(const Tool& tool, const Vec3& normal);
+[[nodiscard]] Vec3 contact_offset(const CuttingTool& tool, const Vec3& normal);
 
 /// The larger radius [mm] of the two in which the tool is curved where it touches: c + (R − c)/sin θ,
 /// θ between normal and axis; infinite for a flat bottom on a level surface.
-[[nodiscard]] double contact_radius(const Tool& tool, const Vec3& normal);
+[[nodiscard]] double contact_radius(const CuttingTool& tool, const Vec3& normal);
 
 }  // namespace clsurf

@@ -70,7 +70,7 @@ struct FormedSurface::Tile {
     CellBlock cells;
 };
 
-FormedSurface::FormedSurface(const ClSurface& surface, const Signals& signals, Role surface_role, const Trajectory& swept, const std::vector<PointRange>& pieces, const Tool& tool)
+FormedSurface::FormedSurface(const ClSurface& surface, const Signals& signals, Role surface_role, const Trajectory& swept, const std::vector<PointRange>& pieces, const CuttingTool& tool)
     : surface_(surface),
       signals_(signals),
       surface_role_(surface_role),

@@ -51,7 +51,7 @@ public:
     /// contact, `swept` is what the tool did: commanded, feedback or actual positions of the same
     /// points. Signals with a lag of the swept positions make narrower strips do. All must outlive it.
     /// `pieces` (path/pieces.h) bound the smoothing. O(points), parallel.
-    FormedSurface(const ClSurface& surface, const Signals& signals, Role surface_role, const Trajectory& swept, const std::vector<PointRange>& pieces, const Tool& tool);
+    FormedSurface(const ClSurface& surface, const Signals& signals, Role surface_role, const Trajectory& swept, const std::vector<PointRange>& pieces, const CuttingTool& tool);
 
     /// A twentieth of a step-over [mm]; without neighbours a fiftieth of the tool's radius.
     [[nodiscard]] double usual_cell() const { return surface_.step_over > 0 ? surface_.step_over / 20 : tool_.radius / 50; }
@@ -60,7 +60,7 @@ public:
     /// From which heights are counted [mm].
     [[nodiscard]] double level() const { return surface_.positions.origin.z(); }
     [[nodiscard]] const ClSurface& surface() const { return surface_; }
-    [[nodiscard]] const Tool& tool() const { return tool_; }
+    [[nodiscard]] const CuttingTool& tool() const { return tool_; }
     /// The window of the smoothing, for reports.
     [[nodiscard]] const std::string& note() const { return note_; }
 
@@ -97,7 +97,7 @@ private:
     const Signals& signals_;
     Role surface_role_;
     const Trajectory& swept_;
-    Tool tool_;
+    CuttingTool tool_;
     std::vector<PointRange> pieces_;  ///< those that are swept
     std::vector<Stretch> stretches_;
     Differentiator smoother_;

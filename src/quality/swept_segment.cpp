@@ -95,7 +95,7 @@ void lower_ball(float radius, const SweptSegment& g, const CellBlock& cells) {
 
 /// For a bull-nose tool: how far before the axis its section, `across` beside the axis, is touched by a
 /// tangent of this slope; by halving, the slope of the section rises all the way.
-float touched_before(const Tool& tool, float across, float slope) {
+float touched_before(const CuttingTool& tool, float across, float slope) {
     const auto radius = static_cast<float>(tool.radius);
     const auto corner = static_cast<float>(tool.corner);
     const float bottom = radius - corner;
@@ -118,7 +118,7 @@ float touched_before(const Tool& tool, float across, float slope) {
 /// The same for many places across: it depends on nothing else.
 class Touched {
 public:
-    Touched(const Tool& tool, const SweptSegment& g) : low_(std::max(g.across_low, static_cast<float>(-tool.radius))) {
+    Touched(const CuttingTool& tool, const SweptSegment& g) : low_(std::max(g.across_low, static_cast<float>(-tool.radius))) {
         const float high = std::min(g.across_high, static_cast<float>(tool.radius));
         const float step = std::max(high - low_, 1e-6F) / intervals;
         per_mm_ = 1 / step;
@@ -136,7 +136,7 @@ private:
     std::array<float, intervals + 1> before_{};
 };
 
-void lower_bull(const Tool& tool, const SweptSegment& g, const CellBlock& cells) {
+void lower_bull(const CuttingTool& tool, const SweptSegment& g, const CellBlock& cells) {
     const Touched touched(tool, g);
     const auto radius = static_cast<float>(tool.radius);
     const auto corner = static_cast<float>(tool.corner);
@@ -160,7 +160,7 @@ void lower_bull(const Tool& tool, const SweptSegment& g, const CellBlock& cells)
     }
 }
 
-void lower_flat(const Tool& tool, const SweptSegment& g, const CellBlock& cells) {
+void lower_flat(const CuttingTool& tool, const SweptSegment& g, const CellBlock& cells) {
     const auto radius = static_cast<float>(tool.radius);
     const Columns rows = rows_of(g, cells);
     for (int row = rows.first; row < rows.last; ++row) {
@@ -184,7 +184,7 @@ void lower_flat(const Tool& tool, const SweptSegment& g, const CellBlock& cells)
 
 }  // namespace
 
-void lower(const Tool& tool, const SweptSegment& segment, const CellBlock& cells) {
+void lower(const CuttingTool& tool, const SweptSegment& segment, const CellBlock& cells) {
     switch (tool.kind) {
         case ToolKind::ball: return lower_ball(static_cast<float>(tool.radius), segment, cells);
         case ToolKind::bull: return lower_bull(tool, segment, cells);

@@ -27,6 +27,6 @@ struct CellBlock {
 /// and of the heights (a bull-nose tool: where the outline is lowest is interpolated, to 0.01 µm). The
 /// outline's height is convex in the way, so that the lowest place on the infinite line, held back to
 /// the segment's ends, is the lowest on the segment.
-void lower(const Tool& tool, const SweptSegment& segment, const CellBlock& cells);
+void lower(const CuttingTool& tool, const SweptSegment& segment, const CellBlock& cells);
 
 }  // namespace clsurf

@@ -27,11 +27,11 @@ std::vector<double> numbers_of(std::string_view text) {
 
 }  // namespace
 
-Tool parse_tool(std::string_view text) {
+CuttingTool parse_tool(std::string_view text) {
     const std::size_t colon = text.find(':');
     const std::string_view kind = text.substr(0, colon);
     const std::vector<double> numbers = colon == std::string_view::npos ? std::vector<double>{} : numbers_of(text.substr(colon + 1));
-    const auto fail = [&](const std::string& why) -> Tool {
+    const auto fail = [&](const std::string& why) -> CuttingTool {
         throw UsageError(fmt::format("tool '{}': {}", text, why), "ball:D, bull:D,R or flat:D in mm, for example ball:6");
     };
     if (kind != "ball" && kind != "bull" && kind != "flat") return fail("not a ball, bull or flat tool");
@@ -44,7 +44,7 @@ Tool parse_tool(std::string_view text) {
     return {ToolKind::bull, radius, numbers[1]};
 }
 
-std::string to_text(const Tool& tool) {
+std::string to_text(const CuttingTool& tool) {
     switch (tool.kind) {
         case ToolKind::ball: return fmt::format("ball:{:g}", 2 * tool.radius);
         case ToolKind::bull: return fmt::format("bull:{:g},{:g}", 2 * tool.radius, tool.corner);

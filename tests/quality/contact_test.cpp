@@ -8,16 +8,16 @@
 namespace clsurf {
 namespace {
 
-const Tool ball{ToolKind::ball, 3, 3};
-const Tool bull{ToolKind::bull, 5, 1};
-const Tool flat{ToolKind::flat, 4, 0};
+const CuttingTool ball{ToolKind::ball, 3, 3};
+const CuttingTool bull{ToolKind::bull, 5, 1};
+const CuttingTool flat{ToolKind::flat, 4, 0};
 /// A 3-4-5 triangle: the surface falls towards +x, the tool stands uphill of … its contact lies at −x.
 const Vec3 tilted(0.6, 0, 0.8);
 
 void expect_near(const Vec3& a, const Vec3& b) { EXPECT_LT((a - b).norm(), 1e-12) << a.transpose() << " is not " << b.transpose(); }
 
 TEST(Contact, OnALevelSurfaceItIsTheTip) {
-    for (const Tool& tool : {ball, bull, flat}) expect_near(contact_offset(tool, Vec3::UnitZ()), Vec3::Zero());
+    for (const CuttingTool& tool : {ball, bull, flat}) expect_near(contact_offset(tool, Vec3::UnitZ()), Vec3::Zero());
 }
 
 TEST(Contact, OnASlopeItLiesAgainstTheNormal) {
@@ -36,7 +36,7 @@ TEST(Contact, OnAWallItIsAtTheToolsSide) {
 }
 
 TEST(Contact, ItLiesOnTheOutline) {
-    for (const Tool& tool : {ball, bull, flat}) {
+    for (const CuttingTool& tool : {ball, bull, flat}) {
         for (const double angle : {0.1, 0.7, 1.3}) {
             const Vec3 c = contact_offset(tool, Vec3(std::sin(angle) * 0.6, std::sin(angle) * 0.8, std::cos(angle)));
             EXPECT_NEAR(outline_height(tool, c.head<2>().norm()), c.z(), 1e-7);
@@ -48,7 +48,7 @@ TEST(Contact, TheOutlineEndsAtTheRadius) {
     EXPECT_EQ(outline_height(bull, 4), 0);
     EXPECT_NEAR(outline_height(bull, 4.6), 0.2, 1e-12);  // 1 − √(1 − 0.36)
     EXPECT_EQ(outline_height(flat, 3.9), 0);
-    for (const Tool& tool : {ball, bull, flat}) EXPECT_EQ(outline_height(tool, 5.01), std::numeric_limits<double>::infinity());
+    for (const CuttingTool& tool : {ball, bull, flat}) EXPECT_EQ(outline_height(tool, 5.01), std::numeric_limits<double>::infinity());
 }
 
 TEST(Contact, TheLargerRadiusIsThatOfTheTorus) {

@@ -27,12 +27,12 @@ struct Made {
     explicit Made(MadeSurface surface) : made(std::move(surface)), signals(made.signals()) {
         for (const Pass& pass : made.surface.passes) pieces.push_back({pass.first, pass.last});
     }
-    [[nodiscard]] FormedSurface formed(const Tool& tool) const {
+    [[nodiscard]] FormedSurface formed(const CuttingTool& tool) const {
         return {made.surface, signals, Role::commanded, made.has_measured ? made.measured : made.path, pieces, tool};
     }
 };
 
-Tool ball(double radius) { return {ToolKind::ball, radius, radius}; }
+CuttingTool ball(double radius) { return {ToolKind::ball, radius, radius}; }
 
 /// One row of heights over z = 0, `step` apart.
 std::vector<double> profile(const FormedSurface& formed, const Vec2& from, const Vec2& along, double step, std::int64_t count) {
@@ -169,7 +169,7 @@ TEST(FormedSurface, ABullOnASlopeLeavesWhatItsTorusDoes) {
     constexpr double apart = 0.2;
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.5, Vec3::UnitX()).toRotationMatrix();
     const Made made(test::flat_zigzag(15, 10, apart, 40, {}, [&](const Vec3& p) { return Vec3(turn * p); }));
-    const Tool tool{ToolKind::bull, 3, 1};
+    const CuttingTool tool{ToolKind::bull, 3, 1};
     const Vec3 n = turn * Vec3::UnitZ();
     const Vec3 off = Vec3::UnitZ() - n - 2 * Vec3(n.x(), n.y(), 0).normalized();
     const Vec3 from = turn * Vec3(5, 4 * apart, 0) + off;
