@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "io/biip.h"
+#include "io/compressed.h"
 #include "io/delimited.h"
 #include "io/log_format.h"
 #include "io/record_layout.h"
@@ -39,7 +40,7 @@ const LogFormat* recognise_log(const Source& source, const LogOptions& options) 
     return best;
 }
 
-Log open_log(const std::string& path, const LogOptions& options) { return open_log(map_file(path), options); }
+Log open_log(const std::string& path, const LogOptions& options) { return open_log(open_source(path), options); }
 
 Log open_log(const Source& source, const LogOptions& options) {
     if (source.bytes.empty()) throw InputError(Place::of_file(source.name), "is empty, expected a log");

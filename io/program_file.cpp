@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "core/spelling.h"
-#include "io/mapped_file.h"
+#include "io/compressed.h"
 #include "io/tool_table_file.h"
 #include "program/interpreter.h"
 
@@ -15,7 +15,7 @@ namespace clsurf::io {
 namespace {
 
 SourceText source_text(const std::string& path) {
-    Source source = map_file(path);
+    Source source = open_source(path);
     return {source.name, source.text(), source.keep_alive};
 }
 
@@ -38,7 +38,7 @@ std::optional<SourceText> load_beside(const std::filesystem::path& folder, const
 }  // namespace
 
 Program read_program(const std::string& path, const ProgramOptions& options) {
-    return read_program(map_file(path), options);
+    return read_program(open_source(path), options);
 }
 
 Program read_program(const Source& source, const ProgramOptions& wanted) {

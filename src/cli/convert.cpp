@@ -2,6 +2,7 @@
 
 #include "cli/options.h"
 #include "io/biip.h"
+#include "io/compressed.h"
 #include "io/program_identity.h"
 
 namespace clsurf::cli {
@@ -13,7 +14,7 @@ ExitCode run(const po::variables_map& values) {
     std::string metadata = log.metadata;
     if (values.count("program") > 0) {
         std::vector<ProgramReference> programs;
-        for (const std::string& path : values["program"].as<std::vector<std::string>>()) programs.push_back(io::identify(io::map_file(path)));
+        for (const std::string& path : values["program"].as<std::vector<std::string>>()) programs.push_back(io::identify(io::open_source(path)));
         metadata = io::with_programs(metadata, programs);
     }
     io::write_biip(required(values, "output"), log.channels, log.records, log.period, metadata);

@@ -6,6 +6,7 @@
 
 #include "cli/options.h"
 #include "core/units.h"
+#include "io/compressed.h"
 #include "io/json_text.h"
 #include "io/program_file.h"
 #include "io/program_identity.h"
@@ -67,7 +68,7 @@ ExitCode run(const po::variables_map& values) {
     io::Source program_source;
     for (const std::string& path : values["FILE"].as<std::vector<std::string>>()) {
         const io::LogOptions log_options = read_log_options(values);
-        const io::Source source = io::map_file(path);
+        const io::Source source = io::open_source(path);
         if (source.bytes.empty()) throw InputError(Place::of_file(source.name), "is empty, expected a program or a log");
         const bool is_log = io::recognise_log(source, log_options) != nullptr;
         if (!is_log) {

@@ -1,6 +1,7 @@
 #include "cli/part.h"
 
 #include "core/spelling.h"
+#include "io/compressed.h"
 #include "io/program_file.h"
 #include "io/program_identity.h"
 
@@ -51,7 +52,7 @@ PartOptions read_part_options(const po::variables_map& values) {
 Part load_part(const PartOptions& options, StageClock& clock) {
     Part part;
     clock.begin("read the program");
-    const io::Source program = io::map_file(options.program);
+    const io::Source program = io::open_source(options.program);
     part.program = io::read_program(program, options.program_options);
     clock.begin("open the log");
     part.log = io::open_log(options.log, options.log_options);

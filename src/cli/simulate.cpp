@@ -5,6 +5,7 @@
 #include "cli/options.h"
 #include "cli/progress_bar.h"
 #include "core/units.h"
+#include "io/compressed.h"
 #include "io/machine_file.h"
 #include "io/program_file.h"
 #include "io/program_identity.h"
@@ -38,7 +39,7 @@ ExitCode run(const po::variables_map& values) {
         start = Vec3(given[0], given[1], given[2]);
     }
     const std::string path = required(values, "PROGRAM");
-    const io::Source source = io::map_file(path);
+    const io::Source source = io::open_source(path);
     const Program program = io::read_program(source, read_program_options(values));
     io::SimulatedLogWriter log(output, machine, io::with_programs("{}", std::vector<ProgramReference>{io::identify(source)}));
     ProgressBar bar(read_common(values));

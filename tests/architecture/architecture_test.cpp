@@ -58,6 +58,10 @@ const std::vector<ThirdParty> third_parties{
     {"OpenImageIO/", {"viz/"}},
     {"nlohmann/", {"io/"}},
     {"toml++/", {"io/"}},
+    {"zlib.h", {"io/"}},
+    {"zstd.h", {"io/"}},
+    {"lzma.h", {"io/"}},
+    {"expat.h", {"io/"}},
     {"boost/", {"src/cli/"}},
 };
 

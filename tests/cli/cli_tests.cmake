@@ -67,7 +67,7 @@ set(part @DATA@/programs/bottle_uneven.nc)
 clsurf_cli_test(NAME log_missing ARGS render ${part} nowhere.biip -o map.png EXIT 3 STDERR "nowhere.biip: error: cannot open")
 clsurf_cli_test(NAME log_is_empty SETUP ": > run.biip" ARGS render ${part} run.biip -o map.png EXIT 3 STDERR "run.biip: error: is empty")
 clsurf_cli_test(NAME log_is_a_folder SETUP "mkdir run.biip" ARGS render ${part} run.biip -o map.png EXIT 3 STDERR "run.biip: error")
-clsurf_cli_test(NAME log_of_no_format SETUP "head -c 5000 @DATA@/logs/bottle_uneven.biip.xz > run.biip"
+clsurf_cli_test(NAME log_of_no_format SETUP "head -c 5000 @DATA@/../docs/guide/map.png > run.biip"
   ARGS render ${part} run.biip -o map.png EXIT 3 STDERR "no log of a known format")
 clsurf_cli_test(NAME log_cut_inside_its_header SETUP "head -c 60 @LOGS@/bottle_uneven.biip > run.biip"
   ARGS render ${part} run.biip -o map.png EXIT 3 STDERR "run.biip")
