@@ -5,8 +5,12 @@
 #include "io/biip.h"
 #include "io/compressed.h"
 #include "io/delimited.h"
+#include "io/edge_json.h"
+#include "io/halscope.h"
 #include "io/log_format.h"
 #include "io/record_layout.h"
+#include "io/sinumerik_xml.h"
+#include "io/twincat_csv.h"
 #include "log/channel.h"
 
 namespace clsurf::io {
@@ -17,6 +21,10 @@ constexpr auto table = std::to_array<LogFormat>({
     {"biip", "BIIP v1: self-describing fixed records (docs/formats/biip.md)", probe_biip, open_biip},
     {"layout", "foreign fixed records, described by --layout FILE", probe_layout, open_layout},
     {"halsampler", "LinuxCNC halsampler text, columns named by --mapping FILE", probe_halsampler, open_halsampler},
+    {"halscope", "LinuxCNC halscope's saved log", probe_halscope, open_halscope},
+    {"twincat", "TwinCAT Scope's text export", probe_twincat, open_twincat},
+    {"edge", "SINUMERIK Edge high-frequency recording (JSON)", probe_edge, open_edge},
+    {"sinumerik-xml", "SINUMERIK Operate trace session (XML)", probe_sinumerik_xml, open_sinumerik_xml},
     {"delimited", "CSV or TSV with a header of channel names, or with --mapping FILE", probe_delimited, open_delimited},
 });
 

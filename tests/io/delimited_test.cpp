@@ -97,5 +97,62 @@ TEST(Delimited, ReadsRecordedHalsamplerText) {
     EXPECT_THROW((void)open_log(SAMPLE_LOGS "/dome_loops.halsampler.txt", {}), InputError);
 }
 
+TEST(Delimited, TakesLinesFromEventsInASecondFile) {
+    const test::TemporaryFolder folder;
+    (void)folder.write("events.csv", "Line;T\n8;0,004\n7;0,001\n9;99\n");
+    LogOptions options;
+    options.mapping = folder.write("m.toml", "[log]\nperiod_s = 0.001\n[events]\nfile = \"events.csv\"\nfrom = \"T\"\nline = \"Line\"\n[[column]]\nfrom = \"P\"\nname = \"cmd.x\"\n");
+    const Log log = open(folder, "P;Q\n1;1\n2;1\n3;1\n4;1\n5;1\n6;1\n", options);
+    const double lines[] = {0, 7, 7, 7, 8, 8};
+    for (PointIndex i = 0; i < 6; ++i) EXPECT_EQ(log.find("line")->values.at(i), lines[i]) << i;
+    EXPECT_EQ(log.diagnostics.count("log.events-outside"), 1u);
+}
+
+TEST(Delimited, CountsRecordsWhereTheEventsDo) {
+    const test::TemporaryFolder folder;
+    (void)folder.write("events.csv", "n,line\n0,3\n2,4\n");
+    LogOptions options;
+    options.period = 0.002;
+    options.mapping = folder.write("m.toml", "[events]\nfile = \"events.csv\"\nat = \"record\"\nfrom = 0\nline = 1\n[[column]]\nfrom = 0\nname = \"cmd.x\"\n");
+    const Log log = open(folder, "P,Q\n1,1\n2,1\n3,1\n", options);
+    EXPECT_EQ(log.find("line")->values.at(1), 3);
+    EXPECT_EQ(log.find("line")->values.at(2), 4);
+}
+
+TEST(Delimited, NamesTheEventFileThatIsWrong) {
+    const test::TemporaryFolder folder;
+    (void)folder.write("empty.csv", "");
+    (void)folder.write("other.csv", "a,b\n1,2\n");
+    for (const std::string name : {"missing.csv", "empty.csv", "other.csv", "/dev/full"}) {
+        LogOptions options;
+        options.period = 0.002;
+        options.mapping = folder.write("m.toml", "[events]\nfile = \"" + name + "\"\nfrom = \"T\"\nline = \"Line\"\n[[column]]\nfrom = 0\nname = \"cmd.x\"\n");
+        try {
+            (void)open(folder, "P,Q\n1,1\n2,1\n", options);
+            FAIL() << name;
+        } catch (const InputError& error) {
+            EXPECT_NE(error.diagnostic().where.file.find(name), std::string::npos);
+        }
+    }
+}
+
+TEST(Delimited, MemoryDoesNotGrowWithAHeaderAboveEmptyRows) {
+    const test::TemporaryFolder folder;
+    std::string text = "cmd.x";
+    for (int i = 0; i < 4'000; ++i) text += ",a" + std::to_string(i);
+    for (int i = 0; i < 50'000; ++i) text += "\n1";
+    EXPECT_THROW((void)open(folder, text), InputError);
+    EXPECT_THROW((void)open(folder, "cmd.x" + std::string(5'000, ',') + "\n1\n"), InputError);
+}
+
+TEST(Delimited, SampleWithEventsHasTheLinesThatWereRecorded) {
+    LogOptions options;
+    options.mapping = SAMPLE_DATA "/logs/dome_loops.events.mapping.toml";
+    const Log log = open_log(SAMPLE_LOGS "/dome_loops.signals.csv", options);
+    EXPECT_EQ(log.records, 18531);
+    EXPECT_EQ(log.find("line")->values.at(8999), 863);
+    EXPECT_EQ(log.diagnostics.count("log.events-outside"), 0u);
+}
+
 }  // namespace
 }  // namespace clsurf::io

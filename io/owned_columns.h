@@ -1,0 +1,45 @@
+#pragma once
+// Columns that a log owns, for formats whose bytes are not the values themselves.
+// Used inside io only.
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "log/log.h"
+
+namespace clsurf::io {
+
+class OwnedColumns {
+public:
+    /// Joins what keeps the channels of `log` alive; they are added one by one, each of
+    /// `log.records` values.
+    explicit OwnedColumns(Log& log) : log_(log) {
+        store_->before = log.keep_alive;
+        log.keep_alive = store_;
+    }
+
+    void add(const std::string& name, const std::string& unit, std::vector<double> values) {
+        add(name, unit, ScalarType::f64, store_->numbers.emplace_back(std::move(values)).data(), sizeof(double));
+    }
+    void add(const std::string& name, const std::string& unit, std::vector<std::uint32_t> values) {
+        add(name, unit, ScalarType::u32, store_->counts.emplace_back(std::move(values)).data(), sizeof(std::uint32_t));
+    }
+
+private:
+    struct Store {
+        std::deque<std::vector<double>> numbers;
+        std::deque<std::vector<std::uint32_t>> counts;
+        std::shared_ptr<const void> before;  ///< what kept the log alive until now
+    };
+    void add(const std::string& name, const std::string& unit, ScalarType type, const void* data, std::size_t stride) {
+        log_.channels.push_back({name, unit, {static_cast<const std::byte*>(data), stride, log_.records, type, false, 1.0, 0.0}});
+    }
+
+    Log& log_;
+    std::shared_ptr<Store> store_ = std::make_shared<Store>();
+};
+
+}  // namespace clsurf::io

@@ -1,0 +1,202 @@
+// TwinCAT Scope's text export: some lines about the file, an empty line, then a header of the
+// channels with one property a line, an empty line, records. In the header's lines a cell that
+// repeats the property's name stands over a column of times; the cells after it are the channels that
+// have these times:
+//   Name<tab>cmd.x<tab>cmd.y<tab>Name<tab>load
+//   SampleTime[ms]<tab>1<tab>1<tab>SampleTime[ms]<tab>10
+//   <empty>
+//   0<tab>1,5<tab>2<tab>0<tab>17
+// Times are milliseconds from the start, or 100 ns since 1601 ("full timestamp"). A line EOF may close.
+#include "io/twincat_csv.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "io/owned_columns.h"
+#include "io/text_mapping.h"
+
+namespace clsurf::io {
+namespace {
+
+constexpr std::uint64_t most_header_lines = 200;
+constexpr double least_file_time = 1e15;  ///< more milliseconds than a recording has: 100 ns since 1601
+constexpr double file_time_per_millisecond = 1e4;
+constexpr double seconds_per_millisecond = 1e-3;
+
+struct Header {
+    TextPlan plan;
+    std::vector<std::size_t> time_column;  ///< of each column; its own number: a column of times
+    double sample_time = 0;                ///< [ms] the shortest; 0: not given
+};
+
+/// "mm (Length)" → "mm"; "(None)" → nothing.
+std::string unit_text(const std::string& cell) { return cell.substr(0, std::min(cell.find('('), cell.find(" ("))); }
+
+Header read_header(const Source& source, const Mapping* mapping) {
+    const std::string_view text = source.text();
+    std::string_view rest = text_of(source.bytes);
+    Header header;
+    header.plan.separator = rest.size() > 4 ? rest[4] : '\t';  // behind "Name"
+    header.plan.decimal_comma = header.plan.separator != ',';
+    std::vector<std::vector<std::string>> rows;
+    std::uint64_t number = 0;
+    std::uint64_t name_line = 0;
+    bool data = false;
+    std::string_view before = rest;
+    while (!rest.empty() && !data) {
+        before = rest;
+        const std::string_view line = first_line(rest);
+        if (++number > most_header_lines) break;
+        const std::size_t end = std::min(line.find(header.plan.separator), line.size());
+        data = looks_like_number(line.substr(0, end));
+        if (data) break;
+        // The first "Name" is that of the file; the second begins the channels.
+        if (number > 1 && line.substr(0, end) == "Name") {
+            rows.clear();
+            name_line = number;
+        }
+        if (name_line > 0 && end > 0) rows.push_back(split(line, header.plan.separator));
+    }
+    if (name_line == 0) throw InputError(Place::of_line(source.name, std::min<std::uint64_t>(number, most_header_lines)), "no line of channel names (\"Name\") in the header of a TwinCAT Scope export");
+    if (!data) throw InputError(Place::of_line(source.name, number), "no records follow the header");
+    header.plan.data_begin = static_cast<std::size_t>(before.data() - text.data());
+    header.plan.first_data_line = number;
+
+    std::vector<SourceColumn> columns;
+    std::size_t time = 0;
+    for (std::size_t i = 0; i < rows[0].size(); ++i) {
+        const std::string& name = rows[0][i];
+        if (name == "Name") time = i;
+        header.time_column.push_back(time);
+        if (name == "Name" || name.empty()) {  // some exports end their lines with a separator
+            columns.emplace_back();
+            continue;
+        }
+        SourceColumn column{name, {}, {.name = name, .unit = {}}};
+        for (const std::vector<std::string>& row : rows) {
+            if (i >= row.size()) continue;
+            if (row[0] == "Unit") column.known.unit = unit_text(row[i]);
+            if (row[0] == "SymbolName") column.other = row[i];
+            if (row[0] == "SampleTime[ms]" || row[0] == "SampleTime") {
+                bool bad = false;
+                const double t = parse_number(row[i], true, bad);
+                if (t > 0 && (header.sample_time == 0 || t < header.sample_time)) header.sample_time = t;
+            }
+        }
+        columns.push_back(std::move(column));
+    }
+    const Place place = Place::of_line(source.name, name_line);
+    header.plan.columns = plan_columns(columns, mapping, place);
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        ColumnPlan& column = header.plan.columns[i];
+        const bool is_time = header.time_column[i] == i;
+        if (is_time) column = {.name = fmt::format("time column {}", i), .unit = "ms"};
+        else if (columns[i].name.empty()) column.name.clear();
+    }
+    return header;
+}
+
+/// The end of the records: where a closing line EOF, or what a cut file has of it, begins.
+std::size_t end_of_records(std::string_view text) {
+    std::size_t end = text.size();
+    while (end > 0 && (text[end - 1] == '\n' || text[end - 1] == '\r')) --end;
+    const std::size_t line = text.substr(0, end).rfind('\n') + 1;
+    return std::string_view("EOF").starts_with(text.substr(line, end - line)) ? line : text.size();
+}
+
+/// Milliseconds since the first record of the file, whichever way they are written.
+std::vector<double> times_of(const Channel& channel) {
+    std::vector<double> t(static_cast<std::size_t>(channel.values.count));
+    copy_block(channel.values, 0, t);
+    if (!t.empty() && t[0] > least_file_time) {
+        const double origin = t[0];
+        for (double& v : t) v = (v - origin) / file_time_per_millisecond;
+    }
+    return t;
+}
+
+/// The values of a slower channel at the times of another column: the last one holds.
+std::vector<double> held(const Channel& channel, const std::vector<double>& times, const std::vector<double>& at) {
+    std::vector<double> values(at.size(), std::numeric_limits<double>::quiet_NaN());
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < at.size(); ++i) {
+        // Rows behind the last sample of a slow channel are empty: NaN is never at or before.
+        while (next < times.size() && times[next] <= at[i]) ++next;
+        if (next > 0) values[i] = channel.values.at(static_cast<PointIndex>(next - 1));
+    }
+    return values;
+}
+
+}  // namespace
+
+int probe_twincat(std::span<const std::byte> head, const LogOptions&) {
+    const std::string_view text = text_of(head);
+    if (!text.starts_with("Name") || text.size() < 5 || (text[4] != '\t' && text[4] != ';' && text[4] != ',')) return 0;
+    for (const std::string_view word : {"Starttime of export", "StartRecord"}) {
+        if (text.find(word) < 2000) return 95;
+    }
+    return 0;
+}
+
+Log open_twincat(const Source& source, const LogOptions& options) {
+    const std::optional<Mapping> mapping = mapping_of(options);
+    const Mapping* map = mapping ? &*mapping : nullptr;
+    Header header = read_header(source, map);
+    header.plan.data_end = end_of_records(source.text());
+    const Log read = read_table(source, header.plan, "twincat");
+
+    // The fastest column of times gives the records: the one with the smallest first step.
+    const Channel* base = nullptr;
+    double least_step = std::numeric_limits<double>::infinity();
+    std::vector<std::vector<double>> times(header.plan.columns.size());
+    for (std::size_t i = 0; i < header.time_column.size(); ++i) {
+        if (header.time_column[i] != i) continue;
+        const Channel* channel = read.find(header.plan.columns[i].name);
+        times[i] = times_of(*channel);
+        const double step = times[i].size() > 1 ? times[i][1] - times[i][0] : least_step;
+        if (base == nullptr || step < least_step) {
+            base = channel;
+            least_step = step;
+        }
+    }
+    if (base == nullptr) throw InputError(Place::of_line(source.name, header.plan.first_data_line), "no column of times");
+    const auto base_column = static_cast<std::size_t>(std::distance(header.plan.columns.begin(), std::find_if(header.plan.columns.begin(), header.plan.columns.end(), [&](const ColumnPlan& c) { return c.name == base->name; })));
+
+    Log log;
+    log.name = source.name;
+    log.format = "twincat";
+    log.records = read.records;
+    log.diagnostics = read.diagnostics;
+    OwnedColumns owned(log);
+    std::size_t held_channels = 0;
+    for (std::size_t i = 0; i < header.plan.columns.size(); ++i) {
+        const ColumnPlan& column = header.plan.columns[i];
+        if (column.name.empty() || header.time_column[i] == i) continue;
+        const Channel& channel = *read.find(column.name);
+        const std::vector<double>& own = times[header.time_column[i]];
+        const bool same = own == times[base_column];
+        if (same) {
+            std::vector<double> values(static_cast<std::size_t>(log.records));
+            copy_block(channel.values, 0, values);
+            owned.add(column.name, column.unit, std::move(values));
+        } else {
+            ++held_channels;
+            owned.add(column.name, column.unit, held(channel, own, times[base_column]));
+        }
+    }
+    if (held_channels > 0) {
+        log.diagnostics.add({Severity::note, "log.held", Place::of_line(source.name, header.plan.first_data_line),
+                             fmt::format("{} channels have other times than the fastest one; between their samples they keep the last value", held_channels), {}});
+    }
+    if (log.find("time") == nullptr) owned.add("time", "ms", times[base_column]);
+    if (header.sample_time > 0) log.period = header.sample_time * seconds_per_millisecond;
+    settle_period(log, options, map);
+    add_event_lines(log, map);
+    return log;
+}
+
+}  // namespace clsurf::io

@@ -1,0 +1,111 @@
+#include "io/edge_json.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "support/temporary_folder.h"
+
+namespace clsurf::io {
+namespace {
+
+Log open(const std::string& text, const LogOptions& options = {}) {
+    const test::TemporaryFolder folder;
+    return open_log(folder.write("run.json", text), options);
+}
+
+const std::string header =
+    "{\"Header\":{\"CycleTimeMs\":2,\"SignalListHFData\":[{\"Name\":\"CYCLE\",\"Axis\":\"Cycle\"},\n"
+    "{\"Name\":\"DES_POS|1\",\"Axis\":\"X1\"},{\"Name\":\"ENC_POS|5\",\"Axis\":\"B1\"},{\"Name\":\"LOAD|6\",\"Axis\":\"SP1\"}]},\n";
+const std::string recording = header +
+    "\"Payload\":[{\"HFBlockEvent\":{\"HFProbeCounter\":100,\"SeekOffset\":5}},\n"
+    "{\"HFData\":[[100,1.5,90,7],[101,1.6,90,7]]},\n"
+    "{\"HFCallEvent\":{\"HFProbeCounter\":102,\"SeekOffset\":20,\"CallStackLevel\":1,\"Path\":\"/_PART\"}},\n"
+    "{\"HFCallEvent\":{\"HFProbeCounter\":103,\"SeekOffset\":3,\"CallStackLevel\":2,\"Path\":\"/_SUB\"}},\n"
+    "{\"HFBlockEvent\":{\"HFProbeCounter\":103,\"SeekOffset\":4}},\n"
+    "{\"HFData\":[[102,1.7,90,7],[103,1.8,null,7]]},\n"
+    "{\"HFCallEvent\":{\"HFProbeCounter\":106,\"SeekOffset\":21,\"CallStackLevel\":1,\"Path\":\"/_PART\"}},\n"
+    "{\"HFBlockEvent\":{\"HFProbeCounter\":900,\"SeekOffset\":22}},\n"
+    "{\"HFData\":[[106,1.9,90,7]]}],\"Footer\":null}\n";
+
+TEST(Edge, NamesSignalsAfterTheirAxes) {
+    const Log log = open(recording);
+    EXPECT_EQ(log.format, "edge");
+    EXPECT_EQ(log.records, 5);
+    EXPECT_DOUBLE_EQ(log.period, 0.002);
+    EXPECT_DOUBLE_EQ(log.find("cmd.x")->values.at(3), 1.8);
+    EXPECT_EQ(log.find("fb.b")->unit, "deg");
+    EXPECT_NE(log.find("LOAD|6"), nullptr) << "a spindle has no axis letter";
+    EXPECT_DOUBLE_EQ(log.time_of(4), 0.012) << "a gap in the counter is a gap in time";
+}
+
+TEST(Edge, ALineIsThatOfTheInnermostProgram) {
+    const Log log = open(recording);
+    ASSERT_EQ(log.programs.size(), 3u);
+    EXPECT_EQ(log.programs[0].name, "(not recorded)") << "the recording begins inside a program";
+    EXPECT_EQ(log.programs[1].name, "/_PART");
+    EXPECT_EQ(log.programs[2].name, "/_SUB");
+    const double lines[] = {5, 5, 20, 4, 21};
+    const double programs[] = {0, 0, 1, 2, 1};
+    for (PointIndex i = 0; i < 5; ++i) {
+        EXPECT_EQ(log.find("line")->values.at(i), lines[i]) << i;
+        EXPECT_EQ(log.find("program")->values.at(i), programs[i]) << i;
+    }
+    EXPECT_EQ(log.diagnostics.count("log.events-outside"), 1u);
+}
+
+TEST(Edge, ReadsACutRecordingAsFarAsItGoes) {
+    const Log log = open(recording.substr(0, recording.find("[103,1.8") + 4));
+    EXPECT_EQ(log.records, 3);
+    EXPECT_FALSE(log.closed);
+    EXPECT_EQ(log.diagnostics.count("log.unclosed"), 1u);
+    for (std::size_t size = header.size(); size < recording.size(); ++size) {
+        try {
+            EXPECT_LE(open(recording.substr(0, size)).records, 5);
+        } catch (const InputError& error) {
+            EXPECT_FALSE(error.diagnostic().where.file.empty());
+        }
+    }
+}
+
+TEST(Edge, NamesLineAndColumnOfWhatIsNoJson) {
+    std::string damaged = recording;
+    damaged[recording.find("[101,1.6") + 4] = 'x';
+    try {
+        (void)open(damaged);
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_EQ(error.diagnostic().where.number, 4u);
+        EXPECT_NE(std::string(error.what()).find("no valid JSON"), std::string::npos);
+    }
+}
+
+TEST(Edge, LeavesOutRowsThatLackValues) {
+    const Log log = open(header + "\"Payload\":[{\"HFData\":[[1,2],[2,1,1,1]]}]}");
+    EXPECT_EQ(log.records, 1);
+    EXPECT_EQ(log.diagnostics.count("log.ragged-row"), 1u);
+}
+
+TEST(Edge, RefusesWhatIsNoRecording) {
+    EXPECT_THROW((void)open("{\"SignalListHFData\":[]}"), InputError);
+    EXPECT_THROW((void)open("{\"Payload\":[{\"HFData\":[[1,2]]}]}"), InputError);
+    EXPECT_THROW((void)open("{\"HFData\":" + std::string(100, '[')), InputError);
+    EXPECT_THROW((void)open("{\"Header\":{\"SignalListHFData\":[{\"Name\":\"a\"}]},\"Payload\":[{\"HFData\":[[1]]}]}"), InputError);
+}
+
+TEST(Edge, SampleHasItsGapsAndPrograms) {
+    const Log log = open_log(SAMPLE_LOGS "/edge_300.json", LogOptions{});
+    EXPECT_EQ(log.records, 300);
+    EXPECT_TRUE(log.has(Role::commanded));
+    EXPECT_TRUE(log.has(Role::feedback));
+    EXPECT_DOUBLE_EQ(log.period, 0.002);
+    ASSERT_EQ(log.programs.size(), 3u);
+    EXPECT_EQ(log.programs[1].name, "/_CUTTING");
+    EXPECT_EQ(log.programs[2].name, "/_CYCLES_DIR/_CYCLE714");
+    EXPECT_EQ(log.find("line")->values.at(299), 431);
+    EXPECT_EQ(log.find("program")->values.at(299), 1);
+    EXPECT_EQ(log.find("line")->values.at(100), 22) << "inside the cycle";
+    EXPECT_EQ(log.find("program")->values.at(100), 2);
+}
+
+}  // namespace
+}  // namespace clsurf::io
