@@ -11,6 +11,8 @@
 #include "core/block.h"
 #include "path/alignment.h"
 #include "path/allowed_motions.h"
+#include "path/program_course.h"
+#include "path/program_lines.h"
 #include "path/toolpath.h"
 #include "path/work_offset.h"
 
@@ -266,17 +268,24 @@ void look_for_work_offset(const Trajectory& path, const Program& program, const 
                      fmt::format("--work-offset {},{},{} brings them onto it", decimals(offset.x()), decimals(offset.y()), decimals(offset.z()))});
 }
 
+ChannelView view_of(const Column<LineNumber>& lines) {
+    return {reinterpret_cast<const std::byte*>(lines.data()), sizeof(LineNumber), static_cast<PointIndex>(lines.size()), ScalarType::u32, false, 1.0, 0.0};
+}
+
 }  // namespace
 
 LineMap map_lines(const Trajectory& path, const Log& log, const Program& program, bool use_channel,
                   Diagnostics& diagnostics) {
     const Channel* channel = use_channel ? log.find("line") : nullptr;
-    if (channel == nullptr) {
+    ProgramLines own;
+    if (channel != nullptr) own = lines_of_program(log, program, diagnostics);
+    if (channel == nullptr || !own.known) {
         LineMap map = align_lines(path, program, diagnostics);
         if (off_share(map) > offset_share) look_for_work_offset(path, program, nullptr, diagnostics);
+        else note_course(path, log, program, map, diagnostics);
         return map;
     }
-    LineMap map(channel->values, program, log.keep_alive);
+    LineMap map = own.lines ? LineMap(view_of(*own.lines), program, own.lines) : LineMap(channel->values, program, log.keep_alive);
     const LineAgreement agreement = check_lines(path, program, map);
     const auto more_than = [&](double share) {
         return static_cast<double>(agreement.disagreeing) > share * static_cast<double>(agreement.checked);
@@ -291,6 +300,7 @@ LineMap map_lines(const Trajectory& path, const Log& log, const Program& program
              "another program, another version of it, or another work offset?"});
     }
     if (more_than(offset_share)) look_for_work_offset(path, program, &map, diagnostics);
+    else note_course(path, log, program, map, diagnostics);
     return map;
 }
 

@@ -97,7 +97,8 @@ struct LineAgreement {
 /// Confidence in a line whose point lies `distance` [mm] off it: 1 within a finishing tolerance.
 [[nodiscard]] double off_confidence(double distance);
 
-/// The lines of a log: its channel where it has one (and `use_channel`), an alignment otherwise.
+/// The lines of a log: its channel where it has one (and `use_channel`), an alignment otherwise. Where
+/// the log names several programs, lines of the others are not taken for this one's.
 /// Adds diagnostics `map.…` about disagreement; where most points are off by the same translation,
 /// `map.work-offset` with the offset that brings them onto the path.
 [[nodiscard]] LineMap map_lines(const Trajectory& path, const Log& log, const Program& program,
