@@ -12,7 +12,6 @@ namespace clsurf {
 namespace {
 
 constexpr std::size_t deepest_call = 64;
-constexpr std::uint64_t most_jumps = 5'000'000;
 
 }  // namespace
 
@@ -25,8 +24,8 @@ const ControlIndex& Interpreter::index(std::size_t file) {
 }
 
 void Interpreter::count_jump() {
-    if (++jumps_ > most_jumps) {
-        fail(fmt::format("more than {} jumps and calls: a loop without end?", most_jumps));
+    if (++jumps_ > options_.most_jumps) {
+        fail(fmt::format("more than {} jumps and calls: a loop without end?", options_.most_jumps));
     }
 }
 

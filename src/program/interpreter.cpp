@@ -25,6 +25,10 @@ Interpreter::Interpreter(SourceText text, const InterpreterOptions& options)
     program_.dialect = options.dialect != nullptr ? options.dialect : &detect_dialect(text.text());
     dialect_ = program_.dialect->id;
     program_.files.push_back(std::move(text));
+    // A line makes 100 chords of a spline at most, and a few motions besides.
+    constexpr std::uint64_t most_of_a_line = 200;
+    constexpr std::uint64_t most_numbers = 0xfffffff0u;
+    most_motions_ = std::min(most_numbers, options_.most_repeated + most_of_a_line * program_.main().line_count());
     indexes_.resize(1);
     indexed_.resize(1);
     // RS274's interpreter starts at its origin and retracts to R; the other controls stand wherever they stand.

@@ -220,6 +220,7 @@ private:
     [[nodiscard]] bool load(const std::string& name);  ///< false: no such file
 
     InterpreterOptions options_;
+    std::uint64_t most_motions_ = 0;
     Program program_;
     DialectId dialect_;
     std::vector<ControlIndex> indexes_;

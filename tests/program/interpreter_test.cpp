@@ -119,6 +119,13 @@ TEST(Interpreter, StopsEndlessLoopsAndRecursion) {
     EXPECT_NE(error_of("M98 P77\n", "fanuc").find("subprogram '77' is neither in the program nor beside it"), std::string::npos);
 }
 
+TEST(Interpreter, BoundsTheMotionsOfRepeats) {
+    InterpreterOptions options;
+    options.most_repeated = 1000;
+    EXPECT_THROW((void)parse_program(SourceText("t", "G90 G81 X1 Y1 Z-1 R1 L1000000 F100\n", nullptr), options), InputError);
+    EXPECT_GT(parse_program(SourceText("t", "G90 G81 X1 Y1 Z-1 R1 L200 F100\n", nullptr), options).motions.size(), 500u);
+}
+
 TEST(Interpreter, SurvivesBrokenBlocks) {
     for (const char* text : {"X[1+", "#1=[", "G1 X[1/0]", "#<abc", "o1 if [", "G2 X1", "X1.2.3", "o[ call", "G0 X[SQRT[-1]]", "((((", "\"\"\"", "N", "/", "%%", "o100", "#=", "G", "M", "[[[[[[[["}) {
         for (const Dialect& dialect : dialects()) {
