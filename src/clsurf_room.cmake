@@ -18,6 +18,11 @@ elseif(CLSURF_SANITIZE STREQUAL "thread")
   target_link_options(clsurf_build_options INTERFACE -fsanitize=thread)
 endif()
 
+if(CLSURF_FUZZ)
+  # Every room counts its edges; tests/fuzz adds the driver to the targets alone.
+  target_compile_options(clsurf_build_options INTERFACE -fsanitize=fuzzer-no-link)
+endif()
+
 # Where the rooms are listed for the package config: those that need VTK, and all others.
 set(CLSURF_ROOMS_WITH_VTK viz)
 
