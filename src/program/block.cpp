@@ -369,7 +369,7 @@ private:
             c_.at = end + 1;
             return;
         }
-        if (id.size() == 1 && id != "R") {
+        if (id.size() == 1 && id != "R" && is_letter(id[0])) {
             const char letter = id[0];
             for (const auto& [name, mask] : {std::pair{std::string_view("AC"), &block_.absolute},
                                              std::pair{std::string_view("IC"), &block_.incremental}}) {

@@ -119,6 +119,12 @@ TEST(Interpreter, StopsEndlessLoopsAndRecursion) {
     EXPECT_NE(error_of("M98 P77\n", "fanuc").find("subprogram '77' is neither in the program nor beside it"), std::string::npos);
 }
 
+TEST(Interpreter, TakesANameWithoutALetterForNoAxis) {
+    const Program p = parse("G0 X1\n$=5\n_=3\n", "siemens");
+    EXPECT_EQ(p.diagnostics.count("program.unknown-word"), 2u);
+    EXPECT_EQ(p.motions.size(), 1u);
+}
+
 TEST(Interpreter, BoundsTheMotionsOfRepeats) {
     InterpreterOptions options;
     options.most_repeated = 1000;
