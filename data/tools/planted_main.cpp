@@ -14,6 +14,7 @@
 
 #include <fmt/format.h>
 
+#include "core/statistics.h"
 #include "io/atomic_file.h"
 #include "io/biip.h"
 #include "planted_score.h"
@@ -23,11 +24,10 @@ namespace {
 
 constexpr Shape shapes[] = {Shape::zigzag, Shape::one_way, Shape::loops, Shape::spiral};
 
-double percentile(std::vector<double> values, double p) {
-    if (values.empty()) return 0;
+/// Of the lengths of the values.
+double percentile(std::vector<double> values, double share) {
     for (double& v : values) v = std::abs(v);
-    std::sort(values.begin(), values.end());
-    return values[static_cast<std::size_t>(p * static_cast<double>(values.size() - 1))];
+    return values.empty() ? 0 : quantile_below(values, share);
 }
 
 void print(std::string_view name, const Score& s, const Score& clean) {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/statistics.h"
 
 namespace clsurf {
 namespace {
@@ -14,13 +15,6 @@ namespace {
 constexpr PointIndex sampled_points = 1'000'000;
 constexpr double automatic_low = 1;
 constexpr double automatic_high = 99;
-
-double percentile(Column<float>& values, double p) {
-    const double at = p / 100 * static_cast<double>(values.size() - 1);
-    float* place = values.begin() + static_cast<std::ptrdiff_t>(std::lround(at));
-    std::nth_element(values.begin(), place, values.end());
-    return *place;
-}
 
 /// The values that the range is found from.
 struct Values {
@@ -85,8 +79,8 @@ ShownRange find_range(const Field& field, const Passes& passes, const RangeRule&
     const bool automatic = rule.kind == RangeRule::Kind::automatic;
     const double p_low = automatic ? automatic_low : rule.low;
     const double p_high = automatic ? automatic_high : rule.high;
-    range.low = percentile(values.sampled, p_low) * unit;
-    range.high = percentile(values.sampled, p_high) * unit;
+    range.low = nearest_quantile(values.sampled, p_low / 100) * unit;
+    range.high = nearest_quantile(values.sampled, p_high / 100) * unit;
     const bool even = automatic && field.info.scale == FieldScale::diverging;
     if (even) {
         const double most = std::max(std::abs(range.low), std::abs(range.high));

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/statistics.h"
 #include "log/quantum.h"
 
 namespace clsurf {
@@ -45,11 +46,7 @@ public:
     /// [mm]; 0: none that is sure. `resting` says which kind it is.
     [[nodiscard]] double offset(bool& resting) {
         resting = resting_.size() >= least_resting;
-        if (resting) {
-            const auto middle = resting_.begin() + static_cast<std::ptrdiff_t>(resting_.size() / 2);
-            std::nth_element(resting_.begin(), middle, resting_.end());
-            return *middle;
-        }
+        if (resting) return median(resting_);
         if (forth_ < least_moving || back_ < least_moving) return 0;
         const double n = static_cast<double>(forth_ + back_);
         const double slope = products_ / step_squares_;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/statistics.h"
+
 namespace clsurf {
 
 std::string_view name_of(Role role) {
@@ -51,9 +53,7 @@ double Log::measured_period() const {
         if (t[i] > t[i - 1]) steps.push_back(t[i] - t[i - 1]);
     }
     if (steps.empty()) return 0;
-    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-    std::nth_element(steps.begin(), middle, steps.end());
-    return *middle;
+    return median(steps);
 }
 
 }  // namespace clsurf

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/block.h"
+#include "core/statistics.h"
 #include "path/alignment.h"
 #include "path/allowed_motions.h"
 #include "path/program_course.h"
@@ -177,12 +178,6 @@ double allowed_distance(const Toolpath& path, const LineMap& map, LineNumber bef
     return best;
 }
 
-double quantile(Column<double>& values, double q) {
-    double* at = values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), at, values.end());
-    return *at;
-}
-
 }  // namespace
 
 LineAgreement check_lines(const Trajectory& path, const Program& program, const LineMap& map) {
@@ -221,8 +216,8 @@ LineAgreement check_lines(const Trajectory& path, const Program& program, const 
     }
     agreement.checked = static_cast<PointIndex>(distances.size());
     if (distances.empty()) return agreement;
-    agreement.median_distance = quantile(distances, 0.5);
-    agreement.p95_distance = quantile(distances, 0.95);
+    agreement.median_distance = quantile_below(distances, 0.5);
+    agreement.p95_distance = quantile_below(distances, 0.95);
     return agreement;
 }
 

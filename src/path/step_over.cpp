@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/block.h"
+#include "core/statistics.h"
 
 namespace clsurf {
 namespace {
@@ -143,9 +144,7 @@ double estimate_step_over(const Positions& positions, const Passes& runs, const 
             if (probe.nearest <= cell) found.push_back(probe.nearest);
         }
         if (static_cast<double>(found.size()) < enough * static_cast<double>(probes.size())) continue;
-        auto middle = found.begin() + static_cast<std::ptrdiff_t>(found.size() / 2);
-        std::nth_element(found.begin(), middle, found.end());
-        return *middle;
+        return median(found);
     }
     return 0;
 }

@@ -9,6 +9,7 @@
 #include <Eigen/Dense>
 
 #include "core/block.h"
+#include "core/statistics.h"
 #include "path/allowed_motions.h"
 #include "path/motion_grid.h"
 #include "path/toolpath.h"
@@ -82,12 +83,6 @@ Samples take_samples(const Trajectory& path, const Toolpath& toolpath, const Lin
         }
     }
     return samples;
-}
-
-double median(std::vector<double>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
 }
 
 Box3 box_of(const Toolpath& path) {

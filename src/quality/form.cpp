@@ -7,6 +7,7 @@
 #include <Eigen/Dense>
 
 #include "core/parallel.h"
+#include "core/statistics.h"
 
 namespace clsurf {
 namespace {
@@ -169,8 +170,7 @@ void Form::fit(std::int64_t column, std::int64_t row, const Samples& samples) {
         if (pass + 1 == fits) break;
         for (std::size_t k = 0; k < used.size(); ++k) left[k] = std::abs(used[k].z - used[k].terms.dot(solution));
         std::vector<double> sorted = left;
-        std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
-        const double most = bisquare * std::max(least_spread, 1.4826 * sorted[sorted.size() / 2]);
+        const double most = bisquare * std::max(least_spread, 1.4826 * median(sorted));
         for (std::size_t k = 0; k < used.size(); ++k) {
             const double share = std::min(1.0, left[k] / most);
             used[k].robust = (1 - share * share) * (1 - share * share);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/parallel.h"
+#include "core/statistics.h"
 
 namespace clsurf {
 namespace {
@@ -25,12 +26,6 @@ std::vector<double> row_of(const FormedSurface& formed, const Vec2& from, const 
     std::vector<double> row;
     map_deviation(formed, form, frame, [&](std::int64_t, std::span<float> z) { row.assign(z.begin(), z.end()); });
     return row;
-}
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
 }
 
 /// Across the feed in the plane, and the step-over as it is seen from above: on a slope it is shorter.

@@ -1,0 +1,38 @@
+#pragma once
+// Order statistics of values in any order. They reorder what they are given: O(values), no copy.
+// Domain: at least one value, no NaN.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+
+namespace clsurf {
+
+/// The k-th smallest value, from 0.
+template <typename Values>
+[[nodiscard]] auto kth_smallest(Values& values, std::size_t k) {
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(k);
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+}
+
+/// The middle value; of an even number the upper of the two.
+template <typename Values>
+[[nodiscard]] auto median(Values& values) {
+    return kth_smallest(values, std::size(values) / 2);
+}
+
+/// The value that a share (0 … 1) of the others lies below, the next lower one.
+template <typename Values>
+[[nodiscard]] auto quantile_below(Values& values, double share) {
+    return kth_smallest(values, static_cast<std::size_t>(share * static_cast<double>(std::size(values) - 1)));
+}
+
+/// The same, the nearest one.
+template <typename Values>
+[[nodiscard]] auto nearest_quantile(Values& values, double share) {
+    return kth_smallest(values, static_cast<std::size_t>(std::lround(share * static_cast<double>(std::size(values) - 1))));
+}
+
+}  // namespace clsurf
