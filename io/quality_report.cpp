@@ -79,14 +79,10 @@ void add_roughness(Json& summary, const FormedReport& f) {
     summary["roughness_patches"] = f.patches;
 }
 
-double coverage(const QualityReport& r) { return r.points > 0 ? 100.0 * static_cast<double>(r.compared) / static_cast<double>(r.points) : 0.0; }
-
 }  // namespace
 
 std::string quality_json(const ReportedQuality& q) {
     const QualityReport& r = *q.report;
-    int worst = 0;
-    for (const Defect& d : r.defects) worst = std::max(worst, d.severity);
     Json budget = Json::array();
     for (const BudgetLine& line : q.budget) {
         budget.push_back({{"name", line.name}, {"limit", number(line.limit)}, {"measured", number(line.measured)}, {"held", line.held}});
@@ -100,10 +96,10 @@ std::string quality_json(const ReportedQuality& q) {
                  {"passes", r.passes},
                  {"defects", r.defects.size()},
                  {"expected", r.expected.size()},
-                 {"worst_severity", worst},
+                 {"worst_severity", r.worst_severity()},
                  {"scallop_um", number(um(q.scallop))},
                  {"step_over_mm", number(r.step_over)},
-                 {"coverage_percent", number(coverage(r))},
+                 {"coverage_percent", number(100 * r.coverage())},
                  {"measured_positions", r.has_lag},
                  {"speed_mismatch_p99_percent", number(100 * quantity(r.thresholds.p99, Quantity::speed))},
                  {"acceleration_mismatch_p99_mm_s2", number(quantity(r.thresholds.p99, Quantity::acceleration))},
@@ -162,7 +158,7 @@ std::string quality_text(const ReportedQuality& q) {
         text += "no adjacent passes: nothing to compare\n";
     } else {
         text += fmt::format("{}{} defects on {} passes, {:.3g} mm apart; {:.1f} % of {} cutting points compared with both neighbours\n", r.defects.empty() ? "" : "\n",
-                            r.defects.empty() ? "no" : fmt::format("{}", r.defects.size()), r.passes, r.step_over, coverage(r), r.points);
+                            r.defects.empty() ? "no" : fmt::format("{}", r.defects.size()), r.passes, r.step_over, 100 * r.coverage(), r.points);
         text += fmt::format("thresholds: speed {:.1f} %, acceleration {:.0f} mm/s²", 100 * r.thresholds.of[index_of(Quantity::speed)],
                             r.thresholds.of[index_of(Quantity::acceleration)]);
         if (r.has_lag) text += fmt::format(", lag {:.1f} µm", um(r.thresholds.of[index_of(Quantity::lag)]));

@@ -96,7 +96,7 @@ QualityReport judge(const PlantedLog& planted) {
     const Trajectory measured = reconstruct(log, Role::feedback, Vec3::Zero());
     const LineMap lines = map_lines(path, log, program, true, diagnostics);
     const ClSurface surface = stitch(gather(path), lines);
-    const Signals signals = derive_signals(surface, path, &measured, smooth_pieces(log, surface.passes), std::max(1.0, 2 * surface.step_over));
+    const Signals signals = derive_signals(surface, path, &measured, smooth_pieces(log, surface.passes), usual_end_zone(surface.step_over));
     return find_defects(surface, signals, lines, program, log.period, {});
 }
 

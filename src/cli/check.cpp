@@ -47,7 +47,8 @@ std::vector<double> colour_differences(const QualityReport& report, const Part& 
 }
 
 ExitCode run(const po::variables_map& values) {
-    const Writer write = writer_of(format_of(values));
+    const std::string format = format_of(values);
+    const Writer write = writer_of(format);
     PartOptions options = read_part_options(values);
     const std::optional<Role> measured = take_measured_role(options);
     const QualityOptions quality_options = read_quality_options(values);
@@ -68,12 +69,12 @@ ExitCode run(const po::variables_map& values) {
     reported.log = part.log.name;
     reported.tool = quality_options.tool;
     reported.scallop = quality.scallop;
-    reported.colour_differences = colour_differences(quality.report, part, surface);
+    if (format == "json") reported.colour_differences = colour_differences(quality.report, part, surface);
     reported.formed = quality.formed ? &*quality.formed : nullptr;
     reported.budget = hold(quality.report, budget);
     reported.diagnostics = &part.diagnostics;
     clock.end();
-    if (format_of(values) != "json") print(part.diagnostics, values);
+    if (format != "json") print(part.diagnostics, values);
     const std::string text = write(reported);
     if (output) {
         output->write(text);

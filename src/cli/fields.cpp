@@ -7,7 +7,7 @@ namespace clsurf::cli {
 
 Field Fields::get(std::string_view name) {
     if (is_quality_field(name)) {
-        if (!signals_) signals_ = std::make_unique<Signals>(signals_of(part_, surface_, std::nullopt, {}));
+        if (!signals_) signals_ = std::make_unique<Signals>(std::move(signals_of(part_, surface_, std::nullopt).signals));
         return quality_field(name, surface_, *signals_);
     }
     if (!set_.has(name)) unknown_field(name, all_fields(&part_.log));

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "path/pieces.h"
 #include "quality/form.h"
 
 namespace clsurf::cli {
@@ -91,10 +90,8 @@ CuttingTool required_tool(const po::variables_map& values, const std::string& wh
 
 FormedPart::FormedPart(const Part& part, const ClSurface& surface, std::optional<Role> role, const CuttingTool& tool, StageClock& clock) {
     clock.begin("sweep the tool");
-    measured_ = measured_of(part, role);
-    const std::vector<PointRange> pieces = smooth_pieces(part.log, surface.passes);
-    signals_ = signals_of(part, surface, role, {});
-    formed_.emplace(surface, signals_, part.path.role, measured_ ? *measured_ : part.path, pieces, tool);
+    read_ = signals_of(part, surface, role);
+    formed_.emplace(surface, read_.signals, part.path.role, read_.swept(part), read_.pieces, tool);
 }
 
 FormedMap make_formed_map(const FormedPart& part, const Box3& box, const viz::Camera& camera) {

@@ -18,11 +18,10 @@ public:
     FormedPart& operator=(const FormedPart&) = delete;
 
     [[nodiscard]] const FormedSurface& surface() const { return *formed_; }
-    [[nodiscard]] const Signals& signals() const { return signals_; }
+    [[nodiscard]] const Signals& signals() const { return read_.signals; }
 
 private:
-    std::optional<Trajectory> measured_;
-    Signals signals_;
+    PartSignals read_;
     std::optional<FormedSurface> formed_;
 };
 

@@ -9,11 +9,6 @@
 namespace clsurf::cli {
 namespace {
 
-constexpr double end_zone_step_overs = 2;
-constexpr double least_end_zone = 1.0;  ///< [mm]
-
-}  // namespace
-
 std::optional<Trajectory> measured_of(const Part& part, std::optional<Role> wanted) {
     if (part.path.role != Role::commanded || wanted == Role::commanded) return std::nullopt;
     if (wanted) return reconstruct(part.log, *wanted, part.path.offset);
@@ -22,6 +17,8 @@ std::optional<Trajectory> measured_of(const Part& part, std::optional<Role> want
     }
     return std::nullopt;
 }
+
+}  // namespace
 
 void declare_quality(po::options_description& options) {
     // clang-format off
@@ -45,18 +42,18 @@ std::optional<Role> take_measured_role(PartOptions& options) {
     return role;
 }
 
-Signals signals_of(const Part& part, const ClSurface& surface, std::optional<Role> wanted, const QualityRules& rules) {
-    const std::optional<Trajectory> measured = measured_of(part, wanted);
-    const double end_zone = rules.end_zone > 0 ? rules.end_zone : std::max(least_end_zone, end_zone_step_overs * surface.step_over);
-    return derive_signals(surface, part.path, measured ? &*measured : nullptr, smooth_pieces(part.log, surface.passes), end_zone);
+PartSignals signals_of(const Part& part, const ClSurface& surface, std::optional<Role> wanted) {
+    PartSignals result{measured_of(part, wanted), smooth_pieces(part.log, surface.passes), {}};
+    result.signals = derive_signals(surface, part.path, result.measured ? &*result.measured : nullptr, result.pieces, usual_end_zone(surface.step_over));
+    return result;
 }
 
 Quality judge(Part& part, const ClSurface& surface, std::optional<Role> wanted, const QualityOptions& options, StageClock& clock) {
     Quality quality;
     clock.begin("derive the signals");
-    quality.signals = signals_of(part, surface, wanted, options.rules);
+    const PartSignals read = signals_of(part, surface, wanted);
     clock.begin("find the defects");
-    quality.report = find_defects(surface, quality.signals, *part.lines, part.program, part.log.period, options.rules);
+    quality.report = find_defects(surface, read.signals, *part.lines, part.program, part.log.period, options.rules);
     if (surface.step_over <= 0) {
         part.diagnostics.add({Severity::note, "quality.single-pass", Place::of_file(part.log.name), "no pass has another beside it: there is nothing to compare", {}});
     }
@@ -65,10 +62,8 @@ Quality judge(Part& part, const ClSurface& surface, std::optional<Role> wanted, 
     }
     if (options.tool_given && surface.step_over > 0) {
         clock.begin("measure the formed surface");
-        const std::optional<Trajectory> measured = measured_of(part, wanted);
-        const std::vector<PointRange> pieces = smooth_pieces(part.log, surface.passes);
-        const FormedSurface formed(surface, quality.signals, part.path.role, measured ? *measured : part.path, pieces, options.tool);
-        quality.formed = measure_formed(formed, quality.signals, quality.report);
+        const FormedSurface formed(surface, read.signals, part.path.role, read.swept(part), read.pieces, options.tool);
+        quality.formed = measure_formed(formed, read.signals, quality.report);
     }
     return quality;
 }

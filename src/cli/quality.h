@@ -20,13 +20,22 @@ struct QualityOptions {
 void declare_quality(po::options_description& options);
 [[nodiscard]] QualityOptions read_quality_options(const po::variables_map& values);
 
-/// Signals of a part, heights from `measured` or, where nothing is wanted, from the most truthful
-/// positions that the log has besides the commanded ones (actual, then feedback).
-[[nodiscard]] Signals signals_of(const Part& part, const ClSurface& surface, std::optional<Role> measured, const QualityRules& rules);
+/// What the predictor reads of a part.
+struct PartSignals {
+    std::optional<Trajectory> measured;  ///< positions that heights are measured from; nothing: those that are shown
+    std::vector<PointRange> pieces;      ///< of smooth way (path/pieces.h)
+    Signals signals;
+
+    /// Where the tool cuts.
+    [[nodiscard]] const Trajectory& swept(const Part& part) const { return measured ? *measured : part.path; }
+};
+
+/// Heights are measured from `wanted` or, where nothing is wanted, from the most truthful positions
+/// that the log has besides the commanded ones (actual, then feedback).
+[[nodiscard]] PartSignals signals_of(const Part& part, const ClSurface& surface, std::optional<Role> wanted);
 
 struct Quality {
     QualityReport report;
-    Signals signals;
     double scallop = 0;  ///< [mm] 0: not known
     std::optional<FormedReport> formed;  ///< where the tool is known
 };
@@ -34,10 +43,6 @@ struct Quality {
 /// Options for load_part(): passes are compared where they were commanded, so --surface names what
 /// heights are measured from. Returns that role, or the most truthful one where none is named.
 [[nodiscard]] std::optional<Role> take_measured_role(PartOptions& options);
-
-/// The positions that heights are measured from: `wanted`, or the most truthful ones that the log has
-/// besides the commanded ones; nothing where it has only those that are shown.
-[[nodiscard]] std::optional<Trajectory> measured_of(const Part& part, std::optional<Role> wanted);
 
 /// The whole of it. Adds diagnostics `quality.…` to the part's.
 [[nodiscard]] Quality judge(Part& part, const ClSurface& surface, std::optional<Role> measured, const QualityOptions& options, StageClock& clock);

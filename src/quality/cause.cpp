@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "core/statistics.h"
+
 namespace clsurf {
 namespace {
 
@@ -18,23 +20,23 @@ constexpr float lobe = 0.4F;                  ///< of the peak: a swing counts
 constexpr int lobes_of_oscillation = 3;
 
 /// How often the speed goes to the other side of that of the neighbours, within one run.
-int count_lobes(std::span<const Suspect> sites) {
+int count_lobes(std::span<const Suspect* const> sites) {
     float peak = 0;
-    for (const Suspect& s : sites) {
-        const float r = std::abs(s.comparison.residual[index_of(Quantity::speed)]);
+    for (const Suspect* s : sites) {
+        const float r = std::abs(s->comparison.residual[index_of(Quantity::speed)]);
         if (r > peak) peak = r;
     }
     int most = 0;
     int lobes = 0;
     int sign = 0;
     std::size_t pass = std::numeric_limits<std::size_t>::max();
-    for (const Suspect& s : sites) {
-        if (s.pass != pass) {
-            pass = s.pass;
+    for (const Suspect* s : sites) {
+        if (s->pass != pass) {
+            pass = s->pass;
             lobes = 0;
             sign = 0;
         }
-        const float r = s.comparison.residual[index_of(Quantity::speed)];
+        const float r = s->comparison.residual[index_of(Quantity::speed)];
         if (!(std::abs(r) >= lobe * peak)) continue;
         const int now = r > 0 ? 1 : -1;
         if (now != sign) ++lobes;
@@ -46,6 +48,32 @@ int count_lobes(std::span<const Suspect> sites) {
 
 }  // namespace
 
+std::string_view name_of(Cause cause) {
+    switch (cause) {
+        case Cause::feed_drop: return "feed_drop";
+        case Cause::oscillation: return "oscillation";
+        case Cause::lag_step: return "lag_step";
+        case Cause::point_spacing: return "point_spacing";
+        case Cause::corner: return "corner";
+        case Cause::reversal: return "reversal";
+        case Cause::pass_end: return "pass_end";
+    }
+    return "";
+}
+
+std::string_view description_of(Cause cause) {
+    switch (cause) {
+        case Cause::feed_drop: return "runs at another speed than the passes beside it";
+        case Cause::oscillation: return "its speed swings about that of the passes beside it";
+        case Cause::lag_step: return "the axes run off the commanded path otherwise than beside it";
+        case Cause::point_spacing: return "the program's points lie otherwise than on the passes beside it";
+        case Cause::corner: return "the programmed path turns there";
+        case Cause::reversal: return "an axis turns back there";
+        case Cause::pass_end: return "the pass begins or ends there";
+    }
+    return "";
+}
+
 double CauseFinder::spacing(std::span<const DefectRun> runs) const {
     std::vector<double> steps;
     for (const DefectRun& run : runs) {
@@ -56,10 +84,7 @@ double CauseFinder::spacing(std::span<const DefectRun> runs) const {
             for (const std::uint32_t motion : lines_.motions_of(line)) steps.push_back(toolpath_.length(motion));
         }
     }
-    if (steps.empty()) return 0;
-    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-    std::nth_element(steps.begin(), middle, steps.end());
-    return *middle;
+    return steps.empty() ? 0 : median(steps);
 }
 
 bool CauseFinder::spaced_otherwise(const Defect& defect) const {
@@ -91,7 +116,7 @@ bool CauseFinder::begins_with_reversal(const DefectRun& run) const {
     return false;
 }
 
-Cause CauseFinder::cause_of(const Defect& defect, std::span<const Suspect> sites) const {
+Cause CauseFinder::cause_of(const Defect& defect, std::span<const Suspect* const> sites) const {
     if (defect.quantity == Quantity::relief || (defect.quantity != Quantity::lag && spaced_otherwise(defect))) return Cause::point_spacing;
     const auto most_runs = [&](auto&& test) {
         const auto runs = std::count_if(defect.runs.begin(), defect.runs.end(), test);

@@ -17,7 +17,7 @@ public:
         : surface_(surface), signals_(signals), lines_(lines), toolpath_(program.motions, Vec3::Zero()), way_(way) {}
 
     /// `sites`: those of the defect's runs, in order; its neighbours are known.
-    [[nodiscard]] Cause cause_of(const Defect& defect, std::span<const Suspect> sites) const;
+    [[nodiscard]] Cause cause_of(const Defect& defect, std::span<const Suspect* const> sites) const;
 
 private:
     [[nodiscard]] bool spaced_otherwise(const Defect& defect) const;

@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <numeric>
+#include <map>
 
-#include "core/block.h"
+#include "core/statistics.h"
 #include "path/way.h"
 #include "quality/cause.h"
 #include "quality/suspects.h"
@@ -16,19 +15,12 @@ namespace {
 
 constexpr float half_of_peak = 0.5F;
 constexpr float weak_run = 0.25F;           ///< of the strongest run of its group
-constexpr double shown_percentile = 0.9;    ///< of a plateau: its height without the noise's own peak
+constexpr double shown_share = 0.9;         ///< of a plateau: its height without the noise's own peak
 constexpr double smallest_area = 1.0;       ///< squared step-overs
 constexpr float least_speed_share = 0.6F;   ///< of its threshold, for what only the acceleration shows …
 constexpr float strong_alone = 1.5F;        ///< … and of the acceleration's own
 constexpr std::size_t fewest_sites = 2;
 constexpr double effect_seconds = 0.020;    ///< by which a height may outlast the motion that makes it
-
-double percentile(std::vector<double> values, double p) {
-    if (values.empty()) return 0;
-    const auto at = values.begin() + static_cast<std::ptrdiff_t>(std::lround(p * static_cast<double>(values.size() - 1)));
-    std::nth_element(values.begin(), at, values.end());
-    return *at;
-}
 
 /// The height of a plateau of values, signed: of those with the sign of the largest one. NaN are left out.
 double plateau(const std::vector<double>& values) {
@@ -40,8 +32,11 @@ double plateau(const std::vector<double>& values) {
     for (const double v : values) {
         if (v * largest > 0) same.push_back(std::abs(v));
     }
-    return std::copysign(percentile(same, shown_percentile), largest);
+    return same.empty() ? 0 : std::copysign(nearest_quantile(same, shown_share), largest);
 }
+
+/// Suspects in the order of their points.
+using Sites = std::span<const Suspect* const>;
 
 /// Quantities that are grouped together.
 using Family = std::span<const Quantity>;
@@ -57,9 +52,9 @@ float largest(const std::array<float, quantities>& values, Family family) {
 
 /// The quantity that shows a group best: the first of its family that is there at all. Accelerations
 /// are the edges of something else, and speak only where nothing else does.
-Quantity main_quantity(std::span<const Suspect> group, Family family) {
+Quantity main_quantity(Sites group, Family family) {
     for (const Quantity q : family) {
-        const bool there = std::any_of(group.begin(), group.end(), [&](const Suspect& s) { return s.share[index_of(q)] >= half_of_peak; });
+        const bool there = std::any_of(group.begin(), group.end(), [&](const Suspect* s) { return s->share[index_of(q)] >= half_of_peak; });
         if (there) return q;
     }
     return family.back();
@@ -76,8 +71,8 @@ int severity_of(double depth, float score, bool heights_known, const QualityRule
 class Builder {
 public:
     Builder(const ClSurface& surface, const Signals& signals, const LineMap& lines, const CauseFinder& causes, const Way& way,
-            const Thresholds& thresholds, const QualityRules& rules)
-        : surface_(surface), signals_(signals), lines_(lines), causes_(causes), way_(way), thresholds_(thresholds), rules_(rules) {
+            const QualityRules& rules)
+        : surface_(surface), signals_(signals), lines_(lines), causes_(causes), way_(way), rules_(rules) {
         std::int64_t number = 0;
         for (const Pass& pass : surface.passes) numbers_.push_back(pass.kind == PassKind::cut ? ++number : 0);
     }
@@ -88,25 +83,25 @@ public:
     /// its peak there; short dips between are its own (an oscillation crosses zero).
     /// Runs that are much weaker than the strongest go to `rest`: something else, that hangs together
     /// with it by chance.
-    [[nodiscard]] std::vector<Suspect> core_of(std::span<const Suspect> group, Quantity quantity, std::vector<Suspect>& rest) const {
+    [[nodiscard]] Suspects core_of(Sites group, Quantity quantity, Suspects& rest) const {
         const std::size_t q = index_of(quantity);
-        const auto share = [q](const Suspect& s) { return s.share[q]; };
+        const auto share = [q](const Suspect* s) { return s->share[q]; };
         float peak = 0;
-        for (const Suspect& s : group) peak = std::max(peak, share(s));
+        for (const Suspect* s : group) peak = std::max(peak, share(s));
         const float enough = std::max(std::min(1.0F, half_of_peak * peak), weak_run * peak);  // a pass that is hardly suspect is not at fault
-        std::vector<Suspect> core;
-        for_each_run(group, [&](std::span<const Suspect> run) {
+        Suspects core;
+        for_each_run(group, [&](Sites run) {
             float run_peak = 0;
-            for (const Suspect& s : run) run_peak = std::max(run_peak, share(s));
+            for (const Suspect* s : run) run_peak = std::max(run_peak, share(s));
             if (run_peak < enough) {
                 rest.insert(rest.end(), run.begin(), run.end());
                 return;
             }
-            const auto strong = [&](const Suspect& s) { return share(s) >= half_of_peak * run_peak; };
+            const auto strong = [&](const Suspect* s) { return share(s) >= half_of_peak * run_peak; };
             for (std::size_t k = 0; k < run.size(); ++k) {
                 if (!strong(run[k])) continue;
                 std::size_t last = k;
-                for (std::size_t j = k + 1; j < run.size() && !way_.at_least(run[last].point, run[j].point, joined_); ++j) {
+                for (std::size_t j = k + 1; j < run.size() && !way_.at_least(run[last]->point, run[j]->point, joined_); ++j) {
                     if (strong(run[j])) last = j;
                 }
                 core.insert(core.end(), run.begin() + static_cast<std::ptrdiff_t>(k), run.begin() + static_cast<std::ptrdiff_t>(last) + 1);
@@ -117,17 +112,17 @@ public:
     }
 
     /// The defect that the sites of a core make, in the order of their points.
-    [[nodiscard]] Defect build(std::span<const Suspect> core, Quantity quantity, Family family) const {
+    [[nodiscard]] Defect build(Sites core, Quantity quantity, Family family) const {
         Defect defect;
         defect.quantity = quantity;
-        const auto weaker = [&](const Suspect& a, const Suspect& b) { return a.share[index_of(quantity)] < b.share[index_of(quantity)]; };
-        const Suspect& strongest = *std::max_element(core.begin(), core.end(), weaker);
+        const auto weaker = [&](const Suspect* a, const Suspect* b) { return a->share[index_of(quantity)] < b->share[index_of(quantity)]; };
+        const Suspect& strongest = **std::max_element(core.begin(), core.end(), weaker);
         defect.point = strongest.point;
         defect.speed = signals_[strongest.point].speed;
         defect.speed_beside = defect.speed - strongest.comparison.speed_jump;
         defect.position = surface_.positions.absolute(defect.point);
-        for (const Suspect& s : core) defect.score = std::max(defect.score, largest(s.score, family));
-        for_each_run(core, [&](std::span<const Suspect> run) { defect.runs.push_back(run_of(run.front().pass, {run.front().point, run.back().point})); });
+        for (const Suspect* s : core) defect.score = std::max(defect.score, largest(s->score, family));
+        for_each_run(core, [&](Sites run) { defect.runs.push_back(run_of(run.front()->pass, {run.front()->point, run.back()->point})); });
         measure(core, defect);
         defect.neighbours = neighbours_of(core, defect.runs);
         defect.cause = causes_.cause_of(defect, core);
@@ -136,8 +131,8 @@ public:
     }
 
     /// The border of the part shows what it always shows: all that starts the defect has one neighbour.
-    [[nodiscard]] static bool at_border(std::span<const Suspect> core, Family family) {
-        return std::all_of(core.begin(), core.end(), [&](const Suspect& s) { return s.border || largest(s.score, family) < 1; });
+    [[nodiscard]] static bool at_border(Sites core, Family family) {
+        return std::all_of(core.begin(), core.end(), [&](const Suspect* s) { return s->border || largest(s->score, family) < 1; });
     }
 
 private:
@@ -155,22 +150,22 @@ private:
 
     /// f(run) for the stretches of sites of one pass that hang together.
     template <typename F>
-    void for_each_run(std::span<const Suspect> sites, F&& f) const {
+    void for_each_run(Sites sites, F&& f) const {
         for (std::size_t k = 0; k < sites.size();) {
             std::size_t end = k + 1;
-            while (end < sites.size() && sites[end].pass == sites[k].pass && !way_.at_least(sites[end - 1].point, sites[end].point, joined_)) ++end;
+            while (end < sites.size() && sites[end]->pass == sites[k]->pass && !way_.at_least(sites[end - 1]->point, sites[end]->point, joined_)) ++end;
             f(sites.subspan(k, end - k));
             k = end;
         }
     }
 
-    void measure(std::span<const Suspect> core, Defect& defect) const {
+    void measure(Sites core, Defect& defect) const {
         std::vector<double> heights;
         std::vector<double> speeds;
         std::vector<double> mismatches;
         std::vector<double> accelerations;
-        for (const Suspect& s : core) {
-            const Comparison& c = s.comparison;
+        for (const Suspect* s : core) {
+            const Comparison& c = s->comparison;
             const float lag = c.residual[index_of(Quantity::lag)];
             // Measured and commanded relief differ by the lag; where there is no lag the relief is all.
             const bool by_relief = defect.quantity == Quantity::relief || !(lag == lag);
@@ -178,7 +173,7 @@ private:
             speeds.push_back(c.speed_jump);
             mismatches.push_back(c.residual[index_of(Quantity::speed)]);
             accelerations.push_back(c.step[index_of(Quantity::acceleration)]);
-            defect.bounds.extend(surface_.positions.absolute(s.point));
+            defect.bounds.extend(surface_.positions.absolute(s->point));
         }
         const double height = plateau(heights);
         defect.depth = std::abs(height);
@@ -194,30 +189,21 @@ private:
     }
 
     /// The stretches beside `runs` on passes that are not at fault.
-    [[nodiscard]] std::vector<DefectRun> neighbours_of(std::span<const Suspect> core, const std::vector<DefectRun>& runs) const {
-        struct Beside {
-            std::size_t pass;
-            PointRange points;
-        };
-        std::vector<Beside> found;
-        for (const Suspect& s : core) {
-            for (const Station& at : {s.comparison.beside_left, s.comparison.beside_right}) {
+    [[nodiscard]] std::vector<DefectRun> neighbours_of(Sites core, const std::vector<DefectRun>& runs) const {
+        std::map<std::size_t, PointRange> found;  // by pass
+        for (const Suspect* s : core) {
+            for (const Station& at : {s->comparison.beside_left, s->comparison.beside_right}) {
                 if (!at.exists()) continue;
                 const PointIndex n = at.nearest();
-                const std::size_t pass = pass_of(surface_.passes, n);
-                const auto same = std::find_if(found.begin(), found.end(), [&](const Beside& b) { return b.pass == pass; });
-                if (same == found.end()) {
-                    found.push_back({pass, {n, n}});
-                } else {
-                    same->points.first = std::min(same->points.first, n);
-                    same->points.last = std::max(same->points.last, n);
-                }
+                PointRange& points = found.try_emplace(pass_of(surface_.passes, n), PointRange{n, n}).first->second;
+                points.first = std::min(points.first, n);
+                points.last = std::max(points.last, n);
             }
         }
         std::vector<DefectRun> clean;
-        for (const Beside& b : found) {
-            const bool at_fault = std::any_of(runs.begin(), runs.end(), [&](const DefectRun& r) { return r.pass == numbers_[b.pass]; });
-            if (!at_fault) clean.push_back(run_of(b.pass, b.points));
+        for (const auto& [pass, points] : found) {
+            const bool at_fault = std::any_of(runs.begin(), runs.end(), [&, number = numbers_[pass]](const DefectRun& r) { return r.pass == number; });
+            if (!at_fault) clean.push_back(run_of(pass, points));
         }
         std::sort(clean.begin(), clean.end(), [](const DefectRun& a, const DefectRun& b) { return a.points.first < b.points.first; });
         return clean;
@@ -228,7 +214,6 @@ private:
     const LineMap& lines_;
     const CauseFinder& causes_;
     const Way& way_;
-    const Thresholds& thresholds_;
     const QualityRules& rules_;
     double joined_ = std::max(1.0, 2 * surface_.step_over);  ///< [mm] of way between sites that hang together
     std::vector<std::int64_t> numbers_;  ///< of the cut passes, by index
@@ -243,39 +228,39 @@ bool worse(const Defect& a, const Defect& b) {
 /// A defect with the sites that it was built from.
 struct Built {
     Defect defect;
-    std::vector<Suspect> core;
+    Suspects core;
     bool border = false;
 };
 
 /// A start: where a score reaches 1. In the motion, accelerations start a defect only where they are
 /// strong and change the speed by something: noise of the second derivative leaves no mark.
-bool starts_defect(std::span<const Suspect> sites, Family family) {
+bool starts_defect(Sites sites, Family family) {
     const auto any = [&](auto&& test) { return std::any_of(sites.begin(), sites.end(), test); };
-    if (family.size() == 1) return any([&](const Suspect& s) { return s.score[index_of(family.front())] >= 1; });
-    return any([](const Suspect& s) { return s.score[index_of(Quantity::speed)] >= 1; }) ||
-           (any([](const Suspect& s) { return s.score[index_of(Quantity::acceleration)] >= strong_alone; }) &&
-            any([](const Suspect& s) { return s.share[index_of(Quantity::speed)] >= least_speed_share; }));
+    if (family.size() == 1) return any([&](const Suspect* s) { return s->score[index_of(family.front())] >= 1; });
+    return any([](const Suspect* s) { return s->score[index_of(Quantity::speed)] >= 1; }) ||
+           (any([](const Suspect* s) { return s->score[index_of(Quantity::acceleration)] >= strong_alone; }) &&
+            any([](const Suspect* s) { return s->share[index_of(Quantity::speed)] >= least_speed_share; }));
 }
 
 /// The defects of one family of quantities.
-std::vector<Built> build_family(const std::vector<Suspect>& suspects, Family family, const ClSurface& surface, const Way& way, const Builder& builder) {
-    std::vector<Suspect> mine;
-    for (const Suspect& s : suspects) {
-        if (largest(s.share, family) >= half_of_peak) mine.push_back(s);
+std::vector<Built> build_family(const Suspects& suspects, Family family, const ClSurface& surface, const Way& way, const Builder& builder) {
+    Suspects mine;
+    for (const Suspect* s : suspects) {
+        if (largest(s->share, family) >= half_of_peak) mine.push_back(s);
     }
     std::vector<Built> built;
-    std::vector<std::vector<Suspect>> groups = group_suspects(mine, surface, way);
+    std::vector<Suspects> groups = group_suspects(mine, surface, way);
     for (std::size_t g = 0; g < groups.size(); ++g) {
-        const std::vector<Suspect> group = std::move(groups[g]);
+        const Suspects group = std::move(groups[g]);
         if (!starts_defect(group, family)) continue;
         const Quantity quantity = main_quantity(group, family);
         // Cut back, a group may fall apart: weak suspects had joined several defects.
-        std::vector<Suspect> rest;
-        const std::vector<Suspect> strong_sites = builder.core_of(group, quantity, rest);
+        Suspects rest;
+        const Suspects strong_sites = builder.core_of(group, quantity, rest);
         if (rest.size() < group.size()) {
-            for (std::vector<Suspect>& left : group_suspects(rest, surface, way)) groups.push_back(std::move(left));
+            for (Suspects& left : group_suspects(rest, surface, way)) groups.push_back(std::move(left));
         }
-        for (std::vector<Suspect>& core : group_suspects(strong_sites, surface, way)) {
+        for (Suspects& core : group_suspects(strong_sites, surface, way)) {
             if (core.size() < fewest_sites || !starts_defect(core, family)) continue;
             Defect defect = builder.build(core, quantity, family);
             if (defect.area < smallest_area * surface.step_over * surface.step_over) continue;
@@ -286,46 +271,49 @@ std::vector<Built> build_family(const std::vector<Suspect>& suspects, Family fam
     return built;
 }
 
-/// Heights that lie where the motion differs are its effect: at least half of their sites are in one
-/// of the runs, with a little room round them.
-bool explained_by(const Built& height, const std::vector<Built>& motions, PointIndex room) {
-    for (const Built& motion : motions) {
-        const auto inside = std::count_if(height.core.begin(), height.core.end(), [&](const Suspect& s) {
-            return std::any_of(motion.defect.runs.begin(), motion.defect.runs.end(),
-                               [&](const DefectRun& run) { return s.point >= run.points.first - room && s.point <= run.points.last + room; });
-        });
-        if (2 * static_cast<std::size_t>(inside) >= height.core.size()) return true;
+/// Heights that lie where the motion differs are its effect. Runs of what was found before, so that
+/// one is found by a point in O(log runs).
+class Explanations {
+public:
+    /// `room`: points round a run that are its own too.
+    Explanations(std::span<const Built> found, PointIndex room) {
+        for (std::size_t k = 0; k < found.size(); ++k) {
+            for (const DefectRun& run : found[k].defect.runs) stretches_.push_back({run.points.first - room, run.points.last + room, 0, k});
+        }
+        std::sort(stretches_.begin(), stretches_.end(), [](const Stretch& a, const Stretch& b) { return a.first < b.first; });
+        PointIndex farthest = 0;
+        for (Stretch& s : stretches_) s.farthest = farthest = std::max(farthest, s.last);
     }
-    return false;
-}
+
+    /// At least half of the sites lie in the stretches of one that was found before.
+    [[nodiscard]] bool explain(Sites sites) const {
+        struct Inside {
+            std::size_t sites = 0;
+            PointIndex last = -1;  ///< that was counted
+        };
+        std::map<std::size_t, Inside> inside;
+        for (const Suspect* s : sites) {
+            auto at = std::upper_bound(stretches_.begin(), stretches_.end(), s->point, [](PointIndex p, const Stretch& b) { return p < b.first; });
+            while (at != stretches_.begin() && (--at)->farthest >= s->point) {
+                Inside& in = inside[at->found];
+                if (at->last < s->point || in.last == s->point) continue;
+                in.last = s->point;
+                if (2 * ++in.sites >= sites.size()) return true;
+            }
+        }
+        return false;
+    }
+
+private:
+    struct Stretch {
+        PointIndex first, last;
+        PointIndex farthest;  ///< last of this one and all before
+        std::size_t found;
+    };
+    std::vector<Stretch> stretches_;
+};
 
 }  // namespace
-
-std::string_view name_of(Cause cause) {
-    switch (cause) {
-        case Cause::feed_drop: return "feed_drop";
-        case Cause::oscillation: return "oscillation";
-        case Cause::lag_step: return "lag_step";
-        case Cause::point_spacing: return "point_spacing";
-        case Cause::corner: return "corner";
-        case Cause::reversal: return "reversal";
-        case Cause::pass_end: return "pass_end";
-    }
-    return "";
-}
-
-std::string_view description_of(Cause cause) {
-    switch (cause) {
-        case Cause::feed_drop: return "runs at another speed than the passes beside it";
-        case Cause::oscillation: return "its speed swings about that of the passes beside it";
-        case Cause::lag_step: return "the axes run off the commanded path otherwise than beside it";
-        case Cause::point_spacing: return "the program's points lie otherwise than on the passes beside it";
-        case Cause::corner: return "the programmed path turns there";
-        case Cause::reversal: return "an axis turns back there";
-        case Cause::pass_end: return "the pass begins or ends there";
-    }
-    return "";
-}
 
 QualityReport find_defects(const ClSurface& surface, const Signals& signals, const LineMap& lines, const Program& program,
                            double period, const QualityRules& rules) {
@@ -336,19 +324,19 @@ QualityReport find_defects(const ClSurface& surface, const Signals& signals, con
     report.thresholds = measure_thresholds(surface, signals, rules.thresholds);
     const Way way(surface.positions);
     const CauseFinder causes(surface, signals, lines, program, way);
-    const Builder builder(surface, signals, lines, causes, way, report.thresholds, rules);
+    const Builder builder(surface, signals, lines, causes, way, rules);
     report.passes = builder.cut_passes();
     for (const Pass& pass : surface.passes) report.points += pass.kind == PassKind::cut ? pass.size() : 0;
     report.compared = count_compared(surface, signals);
 
-    const std::vector<Suspect> suspects = find_suspects(surface, signals, report.thresholds, period);
+    const FoundSuspects found = find_suspects(surface, signals, report.thresholds, period);
+    const Suspects& suspects = found.suspects;
     std::vector<Built> all = build_family(suspects, motion_family, surface, way, builder);
-    const std::size_t motions = all.size();
     const PointIndex room = std::lround(std::min(effect_seconds / period, 1e6));
     for (const Family family : {Family(lag_family), Family(relief_family)}) {
-        const std::vector<Built> before(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(family.front() == Quantity::lag ? motions : all.size()));
+        const Explanations before(all, room);
         for (Built& height : build_family(suspects, family, surface, way, builder)) {
-            if (!explained_by(height, before, room)) all.push_back(std::move(height));
+            if (!before.explain(height.core)) all.push_back(std::move(height));
         }
     }
     for (Built& built : all) {

@@ -60,7 +60,6 @@ struct Defect {
 
 struct QualityRules {
     ThresholdRule thresholds;
-    double end_zone = 0;   ///< [mm] at the ends of passes that is not judged; 0: max(1 mm, 2 step-overs)
     std::array<double, 3> depth_of_severity{0.002, 0.005, 0.020};  ///< [mm] where 2, 3, 4 begin
 };
 
@@ -74,6 +73,9 @@ struct QualityReport {
     double step_over = 0;          ///< [mm]
     bool has_lag = false;          ///< measured positions were there
     std::string note;              ///< the windows
+
+    [[nodiscard]] double coverage() const { return points > 0 ? static_cast<double>(compared) / static_cast<double>(points) : 0; }  ///< 0 … 1
+    [[nodiscard]] int worst_severity() const { return defects.empty() ? 0 : defects.front().severity; }
 };
 
 /// All discontinuities between adjacent passes. `lines` names them; `program` tells corners and point

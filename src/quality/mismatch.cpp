@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <span>
 #include <vector>
 
 #include "core/block.h"
+#include "core/statistics.h"
 
 namespace clsurf {
 namespace {
@@ -45,11 +47,27 @@ float change_of_two_periods(const Signals& signals, float Sample::*signal, Point
     return change == change ? change : 0;
 }
 
-float percentile(std::vector<float>& values, double p) {
-    if (values.empty()) return none;
-    const auto at = values.begin() + static_cast<std::ptrdiff_t>(p * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), at, values.end());
-    return *at;
+float quantile(std::vector<float>& values, double share) { return values.empty() ? none : quantile_below(values, share); }
+
+/// Evenly spaced judged points, some `sampled_points`. O(points), parallel.
+std::vector<PointIndex> sample_judged(const Signals& signals) {
+    const PointIndex count = signals.size();
+    const auto judged = [&](PointIndex i) { return signals[i].zone != Zone::outside; };
+    const auto block_of = [](PointIndex first) { return static_cast<std::size_t>(first / block_points); };
+    std::vector<PointIndex> before(block_of(count + block_points - 1) + 1);  // judged points before each block
+    for_each_block(count, [&](PointIndex first, PointIndex last) {
+        for (PointIndex i = first; i < last; ++i) before[block_of(first) + 1] += judged(i) ? 1 : 0;
+    });
+    std::partial_sum(before.begin(), before.end(), before.begin());
+    const PointIndex stride = std::max<PointIndex>(1, before.back() / static_cast<PointIndex>(sampled_points));
+    std::vector<PointIndex> points(static_cast<std::size_t>((before.back() + stride - 1) / stride));
+    for_each_block(count, [&](PointIndex first, PointIndex last) {
+        PointIndex seen = before[block_of(first)];
+        for (PointIndex i = first; i < last; ++i) {
+            if (judged(i) && seen++ % stride == 0) points[static_cast<std::size_t>((seen - 1) / stride)] = i;
+        }
+    });
+    return points;
 }
 
 }  // namespace
@@ -138,27 +156,19 @@ Comparison Comparer::compare(PointIndex point, int aside) const {
 
 Thresholds measure_thresholds(const ClSurface& surface, const Signals& signals, const ThresholdRule& rule) {
     Thresholds thresholds;
-    std::vector<PointIndex> points;
-    const PointIndex count = signals.size();
-    PointIndex inner = 0;
-    for (const Sample& sample : signals.samples) inner += sample.zone == Zone::outside ? 0 : 1;
-    const PointIndex stride = std::max<PointIndex>(1, inner / static_cast<PointIndex>(sampled_points));
-    PointIndex seen = 0;
-    for (PointIndex i = 0; i < count; ++i) {
-        if (signals[i].zone != Zone::outside && seen++ % stride == 0) points.push_back(i);
-    }
+    const std::vector<PointIndex> points = sample_judged(signals);
     std::vector<float> values;
     for (const PointIndex i : points) {
         const float speed = signals[i].speed;
         if (speed == speed) values.push_back(speed);
     }
-    thresholds.usual_speed = percentile(values, 0.95);
+    thresholds.usual_speed = quantile(values, 0.95);
     values.clear();
     for (const PointIndex i : points) {
         const float a = signals.acceleration(i).norm();
         if (a == a) values.push_back(a);
     }
-    thresholds.usual_acceleration = percentile(values, 0.99);
+    thresholds.usual_acceleration = quantile(values, 0.99);
 
     const Comparer comparer(surface, signals, thresholds.usual_speed);
     std::vector<std::array<float, quantities>> steps(points.size());
@@ -172,10 +182,10 @@ Thresholds measure_thresholds(const ClSurface& surface, const Signals& signals, 
         for (const auto& step : steps) {
             if (step[q] == step[q]) values.push_back(step[q]);
         }
-        thresholds.p99[q] = percentile(values, 0.99);
-        const float median = percentile(values, 0.5);
+        thresholds.p99[q] = quantile(values, 0.99);
+        const float median = quantile(values, 0.5);
         for (float& v : values) v = std::abs(v - median);
-        const float spread = normal_deviation * percentile(values, 0.5);
+        const float spread = normal_deviation * quantile(values, 0.5);
         thresholds.median[q] = median;
         thresholds.spread[q] = spread;
         const float own = median + (q == index_of(Quantity::acceleration) ? rule.acceleration_spreads : rule.spreads) * spread;

@@ -46,22 +46,24 @@ public:
     explicit Smoother(int points) : half_(points / 2) {}
     [[nodiscard]] PointIndex reach() const { return half_; }
 
-    /// Means for raw[skip …], out.size() of them. `every`: one in so many points has a value at all.
+    /// Means for raw[skip …], out.size() of them, from sums up to each value. `every`: one in so many
+    /// points has a value at all.
     void apply(std::span<const float> raw, std::size_t skip, std::size_t every, std::span<float> out) const {
+        std::vector<double> sums(raw.size() + 1);
+        std::vector<std::uint32_t> counts(raw.size() + 1);
+        for (std::size_t i = 0; i < raw.size(); ++i) {
+            const bool there = raw[i] == raw[i];
+            sums[i + 1] = sums[i] + (there ? static_cast<double>(raw[i]) : 0.0);
+            counts[i + 1] = counts[i] + (there ? 1 : 0);
+        }
         const auto half = static_cast<std::size_t>(half_);
         // The window shrinks evenly towards the ends: an uneven one would lean on slopes.
         for (std::size_t k = 0; k < out.size(); ++k) {
             const std::size_t at = skip + k;
             const std::size_t reach = std::min({half, at, raw.size() - 1 - at});
-            float sum = 0;
-            std::size_t count = 0;
-            for (std::size_t i = at - reach; i <= at + reach; ++i) {
-                const bool there = raw[i] == raw[i];
-                sum += there ? raw[i] : 0.0F;
-                count += there ? 1 : 0;
-            }
+            const std::uint32_t count = counts[at + reach + 1] - counts[at - reach];
             const bool enough = count > 0 && 2 * every * count >= 2 * reach + 1;
-            out[k] = enough ? sum / static_cast<float>(count) : none;
+            out[k] = enough ? static_cast<float>((sums[at + reach + 1] - sums[at - reach]) / count) : none;
         }
     }
 
@@ -288,6 +290,12 @@ std::vector<PointRange> cut_at_jogs(const std::vector<PointRange>& pieces, const
 }
 
 }  // namespace
+
+double usual_end_zone(double step_over) {
+    constexpr double least = 1.0;  // [mm]
+    constexpr double step_overs = 2;
+    return std::max(least, step_overs * step_over);
+}
 
 Signals derive_signals(const ClSurface& surface, const Trajectory& path, const Trajectory* measured,
                        const std::vector<PointRange>& smooth, double end_zone) {

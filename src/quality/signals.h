@@ -47,6 +47,10 @@ struct Signals {
     [[nodiscard]] Eigen::Map<const Eigen::Vector3f> normal(PointIndex i) const { return vector_of((*this)[i].normal); }
 };
 
+/// How much [mm] of the ends of passes is not judged by default: what the tool does there, it does on
+/// every pass.
+[[nodiscard]] double usual_end_zone(double step_over);
+
 /// `path` is what `surface` was gathered from; `measured` the feedback or actual positions, or nullptr.
 /// `pieces` (path/pieces.h) bound the windows. `end_zone` [mm] at the ends of pieces is outside.
 /// O(points), parallel.

@@ -1,8 +1,8 @@
 #include "quality/suspects.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
-#include <map>
 #include <numeric>
 
 #include "core/block.h"
@@ -36,22 +36,36 @@ bool is_border(const Suspect& suspect, const Signals& signals) {
     return ramps(suspect.point) || ramps(c.beside_left.nearest()) || ramps(c.beside_right.nearest());
 }
 
-/// Sets of suspects that were joined.
+/// Sets of suspects that were joined, from any number of threads: roots are hung below lower ones only,
+/// so that the sets do not depend on who joins first.
 class Groups {
 public:
-    explicit Groups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
+    explicit Groups(std::size_t count) : parent_(count) {
+        for (std::size_t i = 0; i < count; ++i) parent_[i].store(i, std::memory_order_relaxed);
+    }
+    /// The lowest of a set.
     std::size_t root(std::size_t i) {
-        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-        return i;
+        for (;;) {
+            std::size_t parent = parent_[i].load(std::memory_order_relaxed);
+            if (parent == i) return i;
+            const std::size_t above = parent_[parent].load(std::memory_order_relaxed);
+            if (above != parent) parent_[i].compare_exchange_weak(parent, above, std::memory_order_relaxed);
+            i = above;
+        }
     }
     void join(std::size_t a, std::size_t b) {
-        a = root(a);
-        b = root(b);
-        parent_[std::max(a, b)] = std::min(a, b);
+        for (;;) {
+            a = root(a);
+            b = root(b);
+            if (a == b) return;
+            if (a < b) std::swap(a, b);
+            std::size_t still_root = a;
+            if (parent_[a].compare_exchange_strong(still_root, b, std::memory_order_relaxed)) return;
+        }
     }
 
 private:
-    std::vector<std::size_t> parent_;
+    std::vector<std::atomic<std::size_t>> parent_;
 };
 
 }  // namespace
@@ -85,11 +99,18 @@ public:
           stride_(std::max<PointIndex>(1, std::lround(std::min(site_seconds / period, 1e6)))),
           judged_(static_cast<std::size_t>(signals.size() / stride_ + 1), 0) {}
 
-    std::vector<Suspect> find() {
+    FoundSuspects find() {
         std::vector<PointIndex> frontier = judge(sites_with_step());
+        const auto in_order = static_cast<std::ptrdiff_t>(frontier.size());
         while (!frontier.empty()) frontier = judge(beside_all(frontier));
-        std::sort(suspects_.begin(), suspects_.end(), [](const Suspect& a, const Suspect& b) { return a.point < b.point; });
-        return std::move(suspects_);
+        for (const std::vector<Suspect>& piece : found_.kept) {
+            for (const Suspect& suspect : piece) found_.suspects.push_back(&suspect);
+        }
+        const auto by_point = [](const Suspect* a, const Suspect* b) { return a->point < b->point; };
+        Suspects& all = found_.suspects;
+        std::sort(all.begin() + in_order, all.end(), by_point);
+        std::inplace_merge(all.begin(), all.begin() + in_order, all.end(), by_point);
+        return std::move(found_);
     }
 
 private:
@@ -153,9 +174,9 @@ private:
             }
         });
         std::vector<PointIndex> found;
-        for (const std::vector<Suspect>& piece : of_piece) {
+        for (std::vector<Suspect>& piece : of_piece) {
             for (const Suspect& suspect : piece) found.push_back(suspect.point);
-            suspects_.insert(suspects_.end(), piece.begin(), piece.end());
+            if (!piece.empty()) found_.kept.push_back(std::move(piece));
         }
         return found;
     }
@@ -166,48 +187,62 @@ private:
     Comparer comparer_;
     PointIndex stride_;
     Column<std::uint8_t> judged_;  ///< by site
-    std::vector<Suspect> suspects_;
+    FoundSuspects found_;
 };
 
 }  // namespace
 
-std::vector<Suspect> find_suspects(const ClSurface& surface, const Signals& signals, const Thresholds& thresholds, double period) {
+FoundSuspects find_suspects(const ClSurface& surface, const Signals& signals, const Thresholds& thresholds, double period) {
     return SuspectFinder(surface, signals, thresholds, period).find();
 }
 
-std::vector<std::vector<Suspect>> group_suspects(const std::vector<Suspect>& suspects, const ClSurface& surface, const Way& way) {
+std::vector<Suspects> group_suspects(const Suspects& suspects, const ClSurface& surface, const Way& way) {
+    const auto count = static_cast<std::int64_t>(suspects.size());
+    std::vector<PointIndex> points;  // side by side, to be searched
+    points.reserve(suspects.size());
+    for (const Suspect* s : suspects) points.push_back(s->point);
     Groups groups(suspects.size());
     const double along = std::max(joined_along, 2 * surface.step_over);
     const float beside = joined_beside * static_cast<float>(surface.step_over);
     /// Joins a suspect with those of another pass round a point of it.
     const auto join_near = [&](std::size_t k, PointIndex point) {
-        const auto after = std::lower_bound(suspects.begin(), suspects.end(), point, [](const Suspect& s, PointIndex p) { return s.point < p; });
+        const auto after = std::lower_bound(points.begin(), points.end(), point);
         const Eigen::Vector3f place = surface.positions[point];
-        for (const auto& found : {after, after == suspects.begin() ? after : after - 1}) {
-            if (found == suspects.end() || (surface.positions[found->point] - place).norm() > beside) continue;
-            groups.join(k, static_cast<std::size_t>(found - suspects.begin()));
+        for (const auto& found : {after, after == points.begin() ? after : after - 1}) {
+            if (found == points.end() || (surface.positions[*found] - place).norm() > beside) continue;
+            groups.join(k, static_cast<std::size_t>(found - points.begin()));
         }
     };
-    for (std::size_t k = 0; k < suspects.size(); ++k) {
-        const Suspect& s = suspects[k];
-        if (k > 0 && !way.at_least(suspects[k - 1].point, s.point, along)) groups.join(k - 1, k);
+    const auto join = [&](std::size_t k) {
+        const PointIndex point = points[k];
+        if (k > 0 && !way.at_least(points[k - 1], point, along)) groups.join(k - 1, k);
         for (const Side side : {Side::left, Side::right}) {
-            if (!surface.neighbours.has(side, s.point)) continue;
-            const PointIndex adjacent = surface.neighbours.neighbour(side, s.point);
+            if (!surface.neighbours.has(side, point)) continue;
+            const PointIndex adjacent = surface.neighbours.neighbour(side, point);
             join_near(k, adjacent);
             // Over one clean pass.
             for (const Side other : {Side::left, Side::right}) {
                 if (!surface.neighbours.has(other, adjacent)) continue;
                 const PointIndex next = surface.neighbours.neighbour(other, adjacent);
                 const Eigen::Vector3f on = surface.positions[next] - surface.positions[adjacent];
-                if (on.dot(surface.positions[adjacent] - surface.positions[s.point]) > 0) join_near(k, next);
+                if (on.dot(surface.positions[adjacent] - surface.positions[point]) > 0) join_near(k, next);
             }
         }
+    };
+    constexpr std::int64_t grain = 4096;
+    parallel_for(count, grain, [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t k = first; k < last; ++k) join(static_cast<std::size_t>(k));
+    });
+    std::vector<Suspects> result;
+    std::vector<std::size_t> number(suspects.size());  // of the group, by its root
+    for (std::size_t k = 0; k < suspects.size(); ++k) {
+        const std::size_t root = groups.root(k);
+        if (root == k) {
+            number[k] = result.size();
+            result.emplace_back();
+        }
+        result[number[root]].push_back(suspects[k]);
     }
-    std::map<std::size_t, std::vector<Suspect>> by_root;
-    for (std::size_t k = 0; k < suspects.size(); ++k) by_root[groups.root(k)].push_back(suspects[k]);
-    std::vector<std::vector<Suspect>> result;
-    for (auto& [root, group] : by_root) result.push_back(std::move(group));
     return result;
 }
 

@@ -25,14 +25,24 @@ struct Suspect {
 /// Points of cut passes that have a neighbour on both sides and lie away from the ends. O(points).
 [[nodiscard]] PointIndex count_compared(const ClSurface& surface, const Signals& signals);
 
+/// Some suspects, in the order of their points. They stay where they were found: each is 150 bytes, and
+/// a bad part has a million.
+using Suspects = std::vector<const Suspect*>;
+
+/// All suspects of a part, and where they are kept.
+struct FoundSuspects {
+    std::vector<std::vector<Suspect>> kept;
+    Suspects suspects;
+};
+
 /// Sites whose residual passes half a threshold, in the order of their points. A site is a point
 /// every 5 ms that lies a tenth of a step-over or more from the one before. Only sites with a step are
 /// looked at with all passes around, and then what lies beside a suspect: the inner passes of a band
 /// have no step of their own. O(points), parallel; the same for any number of threads.
-[[nodiscard]] std::vector<Suspect> find_suspects(const ClSurface& surface, const Signals& signals, const Thresholds& thresholds, double period);
+[[nodiscard]] FoundSuspects find_suspects(const ClSurface& surface, const Signals& signals, const Thresholds& thresholds, double period);
 
 /// Suspects that hang together along a pass, across to the next one or over one clean pass; each group
-/// in the order of its points. O(suspects log suspects).
-[[nodiscard]] std::vector<std::vector<Suspect>> group_suspects(const std::vector<Suspect>& suspects, const ClSurface& surface, const Way& way);
+/// in the order of its points, and groups in the order of their first ones. O(suspects log suspects), parallel.
+[[nodiscard]] std::vector<Suspects> group_suspects(const Suspects& suspects, const ClSurface& surface, const Way& way);
 
 }  // namespace clsurf

@@ -20,9 +20,7 @@ double depth(const QualityReport& r) {
     return largest(r, [](const Defect& d) { return d.depth * um_per_mm; });
 }
 double count(const QualityReport& r) { return static_cast<double>(r.defects.size()); }
-double severity(const QualityReport& r) {
-    return largest(r, [](const Defect& d) { return d.severity; });
-}
+double severity(const QualityReport& r) { return r.worst_severity(); }
 double area(const QualityReport& r) {
     double sum = 0;
     for (const Defect& d : r.defects) sum += d.area;
@@ -32,7 +30,7 @@ double speed_mismatch(const QualityReport& r) {
     const double usual = 100.0 * r.thresholds.p99[index_of(Quantity::speed)];
     return std::max(usual, largest(r, [](const Defect& d) { return 100.0 * d.speed_mismatch; }));
 }
-double coverage(const QualityReport& r) { return r.points > 0 ? 100.0 * static_cast<double>(r.compared) / static_cast<double>(r.points) : 0.0; }
+double coverage(const QualityReport& r) { return 100 * r.coverage(); }
 
 constexpr auto limits = std::to_array<BudgetLimit>({
     {"max_depth_um", &Budget::max_depth_um, depth},
