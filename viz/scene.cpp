@@ -113,19 +113,23 @@ void add_title(Sheet& sheet, const MapTexts& texts, const Look& look, const Layo
     sheet.texts.push_back(fitted({layout.margin, top - 2.0 * layout.text, texts.subtitle, layout.small_text, Align::left, false, faint(ink, look.background)}, width));
     const double note_width = 0.72 * (look.width - layout.legend_width) - layout.margin;
     FlatText note{layout.margin, layout.margin * 0.5 + 0.5 * layout.small_text, "", layout.small_text, Align::left, false, faint(ink, look.background)};
-    for (const std::string& part : texts.notes) note.text += (note.text.empty() ? "" : "; ") + part;
-    if (text_width(note) <= note_width) {
-        sheet.texts.push_back(std::move(note));
-        return;
+    // From the top: a line takes as many notes as fit; there is room for two.
+    constexpr std::size_t most_lines = 2;
+    std::vector<FlatText> lines;
+    for (const std::string& part : texts.notes) {
+        FlatText longer = note;
+        longer.text = lines.empty() ? part : lines.back().text + "; " + part;
+        if (!lines.empty() && (lines.size() == most_lines || text_width(longer) <= note_width)) {
+            lines.back() = std::move(longer);
+            continue;
+        }
+        lines.push_back(note);
+        lines.back().text = part;
     }
-    // Two lines: the first note, and the others above it.
-    FlatText others = note;
-    others.text.clear();
-    for (std::size_t k = 1; k < texts.notes.size(); ++k) others.text += (k > 1 ? "; " : "") + texts.notes[k];
-    sheet.texts.push_back(fitted(others, note_width));
-    note.text = texts.notes.empty() ? std::string() : texts.notes.front();
-    note.y += 1.25 * layout.small_text;
-    sheet.texts.push_back(fitted(note, note_width));
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+        lines[k].y += 1.25 * layout.small_text * static_cast<double>(lines.size() - 1 - k);
+        sheet.texts.push_back(fitted(std::move(lines[k]), note_width));
+    }
 }
 
 /// Beyond an end of the bar there are values: a point of the end's colour.
@@ -237,7 +241,7 @@ void add_ring(Sheet& sheet, const Vec2& at, double radius, double width, Rgb rgb
     sheet.lines.push_back(std::move(ring));
 }
 
-/// The parts of a closed line that are in the picture.
+/// The parts of a line that are in the picture.
 std::vector<std::vector<Vec2>> strokes(const std::vector<Vec3>& corners, const Camera& camera, const Look& look, const Vec2& corner) {
     std::vector<std::vector<Vec2>> all;
     bool goes_on = false;

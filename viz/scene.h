@@ -37,7 +37,7 @@ struct LineMark {
     std::string label;
 };
 
-/// Closed lines on the surface under one label, the worst first: where labels would lie on each other,
+/// Lines on the surface under one label, the worst first: where labels would lie on each other,
 /// the first stays.
 struct OutlineMark {
     std::vector<std::vector<Vec3>> lines;  ///< corners [mm]

@@ -1,112 +1,130 @@
 #include "quality/outline.h"
 
 #include <algorithm>
-#include <limits>
+#include <optional>
+
+#include "quality/suspects.h"
 
 namespace clsurf {
 namespace {
 
-constexpr PointIndex most_corners = 64;  ///< along one run
+constexpr float sample_way = 0.25F;  ///< step-overs between corners along a pass
+constexpr float joined_way = 2.0F;   ///< step-overs: runs of one pass that lie closer are drawn as one
 
-constexpr std::int64_t most_skipped = 2;  ///< passes from one strand to the next: over a clean one
-constexpr double beside_step_overs = 2.5;  ///< between strands, per pass
-
-/// A run, walked in the direction of the one before.
-struct Strand {
-    PointIndex begin = 0, end = 0;
-    std::int64_t pass = 0;
-};
-using Chain = std::vector<Strand>;  ///< strands beside each other, in the order of their passes
-
-class Outliner {
+/// The points of a defect, and of the clean passes between two of its own.
+class Region {
 public:
-    explicit Outliner(const ClSurface& surface) : surface_(surface) {}
-
-    [[nodiscard]] Vec3 at(PointIndex i) const { return surface_.positions.absolute(i); }
-
-    /// Half way to the pass on a side; by the other side where there is none.
-    [[nodiscard]] Vec3 beside(PointIndex i, Side side) const {
-        const Side other = side == Side::left ? Side::right : Side::left;
-        if (surface_.neighbours.has(side, i)) return 0.5 * (at(surface_.neighbours.neighbour(side, i)) - at(i));
-        if (surface_.neighbours.has(other, i)) return 0.5 * (at(i) - at(surface_.neighbours.neighbour(other, i)));
-        return Vec3::Zero();
-    }
-
-    /// The side of a strand that faces away from a place.
-    [[nodiscard]] Side away_from(const Strand& strand, const Vec3& place) const {
-        const PointIndex middle = strand.begin + (strand.end - strand.begin) / 2;
-        return beside(middle, Side::left).dot(place - at(middle)) < 0 ? Side::left : Side::right;
-    }
-
-    void add(const Strand& strand, Side side, bool backwards, std::vector<Vec3>& corners) const {
-        const PointIndex length = std::abs(strand.end - strand.begin);
-        const PointIndex direction = strand.end >= strand.begin ? 1 : -1;
-        const PointIndex pieces = std::clamp<PointIndex>(length, 1, most_corners);
-        for (PointIndex k = 0; k <= pieces; ++k) {
-            const PointIndex along = length * (backwards ? pieces - k : k) / pieces;
-            const PointIndex i = strand.begin + direction * along;
-            corners.push_back(at(i) + beside(i, side));
+    Region(const std::vector<DefectRun>& runs, const ClSurface& surface) : surface_(surface) {
+        for (const DefectRun& run : runs) ranges_.push_back(run.points);
+        join_near();
+        std::vector<PointIndex> between;
+        for (const PointRange& range : ranges_) {
+            for (const PointIndex i : samples(range)) note_clean_beside(i, between);
         }
+        for (const PointIndex i : between) ranges_.push_back({i, i});
+        join_near();
     }
 
-    /// How far a strand's middle lies from another strand [mm].
-    [[nodiscard]] double distance(const Strand& strand, const Strand& other) const {
-        const Vec3 middle = at(strand.begin + (strand.end - strand.begin) / 2);
-        double least = std::numeric_limits<double>::infinity();
-        for (PointIndex k = 0; k <= most_corners; ++k) {
-            least = std::min(least, (at(other.begin + (other.end - other.begin) * k / most_corners) - middle).norm());
+    [[nodiscard]] const std::vector<PointRange>& ranges() const { return ranges_; }
+
+    [[nodiscard]] bool holds(PointIndex i) const {
+        const auto after = std::upper_bound(ranges_.begin(), ranges_.end(), i, [](PointIndex p, const PointRange& r) { return p < r.first; });
+        return after != ranges_.begin() && i <= (after - 1)->last;
+    }
+
+    /// Points of a range, evenly spaced along its way, the first and the last one among them.
+    [[nodiscard]] std::vector<PointIndex> samples(const PointRange& range) const {
+        std::vector<PointIndex> points{range.first};
+        for (PointIndex i = range.first + 1; i < range.last; ++i) {
+            if ((surface_.positions[i] - surface_.positions[points.back()]).norm() >= sample_way * step_over()) points.push_back(i);
         }
-        return least;
+        if (range.last > range.first) points.push_back(range.last);
+        return points;
     }
 
-    /// Whether two strands run beside each other.
-    [[nodiscard]] bool side_by_side(const Strand& a, const Strand& b) const {
-        const double most = beside_step_overs * surface_.step_over * static_cast<double>(b.pass - a.pass);
-        return std::min(distance(a, b), distance(b, a)) <= most;
-    }
-
-    [[nodiscard]] std::vector<Vec3> round(const Chain& chain) const {
-        std::vector<Vec3> corners;
-        const Strand& first = chain.front();
-        const Strand& last = chain.back();
-        const bool alone = chain.size() == 1;
-        const Side outer = alone ? Side::left : away_from(first, at(chain[1].begin));
-        add(first, outer, false, corners);
-        for (std::size_t k = 1; k + 1 < chain.size(); ++k) corners.push_back(at(chain[k].end));
-        add(last, alone ? Side::right : away_from(last, at(chain[chain.size() - 2].begin)), true, corners);
-        for (std::size_t k = chain.size() - 1; k-- > 1;) corners.push_back(at(chain[k].begin));
-        corners.push_back(corners.front());
-        return corners;
-    }
+    [[nodiscard]] float step_over() const { return static_cast<float>(surface_.step_over); }
 
 private:
+    /// A clean pass beside point `i` with one of the defect's own beyond it.
+    void note_clean_beside(PointIndex i, std::vector<PointIndex>& found) const {
+        for (const Side side : {Side::left, Side::right}) {
+            if (!surface_.neighbours.has(side, i)) continue;
+            const PointIndex clean = surface_.neighbours.neighbour(side, i);
+            if (holds(clean)) continue;
+            for (const Side other : {Side::left, Side::right}) {
+                if (!surface_.neighbours.has(other, clean)) continue;
+                const PointIndex beyond = surface_.neighbours.neighbour(other, clean);
+                const bool goes_on = (surface_.positions[beyond] - surface_.positions[clean]).dot(surface_.positions[clean] - surface_.positions[i]) > 0;
+                if (goes_on && holds(beyond)) found.push_back(clean);
+            }
+        }
+    }
+
+    void join_near() {
+        std::sort(ranges_.begin(), ranges_.end(), [](const PointRange& a, const PointRange& b) { return a.first < b.first; });
+        std::vector<PointRange> joined;
+        for (const PointRange& range : ranges_) {
+            if (!joined.empty() && near(joined.back().last, range.first)) {
+                joined.back().last = std::max(joined.back().last, range.last);
+            } else {
+                joined.push_back(range);
+            }
+        }
+        ranges_ = std::move(joined);
+    }
+
+    [[nodiscard]] bool near(PointIndex end, PointIndex begin) const {
+        return begin <= end || (pass_of(surface_.passes, end) == pass_of(surface_.passes, begin) &&
+                                (surface_.positions[begin] - surface_.positions[end]).norm() < joined_way * step_over());
+    }
+
     const ClSurface& surface_;
+    std::vector<PointRange> ranges_;  ///< in order, disjoint
 };
+
+/// Half way to the pass on a side; by the other side where there is none.
+Vec3 border(const ClSurface& surface, PointIndex i, Side side) {
+    const auto at = [&](PointIndex p) { return surface.positions.absolute(p); };
+    const Side other = side == Side::left ? Side::right : Side::left;
+    if (surface.neighbours.has(side, i)) return 0.5 * (at(i) + at(surface.neighbours.neighbour(side, i)));
+    if (surface.neighbours.has(other, i)) return 1.5 * at(i) - 0.5 * at(surface.neighbours.neighbour(other, i));
+    return at(i);
+}
+
+/// The side's pieces beside which the region does not go on.
+void add_side(const Region& region, const ClSurface& surface, const std::vector<PointIndex>& samples, Side side, std::vector<std::vector<Vec3>>& lines) {
+    std::vector<Vec3> piece;
+    const auto finish = [&] {
+        if (piece.size() > 1) lines.push_back(std::move(piece));
+        piece.clear();
+    };
+    // A piece reaches to where the region goes on, so that it meets the end of the pass there.
+    std::optional<Vec3> before;
+    for (const PointIndex i : samples) {
+        const Vec3 at = border(surface, i, side);
+        const bool inside = surface.neighbours.has(side, i) && region.holds(surface.neighbours.neighbour(side, i));
+        if (!inside && piece.empty() && before) piece.push_back(*before);
+        if (!inside || !piece.empty()) piece.push_back(at);
+        if (inside) finish();
+        before = at;
+    }
+    finish();
+}
 
 }  // namespace
 
 std::vector<std::vector<Vec3>> outlines_of(const Defect& defect, const ClSurface& surface) {
-    const Outliner outliner(surface);
-    std::vector<DefectRun> runs = defect.runs;
-    std::sort(runs.begin(), runs.end(), [](const DefectRun& a, const DefectRun& b) { return a.pass != b.pass ? a.pass < b.pass : a.points.first < b.points.first; });
-    std::vector<Chain> chains;
-    for (const DefectRun& run : runs) {
-        Strand now{run.points.first, run.points.last, run.pass};
-        const auto chain = std::find_if(chains.begin(), chains.end(), [&](const Chain& c) {
-            const std::int64_t passes = now.pass - c.back().pass;
-            return passes > 0 && passes <= most_skipped && outliner.side_by_side(c.back(), now);
-        });
-        if (chain == chains.end()) {
-            chains.push_back({now});
-            continue;
+    const Region region(defect.runs, surface);
+    std::vector<std::vector<Vec3>> lines;
+    for (const PointRange& range : region.ranges()) {
+        const std::vector<PointIndex> samples = region.samples(range);
+        add_side(region, surface, samples, Side::left, lines);
+        add_side(region, surface, samples, Side::right, lines);
+        for (const PointIndex end : {range.first, range.last}) {
+            lines.push_back({border(surface, end, Side::left), border(surface, end, Side::right)});
         }
-        const Vec3 from = outliner.at(chain->back().begin);
-        if ((outliner.at(now.end) - from).norm() < (outliner.at(now.begin) - from).norm()) std::swap(now.begin, now.end);
-        chain->push_back(now);
     }
-    std::vector<std::vector<Vec3>> outlines;
-    for (const Chain& chain : chains) outlines.push_back(outliner.round(chain));
-    return outlines;
+    return lines;
 }
 
 }  // namespace clsurf

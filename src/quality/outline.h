@@ -7,8 +7,9 @@
 
 namespace clsurf {
 
-/// Closed lines, their corners [mm], one for each part of the defect that hangs together: along the outer
-/// sides of the outermost runs, half a step-over off them, and over the ends of those between.
+/// The border of the defect's area: open lines, their corners [mm], half way to the passes that do not
+/// belong to it and across the ends of those that do; a clean pass between two of its own is inside.
+/// O(points of the runs · log runs).
 [[nodiscard]] std::vector<std::vector<Vec3>> outlines_of(const Defect& defect, const ClSurface& surface);
 
 }  // namespace clsurf
