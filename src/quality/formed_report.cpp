@@ -16,7 +16,8 @@ constexpr double profile_cutoffs = 6;     ///< five sampling lengths and half of
 constexpr double patch_cutoffs = 2;       ///< side of a patch
 constexpr double passes_aside = 3.5;      ///< of a mark's profile: farther, a lag that all passes share has changed
 constexpr double mark_within = 1.0;       ///< step-overs from the middle that the mark lies in
-constexpr std::size_t least_pieces = 4;   ///< of a mark's profile
+constexpr std::size_t fewest_pairs = 2;   ///< of a mark's profile …
+constexpr std::size_t fewest_pieces = 4;  ///< … or pieces of one
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// Deviations of a row of a map that begins at `from`.
@@ -72,6 +73,21 @@ std::vector<PointIndex> spread_points(const Signals& signals) {
     return found;
 }
 
+/// The value that is usual in the middle of a row: the median of means of two as far from it on either
+/// side, so that what changes evenly across the row drops out. At a border, where there are too few of
+/// these, of all that are known; NaN where those are too few.
+double usual(const std::vector<double>& row) {
+    std::vector<double> means;
+    std::vector<double> known;
+    for (std::size_t k = 0; k < row.size(); ++k) {
+        if (std::isfinite(row[k])) known.push_back(row[k]);
+        const double mean = 0.5 * (row[k] + row[row.size() - 1 - k]);
+        if (2 * k + 1 < row.size() && std::isfinite(mean)) means.push_back(mean);
+    }
+    if (means.size() >= fewest_pairs) return median(means);
+    return known.size() >= fewest_pieces ? median(known) : none;
+}
+
 }  // namespace
 
 FormedProfile measure_profile(const FormedSurface& formed, const Vec2& from, const Vec2& to) {
@@ -99,15 +115,15 @@ double mark_depth(std::span<const double> deviation, double step, double step_ov
     std::vector<double> cusps;
     for (std::size_t first = 0; first + piece <= deviation.size(); first += piece) {
         const auto part = deviation.subspan(first, piece);
-        if (!std::all_of(part.begin(), part.end(), [](double v) { return std::isfinite(v); })) continue;
+        const bool known = std::all_of(part.begin(), part.end(), [](double v) { return std::isfinite(v); });
         const auto [low, high] = std::minmax_element(part.begin(), part.end());
-        valleys.push_back(*low);
-        cusps.push_back(*high);
+        valleys.push_back(known ? *low : none);
+        cusps.push_back(known ? *high : none);
     }
-    if (valleys.size() < least_pieces) return none;
+    double low = usual(valleys);
+    double high = usual(cusps);
+    if (!std::isfinite(low)) return none;
     const double middle = 0.5 * static_cast<double>(deviation.size() - 1);
-    double low = median(valleys);
-    double high = median(cusps);
     const double valley = low;
     const double cusp = high;
     for (std::size_t k = 0; k < deviation.size(); ++k) {

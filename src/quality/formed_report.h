@@ -34,7 +34,8 @@ struct FormedProfile {
 
 /// The depth [mm] ≥ 0 of a mark in the middle of a profile over `passes` step-overs to each side: how
 /// far the lowest place within one step-over is below the usual valley (`pit`), or the highest above the
-/// usual cusp. Usual: the median over the pieces of a step-over's length. NaN: not enough is known.
+/// usual cusp. Usual: the median over pieces of a step-over's length, paired about the middle. NaN: not
+/// enough is known.
 [[nodiscard]] double mark_depth(std::span<const double> deviation, double step, double step_over, bool pit);
 
 /// Some 24 patches and every defect of `report`. Parallel.
