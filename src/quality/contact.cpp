@@ -18,6 +18,14 @@ double outline_height(const CuttingTool& tool, double rho) {
     return tool.corner - std::sqrt(std::max(0.0, tool.corner * tool.corner - out * out));
 }
 
+double depth_inside(const CuttingTool& tool, const Vec3& off) {
+    const double rho = off.head<2>().norm();
+    const double below = off.z() - outline_height(tool, rho);
+    const double out = rho - (tool.radius - tool.corner);
+    if (out <= 0 || !std::isfinite(below)) return below;
+    return below * std::sqrt(std::max(0.0, 1 - out * out / (tool.corner * tool.corner)));
+}
+
 Vec3 contact_offset(const CuttingTool& tool, const Vec3& normal) {
     const double tilt = std::hypot(normal.x(), normal.y());
     const double bottom = tool.radius - tool.corner;

@@ -8,6 +8,7 @@
 
 #include "core/parallel.h"
 #include "core/statistics.h"
+#include "quality/contact.h"
 
 namespace clsurf {
 namespace {
@@ -18,6 +19,10 @@ constexpr double bisquare = 4.685;       ///< robust standard deviations at whic
 constexpr double least_spread = 0.0003;  ///< [mm] what rounding to a micrometre leaves
 constexpr double stiffness = 1e-6;       ///< of what the points do not tell, a single pass's slope across
 constexpr float none = std::numeric_limits<float>::quiet_NaN();
+
+constexpr double tips_aside = 12;        ///< tips that are looked at from a contact point to the tool's radius
+constexpr double cut_away = 0.02;        ///< [mm] by which a contact point lies inside the tool elsewhere: chords and
+                                         ///< uneven passes are shallower
 
 constexpr std::int64_t finer = 4;        ///< squares of a knot's, a side, that lie inside or not
 constexpr double sample_spacing = 0.25;  ///< step-overs along the passes
@@ -31,6 +36,51 @@ Terms terms(double x, double y) {
     Terms t;
     t << 1, x, y, x * x, x * y, y * y;
     return t;
+}
+
+/// The contact points in a region that the tool leaves standing: where a form is hollower than the tool,
+/// it cuts away on one pass what it touched on another, and the surface is lower there. Tips are looked
+/// at one per square of a grid, which misses shallow cuts and finds none that is not there.
+std::vector<Vec3> standing_contacts(const FormedSurface& formed, const Box2& region, double spacing) {
+    const CuttingTool& tool = formed.tool();
+    Box2 wide = region;
+    wide.extend(Vec2(region.min() - Vec2::Constant(2 * tool.radius)));
+    wide.extend(Vec2(region.max() + Vec2::Constant(2 * tool.radius)));
+    const std::vector<ContactPoint> found = formed.contacts(wide, spacing);
+    const double square = std::max(2 * spacing, tool.radius / tips_aside);
+    const Vec2 corner = wide.min() - Vec2::Constant(tool.radius);
+    const auto columns = static_cast<std::int64_t>((wide.sizes().x() + 2 * tool.radius) / square) + 1;
+    const auto rows = static_cast<std::int64_t>((wide.sizes().y() + 2 * tool.radius) / square) + 1;
+    std::vector<std::int32_t> tip_of(static_cast<std::size_t>(columns * rows), -1);
+    for (std::size_t k = 0; k < found.size(); ++k) {
+        const Vec2 at = (found[k].tip.head<2>() - corner) / square;
+        std::int32_t& tip = tip_of[static_cast<std::size_t>(static_cast<std::int64_t>(at.y()) * columns + static_cast<std::int64_t>(at.x()))];
+        if (tip < 0 || found[k].tip.z() < found[static_cast<std::size_t>(tip)].tip.z()) tip = static_cast<std::int32_t>(k);
+    }
+    const auto stands = [&](const Vec3& place) {
+        const auto first = [&](double at) { return std::max<std::int64_t>(0, static_cast<std::int64_t>((at - tool.radius) / square)); };
+        const auto last = [&](double at, std::int64_t count) { return std::min(count - 1, static_cast<std::int64_t>((at + tool.radius) / square)); };
+        const Vec2 at = place.head<2>() - corner;
+        for (std::int64_t r = first(at.y()); r <= last(at.y(), rows); ++r) {
+            for (std::int64_t c = first(at.x()); c <= last(at.x(), columns); ++c) {
+                const std::int32_t tip = tip_of[static_cast<std::size_t>(r * columns + c)];
+                if (tip >= 0 && depth_inside(tool, place - found[static_cast<std::size_t>(tip)].tip) > cut_away) return false;
+            }
+        }
+        return true;
+    };
+    std::vector<std::uint8_t> keep(found.size());
+    parallel_for(static_cast<std::int64_t>(found.size()), 1024, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t k = begin; k < end; ++k) {
+            const Vec3& at = found[static_cast<std::size_t>(k)].at;
+            keep[static_cast<std::size_t>(k)] = region.contains(at.head<2>()) && stands(at) ? 1 : 0;
+        }
+    });
+    std::vector<Vec3> standing;
+    for (std::size_t k = 0; k < found.size(); ++k) {
+        if (keep[k] != 0) standing.push_back(found[k].at);
+    }
+    return standing;
 }
 
 }  // namespace
@@ -68,7 +118,7 @@ Form::Form(const FormedSurface& formed, const Box2& region) {
     const Vec2 room = Vec2::Constant((reach + 1) * pitch_);
     wide.extend(Vec2(region.min() - room));
     wide.extend(Vec2(region.max() + room));
-    std::vector<Vec3> found = formed.contacts(wide, sample_spacing * pitch_);
+    std::vector<Vec3> found = standing_contacts(formed, wide, sample_spacing * pitch_);
     Samples samples;
     samples.level = formed.level();
     samples.columns = columns_;

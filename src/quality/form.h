@@ -1,6 +1,6 @@
 #pragma once
 // Form: the smooth surface that a formed one is measured against, since the design surface is not known:
-// the one through the commanded contact points. What is left over it are scallops, lags and marks.
+// the one through the commanded contact points, but for those that the tool cuts away again. What is left over it are scallops, lags and marks.
 //
 // At the knots of a grid, a step-over apart, a quadratic is fitted to the contact points within three
 // step-overs (tricube weights by distance; the fit is repeated twice with bisquare weights, so that one

@@ -331,28 +331,29 @@ void FormedSurface::map(const MapFrame& frame, const TakeRows& take) const {
     }
 }
 
-std::vector<Vec3> FormedSurface::contacts(const Box2& box, double spacing) const {
-    std::vector<Vec3> found;
+std::vector<ContactPoint> FormedSurface::contacts(const Box2& box, double spacing) const {
+    std::vector<ContactPoint> found;
     const std::vector<std::size_t> near = stretches_in(box);
     for (const std::size_t number : near) {
         const Stretch& stretch = stretches_[number];
         bool goes_on = false;
-        Vec3 before = Vec3::Zero();
+        ContactPoint before;
         for (PointIndex i = stretch.first; i <= stretch.last; ++i) {
-            const Vec3 at = contact(i);
-            if (!at.allFinite()) {
+            const ContactPoint now{contact(i), surface_.positions.absolute(i)};
+            if (!now.at.allFinite()) {
                 goes_on = false;
                 continue;
             }
-            const double way = goes_on ? (at - before).norm() : spacing;
+            const double way = goes_on ? (now.at - before.at).norm() : spacing;
             if (way < spacing) continue;
             // Points farther apart than that: as many between them as are missing.
             const int pieces = goes_on ? static_cast<int>(std::min(way / spacing, most_between)) : 1;
             for (int k = 1; k <= pieces; ++k) {
-                const Vec3 between = goes_on ? Vec3(before + (at - before) * k / pieces) : at;
-                if (box.contains(between.head<2>())) found.push_back(between);
+                const double share = static_cast<double>(k) / pieces;
+                const ContactPoint between = goes_on ? ContactPoint{before.at + share * (now.at - before.at), before.tip + share * (now.tip - before.tip)} : now;
+                if (box.contains(between.at.head<2>())) found.push_back(between);
             }
-            before = at;
+            before = now;
             goes_on = true;
         }
     }

@@ -45,6 +45,11 @@ struct MapFrame {
 /// row; NaN: nothing was cut there.
 using TakeRows = std::function<void(std::int64_t first_row, std::span<float> z)>;
 
+/// Where the tool touches, and where its tip then is [mm].
+struct ContactPoint {
+    Vec3 at = Vec3::Zero(), tip = Vec3::Zero();
+};
+
 class FormedSurface {
 public:
     /// `surface`, gathered from the positions of `surface_role`, and `signals` (its normals) tell the
@@ -70,7 +75,7 @@ public:
 
     /// Contact points of the surface's own positions [mm] inside a box, about every `spacing` mm along
     /// the passes, where the normal is known. O(points / 64) and the points near the box.
-    [[nodiscard]] std::vector<Vec3> contacts(const Box2& box, double spacing) const;
+    [[nodiscard]] std::vector<ContactPoint> contacts(const Box2& box, double spacing) const;
     /// The same of one point; not finite where its normal is not known.
     [[nodiscard]] Vec3 contact(PointIndex point) const;
 

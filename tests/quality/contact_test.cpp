@@ -35,6 +35,17 @@ TEST(Contact, OnAWallItIsAtTheToolsSide) {
     expect_near(contact_offset(flat, Vec3::UnitY()), Vec3(0, -4, 0));
 }
 
+TEST(Contact, HowDeepAPlaceLiesInsideTheTool) {
+    // On the axis, straight up; at 60° of the ball's outline, 10 µm along its normal.
+    EXPECT_NEAR(depth_inside(ball, Vec3(0, 0, 0.01)), 0.01, 1e-12);
+    EXPECT_NEAR(depth_inside(flat, Vec3(2, 1, 0.01)), 0.01, 1e-12);
+    const Vec3 normal(0.5 * std::sqrt(3.0), 0, 0.5);
+    EXPECT_NEAR(depth_inside(ball, contact_offset(ball, normal) + 0.01 * normal), 0.01, 1e-4);
+    EXPECT_NEAR(depth_inside(bull, contact_offset(bull, normal) + 0.01 * normal), 0.01, 2e-4);
+    EXPECT_LT(depth_inside(ball, contact_offset(ball, normal) - 0.01 * normal), 0);
+    EXPECT_LT(depth_inside(ball, Vec3(4, 0, 1)), 0);
+}
+
 TEST(Contact, ItLiesOnTheOutline) {
     for (const CuttingTool& tool : {ball, bull, flat}) {
         for (const double angle : {0.1, 0.7, 1.3}) {

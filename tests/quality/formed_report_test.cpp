@@ -108,7 +108,7 @@ TEST(Form, OnACurvedSurfaceItPassesThroughTheContacts) {
     const Planted clean(recipe_with(0, planted::Shape::zigzag, planted::Surface::wave));
     const Form form(clean.formed, clean.formed.bounds());
     std::vector<double> off;
-    for (const Vec3& p : clean.formed.contacts(clean.formed.bounds(), 0.3)) {
+    for (const auto& [p, tip] : clean.formed.contacts(clean.formed.bounds(), 0.3)) {
         const Form::Facet facet = form.at(p.head<2>());
         if (facet.z == facet.z) off.push_back(std::abs(facet.z + clean.formed.level() - p.z()));
     }

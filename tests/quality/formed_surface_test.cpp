@@ -217,5 +217,23 @@ TEST(FormedSurface, AHighLinkLeavesNothing) {
     EXPECT_LT(cut(without), cut(low.formed(ball(3))));
 }
 
+TEST(Form, WhatTheToolCutsAwayAgainIsNoForm) {
+    // Tips on a tent of 30° flanks: at its ridge each flank's contacts reach R sin 30° beyond it, where the
+    // other flank's passes cut them away. What stays is the tent of both contact planes, R (1 − cos 30°)
+    // below the tips' normal to the flank.
+    constexpr double apart = 0.3;
+    constexpr double middle = 25 * apart;
+    const double c = std::cos(M_PI / 6);
+    const double s = 0.5;
+    const Made made(test::flat_zigzag(51, 12, apart, 50, {}, [&](const Vec3& flat) { return Vec3(flat.x(), (flat.y() - middle) * c, -std::abs(flat.y() - middle) * s); }));
+    const FormedSurface formed = made.formed(ball(3));
+    const Form form(formed, formed.bounds());
+    for (const double y : {-3.0, -1.5, -1.2, 1.2, 1.5, 3.0}) {
+        const Form::Facet facet = form.at({6, y});
+        EXPECT_NEAR(facet.z + formed.level(), -std::abs(y) * s / c - 3 * (1 - c) / c, 0.001) << y;
+        EXPECT_NEAR(facet.zy, y < 0 ? s / c : -s / c, 0.01) << y;
+    }
+}
+
 }  // namespace
 }  // namespace clsurf
