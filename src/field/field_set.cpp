@@ -44,8 +44,8 @@ void read(const Trajectory& path, PointIndex first, PointIndex last, std::array<
 
 }  // namespace
 
-FieldSet::FieldSet(const Log& log, const Trajectory& path, const Passes& passes)
-    : log_(log), path_(path), pieces_(smooth_pieces(log, passes)) {}
+FieldSet::FieldSet(const Log& log, const Trajectory& path, const Passes& passes, double coarsest)
+    : log_(log), path_(path), pieces_(smooth_pieces(log, passes)), coarsest_(coarsest) {}
 
 namespace {
 
@@ -56,11 +56,11 @@ struct Plan {
     PointIndex reach = 0;
 };
 
-Plan plan_for(const FieldRow& row, const Log& log, const Trajectory& path) {
+Plan plan_for(const FieldRow& row, const Log& log, const Trajectory& path, double coarsest) {
     Plan plan;
     for (int d = 1; d <= 3; ++d) {
         if ((row.needs & (needs::velocity << (d - 1))) == 0) continue;
-        plan.derivatives[static_cast<std::size_t>(d - 1)].emplace(derivative_filter(d, log.period));
+        plan.derivatives[static_cast<std::size_t>(d - 1)].emplace(derivative_filter(d, log.period, coarsest));
         plan.reach = std::max(plan.reach, plan.derivatives[static_cast<std::size_t>(d - 1)]->reach());
     }
     if ((row.needs & needs::error) != 0) {
@@ -132,12 +132,12 @@ void compute_range(const FieldRow& row, const Plan& plan, const Trajectory& path
     }
 }
 
-FieldInfo info_of(const FieldRow& row, const Log* log) {
+FieldInfo info_of(const FieldRow& row, const Log* log, double coarsest = 0) {
     FieldInfo info{std::string(row.name), std::string(row.label), row.unit, row.scale, {}};
     if (log == nullptr) return info;
     for (int d = 3; d >= 1; --d) {
         if ((row.needs & (needs::velocity << (d - 1))) == 0) continue;
-        const DerivativeFilter filter = derivative_filter(d, log->period);
+        const DerivativeFilter filter = derivative_filter(d, log->period, coarsest);
         info.note = fmt::format("{}-point window ({:.3g} ms, \u22123 dB at {:.0f} Hz)", filter.points,
                                 filter.points * filter.period * 1e3, filter.bandwidth());
         break;
@@ -172,8 +172,8 @@ Field FieldSet::get(std::string_view name) const {
     Field field;
     field.values.resize(static_cast<std::size_t>(log_.records));
     if (const FieldRow* row = find_field_row(name)) {
-        field.info = info_of(*row, &log_);
-        const Plan plan = plan_for(*row, log_, path_);
+        field.info = info_of(*row, &log_, coarsest_);
+        const Plan plan = plan_for(*row, log_, path_, coarsest_);
         for_each_block(log_.records, [&](PointIndex first, PointIndex last) {
             compute_range(*row, plan, path_, pieces_, {first, last - 1}, field.values.data() + first);
         });
@@ -204,7 +204,7 @@ std::vector<double> FieldSet::values(std::string_view name, PointRange points) c
     const FieldRow* row = find_field_row(name);
     if (row == nullptr) unknown_field(name, known_fields(&log_));
     std::vector<float> computed(static_cast<std::size_t>(points.size()));
-    compute_range(*row, plan_for(*row, log_, path_), path_, pieces_, points, computed.data());
+    compute_range(*row, plan_for(*row, log_, path_, coarsest_), path_, pieces_, points, computed.data());
     return {computed.begin(), computed.end()};
 }
 

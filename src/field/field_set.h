@@ -18,7 +18,8 @@ class FieldSet {
 public:
     /// `log`, `path` and `passes` must outlive it. Derivatives are taken inside pieces of `passes`;
     /// neighbouring turns of a spiral count as one piece.
-    FieldSet(const Log& log, const Trajectory& path, const Passes& passes);
+    /// `coarsest` [s]: the period of another log whose fields are to be compared; 0: none.
+    FieldSet(const Log& log, const Trajectory& path, const Passes& passes, double coarsest = 0);
 
     /// The table or the log has a field of that name.
     [[nodiscard]] bool has(std::string_view name) const;
@@ -34,6 +35,7 @@ private:
     const Log& log_;
     const Trajectory& path_;
     std::vector<PointRange> pieces_;  ///< for derivatives, in order
+    double coarsest_;
 };
 
 /// Throws UsageError: none of `fields` is called that; the nearest is suggested.

@@ -62,6 +62,14 @@ DerivativeFilter derivative_filter(int derivative, double period) {
     return filter;
 }
 
+DerivativeFilter derivative_filter(int derivative, double period, double coarsest) {
+    DerivativeFilter filter = derivative_filter(derivative, period);
+    const DerivativeFilter other = derivative_filter(derivative, std::max(period, coarsest));
+    const double seconds = (other.points - 1) * other.period;
+    filter.points = std::max(filter.points, static_cast<int>(std::lround(std::min(seconds / period, 20000.0))) | 1);
+    return filter;
+}
+
 double DerivativeFilter::bandwidth() const {
     const int middle_point = points / 2;
     const std::vector<double> weights = derivative_weights(points, order, derivative, middle_point);

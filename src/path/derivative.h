@@ -24,6 +24,10 @@ struct DerivativeFilter {
 /// 40 ms, since their noise grows with (1/window)^3.5.
 [[nodiscard]] DerivativeFilter derivative_filter(int derivative, double period);
 
+/// The same over the time that a log with the period `coarsest` [s] needs: derivatives of logs with
+/// different periods can then be compared.
+[[nodiscard]] DerivativeFilter derivative_filter(int derivative, double period, double coarsest);
+
 /// Weights of the window's points for the value at point `at` of it, 0 … points − 1. Per period^d.
 [[nodiscard]] std::vector<double> derivative_weights(int points, int order, int derivative, int at);
 
