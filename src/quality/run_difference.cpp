@@ -1,0 +1,230 @@
+#include "quality/run_difference.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "core/block.h"
+#include "field/field_set.h"
+#include "log/quantum.h"
+
+namespace clsurf {
+namespace {
+
+constexpr float none = std::numeric_limits<float>::quiet_NaN();
+constexpr double height_seconds = 0.015;   ///< window of the mean of lags and heights
+constexpr PointIndex feed_reach = 8;       ///< points before and after one that tell the feed there
+constexpr double least_feed = 1e-4;        ///< [mm] of way that has a direction
+constexpr float least_tilt = 0.1F;         ///< sine of the feed's angle to Z: steeper, it has no upper side
+constexpr std::int64_t samples = 200'000;  ///< that usual values are taken from
+
+constexpr auto table = std::to_array<RunQuantityInfo>({
+    {RunQuantity::speed, "speed", "Path speed", unit::mm_min, "mm_min"},
+    {RunQuantity::acceleration, "acceleration", "Acceleration", unit::mm_s2, "mm_s2"},
+    {RunQuantity::lag, "lag", "Lag along the feed", unit::um, "um"},
+    {RunQuantity::height, "height", "Height of the path", unit::um, "um"},
+});
+
+/// The unit vector of the feed at a point of a trajectory; NaN where the tool stands.
+Vec3 feed_at(const Trajectory& path, PointIndex i) {
+    for (PointIndex reach = 1; reach <= feed_reach; reach *= 2) {
+        const Vec3 chord = path.at(std::min(path.count - 1, i + reach)) - path.at(std::max<PointIndex>(0, i - reach));
+        const double length = chord.norm();
+        if (length > least_feed) return chord / length;
+    }
+    return Vec3::Constant(none);
+}
+
+/// How far the measured positions trail the commanded ones [mm].
+Column<float> lags_of(const Run& run) {
+    Column<float> lags(static_cast<std::size_t>(run.path.count));
+    for_each_block(run.path.count, [&](PointIndex first, PointIndex last) {
+        for (PointIndex i = first; i < last; ++i) {
+            const Vec3 behind = run.commanded->at(i) - run.measured->at(i);
+            lags[static_cast<std::size_t>(i)] = static_cast<float>(behind.dot(feed_at(*run.commanded, i)));
+        }
+    });
+    return lags;
+}
+
+/// Upper side of the CL surface; where a pass has no other beside it, of the path.
+Eigen::Vector3f normal_at(const ClSurface& surface, PointIndex i, const Eigen::Vector3f& feed) {
+    const Positions& p = surface.positions;
+    const Station left = beside(surface, {i, 0}, feed, Side::left);
+    const Station right = beside(surface, {i, 0}, feed, Side::right);
+    const Eigen::Vector3f a = left.exists() ? position_at(p, left) : p[i];
+    const Eigen::Vector3f b = right.exists() ? position_at(p, right) : p[i];
+    const Eigen::Vector3f across = feed.cross(a - b);
+    if (across.norm() > 0) return across.normalized();
+    const Eigen::Vector3f up = Eigen::Vector3f::UnitZ() - feed.z() * feed;
+    return up.norm() > least_tilt ? Eigen::Vector3f(up.normalized()) : Eigen::Vector3f::Constant(none);
+}
+
+/// How far `b` lies above `a` along A's surface [mm].
+Column<float> heights_of(const Trajectory& a, const Trajectory& b, const RunAlignment& alignment, const ClSurface& surface, const Trajectory& path) {
+    Column<float> heights(static_cast<std::size_t>(a.count));
+    for_each_block(a.count, [&](PointIndex first, PointIndex last) {
+        for (PointIndex i = first; i < last; ++i) {
+            float& height = heights[static_cast<std::size_t>(i)];
+            height = none;
+            const Station& at = alignment.stations[static_cast<std::size_t>(i)];
+            if (!at.exists()) continue;
+            const Vec3 feed = feed_at(path, i);
+            if (!feed.allFinite()) continue;
+            Vec3 there = b.at(at.point);
+            if (at.fraction > 0) there += static_cast<double>(at.fraction) * (b.at(at.point + 1) - there);
+            height = static_cast<float>((there - a.at(i)).dot(normal_at(surface, i, feed.cast<float>()).cast<double>()));
+        }
+    });
+    return heights;
+}
+
+/// values := B's at the stations minus A's.
+void subtract(const Column<float>& of_b, const RunAlignment& alignment, Column<float>& values) {
+    for_each_block(static_cast<PointIndex>(values.size()), [&](PointIndex first, PointIndex last) {
+        for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i) {
+            const Station& at = alignment.stations[i];
+            values[i] = at.exists() ? interpolate(of_b, at) - values[i] : none;
+        }
+    });
+}
+
+/// Means over `points` round each point, of what is known, inside the stretches. O(points).
+void smooth(Column<float>& values, const std::vector<PointRange>& stretches, PointIndex points) {
+    const PointIndex half = points / 2;
+    std::vector<float> raw;
+    for (const PointRange& stretch : stretches) {
+        raw.assign(values.begin() + stretch.first, values.begin() + stretch.last + 1);
+        double sum = 0;
+        PointIndex known = 0;
+        PointIndex begin = 0;
+        PointIndex end = 0;
+        const PointIndex size = stretch.size();
+        const auto take = [&](PointIndex k, int sign) {
+            const float value = raw[static_cast<std::size_t>(k)];
+            if (!(value == value)) return;
+            sum += sign * static_cast<double>(value);
+            known += sign;
+        };
+        for (PointIndex k = 0; k < size; ++k) {
+            // The window shrinks evenly towards the ends.
+            const PointIndex reach = std::min({half, k, size - 1 - k});
+            while (end <= k + reach) take(end++, +1);
+            while (begin < k - reach) take(begin++, -1);
+            float& value = values[static_cast<std::size_t>(stretch.first + k)];
+            if (value == value) value = known > 0 ? static_cast<float>(sum / static_cast<double>(known)) : none;
+        }
+    }
+}
+
+float percentile_where_cut(const Column<float>& values, const Passes& passes, double p) {
+    Column<float> sampled;
+    PointIndex cutting = 0;
+    for (const Pass& pass : passes) cutting += pass.kind == PassKind::cut ? pass.size() : 0;
+    const PointIndex step = std::max<PointIndex>(1, cutting / samples);
+    for (const Pass& pass : passes) {
+        if (pass.kind != PassKind::cut) continue;
+        for (PointIndex i = pass.first; i <= pass.last; i += step) {
+            const float value = values[static_cast<std::size_t>(i)];
+            if (std::isfinite(value)) sampled.push_back(value);
+        }
+    }
+    if (sampled.empty()) return 0;
+    float* at = sampled.begin() + static_cast<std::ptrdiff_t>(p * static_cast<double>(sampled.size() - 1));
+    std::nth_element(sampled.begin(), at, sampled.end());
+    return *at;
+}
+
+/// The step of the positions, that of the finest axis: one that hardly moves would seem to have a coarse one.
+float quantum_of(const Trajectory& path) {
+    double finest = 0;
+    for (const ChannelView& axis : path.axes) {
+        const double quantum = clsurf::quantum_of(axis);
+        if (quantum > 0 && (finest == 0 || quantum < finest)) finest = quantum;
+    }
+    return static_cast<float>(finest);
+}
+
+/// Nothing of a rapid is compared.
+void leave_out_rapids(const Passes& passes, RunDifferences& differences) {
+    for (const Pass& pass : passes) {
+        if (pass.kind != PassKind::rapid) continue;
+        for (Column<float>& values : differences.of) {
+            if (!values.empty()) std::fill(values.begin() + pass.first, values.begin() + pass.last + 1, none);
+        }
+    }
+}
+
+/// The whole log as one pass: windows end at gaps in time only, in both runs alike.
+Passes whole(const Trajectory& path) {
+    Passes passes;
+    passes.push_back({0, path.count - 1, PassKind::cut});
+    return passes;
+}
+
+void compare_motion(const Run& a, const Run& b, const ClSurface& surface, RunDifferences& out) {
+    const Passes whole_a = whole(a.path);
+    const Passes whole_b = whole(b.path);
+    const FieldSet of_a(*a.log, a.path, whole_a, b.log->period);
+    const FieldSet of_b(*b.log, b.path, whole_b, a.log->period);
+    out.speed_of_a = of_a.get("speed").values;
+    out.usual_speed = percentile_where_cut(out.speed_of_a, surface.passes, 0.95);
+    out.of[index_of(RunQuantity::speed)] = out.speed_of_a;
+    subtract(of_b.get("speed").values, out.alignment, out.of[index_of(RunQuantity::speed)]);
+    Column<float>& acceleration = out.of[index_of(RunQuantity::acceleration)];
+    acceleration = of_a.get("acceleration").values;
+    out.usual_acceleration = percentile_where_cut(acceleration, surface.passes, 0.99);
+    subtract(of_b.get("acceleration").values, out.alignment, acceleration);
+}
+
+}  // namespace
+
+std::span<const RunQuantityInfo> run_quantity_table() { return table; }
+
+float RunDifferences::speed_base(PointIndex i) const {
+    const float own = speed_of_a[static_cast<std::size_t>(i)];
+    return std::max(own == own ? own : 0.0F, rules.least_speed * usual_speed);
+}
+
+float RunDifferences::threshold_at(RunQuantity q, PointIndex i) const {
+    return q == RunQuantity::speed ? rules.speed * speed_base(i) : threshold[index_of(q)];
+}
+
+RunDifferences compare_runs(const Run& a, const ClSurface& surface, const Run& b, const RunThresholds& rules) {
+    RunDifferences out;
+    out.rules = rules;
+    {
+        const Positions path_b = gather(b.path);
+        out.alignment = align_runs(surface.positions, path_b);
+    }
+    compare_motion(a, b, surface, out);
+    const auto window = std::max<PointIndex>(1, std::lround(std::min(height_seconds / a.log->period, 1e6)));
+    float lag_quantum = 0;
+    if (a.commanded && a.measured && b.commanded && b.measured) {
+        Column<float>& lag = out.of[index_of(RunQuantity::lag)];
+        lag = lags_of(a);
+        subtract(lags_of(b), out.alignment, lag);
+        smooth(lag, out.alignment.stretches, window);
+        for (const Run* run : {&a, &b}) lag_quantum = std::max({lag_quantum, quantum_of(*run->commanded), quantum_of(*run->measured)});
+    }
+    const bool measured = a.truest && b.truest;
+    const Trajectory& height_a = measured ? *a.truest : a.path;
+    const Trajectory& height_b = measured ? *b.truest : b.path;
+    Column<float>& height = out.of[index_of(RunQuantity::height)];
+    if (measured) {
+        const RunAlignment alignment = align_runs(gather(height_a), gather(height_b));
+        height = heights_of(height_a, height_b, alignment, surface, a.path);
+        smooth(height, alignment.stretches, window);
+    } else {
+        height = heights_of(height_a, height_b, out.alignment, surface, a.path);
+        smooth(height, out.alignment.stretches, window);
+    }
+    const float height_quantum = std::max(quantum_of(height_a), quantum_of(height_b));
+    out.threshold = {rules.speed * out.usual_speed, rules.acceleration * out.usual_acceleration,
+                     std::max(rules.height, rules.lag_quanta * lag_quantum), std::max(rules.height, rules.height_quanta * height_quantum)};
+    leave_out_rapids(surface.passes, out);
+    return out;
+}
+
+}  // namespace clsurf
