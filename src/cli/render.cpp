@@ -7,6 +7,7 @@
 
 #include "cli/fields.h"
 #include "cli/formed.h"
+#include "cli/look.h"
 #include "cli/quality.h"
 #include "core/spelling.h"
 #include "field/range.h"
@@ -23,15 +24,12 @@ struct RenderOptions {
     std::string before;  ///< log of the other panel; empty: one panel
     std::string output;
     std::string field = "speed";
-    RangeRule range;
-    std::string colour_map;  ///< empty: by the field
-    int bins = 0;
+    LookOptions shown;
     std::vector<PointIndex> points;
     std::vector<LineNumber> lines;
     bool defects = false;
     CuttingTool tool;                  ///< of the formed surface
     std::optional<Role> swept;  ///< its positions; none: the most truthful
-    viz::Look look;
 };
 
 void declare(po::options_description& options) {
@@ -42,73 +40,12 @@ void declare(po::options_description& options) {
         ("swept", po::value<std::string>()->value_name("commanded|feedback|actual"), "positions that the formed surface's tool runs along (default: actual, else feedback, else commanded)")
         ("output,o", po::value<std::string>()->value_name("FILE"), "the picture (PNG)")
         ("color", po::value<std::string>()->value_name("FIELD"), "what is coloured (default: speed; `clsurf help fields`)")
-        ("style", po::value<std::string>()->value_name("surface|lines|points"), "how the map is drawn (default: surface)")
-        ("view", po::value<std::string>()->value_name("iso|top|front|left|right|back|bottom|AZ,EL"), "from where; AZ,EL in degrees (default: iso)")
-        ("zoom", po::value<std::string>()->value_name("X0,Y0,X1,Y1"), "part of the map, as fractions from its upper left corner")
-        ("box", po::value<std::string>()->value_name("X0,Y0,Z0,X1,Y1,Z1"), "part of the workpiece [mm]; the rest is left out")
-        ("range", po::value<std::string>()->value_name("auto|MIN,MAX|pLOW,pHIGH"), "values at the ends of the colours, or percentiles of the cutting points shown (default: auto, p1,p99)")
-        ("colormap", po::value<std::string>()->value_name("COLORMAP|RGB,RGB,…"), "a named map (`clsurf help colormaps`) or own stops, #RRGGBB,#RRGGBB,… (default: isurface; signed fields coolwarm)")
-        ("bins", po::value<int>()->value_name("N"), "colours in N steps")
         ("mark-point", po::value<std::vector<long long>>()->value_name("N"), "ring a point; may be repeated")
         ("mark-line", po::value<std::vector<long long>>()->value_name("N"), "draw the points of a line bold; may be repeated")
         ("defects", "outline and number what `clsurf check` finds")
-        ("before", po::value<std::string>()->value_name("LOG"), "another log of the program, drawn beside it on the same scale")
-        ("size", po::value<std::string>()->value_name("WxH"), "size in pixels (default: 1600x1200)")
-        ("background", po::value<std::string>()->value_name("white|black|#RRGGBB"), "behind the map (default: white)")
-        ("no-legend", "the map alone: no title, legend, axes, scale bar")
-        ("gl", po::value<std::string>()->value_name("osmesa|egl"), "what draws: the processor, or a graphics card (default: osmesa)");
+        ("before", po::value<std::string>()->value_name("LOG"), "another log of the program, drawn beside it on the same scale");
     // clang-format on
-}
-
-std::string text_of(const po::variables_map& values, const char* name, const std::string& otherwise) {
-    return values.count(name) > 0 ? values[name].as<std::string>() : otherwise;
-}
-
-RangeRule parse_range(const std::string& text) {
-    RangeRule rule;
-    if (text == "auto") return rule;
-    std::string numbers = text;
-    rule.kind = RangeRule::Kind::fixed;
-    if (text.starts_with('p')) {
-        rule.kind = RangeRule::Kind::percentiles;
-        std::erase(numbers, 'p');
-    }
-    const std::vector<double> pair = parse_numbers(numbers, "--range", 2);
-    rule.low = pair[0];
-    rule.high = pair[1];
-    if (rule.low > rule.high) throw UsageError("--range: the lower end is above the upper one");
-    if (rule.kind == RangeRule::Kind::percentiles && (rule.low < 0 || rule.high > 100)) throw UsageError("--range: percentiles are 0 … 100");
-    return rule;
-}
-
-viz::Look read_look(const po::variables_map& values) {
-    viz::Look look;
-    const std::vector<double> size = read_size(text_of(values, "size", "1600x1200"));
-    look.width = static_cast<int>(size[0]);
-    look.height = static_cast<int>(size[1]);
-    look.view = viz::parse_view(text_of(values, "view", "iso"));
-    const std::string style = text_of(values, "style", "surface");
-    if (style == "surface") look.style = viz::Style::surface;
-    else if (style == "lines") look.style = viz::Style::lines;
-    else if (style == "points") look.style = viz::Style::points;
-    else throw UsageError("--style: '" + style + "' is not surface, lines or points");
-    if (values.count("zoom") > 0) {
-        const std::vector<double> n = parse_numbers(values["zoom"].as<std::string>(), "--zoom", 4);
-        look.zoom = {n[0], n[1], n[2], n[3]};
-        if (!(n[0] < n[2] && n[1] < n[3])) throw UsageError("--zoom: X0 < X1 and Y0 < Y1 are needed");
-    }
-    if (values.count("box") > 0) {
-        const std::vector<double> n = parse_numbers(values["box"].as<std::string>(), "--box", 6);
-        for (std::size_t k = 0; k < 3; ++k) {
-            if (!(n[k] <= n[k + 3])) throw UsageError("--box: the first corner must be the lower one in X, Y and Z");
-        }
-        look.box = Box3(Vec3(n[0], n[1], n[2]), Vec3(n[3], n[4], n[5]));
-    }
-    look.background = viz::parse_colour(text_of(values, "background", "white"), "--background");
-    look.legend = values.count("no-legend") == 0;
-    look.gl = text_of(values, "gl", "osmesa");
-    if (look.gl != "osmesa" && look.gl != "egl") throw UsageError("--gl: '" + look.gl + "' is not osmesa or egl");
-    return look;
+    declare_look(options);
 }
 
 void read_formed(const po::variables_map& values, RenderOptions& options) {
@@ -121,7 +58,7 @@ void read_formed(const po::variables_map& values, RenderOptions& options) {
     options.tool = required_tool(values, "--surface formed", "--surface formed --tool ball:6");
     if (values.count("swept") > 0) options.swept = parse_role(values["swept"].as<std::string>());
     if (values.count("color") > 0) throw UsageError("--color is not of the formed surface: it shows micrometres over its form");
-    if (options.look.style != viz::Style::surface) throw UsageError("--style is not of the formed surface: it is drawn as one");
+    if (options.shown.look.style != viz::Style::surface) throw UsageError("--style is not of the formed surface: it is drawn as one");
 }
 
 RenderOptions read_options(const po::variables_map& values) {
@@ -130,13 +67,7 @@ RenderOptions read_options(const po::variables_map& values) {
     options.output = required(values, "output");
     options.before = text_of(values, "before", "");
     options.field = text_of(values, "color", "speed");
-    options.range = parse_range(text_of(values, "range", "auto"));
-    options.colour_map = text_of(values, "colormap", "");
-    if (!options.colour_map.empty()) (void)viz::make_colour_map(options.colour_map);  // wrong names fail early
-    if (values.count("bins") > 0) {
-        options.bins = values["bins"].as<int>();
-        if (options.bins < 2 || options.bins > 256) throw UsageError("--bins must be 2 … 256");
-    }
+    options.shown = read_look_options(values);
     if (values.count("mark-point") > 0) {
         for (const long long n : values["mark-point"].as<std::vector<long long>>()) options.points.push_back(n);
     }
@@ -147,7 +78,6 @@ RenderOptions read_options(const po::variables_map& values) {
         }
     }
     options.defects = values.count("defects") > 0;
-    options.look = read_look(values);
     read_formed(values, options);
     return options;
 }
@@ -165,9 +95,9 @@ struct Shown {
 void form(Shown& shown, const RenderOptions& options, StageClock& clock) {
     viz::MapPanel panel;
     panel.surface = &shown.surface;
-    const viz::Camera camera = viz::map_camera({panel}, options.look);
+    const viz::Camera camera = viz::map_camera({panel}, options.shown.look);
     const FormedPart formed(shown.part, shown.surface, options.swept, options.tool, clock);
-    FormedMap map = make_formed_map(formed, options.look.box, camera);
+    FormedMap map = make_formed_map(formed, options.shown.look.box, camera);
     clock.end();
     shown.field = std::move(map.field);
     shown.relief = std::move(map.relief);
@@ -223,8 +153,6 @@ viz::MapPanel panel_of(const Shown& shown, const RenderOptions& options, std::st
     return panel;
 }
 
-std::string base_name(const std::string& path) { return path.substr(path.rfind('/') + 1); }
-
 std::string counts_of(const Shown& shown) {
     PointIndex passes = 0;
     for (const Pass& pass : shown.surface.passes) passes += pass.kind == PassKind::cut ? 1 : 0;
@@ -234,7 +162,7 @@ std::string counts_of(const Shown& shown) {
 
 viz::MapTexts texts_of(const Shown& shown, const std::optional<Shown>& before, const RenderOptions& options, const std::vector<std::string>& range_notes) {
     viz::MapTexts texts;
-    texts.title = fmt::format("{}, {} {}", shown.field.info.label, name_of(shown.part.path.role), options.look.style == viz::Style::surface ? "surface" : "path");
+    texts.title = fmt::format("{}, {} {}", shown.field.info.label, name_of(shown.part.path.role), options.shown.look.style == viz::Style::surface ? "surface" : "path");
     if (shown.relief) texts.title = fmt::format("{}, {}", shown.field.info.label, to_text(options.tool));
     const std::string program = base_name(options.part.program);
     // The captions of two panels name the logs.
@@ -248,20 +176,20 @@ viz::MapTexts texts_of(const Shown& shown, const std::optional<Shown>& before, c
 
 /// The range of what lies in the picture.
 ShownRange range_of(const Shown& shown, const RenderOptions& options, const viz::Camera& camera) {
-    const viz::Zoom& zoom = options.look.zoom;
-    const bool whole = zoom.x0 <= 0 && zoom.y0 <= 0 && zoom.x1 >= 1 && zoom.y1 >= 1 && options.look.box.isEmpty();
-    const auto in_picture = [&](PointIndex i) { return viz::shows(camera, options.look, shown.relief ? shown.relief->at(i) : shown.surface.positions.absolute(i)); };
+    const viz::Zoom& zoom = options.shown.look.zoom;
+    const bool whole = zoom.x0 <= 0 && zoom.y0 <= 0 && zoom.x1 >= 1 && zoom.y1 >= 1 && options.shown.look.box.isEmpty();
+    const auto in_picture = [&](PointIndex i) { return viz::shows(camera, options.shown.look, shown.relief ? shown.relief->at(i) : shown.surface.positions.absolute(i)); };
     const ShownPoints points = whole ? ShownPoints() : ShownPoints(in_picture);
-    if (!shown.relief) return find_range(shown.field, shown.surface.passes, options.range, points);
+    if (!shown.relief) return find_range(shown.field, shown.surface.passes, options.shown.range, points);
     Passes all;
     all.push_back({0, static_cast<PointIndex>(shown.field.values.size()) - 1, PassKind::cut});
-    return find_range(shown.field, all, options.range, points);
+    return find_range(shown.field, all, options.shown.range, points);
 }
 
 /// A mark that the picture cannot show is said on stderr, since its lack may not be noticed.
 void warn_of_marks_outside(const Shown& shown, const RenderOptions& options, const viz::Camera& camera, const po::variables_map& values) {
     Diagnostics diagnostics;
-    const auto outside = [&](PointIndex i) { return !viz::shows(camera, options.look, shown.surface.positions.absolute(i)); };
+    const auto outside = [&](PointIndex i) { return !viz::shows(camera, options.shown.look, shown.surface.positions.absolute(i)); };
     const auto warn = [&](const std::string& what) {
         diagnostics.add({Severity::warning, "render.mark-outside", Place(), what + " lies outside the part that is shown", {}});
     };
@@ -300,24 +228,18 @@ ExitCode run(const po::variables_map& values) {
     panels.push_back(panel_of(after, options, before ? "after: " + base_name(options.part.log) : ""));
 
     clock.begin("choose the range");
-    const viz::Camera camera = viz::map_camera(panels, options.look);
+    const viz::Camera camera = viz::map_camera(panels, options.shown.look);
     warn_of_marks_outside(after, options, camera, values);
     ShownRange range = range_of(after, options, camera);
     if (before) {
         const ShownRange other = range_of(*before, options, camera);
         range = {std::min(range.low, other.low), std::max(range.high, other.high), std::min(range.lowest, other.lowest),
-                 std::max(range.highest, other.highest), range.note + (options.range.kind == RangeRule::Kind::fixed ? "" : ", the wider of both logs")};
+                 std::max(range.highest, other.highest), range.note + (options.shown.range.kind == RangeRule::Kind::fixed ? "" : ", the wider of both logs")};
     }
-    std::vector<std::string> range_notes{range.note};
-    if (range.lowest < range.low || range.highest > range.high) {
-        const double readable = std::max(1e-3 * (range.high - range.low), 1e-6 * std::abs(range.high));
-        range_notes.push_back(fmt::format("values from {} to {}", viz::tick_text(range.lowest, readable), viz::tick_text(range.highest, readable)));
-    }
-    const bool diverging = after.field.info.scale == FieldScale::diverging;
-    viz::ColourScale scale{viz::make_colour_map(!options.colour_map.empty() ? options.colour_map : diverging ? "coolwarm" : "isurface"),
-                           range.low, range.high, options.bins};
+    const std::vector<std::string> range_notes = notes_of(range);
+    const viz::ColourScale scale = scale_of(after.field.info, range, options.shown);
     clock.begin("draw");
-    const viz::Image image = viz::draw_map(panels, camera, scale, texts_of(after, before, options, range_notes), options.look);
+    const viz::Image image = viz::draw_map(panels, camera, scale, texts_of(after, before, options, range_notes), options.shown.look);
     clock.begin("write the picture");
     output.write(viz::encode_png(image, fmt::format("clsurf map of {} from {}: {} {:g} to {:g} {}", base_name(options.part.program),
                                                     base_name(options.part.log), after.field.info.name, range.low, range.high, after.field.info.unit.name)));

@@ -1,0 +1,34 @@
+#pragma once
+// Look: the options of a map that `render` and `diff` share.
+
+#include <string>
+#include <vector>
+
+#include "cli/options.h"
+#include "field/range.h"
+#include "viz/scene.h"
+
+namespace clsurf::cli {
+
+struct LookOptions {
+    viz::Look look;
+    RangeRule range;
+    std::string colour_map;  ///< empty: by the field
+    int bins = 0;
+};
+
+/// --style, --view, --zoom, --box, --range, --colormap, --bins, --size, --background, --no-legend, --gl.
+void declare_look(po::options_description& options);
+[[nodiscard]] LookOptions read_look_options(const po::variables_map& values);
+
+/// The map's colours over a range: the wanted ones, or those that suit the field.
+[[nodiscard]] viz::ColourScale scale_of(const FieldInfo& field, const ShownRange& range, const LookOptions& options);
+/// What the footnote says of a range.
+[[nodiscard]] std::vector<std::string> notes_of(const ShownRange& range);
+
+/// An option's text, or another where it is not given.
+[[nodiscard]] std::string text_of(const po::variables_map& values, const char* name, const std::string& otherwise);
+/// A path without its folders.
+[[nodiscard]] std::string base_name(const std::string& path);
+
+}  // namespace clsurf::cli
