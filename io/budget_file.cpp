@@ -5,19 +5,27 @@
 #include "io/toml_table.h"
 
 namespace clsurf::io {
+namespace {
 
-Budget read_budget(const std::string& path) {
+template <typename Limits, typename Rows>
+Limits read_limits(const std::string& path, const Rows& rows) {
     const TomlFile file(path);
     std::vector<std::string_view> names;
-    for (const BudgetLimit& limit : budget_limits()) names.push_back(limit.name);
+    for (const auto& row : rows) names.push_back(row.name);
     file.allow(file.root(), names);
-    Budget budget;
-    for (const BudgetLimit& limit : budget_limits()) {
-        const std::optional<double> value = file.number(file.root(), limit.name);
-        if (value && !(*value >= 0)) file.fail(*file.root().get(limit.name), "must not be negative");
-        budget.*limit.limit = value;
+    Limits limits;
+    for (const auto& row : rows) {
+        const std::optional<double> value = file.number(file.root(), row.name);
+        if (value && !(*value >= 0)) file.fail(*file.root().get(row.name), "must not be negative");
+        limits.*row.limit = value;
     }
-    return budget;
+    return limits;
 }
+
+}  // namespace
+
+Budget read_budget(const std::string& path) { return read_limits<Budget>(path, budget_limits()); }
+
+RunBudget read_run_budget(const std::string& path) { return read_limits<RunBudget>(path, run_budget_limits()); }
 
 }  // namespace clsurf::io

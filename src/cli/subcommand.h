@@ -42,6 +42,7 @@ struct Subcommand {
 [[nodiscard]] Subcommand check_subcommand();
 [[nodiscard]] Subcommand compare_subcommand();
 [[nodiscard]] Subcommand convert_subcommand();
+[[nodiscard]] Subcommand diff_subcommand();
 [[nodiscard]] Subcommand export_subcommand();
 [[nodiscard]] Subcommand info_subcommand();
 [[nodiscard]] Subcommand machine_subcommand();

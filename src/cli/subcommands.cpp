@@ -17,6 +17,7 @@ std::span<const Subcommand> subcommands() {
         export_subcommand(),
         convert_subcommand(),
         simulate_subcommand(),
+        diff_subcommand(),
         compare_subcommand(),
         machine_subcommand(),
         help_subcommand(),

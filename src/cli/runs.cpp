@@ -1,0 +1,111 @@
+#include "cli/runs.h"
+
+#include "cli/part.h"
+#include "io/compressed.h"
+#include "io/machine_file.h"
+#include "io/program_file.h"
+#include "io/program_identity.h"
+#include "io/simulated_run.h"
+
+namespace clsurf::cli {
+namespace {
+
+Vec3 offset_of(const LoadedRun& run, const RunOptions& options) {
+    if (run.simulated) return Vec3::Zero();
+    return -options.offset.value_or(run.log.work_offset.value_or(Vec3::Zero()));
+}
+
+Role common_role(const LoadedRun& a, const LoadedRun& b, std::optional<Role> wanted) {
+    if (wanted) return *wanted;
+    for (const Role role : {Role::commanded, Role::feedback, Role::actual}) {
+        if (a.log.has(role) && b.log.has(role)) return role;
+    }
+    throw InputError(Place::of_file(b.name), "has no positions of a kind that " + a.name + " has too: commanded, feedback or actual");
+}
+
+/// A line number that no program has.
+constexpr LineNumber no_line = 0xffffffffU;
+
+}  // namespace
+
+void declare_runs(po::options_description& options) {
+    // clang-format off
+    options.add_options()
+        ("program", po::value<std::string>()->value_name("FILE"), "the program that the logs are of: tells lines and rapids")
+        ("machine", po::value<std::string>()->value_name("FILE"), "machine file for programs, which are simulated (default: that of clsurf machine --defaults)")
+        ("start", po::value<std::string>()->value_name("X,Y,Z"), "where the axes stand before a simulated program, mm (default: 0,0,0)")
+        ("surface", po::value<std::string>()->value_name("commanded|feedback|actual"), "positions that runs are laid onto each other by (default: commanded, else what all have)");
+    // clang-format on
+    declare_program_options(options);
+    declare_log_options(options);
+    declare_work_offset(options);
+}
+
+RunOptions read_run_options(const po::variables_map& values) {
+    RunOptions options;
+    options.program_options = read_program_options(values);
+    options.log_options = read_log_options(values);
+    options.offset = read_work_offset(values);
+    if (values.count("program") > 0) options.program = values["program"].as<std::string>();
+    if (values.count("machine") > 0) options.machine = values["machine"].as<std::string>();
+    if (values.count("surface") > 0) options.role = parse_role(values["surface"].as<std::string>());
+    if (values.count("start") > 0) {
+        const std::vector<double> given = parse_numbers(values["start"].as<std::string>(), "--start", 3);
+        options.start = Vec3(given[0], given[1], given[2]);
+    }
+    return options;
+}
+
+LoadedRun load_run(const std::string& path, const RunOptions& options) {
+    LoadedRun run;
+    run.name = path;
+    const io::Source source = io::open_source(path);
+    if (source.bytes.empty()) throw InputError(Place::of_file(source.name), "is empty, expected a program or a log");
+    if (io::recognise_log(source, options.log_options) != nullptr) {
+        run.log = io::open_log(source, options.log_options);
+    } else {
+        const Machine machine = options.machine.empty() ? Machine{} : io::read_machine(options.machine);
+        run.simulated = true;
+        run.program = std::make_shared<const Program>(io::read_program(source, options.program_options));
+        run.log = io::simulate_run(*run.program, machine, options.start, {});
+    }
+    if (run.log.records == 0) throw InputError(Place::of_file(path), "holds no records");
+    return run;
+}
+
+Run run_of(const LoadedRun& run, const LoadedRun& other, const RunOptions& options) {
+    const Vec3 offset = offset_of(run, options);
+    const auto both_have = [&](Role role) { return run.log.has(role) && other.log.has(role); };
+    Run made;
+    made.log = &run.log;
+    made.path = reconstruct(run.log, common_role(run, other, options.role), offset);
+    if (both_have(Role::commanded)) made.commanded = reconstruct(run.log, Role::commanded, offset);
+    for (const Role role : {Role::actual, Role::feedback}) {
+        if (!both_have(role)) continue;
+        made.measured = reconstruct(run.log, role, offset);
+        if (role != made.path.role) made.truest = made.measured;
+        break;
+    }
+    return made;
+}
+
+std::unique_ptr<LineMap> lines_of(const LoadedRun& run, const Trajectory& path, const RunOptions& options, Diagnostics& diagnostics) {
+    if (run.simulated) return std::make_unique<LineMap>(map_lines(path, run.log, *run.program, true, diagnostics));
+    if (!options.program.empty()) {
+        const io::Source source = io::open_source(options.program);
+        const Program program = io::read_program(source, options.program_options);
+        diagnostics.append(program.diagnostics);
+        io::check_identity(source, run.log, diagnostics);
+        return std::make_unique<LineMap>(map_lines(path, run.log, program, true, diagnostics));
+    }
+    Program none;
+    none.files.emplace_back();
+    if (const Channel* channel = run.log.find("line")) return std::make_unique<LineMap>(channel->values, none, run.log.keep_alive);
+    ChannelView everywhere;
+    everywhere.first = reinterpret_cast<const std::byte*>(&no_line);
+    everywhere.count = path.count;
+    everywhere.type = ScalarType::u32;
+    return std::make_unique<LineMap>(everywhere, none, nullptr);
+}
+
+}  // namespace clsurf::cli
