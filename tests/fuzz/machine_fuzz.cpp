@@ -1,0 +1,16 @@
+// Machine files: what can be read must be written, and read again as the same.
+#include <cstdlib>
+
+#include "fuzz/fuzz_input.h"
+#include "io/machine_file.h"
+
+using namespace clsurf;
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    return fuzz::answer([&] {
+        const fuzz::MemoryFile file(fuzz::text_of(data, size));
+        const std::string written = io::machine_text(io::read_machine(file.path()));
+        const fuzz::MemoryFile again(written);
+        if (io::machine_text(io::read_machine(again.path())) != written) std::abort();
+    });
+}
