@@ -61,6 +61,21 @@ Eigen::Vector3f normal_at(const ClSurface& surface, PointIndex i, const Eigen::V
     return up.norm() > least_tilt ? Eigen::Vector3f(up.normalized()) : Eigen::Vector3f::Constant(none);
 }
 
+/// A position between two points, from the cubic through the points round it (Catmull, Rom 1974): a
+/// chord would cut off a T²/8, 5 µm at 600 mm/s² and 8 ms.
+Vec3 position_between(const Trajectory& path, const Station& at) {
+    const Vec3 p1 = path.at(at.point);
+    if (at.fraction == 0) return p1;
+    const double f = at.fraction;
+    const Vec3 p2 = path.at(at.point + 1);
+    const Vec3 step = p2 - p1;
+    const Vec3 before = 0.5 * (p2 - path.at(std::max<PointIndex>(0, at.point - 1))) - step;
+    const Vec3 after = 0.5 * (path.at(std::min(path.count - 1, at.point + 2)) - p1) - step;
+    const Vec3 chord = p1 + f * step;
+    const Vec3 bend = f * (1 - f) * ((1 - f) * before - f * after);
+    return bend.allFinite() ? Vec3(chord + bend) : chord;
+}
+
 /// How far `b` lies above `a` along A's surface [mm].
 Column<float> heights_of(const Trajectory& a, const Trajectory& b, const RunAlignment& alignment, const ClSurface& surface, const Trajectory& path) {
     Column<float> heights(static_cast<std::size_t>(a.count));
@@ -72,9 +87,7 @@ Column<float> heights_of(const Trajectory& a, const Trajectory& b, const RunAlig
             if (!at.exists()) continue;
             const Vec3 feed = feed_at(path, i);
             if (!feed.allFinite()) continue;
-            Vec3 there = b.at(at.point);
-            if (at.fraction > 0) there += static_cast<double>(at.fraction) * (b.at(at.point + 1) - there);
-            height = static_cast<float>((there - a.at(i)).dot(normal_at(surface, i, feed.cast<float>()).cast<double>()));
+            height = static_cast<float>((position_between(b, at) - a.at(i)).dot(normal_at(surface, i, feed.cast<float>()).cast<double>()));
         }
     });
     return heights;
@@ -188,7 +201,7 @@ float RunDifferences::speed_base(PointIndex i) const {
 }
 
 float RunDifferences::threshold_at(RunQuantity q, PointIndex i) const {
-    return q == RunQuantity::speed ? rules.speed * speed_base(i) : threshold[index_of(q)];
+    return q == RunQuantity::speed ? rules.speed * speed_base(i) + speed_play : threshold[index_of(q)];
 }
 
 RunDifferences compare_runs(const Run& a, const ClSurface& surface, const Run& b, const RunThresholds& rules) {
@@ -221,7 +234,8 @@ RunDifferences compare_runs(const Run& a, const ClSurface& surface, const Run& b
         smooth(height, out.alignment.stretches, window);
     }
     const float height_quantum = std::max(quantum_of(height_a), quantum_of(height_b));
-    out.threshold = {rules.speed * out.usual_speed, rules.acceleration * out.usual_acceleration,
+    out.speed_play = rules.period * static_cast<float>(std::max(a.log->period, b.log->period)) * out.usual_acceleration;
+    out.threshold = {rules.speed * out.usual_speed + out.speed_play, rules.acceleration * out.usual_acceleration,
                      std::max(rules.height, rules.lag_quanta * lag_quantum), std::max(rules.height, rules.height_quanta * height_quantum)};
     leave_out_rapids(surface.passes, out);
     return out;

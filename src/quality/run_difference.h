@@ -44,6 +44,7 @@ struct Run {
 struct RunThresholds {
     float speed = 0.03F;         ///< of the speed there …
     float least_speed = 0.25F;   ///< … which counts as at least so much of the usual speed
+    float period = 0.25F;        ///< plus what the usual acceleration makes of the speed in this part of a period
     float acceleration = 0.15F;  ///< of the usual acceleration
     float height = 0.0015F;      ///< [mm], lags and heights …
     float lag_quanta = 1.5F;     ///< … and at least so many steps of the positions
@@ -57,6 +58,7 @@ struct RunDifferences {
     RunThresholds rules;
     float usual_speed = 0;         ///< [mm/s] 95th percentile of A where it cuts
     float usual_acceleration = 0;  ///< [mm/s²] 99th percentile
+    float speed_play = 0;          ///< [mm/s] that sampling alone may make of a speed
     Column<float> speed_of_a;      ///< [mm/s]
 
     [[nodiscard]] bool has(RunQuantity q) const { return !of[index_of(q)].empty(); }

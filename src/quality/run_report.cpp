@@ -7,7 +7,8 @@ namespace clsurf {
 namespace {
 
 constexpr double joined_way = 1.0;       ///< [mm] between two stretches that are one
-constexpr double least_seconds = 0.005;  ///< of a stretch
+constexpr double least_seconds = 0.005;  ///< of a stretch …
+constexpr PointIndex least_points = 3;   ///< … and its points
 constexpr double samples = 200'000;      ///< by way, of percentiles
 constexpr std::size_t most_kept = 1000;  ///< stretches of a quantity
 constexpr double end_share = 0.1;        ///< of the way, that a drift is told from
@@ -84,7 +85,7 @@ public:
             if (!(std::abs(value) > differences_.threshold_at(q, i))) return 0;
             return value > 0 ? 1 : -1;
         };
-        const PointIndex least = std::max<PointIndex>(1, std::lround(std::min(least_seconds / a_.log->period, 1e6)));
+        const PointIndex least = std::max<PointIndex>(least_points, std::lround(std::min(least_seconds / a_.log->period, 1e6)));
         for (const PointRange& stretch : differences_.alignment.stretches) {
             PointRange open;
             int sign = 0;

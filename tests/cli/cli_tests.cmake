@@ -298,3 +298,28 @@ clsurf_cli_test(NAME simulate_feed_of_zero SETUP "printf 'G1 X1 F100\\nG1 X2 F0\
   EXIT 3 STDERR "a.nc:2" "without a feed" NO_FILE run.biip)
 clsurf_cli_test(NAME simulate_outside_the_travel SETUP "printf 'G1 X1000 F9000\\n' > a.nc" ARGS simulate a.nc -o run.biip
   STDERR "a.nc:1: warning: x leaves its travel" FILE run.biip)
+
+# ---- runs against each other ----
+set(as_recorded "$CLSURF convert @LOGS@/mixed.csv --period 0.001 -o a.biip; cp a.biip again.biip; $CLSURF convert @LOGS@/mixed.csv --period 0.002 -o slow.biip")
+clsurf_cli_test(NAME diff_of_equal_runs ARGS diff ${run} ${run} --program ${part}
+  STDOUT "100.0 % of" "speed .mm/min. +0.00 +0.00 +0.00 +0.00 +0.00 +0.00 +0.0 +0" "height .µm. +0.00 +0.00 +0.00 +0.00 +0.00 +0.00 +0.0 +0")
+clsurf_cli_test(NAME diff_of_another_format ARGS diff @LOGS@/dome_loops.biip @LOGS@/dome_loops.twincat.csv --json
+  STDOUT "\"aligned_percent\": 100.0" "\"differences\": .." "\"within_budget\": true")
+clsurf_cli_test(NAME diff_of_half_the_speed SETUP "${as_recorded}" ARGS diff a.biip slow.biip --program @DATA@/programs/mixed.ngc
+  STDOUT "100.0 % of" "speed +-(49.9|50.0) % +-49.9 %")
+clsurf_cli_test(NAME diff_budget_not_held SETUP "${as_recorded}; echo 'max_speed_difference_percent = 10' > runs.toml"
+  ARGS diff a.biip slow.biip --budget runs.toml --json EXIT 1 STDOUT "\"within_budget\": false" "\"max_speed_difference_percent\"")
+clsurf_cli_test(NAME diff_budget_held SETUP "${as_recorded}; printf 'max_height_difference_um = 1\\nmin_aligned_percent = 99\\n' > runs.toml"
+  ARGS diff a.biip slow.biip --budget runs.toml STDOUT "max_height_difference_um .* held")
+clsurf_cli_test(NAME diff_budget_unknown_key SETUP "echo 'max_depth_um = 1' > runs.toml" ARGS diff ${run} ${run} --budget runs.toml
+  EXIT 3 STDERR "runs.toml:1" "unknown key 'max_depth_um'")
+clsurf_cli_test(NAME diff_names_the_run_that_drifted SETUP "${as_recorded}" ARGS diff a.biip slow.biip again.biip STDOUT "slow.biip drifted: speed")
+clsurf_cli_test(NAME diff_two_runs_name_none SETUP "${as_recorded}" ARGS diff a.biip slow.biip --json NO_STDOUT "drifted")
+clsurf_cli_test(NAME diff_map ARGS diff ${part} ${run} --machine @DATA@/machines/linuxcnc_logs.toml -o map.png --size 320x240 --color height
+  FILE map.png STDOUT "lag .µm.")
+clsurf_cli_test(NAME diff_of_another_part ARGS diff @LOGS@/dome_loops.biip ${run} -o map.png EXIT 3 STDERR "nowhere runs along the path of")
+clsurf_cli_test(NAME diff_map_of_a_lag_that_nobody_knows SETUP "${as_recorded}; $CLSURF export @DATA@/programs/mixed.ngc a.biip -o a.csv --columns cmd.x,cmd.y,cmd.z"
+  ARGS diff a.csv a.csv --period 0.001 -o map.png --color lag EXIT 2 STDERR "--color lag: the runs do not have measured positions")
+clsurf_cli_test(NAME diff_unknown_quantity ARGS diff ${run} ${run} --color hight EXIT 2 STDERR "hight.* is not" "did you mean 'height'")
+clsurf_cli_test(NAME diff_needs_two ARGS diff ${run} EXIT 2 STDERR "missing argument: B")
+clsurf_cli_test(NAME diff_missing_file ARGS diff ${run} nowhere.biip EXIT 3 STDERR "nowhere.biip: error: cannot open")
