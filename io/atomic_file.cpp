@@ -7,10 +7,13 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <random>
 #include <utility>
-#include <vector>
+
+#include <fmt/format.h>
 
 #include "core/error.h"
+#include "io/mapped_file.h"
 
 namespace clsurf::io {
 namespace {
@@ -42,10 +45,19 @@ AtomicFile::AtomicFile(std::string path) : path_(std::move(path)) {
         if (target != nullptr) path_ = target;
         std::free(target);
     }
+    descriptor_ = ::open(folder_of(path_).c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+    if (descriptor_ >= 0) {
+        temporary_ = fmt::format("/proc/self/fd/{}", descriptor_);
+        if (::access(temporary_.c_str(), F_OK) == 0) return;
+        ::close(descriptor_);  // without /proc it could never get its name
+    } else if (errno != EOPNOTSUPP && errno != EISDIR && errno != EINVAL && errno != ENOENT) {
+        fail(path_, "cannot write");
+    }
     std::string pattern = path_ + ".XXXXXX";
     descriptor_ = ::mkstemp(pattern.data());
     if (descriptor_ < 0) fail(path_, "cannot write");
     temporary_ = pattern;
+    named_ = true;
     // mkstemp makes it private; an output has the rights that any new file would have.
     const mode_t mask = ::umask(0);
     ::umask(mask);
@@ -54,7 +66,23 @@ AtomicFile::AtomicFile(std::string path) : path_(std::move(path)) {
 
 AtomicFile::~AtomicFile() {
     if (descriptor_ >= 0) ::close(descriptor_);
-    if (!committed_ && !temporary_.empty()) ::unlink(temporary_.c_str());
+    if (named_) ::unlink(temporary_.c_str());
+}
+
+/// Links cannot replace a file, so it gets a name beside its target first.
+void AtomicFile::give_a_name() {
+    if (named_) return;
+    std::random_device random;
+    for (int attempt = 0; attempt < 100; ++attempt) {
+        const std::string name = fmt::format("{}.{:06x}", path_, random() & 0xffffffU);
+        if (::linkat(AT_FDCWD, temporary_.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0) {
+            temporary_ = name;
+            named_ = true;
+            return;
+        }
+        if (errno != EEXIST) break;
+    }
+    fail(path_, "cannot write");
 }
 
 void AtomicFile::flush() {
@@ -87,10 +115,12 @@ void AtomicFile::write_at(std::size_t offset, std::span<const std::byte> bytes) 
 
 void AtomicFile::commit() {
     flush();
+    check_mapped_files();
     if (::fsync(descriptor_) != 0) fail(path_, "cannot write");
+    give_a_name();
     if (::close(std::exchange(descriptor_, -1)) != 0) fail(path_, "cannot write");
     if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail(path_, "cannot rename into place");
-    committed_ = true;
+    named_ = false;
     // The name itself must survive a power cut too; a folder that cannot be synchronised is no error.
     const int folder = ::open(folder_of(path_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (folder >= 0) {

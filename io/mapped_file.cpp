@@ -5,7 +5,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
+#include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <vector>
 
@@ -43,7 +46,85 @@ Source read_stream(const std::string& name, int descriptor) {
     return {name, std::span<const std::byte>(*bytes), bytes};
 }
 
+/// A file that is mapped, where a signal handler can find it.
+struct Mapping {
+    std::atomic<const std::byte*> begin{nullptr};
+    std::size_t size = 0;
+    int descriptor = -1;
+    std::array<char, 256> name{};  ///< as the user named it, its end where it is longer
+    std::atomic<bool> taken{false};
+};
+
+/// More files than any subcommand reads; those beyond are not guarded.
+std::array<Mapping, 64> mappings;
+
+Mapping* enter(const std::string& name, const void* address, std::size_t size, int descriptor) {
+    for (Mapping& mapping : mappings) {
+        if (mapping.taken.exchange(true)) continue;
+        const std::size_t cut = name.size() < mapping.name.size() ? 0 : name.size() - mapping.name.size() + 1;
+        std::strcpy(mapping.name.data(), name.c_str() + cut);
+        mapping.size = size;
+        mapping.descriptor = ::dup(descriptor);
+        mapping.begin = static_cast<const std::byte*>(address);
+        return &mapping;
+    }
+    return nullptr;
+}
+
+/// The first file that became shorter while it was mapped, and is no longer.
+std::array<char, 256> shortened{};
+
+bool is_shorter(const Mapping& mapping) {
+    struct stat status {};
+    return mapping.descriptor >= 0 && ::fstat(mapping.descriptor, &status) == 0 && static_cast<std::size_t>(status.st_size) < mapping.size;
+}
+
+void leave(Mapping* mapping) {
+    if (mapping == nullptr) return;
+    mapping->begin = nullptr;
+    if (is_shorter(*mapping)) shortened = mapping->name;
+    if (mapping->descriptor >= 0) ::close(mapping->descriptor);
+    mapping->taken = false;
+}
+
+constexpr const char* shorter = "became shorter while it was read";
+
+void print(const char* text) {
+    // Nothing can be done about a message that cannot be written.
+    if (::write(STDERR_FILENO, text, std::strlen(text)) < 0) return;
+}
+
+/// Only what may be called in a handler is.
+void on_bus_error(int number, siginfo_t* info, void*) {
+    const auto* address = static_cast<const std::byte*>(info->si_addr);
+    for (const Mapping& mapping : mappings) {
+        const std::byte* begin = mapping.begin;
+        if (begin == nullptr || address < begin || address >= begin + mapping.size) continue;
+        print(mapping.name.data());
+        print(": error: ");
+        print(shorter);
+        print("\n");
+        ::_exit(static_cast<int>(ExitCode::bad_input));
+    }
+    ::signal(number, SIG_DFL);  // none of ours: it comes again, and ends the program as it would have
+}
+
 }  // namespace
+
+void guard_mapped_files() {
+    struct sigaction action {};
+    action.sa_sigaction = on_bus_error;
+    action.sa_flags = SA_SIGINFO;
+    ::sigemptyset(&action.sa_mask);
+    ::sigaction(SIGBUS, &action, nullptr);
+}
+
+void check_mapped_files() {
+    for (const Mapping& mapping : mappings) {
+        if (mapping.begin != nullptr && is_shorter(mapping)) throw InputError(Place::of_file(mapping.name.data()), shorter);
+    }
+    if (shortened[0] != '\0') throw InputError(Place::of_file(shortened.data()), shorter);
+}
 
 Source map_file(const std::string& path) {
     if (path == "-") return read_stream("<stdin>", STDIN_FILENO);
@@ -61,8 +142,11 @@ Source map_file(const std::string& path) {
     if (size == 0) return {path, {}, nullptr};
     void* address = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.get(), 0);
     if (address == MAP_FAILED) return read_stream(path, file.get());
-    const std::shared_ptr<const void> keep_alive(
-        address, [size](const void* mapped) { ::munmap(const_cast<void*>(mapped), size); });
+    Mapping* entry = enter(path, address, size, file.get());
+    const std::shared_ptr<const void> keep_alive(address, [size, entry](const void* mapped) {
+        leave(entry);
+        ::munmap(const_cast<void*>(mapped), size);
+    });
     return {path, {static_cast<const std::byte*>(address), size}, keep_alive};
 }
 

@@ -24,4 +24,12 @@ struct Source {
 /// Maps a file. Throws InputError (missing, a directory, not readable).
 [[nodiscard]] Source map_file(const std::string& path);
 
+/// From now on a file that is cut short while it is mapped ends the program with a message and exit code
+/// 3, where reading behind its end would have killed it. For programs; called once.
+void guard_mapped_files();
+
+/// Throws InputError where a file became shorter while it was mapped: what was read of it may be zeros.
+/// O(mapped files).
+void check_mapped_files();
+
 }  // namespace clsurf::io

@@ -2,6 +2,7 @@
 // catch.
 
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <exception>
@@ -16,6 +17,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/version.h"
+#include "io/mapped_file.h"
 
 namespace clsurf::cli {
 
@@ -63,8 +65,11 @@ ExitCode report(const UsageError& error) {
 int main(int argc, char** argv) {
     using clsurf::ExitCode;
     ExitCode code = ExitCode::done;
+    clsurf::io::guard_mapped_files();
+    std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is a full disk: an error of write(), not an end
     try {
         code = clsurf::cli::run(std::vector<std::string>(argv + 1, argv + argc));
+        clsurf::io::check_mapped_files();
         if (std::fflush(stdout) != 0) {
             throw clsurf::SystemError(std::string("cannot write to standard output: ") +
                                       std::strerror(errno));
