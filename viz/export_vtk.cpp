@@ -4,6 +4,7 @@
 #include <vtkCellArray.h>
 #include <vtkCellType.h>
 #include <vtkDoubleArray.h>
+#include <vtkErrorCode.h>
 #include <vtkFloatArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -132,7 +133,12 @@ void write_vtp(const std::string& path, const ClSurface& surface, const std::vec
     writer->SetFileName(path.c_str());
     writer->SetDataModeToAppended();
     writer->EncodeAppendedDataOff();
-    if (writer->Write() == 0) throw SystemError(path + ": VTK cannot write");
+    // A full disk is told by the error code alone, with a page of text on standard error.
+    const int warnings = vtkObject::GetGlobalWarningDisplay();
+    vtkObject::GlobalWarningDisplayOff();
+    const bool written = writer->Write() != 0 && writer->GetErrorCode() == vtkErrorCode::NoError;
+    vtkObject::SetGlobalWarningDisplay(warnings);
+    if (!written) throw SystemError(path + ": cannot write: " + vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode()));
 }
 
 void write_vtkhdf(const std::string& path, const ClSurface& surface, const std::vector<PointData>& data) {
