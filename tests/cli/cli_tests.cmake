@@ -323,3 +323,10 @@ clsurf_cli_test(NAME diff_map_of_a_lag_that_nobody_knows SETUP "${as_recorded}; 
 clsurf_cli_test(NAME diff_unknown_quantity ARGS diff ${run} ${run} --color hight EXIT 2 STDERR "hight.* is not" "did you mean 'height'")
 clsurf_cli_test(NAME diff_needs_two ARGS diff ${run} EXIT 2 STDERR "missing argument: B")
 clsurf_cli_test(NAME diff_missing_file ARGS diff ${run} nowhere.biip EXIT 3 STDERR "nowhere.biip: error: cannot open")
+
+# ---- killed, on a full disk, with inputs that change ----
+foreach(mode kill full inputs)
+  add_test(NAME hostile.${mode} COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/cli/hostile_test
+    ${PROJECT_BINARY_DIR}/tests/hostile_${mode} $<TARGET_FILE:clsurf> ${PROJECT_SOURCE_DIR}/data ${PROJECT_BINARY_DIR}/samples ${mode})
+  set_tests_properties(hostile.${mode} PROPERTIES TIMEOUT 300)
+endforeach()
