@@ -13,11 +13,11 @@
 #include <cstring>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "core/block.h"
 #include "core/error.h"
 #include "io/crc32c.h"
+#include "io/json_value.h"
 
 namespace clsurf::io {
 namespace {
@@ -130,9 +130,9 @@ private:
 
 void read_metadata(Log& log, const Source& source) {
     if (log.metadata.empty()) return;
-    const nlohmann::json json = nlohmann::json::parse(log.metadata, nullptr, false);
+    const nlohmann::json json = parse_bounded<nlohmann::json>(log.metadata);
     if (!json.is_object()) {
-        log.diagnostics.add({Severity::warning, "log.metadata", Place::of_file(source.name), "the metadata is not a JSON object and is left out", {}});
+        log.diagnostics.add({Severity::warning, "log.metadata", Place::of_file(source.name), "the metadata is not a JSON object of at most 64 levels and is left out", {}});
         log.metadata.clear();
         return;
     }

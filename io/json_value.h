@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <string>
+#include <string_view>
 
 #include <nlohmann/json.hpp>
 
@@ -15,6 +16,22 @@ namespace clsurf::io {
 using Json = nlohmann::ordered_json;
 
 inline std::string dump(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+/// A text as JSON; is_discarded() where it is malformed or nested deeper than 64 levels: writing and
+/// destroying values goes down their levels on the stack.
+template <typename Value>
+[[nodiscard]] Value parse_bounded(std::string_view text) {
+    constexpr int most_levels = 64;
+    bool deeper = false;
+    Value value = Value::parse(
+        text,
+        [&](int level, auto, auto&) {
+            deeper = deeper || level > most_levels;
+            return level <= most_levels;
+        },
+        false);
+    return deeper ? Value(Value::value_t::discarded) : value;
+}
 
 /// JSON has no NaN and no infinity.
 inline Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }

@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
+#include "io/json_value.h"
 #include "io/sha256.h"
 
 namespace clsurf::io {
@@ -33,7 +33,7 @@ ProgramReference identify(const Source& program) {
 }
 
 std::string with_programs(const std::string& metadata, std::span<const ProgramReference> programs) {
-    nlohmann::ordered_json json = nlohmann::ordered_json::parse(metadata, nullptr, false);
+    auto json = parse_bounded<nlohmann::ordered_json>(metadata);
     if (!json.is_object()) json = nlohmann::ordered_json::object();
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const ProgramReference& program : programs) {

@@ -67,5 +67,14 @@ TEST(ProgramIdentity, KeepsTheRestOfTheMetadata) {
     EXPECT_EQ(with_programs("", {}), R"({"programs":[]})");
 }
 
+TEST(ProgramIdentity, LeavesOutMetadataThatIsNestedTooDeep) {
+    const ProgramReference program{"part.nc", "", {}};
+    const auto nested = [](std::size_t levels) { return "{\"a\":" + std::string(levels, '[') + std::string(levels, ']') + "}"; };
+    EXPECT_NE(with_programs(nested(60), std::span(&program, 1)).find("[[["), std::string::npos);
+    const std::string without = with_programs(nested(100'000), std::span(&program, 1));
+    EXPECT_EQ(without.find("[[["), std::string::npos);
+    EXPECT_NE(without.find("part.nc"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace clsurf::io
