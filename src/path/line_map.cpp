@@ -73,12 +73,35 @@ void LineMap::index_lines(const Program& program) {
         kind_of_line_[line] = std::max(kind_of_line_[line], kind_of_motion_[i]);
         ++first_of_line_[line + 1];
     }
+    mark_calls(motions);
     // Counting sort; a line that runs again (a loop, a subprogram) has several motions.
     for (std::size_t line = 0; line < lines; ++line) first_of_line_[line + 1] += first_of_line_[line];
     by_line_.resize(first_of_line_[lines]);
     Column<std::uint32_t> next = first_of_line_;
     for (std::size_t i = 0; i < motions.kind.size(); ++i) {
         if (in_main(i)) by_line_[next[motions.line[i]]++] = static_cast<std::uint32_t>(i);
+    }
+}
+
+/// A line that calls a subprogram does what the subprogram does: logs of several programs report it for
+/// the time of the call. It stands between the motions of the main file round those of the subprogram.
+void LineMap::mark_calls(const Motions& motions) {
+    constexpr LineNumber nearest_lines = 100;
+    const std::size_t count = motions.file.empty() ? 0 : motions.kind.size();
+    for (std::size_t i = 0; i < count;) {
+        if (motions.file[i] == 0) {
+            ++i;
+            continue;
+        }
+        const LineNumber before = i > 0 ? motions.line[i - 1] : 0;
+        PointKind kind = PointKind::idle;
+        for (; i < count && motions.file[i] != 0; ++i) kind = std::max(kind, point_kind(motions.kind[i]));
+        const LineNumber after = i < count ? motions.line[i] : before + nearest_lines;
+        // A jump back or far ahead: the call stands near to where it was made.
+        const LineNumber end = after > before ? std::min(after, before + nearest_lines) : before + nearest_lines;
+        for (LineNumber line = before + 1; line < end && line < kind_of_line_.size(); ++line) {
+            if (first_of_line_[line + 1] == 0) kind_of_line_[line] = std::max(kind_of_line_[line], kind);
+        }
     }
 }
 

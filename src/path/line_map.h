@@ -47,7 +47,7 @@ public:
     [[nodiscard]] LineNumber line_at(PointIndex point) const;
     /// Motions of a line in the main file, in the order in which they run.
     [[nodiscard]] std::span<const std::uint32_t> motions_of(LineNumber line) const;
-    /// What a line does: what cuts most among its motions.
+    /// What a line does: what cuts most among its motions, or among those of the subprogram that it calls.
     [[nodiscard]] PointKind kind_of(LineNumber line) const {
         return line < kind_of_line_.size() ? kind_of_line_[line] : PointKind::idle;
     }
@@ -60,6 +60,7 @@ public:
 
 private:
     void index_lines(const Program& program);
+    void mark_calls(const Motions& motions);
 
     PointIndex count_ = 0;
     ChannelView channel_;

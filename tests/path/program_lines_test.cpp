@@ -43,6 +43,20 @@ TEST(ProgramLines, ALineOfASubprogramIsTheLineThatCalledIt) {
     EXPECT_TRUE(diagnostics.empty());
 }
 
+TEST(ProgramLines, ALineThatCallsCutsWhileItsSubprogramDoes) {
+    InterpreterOptions options;
+    options.load = [](const std::string&) { return std::optional(SourceText("sub.spf", "G1 X2\nG1 X3\nRET\n", nullptr)); };
+    options.dialect = find_dialect("siemens");
+    const Program program = parse_program(SourceText("part.mpf", "G1 X1 F100\nM8\nSUB\nG1 X4\nM9\n", nullptr), options);
+    ASSERT_EQ(program.motions.size(), 4);
+    const Recorded r{{0.5, 1, 1.5, 2.5, 3.5, 4}, {0, 0, 0, 0, 0, 0}, {0, 0, 0, 0, 0, 0}, {1, 1, 1, 2, 4, 5}, {0, 0, 1, 1, 0, 0}};
+    const Log log = log_of(r, {"/_N_PART_MPF", "/_N_SUB_SPF"});
+    Diagnostics diagnostics;
+    const LineMap map = map_lines(reconstruct(log, Role::commanded, Vec3::Zero()), log, program, true, diagnostics);
+    EXPECT_EQ(map.kind_of(3), PointKind::cut);   // the call
+    EXPECT_EQ(map.kind_of(5), PointKind::idle);  // after the last motion
+}
+
 TEST(ProgramLines, SaysWhichProgramsRanWhereNoneIsThisOne) {
     const Recorded r{{0, 0}, {0, 0}, {0, 0}, {9, 2}, {0, 1}};
     Diagnostics diagnostics;
