@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/statistics.h"
 #include "path/way.h"
 
 namespace clsurf {
@@ -16,10 +17,9 @@ constexpr double clear_lead = 2.0;  ///< of the run that drifted over the next o
 float middle_of(std::vector<float>& values) {
     std::erase_if(values, [](float v) { return !(v == v); });
     if (values.size() < 3) return std::numeric_limits<float>::quiet_NaN();
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    if (values.size() % 2 == 1) return *middle;
-    return 0.5F * (*middle + *std::max_element(values.begin(), middle));
+    const float upper = median(values);
+    if (values.size() % 2 == 1) return upper;
+    return 0.5F * (upper + kth_smallest(values, values.size() / 2 - 1));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/block.h"
+#include "core/statistics.h"
 #include "field/field_set.h"
 #include "log/quantum.h"
 
@@ -143,10 +144,7 @@ float percentile_where_cut(const Column<float>& values, const Passes& passes, do
             if (std::isfinite(value)) sampled.push_back(value);
         }
     }
-    if (sampled.empty()) return 0;
-    float* at = sampled.begin() + static_cast<std::ptrdiff_t>(p * static_cast<double>(sampled.size() - 1));
-    std::nth_element(sampled.begin(), at, sampled.end());
-    return *at;
+    return sampled.empty() ? 0.0F : quantile_below(sampled, p);
 }
 
 /// The step of the positions, that of the finest axis: one that hardly moves would seem to have a coarse one.

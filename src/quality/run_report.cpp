@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/statistics.h"
+
 namespace clsurf {
 namespace {
 
@@ -13,12 +15,8 @@ constexpr double samples = 200'000;      ///< by way, of percentiles
 constexpr std::size_t most_kept = 1000;  ///< stretches of a quantity
 constexpr double end_share = 0.1;        ///< of the way, that a drift is told from
 
-double quantile(std::vector<float> values, double p) {
-    if (values.empty()) return 0;
-    const auto at = values.begin() + static_cast<std::ptrdiff_t>(std::lround(p * static_cast<double>(values.size() - 1)));
-    std::nth_element(values.begin(), at, values.end());
-    return *at;
-}
+/// The middle value of some.
+double middle(std::vector<float> values) { return median(values); }
 
 bool worse(const RunDifferenceStretch& x, const RunDifferenceStretch& y) { return x.score > y.score; }
 
@@ -67,11 +65,12 @@ public:
         summary.over /= summary.way;
         const auto tenth = static_cast<std::ptrdiff_t>(end_share * static_cast<double>(sampled.size())) + 1;
         if (tenth <= static_cast<std::ptrdiff_t>(sampled.size())) {
-            summary.begin = quantile({sampled.begin(), sampled.begin() + tenth}, 0.5);
-            summary.end = quantile({sampled.end() - tenth, sampled.end()}, 0.5);
+            summary.begin = middle({sampled.begin(), sampled.begin() + tenth});
+            summary.end = middle({sampled.end() - tenth, sampled.end()});
         }
+        if (sampled.empty()) return summary;
         for (float& value : sampled) value = std::abs(value);
-        summary.p95 = quantile(std::move(sampled), 0.95);
+        summary.p95 = nearest_quantile(sampled, 0.95);
         return summary;
     }
 
