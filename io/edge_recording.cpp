@@ -62,6 +62,7 @@ public:
     bool start_object(std::size_t) override {
         if (below("SignalListHFData")) {
             in_signal_ = true;
+            if (!recording.columns.empty()) throw InputError(Place::of_file(source_.name), "SignalListHFData goes on behind the first row of HFData");
             recording.signals.emplace_back();
         } else if (below("HFBlockEvent") || below("HFCallEvent")) {
             event_depth_ = keys_.size() + 1;

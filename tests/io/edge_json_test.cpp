@@ -89,6 +89,8 @@ TEST(Edge, RefusesWhatIsNoRecording) {
     EXPECT_THROW((void)open("{\"SignalListHFData\":[]}"), InputError);
     EXPECT_THROW((void)open("{\"Payload\":[{\"HFData\":[[1,2]]}]}"), InputError);
     EXPECT_THROW((void)open("{\"HFData\":" + std::string(100, '[')), InputError);
+    // A signal behind the first rows would have fewer values than the others.
+    EXPECT_THROW((void)open(header + "\"Payload\":[{\"HFData\":[[1,2,3,4]]}],\"SignalListHFData\":[{\"Name\":\"CYCLE\"}]}"), InputError);
     EXPECT_THROW((void)open("{\"Header\":{\"SignalListHFData\":[{\"Name\":\"a\"}]},\"Payload\":[{\"HFData\":[[1]]}]}"), InputError);
 }
 
