@@ -66,7 +66,7 @@ DerivativeFilter derivative_filter(int derivative, double period, double coarses
     DerivativeFilter filter = derivative_filter(derivative, period);
     const DerivativeFilter other = derivative_filter(derivative, std::max(period, coarsest));
     const double seconds = (other.points - 1) * other.period;
-    filter.points = std::max(filter.points, static_cast<int>(std::lround(std::min(seconds / period, 20000.0))) | 1);
+    filter.points = std::max(filter.points, static_cast<int>(std::lround(std::min(seconds / period, 2000.0))) | 1);
     return filter;
 }
 
