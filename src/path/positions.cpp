@@ -1,11 +1,17 @@
 #include "path/positions.h"
 
 #include <array>
+#include <cmath>
+#include <limits>
 
 #include "core/block.h"
 
 namespace clsurf {
 namespace {
+
+/// [mm] A kilometre from the first point no tool ever is; grids over such places would put all that is
+/// near each other into one cell.
+constexpr double farthest = 1e6;
 
 Vec3 first_finite(const Trajectory& trajectory) {
     std::array<double, 256> x, y, z;
@@ -40,7 +46,8 @@ Positions gather(const Trajectory& trajectory) {
                 float* out = columns[axis]->data() + begin;
                 const double origin = positions.origin[static_cast<Eigen::Index>(axis)];
                 for (std::size_t i = 0; i < n; ++i) {
-                    out[i] = static_cast<float>(scratch[axis][i] - origin);
+                    const double d = scratch[axis][i] - origin;
+                    out[i] = std::abs(d) <= farthest ? static_cast<float>(d) : std::numeric_limits<float>::quiet_NaN();
                 }
             }
         }
