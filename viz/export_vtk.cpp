@@ -153,7 +153,13 @@ void write_vtkhdf(const std::string& path, const ClSurface& surface, const std::
         offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
         types.push_back(VTK_TRIANGLE);
     }
-    const H5 file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose, path.c_str());
+    // What fails is said once, by us; and the default driver asks for the real path of links, which the
+    // nameless file of an io::AtomicFile does not have.
+    H5dont_atexit();  // what could not be closed on a full disk would be closed once more, and crash
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    const H5 access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "access");
+    H5Pset_fapl_stdio(access.id());
+    const H5 file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose, path.c_str());
     const H5 root(H5Gcreate2(file.id(), "VTKHDF", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, "VTKHDF");
     put_header(root.id());
     const auto count = [](std::size_t n) { return static_cast<std::int64_t>(n); };
@@ -171,6 +177,8 @@ void write_vtkhdf(const std::string& path, const ClSurface& surface, const std::
     for (const PointData& column : data) {
         put(point_data.id(), column.name.c_str(), H5T_NATIVE_FLOAT, {column.values->size()}, column.values->data());
     }
+    // Closing writes too, and nobody hears of what it could not.
+    if (H5Fflush(file.id(), H5F_SCOPE_LOCAL) < 0) throw SystemError("HDF5 cannot write: the disk is full?");
 }
 
 }  // namespace clsurf::viz
