@@ -45,6 +45,11 @@ enum class Ruling : std::uint8_t {
 /// "feed", "axis speed", …
 [[nodiscard]] std::string_view name_of(Ruling ruling);
 
+/// Derivatives of a position by the way: none, 1/mm, 1/mm².
+struct PathDerivatives {
+    Vec3 first, second, third;
+};
+
 /// Where the position on a span comes from, and how fast it may be passed.
 struct Span {
     PathElement base;
@@ -57,6 +62,9 @@ struct Span {
     // Greatest values on the span: of the first to third derivative of the position by the way, an axis each.
     Vec3 slope = Vec3::Zero(), bend = Vec3::Zero(), twist = Vec3::Zero();
     double greatest_slope = 0, greatest_bend = 0;  ///< of the vectors
+    // Speed allowed by what does not depend on bends: feed, speed of path and axes; and why.
+    double free_cap = 0;
+    Ruling free_ruling = Ruling::none;
     // Speed allowed with no tangential acceleration, and why.
     double cap = 0;
     Ruling ruling = Ruling::none;
@@ -72,6 +80,8 @@ struct Span {
     /// Position τ after the span's begin; `deviation`: how far the rounding moves it [mm]; `pace`: the
     /// length of its first derivative, path speed over speed along the programmed way.
     [[nodiscard]] Vec3 at(double tau, double& deviation, double& pace) const;
+    [[nodiscard]] PathDerivatives derivatives(double tau) const;
+    [[nodiscard]] bool straight() const { return !rounded && !base.arc; }
 };
 
 class PathStream {

@@ -4,158 +4,21 @@
 #include <cmath>
 #include <vector>
 
-#include <fmt/format.h>
-
-#include "core/block.h"
+#include "motion/interpolator.h"
 #include "motion/lookahead.h"
-#include "motion/servo.h"
+#include "motion/recorder.h"
+#include "motion/refiner.h"
 
 namespace clsurf {
 namespace {
 
-constexpr double limit_play = 1.001;   ///< what counts as held, differentiated
-constexpr double same_instant = 1e-6;  ///< of a period: a stop this near after a sample falls on it
-
-/// Counts what has been emitted and measures it.
-class Recorder {
-public:
-    Recorder(const Program& program, const Machine& machine, const Vec3& start, const PointSink& sink)
-        : program_(&program), machine_(&machine), sink_(&sink), period_(machine.controller.period) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            servos_.emplace_back(machine.axes[i].servo, period_, start[static_cast<int>(i)], i + 1);
-            last_.fill(start);
-        }
-        block_.reserve(static_cast<std::size_t>(block_points));
-    }
-
-    void add(const Vec3& position, double speed, LineNumber line, Ruling ruling, double deviation) {
-        SimulatedPoint point{position, {}, speed, line, ruling};
-        for (int i = 0; i < 3; ++i) point.feedback[i] = servos_[static_cast<std::size_t>(i)].follow(position[i]);
-        block_.push_back(point);
-        measure(position, line);
-        summary_.path_deviation = std::max(summary_.path_deviation, deviation);
-        ++summary_.ruled[static_cast<std::size_t>(ruling)];
-        ++summary_.points;
-        if (static_cast<PointIndex>(block_.size()) == block_points) flush();
-    }
-
-    SimulationSummary finish() {
-        flush();
-        summary_.duration = static_cast<double>(std::max<PointIndex>(0, summary_.points - 1)) * period_;
-        const Machine& m = *machine_;
-        bool ok = summary_.max_speed <= m.path.max_speed * limit_play;
-        for (int i = 0; i < 3; ++i) {
-            const MachineAxis& axis = m.axes[static_cast<std::size_t>(i)];
-            ok = ok && summary_.max_axis_speed[i] <= axis.max_speed * limit_play;
-            ok = ok && summary_.max_acceleration[i] <= axis.max_acceleration * limit_play;
-            ok = ok && (axis.max_jerk <= 0 || summary_.max_jerk[i] <= axis.max_jerk * limit_play);
-        }
-        summary_.limits_ok = ok;
-        return std::move(summary_);
-    }
-
-    [[nodiscard]] PointIndex points() const { return summary_.points; }
-    SimulationSummary& summary() { return summary_; }
-
-private:
-    void flush() {
-        (*sink_)(block_);
-        block_.clear();
-    }
-
-    void measure(const Vec3& position, LineNumber line) {
-        // Before the first point the axes stand at the start.
-        const Vec3 speed = (position - last_[0]) / period_;
-        const Vec3 acceleration = (position - 2 * last_[0] + last_[1]) / (period_ * period_);
-        const Vec3 jerk = (position - 3 * last_[0] + 3 * last_[1] - last_[2]) / (period_ * period_ * period_);
-        summary_.max_speed = std::max(summary_.max_speed, speed.norm());
-        summary_.max_axis_speed = summary_.max_axis_speed.cwiseMax(speed.cwiseAbs());
-        summary_.max_acceleration = summary_.max_acceleration.cwiseMax(acceleration.cwiseAbs());
-        summary_.max_jerk = summary_.max_jerk.cwiseMax(jerk.cwiseAbs());
-        last_ = {position, last_[0], last_[1]};
-        for (int i = 0; i < 3; ++i) {
-            const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(i)];
-            const bool outside = position[i] < axis.travel_low || position[i] > axis.travel_high;
-            if (outside && !outside_[static_cast<std::size_t>(i)]) {
-                summary_.diagnostics.add({Severity::warning, "motion.travel", Place::of_line(program_->main().name(), line),
-                                          fmt::format("{} leaves its travel of {} … {} mm", axis_names[static_cast<std::size_t>(i)], axis.travel_low, axis.travel_high),
-                                          "positions are those of the program: is the work offset not zero?"});
-            }
-            outside_[static_cast<std::size_t>(i)] = outside;
-        }
-    }
-
-    const Program* program_;
-    const Machine* machine_;
-    const PointSink* sink_;
-    double period_;
-    std::vector<ServoLoop> servos_;
-    std::vector<SimulatedPoint> block_;
-    std::array<Vec3, 3> last_;
-    std::array<bool, 3> outside_{};
-    SimulationSummary summary_;
-};
-
-/// Runs the planned profiles against the clock of the interpolator.
-class Interpolator {
-public:
-    Interpolator(double period, Recorder& recorder) : recorder_(&recorder), period_(period) {}
-
-    [[nodiscard]] double next_sample() const { return static_cast<double>(recorder_->points()) * period_; }
-
-    /// All samples that fall into a run, from its start on, its end not included.
-    void run(const Run& run, std::span<const Span> spans) {
-        const SCurve& profile = run.profile;
-        const double end = time_ + profile.duration();
-        const bool to_rest = run.end_speed == 0;
-        std::size_t at = run.first;
-        double before = 0;
-        int phase = 0;
-        for (double t = next_sample() - time_; time_ + t < end; t = next_sample() - time_) {
-            while (phase < 6 && t >= profile.end_of(phase)) ++phase;
-            const MotionState state = profile.in_phase(phase, t);
-            while (at + 1 < run.last && state.way - before > spans[at].length) before += spans[at++].length;
-            const Span& span = spans[at];
-            const double tau = std::clamp(state.way - before, 0.0, span.length);
-            double deviation = 0;
-            double slope = 1;
-            const Vec3 position = span.at(tau, deviation, slope);
-            recorder_->add(position, state.speed * slope, span.base.line, ruling(run, span, phase, to_rest), deviation);
-        }
-        time_ = end;
-        line_ = spans[run.last - 1].base.line;
-    }
-
-    /// At rest until `wait` seconds after the next sample.
-    void rest(const Vec3& position, double wait, LineNumber line) {
-        const auto stop = static_cast<PointIndex>(std::ceil(time_ / period_ - same_instant));
-        const auto waiting = static_cast<PointIndex>(std::ceil(wait / period_ - same_instant));
-        for (PointIndex last = stop + std::max<PointIndex>(0, waiting); recorder_->points() < last;) {
-            recorder_->add(position, 0, line > 0 ? line : line_, Ruling::none, 0);
-        }
-        time_ = static_cast<double>(stop + std::max<PointIndex>(0, waiting)) * period_;
-    }
-    [[nodiscard]] LineNumber line() const { return line_; }
-
-private:
-    [[nodiscard]] Ruling ruling(const Run& run, const Span& span, int phase, bool to_rest) const {
-        if (phase == 3) return span.ruling;
-        if (to_rest && phase > 3) return Ruling::lookahead_end;
-        // An eased run keeps its acceleration low for the jerk that it costs in bends.
-        return (phase == 1 || phase == 5) && !run.eased ? Ruling::axis_acceleration : Ruling::jerk;
-    }
-
-    Recorder* recorder_;
-    double period_;
-    double time_ = 0;
-    LineNumber line_ = 0;
-};
-
 /// The window of spans that is planned, and how much of the plan is run before it is planned again.
 class Controller {
 public:
+    // The blocks that are known ahead are shared between the plan and its refinement.
     Controller(const Machine& machine, PathStream& stream, Interpolator& interpolator)
-        : blocks_(machine.controller.lookahead_blocks), stream_(&stream), interpolator_(&interpolator), planner_(machine) {}
+        : blocks_((machine.controller.lookahead_blocks + 1) / 2), stream_(&stream), planner_(machine),
+          refiner_(machine, interpolator, machine.controller.lookahead_blocks / 2) {}
 
     /// Runs a section, from rest to rest.
     template <typename Report>
@@ -196,7 +59,8 @@ public:
 
 private:
     void run_first(double& speed, std::size_t& done) {
-        interpolator_->run(pending_.front(), window_);
+        const Run& run = pending_.front();
+        refiner_.push(run, std::span(window_).subspan(run.first, run.last - run.first));
         speed = pending_.front().end_speed;
         done = pending_.front().last;
         pending_.erase(pending_.begin());
@@ -204,8 +68,8 @@ private:
 
     int blocks_;
     PathStream* stream_;
-    Interpolator* interpolator_;
     WindowPlanner planner_;
+    Refiner refiner_;
     std::vector<Span> window_;
     std::vector<Run> pending_;
 };

@@ -32,21 +32,17 @@ void add_product(std::array<Vec3, 5>& sum, const Vec3& factor, double a, double 
     }
 }
 
-struct Derivatives {
-    Vec3 first, second, third;
-};
+}  // namespace
 
-Derivatives derivatives(const Span& span, double tau) {
-    const std::array<Vec3, 5>& c = span.rounding;
-    Derivatives d{span.base.tangent(span.from + tau), span.base.second_derivative(span.from + tau), span.base.third_derivative(span.from + tau)};
-    if (!span.rounded) return d;
+PathDerivatives Span::derivatives(double tau) const {
+    const std::array<Vec3, 5>& c = rounding;
+    PathDerivatives d{base.tangent(from + tau), base.second_derivative(from + tau), base.third_derivative(from + tau)};
+    if (!rounded) return d;
     d.first += c[1] + tau * (2 * c[2] + tau * (3 * c[3] + tau * 4 * c[4]));
     d.second += 2 * c[2] + tau * (6 * c[3] + tau * 12 * c[4]);
     d.third += 6 * c[3] + tau * 24 * c[4];
     return d;
 }
-
-}  // namespace
 
 void PathStream::make_spans(std::int64_t element) {
     const PathElement& base = elements_[static_cast<std::size_t>(element - first_element_)];
@@ -113,7 +109,7 @@ void PathStream::add_roundings(Span& span, double begin, std::int64_t element) c
     const double step = span.length / (checked_points - 1);
     const bool plain = !span.rounded && !span.base.arc;
     for (int k = 0; k < (plain ? 1 : checked_points); ++k) {
-        const Derivatives d = derivatives(span, k * step);
+        const PathDerivatives d = span.derivatives(k * step);
         span.slope = span.slope.cwiseMax(d.first.cwiseAbs());
         span.bend = span.bend.cwiseMax(d.second.cwiseAbs());
         span.twist = span.twist.cwiseMax(d.third.cwiseAbs());
@@ -147,6 +143,11 @@ void PathStream::set_limits(Span& span) const {
         if (speed < span.cap) span.cap = speed, span.ruling = why;
     };
     if (!rapid) limit(span.base.feed * override_factor, override_factor == 1 ? Ruling::feed : Ruling::feed_override);
+    for (int i = 0; i < 3; ++i) {
+        if (span.slope[i] > 0) limit(machine_->axes[static_cast<std::size_t>(i)].max_speed / span.slope[i], Ruling::axis_speed);
+    }
+    span.free_cap = span.cap;
+    span.free_ruling = span.ruling;
     span.acceleration = path.max_acceleration;
     span.jerk = path.max_jerk;
     const bool corner = span.rounded && !span.base.arc;
@@ -154,7 +155,6 @@ void PathStream::set_limits(Span& span) const {
         const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(i)];
         const double jerk = axis.max_jerk > 0 ? axis.max_jerk : std::numeric_limits<double>::infinity();
         if (span.slope[i] > 0) {
-            limit(axis.max_speed / span.slope[i], Ruling::axis_speed);
             span.acceleration = std::min(span.acceleration, axis.max_acceleration / span.slope[i]);
             span.jerk = std::min(span.jerk, jerk / span.slope[i]);
         }

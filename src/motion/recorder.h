@@ -1,0 +1,42 @@
+#pragma once
+// Recorder: takes the commanded positions, a period each, lets the servo loops follow them, measures
+// both and hands them on in blocks.
+
+#include <array>
+#include <vector>
+
+#include "motion/servo.h"
+#include "motion/simulator.h"
+
+namespace clsurf {
+
+class Recorder {
+public:
+    /// All must outlive it.
+    Recorder(const Program& program, const Machine& machine, const Vec3& start, const PointSink& sink);
+
+    /// The position at the end of the next period [mm], its path speed [mm/s], how far rounding took it from the path [mm].
+    void add(const Vec3& position, double speed, LineNumber line, Ruling ruling, double deviation);
+    [[nodiscard]] PointIndex points() const { return summary_.points; }
+    /// What is left goes to the sink; the summary of all.
+    SimulationSummary finish();
+
+private:
+    void flush();
+    void measure(const Vec3& position, LineNumber line);
+    void watch_travel(const Vec3& position, LineNumber line);
+
+    const Program* program_;
+    const Machine* machine_;
+    const PointSink* sink_;
+    double rate_;  ///< periods a second
+    std::vector<ServoLoop> servos_;
+    std::vector<SimulatedPoint> block_;
+    Vec3 last_, last_step_ = Vec3::Zero(), last_bend_ = Vec3::Zero();  ///< position and its differences
+    double greatest_step_ = 0;  ///< squared [mm²]
+    Vec3 step_ = Vec3::Zero(), bend_ = Vec3::Zero(), twist_ = Vec3::Zero();  ///< greatest differences [mm]
+    std::array<bool, 3> outside_{};
+    SimulationSummary summary_;
+};
+
+}  // namespace clsurf

@@ -1,0 +1,82 @@
+#pragma once
+// Refiner: takes the runs of the look-ahead, whose acceleration is zero at every node, and makes nearly
+// time-optimal speeds of them, which carry acceleration through the nodes.
+//
+// A window of runs is divided into cells; SpeedProblem finds the fastest speeds between the states at its
+// ends. Most of a window is then run, the rest begins the next one. The runs are what it falls back on:
+// they hold every limit, and each window ends in their state. What cannot be made faster is
+// passed on as it is: a run on straight spans between rests, a long cruise at the speed allowed.
+
+#include <deque>
+#include <vector>
+
+#include "motion/interpolator.h"
+#include "motion/lookahead.h"
+#include "motion/speed_problem.h"
+
+namespace clsurf {
+
+class Refiner {
+public:
+    /// `blocks`: most that a window may span. Both must outlive it.
+    Refiner(const Machine& machine, Interpolator& interpolator, std::int64_t blocks);
+
+    /// The next run, whose profile begins where that of the last one ended; `spans` are the run's own.
+    /// A run that ends at rest ends its window.
+    void push(const Run& run, std::span<const Span> spans);
+
+private:
+    struct KeptRun {
+        SCurve profile;
+        std::vector<Span> spans;
+        bool eased = false, plain = true;
+        bool from_rest = false, to_rest = false;
+    };
+    /// A part of a run, by time on its profile [s].
+    struct Stretch {
+        std::int64_t run = 0;
+        double from = 0, to = 0;
+    };
+    struct Cell {
+        double length = 0;
+        std::size_t parts = 0;  ///< how many
+        std::int64_t run = 0;   ///< that it begins on
+        std::int64_t block = 0;
+        Ruling at_cap = Ruling::feed;
+    };
+
+    [[nodiscard]] const KeptRun& kept(std::int64_t run) const { return runs_[static_cast<std::size_t>(run - first_run_)]; }
+    [[nodiscard]] bool cruises_at_the_cap(const KeptRun& run) const;
+    void run_as_planned(const Stretch& stretch);
+    void add(const Stretch& stretch);
+    void divide(Stretch& stretch);
+    void add_cells(const Stretch& stretch);
+    void close_cell();
+    void add_stations(const CellPart& part, double begin);
+    void solve(bool to_the_end);
+    void run_cells(std::size_t count, bool to_rest);
+    void close();
+    void forget_runs();
+
+    const Machine* machine_;
+    Interpolator* interpolator_;
+    std::int64_t blocks_;
+    double knot_time_;  ///< longest cell [s]
+
+    std::deque<KeptRun> runs_;
+    std::int64_t first_run_ = 0;
+    std::vector<Stretch> waiting_;  ///< since the window was last solved
+    bool divided_ = false;          ///< the waiting stretches are in cells
+    bool ends_at_rest_ = false;
+    Stretch tail_;                  ///< the last way to rest
+
+    std::vector<Cell> cells_;
+    std::vector<CellPart> parts_;   ///< of the cells in turn, then of the one being made
+    std::size_t solved_ = 0;        ///< first cells, whose values hold the limits
+    SpeedProblem problem_;
+    KnotState start_, end_;         ///< of the cells
+    Cell open_;                     ///< the cell being made
+    KnotState open_end_;
+};
+
+}  // namespace clsurf
