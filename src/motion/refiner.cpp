@@ -14,8 +14,10 @@ constexpr double run_share = 0.65;       ///< of a window, before it is planned 
 constexpr double rest_share = 0.25;      ///< of the jerk phase next to a rest: run as planned, as v² is no quadratic there
 constexpr double growth = 0.15;          ///< of the time from or to a rest: longest cell
 constexpr double cells_a_ramp = 5;       ///< over the time in which the jerk reaches the greatest acceleration
+constexpr double most_change = 0.05;     ///< of the speed in a cell, by the jerk
 constexpr double least_cell = 0.4;       ///< periods: shorter spans share a cell
-constexpr double long_cruise = 20;       ///< cells
+constexpr double brief_cell = 2.5;       ///< periods
+constexpr double long_cruise = 20, cruise_left = 4;  ///< cells
 
 Ruling ruling_of(Row row, Ruling at_cap) {
     switch (row) {
@@ -61,10 +63,13 @@ void Refiner::push(const Run& run, std::span<const Span> spans) {
     const std::int64_t number = first_run_ + static_cast<std::int64_t>(runs_.size()) - 1;
     const SCurve& profile = kept_run.profile;
     if (cruises_at_the_cap(kept_run)) {
-        add({number, 0, profile.end_of(2)});
+        // Next to the ramps some of it is left, so that other ramps than the planned ones fit.
+        const double begins = profile.end_of(2) + cruise_left * knot_time_;
+        const double ends = profile.end_of(3) - cruise_left * knot_time_;
+        add({number, 0, begins});
         close();
-        run_as_planned({number, profile.end_of(2), profile.end_of(3)});
-        add({number, profile.end_of(3), profile.end_of(6)});
+        run_as_planned({number, begins, ends});
+        add({number, ends, profile.end_of(6)});
     } else {
         add({number, 0, profile.end_of(6)});
     }
@@ -125,7 +130,8 @@ void Refiner::add_cells(const Stretch& stretch) {
         const double last = std::min(end, way_to);
         const double last_time = last == way_to ? stretch.to : profile.time_at(last);
         while (way < last) {
-            double step = knot_time_;
+            const double speed = std::max(profile.at(time).speed, 0.0);
+            double step = std::clamp(std::sqrt(2 * most_change * speed / machine_->path.max_jerk), machine_->controller.period, knot_time_);
             if (run.from_rest) step = std::min(step, growth * time);
             if (run.to_rest) step = std::min(step, growth * (profile.duration() - time));
             const bool ends = last_time - time < 1.5 * step;
@@ -187,7 +193,10 @@ void Refiner::add_stations(const CellPart& part, double begin) {
     station.bent = true;
     station.acceleration = machine_->path.max_acceleration;
     station.jerk = machine_->path.max_jerk;
+    // What lasts a few periods only has no time to leave its limits between three places.
+    const bool brief = part.length < brief_cell * machine_->controller.period * std::max(end_.speed, open_end_.speed);
     for (const int quarter : {0, 1, 2, 3, 4}) {
+        if (brief && quarter % 2 == 1) continue;
         const double share = 0.25 * quarter;
         station.at = begin + share * part.length;
         station.between = quarter % 2 == 1;

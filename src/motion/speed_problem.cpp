@@ -7,14 +7,16 @@ namespace clsurf {
 namespace {
 
 constexpr int most_steps = 45;
-constexpr double end_gap = 2e-3;         ///< of the time: how far from the optimum it stops
+constexpr double end_gap = 4e-3;         ///< of the time: how far from the optimum it stops
 constexpr double boundary_share = 0.97;  ///< of the way to a limit in one step
 // A start far from every limit, as its slacks say, converges best.
 constexpr double first_slack = 1.0;      ///< of a bound, at least
+// Where a limit is broken, standing still mends it too, as J/√b grows: b may not fall to that.
+constexpr double least_share = 0.2;      ///< of a coefficient, of what it began with
 constexpr double first_gap = 1.0;        ///< of the time
-constexpr double mended = 1e-5;          ///< of a bound
+constexpr double mended = 1e-4;          ///< of a bound
 // The spline holds the limits at stations; a little is left for what lies between them.
-constexpr double acceleration_share = 0.9995, jerk_share = 0.998;
+constexpr double acceleration_share = 0.9995, jerk_share = 0.997;
 constexpr double held = 1 + 3e-4;
 
 }  // namespace
@@ -108,7 +110,7 @@ void SpeedProblem::make_rows() {
             }
             place.jerks = static_cast<std::uint32_t>(limits_.size());
             if (!station.between) add(Row::tangential_jerk, 0.5, 0, 0, station.jerk * jerk_share);
-            if (station.bent && !station.between) {
+            if (station.bent) {
                 for (int x = 0; x < 3; ++x) {
                     const double limit = machine_->axes[static_cast<std::size_t>(x)].max_jerk * jerk_share;
                     if (limit <= 0) continue;
@@ -151,8 +153,15 @@ double dot(const double* w, const double* c) { return w[0] * c[0] + w[1] * c[1] 
 }  // namespace
 
 void SpeedProblem::begin() {
-    sides_ = static_cast<double>(2 * limits_.size());
+    sides_ = static_cast<double>(2 * limits_.size() + value_.size());
     const double centre = first_gap * time() / sides_;
+    floor_ = value_;
+    above_.resize(value_.size());
+    for (std::size_t i = 0; i < value_.size(); ++i) {
+        floor_[i] = value_[i] - (1 - least_share) * std::abs(value_[i]);
+        const double above = std::max(value_[i] - floor_[i], 1e-300);
+        above_[i] = {above, centre / above, 0, 0};
+    }
     for_each_row([&](const Place& p, Limit& row, double bound, double) {
         const double r = dot(row.w, &value_[p.cell]);
         row.high = {std::max(bound - r, first_slack * bound), 0, 0, 0};
@@ -173,9 +182,10 @@ void SpeedProblem::assemble() {
         const double c = value_[i + 1];
         const double gradient = 0.5 * cells_[i].length / (c * std::sqrt(c));
         pull_[i + 1] = gradient;
-        d0_[i + 1] = 1.5 * gradient / c;
+        d0_[i + 1] = 1.5 * gradient / c + above_[i + 1].multiplier / above_[i + 1].slack;
     }
     gap_ = broken_ = 0;
+    for (const Side& side : above_) gap_ += side.slack * side.multiplier;
     const auto add = [&](const Place& p, const Side& side, double g, double bound, double v0, double v1, double v2) {
         const double weight = side.multiplier / side.slack;
         gap_ += side.multiplier * side.slack;
@@ -240,20 +250,25 @@ void SpeedProblem::set_steps(bool corrected) {
         const double r = dot(row.w, &value_[p.cell]);
         const double dr = dot(row.w, s);
         const double db = fall * dot(p.b, s);
-        const auto set = [&](Side& side, double g, double change) {
-            const double product = corrected ? side.slack_step * side.multiplier_step : 0.0;
-            side.slack_step = g - side.slack + change;
-            side.multiplier_step = (centre_ - product - side.multiplier * side.slack_step) / side.slack - side.multiplier;
-        };
-        set(row.high, bound - r, db - dr);
-        set(row.low, bound + r, db + dr);
+        set_step(row.high, bound - r, db - dr, corrected);
+        set_step(row.low, bound + r, db + dr, corrected);
     });
+    for (std::size_t i = 0; i < above_.size(); ++i) set_step(above_[i], above_[i].slack, step_[i], corrected);
+}
+
+void SpeedProblem::set_step(Side& side, double g, double change, bool corrected) const {
+    const double product = corrected ? side.slack_step * side.multiplier_step : 0.0;
+    side.slack_step = g - side.slack + change;
+    side.multiplier_step = (centre_ - product - side.multiplier * side.slack_step) / side.slack - side.multiplier;
 }
 
 /// Right side of the corrector: Mehrotra's, with the products of the predictor's steps.
 void SpeedProblem::correct(double centre) {
     centre_ = centre;
     step_ = pull_;
+    for (std::size_t i = 0; i < above_.size(); ++i) {
+        step_[i] += (centre - above_[i].slack_step * above_[i].multiplier_step) / above_[i].slack;
+    }
     for_each_row([&](const Place& p, Limit& row, double, double fall) {
         const double high = (centre - row.high.slack_step * row.high.multiplier_step) / row.high.slack;
         const double low = (centre - row.low.slack_step * row.low.multiplier_step) / row.low.slack;
@@ -263,15 +278,14 @@ void SpeedProblem::correct(double centre) {
 
 void SpeedProblem::longest_steps(double& primal, double& dual) const {
     primal = dual = 1 / boundary_share;
-    constexpr double most_fall = 0.9;  // of a coefficient at once
-    for (std::size_t i = 0; i < step_.size(); ++i) {
-        if (value_[i] > 0 && most_fall * value_[i] + primal * step_[i] < 0) primal = -most_fall * value_[i] / step_[i];
-    }
+    const auto shorten = [&](const Side& side) {
+        if (side.slack + primal * side.slack_step < 0) primal = -side.slack / side.slack_step;
+        if (side.multiplier + dual * side.multiplier_step < 0) dual = -side.multiplier / side.multiplier_step;
+    };
+    for (const Side& side : above_) shorten(side);
     for (const Limit& row : limits_) {
-        for (const Side* side : {&row.high, &row.low}) {
-            if (side->slack + primal * side->slack_step < 0) primal = -side->slack / side->slack_step;
-            if (side->multiplier + dual * side->multiplier_step < 0) dual = -side->multiplier / side->multiplier_step;
-        }
+        shorten(row.high);
+        shorten(row.low);
     }
     primal *= boundary_share;
     dual *= boundary_share;
@@ -279,16 +293,23 @@ void SpeedProblem::longest_steps(double& primal, double& dual) const {
 
 double SpeedProblem::gap_after(double primal, double dual) const {
     double gap = 0;
+    const auto add = [&](const Side& side) {
+        gap += (side.slack + primal * side.slack_step) * (side.multiplier + dual * side.multiplier_step);
+    };
+    for (const Side& side : above_) add(side);
     for (const Limit& row : limits_) {
-        for (const Side* side : {&row.high, &row.low}) {
-            gap += (side->slack + primal * side->slack_step) * (side->multiplier + dual * side->multiplier_step);
-        }
+        add(row.high);
+        add(row.low);
     }
     return gap;
 }
 
 void SpeedProblem::advance(double primal, double dual) {
-    for (std::size_t i = 0; i < step_.size(); ++i) value_[i] += primal * step_[i];
+    for (std::size_t i = 0; i < step_.size(); ++i) {
+        value_[i] += primal * step_[i];
+        above_[i].slack += primal * above_[i].slack_step;
+        above_[i].multiplier += dual * above_[i].multiplier_step;
+    }
     for_each_row([&](const Place& p, Limit& row, double bound, double) {
         const double r = dot(row.w, &value_[p.cell]);
         const auto move = [&](Side& side, double g) {
@@ -340,6 +361,7 @@ bool SpeedProblem::optimise(const KnotState& start, const KnotState& end) {
     for (std::size_t i = 1; i + 1 < value_.size(); ++i) {
         if (!(value_[i] > 0)) return false;
     }
+    const double planned = time();
     make_rows();
     begin();
     for (int k = 0; k < most_steps; ++k) {
@@ -347,7 +369,7 @@ bool SpeedProblem::optimise(const KnotState& start, const KnotState& end) {
         if (gap_ < end_gap * time() && broken_ < mended) break;
         if (!step()) return false;
     }
-    return judge();
+    return time() <= planned && judge();
 }
 
 bool SpeedProblem::step() {
@@ -359,8 +381,8 @@ bool SpeedProblem::step() {
     double primal = 0, dual = 0;
     longest_steps(primal, dual);
     const double left = gap_after(primal, dual) / gap_;
-    constexpr double least_share = 1e-3;
-    correct(std::clamp(left, least_share, 1.0) * gap_ / sides_);
+    constexpr double least_centre = 1e-3;
+    correct(std::clamp(left, least_centre, 1.0) * gap_ / sides_);
     substitute();
     set_steps(true);
     longest_steps(primal, dual);

@@ -33,7 +33,7 @@ struct Station {
     double cap = 0;   ///< of the speed [mm/s]
     double acceleration = 0, jerk = 0;  ///< tangential
     bool bent = false;                  ///< bend and twist are not zero
-    bool between = false;               ///< of others: only cap and acceleration of axes are held
+    bool between = false;               ///< of others: only cap and axes are held
     Vec3 slope = Vec3::Zero(), bend = Vec3::Zero(), twist = Vec3::Zero();  ///< x′, x″ [1/mm], x‴ [1/mm²]
 };
 
@@ -94,6 +94,7 @@ private:
     [[nodiscard]] bool factorise();
     void substitute();
     void set_steps(bool corrected);
+    void set_step(Side& side, double g, double change, bool corrected) const;
     void correct(double centre);
     void longest_steps(double& primal, double& dual) const;
     [[nodiscard]] double gap_after(double primal, double dual) const;
@@ -107,6 +108,8 @@ private:
     std::vector<double> value_;  ///< of the cells, with one beyond each end
     std::vector<Place> places_;
     std::vector<Limit> limits_;
+    std::vector<Side> above_;    ///< of the coefficients: c above a part of what it began with
+    std::vector<double> floor_;
     std::vector<Row> kinds_;     ///< of the limits
     // Newton: five diagonals, right side without the barrier, step.
     std::vector<double> d0_, d1_, d2_, pull_, step_;
