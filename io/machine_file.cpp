@@ -47,7 +47,7 @@ std::string_view take_word(const TomlFile& file, const toml::table& table, std::
 }
 
 void read_controller(const TomlFile& file, const toml::table& table, ControllerSettings& c) {
-    file.allow(table, {"period", "lookahead_blocks", "corner", "tolerance", "chord_tolerance", "feed_override"});
+    file.allow(table, {"period", "lookahead_blocks", "corner", "tolerance", "chord_tolerance", "block_time", "feed_override"});
     take(file, table, "period", c.period, Low::above_zero, 1.0, 1.0);
     if (const auto blocks = file.integer(table, "lookahead_blocks", 2, 100000)) c.lookahead_blocks = static_cast<int>(*blocks);
     const std::array<std::string_view, 2> modes{name_of(CornerMode::arc), name_of(CornerMode::stop)};
@@ -56,6 +56,7 @@ void read_controller(const TomlFile& file, const toml::table& table, ControllerS
     }
     take(file, table, "tolerance", c.tolerance, Low::above_zero);
     take(file, table, "chord_tolerance", c.chord_tolerance, Low::above_zero);
+    take(file, table, "block_time", c.block_time, Low::zero, 1.0, 1.0);
     constexpr double percent = 0.01;
     take(file, table, "feed_override", c.feed_override, Low::above_zero, percent, 1000);
 }
@@ -83,13 +84,15 @@ void read_travel(const TomlFile& file, const toml::table& table, MachineAxis& ax
 }
 
 void read_servo(const TomlFile& file, const toml::table& table, double period, ServoModel& servo) {
-    file.allow(table, {"position_gain", "velocity_feedforward", "velocity_time_constant", "quantum", "noise"});
+    file.allow(table, {"position_gain", "velocity_feedforward", "velocity_time_constant", "quantum", "noise", "backlash", "friction"});
     // A discrete loop with a gain of more than 1/period per step swings up.
     take(file, table, "position_gain", servo.position_gain, Low::above_zero, 1.0, 1 / period);
     take(file, table, "velocity_feedforward", servo.velocity_feedforward, Low::zero, 1.0, 2.0);
     take(file, table, "velocity_time_constant", servo.velocity_time_constant, Low::zero);
     take(file, table, "quantum", servo.quantum, Low::zero);
     take(file, table, "noise", servo.noise, Low::zero);
+    take(file, table, "backlash", servo.backlash, Low::zero);
+    take(file, table, "friction", servo.friction, Low::zero, 1 / seconds_per_minute);
     // Kv·T_v of 1 and more: the loop s(1 + s T_v) + Kv rings with hardly any damping.
     if (servo.position_gain * servo.velocity_time_constant >= 1) {
         file.fail(table, fmt::format("the loop does not settle: position_gain {} · velocity_time_constant {} must be less than 1",
@@ -144,6 +147,7 @@ std::string machine_text(const Machine& machine) {
     text += fmt::format("corner = \"{}\"                # arc: rounded inside the tolerance; stop: exact stop\n", name_of(c.corner));
     text += fmt::format("tolerance = {}              # of corners and path; G64 P in a program replaces it\n", c.tolerance);
     text += fmt::format("chord_tolerance = {}       # of the steps of a period against arcs\n", c.chord_tolerance);
+    text += fmt::format("block_time = {}                # s, a block takes no less; 0: not limited\n", c.block_time);
     text += fmt::format("feed_override = {}           # %, of programmed feeds\n\n[path]\n", c.feed_override * 100);
     text += fmt::format("max_speed = {}\n", p.max_speed * seconds_per_minute);
     text += fmt::format("max_acceleration = {}        # tangential\n", p.max_acceleration);
@@ -159,6 +163,8 @@ std::string machine_text(const Machine& machine) {
         text += fmt::format("velocity_time_constant = {}\n", a.servo.velocity_time_constant);
         text += fmt::format("quantum = {}               # encoder step; 0: none\n", a.servo.quantum);
         text += fmt::format("noise = {}                    # rms\n", a.servo.noise);
+        text += fmt::format("backlash = {}                 # play between drive and table\n", a.servo.backlash);
+        text += fmt::format("friction = {}                 # speed lost to Coulomb friction, mm/min\n", a.servo.friction * seconds_per_minute);
     }
     text += "\n[kinematics]\ntype = \"xyz\"\n";
     return text;

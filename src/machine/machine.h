@@ -15,6 +15,8 @@ struct ServoModel {
     double velocity_time_constant = 0.002;  ///< [s]; 0: the velocity loop is ideal
     double quantum = 0.0001;              ///< encoder step [mm]; 0: none
     double noise = 0;                     ///< rms [mm]
+    double backlash = 0;                  ///< play between drive and table [mm]
+    double friction = 0;                  ///< Coulomb, as the speed that the velocity loop loses to it [mm/s]
 };
 
 struct MachineAxis {
@@ -39,6 +41,7 @@ struct ControllerSettings {
     CornerMode corner = CornerMode::arc;
     double tolerance = 0.01;        ///< of corners and path [mm]; G64 P replaces it
     double chord_tolerance = 0.002; ///< of the steps of a period against arcs [mm]
+    double block_time = 0;          ///< a block takes no less [s]: what the controller needs to prepare one
     double feed_override = 1;       ///< of programmed feeds, not of rapids
 };
 

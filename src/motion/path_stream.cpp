@@ -44,7 +44,7 @@ double path_tolerance(const ProgramEvent& event, const Machine& machine) {
 }  // namespace
 
 std::string_view name_of(Ruling ruling) {
-    constexpr std::array<std::string_view, 9> names{"at rest", "feed", "axis speed", "axis acceleration", "jerk", "corner tolerance", "chord error", "look-ahead end", "override"};
+    constexpr std::array<std::string_view, 10> names{"at rest", "feed", "axis speed", "axis acceleration", "jerk", "corner tolerance", "chord error", "look-ahead end", "override", "block time"};
     return names[static_cast<std::size_t>(ruling)];
 }
 

@@ -40,6 +40,7 @@ enum class Ruling : std::uint8_t {
     chord_error = 6,
     lookahead_end = 7,      ///< braking to a stop, or to the end of the known blocks
     feed_override = 8,
+    block_time = 9,         ///< the block is shorter than what is driven in the controller's block time
 };
 
 /// "feed", "axis speed", …

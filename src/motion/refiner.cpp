@@ -195,11 +195,12 @@ void Refiner::add_stations(const CellPart& part, double begin) {
     station.jerk = machine_->path.max_jerk;
     // What lasts a few periods only has no time to leave its limits between three places.
     const bool brief = part.length < brief_cell * machine_->controller.period * std::max(end_.speed, open_end_.speed);
-    for (const int quarter : {0, 1, 2, 3, 4}) {
-        if (brief && quarter % 2 == 1) continue;
-        const double share = 0.25 * quarter;
+    for (const int eighth : {0, 1, 2, 3, 4, 5, 6, 7, 8}) {
+        const double share = 0.125 * eighth;
         station.at = begin + share * part.length;
-        station.between = quarter % 2 == 1;
+        station.between = eighth % 4 == 2;
+        station.checked = eighth % 2 == 1 || (brief && station.between);
+        if (brief && eighth % 2 == 1) continue;
         const PathDerivatives d = span.derivatives(part.from + share * part.length);
         station.slope = d.first;
         station.bend = d.second;

@@ -1,5 +1,6 @@
 #include "motion/servo.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace clsurf {
@@ -28,14 +29,25 @@ ServoLoop::ServoLoop(const ServoModel& model, double period, double start, std::
     : gain_(model.position_gain), feedforward_(model.velocity_feedforward),
       // Exact for a reference that is constant over the period.
       velocity_step_(model.velocity_time_constant > 0 ? 1 - std::exp(-period / model.velocity_time_constant) : 1.0),
-      quantum_(model.quantum), noise_(model.noise), period_(period), commanded_(start), position_(start), random_(seed) {}
+      quantum_(model.quantum), noise_(model.noise), period_(period), play_(0.5 * model.backlash), friction_(model.friction),
+      commanded_(start), position_(start), table_(start), random_(seed) {}
+
+double ServoLoop::less_friction(double reference) const {
+    const double direction = velocity_ != 0 ? velocity_ : reference;
+    if (velocity_ == 0 && std::abs(reference) <= friction_) return 0;
+    return reference - std::copysign(friction_, direction);
+}
 
 double ServoLoop::follow(double commanded) {
     const double reference = gain_ * (commanded_ - position_) + feedforward_ * (commanded - commanded_) / period_;
-    velocity_ += velocity_step_ * (reference - velocity_);
+    const double before = velocity_;
+    velocity_ += velocity_step_ * (less_friction(reference) - velocity_);
+    // Friction stops an axis, it does not drive it back.
+    if (friction_ > 0 && before * velocity_ < 0 && std::abs(reference) <= friction_) velocity_ = 0;
     position_ += velocity_ * period_;
     commanded_ = commanded;
-    double read = position_;
+    table_ = std::clamp(table_, position_ - play_, position_ + play_);
+    double read = table_;
     if (noise_ > 0) read += noise_ * noise_of_one(random_);
     return quantum_ > 0 ? std::round(read / quantum_) * quantum_ : read;
 }

@@ -4,7 +4,10 @@
 //
 //     v_ref = Kv (cmd − x) + c_ff · cmd′,    T_v v′ + v = v_ref,    x′ = v
 //
-// At constant speed v the lag is v (1 − c_ff)/Kv.
+// At constant speed v the lag is v (1 − c_ff)/Kv. Coulomb friction takes f from v_ref in the direction of
+// motion, and holds an axis at rest while |v_ref| ≤ f: the lag grows by f/Kv, and after a reversal
+// the axis stands until the loop has wound up. The loop closes over the drive; the encoder is at the
+// table, which follows with the play of the backlash.
 
 #include <cstdint>
 
@@ -21,8 +24,10 @@ public:
     double follow(double commanded);
 
 private:
-    double gain_, feedforward_, velocity_step_, quantum_, noise_, period_;
-    double commanded_, position_, velocity_ = 0;
+    [[nodiscard]] double less_friction(double reference) const;
+
+    double gain_, feedforward_, velocity_step_, quantum_, noise_, period_, play_, friction_;
+    double commanded_, position_, table_, velocity_ = 0;
     std::uint64_t random_;
 };
 

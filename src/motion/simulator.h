@@ -27,7 +27,7 @@ struct SimulationSummary {
     Vec3 max_axis_speed = Vec3::Zero(), max_acceleration = Vec3::Zero(), max_jerk = Vec3::Zero();
     double path_deviation = 0;  ///< greatest distance that rounding took a point from the path [mm]
     bool limits_ok = true;      ///< no limit of an axis or the path's speed exceeded by more than 0.1 %
-    std::array<PointIndex, 9> ruled{};  ///< points by Ruling
+    std::array<PointIndex, 10> ruled{};  ///< points by Ruling
     Diagnostics diagnostics;
 };
 

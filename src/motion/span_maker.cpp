@@ -143,6 +143,7 @@ void PathStream::set_limits(Span& span) const {
         if (speed < span.cap) span.cap = speed, span.ruling = why;
     };
     if (!rapid) limit(span.base.feed * override_factor, override_factor == 1 ? Ruling::feed : Ruling::feed_override);
+    if (machine_->controller.block_time > 0) limit(span.base.length / machine_->controller.block_time, Ruling::block_time);
     for (int i = 0; i < 3; ++i) {
         if (span.slope[i] > 0) limit(machine_->axes[static_cast<std::size_t>(i)].max_speed / span.slope[i], Ruling::axis_speed);
     }

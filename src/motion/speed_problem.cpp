@@ -18,6 +18,10 @@ constexpr double mended = 1e-4;          ///< of a bound
 // The spline holds the limits at stations; a little is left for what lies between them.
 constexpr double acceleration_share = 0.9995, jerk_share = 0.997;
 constexpr double held = 1 + 3e-4;
+constexpr double lowering = 0.998;
+constexpr int most_rounds = 4;
+
+double dot(const double* w, const double* c) { return w[0] * c[0] + w[1] * c[1] + w[2] * c[2]; }
 
 }  // namespace
 
@@ -37,7 +41,10 @@ void SpeedProblem::clear() {
 void SpeedProblem::add_cell(double length, double value) {
     const auto at = static_cast<std::uint32_t>(stations_.size());
     value_.resize(cells_.size() + 1);  // without the one beyond the end
-    cells_.push_back({length, at, at, Row::cap});
+    Cell cell;
+    cell.length = length;
+    cell.first_station = cell.end_station = at;
+    cells_.push_back(cell);
     value_.push_back(value);
 }
 
@@ -66,65 +73,100 @@ void SpeedProblem::fix_ends(const KnotState& start, const KnotState& end) {
     value_[n + 1] = value_[n] + 2 * end.acceleration * last;
 }
 
+SpeedProblem::Weights SpeedProblem::weights_at(std::size_t cell, double at) const {
+    const double h = cells_[cell].length;
+    const double h_before = cell > 0 ? cells_[cell - 1].length : h;
+    const double h_after = cell + 1 < cells_.size() ? cells_[cell + 1].length : h;
+    const double before = 1 / (h_before + h), after = 1 / (h + h_after);
+    const double begin[3] = {h * before, h_before * before, 0};
+    const double begin_slope[3] = {-2 * before, 2 * before, 0};
+    Weights w{{}, {}, {2 * before / h, (-2 * after - 2 * before) / h, 2 * after / h}};
+    for (int q = 0; q < 3; ++q) {
+        w.b[q] = begin[q] + at * (begin_slope[q] + 0.5 * at * w.curve[q]);
+        w.slope[q] = begin_slope[q] + at * w.curve[q];
+    }
+    return w;
+}
+
 void SpeedProblem::make_rows() {
     places_.clear();
     limits_.clear();
     kinds_.clear();
-    const std::size_t n = cells_.size();
-    const auto length = [&](std::ptrdiff_t i) { return cells_[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(i, 0, static_cast<std::ptrdiff_t>(n) - 1))].length; };
-    for (std::size_t i = 0; i < n; ++i) {
-        const auto k = static_cast<std::ptrdiff_t>(i);
-        const double h = length(k);
-        const double before = 1 / (length(k - 1) + h), after = 1 / (h + length(k + 1));
-        // b at the cell's begin, b′ there, b″, of the three coefficients that reach into it.
-        const double b0[3] = {h * before, length(k - 1) * before, 0};
-        const double s0[3] = {-2 * before, 2 * before, 0};
-        const double curve[3] = {2 * before / h, (-2 * after - 2 * before) / h, 2 * after / h};
-        for (std::uint32_t s = cells_[i].first_station; s < cells_[i].end_station; ++s) {
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+        const Cell& cell = cells_[i];
+        for (std::uint32_t s = cell.first_station; s < cell.end_station; ++s) {
             const Station& station = stations_[s];
-            const double t = station.at;
+            if (station.checked) continue;
+            const Weights w = weights_at(i, station.at);
             Place place;
             place.cell = static_cast<std::uint32_t>(i);
             place.first = static_cast<std::uint32_t>(limits_.size());
-            double slope[3];
-            for (int q = 0; q < 3; ++q) {
-                place.b[q] = b0[q] + t * (s0[q] + 0.5 * t * curve[q]);
-                slope[q] = s0[q] + t * curve[q];
-            }
+            for (int q = 0; q < 3; ++q) place.b[q] = w.b[q];
             const auto add = [&](Row kind, double of_curve, double of_slope, double of_b, double limit) {
                 Limit row{};
-                for (int q = 0; q < 3; ++q) row.w[q] = (of_curve * curve[q] + of_slope * slope[q] + of_b * place.b[q]) / limit;
+                for (int q = 0; q < 3; ++q) row.w[q] = (of_curve * w.curve[q] + of_slope * w.slope[q] + of_b * w.b[q]) / limit;
                 limits_.push_back(row);
                 kinds_.push_back(kind);
             };
             const double v = station.cap;
+            const double share = acceleration_share * cell.acceleration_share;
             add(Row::cap, 0, 0, 1, v * v);
-            if (!station.between) add(Row::tangential_acceleration, 0, 0.5, 0, station.acceleration * acceleration_share);
-            if (station.bent) {
-                for (int x = 0; x < 3; ++x) {
-                    const double limit = machine_->axes[static_cast<std::size_t>(x)].max_acceleration * acceleration_share;
-                    if (std::abs(station.slope[x]) * station.acceleration + std::abs(station.bend[x]) * v * v > limit) {
-                        add(Row::axis_acceleration, 0, 0.5 * station.slope[x], station.bend[x], limit);
-                    }
+            if (!station.between) add(Row::tangential_acceleration, 0, 0.5, 0, station.acceleration * share);
+            for (int x = 0; station.bent && x < 3; ++x) {
+                const double limit = machine_->axes[static_cast<std::size_t>(x)].max_acceleration * share;
+                if (std::abs(station.slope[x]) * station.acceleration + std::abs(station.bend[x]) * v * v > limit) {
+                    add(Row::axis_acceleration, 0, 0.5 * station.slope[x], station.bend[x], limit);
                 }
             }
             place.jerks = static_cast<std::uint32_t>(limits_.size());
-            if (!station.between) add(Row::tangential_jerk, 0.5, 0, 0, station.jerk * jerk_share);
-            if (station.bent) {
-                for (int x = 0; x < 3; ++x) {
-                    const double limit = machine_->axes[static_cast<std::size_t>(x)].max_jerk * jerk_share;
-                    if (limit <= 0) continue;
-                    const double ramp = std::abs(station.slope[x]) * station.jerk + 3 * std::abs(station.bend[x]) * v * station.acceleration;
-                    const double steady = std::abs(station.twist[x]) * v * v * v;
-                    if (ramp + steady > limit) {
-                        add(steady > 0.5 * limit ? Row::corner_jerk : Row::axis_jerk, 0.5 * station.slope[x], 1.5 * station.bend[x], station.twist[x], limit);
-                    }
+            if (!station.between || !station.bent) add(Row::tangential_jerk, 0.5, 0, 0, station.jerk * jerk_share * cell.jerk_share);
+            for (int x = 0; station.bent && x < 3; ++x) {
+                const double limit = machine_->axes[static_cast<std::size_t>(x)].max_jerk * jerk_share * cell.jerk_share;
+                if (limit <= 0) continue;
+                const double ramp = std::abs(station.slope[x]) * station.jerk + 3 * std::abs(station.bend[x]) * v * station.acceleration;
+                const double steady = std::abs(station.twist[x]) * v * v * v;
+                if (ramp + steady > limit) {
+                    add(steady > 0.5 * limit ? Row::corner_jerk : Row::axis_jerk, 0.5 * station.slope[x], 1.5 * station.bend[x], station.twist[x], limit);
                 }
             }
             place.end = static_cast<std::uint32_t>(limits_.size());
             places_.push_back(place);
         }
     }
+}
+
+/// Greatest part of a limit of an axis at a station: of the acceleration, and of the jerk.
+double SpeedProblem::exceeding(const Station& s, const double* c, const Weights& w, double& jerk) const {
+    const double b = dot(w.b, c), slope = dot(w.slope, c), curve = dot(w.curve, c);
+    const double root = std::sqrt(b);
+    double acceleration = 0;
+    jerk = 0;
+    for (int x = 0; x < 3; ++x) {
+        const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(x)];
+        acceleration = std::max(acceleration, std::abs(0.5 * s.slope[x] * slope + s.bend[x] * b) / axis.max_acceleration);
+        if (axis.max_jerk <= 0) continue;
+        jerk = std::max(jerk, std::abs(0.5 * s.slope[x] * curve + 1.5 * s.bend[x] * slope + s.twist[x] * b) * root / axis.max_jerk);
+    }
+    return acceleration;
+}
+
+/// Where limits are broken between stations the cell gets less of them; false: nowhere.
+bool SpeedProblem::lower_shares() {
+    bool any = false;
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+        Cell& cell = cells_[i];
+        double acceleration = 0, jerk = 0;
+        for (std::uint32_t s = cell.first_station; s < cell.end_station; ++s) {
+            if (!stations_[s].bent) continue;
+            double here = 0;
+            acceleration = std::max(acceleration, exceeding(stations_[s], &value_[i], weights_at(i, stations_[s].at), here));
+            jerk = std::max(jerk, here);
+        }
+        // With a little more than what was found: the next solution differs.
+        if (acceleration > held) cell.acceleration_share *= lowering / acceleration, any = true;
+        if (jerk > held) cell.jerk_share *= lowering / jerk, any = true;
+    }
+    return any;
 }
 
 double SpeedProblem::time() const {
@@ -145,12 +187,6 @@ void SpeedProblem::for_each_row(Body&& body) {
         for (std::uint32_t k = p.jerks; k < p.end; ++k) body(p, limits_[k], root, fall);
     }
 }
-
-namespace {
-
-double dot(const double* w, const double* c) { return w[0] * c[0] + w[1] * c[1] + w[2] * c[2]; }
-
-}  // namespace
 
 void SpeedProblem::begin() {
     sides_ = static_cast<double>(2 * limits_.size() + value_.size());
@@ -322,26 +358,20 @@ void SpeedProblem::advance(double primal, double dual) {
     });
 }
 
-/// Which limit each cell is nearest to; false: one is broken.
-bool SpeedProblem::judge() {
-    bool all_held = true;
+/// Which limit each cell is nearest to.
+void SpeedProblem::judge() {
     std::vector<double> nearest(cells_.size(), 0);
     for (const Place& p : places_) {
         const double* c = &value_[p.cell];
-        const double b = p.b[0] * c[0] + p.b[1] * c[1] + p.b[2] * c[2];
+        const double root = std::sqrt(dot(p.b, c));
         for (std::uint32_t k = p.first; k < p.end; ++k) {
-            const Limit& row = limits_[k];
-            double part = std::abs(dot(row.w, c));
-            if (k >= p.jerks) part *= std::sqrt(b);
-            // The states at the ends are given: their first and last cells are what they are.
-            if (part > held) all_held = false;
+            const double part = std::abs(dot(limits_[k].w, c)) * (k < p.jerks ? 1.0 : root);
             if (part > nearest[p.cell]) {
                 nearest[p.cell] = part;
                 cells_[p.cell].ruling = kinds_[k];
             }
         }
     }
-    return all_held;
 }
 
 bool SpeedProblem::solve(const KnotState& start, const KnotState& end) {
@@ -362,14 +392,26 @@ bool SpeedProblem::optimise(const KnotState& start, const KnotState& end) {
         if (!(value_[i] > 0)) return false;
     }
     const double planned = time();
-    make_rows();
+    for (int round = 0; round < most_rounds; ++round) {
+        make_rows();
+        if (!iterate() || time() > planned) return false;
+        if (!lower_shares()) {
+            judge();
+            return true;
+        }
+    }
+    return false;
+}
+
+/// Newton's steps to the optimum for the rows; false: it was not found.
+bool SpeedProblem::iterate() {
     begin();
     for (int k = 0; k < most_steps; ++k) {
         assemble();
-        if (gap_ < end_gap * time() && broken_ < mended) break;
+        if (gap_ < end_gap * time() && broken_ < mended) return true;
         if (!step()) return false;
     }
-    return time() <= planned && judge();
+    return broken_ < mended;
 }
 
 bool SpeedProblem::step() {

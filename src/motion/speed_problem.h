@@ -33,7 +33,8 @@ struct Station {
     double cap = 0;   ///< of the speed [mm/s]
     double acceleration = 0, jerk = 0;  ///< tangential
     bool bent = false;                  ///< bend and twist are not zero
-    bool between = false;               ///< of others: only cap and axes are held
+    bool between = false;               ///< between others: no rows for what is greatest there
+    bool checked = false;               ///< only looked at when the rest is solved
     Vec3 slope = Vec3::Zero(), bend = Vec3::Zero(), twist = Vec3::Zero();  ///< x′, x″ [1/mm], x‴ [1/mm²]
 };
 
@@ -66,6 +67,8 @@ private:
         double length = 0;
         std::uint32_t first_station = 0, end_station = 0;
         Row ruling = Row::cap;
+        // Parts of the limits that are used, lowered where they are broken between stations.
+        double acceleration_share = 1, jerk_share = 1;
     };
     /// One side of a row: g ≥ 0 with its slack s > 0 (equal to g once the start has been mended) and multiplier.
     struct Side {
@@ -76,6 +79,10 @@ private:
     struct Limit {
         double w[3];
         Side high, low;  ///< bound − w · c and bound + w · c
+    };
+    /// Weights of a cell's three coefficients for b, b′ and b″ at a place.
+    struct Weights {
+        double b[3], slope[3], curve[3];
     };
     struct Place {
         double b[3];  ///< weights of c for b
@@ -100,7 +107,11 @@ private:
     [[nodiscard]] double gap_after(double primal, double dual) const;
     void advance(double primal, double dual);
     [[nodiscard]] double time() const;
-    bool judge();
+    void judge();
+    [[nodiscard]] double exceeding(const Station& station, const double* c, const Weights& weights, double& jerk) const;
+    [[nodiscard]] bool lower_shares();
+    [[nodiscard]] bool iterate();
+    [[nodiscard]] Weights weights_at(std::size_t cell, double at) const;
 
     const Machine* machine_;
     std::vector<Cell> cells_;
