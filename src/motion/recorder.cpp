@@ -23,7 +23,11 @@ Recorder::Recorder(const Program& program, const Machine& machine, const Vec3& s
 }
 
 void Recorder::add(const Vec3& position, double speed, LineNumber line, Ruling ruling, double deviation) {
-    SimulatedPoint& point = block_.emplace_back(SimulatedPoint{position, {}, speed, line, ruling});
+    SimulatedPoint& point = block_.emplace_back();
+    point.commanded = position;
+    point.speed = speed;
+    point.line = line;
+    point.limit = ruling;
     for (int i = 0; i < 3; ++i) point.feedback[i] = servos_[static_cast<std::size_t>(i)].follow(position[i]);
     measure(position, line);
     summary_.path_deviation = std::max(summary_.path_deviation, deviation);

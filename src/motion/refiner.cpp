@@ -9,7 +9,7 @@
 namespace clsurf {
 namespace {
 
-constexpr std::size_t most_cells = 900;  ///< of a window
+constexpr std::size_t most_cells = 400;  ///< of a window
 constexpr double run_share = 0.65;       ///< of a window, before it is planned again
 constexpr double rest_share = 0.25;      ///< of the jerk phase next to a rest: run as planned, as v² is no quadratic there
 constexpr double growth = 0.15;          ///< of the time from or to a rest: longest cell

@@ -196,12 +196,13 @@ void SpeedProblem::begin() {
     for (std::size_t i = 0; i < value_.size(); ++i) {
         floor_[i] = value_[i] - (1 - least_share) * std::abs(value_[i]);
         const double above = std::max(value_[i] - floor_[i], 1e-300);
-        above_[i] = {above, centre / above, 0, 0};
+        above_[i].slack = above;
+        above_[i].multiplier = centre / above;
     }
     for_each_row([&](const Place& p, Limit& row, double bound, double) {
         const double r = dot(row.w, &value_[p.cell]);
-        row.high = {std::max(bound - r, first_slack * bound), 0, 0, 0};
-        row.low = {std::max(bound + r, first_slack * bound), 0, 0, 0};
+        row.high.slack = std::max(bound - r, first_slack * bound);
+        row.low.slack = std::max(bound + r, first_slack * bound);
         row.high.multiplier = centre / row.high.slack;
         row.low.multiplier = centre / row.low.slack;
     });
@@ -218,12 +219,18 @@ void SpeedProblem::assemble() {
         const double c = value_[i + 1];
         const double gradient = 0.5 * cells_[i].length / (c * std::sqrt(c));
         pull_[i + 1] = gradient;
-        d0_[i + 1] = 1.5 * gradient / c + above_[i + 1].multiplier / above_[i + 1].slack;
+        d0_[i + 1] = 1.5 * gradient / c;
     }
     gap_ = broken_ = 0;
-    for (const Side& side : above_) gap_ += side.slack * side.multiplier;
-    const auto add = [&](const Place& p, const Side& side, double g, double bound, double v0, double v1, double v2) {
-        const double weight = side.multiplier / side.slack;
+    for (std::size_t i = 0; i < above_.size(); ++i) {
+        Side& side = above_[i];
+        side.inverse = 1 / side.slack;
+        d0_[i] += side.multiplier * side.inverse;
+        gap_ += side.slack * side.multiplier;
+    }
+    const auto add = [&](const Place& p, Side& side, double g, double bound, double v0, double v1, double v2) {
+        side.inverse = 1 / side.slack;
+        const double weight = side.multiplier * side.inverse;
         gap_ += side.multiplier * side.slack;
         const double missing = side.slack - g;
         broken_ = std::max(broken_, missing / bound);
@@ -295,7 +302,7 @@ void SpeedProblem::set_steps(bool corrected) {
 void SpeedProblem::set_step(Side& side, double g, double change, bool corrected) const {
     const double product = corrected ? side.slack_step * side.multiplier_step : 0.0;
     side.slack_step = g - side.slack + change;
-    side.multiplier_step = (centre_ - product - side.multiplier * side.slack_step) / side.slack - side.multiplier;
+    side.multiplier_step = (centre_ - product - side.multiplier * side.slack_step) * side.inverse - side.multiplier;
 }
 
 /// Right side of the corrector: Mehrotra's, with the products of the predictor's steps.
@@ -303,11 +310,11 @@ void SpeedProblem::correct(double centre) {
     centre_ = centre;
     step_ = pull_;
     for (std::size_t i = 0; i < above_.size(); ++i) {
-        step_[i] += (centre - above_[i].slack_step * above_[i].multiplier_step) / above_[i].slack;
+        step_[i] += (centre - above_[i].slack_step * above_[i].multiplier_step) * above_[i].inverse;
     }
     for_each_row([&](const Place& p, Limit& row, double, double fall) {
-        const double high = (centre - row.high.slack_step * row.high.multiplier_step) / row.high.slack;
-        const double low = (centre - row.low.slack_step * row.low.multiplier_step) / row.low.slack;
+        const double high = (centre - row.high.slack_step * row.high.multiplier_step) * row.high.inverse;
+        const double low = (centre - row.low.slack_step * row.low.multiplier_step) * row.low.inverse;
         for (int q = 0; q < 3; ++q) step_[p.cell + static_cast<std::size_t>(q)] += (high + low) * fall * p.b[q] + (low - high) * row.w[q];
     });
 }

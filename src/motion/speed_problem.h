@@ -73,6 +73,7 @@ private:
     /// One side of a row: g ≥ 0 with its slack s > 0 (equal to g once the start has been mended) and multiplier.
     struct Side {
         double slack = 0, multiplier = 0;
+        double inverse = 0;  ///< 1/slack at the last assemble()
         double slack_step = 0, multiplier_step = 0;
     };
     /// |w · c| ≤ 1, for a jerk 1/√b at the row's place.
