@@ -292,6 +292,10 @@ clsurf_cli_test(NAME simulate_without_output ARGS simulate ${simulated} EXIT 2 S
 clsurf_cli_test(NAME simulate_wrong_start ARGS simulate ${simulated} -o run.biip --start 1,2 EXIT 2 STDERR "--start")
 clsurf_cli_test(NAME simulate_bad_machine SETUP "printf '[path]\\nmax_speed = -1\\n' > m.toml" ARGS simulate ${simulated} --machine m.toml -o run.biip
   EXIT 3 STDERR "m.toml:2" "'max_speed' is -1" NO_FILE run.biip)
+clsurf_cli_test(NAME simulate_bad_servo SETUP "printf '[[axis]]\\nname = \"x\"\\n[axis.servo]\\nbacklash = -1\\n' > m.toml" ARGS simulate ${simulated} --machine m.toml -o run.biip
+  EXIT 3 STDERR "m.toml:4" "'backlash' is -1" NO_FILE run.biip)
+clsurf_cli_test(NAME simulate_bad_block_time SETUP "printf '[controller]\\nblock_time = 2\\n' > m.toml" ARGS simulate ${simulated} --machine m.toml -o run.biip
+  EXIT 3 STDERR "m.toml:2" "at most 1" NO_FILE run.biip)
 clsurf_cli_test(NAME simulate_rotary_axis SETUP "printf 'G1 X1 F100\\nG1 X2 A5\\n' > a.nc" ARGS simulate a.nc -o run.biip
   EXIT 3 STDERR "a.nc:2" "a rotary axis moves" NO_FILE run.biip)
 clsurf_cli_test(NAME simulate_feed_of_zero SETUP "printf 'G1 X1 F100\\nG1 X2 F0\\n' > a.nc" ARGS simulate a.nc -o run.biip

@@ -188,6 +188,25 @@ TEST(Simulator, AZigzagUnderAJerkLimitIsNearItsOptimum) {
     EXPECT_LT(summary.duration, 39.5);
 }
 
+TEST(Simulator, DegenerateMovesKeepLimitsAndEnd) {
+    const std::vector<std::pair<std::string, Vec3>> programs{
+        {"G1 X0 F600\nX0 Y0\nX1\nX1\n", {1, 0, 0}},                        // no length, repeated
+        {"G1 X5 F6000\nX2\nX5\nX4.9999\n", {4.9999, 0, 0}},                 // back on itself
+        {"G1 X1 F6000\nX0 Y0.000001\n", {0, 0.000001, 0}},                   // nearly back
+        {"G1 X1 F6000\nG3 X1.002 Y0 R0.001\nG1 X2\n", {2, 0, 0}},            // an arc smaller than the tolerance
+        {"G1 X0.00001 F6000\nY0.00001\nX0.00002\n", {0.00002, 0.00001, 0}},   // all of it below resolution
+        {"G2 X0 Y0 I0.5 P20 F9000\nG1 X-1 Z2\n", {-1, 0, 2}},                // many turns
+        {"G1 X10 F0.5\nG1 X10.01 F90000\n", {10.01, 0, 0}},                  // feeds far apart
+    };
+    for (const auto& [text, end] : programs) {
+        const Recorded r = run("G64\n" + text + "M2\n", ideal());
+        EXPECT_TRUE(r.summary.limits_ok) << text;
+        EXPECT_LE(r.summary.path_deviation, 0.01) << text;
+        EXPECT_LT((r.points.back().commanded - end).norm(), 1e-9) << text;
+        for (const SimulatedPoint& p : r.points) ASSERT_TRUE(p.commanded.allFinite() && p.feedback.allFinite() && std::isfinite(p.speed)) << text;
+    }
+}
+
 TEST(Simulator, ABlockTimeHoldsShortBlocksBack) {
     std::string text = "G64\n";
     for (int k = 1; k <= 1000; ++k) text += fmt::format("G1 X{:.2f} F6000\n", 0.05 * k);
