@@ -33,7 +33,7 @@ struct Station {
     double cap = 0;   ///< of the speed [mm/s]
     double acceleration = 0, jerk = 0;  ///< tangential
     bool bent = false;                  ///< bend and twist are not zero
-    bool between = false;               ///< between others: no rows for what is greatest there
+    bool between = false;               ///< an extra place in a bend: the tangential limits are not repeated there
     bool checked = false;               ///< only looked at when the rest is solved
     Vec3 slope = Vec3::Zero(), bend = Vec3::Zero(), twist = Vec3::Zero();  ///< x′, x″ [1/mm], x‴ [1/mm²]
 };
@@ -70,7 +70,7 @@ private:
         // Parts of the limits that are used, lowered where they are broken between stations.
         double acceleration_share = 1, jerk_share = 1;
     };
-    /// One side of a row: g ≥ 0 with its slack s > 0 (equal to g once the start has been mended) and multiplier.
+    /// One side of a row: g ≥ 0 with its slack s > 0, equal to g once a start that breaks limits has been mended, and its multiplier.
     struct Side {
         double slack = 0, multiplier = 0;
         double inverse = 0;  ///< 1/slack at the last assemble()
