@@ -1,14 +1,18 @@
-// Machine files: speeds mm/min, accelerations mm/s², jerks mm/s³, lengths mm, times s.
+// Machine files: speeds mm/min, accelerations mm/s², jerks mm/s³, lengths mm, times s; rotary axes in
+// deg in place of mm.
 #include "io/machine_file.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "core/spelling.h"
 #include "core/units.h"
+#include "io/kinematics_section.h"
 #include "io/toml_table.h"
 
 namespace clsurf::io {
@@ -69,30 +73,30 @@ void read_path(const TomlFile& file, const toml::table& table, PathLimits& path)
     take(file, table, "max_jerk", path.max_jerk, Low::above_zero);
 }
 
-void read_travel(const TomlFile& file, const toml::table& table, MachineAxis& axis) {
+void read_travel(const TomlFile& file, const toml::table& table, double factor, MachineAxis& axis) {
     const toml::node* node = table.get("travel");
     if (node == nullptr) return;
     const toml::array* ends = node->as_array();
     if (ends == nullptr || ends->size() != 2 || !ends->get(0)->is_number() || !ends->get(1)->is_number()) {
         file.fail(*node, "'travel' must be two numbers, [low, high]");
     }
-    axis.travel_low = *ends->get(0)->value<double>();
-    axis.travel_high = *ends->get(1)->value<double>();
-    if (!(axis.travel_low < axis.travel_high)) {
-        file.fail(*node, fmt::format("travel is reversed: [{}, {}]", axis.travel_low, axis.travel_high));
-    }
+    const double low = *ends->get(0)->value<double>();
+    const double high = *ends->get(1)->value<double>();
+    if (!(low < high)) file.fail(*node, fmt::format("travel is reversed: [{}, {}]", low, high));
+    axis.travel_low = low * factor;
+    axis.travel_high = high * factor;
 }
 
-void read_servo(const TomlFile& file, const toml::table& table, double period, ServoModel& servo) {
+void read_servo(const TomlFile& file, const toml::table& table, double period, double factor, ServoModel& servo) {
     file.allow(table, {"position_gain", "velocity_feedforward", "velocity_time_constant", "quantum", "noise", "backlash", "friction"});
     // A discrete loop with a gain of more than 1/period per step swings up.
     take(file, table, "position_gain", servo.position_gain, Low::above_zero, 1.0, 1 / period);
     take(file, table, "velocity_feedforward", servo.velocity_feedforward, Low::zero, 1.0, 2.0);
     take(file, table, "velocity_time_constant", servo.velocity_time_constant, Low::zero);
-    take(file, table, "quantum", servo.quantum, Low::zero);
-    take(file, table, "noise", servo.noise, Low::zero);
-    take(file, table, "backlash", servo.backlash, Low::zero);
-    take(file, table, "friction", servo.friction, Low::zero, 1 / seconds_per_minute);
+    take(file, table, "quantum", servo.quantum, Low::zero, factor);
+    take(file, table, "noise", servo.noise, Low::zero, factor);
+    take(file, table, "backlash", servo.backlash, Low::zero, factor);
+    take(file, table, "friction", servo.friction, Low::zero, factor / seconds_per_minute);
     // Kv·T_v of 1 and more: the loop s(1 + s T_v) + Kv rings with hardly any damping.
     if (servo.position_gain * servo.velocity_time_constant >= 1) {
         file.fail(table, fmt::format("the loop does not settle: position_gain {} · velocity_time_constant {} must be less than 1",
@@ -100,19 +104,38 @@ void read_servo(const TomlFile& file, const toml::table& table, double period, S
     }
 }
 
-void read_axis(const TomlFile& file, const toml::table& table, std::array<bool, 3>& seen, Machine& machine) {
+void read_axis(const TomlFile& file, const toml::table& table, std::vector<std::string_view>& seen, Machine& machine) {
     file.allow(table, {"name", "travel", "max_speed", "max_acceleration", "max_jerk", "servo"});
-    const std::string_view name = take_word(file, table, "name", axis_names);
+    std::vector<std::string_view> names(axis_names.begin(), axis_names.end());
+    const Kinematics& kinematics = machine.kinematics;
+    if (kinematics.has_rotary()) names.insert(names.end(), {{&kinematics.tilt.letter, 1}, {&kinematics.rotation.letter, 1}});
+    const std::string_view name = take_word(file, table, "name", names);
     if (name.empty()) file.fail(table, "axis without 'name'");
-    const auto index = static_cast<std::size_t>(std::find(axis_names.begin(), axis_names.end(), name) - axis_names.begin());
-    if (seen[index]) file.fail(*table.get("name"), fmt::format("axis '{}' is there twice", name));
-    seen[index] = true;
-    MachineAxis& axis = machine.axes[index];
-    read_travel(file, table, axis);
-    take(file, table, "max_speed", axis.max_speed, Low::above_zero, 1 / seconds_per_minute);
-    take(file, table, "max_acceleration", axis.max_acceleration, Low::above_zero);
-    take(file, table, "max_jerk", axis.max_jerk, Low::zero);
-    if (const toml::table* servo = file.section(table, "servo")) read_servo(file, *servo, machine.controller.period, axis.servo);
+    if (std::find(seen.begin(), seen.end(), name) != seen.end()) file.fail(*table.get("name"), fmt::format("axis '{}' is there twice", name));
+    seen.push_back(name);
+    const auto index = static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+    const bool rotary = index >= axis_names.size();
+    MachineAxis& axis = rotary ? machine.rotary[index - axis_names.size()] : machine.axes[index];
+    const double factor = rotary ? rad_per_deg : 1.0;
+    read_travel(file, table, factor, axis);
+    take(file, table, "max_speed", axis.max_speed, Low::above_zero, factor / seconds_per_minute);
+    take(file, table, "max_acceleration", axis.max_acceleration, Low::above_zero, factor);
+    take(file, table, "max_jerk", axis.max_jerk, Low::zero, factor);
+    if (const toml::table* servo = file.section(table, "servo")) read_servo(file, *servo, machine.controller.period, factor, axis.servo);
+}
+
+std::string axis_text(std::string_view name, const MachineAxis& a, double factor) {
+    const auto whole = [&](double value) { return std::round(value / factor * 1e9) / 1e9; };
+    std::string text = fmt::format("\n[[axis]]\nname = \"{}\"\ntravel = [{}, {}]\n", name, whole(a.travel_low), whole(a.travel_high));
+    text += fmt::format("max_speed = {}\nmax_acceleration = {}\n", whole(a.max_speed * seconds_per_minute), whole(a.max_acceleration));
+    text += fmt::format("max_jerk = {}               # 0: not limited\n[axis.servo]\n", whole(a.max_jerk));
+    text += fmt::format("position_gain = {}            # 1/s\n", a.servo.position_gain);
+    text += fmt::format("velocity_feedforward = {}    # 1: no lag at constant speed\n", a.servo.velocity_feedforward);
+    text += fmt::format("velocity_time_constant = {}\n", a.servo.velocity_time_constant);
+    text += fmt::format("quantum = {}               # encoder step; 0: none\n", whole(a.servo.quantum));
+    text += fmt::format("noise = {}                    # rms\n", whole(a.servo.noise));
+    text += fmt::format("backlash = {}                 # play between drive and table\n", whole(a.servo.backlash));
+    return text + fmt::format("friction = {}                 # speed lost to Coulomb friction, per minute\n", whole(a.servo.friction * seconds_per_minute));
 }
 
 }  // namespace
@@ -125,14 +148,11 @@ Machine read_machine(const std::string& path) {
     machine.name = file.text(root, "name").value_or(machine.name);
     if (const toml::table* table = file.section(root, "controller")) read_controller(file, *table, machine.controller);
     if (const toml::table* table = file.section(root, "path")) read_path(file, *table, machine.path);
+    // Which rotary axes there can be, the kinematics say.
+    if (const toml::table* table = file.section(root, "kinematics")) machine.kinematics = read_kinematics(file, *table);
     if (const toml::array* axes = file.tables(root, "axis")) {
-        std::array<bool, 3> seen{};
+        std::vector<std::string_view> seen;
         for (const toml::node& node : *axes) read_axis(file, *node.as_table(), seen, machine);
-    }
-    if (const toml::table* table = file.section(root, "kinematics")) {
-        file.allow(*table, {"type"});
-        constexpr std::array<std::string_view, 1> types{"xyz"};
-        take_word(file, *table, "type", types);
     }
     return machine;
 }
@@ -153,21 +173,13 @@ std::string machine_text(const Machine& machine) {
     text += fmt::format("max_acceleration = {}        # tangential\n", p.max_acceleration);
     text += fmt::format("max_normal_acceleration = {}\n", p.max_normal_acceleration);
     text += fmt::format("max_jerk = {}               # tangential\n", p.max_jerk);
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
-        const MachineAxis& a = machine.axes[i];
-        text += fmt::format("\n[[axis]]\nname = \"{}\"\ntravel = [{}, {}]\n", axis_names[i], a.travel_low, a.travel_high);
-        text += fmt::format("max_speed = {}\nmax_acceleration = {}\n", a.max_speed * seconds_per_minute, a.max_acceleration);
-        text += fmt::format("max_jerk = {}               # 0: not limited\n[axis.servo]\n", a.max_jerk);
-        text += fmt::format("position_gain = {}            # 1/s\n", a.servo.position_gain);
-        text += fmt::format("velocity_feedforward = {}    # 1: no lag at constant speed\n", a.servo.velocity_feedforward);
-        text += fmt::format("velocity_time_constant = {}\n", a.servo.velocity_time_constant);
-        text += fmt::format("quantum = {}               # encoder step; 0: none\n", a.servo.quantum);
-        text += fmt::format("noise = {}                    # rms\n", a.servo.noise);
-        text += fmt::format("backlash = {}                 # play between drive and table\n", a.servo.backlash);
-        text += fmt::format("friction = {}                 # speed lost to Coulomb friction, mm/min\n", a.servo.friction * seconds_per_minute);
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) text += axis_text(axis_names[i], machine.axes[i], 1);
+    const Kinematics& k = machine.kinematics;
+    if (k.has_rotary()) {
+        text += axis_text({&k.tilt.letter, 1}, machine.rotary[0], rad_per_deg);
+        text += axis_text({&k.rotation.letter, 1}, machine.rotary[1], rad_per_deg);
     }
-    text += "\n[kinematics]\ntype = \"xyz\"\n";
-    return text;
+    return text + kinematics_text(k);
 }
 
 }  // namespace clsurf::io

@@ -6,6 +6,9 @@
 #include <string>
 #include <string_view>
 
+#include "core/units.h"
+#include "machine/kinematics.h"
+
 namespace clsurf {
 
 /// Position loop of one axis with a first-order velocity loop in it.
@@ -19,6 +22,7 @@ struct ServoModel {
     double friction = 0;                  ///< Coulomb, as the speed that the velocity loop loses to it [mm/s]
 };
 
+/// A linear axis in mm; a rotary one in rad.
 struct MachineAxis {
     double travel_low = -400, travel_high = 400;  ///< [mm], in the machine's coordinates
     double max_speed = 250;         ///< [mm/s]
@@ -54,11 +58,26 @@ struct PathLimits {
 
 inline constexpr std::array<std::string_view, 3> axis_names{"x", "y", "z"};
 
+/// What a rotary axis is taken to do where a machine file does not say: 20 turns a minute, an encoder
+/// step of 0.36 arc seconds. The axis that does not tilt turns on and on.
+[[nodiscard]] constexpr MachineAxis default_rotary(double travel_deg) {
+    MachineAxis axis;
+    axis.travel_low = -travel_deg * rad_per_deg;
+    axis.travel_high = travel_deg * rad_per_deg;
+    axis.max_speed = 120 * rad_per_deg;
+    axis.max_acceleration = 600 * rad_per_deg;
+    axis.max_jerk = 12000 * rad_per_deg;
+    axis.servo.quantum = 0.0001 * rad_per_deg;
+    return axis;
+}
+
 struct Machine {
     std::string name = "three-axis mill";
     ControllerSettings controller;
     PathLimits path;
     std::array<MachineAxis, 3> axes;  ///< x, y, z
+    Kinematics kinematics;
+    std::array<MachineAxis, 2> rotary{default_rotary(120), default_rotary(36000)};  ///< tilt, rotation
 };
 
 }  // namespace clsurf

@@ -4,53 +4,19 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <limits>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "motion/junction.h"
 #include "motion/lookahead.h"
 #include "motion/scurve.h"
+#include "support/vector_rows.h"
 
 namespace clsurf {
 namespace {
 
-/// One case: its words in order.
-class Row {
-public:
-    explicit Row(const std::string& line) : words_(line) { words_ >> name; }
-    double number() {
-        std::string word;
-        words_ >> word;
-        return std::stod(word);
-    }
-    std::vector<double> numbers(int count) {
-        std::vector<double> all;
-        for (int i = 0; i < count; ++i) all.push_back(number());
-        return all;
-    }
-    std::string word() {
-        std::string word;
-        words_ >> word;
-        return word;
-    }
-    std::string name;
-
-private:
-    std::istringstream words_;
-};
-
-std::vector<Row> rows(const std::string& file) {
-    std::ifstream stream(std::string(TEST_SOURCES) + "/motion/vectors/" + file);
-    std::vector<Row> all;
-    for (std::string line; std::getline(stream, line);) {
-        if (!line.empty() && line.front() != '#') all.emplace_back(line);
-    }
-    EXPECT_FALSE(all.empty()) << file;
-    return all;
-}
+std::vector<VectorRow> rows(const std::string& file) { return vector_rows("motion", file); }
 
 void near(double value, double expected, double relative, double absolute, const std::string& what) {
     if (std::isnan(expected)) return;  // not given
@@ -58,7 +24,7 @@ void near(double value, double expected, double relative, double absolute, const
 }
 
 TEST(SCurveVectors, RampsAndReach) {
-    for (Row& r : rows("ramp_reach.txt")) {
+    for (VectorRow& r : rows("ramp_reach.txt")) {
         const double v0 = r.number(), v1 = r.number(), way = r.number(), a = r.number(), j = r.number();
         near(ramp_time(std::abs(v1 - v0), a, j), r.number(), 1e-7, 1e-9, r.name);
         near(ramp_distance(v0, v1, a, j), r.number(), 1e-7, 1e-9, r.name);
@@ -67,7 +33,7 @@ TEST(SCurveVectors, RampsAndReach) {
 }
 
 TEST(SCurveVectors, SevenPhasesWithUnequalEndSpeeds) {
-    for (Row& r : rows("scurve.txt")) {
+    for (VectorRow& r : rows("scurve.txt")) {
         const double way = r.number(), vs = r.number(), ve = r.number();
         RampLimits limits{r.number(), r.number(), r.number(), r.number()};
         const PlannedProfile plan = plan_scurve(way, vs, ve, limits);
@@ -100,7 +66,7 @@ TEST(SCurveVectors, SevenPhasesWithUnequalEndSpeeds) {
 }
 
 TEST(SCurveVectors, RampFromARunningState) {
-    for (Row& r : rows("ramp_from_state.txt")) {
+    for (VectorRow& r : rows("ramp_from_state.txt")) {
         const double v0 = r.number(), a0 = r.number(), v1 = r.number(), a = r.number(), j = r.number();
         const RunningRamp ramp = ramp_from_state(v0, a0, v1, a, j);
         for (const double d : ramp.durations) near(d, r.number(), 1e-8, 1e-9, r.name);
@@ -115,7 +81,7 @@ TEST(SCurveVectors, RampFromARunningState) {
 
 // The five-phase profile of Li et al. 2025 is the seven-phase one without an acceleration limit.
 TEST(SCurveVectors, FivePhasesOfLi) {
-    for (Row& r : rows("symmetric_model.txt")) {
+    for (VectorRow& r : rows("symmetric_model.txt")) {
         const double vs = r.number(), j = r.number(), t1 = r.number(), t2 = r.number(), t3 = r.number();
         const SCurve profile(vs, j, {t1, 0, t1, t3, t2, 0, t2});
         near(profile.duration(), r.number(), 1e-8, 1e-9, r.name);
@@ -127,7 +93,7 @@ TEST(SCurveVectors, FivePhasesOfLi) {
         }
     }
     constexpr double none = std::numeric_limits<double>::infinity();
-    for (Row& r : rows("no_plateau.txt")) {
+    for (VectorRow& r : rows("no_plateau.txt")) {
         const double vs = r.number(), ve = r.number(), j = r.number(), way = r.number();
         const SCurve profile = plan_scurve(way, vs, ve, {none, none, none, j}).profile;
         near(profile.durations()[0], r.number(), 1e-8, 1e-9, r.name);
@@ -137,7 +103,7 @@ TEST(SCurveVectors, FivePhasesOfLi) {
 }
 
 TEST(JunctionVectors, ArcAndChord) {
-    for (Row& r : rows("junction_speed.txt")) {
+    for (VectorRow& r : rows("junction_speed.txt")) {
         const double a = r.number(), period = r.number(), error = r.number(), radius = r.number();
         near(arc_speed(radius, a), r.number(), 1e-9, 1e-12, r.name);
         near(chord_speed(radius, error, period), r.number(), 1e-9, 1e-12, r.name);
@@ -145,7 +111,7 @@ TEST(JunctionVectors, ArcAndChord) {
 }
 
 TEST(LookaheadVectors, JerkLimitedScan) {
-    for (Row& r : rows("lookahead.txt")) {
+    for (VectorRow& r : rows("lookahead.txt")) {
         const double a = r.number(), j = r.number(), v0 = r.number(), end = r.number();
         const int n = static_cast<int>(r.number());
         const std::vector<double> lengths = r.numbers(n), limits = r.numbers(n - 1), feeds = r.numbers(n);

@@ -1,0 +1,127 @@
+#pragma once
+// Kinematics of machines with two rotary axes: from axis positions to the tool's tip and direction in
+// the workpiece, and back. One table of chains, by what carries the rotary axes:
+//
+//     table-table   q = m + T(−θ) ( d + R(−φ) (p − o) ) + L k
+//     head-head     q = p + R(φ) ( b + T(θ) L k )
+//     table-head    q = o + R(−φ) (p − o) + T(θ) L k
+//
+// q axis positions, p tip, k tool axis with both angles zero; T turns about the tilt axis by θ, R about
+// the rotation axis by φ. In all three the tool axis in the workpiece is t = R(φ) T(θ) k. Angles are
+// positive for the motion of the tool relative to the workpiece; a machine that counts the other way
+// has a sign of −1, which is applied where angles come in or go out, and nowhere else.
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "core/geometry.h"
+#include "core/units.h"
+
+namespace clsurf {
+
+enum class KinematicsType : std::uint8_t { xyz, table_table, head_head, table_head };
+
+/// The word of a machine file: "xyz", "table-table", …
+[[nodiscard]] std::string_view name_of(KinematicsType type);
+[[nodiscard]] std::span<const KinematicsType> kinematics_types();
+
+/// How the controller takes the tool axis from block to block (motion/tool_axis_path.h).
+enum class ToolAxisInterpolation : std::uint8_t {
+    linear,  ///< angles in proportion to the way
+    vector,  ///< along the great circle
+    safe,    ///< likewise, but near the pole
+};
+[[nodiscard]] std::string_view name_of(ToolAxisInterpolation interpolation);
+
+/// Turns `v` about the unit vector `axis` by an angle with the given sine and cosine (Rodrigues).
+[[nodiscard]] inline Vec3 turned(const Vec3& v, const Vec3& axis, double sine, double cosine) {
+    return cosine * v + sine * axis.cross(v) + (1 - cosine) * axis.dot(v) * axis;
+}
+
+struct RotaryAxis {
+    char letter = 'a';
+    Vec3 direction = Vec3::UnitX();  ///< unit, with both angles zero
+    double sign = 1;                 ///< +1 or −1: angle here = sign · angle of the control
+};
+
+/// Angles of tilt and rotation axis [rad], signs applied.
+struct RotaryAngles {
+    double tilt = 0, rotation = 0;
+};
+
+struct ToolPose {
+    Vec3 tip = Vec3::Zero();        ///< [mm]
+    Vec3 axis = Vec3::UnitZ();      ///< unit, from the tip to the spindle
+};
+
+struct Kinematics {
+    KinematicsType type = KinematicsType::xyz;
+    RotaryAxis tilt{'a', Vec3::UnitX(), 1};
+    RotaryAxis rotation{'c', Vec3::UnitZ(), 1};
+    Vec3 tool_axis = Vec3::UnitZ();            ///< k
+    Vec3 rotation_centre = Vec3::Zero();       ///< o [mm]
+    Vec3 centre_from_tilt = Vec3::Zero();      ///< d [mm]
+    Vec3 tilt_point = Vec3::Zero();            ///< m [mm]
+    Vec3 tilt_from_rotation = Vec3::Zero();    ///< b [mm]
+    double tool_length = 0;                    ///< L, tip to the point whose position q is [mm]
+    bool always_tool_centre_point = false;     ///< programs have no word for it: positions are always tips
+
+    ToolAxisInterpolation interpolation = ToolAxisInterpolation::linear;
+    double axis_tolerance = 0.1 * rad_per_deg;  ///< that `safe` may leave the great circle [rad]
+
+    [[nodiscard]] bool has_rotary() const { return type != KinematicsType::xyz; }
+
+    /// The pair's angles from A, B, C as a program counts them [rad]; an axis not programmed (NaN) is at 0.
+    [[nodiscard]] RotaryAngles angles_of(const Vec3& abc) const;
+    /// A, B, C as a program counts them; an axis that the machine does not have is at 0.
+    [[nodiscard]] Vec3 programmed(const RotaryAngles& angles) const;
+    /// Tip and tool axis in the workpiece. Total: any angles.
+    [[nodiscard]] ToolPose to_workpiece(const Vec3& linear, const RotaryAngles& angles) const;
+    /// Positions of the linear axes for a tip and the angles. The inverse of to_workpiece().tip.
+    [[nodiscard]] Vec3 to_axes(const Vec3& tip, const RotaryAngles& angles) const;
+    /// t = R(φ) T(θ) k.
+    [[nodiscard]] Vec3 axis_of(const RotaryAngles& angles) const;
+    /// Axis positions for a tip in the origin with both angles zero [mm].
+    [[nodiscard]] Vec3 zero_position() const { return to_axes(Vec3::Zero(), {}); }
+};
+
+/// The angles that give a tool axis: two of them, the one with the greater tilt first; one where they
+/// meet or at the pole; none where the axis is out of reach (an inclined tilt axis).
+struct RotarySolutions {
+    std::array<RotaryAngles, 2> angles;
+    int count = 0;
+    bool pole = false;  ///< the tool axis is along the rotation axis: any rotation does
+};
+
+/// Less than this from the rotation axis (sine of the angle) is the pole.
+inline constexpr double pole_sine = 1e-9;
+
+/// Solves R(φ) T(θ) k = `axis` (unit); at the pole the rotation is `before.rotation`. Angles in (−π, π].
+/// For two axes that cross: Paden, Kahan 1986, subproblem 2.
+[[nodiscard]] RotarySolutions solve_rotary(const Kinematics& kinematics, const Vec3& axis, const RotaryAngles& before);
+
+/// The range of an angle [rad].
+struct AngleRange {
+    double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
+    [[nodiscard]] bool contains(double angle) const { return angle >= low && angle <= high; }
+};
+
+/// The solution next to `before`, each angle by whole turns as near to it as its range allows; least
+/// sum of both ways. False: none lies within the ranges.
+[[nodiscard]] bool nearest_rotary(const Kinematics& kinematics, const Vec3& axis, const RotaryAngles& before,
+                                  const AngleRange& tilt, const AngleRange& rotation, RotaryAngles& found);
+
+/// The angles for a whole series of tool axes with the least sum of ways |Δθ| + |Δφ| over both
+/// solutions at each (dynamic programming), so that a cut need not change over. From `before` on.
+/// Shorter than `axes`: the next one is out of reach. O(axes).
+[[nodiscard]] std::vector<RotaryAngles> follow_rotary(const Kinematics& kinematics, std::span<const Vec3> axes,
+                                                      const RotaryAngles& before, const AngleRange& tilt, const AngleRange& rotation);
+
+/// The angle between two tool axes [rad], good near 0 (by atan2).
+[[nodiscard]] double angle_between(const Vec3& a, const Vec3& b);
+
+}  // namespace clsurf
