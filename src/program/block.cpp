@@ -399,7 +399,7 @@ private:
             block_.polar_angle = incremental_value(block_.polar_angle_incremental);
             return;
         }
-        static constexpr std::array<std::string_view, 11> of_blocks{"AR", "RPL", "I1", "J1", "K1", "RND", "RNDM", "CHR", "CHF", "ANG", "DISR"};
+        static constexpr std::array<std::string_view, 14> of_blocks{"AR", "RPL", "I1", "J1", "K1", "RND", "RNDM", "CHR", "CHF", "ANG", "DISR", "A3", "B3", "C3"};
         const double value = evaluate(c_, variables_, dialect_);
         if (id == "CR") {
             put('R', value, column);

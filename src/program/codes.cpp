@@ -133,10 +133,13 @@ void Interpreter::apply_common(int code, Block& block, std::size_t column) {
         case 210: state_.unit_mm = 1; return;
         case 280: case 300: reference(code, block); return;
         case 330: state_.motion = MotionMode::thread; return;
-        case 430: case 431: case 432: case 440: case 490: tool_length(code, block); return;
+        case 430: case 431: case 432: case 440: case 490:
+            tool_length(code, block);
+            control_tool_centre_point(false, code_text(code));
+            return;
         case 434: case 435:
             tool_length(code, block);
-            event("tool-centre-point", code_text(code));
+            control_tool_centre_point(true, code_text(code));
             return;
         case 520: case 920: case 921: case 922: case 923:
             if (code == 520 || code == 920) shift_position(block);
@@ -253,6 +256,13 @@ void Interpreter::apply_m(int code, const Block& block) {
             if (dialect_ == DialectId::heidenhain_iso) {
                 machine_coordinates_ = code == 91;
                 if (code == 92) note(Severity::warning, "program.unknown-word", "M92: the machine's second zero is not known");
+                return;
+            }
+            event("m-code", fmt::format("M{}", code));
+            return;
+        case 128: case 129:
+            if (dialect_ == DialectId::heidenhain_iso) {
+                control_tool_centre_point(code == 128, fmt::format("M{}", code));
                 return;
             }
             event("m-code", fmt::format("M{}", code));

@@ -145,6 +145,10 @@ private:
     bool q_function(std::string_view text);                     ///< D00 … D13
     bool call_label(std::string_view text);                     ///< L5,3
 
+    // tool_axis.cpp: five axes
+    void control_tool_centre_point(bool on, const std::string& text);
+    bool take_tool_axis(const Block& block);
+
     // offsets.cpp: work systems, tools, reference points
     void set_offsets(const Block& block);       ///< G10
     void set_tool(int level, const Block& block);  ///< G10 L1, L10, L11
@@ -240,6 +244,8 @@ private:
     bool enters_beside_ = false;        ///< G41 of the controls: where the entry ends, the next motion tells
     bool entry_programmed_ = false;     ///< the entry move has been read
     int length_number_ = 0, radius_number_ = 0;  ///< Fanuc's H and D
+    bool tool_centre_point_ = false;    ///< G43.4, TRAORI, M128
+    bool axis_words_ = false;           ///< G43.5: I J K are the tool axis
     bool feed_missed_ = false;          ///< a cutting motion without feed has been reported
     std::int64_t compensation_ended_ = -1;  ///< motions before G40: the next one is a straight one
     std::int64_t unread_since_ = -1;        ///< motions before the position and the machine parted

@@ -40,6 +40,7 @@ struct ModalState {
 
     Vec3 position = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< [mm], of the work system
     Vec3 rotary = Vec3::Zero();  ///< A, B, C [deg]
+    Vec3 tool_axis = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< programmed as a vector, unit; NaN: by angles
     ProgramFrame frame;          ///< from programmed coordinates to `position`
 
     int work_system = 1;         ///< 1: G54

@@ -42,6 +42,7 @@ struct Motions {
     Column<float> feed;        ///< [mm/s] along the path; rapid: NaN; dwell: its time [s]
     Column<LineNumber> line;   ///< line in the file that the motion stands in
     Column<Xyz> rotary;        ///< A, B, C [rad]; empty when the program has no rotary axis
+    Column<Xyz> tool_axis;     ///< programmed as a unit vector; NaN: by the angles; empty: always by them
     Column<std::uint16_t> file;  ///< index into Program::files; empty when all is in the main file
     std::vector<Arc> arcs;     ///< sorted by motion
     std::vector<OffsetChange> offsets;  ///< sorted by first

@@ -89,7 +89,8 @@ Vec3 Interpreter::rotary_target(const Block& block) const {
 }
 
 void Interpreter::move(const Block& block) {
-    const bool axes = (block.words.has & (linear_axes | rotary_axes | other_axes)) != 0 || block.polar_radius || block.polar_angle ||
+    const bool turns_tool = take_tool_axis(block);
+    const bool axes = turns_tool || (block.words.has & (linear_axes | rotary_axes | other_axes)) != 0 || block.polar_radius || block.polar_angle ||
                       (polar_line_ && (block.words.has & (Words::bit('R') | Words::bit('H'))) != 0);
     switch (state_.motion) {
         case MotionMode::none:
@@ -257,6 +258,12 @@ void Interpreter::push(MotionKind kind, const Vec3& end, const Vec3& rotary, flo
     if (!m.rotary.empty() || rotary.squaredNorm() != 0) {
         if (m.rotary.empty()) m.rotary = Column<Xyz>(m.kind.size() - 1, Xyz(0, 0, 0));
         m.rotary.push_back(Xyz(rotary * rad_per_deg));
+    }
+    const bool vector = tool_centre_point_ && !std::isnan(state_.tool_axis.x());
+    if (vector || !m.tool_axis.empty()) {
+        const Xyz none(Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
+        if (m.tool_axis.empty()) m.tool_axis = Column<Xyz>(m.kind.size() - 1, none);
+        m.tool_axis.push_back(vector ? Xyz(state_.tool_axis) : none);
     }
     if (!m.file.empty() || file_ != 0) {
         if (m.file.empty()) m.file = Column<std::uint16_t>(m.kind.size() - 1, 0);

@@ -206,7 +206,7 @@ void Interpreter::apply_keyword(const Keyword& keyword, Block& block) {
         return;
     }
     if (name == "TRAORI" || name == "TRAFOOF") {
-        event("tool-centre-point", text());
+        control_tool_centre_point(name == "TRAORI", text());
         return;
     }
     if (name == "CYCLE832") {

@@ -1,0 +1,33 @@
+#pragma once
+// Tool centre point control: whether a program's positions are those of the tool's tip in the workpiece
+// (G43.4, G43.5, TRAORI, M128) or of the machine's axes (G49, TRAFOOF, M129).
+
+#include <cstdint>
+
+#include "program/program.h"
+
+namespace clsurf {
+
+/// Goes along the events of a program. Programs begin with it off.
+class ToolCentrePoint {
+public:
+    explicit ToolCentrePoint(const Program& program) : program_(&program) {}
+
+    /// Whether it is on at a motion; motions must not go back.
+    [[nodiscard]] bool on(std::int64_t motion) {
+        const std::vector<ProgramEvent>& events = program_->events;
+        for (; next_ < events.size() && events[next_].motion <= motion; ++next_) {
+            const ProgramEvent& event = events[next_];
+            if (event.name != "tool-centre-point") continue;
+            on_ = event.value.starts_with("TRAORI") || event.value.starts_with("G43.4") || event.value.starts_with("G43.5") || event.value.starts_with("M128");
+        }
+        return on_;
+    }
+
+private:
+    const Program* program_;
+    std::size_t next_ = 0;
+    bool on_ = false;
+};
+
+}  // namespace clsurf
