@@ -19,6 +19,8 @@ constexpr auto table = std::to_array<ChannelInfo>({
     {"program", "", "", "index into the log's list of programs"},
     {"time", "s", "", "time since the first record; default: record number times period"},
     {"speed", "mm/min", "", "path speed as the controller saw it"},
+    {"speed.", "mm/min", "deg/min", "speed of an axis as the controller saw it"},
+    {"acceleration.", "mm/s²", "deg/s²", "acceleration of an axis as the controller saw it"},
     {"override", "%", "", "feed override"},
     {"spindle.speed", "1/min", "", "spindle speed"},
     {"spindle.load", "%", "", "spindle load"},
@@ -56,6 +58,15 @@ constexpr auto conversions = std::to_array<Conversion>({
     {"mm/s", "mm/min", seconds_per_minute},
     {"m/min", "mm/min", 1e3},
     {"in/min", "mm/min", mm_per_inch},
+    {"deg/min", "deg/min", 1.0},
+    {"deg/s", "deg/min", seconds_per_minute},
+    {"rad/s", "deg/min", deg_per_rad * seconds_per_minute},
+    {"mm/s²", "mm/s²", 1.0},
+    {"mm/s^2", "mm/s²", 1.0},
+    {"m/s²", "mm/s²", 1e3},
+    {"m/s^2", "mm/s²", 1e3},
+    {"deg/s²", "deg/s²", 1.0},
+    {"rad/s²", "deg/s²", deg_per_rad},
 });
 
 /// The unit that a channel of that name has; empty: its own.
