@@ -2,6 +2,7 @@
 // Reports as JSON text, with the keys that scripts rely on (docs/reference/json.md). Invalid UTF-8 in
 // names and program lines becomes U+FFFD.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,7 @@ struct QueryMatch {
     Vec3 position = Vec3::Zero(); ///< [mm]
     double speed = 0;             ///< [mm/s]
     double acceleration = 0;      ///< [mm/s²]
+    std::optional<double> speed_uncertainty, acceleration_uncertainty;  ///< standard deviations, where known
     double confidence = 0;        ///< 0 … 1
     double distance = 0;          ///< [mm] to the asked position; 0 where none was asked
     PointRange line_points;       ///< the run of points of this line round the point

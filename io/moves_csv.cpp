@@ -36,10 +36,12 @@ void put(fmt::memory_buffer& out, double value) {
 
 }  // namespace
 
-void write_moves_csv(const Motions& motions, const std::function<void(std::string_view)>& write) {
+void write_moves_csv(const Motions& motions, const Kinematics* kinematics, const std::function<void(std::string_view)>& write) {
     fmt::memory_buffer out;
-    constexpr std::string_view header = "line,kind,x,y,z,a,b,c,ci,cj,ck,turns,plane,feed\n";
+    constexpr std::string_view header = "line,kind,x,y,z,a,b,c,ci,cj,ck,turns,plane,feed";
     out.append(header);
+    if (kinematics != nullptr) out.append(std::string_view(",ti,tj,tk"));
+    out.push_back('\n');
     auto arc = motions.arcs.begin();
     for (std::size_t i = 0; i < motions.kind.size(); ++i) {
         const MotionKind kind = motions.kind[i];
@@ -69,6 +71,10 @@ void write_moves_csv(const Motions& motions, const std::function<void(std::strin
         const double feed = motions.feed[i];
         put(out, kind == MotionKind::dwell ? std::numeric_limits<double>::quiet_NaN()
                                            : std::round(feed * seconds_per_minute * 1e3) / 1e3);
+        if (kinematics != nullptr) {
+            const Vec3 axis = kinematics->axis_of(kinematics->angles_of(motions.rotary.empty() ? Vec3(0, 0, 0) : motions.rotary[i].vec()));
+            for (int k = 0; k < 3; ++k) put(out, axis[k]);
+        }
         out.push_back('\n');
         if (out.size() >= piece_bytes) {
             write({out.data(), out.size()});

@@ -1,16 +1,24 @@
 // clsurf moves: the motions of a program as CSV.
 
 #include "cli/options.h"
+#include "io/machine_file.h"
 #include "io/moves_csv.h"
 #include "io/program_file.h"
+#include "path/tip_motions.h"
 
 namespace clsurf::cli {
 namespace {
 
 ExitCode run(const po::variables_map& values) {
-    const Program program = io::read_program(required(values, "PROGRAM"), read_program_options(values));
+    Program program = io::read_program(required(values, "PROGRAM"), read_program_options(values));
     print(program.diagnostics, values);
-    io::write_moves_csv(program.motions, write_to_stdout);
+    std::optional<Machine> machine;
+    if (values.count("machine") > 0) {
+        machine = io::read_machine(values["machine"].as<std::string>());
+        if (!machine->kinematics.has_rotary()) throw UsageError("--machine: the machine has no rotary axes");
+        solve_tool_axes(program, *machine);
+    }
+    io::write_moves_csv(program.motions, machine ? &machine->kinematics : nullptr, write_to_stdout);
     return ExitCode::done;
 }
 
@@ -25,8 +33,13 @@ Subcommand moves_subcommand() {
             "One row per motion, in the active work coordinate system, mm and deg:\n"
             "line,kind,x,y,z,a,b,c,ci,cj,ck,turns,plane,feed. Kinds are rapid, feed, cw, ccw,\n"
             "dwell and spline; the centre (ci, cj, ck) is absolute; a field is empty where it\n"
-            "means nothing. PROGRAM may be - for standard input.",
-        .declare = [](po::options_description& options) { declare_program_options(options); },
+            "means nothing. PROGRAM may be - for standard input. With --machine a, b, c are also those\n"
+            "of tool axes given as vectors (G43.5, A3=), and ti,tj,tk at the end is the tool axis.",
+        .declare =
+            [](po::options_description& options) {
+                declare_program_options(options);
+                options.add_options()("machine", po::value<std::string>()->value_name("FILE"), "machine file with rotary axes: adds the tool axis in the workpiece");
+            },
         .positional = {"PROGRAM"},
         .run = run,
     };

@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <cstring>
 
+#include "io/machine_file.h"
+
 namespace clsurf::cli {
 
 void declare_common(po::options_description& options) {
@@ -77,6 +79,16 @@ std::optional<Vec3> read_work_offset(const po::variables_map& values) {
     if (values.count("work-offset") == 0) return std::nullopt;
     const std::vector<double> numbers = parse_numbers(values["work-offset"].as<std::string>(), "--work-offset", 3);
     return Vec3(numbers[0], numbers[1], numbers[2]);
+}
+
+void declare_kinematics(po::options_description& options) {
+    options.add_options()("machine", po::value<std::string>()->value_name("FILE"), "machine file: by its kinematics positions of five axes become those of the tool's tip in the workpiece");
+}
+
+std::shared_ptr<const Kinematics> load_kinematics(const std::string& path) {
+    if (path.empty()) return nullptr;
+    const Machine machine = io::read_machine(path);
+    return machine.kinematics.has_rotary() ? std::make_shared<const Kinematics>(machine.kinematics) : nullptr;
 }
 
 void declare_json(po::options_description& options) {

@@ -2,6 +2,7 @@
 // Option groups that several subcommands share, declared and read in one place each, so that an
 // option means the same everywhere.
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,6 +13,7 @@
 #include "core/geometry.h"
 #include "io/log_format.h"
 #include "io/program_file.h"
+#include "machine/kinematics.h"
 
 namespace clsurf::cli {
 
@@ -36,6 +38,11 @@ void declare_log_options(po::options_description& options);
 /// --work-offset
 void declare_work_offset(po::options_description& options);
 [[nodiscard]] std::optional<Vec3> read_work_offset(const po::variables_map& values);
+
+/// --machine, for its kinematics
+void declare_kinematics(po::options_description& options);
+/// The kinematics of a machine file; nullptr: no file, or three axes.
+[[nodiscard]] std::shared_ptr<const Kinematics> load_kinematics(const std::string& path);
 
 /// --json
 void declare_json(po::options_description& options);

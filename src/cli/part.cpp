@@ -4,6 +4,8 @@
 #include "io/compressed.h"
 #include "io/program_file.h"
 #include "io/program_identity.h"
+#include "path/pieces.h"
+#include "path/tip_motions.h"
 
 namespace clsurf::cli {
 
@@ -26,10 +28,12 @@ void declare_part(po::options_description& options, bool can_form) {
     declare_program_options(options);
     declare_log_options(options);
     declare_work_offset(options);
+    declare_kinematics(options);
     // clang-format off
     options.add_options()
         ("surface", po::value<std::string>()->value_name(can_form ? "commanded|feedback|actual|formed" : "commanded|feedback|actual"),
             can_form ? "which positions (default: commanded, else what the log has), or what the tool leaves standing; that needs --tool" : "which positions (default: commanded, else what the log has)")
+        ("derivative", po::value<std::string>()->value_name("savgol|kalman"), "how speed, acceleration and jerk come about: least squares over a window, or a Kalman smoother over all that the log measures, with its uncertainty (default: savgol)")
         ("ignore-lines", "find the lines by geometry even where the log has a line channel");
     // clang-format on
 }
@@ -46,11 +50,18 @@ PartOptions read_part_options(const po::variables_map& values) {
     if (options.formed) options.role_given = false;
     if (options.role_given) options.role = parse_role(values["surface"].as<std::string>());
     options.offset = read_work_offset(values);
+    if (values.count("derivative") > 0) {
+        const std::string method = values["derivative"].as<std::string>();
+        if (method != "savgol" && method != "kalman") throw UsageError("--derivative: '" + method + "' is not savgol or kalman");
+        options.derivative = method == "kalman" ? DerivativeMethod::kalman : DerivativeMethod::savgol;
+    }
+    if (values.count("machine") > 0) options.machine = values["machine"].as<std::string>();
     return options;
 }
 
 Part load_part(const PartOptions& options, StageClock& clock) {
     Part part;
+    part.derivative = options.derivative;
     clock.begin("read the program");
     const io::Source program = io::open_source(options.program);
     part.program = io::read_program(program, options.program_options);
@@ -62,15 +73,27 @@ Part load_part(const PartOptions& options, StageClock& clock) {
         role = part.log.has(Role::feedback) ? Role::feedback : Role::actual;
     }
     const Vec3 offset = -options.offset.value_or(part.log.work_offset.value_or(Vec3::Zero()));
-    part.path = reconstruct(part.log, role, offset);
+    const std::shared_ptr<const Kinematics> kinematics = load_kinematics(options.machine);
+    part.path = reconstruct(part.log, role, offset, kinematics);
     part.diagnostics.append(part.program.diagnostics);
     part.diagnostics.append(part.log.diagnostics);
     io::check_identity(program, part.log, part.diagnostics);
     clock.begin("map points to lines");
-    const Trajectory mapped = reconstruct(part.log, mapping_role(part.log, role), offset);
+    if (kinematics) {
+        make_tip_motions(part.program, *kinematics, offset);
+        note_poles(part.log, role, *kinematics, part.diagnostics);
+    } else {
+        note_rotary(part.log, role, part.diagnostics);
+    }
+    const Trajectory mapped = reconstruct_like(part.log, mapping_role(part.log, role), part.path);
     part.lines = std::make_unique<LineMap>(map_lines(mapped, part.log, part.program, options.use_line_channel, part.diagnostics));
     clock.end();
     return part;
+}
+
+std::shared_ptr<const MotionEstimate> estimate_motion(const Part& part, const Passes& pieces) {
+    if (part.derivative == DerivativeMethod::savgol) return nullptr;
+    return std::make_shared<const MotionEstimate>(part.log, part.path, smooth_pieces(part.log, pieces));
 }
 
 ClSurface stitch(const Part& part) { return clsurf::stitch(gather(part.path), *part.lines); }

@@ -25,10 +25,12 @@ struct PartOptions {
     bool role_given = true;         ///< false: commanded where the log has it
     bool formed = false;            ///< --surface formed
     std::optional<Vec3> offset;     ///< [mm], workpiece = machine − offset
+    std::string machine;            ///< machine file with the kinematics; empty: three axes
     bool use_line_channel = true;
+    DerivativeMethod derivative = DerivativeMethod::savgol;
 };
 
-/// --dialect, --block-delete, --tools, --layout, --mapping, --period, --surface, --work-offset, --ignore-lines.
+/// --dialect, --block-delete, --tools, --layout, --mapping, --period, --surface, --work-offset, --machine, --derivative, --ignore-lines.
 /// `can_form`: --surface may be `formed` too.
 void declare_part(po::options_description& options, bool can_form = false);
 [[nodiscard]] PartOptions read_part_options(const po::variables_map& values);
@@ -41,11 +43,15 @@ struct Part {
     Log log;
     Trajectory path;               ///< of the role that is shown
     std::unique_ptr<LineMap> lines;
+    DerivativeMethod derivative = DerivativeMethod::savgol;  ///< of fields
     Diagnostics diagnostics;       ///< of program, log and map together
 };
 
 /// Reads and maps. Throws InputError, UsageError.
 [[nodiscard]] Part load_part(const PartOptions& options, StageClock& clock);
+
+/// What derives the speeds of pieces of the part, as --derivative asks for it; nullptr: savgol. O(points).
+[[nodiscard]] std::shared_ptr<const MotionEstimate> estimate_motion(const Part& part, const Passes& pieces);
 
 /// The surface of a part. O(points).
 [[nodiscard]] ClSurface stitch(const Part& part);

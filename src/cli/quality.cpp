@@ -11,9 +11,9 @@ namespace {
 
 std::optional<Trajectory> measured_of(const Part& part, std::optional<Role> wanted) {
     if (part.path.role != Role::commanded || wanted == Role::commanded) return std::nullopt;
-    if (wanted) return reconstruct(part.log, *wanted, part.path.offset);
+    if (wanted) return reconstruct_like(part.log, *wanted, part.path);
     for (const Role role : {Role::actual, Role::feedback}) {
-        if (part.log.has(role)) return reconstruct(part.log, role, part.path.offset);
+        if (part.log.has(role)) return reconstruct_like(part.log, role, part.path);
     }
     return std::nullopt;
 }

@@ -79,7 +79,7 @@ PointRange spread(PointIndex point, PointIndex count, PointIndex reach, Same&& s
     return range;
 }
 
-io::QueryMatch match_of(const Part& part, PointIndex point, double distance) {
+io::QueryMatch match_of(const Part& part, const std::shared_ptr<const MotionEstimate>& estimate, PointIndex point, double distance) {
     io::QueryMatch match;
     const LineMap& lines = *part.lines;
     match.point = point;
@@ -101,9 +101,14 @@ io::QueryMatch match_of(const Part& part, PointIndex point, double distance) {
     const PointRange piece = spread(point, part.log.records, window, [&](PointIndex i) { return kind_at(i) == kind; });
     Passes local;
     local.push_back({piece.first, piece.last, PassKind::cut});
-    const FieldSet fields(part.log, part.path, local);
-    match.speed = fields.values("speed", {point, point}).front();
-    match.acceleration = fields.values("acceleration", {point, point}).front();
+    const FieldSet fields(part.log, part.path, local, {estimate, 0});
+    const auto value = [&](std::string_view name) { return fields.values(name, {point, point}).front(); };
+    match.speed = value("speed");
+    match.acceleration = value("acceleration");
+    if (estimate) {
+        match.speed_uncertainty = value("speed_uncertainty");
+        match.acceleration_uncertainty = value("acceleration_uncertainty");
+    }
     return match;
 }
 
@@ -113,6 +118,8 @@ void check_point(const Log& log, PointIndex point) {
 
 std::vector<io::QueryMatch> find_matches(const Part& part, const po::variables_map& values) {
     std::vector<io::QueryMatch> matches;
+    std::shared_ptr<const MotionEstimate> estimate;
+    if (part.derivative == DerivativeMethod::kalman) estimate = estimate_motion(part, find_runs(gather(part.path), *part.lines));
     std::size_t nearest = 1;
     if (values.count("nearest") > 0) {
         const int k = values["nearest"].as<int>();
@@ -123,12 +130,12 @@ std::vector<io::QueryMatch> find_matches(const Part& part, const po::variables_m
     if (values.count("point") > 0) {
         const PointIndex point = values["point"].as<long long>();
         check_point(part.log, point);
-        matches.push_back(match_of(part, point, 0));
+        matches.push_back(match_of(part, estimate, point, 0));
     }
     if (values.count("at") > 0) {
         const std::vector<double> at = parse_numbers(values["at"].as<std::string>(), "--at", 3);
         for (const Candidate& c : nearest_points(part.path, Vec3(at[0], at[1], at[2]), nearest)) {
-            matches.push_back(match_of(part, c.point, std::sqrt(c.squared)));
+            matches.push_back(match_of(part, estimate, c.point, std::sqrt(c.squared)));
         }
     }
     if (values.count("time") > 0) {
@@ -137,14 +144,14 @@ std::vector<io::QueryMatch> find_matches(const Part& part, const po::variables_m
         if (point < 0 || point >= part.log.records || !std::isfinite(time)) {
             throw UsageError(fmt::format("--time {:g}: the log lasts from 0 to {:.6f} s", time, part.log.time_of(part.log.records - 1)));
         }
-        matches.push_back(match_of(part, point, 0));
+        matches.push_back(match_of(part, estimate, point, 0));
     }
     if (values.count("line") > 0) {
         const long long line = values["line"].as<long long>();
         if (line < 1 || line > part.program.main().line_count()) {
             throw UsageError(fmt::format("--line {}: the program has lines 1 … {}", line, part.program.main().line_count()));
         }
-        for (const PointRange& range : part.lines->points_of(static_cast<LineNumber>(line))) matches.push_back(match_of(part, range.first, 0));
+        for (const PointRange& range : part.lines->points_of(static_cast<LineNumber>(line))) matches.push_back(match_of(part, estimate, range.first, 0));
     }
     return matches;
 }
@@ -155,8 +162,9 @@ void print_matches(const std::vector<io::QueryMatch>& matches) {
         fmt::print("line {}: {}\n", m.line, m.text);
         fmt::print("  point {} at {:.3f} s, X {:.4f} Y {:.4f} Z {:.4f} mm", m.point, m.time, m.position.x(), m.position.y(), m.position.z());
         if (m.distance > 0) fmt::print(", {:.4f} mm away", m.distance);
-        fmt::print("\n  speed {:.1f} mm/min, acceleration {:.1f} mm/s²; points {} … {} belong to the line (confidence {:.2f})\n",
-                   m.speed * seconds_per_minute, m.acceleration, m.line_points.first, m.line_points.last, m.confidence);
+        const auto known = [](const std::optional<double>& sigma, double factor) { return sigma ? fmt::format(" ±{:.2g}", *sigma * factor) : std::string(); };
+        fmt::print("\n  speed {:.1f}{} mm/min, acceleration {:.1f}{} mm/s²; points {} … {} belong to the line (confidence {:.2f})\n",
+                   m.speed * seconds_per_minute, known(m.speed_uncertainty, seconds_per_minute), m.acceleration, known(m.acceleration_uncertainty, 1), m.line_points.first, m.line_points.last, m.confidence);
     }
 }
 

@@ -118,7 +118,7 @@ std::vector<viz::OutlineMark> outline_defects(Part& part, const ClSurface& surfa
         return outlines;
     }
     const Trajectory shown = part.path;
-    part.path = reconstruct(part.log, Role::commanded, shown.offset);
+    part.path = reconstruct_like(part.log, Role::commanded, shown);
     add(stitch(part), shown.role);
     part.path = shown;
     return outlines;

@@ -35,6 +35,9 @@ struct Scratch {
     std::array<std::vector<double>, 3> samples;
     std::array<std::array<std::vector<double>, 3>, 3> derived;  ///< by derivative − 1, axis
     std::array<std::vector<double>, 3> commanded, measured;
+    MotionEstimate::Scratch estimate;
+    std::array<std::array<std::vector<double>, 3>, 4> estimated;  ///< by derivative, axis
+    std::vector<double> uncertainty;
 };
 
 void read(const Trajectory& path, PointIndex first, PointIndex last, std::array<std::vector<double>, 3>& out) {
@@ -44,8 +47,8 @@ void read(const Trajectory& path, PointIndex first, PointIndex last, std::array<
 
 }  // namespace
 
-FieldSet::FieldSet(const Log& log, const Trajectory& path, const Passes& passes, double coarsest)
-    : log_(log), path_(path), pieces_(smooth_pieces(log, passes)), coarsest_(coarsest) {}
+FieldSet::FieldSet(const Log& log, const Trajectory& path, const Passes& passes, Derivation derivation)
+    : log_(log), path_(path), pieces_(smooth_pieces(log, passes)), derivation_(std::move(derivation)) {}
 
 namespace {
 
@@ -53,14 +56,31 @@ namespace {
 struct Plan {
     std::array<std::optional<Differentiator>, 3> derivatives;
     std::optional<Trajectory> commanded, measured;
+    std::optional<Trajectory> other;  ///< what is derived in place of the path's positions
+    const MotionEstimate* estimate = nullptr;  ///< what derives the path's positions; nullptr: the filters above
+    int derivative = 0;               ///< the highest that is needed
     PointIndex reach = 0;
 };
 
-Plan plan_for(const FieldRow& row, const Log& log, const Trajectory& path, double coarsest) {
+constexpr unsigned all_derivatives = needs::velocity | needs::acceleration | needs::jerk;
+
+Plan plan_for(const FieldRow& row, const Log& log, const Trajectory& path, const Derivation& derivation) {
+    const MotionEstimate* estimate = derivation.estimate.get();
     Plan plan;
+    if ((row.needs & needs::uncertainty) != 0 && estimate == nullptr) {
+        throw UsageError(fmt::format("field '{}' is what a Kalman smoother leaves open", row.name), "--derivative kalman");
+    }
+    // Angles and tool axes have no measured speeds.
+    if ((row.needs & all_derivatives) != 0 && (row.needs & (needs::angle | needs::tool_axis)) == 0) plan.estimate = estimate;
+    const bool of_axis = (row.needs & needs::tool_axis) != 0;
+    if (of_axis && path.kinematics == nullptr) {
+        throw UsageError(fmt::format("field '{}' needs the kinematics of a machine with rotary axes", row.name), "--machine FILE says them");
+    }
     for (int d = 1; d <= 3; ++d) {
         if ((row.needs & (needs::velocity << (d - 1))) == 0) continue;
-        plan.derivatives[static_cast<std::size_t>(d - 1)].emplace(derivative_filter(d, log.period, coarsest));
+        plan.derivative = d;
+        if (plan.estimate != nullptr) continue;
+        plan.derivatives[static_cast<std::size_t>(d - 1)].emplace(derivative_filter(d, log.period, derivation.coarsest_period));
         plan.reach = std::max(plan.reach, plan.derivatives[static_cast<std::size_t>(d - 1)]->reach());
     }
     if ((row.needs & needs::error) != 0) {
@@ -69,8 +89,17 @@ Plan plan_for(const FieldRow& row, const Log& log, const Trajectory& path, doubl
             if (log.has(role)) continue;
             throw UsageError(fmt::format("field '{}' needs {} positions, which the log does not have", row.name, name_of(role)));
         }
-        plan.commanded = reconstruct(log, Role::commanded, path.offset);
-        plan.measured = reconstruct(log, measured, path.offset);
+        const auto positions = [&](Role role) { return of_axis ? tool_axes(log, role, path.kinematics) : reconstruct_like(log, role, path); };
+        plan.commanded = positions(Role::commanded);
+        plan.measured = positions(measured);
+    } else if (of_axis) {
+        plan.other = tool_axes(log, path.role, path.kinematics);
+    } else if ((row.needs & needs::angle) != 0) {
+        const char letter = row.name.back();
+        if (log.find(fmt::format("{}.{}", prefix_of(path.role), letter)) == nullptr) {
+            throw UsageError(fmt::format("field '{}' needs {} positions of axis {}, which the log does not have", row.name, name_of(path.role), letter));
+        }
+        plan.other = axis_angle(log, path.role, letter);
     }
     return plan;
 }
@@ -82,10 +111,29 @@ void compute_stretch(const FieldRow& row, const Plan& plan, const Trajectory& pa
     block.first = first;
     block.count = static_cast<std::size_t>(last - first + 1);
     block.period = path.period;
-    if ((row.needs & ~needs::error) != 0) {
+    if ((row.needs & needs::uncertainty) != 0) {
+        scratch.uncertainty.resize(block.count);
+        plan.estimate->sigmas(plan.derivative, piece, first, scratch.uncertainty);
+        block.uncertainty = scratch.uncertainty.data();
+        row.compute(block, out);
+        return;
+    }
+    if (plan.estimate != nullptr) {
+        plan.estimate->estimate(piece, first, last, scratch.estimate, scratch.estimated);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            block.position[axis] = scratch.estimated[0][axis].data();
+            block.velocity[axis] = scratch.estimated[1][axis].data();
+            block.acceleration[axis] = scratch.estimated[2][axis].data();
+            block.jerk[axis] = scratch.estimated[3][axis].data();
+        }
+        row.compute(block, out);
+        return;
+    }
+    const Trajectory& derived = plan.other ? *plan.other : path;
+    if ((row.needs & (needs::position | needs::velocity | needs::acceleration | needs::jerk)) != 0) {
         const PointIndex from = std::max(piece.first, first - plan.reach);
         const PointIndex to = std::min(piece.last, last + plan.reach);
-        read(path, from, to, scratch.samples);
+        read(derived, from, to, scratch.samples);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             block.position[axis] = scratch.samples[axis].data() + (first - from);
             for (std::size_t d = 0; d < 3; ++d) {
@@ -172,8 +220,14 @@ Field FieldSet::get(std::string_view name) const {
     Field field;
     field.values.resize(static_cast<std::size_t>(log_.records));
     if (const FieldRow* row = find_field_row(name)) {
-        field.info = info_of(*row, &log_, coarsest_);
-        const Plan plan = plan_for(*row, log_, path_, coarsest_);
+        field.info = info_of(*row, &log_, derivation_.coarsest_period);
+        const bool of_path = (row->needs & (needs::angle | needs::tool_axis)) == 0;
+        for (int d = 3; derivation_.estimate && of_path && d >= 1; --d) {
+            if ((row->needs & (needs::velocity << (d - 1))) == 0) continue;
+            field.info.note = derivation_.estimate->note(d);
+            break;
+        }
+        const Plan plan = plan_for(*row, log_, path_, derivation_);
         for_each_block(log_.records, [&](PointIndex first, PointIndex last) {
             compute_range(*row, plan, path_, pieces_, {first, last - 1}, field.values.data() + first);
         });
@@ -204,7 +258,7 @@ std::vector<double> FieldSet::values(std::string_view name, PointRange points) c
     const FieldRow* row = find_field_row(name);
     if (row == nullptr) unknown_field(name, known_fields(&log_));
     std::vector<float> computed(static_cast<std::size_t>(points.size()));
-    compute_range(*row, plan_for(*row, log_, path_, coarsest_), path_, pieces_, points, computed.data());
+    compute_range(*row, plan_for(*row, log_, path_, derivation_), path_, pieces_, points, computed.data());
     return {computed.begin(), computed.end()};
 }
 

@@ -3,23 +3,32 @@
 //
 // To add a field: one row in field_table.cpp.
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "field/field.h"
 #include "log/log.h"
+#include "path/motion_estimate.h"
 #include "path/passes.h"
 #include "path/trajectory.h"
 
 namespace clsurf {
 
+/// How fields are taken from positions.
+struct Derivation {
+    /// Derivatives by a Kalman smoother, those of angles and tool axes apart; nullptr: all by least squares
+    /// over a window.
+    std::shared_ptr<const MotionEstimate> estimate;
+    double coarsest_period = 0;  ///< [s] of another log whose fields are to be compared; 0: none
+};
+
 class FieldSet {
 public:
     /// `log`, `path` and `passes` must outlive it. Derivatives are taken inside pieces of `passes`;
     /// neighbouring turns of a spiral count as one piece.
-    /// `coarsest` [s]: the period of another log whose fields are to be compared; 0: none.
-    FieldSet(const Log& log, const Trajectory& path, const Passes& passes, double coarsest = 0);
+    FieldSet(const Log& log, const Trajectory& path, const Passes& passes, Derivation derivation = {});
 
     /// The table or the log has a field of that name.
     [[nodiscard]] bool has(std::string_view name) const;
@@ -35,7 +44,7 @@ private:
     const Log& log_;
     const Trajectory& path_;
     std::vector<PointRange> pieces_;  ///< for derivatives, in order
-    double coarsest_;
+    Derivation derivation_;
 };
 
 /// Throws UsageError: none of `fields` is called that; the nearest is suggested.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "machine/kinematics.h"
+
 namespace clsurf {
 namespace {
 
@@ -58,6 +60,8 @@ double following_error(const FieldBlock& b, std::size_t i) {
     return std::sqrt(sum);
 }
 
+double uncertainty_of(const FieldBlock& b, std::size_t i) { return b.uncertainty[i]; }
+
 template <int axis>
 double position_of(const FieldBlock& b, std::size_t i) { return b.position[axis][i]; }
 template <int axis>
@@ -68,6 +72,12 @@ template <int axis>
 double jerk_of(const FieldBlock& b, std::size_t i) { return b.jerk[axis][i]; }
 template <int axis>
 double error_of(const FieldBlock& b, std::size_t i) { return b.measured[axis][i] - b.commanded[axis][i]; }
+
+/// Angle between commanded and measured tool axis, by atan2: good near 0.
+double orientation_error(const FieldBlock& b, std::size_t i) {
+    const Vec3 commanded(b.commanded[0][i], b.commanded[1][i], b.commanded[2][i]);
+    return angle_between(commanded, Vec3(b.measured[0][i], b.measured[1][i], b.measured[2][i]));
+}
 
 /// Squared distance of the measured point i to the commanded way from point k to k + 1.
 double squared_to_step(const FieldBlock& b, std::size_t i, std::ptrdiff_t k) {
@@ -106,6 +116,8 @@ void contour_error(const FieldBlock& b, float* out) {
     }
 }
 
+constexpr Unit deg_min{"deg/min", deg_per_rad * seconds_per_minute};
+constexpr Unit deg_s2{"deg/s²", deg_per_rad};
 constexpr FieldScale up = FieldScale::sequential;
 constexpr FieldScale both = FieldScale::diverging;
 
@@ -133,6 +145,20 @@ constexpr auto table = std::to_array<FieldRow>({
     {"position.x", "Position X", unit::mm, up, needs::position, each<position_of<0>>},
     {"position.y", "Position Y", unit::mm, up, needs::position, each<position_of<1>>},
     {"position.z", "Position Z", unit::mm, up, needs::position, each<position_of<2>>},
+    {"speed_uncertainty", "Standard deviation of the path speed", unit::mm_min, up, needs::velocity | needs::uncertainty, each<uncertainty_of>},
+    {"acceleration_uncertainty", "Standard deviation of the acceleration", unit::mm_s2, up, needs::acceleration | needs::uncertainty, each<uncertainty_of>},
+    {"jerk_uncertainty", "Standard deviation of the jerk", unit::mm_s3, up, needs::jerk | needs::uncertainty, each<uncertainty_of>},
+    {"orientation_error", "Error of the tool axis", unit::deg, up, needs::error | needs::tool_axis, each<orientation_error>},
+    {"tool_axis_speed", "Speed of the tool axis", deg_min, up, needs::velocity | needs::tool_axis, each<speed>},
+    {"tool_axis.x", "Tool axis X", unit::none, both, needs::position | needs::tool_axis, each<position_of<0>>},
+    {"tool_axis.y", "Tool axis Y", unit::none, both, needs::position | needs::tool_axis, each<position_of<1>>},
+    {"tool_axis.z", "Tool axis Z", unit::none, both, needs::position | needs::tool_axis, each<position_of<2>>},
+    {"speed.a", "Speed of A", deg_min, both, needs::velocity | needs::angle, each<velocity_of<0>>},
+    {"speed.b", "Speed of B", deg_min, both, needs::velocity | needs::angle, each<velocity_of<0>>},
+    {"speed.c", "Speed of C", deg_min, both, needs::velocity | needs::angle, each<velocity_of<0>>},
+    {"acceleration.a", "Acceleration of A", deg_s2, both, needs::acceleration | needs::angle, each<acceleration_of<0>>},
+    {"acceleration.b", "Acceleration of B", deg_s2, both, needs::acceleration | needs::angle, each<acceleration_of<0>>},
+    {"acceleration.c", "Acceleration of C", deg_s2, both, needs::acceleration | needs::angle, each<acceleration_of<0>>},
 });
 
 }  // namespace

@@ -18,6 +18,7 @@ struct FieldBlock {
     const double* jerk[3];
     const double* commanded[3];
     const double* measured[3];
+    const double* uncertainty;
     PointIndex first = 0;   ///< of the block
     std::size_t count = 0;
     double period = 0;
@@ -25,6 +26,11 @@ struct FieldBlock {
 
 namespace needs {
 inline constexpr unsigned position = 1, velocity = 2, acceleration = 4, jerk = 8, error = 16;
+/// In place of positions: the angle of the rotary axis whose letter ends the row's name [rad], as the
+/// first component; the unit vector of the tool axis.
+inline constexpr unsigned angle = 32, tool_axis = 64;
+/// Standard deviation that the Kalman smoother leaves of the derivative that the row needs.
+inline constexpr unsigned uncertainty = 128;
 }
 
 struct FieldRow {

@@ -1,6 +1,16 @@
 #include "path/trajectory.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/block.h"
+#include "core/column.h"
 #include "core/error.h"
+#include "core/units.h"
 
 namespace clsurf {
 
@@ -18,27 +28,178 @@ Vec3 Trajectory::at(PointIndex point) const {
     return Vec3(axes[0].at(point), axes[1].at(point), axes[2].at(point)) + offset;
 }
 
-Trajectory reconstruct(const Log& log, Role role, const Vec3& offset) {
+namespace {
+
+/// The channel of an axis, or an error that says what is missing.
+const Channel& channel_of(const Log& log, Role role, char letter) {
+    const std::string name = std::string(prefix_of(role)) + "." + letter;
+    if (const Channel* channel = log.find(name)) return *channel;
+    throw InputError(Place::of_file(log.name), "no " + std::string(name_of(role)) + " positions: channel '" + name + "' is missing",
+                     "`clsurf info` lists the channels that the log has");
+}
+
+Trajectory trajectory_of(const Log& log, Role role) {
     Trajectory trajectory;
     trajectory.role = role;
-    trajectory.offset = offset;
     trajectory.count = log.records;
     trajectory.period = log.period;
     trajectory.name = log.name;
     trajectory.keep_alive = log.keep_alive;
-    const std::string prefix(prefix_of(role));
-    for (int axis = 0; axis < 3; ++axis) {
-        const std::string name = prefix + "." + "xyz"[axis];
-        const Channel* channel = log.find(name);
-        if (channel == nullptr) {
-            throw InputError(Place::of_file(log.name),
-                             "no " + std::string(name_of(role)) + " positions: channel '" + name +
-                                 "' is missing",
-                             "`clsurf info` lists the channels that the log has");
+    return trajectory;
+}
+
+/// Angles of both rotary axes, read by block, signs applied.
+class AngleReader {
+public:
+    AngleReader(const Log& log, Role role, const Kinematics& kinematics)
+        : tilt_(&channel_of(log, role, kinematics.tilt.letter).values), rotation_(&channel_of(log, role, kinematics.rotation.letter).values),
+          tilt_factor_(kinematics.tilt.sign * rad_per_deg), rotation_factor_(kinematics.rotation.sign * rad_per_deg) {}
+
+    void read(PointIndex begin, std::span<double> tilt, std::span<double> rotation) const {
+        copy_block(*tilt_, begin, tilt);
+        copy_block(*rotation_, begin, rotation);
+        for (double& value : tilt) value *= tilt_factor_;
+        for (double& value : rotation) value *= rotation_factor_;
+    }
+
+private:
+    const ChannelView* tilt_;
+    const ChannelView* rotation_;
+    double tilt_factor_, rotation_factor_;
+};
+
+/// A trajectory over columns of its own. compute(first, last, x, y, z) fills a stretch of them.
+template <typename Compute>
+void own_columns(Trajectory& trajectory, Compute&& compute) {
+    auto columns = std::make_shared<std::array<Column<double>, 3>>();
+    const auto n = static_cast<std::size_t>(trajectory.count);
+    for (Column<double>& column : *columns) column.resize(n);
+    for_each_block(trajectory.count, [&](PointIndex first, PointIndex last) {
+        const auto at = static_cast<std::size_t>(first);
+        const auto size = static_cast<std::size_t>(last - first);
+        compute(first, std::span(columns->at(0).data() + at, size), std::span(columns->at(1).data() + at, size), std::span(columns->at(2).data() + at, size));
+    });
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        trajectory.axes[axis] = {reinterpret_cast<const std::byte*>(columns->at(axis).data()), sizeof(double), trajectory.count, ScalarType::f64, false, 1.0, 0.0};
+    }
+    trajectory.keep_alive = std::move(columns);
+}
+
+}  // namespace
+
+Trajectory reconstruct(const Log& log, Role role, const Vec3& offset, std::shared_ptr<const Kinematics> kinematics) {
+    Trajectory trajectory = trajectory_of(log, role);
+    trajectory.offset = offset;
+    for (std::size_t axis = 0; axis < 3; ++axis) trajectory.axes[axis] = channel_of(log, role, "xyz"[axis]).values;
+    if (kinematics == nullptr || !kinematics->has_rotary()) return trajectory;
+    const AngleReader angles(log, role, *kinematics);
+    const std::array<ChannelView, 3> linear = trajectory.axes;
+    own_columns(trajectory, [&](PointIndex first, std::span<double> x, std::span<double> y, std::span<double> z) {
+        std::vector<double> tilt(x.size()), rotation(x.size());
+        angles.read(first, tilt, rotation);
+        copy_block(linear[0], first, x);
+        copy_block(linear[1], first, y);
+        copy_block(linear[2], first, z);
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            const Vec3 tip = kinematics->to_workpiece(Vec3(x[i], y[i], z[i]), {tilt[i], rotation[i]}).tip;
+            x[i] = tip.x();
+            y[i] = tip.y();
+            z[i] = tip.z();
         }
-        trajectory.axes[static_cast<std::size_t>(axis)] = channel->values;
+    });
+    trajectory.kinematics = std::move(kinematics);
+    return trajectory;
+}
+
+Trajectory reconstruct_like(const Log& log, Role role, const Trajectory& like) {
+    return role == like.role ? like : reconstruct(log, role, like.offset, like.kinematics);
+}
+
+Trajectory tool_axes(const Log& log, Role role, std::shared_ptr<const Kinematics> kinematics) {
+    Trajectory trajectory = trajectory_of(log, role);
+    const AngleReader angles(log, role, *kinematics);
+    own_columns(trajectory, [&](PointIndex first, std::span<double> x, std::span<double> y, std::span<double> z) {
+        angles.read(first, x, y);
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            const Vec3 axis = kinematics->axis_of({x[i], y[i]});
+            x[i] = axis.x();
+            y[i] = axis.y();
+            z[i] = axis.z();
+        }
+    });
+    trajectory.kinematics = std::move(kinematics);
+    return trajectory;
+}
+
+Trajectory axis_angle(const Log& log, Role role, char letter) {
+    Trajectory trajectory = trajectory_of(log, role);
+    trajectory.axes.fill(channel_of(log, role, letter).values);
+    for (ChannelView& view : trajectory.axes) {
+        view.scale *= rad_per_deg;
+        view.bias *= rad_per_deg;
     }
     return trajectory;
+}
+
+void note_poles(const Log& log, Role role, const Kinematics& kinematics, Diagnostics& diagnostics) {
+    const double near = std::sin(2 * rad_per_deg);
+    constexpr double much = 45 * rad_per_deg;
+    const AngleReader angles(log, role, kinematics);
+    std::vector<double> tilt, rotation;
+    bool inside = false;
+    PointIndex since = 0;
+    double low = 0, high = 0;
+    const auto leave = [&] {
+        if (inside && high - low > much) {
+            diagnostics.add({Severity::note, "path.pole", Place::of_point(log.name, since),
+                             fmt::format("the tool axis passes its pole: within 2 deg of it axis {} turns by {:.1f} deg", kinematics.rotation.letter, (high - low) * deg_per_rad), {}});
+        }
+        inside = false;
+    };
+    for (PointIndex begin = 0; begin < log.records; begin += block_points) {
+        const auto n = static_cast<std::size_t>(std::min(block_points, log.records - begin));
+        tilt.resize(n);
+        rotation.resize(n);
+        angles.read(begin, tilt, rotation);
+        for (std::size_t i = 0; i < n; ++i) {
+            if (!(kinematics.rotation.direction.cross(kinematics.axis_of({tilt[i], 0})).norm() < near)) {
+                leave();
+                continue;
+            }
+            if (!inside) {
+                inside = true;
+                since = begin + static_cast<PointIndex>(i);
+                low = high = rotation[i];
+            }
+            low = std::min(low, rotation[i]);
+            high = std::max(high, rotation[i]);
+        }
+    }
+    leave();
+}
+
+void note_rotary(const Log& log, Role role, Diagnostics& diagnostics) {
+    constexpr double moving = 0.01 * rad_per_deg;
+    std::vector<double> values;
+    for (const char letter : {'a', 'b', 'c'}) {
+        if (log.find(fmt::format("{}.{}", prefix_of(role), letter)) == nullptr) continue;
+        const ChannelView view = axis_angle(log, role, letter).axes[0];
+        double low = std::numeric_limits<double>::infinity();
+        double high = -low;
+        for (PointIndex begin = 0; begin < view.count; begin += block_points) {
+            values.resize(static_cast<std::size_t>(std::min(block_points, view.count - begin)));
+            copy_block(view, begin, values);
+            for (const double value : values) {
+                low = value < low ? value : low;
+                high = value > high ? value : high;
+            }
+        }
+        if (!(high - low > moving)) continue;
+        diagnostics.add({Severity::warning, "path.rotary", Place::of_file(log.name),
+                         fmt::format("axis {} moves by {:.2f} deg: positions are those of the linear axes, not of the tool on the workpiece", letter, (high - low) * deg_per_rad),
+                         "--machine FILE says the kinematics"});
+        return;
+    }
 }
 
 }  // namespace clsurf

@@ -1,6 +1,7 @@
 #pragma once
 // Trajectory: workpiece positions of one role, read by block. For three axes it stores nothing: it is
-// an offset over the log's columns.
+// an offset over the log's columns. With rotary axes it holds the tool's tip in the workpiece, computed
+// once: 24 bytes a point.
 
 #include <array>
 #include <memory>
@@ -10,16 +11,18 @@
 #include "core/channel_view.h"
 #include "core/geometry.h"
 #include "log/log.h"
+#include "machine/kinematics.h"
 
 namespace clsurf {
 
 struct Trajectory {
     Role role = Role::commanded;
-    std::array<ChannelView, 3> axes;  ///< machine positions x, y, z [mm]
+    std::array<ChannelView, 3> axes;  ///< machine positions x, y, z, or of the tip before the offset [mm]
     Vec3 offset = Vec3::Zero();       ///< workpiece = machine + offset [mm]
     PointIndex count = 0;
     double period = 0;  ///< [s]
     std::string name;   ///< of the log, for messages
+    std::shared_ptr<const Kinematics> kinematics;  ///< of machines with rotary axes; nullptr: three axes
     std::shared_ptr<const void> keep_alive;
 
     /// Gathers points [begin, begin + x.size()); NaN where the log has none. All spans same size.
@@ -27,8 +30,27 @@ struct Trajectory {
     [[nodiscard]] Vec3 at(PointIndex point) const;
 };
 
-/// The positions of one role of a three-axis log: work offset and tool length as `offset` [mm].
-/// Throws InputError when the log has no such role.
-[[nodiscard]] Trajectory reconstruct(const Log& log, Role role, const Vec3& offset);
+/// The positions of one role: work offset and tool length as `offset` [mm]; through the chain of
+/// `kinematics`, if given, from all five axes. Throws InputError when the log has no such role, or not
+/// the rotary axes that the kinematics need. With rotary axes O(points), parallel.
+[[nodiscard]] Trajectory reconstruct(const Log& log, Role role, const Vec3& offset, std::shared_ptr<const Kinematics> kinematics = nullptr);
+
+/// Another role of the same log, by the same way into the workpiece.
+[[nodiscard]] Trajectory reconstruct_like(const Log& log, Role role, const Trajectory& like);
+
+/// Unit vectors of the tool axis in the workpiece in place of positions. `kinematics` as above.
+[[nodiscard]] Trajectory tool_axes(const Log& log, Role role, std::shared_ptr<const Kinematics> kinematics);
+
+/// The angle of a rotary axis as the control counts it [rad], as the first of the three components.
+/// Throws InputError where the log does not have it.
+[[nodiscard]] Trajectory axis_angle(const Log& log, Role role, char letter);
+
+/// Notes where the tool axis passes its pole: within 2° of it the rotation axis turns by more than
+/// 45°. Adds `path.pole`. O(points).
+void note_poles(const Log& log, Role role, const Kinematics& kinematics, Diagnostics& diagnostics);
+
+/// Without kinematics: a warning `path.rotary` where a rotary axis moves, for then the positions of the
+/// linear axes are not those of the tool on the workpiece. O(points).
+void note_rotary(const Log& log, Role role, Diagnostics& diagnostics);
 
 }  // namespace clsurf

@@ -177,8 +177,8 @@ Passes whole(const Trajectory& path) {
 void compare_motion(const Run& a, const Run& b, const ClSurface& surface, RunDifferences& out) {
     const Passes whole_a = whole(a.path);
     const Passes whole_b = whole(b.path);
-    const FieldSet of_a(*a.log, a.path, whole_a, b.log->period);
-    const FieldSet of_b(*b.log, b.path, whole_b, a.log->period);
+    const FieldSet of_a(*a.log, a.path, whole_a, {nullptr, b.log->period});
+    const FieldSet of_b(*b.log, b.path, whole_b, {nullptr, a.log->period});
     out.speed_of_a = of_a.get("speed").values;
     out.usual_speed = percentile_where_cut(out.speed_of_a, surface.passes, 0.95);
     out.of[index_of(RunQuantity::speed)] = out.speed_of_a;

@@ -1,0 +1,23 @@
+#pragma once
+// The motions of a five-axis program as ways of the tool's tip in the workpiece, so that what is known of
+// three axes (lines, arcs, the nearest motion) serves five; and the angles of tool axes that a program
+// gives as vectors.
+
+#include "machine/machine.h"
+#include "program/program.h"
+
+namespace clsurf {
+
+/// Motions under tool centre point control are those ways as they stand. Of all others the positions are
+/// those of the axes, less the work offset and the position of the axes with tool and angles at zero:
+/// with the rotary axes at rest a line stays a line, an arc becomes chords within 1 µm; where they turn
+/// with the others, chords of at most half a degree. `offset`: workpiece = machine + offset [mm].
+/// Events of the program move along with the motions that they stand before. O(motions).
+void make_tip_motions(Program& program, const Kinematics& kinematics, const Vec3& offset);
+
+/// Sets the angles of motions whose tool axis is a vector: those solutions, within the travel of the
+/// axes, that turn them least over each run of such motions. Throws InputError with the line of a
+/// tool axis out of reach. O(motions).
+void solve_tool_axes(Program& program, const Machine& machine);
+
+}  // namespace clsurf

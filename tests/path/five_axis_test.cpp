@@ -1,0 +1,152 @@
+// Five axes: positions through the chain, lines found without a line channel under tool centre point
+// control and without, tool axes given as vectors.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "path/line_map.h"
+#include "path/tip_motions.h"
+#include "support/made_five_axis.h"
+
+namespace clsurf {
+namespace {
+
+const Vec3 zero(12, -7, 31);  ///< machine position of the programs' zero
+
+/// Axes as they are: a face milled at A-30 C45, with an arc, then a way with both turning.
+std::string tilted_program() {
+    std::string text = "G21 G90 G54\nG0 X0 Y0 Z50\nG0 A-30 C45\nG0 Z5\nG1 Z0 F1500\n";
+    for (int pass = 0; pass < 6; ++pass) {
+        text += fmt::format("G1 X{}\n", pass % 2 == 0 ? 30 : 0);
+        text += fmt::format("G1 Y{}\n", 2 * (pass + 1));
+    }
+    text += "G2 X10 Y22 I5 J5\nG1 X20 Y25\nG1 X30 Y20 A-10 C75\nG1 X0 Y5 A-45 C20\nG0 Z50\nM30\n";
+    return text;
+}
+
+double right_share(Program program, const Kinematics& kinematics) {
+    test::MadeLog made = test::run(program, kinematics, zero, 0.05);
+    made.finish(0.001);
+    make_tip_motions(program, kinematics, -zero);
+    const Trajectory path = reconstruct(made.log, Role::commanded, -zero, std::make_shared<Kinematics>(kinematics));
+    Diagnostics diagnostics;
+    const LineMap lines = map_lines(path, made.log, program, false, diagnostics);
+    EXPECT_EQ(diagnostics.count("map.lost"), 0u);
+    std::int64_t right = 0;
+    for (PointIndex i = 0; i < path.count; ++i) {
+        right += std::abs(static_cast<double>(lines.line_at(i)) - made.line[static_cast<std::size_t>(i)]) <= 1 ? 1 : 0;
+    }
+    return static_cast<double>(right) / static_cast<double>(path.count);
+}
+
+TEST(FiveAxisLines, FoundUnderToolCentrePointControl) { EXPECT_GE(right_share(test::parse_text(test::dome_program()), test::trunnion()), 0.995); }
+
+TEST(FiveAxisLines, FoundWithPositionsOfTheAxes) { EXPECT_GE(right_share(test::parse_text(tilted_program()), test::trunnion()), 0.995); }
+
+TEST(FiveAxisLines, FoundOnAForkHead) {
+    Kinematics k;
+    k.type = KinematicsType::head_head;
+    k.tilt = {'a', Vec3::UnitX(), -1};
+    k.tilt_from_rotation = {0.3, 0, 5};
+    k.tool_length = 180;
+    EXPECT_GE(right_share(test::parse_text(test::dome_program()), k), 0.995);
+    EXPECT_GE(right_share(test::parse_text(tilted_program()), k), 0.995);
+}
+
+// Positions of the axes, A at −90°: the program's Z is the workpiece's depth from the side. On paper for a
+// machine whose axes all go through its zero: T(−A) about x by +90° takes (x, y, z) to (x, −z, y), so
+// that the tip at (1, 2, 3) of the workpiece has axis positions (1, −3, 2), and back.
+TEST(FiveAxisLines, PositionsOfTheAxesBecomeTips) {
+    Kinematics k;
+    k.type = KinematicsType::table_table;
+    Program program = test::parse_text("G21 G90\nG0 X0 Y0 Z0 A-90\nG1 X1 Y-3 Z2 F100\nM30\n");
+    ASSERT_EQ(program.motions.size(), 2);
+    make_tip_motions(program, k, Vec3::Zero());
+    const Vec3 end = program.motions.end[program.motions.end.size() - 1].vec();
+    EXPECT_LE((end - Vec3(1, 2, 3)).norm(), 1e-12) << end.transpose();
+    // A quarter of a turn is made of chords; the last line is one.
+    EXPECT_EQ(program.motions.size(), 180 + 1);
+    EXPECT_EQ(program.motions.line[180], 3u);
+}
+
+TEST(FiveAxisLines, EventsStayBeforeTheirMotions) {
+    Kinematics k;
+    k.type = KinematicsType::table_table;
+    Program program = test::parse_text("G21 G90\nG0 X0 Y0 Z0 A-90\nG43.4 H1\nG1 X1 F100\nG49\nG1 X2\nM30\n");
+    make_tip_motions(program, k, Vec3::Zero());
+    ToolCentrePoint control(program);
+    for (std::int64_t m = 0; m < program.motions.size(); ++m) EXPECT_EQ(control.on(m), program.motions.line[static_cast<std::size_t>(m)] == 4);
+}
+
+TEST(ToolCentrePoint, IsSwitchedByTheWordsOfEachDialect) {
+    const auto states = [](const Program& p) {
+        std::string text;
+        ToolCentrePoint control(p);
+        for (std::int64_t m = 0; m < p.motions.size(); ++m) text += control.on(m) ? '1' : '0';
+        return text;
+    };
+    EXPECT_EQ(states(test::parse_text("G0 X1\nG43.4 H1\nG1 X2 F9\nG49\nX3\nG43.5 H1\nX4\nG43 H1\nX5\n")), "01010");
+    EXPECT_EQ(states(test::parse_text("G0 X1\nTRAORI\nG1 X2 F9\nTRAFOOF\nX3\nTRAORI(1)\nX4\n", "siemens")), "0101");
+    EXPECT_EQ(states(test::parse_text("%1 G71\nN1 G0 X+1\nN2 M128\nN3 G1 X+2 F9\nN4 M129\nN5 X+3\n", "heidenhain-iso")), "010");
+}
+
+// The tool axis (0.6, 0, 0.8): tilt B of atan2(0.6, 0.8), C 0; or A of the same and C of atan2(0.6, −0) = 90°.
+TEST(ToolAxisVectors, BecomeAngles) {
+    Machine machine;
+    machine.kinematics = test::trunnion();
+    for (const auto& [text, dialect] : {std::pair{"G90 G0 X0 Y0 Z0\nG43.5 H1\nG1 X1 I0.6 J0 K0.8 F100\nX2\nX3 A0 C0\nM30\n", "fanuc"},
+                                        std::pair{"G90 G0 X0 Y0 Z0\nTRAORI\nG1 X1 A3=3 B3=0 C3=4 F100\nX2\nX3 A0 C0\nM30\n", "siemens"}}) {
+        Program program = test::parse_text(text, dialect);
+        EXPECT_TRUE(program.diagnostics.empty()) << dialect;
+        solve_tool_axes(program, machine);
+        const Motions& m = program.motions;
+        ASSERT_EQ(m.size(), 4) << dialect;
+        for (const std::size_t i : {1u, 2u}) {
+            const RotaryAngles angles = machine.kinematics.angles_of(m.rotary[i].vec());
+            EXPECT_NEAR(std::abs(angles.tilt), std::atan2(0.6, 0.8), 1e-12) << dialect;
+            EXPECT_LE(angle_between(machine.kinematics.axis_of(angles), {0.6, 0, 0.8}), 1e-12) << dialect;
+        }
+        EXPECT_EQ(m.rotary[3], Xyz(0, 0, 0)) << dialect;
+    }
+}
+
+TEST(ToolAxisVectors, OutOfReachNamesTheLine) {
+    Machine machine;
+    machine.kinematics = test::trunnion();
+    Program program = test::parse_text("G90 G0 X0 Y0 Z0\nG43.5 H1\nG1 X1 I0.6 K0.8 F100\nX2 I0 J0 K-1\nM30\n");
+    try {
+        solve_tool_axes(program, machine);
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("cannot be reached"), std::string::npos);
+        EXPECT_EQ(error.diagnostic().where.number, 4u);
+    }
+}
+
+TEST(Poles, AreNoted) {
+    const Kinematics k = test::trunnion();
+    test::MadeLog made;
+    for (int i = -100; i <= 100; ++i) made.add(Vec3::Zero(), {std::abs(i) * 0.001, i < 0 ? 0 : std::numbers::pi}, 1);
+    made.finish(0.001);
+    Diagnostics diagnostics;
+    note_poles(made.log, Role::commanded, k, diagnostics);
+    EXPECT_EQ(diagnostics.count("path.pole"), 1u);
+    const Trajectory path = reconstruct(made.log, Role::commanded, Vec3::Zero(), std::make_shared<Kinematics>(k));
+    for (PointIndex i = 0; i < path.count; ++i) ASSERT_TRUE(path.at(i).allFinite());
+}
+
+TEST(FiveAxisPositions, NeedTheRotaryChannels) {
+    test::MadeLog made;
+    made.add(Vec3::Zero(), {}, 1);
+    made.finish(0.001);
+    std::erase_if(made.log.channels, [](const Channel& c) { return c.name == "cmd.c"; });
+    EXPECT_THROW((void)reconstruct(made.log, Role::commanded, Vec3::Zero(), std::make_shared<Kinematics>(test::trunnion())), InputError);
+}
+
+}  // namespace
+}  // namespace clsurf
