@@ -5,6 +5,7 @@
 #include <string>
 
 #include "io/biip.h"
+#include "motion/five_axis_simulator.h"
 #include "motion/simulator.h"
 
 namespace clsurf::io {
@@ -16,12 +17,18 @@ public:
     SimulatedLogWriter(const std::string& path, const Machine& machine, const std::string& metadata);
     /// Throws SystemError (disk full).
     void append(std::span<const SimulatedPoint> points);
+    /// Of a machine with rotary axes.
+    void append(std::span<const FiveAxisPoint> points);
     void close() { writer_.close(); }
 
 private:
+    Kinematics kinematics_;
     BiipWriter writer_;
     std::string records_;
 };
+
+/// With rotary axes: theirs beside x, y, z in deg, and orientation_error_deg, rounds.
+[[nodiscard]] std::string simulation_json(const FiveAxisSummary& summary, const Kinematics& kinematics, const Diagnostics& diagnostics);
 
 /// The keys: duration_s, points, max, path_deviation_mm, limits_ok, points_ruled_by, diagnostics.
 [[nodiscard]] std::string simulation_json(const SimulationSummary& summary, const Diagnostics& diagnostics);

@@ -10,6 +10,7 @@
 #include "io/program_file.h"
 #include "io/program_identity.h"
 #include "io/simulated_log.h"
+#include "path/tip_motions.h"
 
 namespace clsurf::cli {
 namespace {
@@ -30,6 +31,37 @@ std::string summary_text(const SimulationSummary& s) {
     return text;
 }
 
+/// The rows of rotary axes, and how far the tool axis leaves its great circles.
+std::string rotary_text(const FiveAxisSummary& s, const Kinematics& k) {
+    std::string text;
+    const auto row = [&](const char* name, const std::array<double, 2>& v, double factor, const char* unit) {
+        text += fmt::format("{:<24} {} {:.0f}, {} {:.0f} {}\n", name, k.tilt.letter, v[0] * factor, k.rotation.letter, v[1] * factor, unit);
+    };
+    row("greatest axis speed", s.max_speed, deg_per_rad * seconds_per_minute, "deg/min");
+    row("greatest acceleration", s.max_acceleration, deg_per_rad, "deg/s²");
+    row("greatest jerk", s.max_jerk, deg_per_rad, "deg/s³");
+    return text + fmt::format("{:<24} {:.4f} deg off the great circles\n", "tool axis", s.orientation_error * deg_per_rad);
+}
+
+ExitCode run_five_axis(Program program, const Machine& machine, const Vec3& zero, const Vec3& start, io::SimulatedLogWriter& log, const po::variables_map& values) {
+    solve_tool_axes(program, machine);
+    make_tip_motions(program, machine.kinematics, -zero);
+    ProgressBar bar(read_common(values));
+    const FiveAxisSummary summary = simulate_five_axis(
+        program, machine, zero, start, [&](std::span<const FiveAxisPoint> points) { log.append(points); }, bar.callback());
+    log.close();
+    bar.clear();
+    Diagnostics diagnostics = program.diagnostics;
+    diagnostics.append(summary.run.diagnostics);
+    if (read_json(values)) {
+        write_to_stdout(io::simulation_json(summary, machine.kinematics, diagnostics));
+    } else {
+        print(diagnostics, values);
+        write_to_stdout(summary_text(summary.run) + rotary_text(summary, machine.kinematics));
+    }
+    return ExitCode::done;
+}
+
 ExitCode run(const po::variables_map& values) {
     const std::string output = required(values, "output");
     const Machine machine = values.count("machine") > 0 ? io::read_machine(values["machine"].as<std::string>()) : Machine{};
@@ -41,7 +73,11 @@ ExitCode run(const po::variables_map& values) {
     const std::string path = required(values, "PROGRAM");
     const io::Source source = io::open_source(path);
     const Program program = io::read_program(source, read_program_options(values));
-    io::SimulatedLogWriter log(output, machine, io::with_programs("{}", std::vector<ProgramReference>{io::identify(source)}));
+    const std::optional<Vec3> zero = read_work_offset(values);
+    if (zero && !machine.kinematics.has_rotary()) throw UsageError("--work-offset is for machines with rotary axes; positions of three are the program's");
+    const std::string metadata = zero ? fmt::format("{{\"work_offset\": [{}, {}, {}]}}", zero->x(), zero->y(), zero->z()) : "{}";
+    io::SimulatedLogWriter log(output, machine, io::with_programs(metadata, std::vector<ProgramReference>{io::identify(source)}));
+    if (machine.kinematics.has_rotary()) return run_five_axis(program, machine, zero.value_or(Vec3::Zero()), start, log, values);
     ProgressBar bar(read_common(values));
     const SimulationSummary summary = simulate(
         program, machine, start, [&](std::span<const SimulatedPoint> points) { log.append(points); }, bar.callback());
@@ -69,6 +105,8 @@ Subcommand simulate_subcommand() {
                        "and a look-ahead, follows it with a servo loop an axis, and writes commanded and feedback positions, line, speed,\n"
                        "and in the channel limit what ruled each point: 0 at rest, 1 feed, 2 axis or path speed, 3 acceleration, 4 jerk,\n"
                        "5 corner tolerance, 6 chord error, 7 the end of the look-ahead, 8 feed override, 9 block time.\n\n"
+"With a machine file that has rotary axes the positions are those of all five, --work-offset is where the program's zero lies\n"
+                       "with both angles zero, and blocks that an axis cannot follow are run slower.\n\n"
                        "  clsurf simulate part.nc --machine mill.toml -o run.biip\n"
                        "  clsurf render part.nc run.biip --color limit -o why_slow.png",
         .declare =
@@ -79,6 +117,7 @@ Subcommand simulate_subcommand() {
                     ("machine", po::value<std::string>()->value_name("FILE"), "machine file (default: that of clsurf machine --defaults)")
                     ("start", po::value<std::string>()->value_name("X,Y,Z"), "where the axes stand before the program, mm (default: 0,0,0)");
                 // clang-format on
+                declare_work_offset(options);
                 declare_json(options);
                 declare_program_options(options);
             },

@@ -279,6 +279,42 @@ clsurf_cli_test(NAME machine_loop_does_not_settle SETUP "printf '[[axis]]\\nname
 clsurf_cli_test(NAME machine_missing_file ARGS machine --check nowhere.toml EXIT 3 STDERR "nowhere.toml: error: cannot open")
 clsurf_cli_test(NAME machine_needs_one ARGS machine EXIT 2 STDERR "one of --defaults and --check")
 
+clsurf_cli_test(NAME machine_five_axes ARGS machine --check @DATA@/machines/five_axis_trunnion.toml STDOUT "can be used")
+clsurf_cli_test(NAME machine_kinematics_type SETUP "printf '[kinematics]\\ntype = \"table-tabel\"\\n' > m.toml" ARGS machine --check m.toml
+  EXIT 3 STDERR "m.toml:2" "did you mean 'table-table'")
+clsurf_cli_test(NAME machine_kinematics_pair SETUP "printf '[kinematics]\\ntype = \"head-head\"\\nrotary = [\"c\", \"c\"]\\n' > m.toml" ARGS machine --check m.toml
+  EXIT 3 STDERR "m.toml:3" "same axis twice")
+clsurf_cli_test(NAME machine_kinematics_order SETUP "printf '[kinematics]\\ntype = \"head-head\"\\nrotary = [\"c\", \"a\"]\\n' > m.toml" ARGS machine --check m.toml
+  EXIT 3 STDERR "m.toml:1" "c is parallel to the tool" "tilting axis first")
+clsurf_cli_test(NAME machine_kinematics_sign SETUP "printf '[kinematics]\\ntype = \"head-head\"\\nsigns = { a = 2 }\\n' > m.toml" ARGS machine --check m.toml
+  EXIT 3 STDERR "m.toml:3" "expected 1 or -1")
+clsurf_cli_test(NAME machine_kinematics_offset SETUP "printf '[kinematics]\\ntype = \"head-head\"\\n[kinematics.offsets]\\no = [1, 2, 3]\\n' > m.toml" ARGS machine --check m.toml
+  EXIT 3 STDERR "m.toml:4" "no offset of a head-head machine")
+clsurf_cli_test(NAME machine_axis_without_kinematics SETUP "printf '[[axis]]\\nname = \"a\"\\n' > m.toml" ARGS machine --check m.toml
+  EXIT 3 STDERR "m.toml:2" "'a', which is not known")
+
+# ---- five axes ----
+set(trunnion "printf '[kinematics]\\ntype = \"table-table\"\\n' > m.toml")
+# A quarter turn of C takes the axes from (10, 0) to (0, −10): the tip stays where it is.
+set(turning "printf 'cmd.x,cmd.y,cmd.z,cmd.a,cmd.c,line\\n10,0,0,0,0,1\\n7.0710678119,-7.0710678119,0,0,45,1\\n0,-10,0,0,90,1\\n0,-10,5,0,90,2\\n' > turn.csv && printf 'G43.4 G1 X10 Y0 Z0 C90 F100\\nZ5\\n' > turn.nc")
+clsurf_cli_test(NAME five_axis_positions
+  SETUP "${trunnion} && ${turning} && $CLSURF export turn.nc turn.csv --period 0.001 --machine m.toml -o out.csv --columns x,y,z,tool_axis.z -q && tail -n +2 out.csv | awk -F, '($1-10)^2 + $2^2 > 1e-12 || $4 != 1 { exit 1 }'"
+  ARGS query turn.nc turn.csv --period 0.001 --machine m.toml --at 10,0,5 STDOUT "line 2: Z5" "point 3 ")
+clsurf_cli_test(NAME five_axis_without_the_machine SETUP "${turning}" ARGS query turn.nc turn.csv --period 0.001 --point 2 STDERR "axis c moves by 90.00 deg" "--machine")
+clsurf_cli_test(NAME five_axis_query SETUP "${trunnion} && ${turning}" ARGS query turn.nc turn.csv --period 0.001 --machine m.toml --point 2 --json
+  STDOUT "\"position_mm\": ?\\[[^0-9]*(9\\.99999|10)")
+clsurf_cli_test(NAME five_axis_channel_missing SETUP "${trunnion} && ${turning} && cut -d, -f1-3,6 turn.csv > less.csv" ARGS query turn.nc less.csv --period 0.001 --machine m.toml --point 2
+  EXIT 3 STDERR "channel 'cmd.a' is missing")
+clsurf_cli_test(NAME tool_axis_needs_the_machine SETUP "${turning}" ARGS export turn.nc turn.csv --period 0.001 -o out.csv --columns tool_axis.x EXIT 2 STDERR "needs the kinematics" "--machine")
+clsurf_cli_test(NAME moves_tool_axis SETUP "${trunnion} && printf 'G90 G0 X0 Y0 Z0\\nG43.5 H1\\nG1 X1 I0.6 J0 K0.8 F100\\n' > v.nc" ARGS moves v.nc --machine m.toml
+  STDOUT "feed,ti,tj,tk" "0.6,0,0.8")
+
+# ---- one estimate of all that was measured ----
+clsurf_cli_test(NAME kalman_query ARGS query ${part} ${run} --point 4848 --derivative kalman --json STDOUT "\"acceleration_uncertainty_mm_s2\": [0-9.]+" "\"speed_uncertainty_mm_min\"")
+clsurf_cli_test(NAME kalman_renders ARGS render ${part} ${run} --derivative kalman --color acceleration_uncertainty --size 200x150 -o u.png FILE u.png)
+clsurf_cli_test(NAME uncertainty_needs_kalman ARGS export ${part} ${run} -o out.csv --columns speed_uncertainty EXIT 2 STDERR "--derivative kalman")
+clsurf_cli_test(NAME derivative_unknown ARGS query ${part} ${run} --point 1 --derivative kalmann EXIT 2 STDERR "not savgol or kalman")
+
 # ---- the controller stood in for ----
 set(simulated @DATA@/programs/bottle_uneven.nc)
 clsurf_cli_test(NAME simulate_text ARGS simulate ${simulated} -o run.biip STDOUT "greatest jerk" "off the path +0.00[45]" FILE run.biip)
@@ -298,6 +334,12 @@ clsurf_cli_test(NAME simulate_bad_block_time SETUP "printf '[controller]\\nblock
   EXIT 3 STDERR "m.toml:2" "at most 1" NO_FILE run.biip)
 clsurf_cli_test(NAME simulate_rotary_axis SETUP "printf 'G1 X1 F100\\nG1 X2 A5\\n' > a.nc" ARGS simulate a.nc -o run.biip
   EXIT 3 STDERR "a.nc:2" "a rotary axis moves" NO_FILE run.biip)
+clsurf_cli_test(NAME simulate_five_axes SETUP "printf 'G90\\nG43.4 H1\\nG1 X10 F2000\\nX20 A-20 C90\\nX30\\n' > a.nc"
+  ARGS simulate a.nc --machine @DATA@/machines/five_axis_trunnion.toml --work-offset 10,0,100 -o run.biip --json STDOUT "\"limits_ok\": true" "\"orientation_error_deg\"" "\"c\":" FILE run.biip)
+clsurf_cli_test(NAME simulate_five_axes_and_back
+  SETUP "printf 'G90\\nG43.4 H1\\nG1 X10 F2000\\nX20 A-20 C90\\nX30\\n' > a.nc && $CLSURF simulate a.nc --machine @DATA@/machines/five_axis_trunnion.toml --work-offset 10,0,100 -o run.biip -q"
+  ARGS query a.nc run.biip --machine @DATA@/machines/five_axis_trunnion.toml --at 15,0,0 --ignore-lines STDOUT "line 4: X20 A-20 C90" "Y -?0.000")
+clsurf_cli_test(NAME simulate_work_offset_of_three_axes ARGS simulate ${simulated} --work-offset 1,2,3 -o run.biip EXIT 2 STDERR "rotary axes" NO_FILE run.biip)
 clsurf_cli_test(NAME simulate_feed_of_zero SETUP "printf 'G1 X1 F100\\nG1 X2 F0\\n' > a.nc" ARGS simulate a.nc -o run.biip
   EXIT 3 STDERR "a.nc:2" "without a feed" NO_FILE run.biip)
 clsurf_cli_test(NAME simulate_outside_the_travel SETUP "printf 'G1 X1000 F9000\\n' > a.nc" ARGS simulate a.nc -o run.biip
