@@ -118,6 +118,7 @@ Subcommand export_subcommand() {
                     ("columns", po::value<std::string>()->value_name("A,B,…"), "what is written (default: point,time,line,x,y,z,speed)");
                 // clang-format on
                 declare_part(options);
+                declare_derivative(options);
             },
         .positional = {"PROGRAM", "LOG"},
         .run = run,

@@ -12,6 +12,7 @@
 #include "io/program_identity.h"
 #include "log/health.h"
 #include "path/line_map.h"
+#include "path/tip_motions.h"
 #include "path/toolpath_summary.h"
 
 namespace clsurf::cli {
@@ -49,10 +50,13 @@ void print_log(const Log& log, const Diagnostics& diagnostics) {
 }
 
 /// Whether the log is one of this program: distances between the points and their lines.
-void judge_together(const Program& program, const Log& log, const std::optional<Vec3>& offset, Diagnostics& diagnostics) {
+void judge_together(Program program, const Log& log, const std::optional<Vec3>& given, const std::shared_ptr<const Kinematics>& kinematics, Diagnostics& diagnostics) {
     const Role role = log.has(Role::commanded) ? Role::commanded : log.has(Role::feedback) ? Role::feedback : Role::actual;
     if (!log.has(role) || log.records == 0 || program.motions.size() == 0) return;
-    const Trajectory path = reconstruct(log, role, -offset.value_or(log.work_offset.value_or(Vec3::Zero())));
+    const Vec3 offset = -given.value_or(log.work_offset.value_or(Vec3::Zero()));
+    const Trajectory path = reconstruct(log, role, offset, kinematics);
+    if (kinematics) make_tip_motions(program, *kinematics, offset);
+    else note_rotary(log, role, diagnostics);
     const LineMap lines = map_lines(path, log, program, true, diagnostics);
     const LineAgreement a = check_lines(path, program, lines);
     if (a.checked == 0) return;
@@ -66,6 +70,7 @@ ExitCode run(const po::variables_map& values) {
     std::vector<std::string> objects;
     std::optional<Program> program;
     io::Source program_source;
+    const std::shared_ptr<const Kinematics> kinematics = load_kinematics(values.count("machine") > 0 ? values["machine"].as<std::string>() : std::string());
     for (const std::string& path : values["FILE"].as<std::vector<std::string>>()) {
         const io::LogOptions log_options = read_log_options(values);
         const io::Source source = io::open_source(path);
@@ -84,7 +89,7 @@ ExitCode run(const po::variables_map& values) {
         diagnostics.append(check_health(log, program ? program->main().line_count() : 0));
         if (program) {
             io::check_identity(program_source, log, diagnostics);
-            judge_together(*program, log, read_work_offset(values), diagnostics);
+            judge_together(*program, log, read_work_offset(values), kinematics, diagnostics);
         }
         if (json) objects.push_back(io::log_json(log, diagnostics));
         else print_log(log, diagnostics);
@@ -108,6 +113,7 @@ Subcommand info_subcommand() {
             declare_program_options(options);
             declare_log_options(options);
             declare_work_offset(options);
+            declare_kinematics(options);
         },
         .positional = {"FILE…"},
         .run = run,

@@ -33,8 +33,14 @@ void declare_part(po::options_description& options, bool can_form) {
     options.add_options()
         ("surface", po::value<std::string>()->value_name(can_form ? "commanded|feedback|actual|formed" : "commanded|feedback|actual"),
             can_form ? "which positions (default: commanded, else what the log has), or what the tool leaves standing; that needs --tool" : "which positions (default: commanded, else what the log has)")
-        ("derivative", po::value<std::string>()->value_name("savgol|kalman"), "how speed, acceleration and jerk come about: least squares over a window, or a Kalman smoother over all that the log measures, with its uncertainty (default: savgol)")
         ("ignore-lines", "find the lines by geometry even where the log has a line channel");
+    // clang-format on
+}
+
+void declare_derivative(po::options_description& options) {
+    // clang-format off
+    options.add_options()
+        ("derivative", po::value<std::string>()->value_name("savgol|kalman"), "how speed, acceleration and jerk come about: least squares over a window, or a Kalman smoother over all that the log measures, with its uncertainty (default: savgol)");
     // clang-format on
 }
 

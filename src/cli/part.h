@@ -30,9 +30,11 @@ struct PartOptions {
     DerivativeMethod derivative = DerivativeMethod::savgol;
 };
 
-/// --dialect, --block-delete, --tools, --layout, --mapping, --period, --surface, --work-offset, --machine, --derivative, --ignore-lines.
+/// --dialect, --block-delete, --tools, --layout, --mapping, --period, --surface, --work-offset, --machine, --ignore-lines.
 /// `can_form`: --surface may be `formed` too.
 void declare_part(po::options_description& options, bool can_form = false);
+/// --derivative, of what shows fields.
+void declare_derivative(po::options_description& options);
 [[nodiscard]] PartOptions read_part_options(const po::variables_map& values);
 
 /// "commanded", "feedback" or "actual". Throws UsageError.

@@ -155,6 +155,7 @@ Subcommand plot_subcommand() {
                 // clang-format on
                 declare_profile(options);
                 declare_part(options);
+                declare_derivative(options);
             },
         .positional = {"PROGRAM", "LOG"},
         .run = run,

@@ -206,6 +206,7 @@ Subcommand query_subcommand() {
                     ("json", "one JSON object");
                 // clang-format on
                 declare_part(options);
+                declare_derivative(options);
             },
         .positional = {"PROGRAM", "LOG"},
         .run = run,

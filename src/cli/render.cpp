@@ -34,6 +34,7 @@ struct RenderOptions {
 
 void declare(po::options_description& options) {
     declare_part(options, true);
+    declare_derivative(options);
     declare_quality(options);
     // clang-format off
     options.add_options()

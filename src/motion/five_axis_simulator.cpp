@@ -15,7 +15,9 @@
 namespace clsurf {
 namespace {
 
-constexpr int most_rounds = 24;
+constexpr int most_rounds = 40;
+constexpr int rounds_of_speed = 6;     ///< after them ramps are made gentler too: a lower speed takes no jerk out of a ramp
+constexpr double gentler = 0.9;
 constexpr double limit_play = 1.001;   ///< what counts as held, differentiated
 constexpr int half_width = 8;          ///< of the smoothing of angles [periods]
 constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -233,7 +235,15 @@ Machine machine_of_tip(const Machine& machine) {
 
 FiveAxisSummary simulate_five_axis(const Program& program, const Machine& machine, const Vec3& zero, const Vec3& start, const FiveAxisSink& sink, const Progress& progress) {
     FiveAxisBlocks blocks(program, machine, zero, start);
-    const Machine tip = machine_of_tip(machine);
+    Machine tip = machine_of_tip(machine);
+    const auto soften = [&] {
+        tip.path.max_acceleration *= gentler;
+        tip.path.max_jerk *= gentler;
+        for (MachineAxis& axis : tip.axes) {
+            axis.max_acceleration *= gentler;
+            axis.max_jerk *= gentler;
+        }
+    };
     const auto run = [&](const FiveAxisSink& to, std::vector<float>* scales, std::vector<float>* peaks) {
         FiveAxisRecorder recorder(blocks, program, machine, to);
         const SimulationSummary of_tip = simulate(blocks.planned(), tip, start, [&](std::span<const SimulatedPoint> points) { recorder.add(points); }, progress);
@@ -248,9 +258,14 @@ FiveAxisSummary simulate_five_axis(const Program& program, const Machine& machin
     for (bool slower = true; slower && rounds < most_rounds; ++rounds) {
         const FiveAxisSummary tried = run({}, &scales, &peaks);
         slower = !tried.run.limits_ok && blocks.ease(scales, peaks);
+        if (slower && rounds >= rounds_of_speed) soften();
     }
     FiveAxisSummary summary = run(sink, nullptr, nullptr);
     summary.rounds = rounds;
+    if (!summary.run.limits_ok) {
+        summary.run.diagnostics.add({Severity::warning, "motion.limits", Place::of_file(program.main().name()),
+                                     fmt::format("after {} rounds an axis still exceeds a limit by more than 0.1 %", rounds), "a lower path jerk or feed helps"});
+    }
     return summary;
 }
 
