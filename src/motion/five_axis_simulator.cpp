@@ -15,9 +15,7 @@
 namespace clsurf {
 namespace {
 
-constexpr int most_rounds = 40;
-constexpr int rounds_of_speed = 6;     ///< after them ramps are made gentler too: a lower speed takes no jerk out of a ramp
-constexpr double gentler = 0.9;
+constexpr int most_rounds = 24;
 constexpr double limit_play = 1.001;   ///< what counts as held, differentiated
 constexpr int half_width = 8;          ///< of the smoothing of angles [periods]
 constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -235,15 +233,7 @@ Machine machine_of_tip(const Machine& machine) {
 
 FiveAxisSummary simulate_five_axis(const Program& program, const Machine& machine, const Vec3& zero, const Vec3& start, const FiveAxisSink& sink, const Progress& progress) {
     FiveAxisBlocks blocks(program, machine, zero, start);
-    Machine tip = machine_of_tip(machine);
-    const auto soften = [&] {
-        tip.path.max_acceleration *= gentler;
-        tip.path.max_jerk *= gentler;
-        for (MachineAxis& axis : tip.axes) {
-            axis.max_acceleration *= gentler;
-            axis.max_jerk *= gentler;
-        }
-    };
+    const Machine tip = machine_of_tip(machine);
     const auto run = [&](const FiveAxisSink& to, std::vector<float>* scales, std::vector<float>* peaks) {
         FiveAxisRecorder recorder(blocks, program, machine, to);
         const SimulationSummary of_tip = simulate(blocks.planned(), tip, start, [&](std::span<const SimulatedPoint> points) { recorder.add(points); }, progress);
@@ -258,7 +248,6 @@ FiveAxisSummary simulate_five_axis(const Program& program, const Machine& machin
     for (bool slower = true; slower && rounds < most_rounds; ++rounds) {
         const FiveAxisSummary tried = run({}, &scales, &peaks);
         slower = !tried.run.limits_ok && blocks.ease(scales, peaks);
-        if (slower && rounds >= rounds_of_speed) soften();
     }
     FiveAxisSummary summary = run(sink, nullptr, nullptr);
     summary.rounds = rounds;
