@@ -313,7 +313,7 @@ clsurf_cli_test(NAME moves_tool_axis SETUP "${trunnion} && printf 'G90 G0 X0 Y0 
 clsurf_cli_test(NAME kalman_query ARGS query ${part} ${run} --point 4848 --derivative kalman --json STDOUT "\"acceleration_uncertainty_mm_s2\": [0-9.]+" "\"speed_uncertainty_mm_min\"")
 clsurf_cli_test(NAME kalman_renders ARGS render ${part} ${run} --derivative kalman --color acceleration_uncertainty --size 200x150 -o u.png FILE u.png)
 clsurf_cli_test(NAME uncertainty_needs_kalman ARGS export ${part} ${run} -o out.csv --columns speed_uncertainty EXIT 2 STDERR "--derivative kalman")
-clsurf_cli_test(NAME derivative_unknown ARGS query ${part} ${run} --point 1 --derivative kalmann EXIT 2 STDERR "not savgol or kalman")
+clsurf_cli_test(NAME derivative_unknown ARGS query ${part} ${run} --point 1 --derivative kalmann EXIT 2 STDERR "not one of savgol, kalman")
 
 # ---- the controller stood in for ----
 set(simulated @DATA@/programs/bottle_uneven.nc)
