@@ -105,7 +105,7 @@ Subcommand simulate_subcommand() {
                        "and a look-ahead, follows it with a servo loop an axis, and writes commanded and feedback positions, line, speed,\n"
                        "and in the channel limit what ruled each point: 0 at rest, 1 feed, 2 axis or path speed, 3 acceleration, 4 jerk,\n"
                        "5 corner tolerance, 6 chord error, 7 the end of the look-ahead, 8 feed override, 9 block time.\n\n"
-"With a machine file that has rotary axes the positions are those of all five, --work-offset is where the program's zero lies\n"
+                       "With a machine file that has rotary axes the positions are those of all five, --work-offset is where the program's zero lies\n"
                        "with both angles zero, and blocks that an axis cannot follow are run slower.\n\n"
                        "  clsurf simulate part.nc --machine mill.toml -o run.biip\n"
                        "  clsurf render part.nc run.biip --color limit -o why_slow.png",
