@@ -24,6 +24,7 @@ constexpr std::size_t longest_file = 600;  // lines; the house rule is 500, this
 // Room → rooms whose headers it may include besides its own.
 const std::map<std::string, std::set<std::string>> rooms{
     {"core", {}},
+    {"curve", {"core"}},
     {"program", {"core"}},
     {"machine", {"core"}},
     {"log", {"core"}},
@@ -33,7 +34,7 @@ const std::map<std::string, std::set<std::string>> rooms{
     {"motion", {"core", "program", "machine", "log"}},
     {"quality", {"core", "program", "log", "path", "surface", "field"}},
     {"optimize",
-     {"core", "program", "machine", "log", "path", "surface", "field", "quality", "motion"}},
+     {"core", "curve", "program", "machine", "log", "path", "surface", "field", "quality", "motion"}},
     {"io",
      {"core", "program", "machine", "log", "path", "surface", "field", "motion", "quality",
       "optimize"}},
