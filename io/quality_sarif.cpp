@@ -7,33 +7,16 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "core/version.h"
 #include "io/json_value.h"
 #include "io/quality_report.h"
+#include "io/sarif.h"
 
 namespace clsurf::io {
 namespace {
 
-/// A path as a URI reference: what RFC 3986 does not allow in one is escaped.
-std::string uri_of(const std::string& path) {
-    std::string uri;
-    for (const char c : path) {
-        const auto byte = static_cast<unsigned char>(c);
-        const bool plain = (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z') || (byte >= '0' && byte <= '9') || std::string_view("-._~/").find(c) != std::string_view::npos;
-        uri += plain ? std::string(1, c) : fmt::format("%{:02X}", byte);
-    }
-    return path.starts_with('/') ? "file://" + uri : uri;
-}
-
 std::string_view level_of(int severity) { return severity >= 3 ? "error" : severity == 2 ? "warning" : "note"; }
 
-Json location(const std::string& uri, const DefectRun& run, const std::string& message) {
-    Json physical{{"artifactLocation", {{"uri", uri}}}};
-    if (run.first_line > 0) physical["region"] = {{"startLine", run.first_line}, {"endLine", run.last_line}};
-    Json json{{"physicalLocation", std::move(physical)}};
-    if (!message.empty()) json["message"] = {{"text", message}};
-    return json;
-}
+Json location(const std::string& uri, const DefectRun& run, const std::string& message) { return sarif_location(uri, run.first_line, run.last_line, message); }
 
 std::string message_of(const Defect& d) {
     return fmt::format("Predicted {} of {:.1f} µm at X {:.2f} Y {:.2f} Z {:.2f} mm over {:.1f} mm: pass {} {}; speed {:+.0f} mm/min ({:.1f} %) against its neighbours.",
@@ -44,7 +27,7 @@ std::string message_of(const Defect& d) {
 }  // namespace
 
 std::string quality_sarif(const ReportedQuality& q) {
-    const std::string uri = uri_of(q.program->main().name());
+    const std::string uri = sarif_uri(q.program->main().name());
     std::set<Cause> causes;
     for (const Defect& d : q.report->defects) causes.insert(d.cause);
     Json rules = Json::array();
@@ -68,9 +51,7 @@ std::string quality_sarif(const ReportedQuality& q) {
         if (!related.empty()) result["relatedLocations"] = std::move(related);
         results.push_back(std::move(result));
     }
-    Json driver{{"name", "clsurf"}, {"version", version}, {"rules", std::move(rules)}};
-    Json run{{"tool", {{"driver", std::move(driver)}}}, {"columnKind", "utf16CodeUnits"}, {"results", std::move(results)}};
-    return dump(Json{{"$schema", "https://json.schemastore.org/sarif-2.1.0.json"}, {"version", "2.1.0"}, {"runs", Json::array({std::move(run)})}});
+    return sarif_text(std::move(rules), std::move(results));
 }
 
 }  // namespace clsurf::io

@@ -1,16 +1,14 @@
 // clsurf check: adjacent-path discontinuities and the marks that they will leave.
 
 #include <algorithm>
-#include <cstdio>
 #include <map>
-#include <memory>
 
 #include <fmt/format.h>
 
 #include "cli/part.h"
 #include "cli/quality.h"
+#include "cli/report_output.h"
 #include "field/range.h"
-#include "io/atomic_file.h"
 #include "io/budget_file.h"
 #include "io/quality_report.h"
 #include "viz/colour_difference.h"
@@ -26,14 +24,6 @@ Writer writer_of(const std::string& format) {
     return writers.at(format);
 }
 
-std::string format_of(const po::variables_map& values) {
-    if (values.count("format") > 0) {
-        if (values.count("json") > 0) throw UsageError("--json and --format say the same");
-        return values["format"].as<std::string>();
-    }
-    return values.count("json") > 0 ? "json" : "text";
-}
-
 /// How different a defect and the passes beside it look in the map that `render` draws by default.
 std::vector<double> colour_differences(const QualityReport& report, const Part& part, const ClSurface& surface) {
     std::vector<double> differences;
@@ -47,15 +37,14 @@ std::vector<double> colour_differences(const QualityReport& report, const Part& 
 }
 
 ExitCode run(const po::variables_map& values) {
-    const std::string format = format_of(values);
+    const std::string format = report_format(values);
     const Writer write = writer_of(format);
     PartOptions options = read_part_options(values);
     const std::optional<Role> measured = take_measured_role(options);
     const QualityOptions quality_options = read_quality_options(values);
     Budget budget;
     if (values.count("budget") > 0) budget = io::read_budget(values["budget"].as<std::string>());
-    std::unique_ptr<io::AtomicFile> output;
-    if (values.count("output") > 0) output = std::make_unique<io::AtomicFile>(values["output"].as<std::string>());
+    ReportOutput output(values);
 
     StageClock clock(read_common(values), 8);
     Part part = load_part(options, clock);
@@ -75,13 +64,7 @@ ExitCode run(const po::variables_map& values) {
     reported.diagnostics = &part.diagnostics;
     clock.end();
     if (format != "json") print(part.diagnostics, values);
-    const std::string text = write(reported);
-    if (output) {
-        output->write(text);
-        output->commit();
-    } else {
-        std::fputs(text.c_str(), stdout);
-    }
+    output.write(write(reported));
     return all_held(reported.budget) ? ExitCode::done : ExitCode::check_failed;
 }
 

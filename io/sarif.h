@@ -1,0 +1,21 @@
+#pragma once
+// What all SARIF 2.1.0 reports share: locations in a program and the frame round the results.
+// Used inside io only.
+
+#include <string>
+
+#include "core/point.h"
+#include "io/json_value.h"
+
+namespace clsurf::io {
+
+/// A path as a URI reference: what RFC 3986 does not allow in one is escaped.
+[[nodiscard]] std::string sarif_uri(const std::string& path);
+
+/// Lines of a program, with a message where there is one; first 0: the whole file.
+[[nodiscard]] Json sarif_location(const std::string& uri, LineNumber first, LineNumber last, const std::string& message);
+
+/// A log of one run with its rules and results.
+[[nodiscard]] std::string sarif_text(Json rules, Json results);
+
+}  // namespace clsurf::io

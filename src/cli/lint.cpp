@@ -1,0 +1,61 @@
+// clsurf lint: what hurts in the program itself.
+
+#include <cmath>
+#include <map>
+
+#include "cli/options.h"
+#include "cli/report_output.h"
+#include "io/lint_report.h"
+#include "io/program_file.h"
+
+namespace clsurf::cli {
+namespace {
+
+using Writer = std::string (*)(const io::ReportedLint&);
+
+ExitCode run(const po::variables_map& values) {
+    static const std::map<std::string, Writer, std::less<>> writers{{"text", io::lint_text}, {"json", io::lint_json}, {"sarif", io::lint_sarif}};
+    const Writer write = writers.at(report_format(values));
+    LintRules rules;
+    if (values.count("tolerance") > 0) {
+        rules.tolerance = values["tolerance"].as<double>();
+        if (!(rules.tolerance > 0) || !std::isfinite(rules.tolerance)) throw UsageError("--tolerance must be above 0 mm");
+    }
+    ReportOutput output(values);
+    const Program program = io::read_program(required(values, "PROGRAM"), read_program_options(values));
+    const LintReport report = lint(program, lay_out(program), rules);
+    if (report_format(values) != "json") print(program.diagnostics, values);
+    output.write(write({&report, &program, &program.diagnostics}));
+    return report.warnings() > 0 ? ExitCode::check_failed : ExitCode::done;
+}
+
+}  // namespace
+
+Subcommand lint_subcommand() {
+    return {
+        .name = "lint",
+        .arguments = "PROGRAM",
+        .summary = "what hurts in the program itself: uneven points, chords, reversals, feeds, starts",
+        .description = "Puts the programmed passes side by side, without a log, and lists the lines that a controller will run\n"
+                       "otherwise than their neighbours: points closer or farther apart than on both neighbour passes, chord errors\n"
+                       "against the controller's tolerance (good is a tolerance of 110 to 200 % of the chord error), short lines that run back,\n"
+                       "feeds that differ, ends of passes that are out of line. Exit code 1 says that there are warnings.\n\n"
+                       "  clsurf lint part.nc\n"
+                       "  clsurf lint part.nc --tolerance 0.01 --format sarif -o part.sarif",
+        .declare =
+            [](po::options_description& options) {
+                // clang-format off
+                options.add_options()
+                    ("tolerance", po::value<double>()->value_name("MM"), "of the controller's path (default: what the program sets with G64 P or CYCLE832)")
+                    ("format", po::value<std::string>()->value_name("text|json|sarif"), "form of the report (default: text)")
+                    ("json", "the same as --format json")
+                    ("output,o", po::value<std::string>()->value_name("FILE"), "the report's file (default: standard output)");
+                // clang-format on
+                declare_program_options(options);
+            },
+        .positional = {"PROGRAM"},
+        .run = run,
+    };
+}
+
+}  // namespace clsurf::cli
