@@ -91,6 +91,20 @@ std::shared_ptr<const Kinematics> load_kinematics(const std::string& path) {
     return machine.kinematics.has_rotary() ? std::make_shared<const Kinematics>(machine.kinematics) : nullptr;
 }
 
+void declare_simulation(po::options_description& options) {
+    // clang-format off
+    options.add_options()
+        ("machine", po::value<std::string>()->value_name("FILE"), "machine file (default: that of clsurf machine --defaults)")
+        ("start", po::value<std::string>()->value_name("X,Y,Z"), "where the axes stand before the program, mm (default: 0,0,0)");
+    // clang-format on
+}
+
+Vec3 read_start(const po::variables_map& values) {
+    if (values.count("start") == 0) return Vec3::Zero();
+    const std::vector<double> given = parse_numbers(values["start"].as<std::string>(), "--start", 3);
+    return {given[0], given[1], given[2]};
+}
+
 void declare_json(po::options_description& options) {
     options.add_options()("json", "one JSON object instead of text");
 }

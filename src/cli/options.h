@@ -44,6 +44,10 @@ void declare_kinematics(po::options_description& options);
 /// The kinematics of a machine file; nullptr: no file, or three axes.
 [[nodiscard]] std::shared_ptr<const Kinematics> load_kinematics(const std::string& path);
 
+/// --machine, --start: how a program is run where it is simulated.
+void declare_simulation(po::options_description& options);
+[[nodiscard]] Vec3 read_start(const po::variables_map& values);
+
 /// --json
 void declare_json(po::options_description& options);
 [[nodiscard]] bool read_json(const po::variables_map& values);

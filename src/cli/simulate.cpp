@@ -65,11 +65,7 @@ ExitCode run_five_axis(Program program, const Machine& machine, const Vec3& zero
 ExitCode run(const po::variables_map& values) {
     const std::string output = required(values, "output");
     const Machine machine = values.count("machine") > 0 ? io::read_machine(values["machine"].as<std::string>()) : Machine{};
-    Vec3 start = Vec3::Zero();
-    if (values.count("start") > 0) {
-        const std::vector<double> given = parse_numbers(values["start"].as<std::string>(), "--start", 3);
-        start = Vec3(given[0], given[1], given[2]);
-    }
+    const Vec3 start = read_start(values);
     const std::string path = required(values, "PROGRAM");
     const io::Source source = io::open_source(path);
     const Program program = io::read_program(source, read_program_options(values));
@@ -113,10 +109,9 @@ Subcommand simulate_subcommand() {
             [](po::options_description& options) {
                 // clang-format off
                 options.add_options()
-                    ("output,o", po::value<std::string>()->value_name("FILE"), "the BIIP log")
-                    ("machine", po::value<std::string>()->value_name("FILE"), "machine file (default: that of clsurf machine --defaults)")
-                    ("start", po::value<std::string>()->value_name("X,Y,Z"), "where the axes stand before the program, mm (default: 0,0,0)");
+                    ("output,o", po::value<std::string>()->value_name("FILE"), "the BIIP log");
                 // clang-format on
+                declare_simulation(options);
                 declare_work_offset(options);
                 declare_json(options);
                 declare_program_options(options);

@@ -48,6 +48,7 @@ struct Subcommand {
 [[nodiscard]] Subcommand lint_subcommand();
 [[nodiscard]] Subcommand machine_subcommand();
 [[nodiscard]] Subcommand moves_subcommand();
+[[nodiscard]] Subcommand optimize_subcommand();
 [[nodiscard]] Subcommand plot_subcommand();
 [[nodiscard]] Subcommand query_subcommand();
 [[nodiscard]] Subcommand render_subcommand();

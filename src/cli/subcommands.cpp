@@ -18,6 +18,7 @@ std::span<const Subcommand> subcommands() {
         convert_subcommand(),
         simulate_subcommand(),
         diff_subcommand(),
+        optimize_subcommand(),
         lint_subcommand(),
         compare_subcommand(),
         machine_subcommand(),

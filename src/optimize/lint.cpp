@@ -16,6 +16,7 @@ namespace {
 
 constexpr double least_curvature = 1e-4;   ///< [1/mm] below it a line does not bend
 constexpr std::size_t bridged_ends = 2;    ///< good points between bad ones that do not end a run
+constexpr std::size_t fewest_uneven = 3;     ///< ends: a point or two that a collinear line saves are no harm
 constexpr double reversing_cosine = -0.5;  ///< a line runs back that turns by more than 120°
 constexpr double scatter_of_starts = 6;    ///< times the median absolute residual: more is out of line
 constexpr double start_reach = 6;          ///< step-overs that the ends of neighbour passes may lie apart across the feed
@@ -118,7 +119,7 @@ private:
             std::size_t good = 0, size = 0;
             double worst = 0;
             const auto close = [&] {
-                if (size > 0) report_.findings.push_back(finding);
+                if (size >= (rule == LintRule::point_spacing ? fewest_uneven : 1)) report_.findings.push_back(finding);
                 size = 0;
                 worst = 0;
             };

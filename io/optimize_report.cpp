@@ -1,0 +1,44 @@
+#include "io/optimize_report.h"
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "io/json_value.h"
+
+namespace clsurf::io {
+
+std::string optimize_text(const Optimized& r) {
+    std::string text;
+    const auto row = [&](const char* name, double before, double after, int digits, const char* unit) {
+        const double change = before > 0 ? 100 * (after / before - 1) : 0;
+        text += fmt::format("{:<28} {:>12.{}f} {:>12.{}f} {:>+8.1f} % {}\n", name, before, digits, after, digits, change, unit);
+    };
+    text += fmt::format("{:<28} {:>12} {:>12} {:>10}\n", "", "before", "after", "change");
+    row("time", r.before.duration, r.after.duration, 3, "s");
+    row("speed mismatch, p95", r.before.mismatch * seconds_per_minute, r.after.mismatch * seconds_per_minute, 1, "mm/min");
+    row("speed mismatch, p99.9", r.before.greatest_mismatch * seconds_per_minute, r.after.greatest_mismatch * seconds_per_minute, 1, "mm/min");
+    row("defects", static_cast<double>(r.proof.defects_before), static_cast<double>(r.proof.defects_after), 0, "");
+    row("lines", r.proof.lines_before, r.proof.lines_after, 0, "");
+    text += fmt::format("{} stretches, {} lines changed; off the programmed path by at most {:.4f} mm\n", r.proof.intervals, r.proof.changed_lines, r.proof.deviation.greatest);
+    text += r.proof.accepted ? "accepted\n" : fmt::format("refused: {}\n", r.proof.reason);
+    return text;
+}
+
+std::string optimize_json(const Optimized& r, const Diagnostics& diagnostics) {
+    return dump(Json{{"accepted", r.proof.accepted},
+                     {"reason", r.proof.accepted ? Json(nullptr) : Json(r.proof.reason)},
+                     {"deviation_mm", number(r.proof.deviation.greatest)},
+                     {"time_before_s", number(r.before.duration)},
+                     {"time_after_s", number(r.after.duration)},
+                     {"mismatch_before", number(r.before.mismatch * seconds_per_minute)},
+                     {"mismatch_after", number(r.after.mismatch * seconds_per_minute)},
+                     {"defects_before", r.proof.defects_before},
+                     {"defects_after", r.proof.defects_after},
+                     {"intervals", r.proof.intervals},
+                     {"lines_before", r.proof.lines_before},
+                     {"lines_after", r.proof.lines_after},
+                     {"lines_changed", r.proof.changed_lines},
+                     {"diagnostics", list(diagnostics)}});
+}
+
+}  // namespace clsurf::io

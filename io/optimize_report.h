@@ -1,0 +1,16 @@
+#pragma once
+// What the optimiser did and how it was proved, as text and JSON.
+
+#include <string>
+
+#include "core/diagnostic.h"
+#include "optimize/optimizer.h"
+
+namespace clsurf::io {
+
+[[nodiscard]] std::string optimize_text(const Optimized& result);
+/// Keys: accepted, reason, deviation_mm, time_before_s, time_after_s, mismatch_before, mismatch_after [mm/min], defects_before,
+/// defects_after, intervals, lines_before, lines_after, lines_changed, diagnostics.
+[[nodiscard]] std::string optimize_json(const Optimized& result, const Diagnostics& diagnostics);
+
+}  // namespace clsurf::io

@@ -1,0 +1,89 @@
+// clsurf optimize: a smoother program inside a tolerance, with proof.
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "cli/options.h"
+#include "cli/progress_bar.h"
+#include "core/units.h"
+#include "core/version.h"
+#include "io/atomic_file.h"
+#include "io/compressed.h"
+#include "io/machine_file.h"
+#include "io/optimize_report.h"
+#include "io/program_file.h"
+#include "optimize/optimizer.h"
+
+namespace clsurf::cli {
+namespace {
+
+/// A program's new text, read as the old one was: the same name, dialect, options and subprograms.
+Program read_text(const io::Source& source, const std::string& text, const io::ProgramOptions& options, std::string_view dialect) {
+    auto bytes = std::make_shared<std::string>(text);
+    io::Source changed = source;
+    changed.bytes = std::as_bytes(std::span(bytes->data(), bytes->size()));
+    changed.keep_alive = bytes;
+    io::ProgramOptions same = options;
+    same.dialect = dialect;
+    return io::read_program(changed, same);
+}
+
+ExitCode run(const po::variables_map& values) {
+    OptimizeRules rules;
+    const std::string output_path = required(values, "output");
+    if (values.count("tolerance") > 0) rules.tolerance = values["tolerance"].as<double>();
+    if (!(rules.tolerance > 0) || !std::isfinite(rules.tolerance)) throw UsageError("--tolerance must be above 0 mm");
+    rules.start = read_start(values);
+    rules.header = fmt::format("clsurf {} optimize, tolerance {} mm", version, rules.tolerance);
+    const Machine machine = values.count("machine") > 0 ? io::read_machine(values["machine"].as<std::string>()) : Machine{};
+    const io::ProgramOptions options = read_program_options(values);
+    const io::Source source = io::open_source(required(values, "PROGRAM"));
+    const Program program = io::read_program(source, options);
+    io::AtomicFile output(output_path);
+    ProgressBar bar(read_common(values));
+    Diagnostics diagnostics = program.diagnostics;
+    const Optimized result = optimize(
+        program, [&](const std::string& text) { return read_text(source, text, options, program.dialect->name); }, machine, rules, bar.callback(), diagnostics);
+    bar.clear();
+    if (read_json(values)) {
+        write_to_stdout(io::optimize_json(result, diagnostics));
+    } else {
+        print(diagnostics, values);
+        write_to_stdout(io::optimize_text(result));
+    }
+    if (!result.proof.accepted) return ExitCode::check_failed;
+    output.write(result.text);
+    output.commit();
+    return ExitCode::done;
+}
+
+}  // namespace
+
+Subcommand optimize_subcommand() {
+    return {
+        .name = "optimize",
+        .arguments = "PROGRAM -o better.nc",
+        .summary = "a smoother program inside a tolerance, with proof",
+        .description = "Runs the program on the machine, puts the points of its finishing passes in step with those of the passes beside\n"
+                       "them, on a smooth curve through the old points and never farther from the programmed path than the tolerance, and\n"
+                       "runs it again. Written is only what is better: speeds of neighbour passes differ less, no more defects, not longer, inside\n"
+                       "the tolerance. Otherwise exit code 1, with the reason. Lines with anything but line number, G1, X, Y, Z stay byte for byte.\n\n"
+                       "  clsurf optimize part.nc --machine mill.toml --tolerance 0.005 -o better.nc",
+        .declare =
+            [](po::options_description& options) {
+                // clang-format off
+                options.add_options()
+                    ("output,o", po::value<std::string>()->value_name("FILE"), "the new program")
+                    ("tolerance", po::value<double>()->value_name("MM"), "how far the new path may leave the programmed one (default: 0.005)");
+                // clang-format on
+                declare_simulation(options);
+                declare_json(options);
+                declare_program_options(options);
+            },
+        .positional = {"PROGRAM"},
+        .run = run,
+    };
+}
+
+}  // namespace clsurf::cli

@@ -1,0 +1,215 @@
+#include "optimize/line_edit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "program/lexer.h"
+
+namespace clsurf {
+namespace {
+
+constexpr double same_place = 1e-7;  ///< [mm] a word and where its motion ends
+constexpr double feed_steps = 10;    ///< per unit and minute of a feed word
+
+std::size_t skip_blanks(std::string_view text, std::size_t at) {
+    while (at < text.size() && is_blank(text[at])) ++at;
+    return at;
+}
+
+/// Digits behind the point of the number that ends before `end`.
+int decimals_of(std::string_view number) {
+    const std::size_t point = number.find('.');
+    return point == std::string_view::npos ? 0 : static_cast<int>(number.size() - point - 1);
+}
+
+/// A number as the lines around write theirs: with a point where they had decimals.
+std::string number_text(double value, int decimals) {
+    std::string text = fmt::format("{:.{}f}", value, decimals);
+    if (text.starts_with('-') && text.find_first_not_of("-0.") == std::string::npos) text.erase(0, 1);
+    return text;
+}
+
+bool cuts_in_a_line(const Motions& motions, std::size_t i) { return motions.kind[i] == MotionKind::feed; }
+
+/// The line's end as the program has it.
+std::string_view line_end_of(std::string_view text) {
+    const std::size_t end = text.find('\n');
+    return end != std::string_view::npos && end > 0 && text[end - 1] == '\r' ? "\r\n" : "\n";
+}
+
+}  // namespace
+
+std::optional<PlainLine> read_plain_line(std::string_view text) {
+    PlainLine line;
+    std::size_t at = skip_blanks(text, 0);
+    bool any = false;
+    while (at < text.size()) {
+        const char letter = upper(text[at]);
+        const std::size_t word = at;
+        at = skip_blanks(text, at + 1);
+        if (letter == 'N' || letter == 'G') {
+            const std::size_t digits = at;
+            while (at < text.size() && is_digit(text[at])) ++at;
+            if (at == digits) return std::nullopt;
+            if (letter == 'G' && std::stoi(std::string(text.substr(digits, std::min<std::size_t>(at - digits, 4)))) != 1) return std::nullopt;
+            if (at < text.size() && text[at] == '.') return std::nullopt;
+            at = skip_blanks(text, at);
+            std::string_view& kept = letter == 'N' ? line.number : line.code;
+            if (!kept.empty() || any) return std::nullopt;
+            kept = text.substr(word, at - word);
+            continue;
+        }
+        if (letter < 'X' || letter > 'Z') return std::nullopt;
+        const auto axis = static_cast<std::size_t>(letter - 'X');
+        if (!line.axis[axis].empty()) return std::nullopt;
+        if (at < text.size() && text[at] == '=') at = skip_blanks(text, at + 1);
+        line.axis[axis] = text.substr(word, at - word);
+        const std::size_t end = read_decimal(text, at, line.value[axis]);
+        if (end == at) return std::nullopt;
+        line.decimals[axis] = decimals_of(text.substr(at, end - at));
+        at = skip_blanks(text, end);
+        line.blanks = line.blanks || at > end;
+        any = true;
+    }
+    return any ? std::optional(line) : std::nullopt;
+}
+
+LineEditor::LineEditor(const Program& program) : program_(&program) {
+    const Motions& motions = program.motions;
+    const auto count = static_cast<std::size_t>(motions.size());
+    const SourceText& main = program.main();
+    editable_.assign(count, 0);
+    std::vector<std::uint8_t> motions_of_line(std::size_t{main.line_count()} + 1, 0);
+    const auto in_main = [&](std::size_t i) { return motions.file.empty() || motions.file[i] == 0; };
+    for (std::size_t i = 0; i < count; ++i) {
+        if (in_main(i) && motions.line[i] < motions_of_line.size() && motions_of_line[motions.line[i]] < 2) ++motions_of_line[motions.line[i]];
+    }
+    std::array<std::size_t, 2> fits{0, 0};
+    constexpr std::array<double, 2> units{1, mm_per_inch};
+    for (int turn = 0; turn < 2; ++turn) {
+        // First which unit the words have, then which lines say where they go in it.
+        for (std::size_t i = 0; i < count; ++i) {
+            if (!cuts_in_a_line(motions, i) || !in_main(i) || motions_of_line[motions.line[i]] != 1) continue;
+            if (i > 0 && !motions.rotary.empty() && !(motions.rotary[i] == motions.rotary[i - 1])) continue;
+            const std::optional<PlainLine> line = read_plain_line(main.line(motions.line[i]));
+            if (!line) continue;
+            const Vec3 end = motions.end[i].vec(), begin = motions.begin_of(static_cast<std::int64_t>(i)).vec();
+            const auto says = [&](double unit) {
+                for (int axis = 0; axis < 3; ++axis) {
+                    const auto a = static_cast<std::size_t>(axis);
+                    const double expected = line->axis[a].empty() ? begin[axis] : line->value[a] * unit;
+                    if (!(std::abs(end[axis] - expected) <= same_place)) return false;
+                }
+                return true;
+            };
+            if (turn == 0) {
+                for (std::size_t u = 0; u < units.size(); ++u) fits[u] += says(units[u]) ? 1 : 0;
+            } else {
+                editable_[i] = says(unit_) ? 1 : 0;
+            }
+        }
+        if (turn == 0) unit_ = fits[1] > fits[0] ? units[1] : units[0];
+    }
+}
+
+void LineEditor::replace(std::int64_t first, std::int64_t last, const std::vector<EditedPoint>& points) {
+    const Motions& motions = program_->motions;
+    const SourceText& main = program_->main();
+    const std::string_view end_of_line = line_end_of(main.text());
+    const LineNumber first_line = motions.line[static_cast<std::size_t>(first)], last_line = motions.line[static_cast<std::size_t>(last)];
+    const std::size_t old_lines = last_line - first_line + 1;
+    std::array<int, 3> decimals{0, 0, 0};
+    std::array<std::string, 3> words{"X", "Y", "Z"};
+    std::vector<std::string_view> numbers;
+    std::string first_code;
+    bool code_everywhere = true, blanks = false, all_axes = true;
+    for (LineNumber n = first_line; n <= last_line; ++n) {
+        const PlainLine line = *read_plain_line(main.line(n));
+        for (std::size_t a = 0; a < 3; ++a) {
+            decimals[a] = std::max(decimals[a], line.decimals[a]);
+            if (!line.axis[a].empty()) words[a] = line.axis[a];
+            all_axes = all_axes && !line.axis[a].empty();
+        }
+        if (!line.number.empty()) numbers.push_back(line.number);
+        if (n == first_line) first_code = line.code;
+        code_everywhere = code_everywhere && !line.code.empty();
+        blanks = blanks || line.blanks;
+    }
+    // An axis that stood still so far is written as finely as the others.
+    const int finest = *std::max_element(decimals.begin(), decimals.end());
+    for (int& d : decimals) d = d == 0 ? finest : d;
+
+    Edit edit{first_line, last_line, {}};
+    const double programmed = motions.feed[static_cast<std::size_t>(first)];
+    double modal_feed = programmed;
+    std::array<std::string, 3> modal;
+    const Vec3 begin = motions.begin_of(first).vec();
+    for (std::size_t a = 0; a < 3; ++a) modal[a] = number_text(begin[static_cast<int>(a)] / unit_, decimals[a]);
+    const auto feed_text = [&](double f) { return fmt::format("F{}", std::round(f * seconds_per_minute / unit_ * feed_steps) / feed_steps); };
+    const bool numbered = numbers.size() == old_lines;
+    bool code_written = false;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        std::string text;
+        const bool is_last = k + 1 == points.size();
+        const auto add = [&](const std::string& word) {
+            if (blanks && !text.empty() && !is_blank(text.back())) text += ' ';
+            text += word;
+        };
+        if (numbered && (k + 1 < old_lines || is_last)) text += is_last ? numbers.back() : numbers[k];
+        if (code_everywhere || !code_written) text += first_code;
+        bool moves = false;
+        for (std::size_t a = 0; a < 3; ++a) {
+            const std::string number = number_text(points[k].position[static_cast<int>(a)] / unit_, decimals[a]);
+            if (number == modal[a] && !all_axes) continue;
+            moves = moves || number != modal[a];
+            add(words[a] + number);
+            modal[a] = number;
+        }
+        if (!moves) continue;  // nearer to the point before than the decimals tell
+        code_written = true;
+        const double feed = points[k].feed > 0 ? points[k].feed : programmed;
+        if (feed_text(feed) != feed_text(modal_feed)) add(feed_text(feed));
+        modal_feed = feed;
+        edit.text += text;
+        edit.text += end_of_line;
+    }
+    if (feed_text(modal_feed) != feed_text(programmed)) edit.text += fmt::format("{}{}", feed_text(programmed), end_of_line);
+    changed_ += old_lines;
+    edits_.push_back(std::move(edit));
+}
+
+std::string LineEditor::text(std::string_view header) const {
+    const SourceText& main = program_->main();
+    const std::string_view end_of_line = line_end_of(main.text());
+    const bool semicolon = program_->dialect->id == DialectId::siemens || program_->dialect->id == DialectId::heidenhain_iso;
+    const std::string comment = semicolon ? fmt::format("; {}{}", header, end_of_line) : fmt::format("({}){}", header, end_of_line);
+    // Behind what must come first: the tape mark and the program's name.
+    LineNumber head = 0;
+    while (head < main.line_count()) {
+        const std::string_view line = main.line(head + 1);
+        const std::size_t at = skip_blanks(line, 0);
+        const bool name = at == line.size() || line[at] == '%' || (upper(line[at]) == 'O' && at + 1 < line.size() && is_digit(line[at + 1]));
+        if (!name) break;
+        ++head;
+    }
+    const std::string_view all = main.text();
+    std::string result;
+    result.reserve(all.size() + all.size() / 4);
+    std::size_t at = 0, next = 0;
+    for (LineNumber n = 1; at < all.size(); ++n) {
+        if (n == head + 1) result += comment;
+        const std::size_t end = all.find('\n', at);
+        const std::size_t after = end == std::string_view::npos ? all.size() : end + 1;
+        while (next < edits_.size() && edits_[next].last < n) ++next;
+        const bool replaced = next < edits_.size() && edits_[next].first <= n;
+        if (!replaced) result += all.substr(at, after - at);
+        else if (edits_[next].first == n) result += edits_[next].text;
+        at = after;
+    }
+    return result;
+}
+
+}  // namespace clsurf

@@ -1,0 +1,72 @@
+#pragma once
+// Lines that can be rewritten, and a program's text with some of them replaced: everything else stays
+// byte for byte.
+//
+// A line may be rewritten where it holds nothing but a line number, G1 and X, Y, Z with plain numbers, is
+// run once, and says in absolute coordinates where its motion ends. Comments, feeds, other codes, rotary
+// axes, variables and subprograms are therefore never touched: they end the stretch.
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "program/program.h"
+
+namespace clsurf {
+
+/// What a rewritable line looks like.
+struct PlainLine {
+    std::string_view number;       ///< "N120 " with the blanks behind; empty: none
+    std::string_view code;         ///< "G1 ", "G01"; empty: modal
+    std::array<std::string_view, 3> axis;  ///< "X", "Y ", "Z=" as written before the number; empty: not given
+    std::array<double, 3> value{};
+    std::array<int, 3> decimals{};
+    bool blanks = false;           ///< between the words
+};
+
+/// Reads a line without its end; nullopt: there is more in it.
+[[nodiscard]] std::optional<PlainLine> read_plain_line(std::string_view text);
+
+struct EditedPoint {
+    Vec3 position = Vec3::Zero();  ///< [mm]
+    double feed = 0;               ///< [mm/s] up to here; 0: as programmed
+};
+
+class LineEditor {
+public:
+    /// Looks at all lines. `program` must outlive it. O(text).
+    explicit LineEditor(const Program& program);
+
+    /// Whether the line of a motion may be rewritten.
+    [[nodiscard]] bool editable(std::int64_t motion) const { return editable_[static_cast<std::size_t>(motion)] != 0; }
+    /// mm per unit of the program's words.
+    [[nodiscard]] double unit() const { return unit_; }
+
+    /// Puts `points` in place of the ends of the motions first … last, whose lines follow each other. Calls
+    /// must come in the order of the program. The last point must be where the last motion ended. Coordinates
+    /// are rounded to the decimals of the lines that are replaced; feeds that differ from that of the motions get a word,
+    /// and theirs is set again on a line of its own at the end.
+    void replace(std::int64_t first, std::int64_t last, const std::vector<EditedPoint>& points);
+
+    /// The new text, with a comment about its origin near its beginning.
+    [[nodiscard]] std::string text(std::string_view header) const;
+    /// Lines of the old program that are replaced by others.
+    [[nodiscard]] std::size_t changed_lines() const { return changed_; }
+    [[nodiscard]] bool changes() const { return !edits_.empty(); }
+
+private:
+    struct Edit {
+        LineNumber first = 0, last = 0;  ///< lines that are replaced
+        std::string text;                ///< whole lines with their ends
+    };
+
+    const Program* program_;
+    std::vector<std::uint8_t> editable_;
+    std::vector<Edit> edits_;
+    double unit_ = 1;
+    std::size_t changed_ = 0;
+};
+
+}  // namespace clsurf

@@ -1,0 +1,48 @@
+#pragma once
+// The optimiser: propose, simulate, accept or refuse. A proposal moves points of finishing passes (and only
+// those) so that neighbour passes are programmed alike; it is taken only where a run on the machine
+// shows it to be better in every respect.
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "optimize/deviation.h"
+#include "optimize/run.h"
+
+namespace clsurf {
+
+struct OptimizeRules {
+    double tolerance = 0.005;   ///< [mm] from the programmed path
+    Vec3 start = Vec3::Zero();  ///< [mm] where the axes stand before the program
+    QualityRules quality;
+    std::string header;         ///< text of the comment that says where the program comes from
+};
+
+/// A proposal held against the program.
+struct Proof {
+    bool accepted = false;
+    std::string reason;         ///< why not, or empty
+    Deviation deviation;
+    std::size_t intervals = 0;  ///< stretches that were changed
+    LineNumber lines_before = 0, lines_after = 0;
+    std::size_t changed_lines = 0;  ///< of the old program
+    std::size_t defects_before = 0, defects_after = 0;  ///< by the thresholds of the run before
+};
+
+struct Optimized {
+    Proof proof;
+    std::string text;          ///< of the new program; that of the best proposal where none was accepted
+    JudgedRun before, after;
+    SimulationSummary run_before, run_after;
+};
+
+/// Reads a text in the program's dialect, as the program itself was read.
+using ReadProgram = std::function<Program(const std::string& text)>;
+
+/// Runs the program, proposes, runs and judges the proposals. Throws InputError where it cannot be run or
+/// has no passes beside each other.
+[[nodiscard]] Optimized optimize(const Program& program, const ReadProgram& read, const Machine& machine, const OptimizeRules& rules, const Progress& progress, Diagnostics& diagnostics);
+
+}  // namespace clsurf

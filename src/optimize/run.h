@@ -1,0 +1,39 @@
+#pragma once
+// JudgedRun: a run of a program, simulated or recorded, with what the predictor says of it.
+
+#include <memory>
+#include <string>
+
+#include "log/log.h"
+#include "machine/machine.h"
+#include "motion/simulator.h"
+#include "path/line_map.h"
+#include "quality/defects.h"
+
+namespace clsurf {
+
+/// The run of a program on a machine, as a log in memory: cmd.*, fb.*, line.
+struct SimulatedRun {
+    Log log;
+    SimulationSummary summary;
+};
+/// Throws what simulate() throws. Memory: 52 bytes a point.
+[[nodiscard]] SimulatedRun simulate_to_log(const Program& program, const Machine& machine, const Vec3& start, const Progress& progress);
+
+struct JudgedRun {
+    Log log;
+    Trajectory path;                  ///< commanded, or what the log has
+    std::unique_ptr<LineMap> lines;
+    ClSurface surface;
+    Signals signals;
+    QualityReport report;
+    double duration = 0;              ///< [s]
+    double mismatch = 0;              ///< [mm/s] 95th percentile of the speed difference to the neighbour passes
+    double greatest_mismatch = 0;     ///< [mm/s] 99.9th percentile of it
+};
+
+/// Stitches the surface of a log and judges it by `rules`. Adds diagnostics about lines to `diagnostics`.
+/// O(points), parallel.
+[[nodiscard]] JudgedRun judge_run(Log log, const Program& program, const QualityRules& rules, Diagnostics& diagnostics);
+
+}  // namespace clsurf

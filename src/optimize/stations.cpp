@@ -1,0 +1,128 @@
+#include "optimize/stations.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "surface/station.h"
+
+namespace clsurf {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double steepest = 2.2, flattest = 0.45;  ///< of a phase along a pass, in phases per spacing
+constexpr double fewest_taken = 0.2;  ///< of a pass's points: less in common with the passes before is no hold
+
+class PhaseRunner {
+public:
+    PhaseRunner(const ProgrammedSurface& laid, double spacing) : surface_(laid.surface) {
+        phases_.spacing = spacing;
+        phases_.of_point.assign(laid.motion.size(), none);
+    }
+
+    void run(const PointRange& pass) {
+        const auto n = static_cast<std::size_t>(pass.size());
+        way_.assign(n, 0);
+        for (std::size_t k = 1; k < n; ++k) {
+            const PointIndex i = pass.first + static_cast<PointIndex>(k);
+            way_[k] = way_[k - 1] + (surface_.positions[i] - surface_.positions[i - 1]).norm();
+        }
+        take_from_neighbours(pass);
+        const double sign = scale_to_spacing();
+        keep_what_runs_evenly(sign);
+        fill(sign);
+        for (std::size_t k = 0; k < n; ++k) phases_.of_point[static_cast<std::size_t>(pass.first) + k] = mine_[k];
+    }
+
+    Phases take() { return std::move(phases_); }
+
+private:
+    /// The phase beside each point, from a pass that has one already.
+    void take_from_neighbours(const PointRange& pass) {
+        mine_.assign(way_.size(), none);
+        for (std::size_t k = 0; k < mine_.size(); ++k) {
+            const PointIndex i = pass.first + static_cast<PointIndex>(k);
+            for (const Side side : {Side::left, Side::right}) {
+                if (!surface_.neighbours.has(side, i) || surface_.neighbours.neighbour(side, i) >= pass.first) continue;
+                const Eigen::Vector3f feed = surface_.positions[std::min(i + 1, pass.last)] - surface_.positions[std::max(i - 1, pass.first)];
+                const Station at = beside(surface_, {i, 0}, feed, side);
+                if (!at.exists()) continue;
+                const auto j = static_cast<std::size_t>(at.point);
+                const double phase = at.fraction > 0 ? phases_.of_point[j] + at.fraction * (phases_.of_point[j + 1] - phases_.of_point[j]) : phases_.of_point[j];
+                if (phase == phase) mine_[k] = phase;
+            }
+        }
+    }
+
+    /// Doubles or halves the phase until it runs at about one a spacing; its sign. 0: nothing was taken.
+    double scale_to_spacing() {
+        double gone = 0, turned = 0;
+        std::size_t taken = 0;
+        for (std::size_t k = 1; k < mine_.size(); ++k) {
+            if (!(mine_[k] == mine_[k]) || !(mine_[k - 1] == mine_[k - 1])) continue;
+            ++taken;
+            gone += way_[k] - way_[k - 1];
+            turned += mine_[k] - mine_[k - 1];
+        }
+        const double rate = gone > 0 ? turned / gone * phases_.spacing : 0;
+        if (static_cast<double>(taken) < fewest_taken * static_cast<double>(mine_.size()) || std::abs(rate) < 0.1) {
+            std::fill(mine_.begin(), mine_.end(), none);
+            return 1;
+        }
+        const double factor = std::exp2(-std::round(std::log2(std::abs(rate))));
+        for (double& phase : mine_) phase *= factor;
+        return rate > 0 ? 1 : -1;
+    }
+
+    /// Drops phases that jump or run backwards against those before.
+    void keep_what_runs_evenly(double sign) {
+        std::size_t last = mine_.size();
+        for (std::size_t k = 0; k < mine_.size(); ++k) {
+            if (!(mine_[k] == mine_[k])) continue;
+            if (last < mine_.size()) {
+                const double run = sign * (mine_[k] - mine_[last]) * phases_.spacing;
+                const double gone = way_[k] - way_[last], play = 0.05 * phases_.spacing;
+                if (run > steepest * gone + play || run < flattest * gone - play) {
+                    mine_[k] = none;
+                    continue;
+                }
+            }
+            last = k;
+        }
+    }
+
+    /// Linear over gaps, one a spacing beyond the ends.
+    void fill(double sign) {
+        std::vector<std::size_t> known;
+        for (std::size_t k = 0; k < mine_.size(); ++k) {
+            if (mine_[k] == mine_[k]) known.push_back(k);
+        }
+        if (known.empty()) {
+            mine_[0] = 0;
+            known.push_back(0);
+        }
+        const double rate = sign / phases_.spacing;
+        for (std::size_t k = 0; k < known.front(); ++k) mine_[k] = mine_[known.front()] - rate * (way_[known.front()] - way_[k]);
+        for (std::size_t k = known.back() + 1; k < mine_.size(); ++k) mine_[k] = mine_[known.back()] + rate * (way_[k] - way_[known.back()]);
+        for (std::size_t g = 1; g < known.size(); ++g) {
+            const std::size_t a = known[g - 1], b = known[g];
+            for (std::size_t k = a + 1; k < b; ++k) mine_[k] = mine_[a] + (mine_[b] - mine_[a]) * (way_[k] - way_[a]) / std::max(way_[b] - way_[a], 1e-12);
+        }
+    }
+
+    const ClSurface& surface_;
+    Phases phases_;
+    std::vector<double> way_, mine_;
+};
+
+}  // namespace
+
+Phases run_phases(const ProgrammedSurface& laid, double spacing) {
+    PhaseRunner runner(laid, spacing);
+    for (const Pass& pass : laid.surface.passes) {
+        if (pass.kind == PassKind::cut) runner.run({pass.first, pass.last});
+    }
+    return runner.take();
+}
+
+}  // namespace clsurf
