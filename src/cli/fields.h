@@ -19,6 +19,9 @@ public:
     [[nodiscard]] Field get(std::string_view name);
 
 private:
+    /// Planned speeds of the program's constant-speed intervals, at the points of their lines.
+    [[nodiscard]] Field interval_field() const;
+
     const Part& part_;
     const ClSurface& surface_;
     FieldSet set_;

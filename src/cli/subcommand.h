@@ -45,6 +45,7 @@ struct Subcommand {
 [[nodiscard]] Subcommand diff_subcommand();
 [[nodiscard]] Subcommand export_subcommand();
 [[nodiscard]] Subcommand info_subcommand();
+[[nodiscard]] Subcommand intervals_subcommand();
 [[nodiscard]] Subcommand lint_subcommand();
 [[nodiscard]] Subcommand machine_subcommand();
 [[nodiscard]] Subcommand moves_subcommand();

@@ -20,6 +20,7 @@ std::span<const Subcommand> subcommands() {
         diff_subcommand(),
         optimize_subcommand(),
         lint_subcommand(),
+        intervals_subcommand(),
         compare_subcommand(),
         machine_subcommand(),
         help_subcommand(),

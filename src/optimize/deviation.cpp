@@ -27,13 +27,14 @@ public:
         double way = way_;
         for (std::int64_t m = low; m < path_.size() && (before <= way + window || !std::isfinite(nearest)); ++m) {
             const double length = path_.length(m);
+            if (length <= 0 && std::isfinite(nearest)) continue;
             const Foot foot = path_.foot(m, p);
-            // The earlier of two that are as near: a path may come by here again.
-            if (foot.distance < nearest - same_place) {
-                nearest = foot.distance;
+            // The later of two that are as near: a path that goes back on itself is not to be walked back.
+            if (foot.distance <= nearest + same_place) {
+                nearest = std::min(nearest, foot.distance);
                 at_ = m;
                 way_before_ = before;
-                way_ = before + foot.fraction * length;
+                way_ = before + (length > 0 ? foot.fraction * length : 0);
             }
             before += length;
         }

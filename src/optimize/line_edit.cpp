@@ -115,7 +115,7 @@ LineEditor::LineEditor(const Program& program) : program_(&program) {
     }
 }
 
-void LineEditor::replace(std::int64_t first, std::int64_t last, const std::vector<EditedPoint>& points) {
+void LineEditor::replace(std::int64_t first, std::int64_t last, const std::vector<Vec3>& points) {
     const Motions& motions = program_->motions;
     const SourceText& main = program_->main();
     const std::string_view end_of_line = line_end_of(main.text());
@@ -143,12 +143,9 @@ void LineEditor::replace(std::int64_t first, std::int64_t last, const std::vecto
     for (int& d : decimals) d = d == 0 ? finest : d;
 
     Edit edit{first_line, last_line, {}};
-    const double programmed = motions.feed[static_cast<std::size_t>(first)];
-    double modal_feed = programmed;
     std::array<std::string, 3> modal;
     const Vec3 begin = motions.begin_of(first).vec();
     for (std::size_t a = 0; a < 3; ++a) modal[a] = number_text(begin[static_cast<int>(a)] / unit_, decimals[a]);
-    const auto feed_text = [&](double f) { return fmt::format("F{}", std::round(f * seconds_per_minute / unit_ * feed_steps) / feed_steps); };
     const bool numbered = numbers.size() == old_lines;
     bool code_written = false;
     for (std::size_t k = 0; k < points.size(); ++k) {
@@ -162,7 +159,7 @@ void LineEditor::replace(std::int64_t first, std::int64_t last, const std::vecto
         if (code_everywhere || !code_written) text += first_code;
         bool moves = false;
         for (std::size_t a = 0; a < 3; ++a) {
-            const std::string number = number_text(points[k].position[static_cast<int>(a)] / unit_, decimals[a]);
+            const std::string number = number_text(points[k][static_cast<int>(a)] / unit_, decimals[a]);
             if (number == modal[a] && !all_axes) continue;
             moves = moves || number != modal[a];
             add(words[a] + number);
@@ -170,22 +167,46 @@ void LineEditor::replace(std::int64_t first, std::int64_t last, const std::vecto
         }
         if (!moves) continue;  // nearer to the point before than the decimals tell
         code_written = true;
-        const double feed = points[k].feed > 0 ? points[k].feed : programmed;
-        if (feed_text(feed) != feed_text(modal_feed)) add(feed_text(feed));
-        modal_feed = feed;
         edit.text += text;
         edit.text += end_of_line;
     }
-    if (feed_text(modal_feed) != feed_text(programmed)) edit.text += fmt::format("{}{}", feed_text(programmed), end_of_line);
     changed_ += old_lines;
     edits_.push_back(std::move(edit));
+}
+
+void LineEditor::set_feeds(const std::vector<float>& feeds) {
+    const Motions& motions = program_->motions;
+    const SourceText& main = program_->main();
+    const std::string_view end_of_line = line_end_of(main.text());
+    const auto feed_text = [&](double f) { return fmt::format("F{}", std::round(f * seconds_per_minute / unit_ * feed_steps) / feed_steps); };
+    std::string modal;  // what the controller has now, where that is not what was programmed
+    for (std::int64_t i = 0; i < motions.size(); ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        if (!editable(i)) continue;
+        const std::string programmed = feed_text(motions.feed[k]);
+        const std::string wanted = feeds[k] > 0 && feeds[k] < motions.feed[k] ? feed_text(feeds[k]) : programmed;
+        if (modal.empty()) modal = programmed;
+        const bool more = i + 1 < motions.size() && editable(i + 1) && motions.line[k + 1] == motions.line[k] + 1;
+        const bool restores = !more && wanted != programmed;
+        if (wanted != modal || restores) {
+            std::string_view text = main.line(motions.line[k]);
+            while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+            Edit edit{motions.line[k], motions.line[k], std::string(text)};
+            if (wanted != modal) edit.text += (text.find(' ') == std::string_view::npos ? "" : " ") + wanted;
+            edit.text += end_of_line;
+            if (restores) edit.text += programmed + std::string(end_of_line);
+            edits_.push_back(std::move(edit));
+            ++changed_;
+        }
+        modal = more ? wanted : std::string();
+    }
 }
 
 std::string LineEditor::text(std::string_view header) const {
     const SourceText& main = program_->main();
     const std::string_view end_of_line = line_end_of(main.text());
     const bool semicolon = program_->dialect->id == DialectId::siemens || program_->dialect->id == DialectId::heidenhain_iso;
-    const std::string comment = semicolon ? fmt::format("; {}{}", header, end_of_line) : fmt::format("({}){}", header, end_of_line);
+    const std::string comment = header.empty() ? "" : semicolon ? fmt::format("; {}{}", header, end_of_line) : fmt::format("({}){}", header, end_of_line);
     // Behind what must come first: the tape mark and the program's name.
     LineNumber head = 0;
     while (head < main.line_count()) {

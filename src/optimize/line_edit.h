@@ -29,11 +29,6 @@ struct PlainLine {
 /// Reads a line without its end; nullopt: there is more in it.
 [[nodiscard]] std::optional<PlainLine> read_plain_line(std::string_view text);
 
-struct EditedPoint {
-    Vec3 position = Vec3::Zero();  ///< [mm]
-    double feed = 0;               ///< [mm/s] up to here; 0: as programmed
-};
-
 class LineEditor {
 public:
     /// Looks at all lines. `program` must outlive it. O(text).
@@ -46,11 +41,15 @@ public:
 
     /// Puts `points` in place of the ends of the motions first … last, whose lines follow each other. Calls
     /// must come in the order of the program. The last point must be where the last motion ended. Coordinates
-    /// are rounded to the decimals of the lines that are replaced; feeds that differ from that of the motions get a word,
-    /// and theirs is set again on a line of its own at the end.
-    void replace(std::int64_t first, std::int64_t last, const std::vector<EditedPoint>& points);
+    /// are rounded to the decimals of the lines that are replaced.
+    void replace(std::int64_t first, std::int64_t last, const std::vector<Vec3>& points);
 
-    /// The new text, with a comment about its origin near its beginning.
+    /// Gives motions a feed [mm/s], one entry a motion of the program, 0: as it is. Only lines that may be
+    /// rewritten get one; behind them the programmed feed is set again, on the next line where that may
+    /// be rewritten, else on a line of its own. Instead of replace(), not besides it.
+    void set_feeds(const std::vector<float>& feeds);
+
+    /// The new text, with a comment near its beginning (empty: none).
     [[nodiscard]] std::string text(std::string_view header) const;
     /// Lines of the old program that are replaced by others.
     [[nodiscard]] std::size_t changed_lines() const { return changed_; }

@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "core/statistics.h"
 #include "curve/polyline.h"
 #include "path/toolpath.h"
 #include "surface/station.h"
@@ -32,13 +33,6 @@ constexpr std::array<RuleText, lint_rules> rule_texts{{
     {LintRule::feed_difference, "feed-difference", "Another feed than on the neighbour passes"},
     {LintRule::start_point, "start-point", "The pass begins or ends out of line with its neighbours"},
 }};
-
-double percentile(std::vector<double> values, double share) {
-    if (values.empty()) return 0;
-    const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), at, values.end());
-    return *at;
-}
 
 /// The number behind a letter or an opening bracket of a word such as "G64 P0.01", "CYCLE832(0.02,1)".
 std::optional<double> number_after(std::string_view text, char mark) {
@@ -88,7 +82,7 @@ private:
             }
             spacing_[static_cast<std::size_t>(pass.points.first)] = spacing_[static_cast<std::size_t>(pass.points.first + 1)];
         }
-        report_.spacing = percentile(std::move(lengths), 0.5);
+        report_.spacing = (lengths.empty() ? 0 : quantile_below(lengths, 0.5));
     }
 
     /// Direction of the feed at a point of a pass; 0: the tool stands.
@@ -195,7 +189,7 @@ private:
                 of_point.emplace_back(pass.ends[k], error);
             }
         }
-        report_.chord_error = percentile(std::move(errors), 0.95);
+        report_.chord_error = (errors.empty() ? 0 : quantile_below(errors, 0.95));
         if (report_.tolerance <= 0 || of_point.empty()) return;
         std::vector<float> error_at(laid_.motion.size(), 0);
         for (const auto& [point, error] : of_point) error_at[static_cast<std::size_t>(point)] = static_cast<float>(error);
@@ -251,7 +245,7 @@ private:
                 sizes.push_back(std::abs(end.residual));
             }
         }
-        const double limit = std::max(rules_.start_step_overs * surface_.step_over, scatter_of_starts * percentile(std::move(sizes), 0.5));
+        const double limit = std::max(rules_.start_step_overs * surface_.step_over, scatter_of_starts * (sizes.empty() ? 0 : quantile_below(sizes, 0.5)));
         for (const End& end : ends) {
             if (std::abs(end.residual) <= limit) continue;
             const PointIndex point = end.begins ? end.pass->ends.front() : end.pass->ends.back();

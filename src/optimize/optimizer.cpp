@@ -1,16 +1,24 @@
 #include "optimize/optimizer.h"
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
 #include "core/error.h"
 #include "core/units.h"
+#include "optimize/levelling.h"
 #include "optimize/line_edit.h"
 #include "optimize/resample.h"
 
 namespace clsurf {
 namespace {
+
+constexpr std::array<double, 3> shares_of_spacing{1.0, 0.5, 0.33};
+constexpr std::array<double, 4> steps_between_passes{0.2, 0.1, 0.07, 0.05};
+constexpr double play_of_feeds = 0.01;   ///< a motion this little too fast (a share) gets no feed
+constexpr double interval_width = 0.03;  ///< of the speeds in a constant-speed interval
+constexpr double most_points = 8e6;      ///< of all runs together; then what there is has to do
 
 /// A run of a proposal, and how it holds against the program.
 struct Tried {
@@ -45,11 +53,18 @@ public:
         before_ = &result.before;
         defects_before_ = find_defects(before_->surface, before_->signals, *before_->lines, program_, machine_.controller.period, fixed_).defects.size();
         const ProgrammedSurface laid = lay_out(program_);
+        const double spacing = fitting_spacing(program_, laid, rules_.tolerance);
         std::optional<Tried> best;
-        for (const double share : {1.0, 0.7, 1.4}) {
-            Tried tried = try_spacing(laid, share * fitting_spacing(program_, laid, rules_.tolerance));
+        const auto keep = [&](Tried tried) {
             if (!best || better(tried, *best)) best = std::move(tried);
+        };
+        for (const double share : shares_of_spacing) {
+            // What is tried last is left out first where a program is long.
+            if (points_ >= most_points) break;
+            const Base base = resampled(laid, share * spacing);
+            if (base.stretches > 0) propose_for(base, keep);
         }
+        if (!best || points_ < most_points) propose_for({program_, std::string(program_.main().text()), true, 0, 0}, keep);
         result.proof = std::move(best->proof);
         result.text = std::move(best->text);
         result.after = std::move(best->run);
@@ -58,20 +73,63 @@ public:
     }
 
 private:
-    Tried try_spacing(const ProgrammedSurface& laid, double spacing) {
-        Tried tried;
+    /// A program whose points were moved (or none), before feeds are set.
+    struct Base {
+        Program program;
+        std::string text;
+        bool original = false;
+        std::size_t stretches = 0, changed_lines = 0;
+    };
+
+    /// The points alone, then with feeds that bring neighbour passes within a step of each other.
+    template <typename Keep>
+    void propose_for(const Base& base, const Keep& keep) {
+        Tried plain = prove(base, base.text, 0);
+        const std::vector<float> own = means_by_motion(plain.run, base.program, speeds_of(plain.run));
+        std::vector<std::vector<float>> targets;
+        for (const double step : steps_between_passes) targets.push_back(means_by_motion(plain.run, base.program, levelled_speeds(plain.run, step)));
+        keep(std::move(plain));
+        for (const std::vector<float>& target : targets) {
+            if (points_ >= most_points) return;
+            LineEditor editor(base.program);
+            editor.set_feeds(levelling_feeds(own, target, play_of_feeds, interval_width));
+            Tried levelled = prove(base, editor.text(base.original ? rules_.header : ""), editor.changed_lines());
+            const bool too_slow = levelled.run.duration > before_->duration;
+            keep(std::move(levelled));
+            if (too_slow) return;  // lower feeds take longer still
+        }
+    }
+
+    static std::vector<float> speeds_of(const JudgedRun& run) {
+        std::vector<float> speeds(run.signals.samples.size());
+        for (std::size_t i = 0; i < speeds.size(); ++i) speeds[i] = run.signals.samples[i].speed;
+        return speeds;
+    }
+
+    Base resampled(const ProgrammedSurface& laid, double spacing) {
+        Base base;
         LineEditor editor(program_);
         const std::vector<Stretch> stretches = resample(program_, laid, editor, {rules_.tolerance, spacing, ResampleRules{}.corner_angle});
         for (const Stretch& stretch : stretches) editor.replace(stretch.first, stretch.last, stretch.points);
-        tried.text = editor.text(rules_.header);
+        base.text = editor.text(rules_.header);
+        base.program = read_(base.text);
+        base.stretches = stretches.size();
+        base.changed_lines = editor.changed_lines();
+        return base;
+    }
+
+    Tried prove(const Base& base, const std::string& text, std::size_t feed_lines) {
+        Tried tried;
+        tried.text = text;
         const Program changed = read_(tried.text);
-        tried.proof.intervals = stretches.size();
-        tried.proof.changed_lines = editor.changed_lines();
+        tried.proof.intervals = base.stretches;
+        tried.proof.changed_lines = base.changed_lines + feed_lines;
         tried.proof.lines_before = program_.main().line_count();
         tried.proof.lines_after = changed.main().line_count();
         tried.proof.deviation = measure_deviation(program_, changed);
         SimulatedRun simulated = simulate_to_log(changed, machine_, rules_.start, progress_);
         tried.summary = std::move(simulated.summary);
+        points_ += static_cast<double>(tried.summary.points);
         tried.run = judge_run(std::move(simulated.log), changed, fixed_, diagnostics_);
         tried.proof.defects_before = defects_before_;
         tried.proof.defects_after = tried.run.report.defects.size();
@@ -82,9 +140,9 @@ private:
 
     /// Why a proposal cannot be taken; empty: it can.
     [[nodiscard]] std::string objection(const Tried& t) const {
-        if (t.proof.intervals == 0) return "no stretch of the program can be rewritten";
+        if (t.proof.changed_lines == 0) return "no stretch of the program can be rewritten";
         if (t.proof.deviation.disordered > 0) return fmt::format("line {} would no longer do the same", t.proof.deviation.disordered);
-        if (t.proof.deviation.greatest > rules_.tolerance) return fmt::format("it would leave the programmed path by {:.4f} mm", t.proof.deviation.greatest);
+        if (t.proof.deviation.greatest > rules_.tolerance) return fmt::format("it would leave the programmed path by {:.4f} mm at line {}", t.proof.deviation.greatest, t.proof.deviation.line);
         if (!t.summary.limits_ok) return "the machine's limits would not be kept";
         if (t.run.mismatch >= before_->mismatch) return fmt::format("the speeds of neighbour passes would differ by {:.0f} instead of {:.0f} mm/min", t.run.mismatch * seconds_per_minute, before_->mismatch * seconds_per_minute);
         if (t.proof.defects_after > t.proof.defects_before) return fmt::format("there would be {} defects instead of {}", t.proof.defects_after, t.proof.defects_before);
@@ -92,9 +150,14 @@ private:
         return {};
     }
 
-    [[nodiscard]] static bool better(const Tried& a, const Tried& b) {
+    /// What is left of mismatch and defects, as shares.
+    [[nodiscard]] double score(const Tried& t) const {
+        return t.run.mismatch / before_->mismatch + static_cast<double>(t.proof.defects_after) / std::max<double>(1, static_cast<double>(defects_before_));
+    }
+
+    [[nodiscard]] bool better(const Tried& a, const Tried& b) const {
         if (a.proof.accepted != b.proof.accepted) return a.proof.accepted;
-        return a.run.mismatch < b.run.mismatch;
+        return score(a) < score(b);
     }
 
     const Program& program_;
@@ -106,6 +169,7 @@ private:
     QualityRules fixed_;
     const JudgedRun* before_ = nullptr;
     std::size_t defects_before_ = 0;
+    double points_ = 0;  ///< simulated so far
 };
 
 }  // namespace

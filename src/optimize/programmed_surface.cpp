@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/statistics.h"
 #include "path/toolpath.h"
 
 namespace clsurf {
@@ -62,10 +63,7 @@ double usual_length(const Toolpath& path) {
         if (!cuts(path.motions().kind[static_cast<std::size_t>(i)])) continue;
         if (const double length = path.length(i); length > 0) lengths.push_back(length);
     }
-    if (lengths.empty()) return 0;
-    const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-    std::nth_element(lengths.begin(), middle, lengths.end());
-    return *middle;
+    return lengths.empty() ? 0 : median(lengths);
 }
 
 ProgrammedSurface stitch_sampled(Sampled sampled, const Program& program, double step_over) {

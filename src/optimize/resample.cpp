@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "curve/akima.h"
+#include "core/statistics.h"
 #include "curve/polyline.h"
 #include "optimize/stations.h"
 #include "path/toolpath.h"
@@ -13,13 +14,35 @@ namespace {
 
 constexpr double knot_share = 0.6;        ///< of the spacing: closer points are no knots of the curve
 constexpr double nearest_station = 0.35;  ///< of the spacing: a station nearer to a fixed point is left out
-constexpr double rounding_reserve = 0.9;  ///< of the tolerance that is used: the rest is for the decimals
+constexpr double rounding_reserve = 0.85;  ///< of the tolerance that is used: the rest is for the decimals
+constexpr int most_halvings = 5;          ///< of a line between stations; then the old points come back
 constexpr std::size_t shortest_stretch = 3;  ///< motions
 
 /// One stretch of a pass between fixed points: its old points, and for each how far the way and the phase are.
 struct Old {
     std::vector<Vec3> points;    ///< the first is where the stretch begins
     std::vector<double> way;     ///< [mm]
+};
+
+/// Akima's curve through some of the old points, by the way along the old lines.
+class Curve {
+public:
+    Curve(const Old& old, const std::vector<std::size_t>& knots) {
+        std::vector<Vec3> points;
+        for (const std::size_t k : knots) {
+            points.push_back(old.points[k]);
+            way_.push_back(old.way[k]);
+        }
+        spans_ = akima_spans(points);
+    }
+    [[nodiscard]] Vec3 at(double way) const {
+        const auto span = static_cast<std::size_t>(std::upper_bound(way_.begin() + 1, way_.end() - 1, way) - way_.begin()) - 1;
+        return spans_[span].at(spans_[span].chord * (way - way_[span]) / (way_[span + 1] - way_[span]));
+    }
+
+private:
+    std::vector<double> way_;
+    std::vector<AkimaSpan> spans_;
 };
 
 class Resampler {
@@ -70,22 +93,40 @@ private:
             old.points.push_back(p);
         }
         if (old.way.back() < rules_.spacing) return;
-        const std::vector<double> stations = stations_of(pass.ends[begin], pass.ends[end]);
+        const Curve curve(old, knots_of(old));
         Stretch stretch{motion(pass.ends[begin + 1]), motion(pass.ends[end]), {}};
-        const std::vector<std::size_t> knots = knots_of(old);
-        std::vector<Vec3> corners;
-        for (const std::size_t k : knots) corners.push_back(old.points[k]);
-        const std::vector<AkimaSpan> spans = akima_spans(corners);
-        std::size_t span = 0, line = 0;
+        std::vector<double> stations = stations_of(pass.ends[begin], pass.ends[end]);
+        stations.push_back(old.way.back());
+        Place from{0, old.points.front()};
         for (const double way : stations) {
-            while (span + 2 < knots.size() && old.way[knots[span + 1]] < way) ++span;
-            const double from = old.way[knots[span]], to = old.way[knots[span + 1]];
-            const Vec3 on_curve = spans[span].at(spans[span].chord * (way - from) / (to - from));
-            while (line + 2 < old.way.size() && old.way[line + 1] < way) ++line;
-            stretch.points.push_back({held(old, line, on_curve), 0});
+            const Place to{way, way < old.way.back() ? held(old, curve.at(way), way) : old.points.back()};
+            refine(old, curve, from, to, most_halvings, stretch.points);
+            stretch.points.push_back(to.position);
+            from = to;
         }
-        stretch.points.push_back({old.points.back(), 0});
         if (!stays(old, stretch)) stretches_.push_back(std::move(stretch));
+    }
+
+    struct Place {
+        double way = 0;
+        Vec3 position = Vec3::Zero();
+    };
+
+    /// Points between two places, where the line between them passes old points too far off.
+    void refine(const Old& old, const Curve& curve, const Place& from, const Place& to, int halvings, std::vector<Vec3>& points) const {
+        const auto first = static_cast<std::size_t>(std::upper_bound(old.way.begin(), old.way.end(), from.way) - old.way.begin());
+        double farthest = 0;
+        std::size_t at = first;
+        for (std::size_t k = first; k < old.way.size() && old.way[k] < to.way; ++k) {
+            const double off = (old.points[k] - nearest_on_line(old.points[k], from.position, to.position)).norm();
+            if (off > farthest) farthest = off, at = k;
+        }
+        if (farthest <= rounding_reserve * rules_.tolerance) return;
+        const double way = halvings > 0 ? 0.5 * (from.way + to.way) : old.way[at];
+        const Place middle{way, halvings > 0 ? held(old, curve.at(way), way) : old.points[at]};
+        refine(old, curve, from, middle, halvings - 1, points);
+        points.push_back(middle.position);
+        refine(old, curve, middle, to, halvings - 1, points);
     }
 
     /// Ways [mm] from the point `first` on where the phase passes a whole number.
@@ -121,8 +162,9 @@ private:
         return knots;
     }
 
-    /// A point no farther from the old lines about `line` than the tolerance leaves.
-    [[nodiscard]] Vec3 held(const Old& old, std::size_t line, const Vec3& p) const {
+    /// A point no farther from the old lines about `way` than the tolerance leaves.
+    [[nodiscard]] Vec3 held(const Old& old, const Vec3& p, double way) const {
+        const auto line = static_cast<std::size_t>(std::upper_bound(old.way.begin() + 1, old.way.end() - 1, way) - old.way.begin()) - 1;
         Vec3 nearest = nearest_on_line(p, old.points[line], old.points[line + 1]);
         const std::size_t first = line >= 2 ? line - 2 : 0, last = std::min(line + 3, old.points.size() - 1);
         for (std::size_t k = first; k < last; ++k) {
@@ -137,7 +179,7 @@ private:
     [[nodiscard]] static bool stays(const Old& old, const Stretch& stretch) {
         if (stretch.points.size() + 1 != old.points.size()) return false;
         for (std::size_t k = 0; k < stretch.points.size(); ++k) {
-            if ((stretch.points[k].position - old.points[k + 1]).norm() > 1e-3) return false;
+            if ((stretch.points[k] - old.points[k + 1]).norm() > 1e-3) return false;
         }
         return true;
     }
@@ -150,13 +192,6 @@ private:
     Phases phases_;
     std::vector<Stretch> stretches_;
 };
-
-double percentile(std::vector<double> values, double share) {
-    if (values.empty()) return 0;
-    const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), at, values.end());
-    return *at;
-}
 
 }  // namespace
 
@@ -173,7 +208,7 @@ double fitting_spacing(const Program& program, const ProgrammedSurface& laid, do
             if (path.length(m) > 0.05 && path.length(after) > 0.05) bends.push_back(three_point_curvature(path.begin(m), path.end(m), path.end(after)));
         }
     }
-    const double usual = percentile(std::move(lengths), 0.5), bend = percentile(std::move(bends), 0.95);
+    const double usual = (lengths.empty() ? 0 : quantile_below(lengths, 0.5)), bend = (bends.empty() ? 0 : quantile_below(bends, 0.95));
     const double by_bend = bend > 0 ? std::sqrt(8 * 0.5 * tolerance / bend) : usual;
     return usual > 0 ? std::clamp(by_bend, 0.5 * usual, 2 * usual) : by_bend;
 }

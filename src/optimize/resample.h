@@ -19,7 +19,7 @@ struct ResampleRules {
 /// their ends. The last point is where they ended.
 struct Stretch {
     std::int64_t first = 0, last = 0;
-    std::vector<EditedPoint> points;
+    std::vector<Vec3> points;  ///< [mm]
 };
 
 /// The spacing that a program's points should have [mm]: its own usual one, or less where curvature asks for

@@ -1,10 +1,10 @@
 #include "optimize/run.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
 
+#include "core/statistics.h"
 #include "path/pieces.h"
 #include "quality/quality_fields.h"
 
@@ -19,13 +19,6 @@ struct Columns {
     std::array<std::vector<double>, 6> positions;
     std::vector<LineNumber> line;
 };
-
-double percentile(std::vector<float>& values, double share) {
-    if (values.empty()) return 0;
-    const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), at, values.end());
-    return *at;
-}
 
 }  // namespace
 
@@ -78,8 +71,9 @@ JudgedRun judge_run(Log log, const Program& program, const QualityRules& rules, 
     for (const float value : mismatch.values) {
         if (value == value) sizes.push_back(std::abs(value));
     }
-    run.mismatch = percentile(sizes, 0.95);
-    run.greatest_mismatch = percentile(sizes, 0.999);
+    if (sizes.empty()) return run;
+    run.mismatch = quantile_below(sizes, 0.95);
+    run.greatest_mismatch = quantile_below(sizes, 0.999);
     return run;
 }
 

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double steepest = 2.2, flattest = 0.45;  ///< of a phase along a pass, in phases per spacing
+constexpr double jump_play = 0.05;     ///< of a phase that is no jump
 constexpr double fewest_taken = 0.2;  ///< of a pass's points: less in common with the passes before is no hold
 
 class PhaseRunner {
@@ -74,20 +75,29 @@ private:
         return rate > 0 ? 1 : -1;
     }
 
-    /// Drops phases that jump or run backwards against those before.
+    /// Keeps the longest run of phases, and of the others those that go on from it: a phase taken across the
+    /// seam between two passes, or from the wrong one, jumps.
     void keep_what_runs_evenly(double sign) {
-        std::size_t last = mine_.size();
+        const auto known = [&](std::size_t k) { return mine_[k] == mine_[k]; };
+        const auto follows = [&](std::size_t a, std::size_t b) {
+            const double run = sign * (mine_[b] - mine_[a]) * phases_.spacing, gone = way_[b] - way_[a], play = jump_play * phases_.spacing;
+            return run <= steepest * gone + play && run >= flattest * gone - play;
+        };
+        std::size_t best = 0, best_size = 0, begin = 0;
         for (std::size_t k = 0; k < mine_.size(); ++k) {
-            if (!(mine_[k] == mine_[k])) continue;
-            if (last < mine_.size()) {
-                const double run = sign * (mine_[k] - mine_[last]) * phases_.spacing;
-                const double gone = way_[k] - way_[last], play = 0.05 * phases_.spacing;
-                if (run > steepest * gone + play || run < flattest * gone - play) {
-                    mine_[k] = none;
-                    continue;
-                }
-            }
-            last = k;
+            if (!known(k) || (k > begin && (!known(k - 1) || !follows(k - 1, k)))) begin = known(k) ? k : k + 1;
+            if (known(k) && k + 1 - begin > best_size) best = begin, best_size = k + 1 - begin;
+        }
+        if (best_size == 0) return;
+        for (std::size_t k = best + best_size, last = k - 1; k < mine_.size(); ++k) {
+            if (!known(k)) continue;
+            if (follows(last, k)) last = k;
+            else mine_[k] = none;
+        }
+        for (std::size_t k = best, last = best; k-- > 0;) {
+            if (!known(k)) continue;
+            if (follows(k, last)) last = k;
+            else mine_[k] = none;
         }
     }
 

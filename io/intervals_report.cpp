@@ -1,0 +1,36 @@
+#include "io/intervals_report.h"
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "io/json_value.h"
+
+namespace clsurf::io {
+
+std::string intervals_text(const ProgramIntervals& all) {
+    std::string text = fmt::format("{:>5} {:>15} {:>9} {:>12} {:>12} {:>8} {:>8} {:>8}\n", "pass", "lines", "mm", "curvature", "greatest", "feed", "own", "planned");
+    for (const ProgramInterval& i : all.intervals) {
+        text += fmt::format("{:>5} {:>15} {:>9.3f} {:>12.4f} {:>12.4f} {:>8.0f} {:>8.0f} {:>8.0f}\n", i.pass, fmt::format("{}-{}", i.first_line, i.last_line), i.length, i.mean_curvature,
+                            i.greatest_curvature, i.feed * seconds_per_minute, i.own_speed * seconds_per_minute, i.speed * seconds_per_minute);
+    }
+    text += fmt::format("\n{} intervals on {} passes; curvatures in 1/mm, speeds in mm/min\n", all.intervals.size(), all.passes);
+    return text;
+}
+
+std::string intervals_json(const ProgramIntervals& all, const Diagnostics& diagnostics) {
+    Json intervals = Json::array();
+    for (const ProgramInterval& i : all.intervals) {
+        intervals.push_back({{"pass", i.pass},
+                             {"lines", Json::array({i.first_line, i.last_line})},
+                             {"length_mm", number(i.length)},
+                             {"mean_curvature_per_mm", number(i.mean_curvature)},
+                             {"greatest_curvature_per_mm", number(i.greatest_curvature)},
+                             {"feed_mm_min", number(i.feed * seconds_per_minute)},
+                             {"own_speed_mm_min", number(i.own_speed * seconds_per_minute)},
+                             {"speed_mm_min", number(i.speed * seconds_per_minute)}});
+    }
+    Json summary{{"passes", all.passes}, {"intervals", all.intervals.size()}, {"step_over_mm", number(all.step_over)}};
+    return dump(Json{{"intervals", std::move(intervals)}, {"summary", std::move(summary)}, {"diagnostics", list(diagnostics)}});
+}
+
+}  // namespace clsurf::io

@@ -1,0 +1,69 @@
+// clsurf intervals: where a program can be run at constant speed, and at which.
+
+#include <cmath>
+
+#include "cli/options.h"
+#include "io/intervals_report.h"
+#include "io/machine_file.h"
+#include "io/program_file.h"
+
+namespace clsurf::cli {
+namespace {
+
+double read_above(const po::variables_map& values, const char* name, double least, double otherwise) {
+    if (values.count(name) == 0) return otherwise;
+    const double value = values[name].as<double>();
+    if (!(value > least) || !std::isfinite(value)) throw UsageError(std::string("--") + name + " must be above " + (least > 0 ? "1" : "0"));
+    return value;
+}
+
+ExitCode run(const po::variables_map& values) {
+    IntervalRules rules;
+    rules.error = read_above(values, "error", 0, rules.error);
+    rules.length_ratio = read_above(values, "length-ratio", 1, rules.length_ratio);
+    rules.curvature_ratio = read_above(values, "curvature-ratio", 1, rules.curvature_ratio);
+    rules.drift_ratio = 2 * rules.curvature_ratio;
+    const Machine machine = values.count("machine") > 0 ? io::read_machine(values["machine"].as<std::string>()) : Machine{};
+    const Program program = io::read_program(required(values, "PROGRAM"), read_program_options(values));
+    const ProgrammedSurface laid = lay_out(program);
+    rules.reach = 0.5 * laid.surface.step_over;
+    const ProgramIntervals intervals = plan_intervals(program, laid, rules, machine);
+    if (read_json(values)) {
+        write_to_stdout(io::intervals_json(intervals, program.diagnostics));
+    } else {
+        print(program.diagnostics, values);
+        write_to_stdout(io::intervals_text(intervals));
+    }
+    return ExitCode::done;
+}
+
+}  // namespace
+
+Subcommand intervals_subcommand() {
+    return {
+        .name = "intervals",
+        .arguments = "PROGRAM",
+        .summary = "constant-speed intervals of the passes, and the speed planned for each",
+        .description = "Cuts each pass where the distance of its points or its curvature changes, after Wu et al. (Machines 10 (2022) 558),\n"
+                       "and plans the speed of each piece from its curvature, the machine and the pieces beside it on the neighbour passes.\n"
+                       "`own` is what feed, curvature and machine allow, `planned` what the neighbours hold as well.\n\n"
+                       "  clsurf intervals part.nc --machine mill.toml\n"
+                       "  clsurf render part.nc run.biip --color interval -o intervals.png",
+        .declare =
+            [](po::options_description& options) {
+                // clang-format off
+                options.add_options()
+                    ("error", po::value<double>()->value_name("MM"), "how far characteristic points may leave a pass (default: 0.01)")
+                    ("length-ratio", po::value<double>()->value_name("RATIO"), "of neighbouring lines, from which a point bounds an interval (default: 5)")
+                    ("curvature-ratio", po::value<double>()->value_name("RATIO"), "of the curvatures before and behind a point, likewise; twice this much inside an interval cuts it, too (default: 2)")
+                    ("machine", po::value<std::string>()->value_name("FILE"), "machine file (default: that of clsurf machine --defaults)");
+                // clang-format on
+                declare_json(options);
+                declare_program_options(options);
+            },
+        .positional = {"PROGRAM"},
+        .run = run,
+    };
+}
+
+}  // namespace clsurf::cli

@@ -1,0 +1,73 @@
+#include "optimize/levelling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "surface/station.h"
+
+namespace clsurf {
+
+std::vector<float> levelled_speeds(const JudgedRun& run, double step) {
+    const PointIndex count = run.surface.positions.size();
+    std::vector<float> speed(static_cast<std::size_t>(count), std::numeric_limits<float>::quiet_NaN());
+    for (PointIndex i = 0; i < count; ++i) {
+        if (run.signals[i].zone != Zone::outside) speed[static_cast<std::size_t>(i)] = run.signals[i].speed;
+    }
+    const auto ratio = static_cast<float>(1 + step);
+    const auto level = [&](PointIndex i) {
+        float& mine = speed[static_cast<std::size_t>(i)];
+        if (!(mine == mine)) return;
+        for (const Side side : {Side::left, Side::right}) {
+            const Station at = beside(run.surface, {i, 0}, run.signals.feed(i), side);
+            if (!at.exists()) continue;
+            const auto j = static_cast<std::size_t>(at.point);
+            const float other = at.fraction > 0 ? speed[j] + at.fraction * (speed[j + 1] - speed[j]) : speed[j];
+            if (ratio * other < mine) mine = ratio * other;
+        }
+    };
+    for (PointIndex i = 0; i < count; ++i) level(i);
+    for (PointIndex i = count; i-- > 0;) level(i);
+    return speed;
+}
+
+std::vector<float> means_by_motion(const JudgedRun& run, const Program& program, const std::vector<float>& values) {
+    const auto count = static_cast<std::size_t>(program.motions.size());
+    std::vector<float> sum(count, 0);
+    std::vector<std::uint32_t> points(count, 0);
+    for (PointIndex i = 0; i < run.surface.positions.size(); ++i) {
+        const float value = values[static_cast<std::size_t>(i)];
+        if (!(value == value)) continue;
+        for (const std::uint32_t motion : run.lines->motions_of(run.lines->line_at(i))) {
+            if (motion >= count) continue;
+            sum[motion] += value;
+            ++points[motion];
+        }
+    }
+    for (std::size_t i = 0; i < count; ++i) sum[i] = points[i] > 0 ? sum[i] / static_cast<float>(points[i]) : std::numeric_limits<float>::quiet_NaN();
+    return sum;
+}
+
+std::vector<float> levelling_feeds(const std::vector<float>& own, const std::vector<float>& target, double play, double width) {
+    std::vector<float> feeds(own.size(), 0);
+    const auto bound = static_cast<float>(1 - play), apart = static_cast<float>(1 + width);
+    std::size_t first = 0;  // of the interval
+    float low = 0, high = 0;
+    for (std::size_t i = 0; i < own.size(); ++i) {
+        if (!(target[i] < bound * own[i])) {
+            low = 0;
+            continue;
+        }
+        const bool joins = low > 0 && std::max(high, target[i]) <= apart * std::min(low, target[i]);
+        if (!joins) {
+            first = i;
+            low = high = target[i];
+        }
+        low = std::min(low, target[i]);
+        high = std::max(high, target[i]);
+        std::fill(feeds.begin() + static_cast<std::ptrdiff_t>(first), feeds.begin() + static_cast<std::ptrdiff_t>(i) + 1, low);
+    }
+    return feeds;
+}
+
+}  // namespace clsurf

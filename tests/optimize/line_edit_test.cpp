@@ -1,0 +1,85 @@
+// What may be rewritten, and that everything else stays byte for byte.
+
+#include <gtest/gtest.h>
+
+#include "optimize/line_edit.h"
+#include "optimize/parts.h"
+
+namespace clsurf {
+namespace {
+
+TEST(PlainLine, IsNumberG1AndCoordinatesOnly) {
+    EXPECT_TRUE(read_plain_line("X1.5 Y-2.").has_value());
+    EXPECT_TRUE(read_plain_line("N10 G01 X1.5Y2Z3.000").has_value());
+    EXPECT_TRUE(read_plain_line("n10g1x=1.5").has_value());
+    for (const char* text : {"", "N10", "G1", "G0 X1", "G1 X1 F100", "X1 (edge)", "X1 ; edge", "X#1", "X1 A5", "X1 M8", "G1 G41 X1", "X1 X2", "X", "G1.1 X1", "/X1", "X1 G1"}) {
+        EXPECT_FALSE(read_plain_line(text).has_value()) << text;
+    }
+    const PlainLine line = *read_plain_line("N10 G1 X1.250 Z=-3");
+    EXPECT_EQ(line.number, "N10 ");
+    EXPECT_EQ(line.code, "G1 ");
+    EXPECT_EQ(line.decimals[0], 3);
+    EXPECT_EQ(line.axis[2], "Z=");
+    EXPECT_EQ(line.value[2], -3);
+}
+
+constexpr const char* part = "%\r\nO1000 (PART)\r\n( ROUGH )\r\nG21 G90\r\nG0 X0 Y0 Z5.\r\nN10 G1 X1.000 F600 (ENTRY)\r\nN20 X2.000\r\nN30 X3.000\r\nN40 X4.000 Y0.500\r\nN50 X5.000\r\nM8\r\nN60 X6.000\r\nM2\r\n%";
+
+std::vector<std::int64_t> editable(const Program& program) {
+    const LineEditor editor(program);
+    std::vector<std::int64_t> motions;
+    for (std::int64_t i = 0; i < program.motions.size(); ++i) {
+        if (editor.editable(i)) motions.push_back(i);
+    }
+    return motions;
+}
+
+TEST(LineEditor, LeavesLinesWithMoreInThemAlone) {
+    const Program program = read_text(part);
+    EXPECT_EQ(editable(program), (std::vector<std::int64_t>{2, 3, 4, 5, 6}));
+    EXPECT_TRUE(editable(read_text("G91\nG0 X1\nG1 X1 F100\nX2\nX2\n")).empty()) << "incremental words do not say where they go";
+    EXPECT_TRUE(editable(read_text("G0 X0 Y0 Z0\nG1 X1 F100\nX2 A5\nX3 A6\n")).empty()) << "an orientation that turns";
+}
+
+TEST(LineEditor, ReplacesAStretchAndNothingElse) {
+    const Program program = read_text(part);
+    LineEditor editor(program);
+    editor.replace(3, 4, {{2.5, 0, 5}, {3.25, 0.125, 5}, {4, 0.5, 5}});
+    const std::string text = editor.text("by a test");
+    const std::string expected =
+        "%\r\nO1000 (PART)\r\n(by a test)\r\n( ROUGH )\r\nG21 G90\r\nG0 X0 Y0 Z5.\r\nN10 G1 X1.000 F600 (ENTRY)\r\nN20 X2.000\r\nN30 X2.500\r\nX3.250 Y0.125\r\nN40 X4.000 Y0.500\r\n"
+        "N50 X5.000\r\nM8\r\nN60 X6.000\r\nM2\r\n%";
+    EXPECT_EQ(text, expected);
+    const Program again = read_text(text);
+    EXPECT_EQ(again.motions.end[again.motions.end.size() - 1], program.motions.end[program.motions.end.size() - 1]);
+}
+
+TEST(LineEditor, SetsFeedsAndTheProgrammedOneBehindThem) {
+    const Program program = read_text(part);
+    LineEditor editor(program);
+    std::vector<float> feeds(static_cast<std::size_t>(program.motions.size()), 0);
+    feeds[3] = 5;  // N30
+    feeds[5] = 8;  // N50, before M8
+    editor.set_feeds(feeds);
+    const std::string text = editor.text("");
+    EXPECT_NE(text.find("N20 X2.000\r\nN30 X3.000 F300\r\nN40 X4.000 Y0.500 F600\r\nN50 X5.000 F480\r\nF600\r\nM8\r\n"), std::string::npos) << text;
+    const Program again = read_text(text);
+    ASSERT_EQ(again.motions.size(), program.motions.size());
+    for (std::size_t i = 1; i < feeds.size(); ++i) EXPECT_FLOAT_EQ(again.motions.feed[i], feeds[i] > 0 ? feeds[i] : program.motions.feed[i]) << i;
+}
+
+TEST(LineEditor, WritesInchesWhereTheProgramDoes) {
+    const Program program = read_text("G20 G90\nG0 X0 Y0 Z0\nG1 X1.0000 F10\nX2.0000\nX3.0000\n");
+    LineEditor editor(program);
+    EXPECT_DOUBLE_EQ(editor.unit(), 25.4);
+    editor.replace(2, 3, {{25.4 * 2.5, 0, 0}, {25.4 * 3, 0, 0}});
+    EXPECT_NE(editor.text("").find("X2.5000\nX3.0000\n"), std::string::npos);
+}
+
+TEST(LineEditor, WithoutEditsIsTheProgram) {
+    const Program program = read_text(part);
+    EXPECT_EQ(LineEditor(program).text(""), part);
+}
+
+}  // namespace
+}  // namespace clsurf

@@ -1,0 +1,151 @@
+// The repair as a whole: what it changes, what it leaves, how far it goes off the path, and that it
+// refuses what is not better.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+
+#include "curve/polyline.h"
+#include "optimize/optimizer.h"
+#include "optimize/parts.h"
+#include "optimize/resample.h"
+
+namespace clsurf {
+namespace {
+
+std::vector<Vec3> corners_of(const Program& program) {
+    std::vector<Vec3> corners;
+    for (const Xyz& end : program.motions.end) corners.push_back(end.vec());
+    return corners;
+}
+
+/// The farthest that points every 0.02 mm of one polyline lie from any line of the other: brute force.
+double farthest(const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
+    double most = 0;
+    for (std::size_t i = 1; i < from.size(); ++i) {
+        const int pieces = std::max(1, static_cast<int>((from[i] - from[i - 1]).norm() / 0.02));
+        for (int k = 1; k <= pieces; ++k) {
+            const Vec3 p = from[i - 1] + (from[i] - from[i - 1]) * k / pieces;
+            double nearest = 1e9;
+            for (std::size_t j = 1; j < to.size(); ++j) nearest = std::min(nearest, (p - nearest_on_line(p, to[j - 1], to[j])).norm());
+            most = std::max(most, nearest);
+        }
+    }
+    return most;
+}
+
+std::string resampled_text(const Program& program, double tolerance, double spacing) {
+    LineEditor editor(program);
+    for (const Stretch& stretch : resample(program, lay_out(program), editor, {tolerance, spacing, 0.5})) editor.replace(stretch.first, stretch.last, stretch.points);
+    return editor.text("");
+}
+
+double crowded(int pass, double x) { return pass == 2 && x > 3 && x < 5 ? 0.02 : 0.31; }
+
+TEST(Resample, StaysInsideTheToleranceEverywhere) {
+    const Program program = read_text(wavy_zigzag(5, 8, crowded));
+    for (const double tolerance : {0.001, 0.003, 0.01}) {
+        for (const double spacing : {0.1, 0.25, 0.6}) {
+            const Program changed = read_text(resampled_text(program, tolerance, spacing));
+            const double forth = farthest(corners_of(changed), corners_of(program)), back = farthest(corners_of(program), corners_of(changed));
+            EXPECT_LE(std::max(forth, back), tolerance) << tolerance << " " << spacing;
+            const Deviation measured = measure_deviation(program, changed, 0.02);
+            EXPECT_EQ(measured.disordered, 0U);
+            EXPECT_NEAR(measured.greatest, std::max(forth, back), 2e-6);
+        }
+    }
+}
+
+TEST(Resample, PutsPointsSideBySide) {
+    const Program program = read_text(wavy_zigzag(5, 8, crowded));
+    const Program changed = read_text(resampled_text(program, 0.01, 0.25));
+    // Inner points of all passes lie at the same x, the passes' ends set aside.
+    std::set<int> of_pass[5];
+    for (const Xyz& p : changed.motions.end) {
+        const int pass = static_cast<int>(std::lround(p.y / 0.4));
+        if (p.x > 1 && p.x < 7 && p.z < 5) of_pass[pass].insert(static_cast<int>(std::lround(p.x * 50)));
+    }
+    for (int pass = 1; pass < 5; ++pass) {
+        std::size_t shared = 0;
+        for (const int x : of_pass[pass]) shared += of_pass[0].count(x) + of_pass[0].count(x - 1) + of_pass[0].count(x + 1) > 0 ? 1 : 0;
+        EXPECT_GE(shared, of_pass[pass].size() * 8 / 10) << "pass " << pass;
+        EXPECT_GT(of_pass[pass].size(), 15U);
+    }
+}
+
+TEST(Deviation, IsThatOfAPlantedBump) {
+    const Program straight = read_text("G0 X0 Y0 Z0\nG1 X10 F600\nX20\nX30\n");
+    const Program bumped = read_text("G0 X0 Y0 Z0\nG1 X10 F600\nX15 Y0.02\nX20 Y0\nX30\n");
+    const Deviation deviation = measure_deviation(straight, bumped);
+    EXPECT_NEAR(deviation.greatest, 0.02, 1e-9);
+    EXPECT_EQ(deviation.line, 3U);
+    EXPECT_EQ(measure_deviation(straight, straight).greatest, 0);
+}
+
+// A pass that is left out lies 0.4 mm from the next one: that may not stand in for it.
+TEST(Deviation, SeesAPassThatIsLeftOut) {
+    const Program whole = read_text("G0 X0 Y0 Z0\nG1 X20 F600\nY0.4\nX0\nY0.8\nX20\n");
+    const Program cut = read_text("G0 X0 Y0 Z0\nG1 X20 F600\nY0.8\nX20\n");
+    EXPECT_GT(measure_deviation(whole, cut).greatest, 5);
+}
+
+TEST(Deviation, SeesRapidsArcsAndDwellsThatChanged) {
+    const Program before = read_text("G0 X0 Y0 Z0\nG1 X10 F600\nG4 P1\nX20\nG0 Z5\n");
+    EXPECT_EQ(measure_deviation(before, read_text("G0 X0 Y0 Z0\nG1 X10 F600\nG4 P2\nX20\nG0 Z5\n")).disordered, 3U);
+    EXPECT_EQ(measure_deviation(before, read_text("G0 X0 Y0 Z0\nG1 X10 F600\nG4 P1\nX20\nG0 Z6\n")).disordered, 5U);
+    EXPECT_EQ(measure_deviation(before, before).disordered, 0U);
+}
+
+// Up and down on one line: a walk beside it must not turn back.
+TEST(Deviation, FollowsAPathThatGoesBackOnItself) {
+    const Program program = read_text("G0 X0 Y0 Z0\nG0 Z20\nG0 Z0\nG1 X10 F600\nX0\nX10\nY0.3\nX0\n");
+    EXPECT_NEAR(measure_deviation(program, program).greatest, 0, 1e-12);
+}
+
+TEST(Optimizer, IsBetterInEveryRespectOrRefuses) {
+    const Program program = read_text(wavy_zigzag(7, 10, crowded));
+    OptimizeRules rules;
+    rules.header = "by a test";
+    Diagnostics diagnostics;
+    const Optimized result = optimize(program, read_text, Machine{}, rules, {}, diagnostics);
+    EXPECT_EQ(result.proof.accepted, result.proof.reason.empty());
+    if (!result.proof.accepted) return;
+    EXPECT_LT(result.after.mismatch, result.before.mismatch);
+    EXPECT_LE(result.after.duration, result.before.duration);
+    EXPECT_LE(result.proof.defects_after, result.proof.defects_before);
+    const Program changed = read_text(result.text);
+    EXPECT_LE(std::max(farthest(corners_of(changed), corners_of(program)), farthest(corners_of(program), corners_of(changed))), rules.tolerance);
+    EXPECT_NE(result.text.find("(by a test)"), std::string::npos);
+    // What is not a plain line of a pass is still there, in order.
+    std::istringstream old(program.main().text().data()), now(result.text);
+    std::vector<std::string> kept;
+    for (std::string line; std::getline(old, line);) {
+        if (!read_plain_line(line)) kept.push_back(line);
+    }
+    std::size_t next = 0;
+    for (std::string line; std::getline(now, line);) {
+        if (next < kept.size() && line == kept[next]) ++next;
+    }
+    EXPECT_EQ(next, kept.size()) << kept[std::min(next, kept.size() - 1)];
+}
+
+TEST(Optimizer, RefusesWhereNothingCanBeRewritten) {
+    std::string text = wavy_zigzag(5, 6, [](int, double) { return 0.3; });
+    std::string commented;
+    for (const char c : text) commented += c == '\n' ? " (KEEP)\n" : std::string(1, c);
+    const Program program = read_text(commented);
+    Diagnostics diagnostics;
+    const Optimized result = optimize(program, read_text, Machine{}, {}, {}, diagnostics);
+    EXPECT_FALSE(result.proof.accepted);
+    EXPECT_EQ(result.proof.reason, "no stretch of the program can be rewritten");
+}
+
+TEST(Optimizer, RefusesASinglePass) {
+    Diagnostics diagnostics;
+    EXPECT_THROW((void)optimize(read_text("G0 X0 Y0 Z0\nG1 X10 F600\nX20\n"), read_text, Machine{}, {}, {}, diagnostics), InputError);
+}
+
+}  // namespace
+}  // namespace clsurf

@@ -1,0 +1,38 @@
+#pragma once
+// Programs of small parts, made for the tests.
+
+#include <cmath>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "core/diagnostic.h"
+#include "program/interpreter.h"
+
+namespace clsurf {
+
+inline Program read_text(const std::string& text) {
+    auto bytes = std::make_shared<std::string>(text);
+    return parse_program(SourceText("part.nc", *bytes, bytes), {});
+}
+
+/// A zigzag over z = sin-shaped waves: passes along x, 0.4 mm apart. `spacing(pass, x)` is the way in x to the next point.
+template <typename Spacing>
+std::string wavy_zigzag(int passes, double length, const Spacing& spacing) {
+    const auto z = [](double x, double y) { return 0.8 * std::sin(0.9 * x + 0.1 * y); };
+    std::string text = "%\n(WAVES)\nG21 G90 G17 G40 G49 G80\nG64 P0.005\nS12000 M3\nG0 X0 Y0 Z10\nG1 Z0 F1000\nG1 F3000\n";
+    for (int pass = 0; pass < passes; ++pass) {
+        const double y = 0.4 * pass;
+        const bool back = pass % 2 == 1;
+        if (pass > 0) text += fmt::format("X{:.4f} Y{:.4f} Z{:.4f}\n", back ? length : 0.0, y, z(back ? length : 0.0, y));
+        for (double way = spacing(pass, 0.0); way < length + 1e-9; way += spacing(pass, way)) {
+            const double x = back ? length - way : way;
+            text += fmt::format("X{:.4f} Z{:.4f}\n", x, z(x, y));
+        }
+        const double end = back ? 0.0 : length;
+        text += fmt::format("X{:.4f} Z{:.4f}\n", end, z(end, y));
+    }
+    return text + "G0 Z10\nM5\nM2\n%\n";
+}
+
+}  // namespace clsurf
