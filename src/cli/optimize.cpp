@@ -1,6 +1,8 @@
 // clsurf optimize: a smoother program inside a tolerance, with proof.
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include <fmt/format.h>
 
@@ -8,12 +10,16 @@
 #include "cli/progress_bar.h"
 #include "core/units.h"
 #include "core/version.h"
+#include "field/field_set.h"
+#include "field/range.h"
 #include "io/atomic_file.h"
 #include "io/compressed.h"
 #include "io/machine_file.h"
 #include "io/optimize_report.h"
 #include "io/program_file.h"
 #include "optimize/optimizer.h"
+#include "viz/image.h"
+#include "viz/scene.h"
 
 namespace clsurf::cli {
 namespace {
@@ -29,6 +35,27 @@ Program read_text(const io::Source& source, const std::string& text, const io::P
     return io::read_program(changed, same);
 }
 
+/// Both runs side by side, speeds on one scale.
+viz::Image draw_before_and_after(const Optimized& result, const std::string& program) {
+    const auto speed = [](const JudgedRun& run) { return FieldSet(run.log, run.path, run.surface.passes).get("speed"); };
+    const Field before = speed(result.before), after = speed(result.after);
+    viz::MapPanel left{&result.before.surface, &before, "before", {}, {}, {}}, right{&result.after.surface, &after, "after", {}, {}, {}};
+    const std::vector<viz::MapPanel> panels{left, right};
+    viz::Look look;
+    look.view = viz::parse_view("top");
+    look.height = 900;
+    const ShownRange a = find_range(before, result.before.surface.passes, {}, {}), b = find_range(after, result.after.surface.passes, {}, {});
+    const viz::ColourScale scale{viz::make_colour_map("isurface"), std::min(a.low, b.low), std::max(a.high, b.high), 0};
+    viz::MapTexts texts;
+    texts.title = "Path speed before and after, simulated";
+    const auto summary = [](const JudgedRun& run, std::size_t defects) {
+        return fmt::format("{:.1f} s, {:.0f} mm/min between neighbour passes (95th percentile), {} defects", run.duration, run.mismatch * seconds_per_minute, defects);
+    };
+    texts.subtitle = program.substr(program.rfind('/') + 1);
+    texts.notes = {"before: " + summary(result.before, result.proof.defects_before), "after: " + summary(result.after, result.proof.defects_after)};
+    return viz::draw_map(panels, viz::map_camera(panels, look), scale, texts, look);
+}
+
 ExitCode run(const po::variables_map& values) {
     OptimizeRules rules;
     const std::string output_path = required(values, "output");
@@ -41,6 +68,8 @@ ExitCode run(const po::variables_map& values) {
     const io::Source source = io::open_source(required(values, "PROGRAM"));
     const Program program = io::read_program(source, options);
     io::AtomicFile output(output_path);
+    std::unique_ptr<io::AtomicFile> picture;
+    if (values.count("picture") > 0) picture = std::make_unique<io::AtomicFile>(values["picture"].as<std::string>());
     ProgressBar bar(read_common(values));
     Diagnostics diagnostics = program.diagnostics;
     const Optimized result = optimize(
@@ -51,6 +80,10 @@ ExitCode run(const po::variables_map& values) {
     } else {
         print(diagnostics, values);
         write_to_stdout(io::optimize_text(result));
+    }
+    if (picture) {
+        picture->write(viz::encode_png(draw_before_and_after(result, program.main().name()), fmt::format("clsurf optimize of {}: speeds before and after", program.main().name())));
+        picture->commit();
     }
     if (!result.proof.accepted) return ExitCode::check_failed;
     output.write(result.text);
@@ -69,12 +102,13 @@ Subcommand optimize_subcommand() {
                        "them, on a smooth curve through the old points and never farther from the programmed path than the tolerance, and\n"
                        "runs it again. Written is only what is better: speeds of neighbour passes differ less, no more defects, not longer, inside\n"
                        "the tolerance. Otherwise exit code 1, with the reason. Lines with anything but line number, G1, X, Y, Z stay byte for byte.\n\n"
-                       "  clsurf optimize part.nc --machine mill.toml --tolerance 0.005 -o better.nc",
+                       "  clsurf optimize part.nc --machine mill.toml --tolerance 0.005 -o better.nc --picture better.png",
         .declare =
             [](po::options_description& options) {
                 // clang-format off
                 options.add_options()
                     ("output,o", po::value<std::string>()->value_name("FILE"), "the new program")
+                    ("picture", po::value<std::string>()->value_name("FILE"), "speeds before and after on one scale (PNG), also where the new program is refused")
                     ("tolerance", po::value<double>()->value_name("MM"), "how far the new path may leave the programmed one (default: 0.005)");
                 // clang-format on
                 declare_simulation(options);

@@ -28,7 +28,12 @@ public:
         for (std::int64_t m = low; m < path_.size() && (before <= way + window || !std::isfinite(nearest)); ++m) {
             const double length = path_.length(m);
             if (length <= 0 && std::isfinite(nearest)) continue;
-            const Foot foot = path_.foot(m, p);
+            Foot foot = path_.foot(m, p);
+            if (length > 0) {
+                // Of a long motion only what lies in the window counts.
+                const double inside = std::clamp(foot.fraction, std::clamp((way - window - before) / length, 0.0, 1.0), std::clamp((way + window - before) / length, 0.0, 1.0));
+                if (inside != foot.fraction) foot = {(path_.at(m, inside) - p).norm(), inside};
+            }
             // The later of two that are as near: a path that goes back on itself is not to be walked back.
             if (foot.distance <= nearest + same_place) {
                 nearest = std::min(nearest, foot.distance);
@@ -54,7 +59,7 @@ void compare(const Toolpath& from, const Toolpath& to, double step, const Take& 
     for (std::int64_t i = 0; i < from.size(); ++i) {
         // What lies between rapids has to be there; rapids themselves are compared by their ends.
         const bool rapid = from.motions().kind[static_cast<std::size_t>(i)] == MotionKind::rapid;
-        const double pieces = rapid ? std::ceil(from.length(i) / window) : std::ceil(from.length(i) / step);
+        const double pieces = rapid ? std::ceil(from.length(i) / (0.5 * window)) : std::ceil(from.length(i) / step);
         const auto n = static_cast<int>(std::clamp(pieces, 1.0, most_pieces));
         for (int k = 1; k <= n; ++k) {
             const Vec3 p = from.at(i, static_cast<double>(k) / n);

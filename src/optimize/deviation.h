@@ -16,7 +16,7 @@ struct Deviation {
 
 /// Both paths are walked side by side, forth and back: from each, the ends of motions and points every
 /// `step` [mm] between are measured against the other one within a millimetre of where the walk has come
-/// to, so that the pass beside cannot stand in for a place that was left out. O(way / step).
+/// to; a pass that was left out shows as a step-over at least. O(way / step).
 [[nodiscard]] Deviation measure_deviation(const Program& before, const Program& after, double step = 0.05);
 
 }  // namespace clsurf

@@ -7,7 +7,9 @@
 #include <set>
 #include <sstream>
 
+#include "core/error.h"
 #include "curve/polyline.h"
+#include "optimize/line_edit.h"
 #include "optimize/optimizer.h"
 #include "optimize/parts.h"
 #include "optimize/resample.h"
@@ -42,6 +44,14 @@ std::string resampled_text(const Program& program, double tolerance, double spac
     return editor.text("");
 }
 
+/// A machine with so much jerk that only acceleration counts: quick to plan.
+Machine brisk() {
+    Machine machine;
+    machine.path.max_jerk = 1e6;
+    for (MachineAxis& axis : machine.axes) axis.max_jerk = 2e6;
+    return machine;
+}
+
 double crowded(int pass, double x) { return pass == 2 && x > 3 && x < 5 ? 0.02 : 0.31; }
 
 TEST(Resample, StaysInsideTheToleranceEverywhere) {
@@ -61,7 +71,7 @@ TEST(Resample, StaysInsideTheToleranceEverywhere) {
 TEST(Resample, PutsPointsSideBySide) {
     const Program program = read_text(wavy_zigzag(5, 8, crowded));
     const Program changed = read_text(resampled_text(program, 0.01, 0.25));
-    // Inner points of all passes lie at the same x, the passes' ends set aside.
+    // Inner points lie beside those of the pass before, the passes' ends set aside.
     std::set<int> of_pass[5];
     for (const Xyz& p : changed.motions.end) {
         const int pass = static_cast<int>(std::lround(p.y / 0.4));
@@ -69,7 +79,8 @@ TEST(Resample, PutsPointsSideBySide) {
     }
     for (int pass = 1; pass < 5; ++pass) {
         std::size_t shared = 0;
-        for (const int x : of_pass[pass]) shared += of_pass[0].count(x) + of_pass[0].count(x - 1) + of_pass[0].count(x + 1) > 0 ? 1 : 0;
+        const std::set<int>& before = of_pass[pass - 1];
+        for (const int x : of_pass[pass]) shared += before.lower_bound(x - 2) != before.upper_bound(x + 2) ? 1 : 0;
         EXPECT_GE(shared, of_pass[pass].size() * 8 / 10) << "pass " << pass;
         EXPECT_GT(of_pass[pass].size(), 15U);
     }
@@ -84,11 +95,11 @@ TEST(Deviation, IsThatOfAPlantedBump) {
     EXPECT_EQ(measure_deviation(straight, straight).greatest, 0);
 }
 
-// A pass that is left out lies 0.4 mm from the next one: that may not stand in for it.
+// A pass that is left out shows as a step-over at least, far above any tolerance.
 TEST(Deviation, SeesAPassThatIsLeftOut) {
     const Program whole = read_text("G0 X0 Y0 Z0\nG1 X20 F600\nY0.4\nX0\nY0.8\nX20\n");
     const Program cut = read_text("G0 X0 Y0 Z0\nG1 X20 F600\nY0.8\nX20\n");
-    EXPECT_GT(measure_deviation(whole, cut).greatest, 5);
+    EXPECT_GT(measure_deviation(whole, cut).greatest, 0.39);
 }
 
 TEST(Deviation, SeesRapidsArcsAndDwellsThatChanged) {
@@ -109,7 +120,7 @@ TEST(Optimizer, IsBetterInEveryRespectOrRefuses) {
     OptimizeRules rules;
     rules.header = "by a test";
     Diagnostics diagnostics;
-    const Optimized result = optimize(program, read_text, Machine{}, rules, {}, diagnostics);
+    const Optimized result = optimize(program, read_text, brisk(), rules, {}, diagnostics);
     EXPECT_EQ(result.proof.accepted, result.proof.reason.empty());
     if (!result.proof.accepted) return;
     EXPECT_LT(result.after.mismatch, result.before.mismatch);
@@ -137,14 +148,14 @@ TEST(Optimizer, RefusesWhereNothingCanBeRewritten) {
     for (const char c : text) commented += c == '\n' ? " (KEEP)\n" : std::string(1, c);
     const Program program = read_text(commented);
     Diagnostics diagnostics;
-    const Optimized result = optimize(program, read_text, Machine{}, {}, {}, diagnostics);
+    const Optimized result = optimize(program, read_text, brisk(), {}, {}, diagnostics);
     EXPECT_FALSE(result.proof.accepted);
     EXPECT_EQ(result.proof.reason, "no stretch of the program can be rewritten");
 }
 
 TEST(Optimizer, RefusesASinglePass) {
     Diagnostics diagnostics;
-    EXPECT_THROW((void)optimize(read_text("G0 X0 Y0 Z0\nG1 X10 F600\nX20\n"), read_text, Machine{}, {}, {}, diagnostics), InputError);
+    EXPECT_THROW((void)optimize(read_text("G0 X0 Y0 Z0\nG1 X10 F600\nX20\n"), read_text, brisk(), {}, {}, diagnostics), InputError);
 }
 
 }  // namespace
