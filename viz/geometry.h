@@ -2,11 +2,20 @@
 // Geometry: what is drawn, already cut to what pixels can show (detail.h makes it, scene.h draws it).
 
 #include <cstdint>
+#include <cstring>
 
 #include "core/column.h"
 #include "core/geometry.h"
 
 namespace clsurf::viz {
+
+/// Puts one column behind another.
+template <typename T>
+void append(Column<T>& all, const Column<T>& part) {
+    const std::size_t at = all.size();
+    all.resize(at + part.size());
+    if (!part.empty()) std::memcpy(all.data() + at, part.data(), part.size() * sizeof(T));
+}
 
 struct Geometry {
     Vec3 origin = Vec3::Zero();       ///< [mm]; vertices are relative to it, so float is enough

@@ -1,0 +1,373 @@
+#include "viz/bands.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "core/parallel.h"
+#include "viz/geometry.h"
+
+namespace clsurf::viz {
+namespace {
+
+using Vec3f = Eigen::Vector3f;
+
+constexpr std::int64_t longest_gap = 512;  ///< vertices of a pass between two that have a neighbour, and of a seam
+constexpr float longest_seam = 10.0F;       ///< way of both passes along a seam, in widths of the band; of a gap, in step-overs
+constexpr float widest_seam = 2.2F;        ///< of an edge of a seam, in widths of the band that it goes on from
+constexpr double tangent_step_overs = 0.08;  ///< way on either side that gives the direction at a vertex
+constexpr float most_askew = 0.3F;         ///< cosine between the way and what lies across it
+constexpr float missing_width = 1.7F;      ///< of a gap, in widths of those beside it, that a pass is missing from
+constexpr float least_width = 0.6F;        ///< of a band, in step-overs; a narrower one already runs into a corner
+constexpr float widest_end = 1.5F;         ///< of a seam between two ends, in widths
+constexpr float leading_away = 0.85F;      ///< growth of the edge with the way, above which the way leads away
+constexpr float corner_play = 1.03F;       ///< growth of an edge that is still at the ends of its passes
+constexpr float closed_seam = 0.5F;        ///< width at which a seam ends, likewise
+constexpr float longest_fan_way = 8.0F;     ///< way of a neighbour that one step may span, in step-overs
+constexpr std::int64_t longest_fan = 256;  ///< vertices of a neighbour that one step may span
+
+class Bander {
+public:
+    Bander(const ClSurface& surface, const WayVertices& vertices, const Eigen::Matrix3f& metric, float reach)
+        : s_(surface), v_(vertices), metric_(metric), reach_(reach) {
+        const auto count = static_cast<std::int64_t>(v_.points.size());
+        for (const Side side : {Side::left, Side::right}) across(side).resize(v_.points.size());
+        parallel_for(count, 16384, [&](std::int64_t first, std::int64_t last) {
+            for (std::int64_t b = first; b < last; ++b) {
+                for (const Side side : {Side::left, Side::right}) across(side)[static_cast<std::size_t>(b)] = seen_across(b, side);
+            }
+        });
+        for (const Side side : {Side::left, Side::right}) drop_short(side);
+    }
+
+    void bands(std::int64_t first, std::int64_t last, Column<std::uint32_t>& triangles,
+               Column<std::uint32_t>& segments) const {
+        for (std::int64_t b = first; b < last; ++b) {
+            for (const Side side : {Side::left, Side::right}) close_ends(b, side, triangles);
+            if (!joined(b)) continue;
+            bool alone = true;
+            for (const Side side : {Side::left, Side::right}) {
+                alone = alone && !(s_.neighbours.has(side, point(b - 1)) && s_.neighbours.has(side, point(b)));
+                if (has_earlier(b - 1, side) && has_earlier(b, side)) band(b, earlier(b - 1, side), earlier(b, side), triangles);
+            }
+            if (alone) {
+                segments.push_back(static_cast<std::uint32_t>(b - 1));
+                segments.push_back(static_cast<std::uint32_t>(b));
+            }
+        }
+    }
+
+private:
+    /// Whether a vertex goes on from the one before.
+    [[nodiscard]] bool joined(std::int64_t vertex) const { return v_.joined[static_cast<std::size_t>(vertex)] != 0; }
+    [[nodiscard]] bool link(std::int64_t vertex) const { return v_.links[static_cast<std::size_t>(vertex)] != 0; }
+    [[nodiscard]] bool goes_on(std::int64_t vertex, int direction) const {
+        const std::int64_t next = vertex + direction;
+        return next >= 0 && next < static_cast<std::int64_t>(v_.points.size()) && joined(std::max(vertex, next));
+    }
+    [[nodiscard]] float distance(std::int64_t a, std::int64_t b) const {
+        return (s_.positions[point(a)] - s_.positions[point(b)]).norm();
+    }
+
+    static constexpr std::int32_t none = -1;   ///< across a vertex there is nothing
+    static constexpr std::int32_t later = -2;  ///< … a later part of the way, which makes the band itself
+    static constexpr std::int32_t apart = -3;  ///< … a pass that is not the next one: one is missing between
+
+    [[nodiscard]] Column<std::int32_t>& across(Side side) { return side == Side::left ? left_ : right_; }
+    [[nodiscard]] std::int32_t earlier(std::int64_t vertex, Side side) const {
+        return (side == Side::left ? left_ : right_)[static_cast<std::size_t>(vertex)];
+    }
+    /// Each gap is filled once, from its later pass.
+    [[nodiscard]] bool has_earlier(std::int64_t vertex, Side side) const { return earlier(vertex, side) >= 0; }
+
+    /// The vertex on the earlier pass that lies across the way at a vertex. Round a corner the chords by
+    /// which neighbours are found look along the bend: a neighbour that lies askew is none here, a seam
+    /// closes what that leaves open.
+    [[nodiscard]] std::int32_t seen_across(std::int64_t b, Side side) const {
+        const PointIndex i = point(b);
+        if (!s_.neighbours.has(side, i)) return none;
+        const PointIndex m = s_.neighbours.neighbour(side, i);
+        const std::int64_t a = m < i ? vertex_of(m) : -1;
+        if (m < i && a < 0) return none;
+        const auto way = static_cast<float>(tangent_step_overs * s_.step_over);
+        const Vec3f tangent = s_.positions[point(moved(b, +1, way))] - s_.positions[point(moved(b, -1, way))];
+        const Vec3f d = s_.positions[m < i ? point(a) : m] - s_.positions[i];
+        const float along = std::abs(d.dot(tangent));
+        // Vertices are not everywhere: the one across may be half a step off.
+        const float step = m < i ? distance(goes_on(a, -1) ? a - 1 : a, goes_on(a, +1) ? a + 1 : a) : 0.0F;
+        if (along > (most_askew * d.norm() + 0.5F * step) * tangent.norm()) return none;
+        if (m > i) return later;
+        return misses_pass(i, m, side) ? apart : static_cast<std::int32_t>(a);
+    }
+
+    /// Whether a pass is missing between a point and the neighbour on a side: they lie much farther apart than
+    /// each from its neighbour on the other side (and than a step-over), in space and seen from above. Passes even in plan
+    /// are farther apart in space on steep flanks, passes even in space are so in plan where it is flat.
+    [[nodiscard]] bool misses_pass(PointIndex i, PointIndex m, Side side) const {
+        const Vec3f gap = s_.positions[m] - s_.positions[i];
+        if (gap.norm() < missing_width * static_cast<float>(s_.step_over)) return false;
+        const Side other = side == Side::left ? Side::right : Side::left;
+        if (!s_.neighbours.has(other, i)) return false;
+        const Vec3f own = s_.positions[s_.neighbours.neighbour(other, i)] - s_.positions[i];
+        for (const Side beyond : {Side::left, Side::right}) {
+            if (!s_.neighbours.has(beyond, m)) continue;
+            const Vec3f next = s_.positions[s_.neighbours.neighbour(beyond, m)] - s_.positions[m];
+            if (next.dot(gap) <= 0) continue;  // of the two beside it the one away from here
+            constexpr float much = missing_width * missing_width;
+            return gap.squaredNorm() > much * own.norm() * next.norm() &&
+                   gap.head<2>().squaredNorm() > much * own.head<2>().norm() * next.head<2>().norm();
+        }
+        return false;
+    }
+
+    /// Whether the same pass lies across a vertex as across the one before.
+    [[nodiscard]] bool same_across(std::int64_t vertex, Side side) const {
+        if (!joined(vertex)) return false;
+        const std::int32_t now = earlier(vertex, side);
+        const std::int32_t before = earlier(vertex - 1, side);
+        if (now < 0 || before < 0) return now == before;
+        const float change = std::abs(distance(vertex, now) - distance(vertex - 1, before));
+        return change <= 0.3F * static_cast<float>(s_.step_over) + 0.5F * distance(vertex - 1, vertex);
+    }
+
+    /// A bend sees another bend across itself for a moment, and what follows a turn the pass beyond its
+    /// neighbour. What lies across for less than a step-over is no neighbour pass, unless the way comes
+    /// from outside the picture.
+    void drop_short(Side side) {
+        const auto count = static_cast<std::int64_t>(v_.points.size());
+        constexpr std::int64_t grain = 16384;
+        std::vector<std::vector<std::int64_t>> found(static_cast<std::size_t>((count + grain - 1) / grain));
+        const auto least = static_cast<float>(s_.step_over);
+        parallel_for(count, grain, [&](std::int64_t first, std::int64_t last) {
+            for (std::int64_t b = first; b < last; ++b) {
+                if (earlier(b, side) == none || same_across(b, side)) continue;
+                float way = 0;
+                std::int64_t end = b + 1;
+                for (; end < count && way < least && same_across(end, side); ++end) way += distance(end - 1, end);
+                if (way >= least || !joined(b) || end == count || !joined(end)) continue;
+                for (std::int64_t v = b; v < end; ++v) found[static_cast<std::size_t>(first / grain)].push_back(v);
+            }
+        });
+        for (const std::vector<std::int64_t>& part : found) {
+            for (const std::int64_t v : part) across(side)[static_cast<std::size_t>(v)] = none;
+        }
+    }
+
+    /// A vertex some way [mm] on, or as far as the way goes on.
+    [[nodiscard]] std::int64_t moved(std::int64_t vertex, int direction, float way) const {
+        const std::int64_t from = vertex;
+        constexpr std::int64_t farthest = 32;
+        while (std::abs(vertex - from) < farthest && goes_on(vertex, direction)) {
+            vertex += direction;
+            if (distance(vertex, from) >= way) break;
+        }
+        return vertex;
+    }
+
+    /// The first vertex with any neighbour on a side, in a direction; −1: none that is joined and near.
+    [[nodiscard]] std::int64_t beyond_gap(std::int64_t vertex, int direction, Side side) const {
+        float way = 0;
+        const float longest = longest_seam * static_cast<float>(s_.step_over);
+        for (std::int64_t looked = 0; looked < longest_gap && way < longest && goes_on(vertex, direction); ++looked) {
+            way += distance(vertex, vertex + direction);
+            vertex += direction;
+            if (earlier(vertex, side) != none) return has_earlier(vertex, side) ? vertex : -1;
+        }
+        return -1;
+    }
+
+    /// Where the bands of a vertex end, a seam closes what is left open between the passes: at a turn up
+    /// to the turn, at the ends of two passes up to the line between the ends, at corners up to where
+    /// the bands begin again, and where a loop returns to itself up to its own beginning.
+    void close_ends(std::int64_t b, Side side, Column<std::uint32_t>& triangles) const {
+        if (!has_earlier(b, side)) return;
+        // A gap between two bands is closed from its end, from its beginning if that does.
+        if (!goes_on(b, +1) || (earlier(b + 1, side) == none && beyond_gap(b, +1, side) < 0)) {
+            (void)seam(b, +1, side, triangles);
+        }
+        if (goes_on(b, -1) && earlier(b - 1, side) != none) return;
+        const std::int64_t before = beyond_gap(b, -1, side);
+        if (before >= 0 && seam(before, +1, side, triangles)) return;
+        (void)seam(b, -1, side, triangles);
+    }
+
+    /// Goes on from the band's edge at own vertex b in a direction: the edge moves on either pass, so that
+    /// it stays short, until the passes meet. Where they do not, it stays between their ends.
+    /// Returns whether it came to the next band.
+    bool seam(std::int64_t b, int b_step, Side side, Column<std::uint32_t>& triangles) const {
+        std::int64_t a = earlier(b, side);
+        const int a_step = step_across(a, b, b_step, side);
+        const float first = distance(a, b);
+        const float width = std::max(first, least_width * static_cast<float>(s_.step_over));
+        const std::size_t begin = triangles.size();
+        std::size_t at_ends = begin;    // triangles up to the ends of the passes
+        std::size_t narrowest = begin;  // up to where the edge was shortest
+        float narrow = first;
+        bool through_links = false;
+        float most_at_ends = 0;  // width of the edge up to which it stays between the ends
+        float now = first;
+        float way = 0;  // of both passes
+        bool turned = false;  // both ways lead away from each other
+        for (std::int64_t moved = 0; moved < longest_gap; ++moved) {
+            if (a_step > 0 && b_step < 0 && b - a <= 1) return false;  // met in the turn
+            const bool a_may = goes_on(a, a_step) && (through_links || !link(a + a_step));
+            const bool b_may = goes_on(b, b_step) && (through_links || !link(b + b_step));
+            if (!a_may && !b_may) {
+                if (through_links) break;
+                at_ends = triangles.size();
+                through_links = true;
+                most_at_ends = corner_play * distance(a, b);
+                continue;
+            }
+            const float if_a = a_may ? distance(a + a_step, b) : std::numeric_limits<float>::infinity();
+            const float if_b = b_may ? distance(a, b + b_step) : std::numeric_limits<float>::infinity();
+            const float length = std::min(if_a, if_b);
+            way += if_a <= if_b ? distance(a, a + a_step) : distance(b, b + b_step);
+            if (length > widest_seam * width || way > longest_seam * width) break;
+            // Where a turn is not told from its passes its corners are their ends.
+            if (!turned && !through_links && now < widest_end * width && (!a_may || if_a - now > leading_away * distance(a, a + a_step)) &&
+                (!b_may || if_b - now > leading_away * distance(b, b + b_step))) {
+                at_ends = triangles.size();
+                turned = true;
+            }
+            now = length;
+            if (narrow < closed_seam * width && length > std::max(1.5F * narrow, closed_seam * width)) break;
+            if (if_a <= if_b) {
+                add(triangles, static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(a + a_step), static_cast<std::uint32_t>(b));
+                a += a_step;
+            } else {
+                add(triangles, static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b + b_step), static_cast<std::uint32_t>(b));
+                b += b_step;
+                if (has_earlier(b, side)) {
+                    if (fan(b, a, earlier(b, side), triangles)) return true;
+                    break;
+                }
+            }
+            // A pass ends somewhat before its corner: on to there.
+            if (length <= most_at_ends) at_ends = triangles.size();
+            else if (through_links) most_at_ends = 0;
+            if (length < narrow) {
+                narrow = length;
+                narrowest = triangles.size();
+            }
+        }
+        triangles.resize(narrow < closed_seam * width ? narrowest : at_ends);
+        return false;
+    }
+
+    /// In which direction the other pass goes on where the own one goes in b_step: as along the band before,
+    /// or as it lies.
+    [[nodiscard]] int step_across(std::int64_t a, std::int64_t b, int b_step, Side side) const {
+        std::int64_t back = b;
+        constexpr int looked = 8;
+        for (int k = 0; k < looked && goes_on(back, -b_step); ++k) {
+            back -= b_step;
+            if (!has_earlier(back, side)) break;
+            if (earlier(back, side) != a) return earlier(back, side) < a ? 1 : -1;
+        }
+        const auto ends = [&](std::int64_t v) -> Vec3f {
+            return s_.positions[point(goes_on(v, +1) ? v + 1 : v)] - s_.positions[point(goes_on(v, -1) ? v - 1 : v)];
+        };
+        return ends(a).dot(ends(b)) > 0 ? b_step : -b_step;
+    }
+
+    [[nodiscard]] PointIndex point(std::int64_t vertex) const {
+        return v_.points[static_cast<std::size_t>(vertex)];
+    }
+
+    /// The vertex that stands for a point, or −1 where the point is not drawn.
+    [[nodiscard]] std::int64_t vertex_of(PointIndex n) const {
+        const auto* found = std::lower_bound(v_.points.begin(), v_.points.end(), n);
+        std::int64_t best = -1;
+        float best_distance = reach_ * reach_;
+        const std::int64_t k = found - v_.points.begin();
+        for (std::int64_t c = std::max<std::int64_t>(0, k - 1); c <= k && c < static_cast<std::int64_t>(v_.points.size()); ++c) {
+            const float distance = (metric_ * (s_.positions[point(c)] - s_.positions[n])).squaredNorm();
+            if (distance < best_distance) {
+                best_distance = distance;
+                best = c;
+            }
+        }
+        return best;
+    }
+
+    /// Triangles between the own vertices b − 1, b and the neighbour's from one vertex to another.
+    void band(std::int64_t b, std::int64_t from, std::int64_t to, Column<std::uint32_t>& triangles) const {
+        if (!fan(b - 1, from, to, triangles)) {
+            // A loop that returns to where it began: near, but not along the way.
+            if (distance(from, to) > 0.75F * static_cast<float>(s_.step_over) + distance(b - 1, b)) return;
+            add(triangles, static_cast<std::uint32_t>(b - 1), static_cast<std::uint32_t>(from), static_cast<std::uint32_t>(to));
+        }
+        add(triangles, static_cast<std::uint32_t>(b - 1), static_cast<std::uint32_t>(to), static_cast<std::uint32_t>(b));
+    }
+
+    /// Triangles from a vertex to the neighbour's from one vertex to another. False where they are not
+    /// on one piece of the way, or far apart: a jump to another piece is no neighbour.
+    bool fan(std::int64_t own, std::int64_t from, std::int64_t to, Column<std::uint32_t>& triangles) const {
+        if (std::abs(to - from) > longest_fan) return false;
+        const int direction = to >= from ? 1 : -1;
+        float way = 0;
+        for (std::int64_t k = from; k != to; k += direction) {
+            way += distance(k, k + direction);
+            if (!goes_on(k, direction) || way > longest_fan_way * static_cast<float>(s_.step_over)) return false;
+        }
+        for (std::int64_t k = from; k != to; k += direction) {
+            add(triangles, static_cast<std::uint32_t>(own), static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(k + direction));
+        }
+        return true;
+    }
+
+    static void add(Column<std::uint32_t>& triangles, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        triangles.push_back(a);
+        triangles.push_back(b);
+        triangles.push_back(c);
+    }
+
+    const ClSurface& s_;
+    const WayVertices& v_;
+    Eigen::Matrix3f metric_;
+    float reach_;
+    Column<std::int32_t> left_, right_;  ///< per vertex: the vertex across, or none, or later
+};
+
+}  // namespace
+
+WayVertices way_vertices(const ClSurface& surface, std::span<const PointIndex> points) {
+    WayVertices vertices;
+    vertices.points.reserve(points.size());
+    std::size_t at = 0;
+    for (std::size_t k = 0; k < surface.passes.size(); ++k) {
+        const Pass& pass = surface.passes[k];
+        const bool rapid = pass.kind == PassKind::rapid;
+        // Neighbouring pieces of one run (pass, link, the next turn of a spiral) hang together.
+        bool joins = k > 0 && surface.passes[k - 1].kind != PassKind::rapid;
+        for (; at < points.size() && points[at] <= pass.last; ++at) {
+            vertices.points.push_back(points[at]);
+            vertices.joined.push_back(joins && !rapid ? 1 : 0);
+            vertices.links.push_back(pass.kind == PassKind::link ? 1 : 0);
+            joins = true;
+        }
+    }
+    return vertices;
+}
+
+Bands join_passes(const ClSurface& surface, const WayVertices& vertices, const Eigen::Matrix3f& metric, float reach) {
+    Bands all;
+    const auto count = static_cast<std::int64_t>(vertices.points.size());
+    const Bander bander(surface, vertices, metric, reach);
+    constexpr std::int64_t grain = 16384;
+    const auto pieces = static_cast<std::size_t>((count + grain - 1) / grain);
+    std::vector<Bands> of_piece(pieces);
+    parallel_for(count, grain, [&](std::int64_t first, std::int64_t last) {
+        Bands& piece = of_piece[static_cast<std::size_t>(first / grain)];
+        bander.bands(first, last, piece.triangles, piece.segments);
+    });
+    for (const Bands& piece : of_piece) {
+        append(all.triangles, piece.triangles);
+        append(all.segments, piece.segments);
+    }
+    return all;
+}
+
+}  // namespace clsurf::viz

@@ -1,0 +1,34 @@
+#pragma once
+// Bands: triangles between neighbour passes, over vertices chosen along the way. They leave no vertex
+// out, so that no cracks open; seams close what bands leave: turns, pass ends, corners, where a loop
+// begins. A missing pass stays open. What is drawn is chosen by pixels (detail.h), what a page is
+// sent by what it must show (report/kept_points.h).
+
+#include <cstdint>
+#include <span>
+
+#include "surface/cl_surface.h"
+
+namespace clsurf::viz {
+
+/// Points of a surface in their order.
+struct WayVertices {
+    Column<PointIndex> points;
+    Column<std::uint8_t> joined;  ///< 1: goes on from the vertex before
+    Column<std::uint8_t> links;   ///< 1: on the way from one pass to the next
+};
+
+/// The vertices of points, rising: one each; those of rapids are joined to nothing. Domain: the ends of
+/// all passes and links are among them.
+[[nodiscard]] WayVertices way_vertices(const ClSurface& surface, std::span<const PointIndex> points);
+
+struct Bands {
+    Column<std::uint32_t> triangles;  ///< 3 vertex numbers each
+    Column<std::uint32_t> segments;   ///< 2 each: where a pass has no other beside it
+};
+
+/// A point is stood for by the nearer of the vertices before and after it, by the length of `metric` · difference;
+/// by none that is farther than `reach`. O(vertices), parallel.
+[[nodiscard]] Bands join_passes(const ClSurface& surface, const WayVertices& vertices, const Eigen::Matrix3f& metric, float reach);
+
+}  // namespace clsurf::viz
