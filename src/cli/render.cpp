@@ -182,9 +182,7 @@ ShownRange range_of(const Shown& shown, const RenderOptions& options, const viz:
     const auto in_picture = [&](PointIndex i) { return viz::shows(camera, options.shown.look, shown.relief ? shown.relief->at(i) : shown.surface.positions.absolute(i)); };
     const ShownPoints points = whole ? ShownPoints() : ShownPoints(in_picture);
     if (!shown.relief) return find_range(shown.field, shown.surface.passes, options.shown.range, points);
-    Passes all;
-    all.push_back({0, static_cast<PointIndex>(shown.field.values.size()) - 1, PassKind::cut});
-    return find_range(shown.field, all, options.shown.range, points);
+    return find_range(shown.field, all_as_one_cut(static_cast<PointIndex>(shown.field.values.size())), options.shown.range, points);
 }
 
 /// A mark that the picture cannot show is said on stderr, since its lack may not be noticed.
@@ -233,9 +231,9 @@ ExitCode run(const po::variables_map& values) {
     warn_of_marks_outside(after, options, camera, values);
     ShownRange range = range_of(after, options, camera);
     if (before) {
-        const ShownRange other = range_of(*before, options, camera);
-        range = {std::min(range.low, other.low), std::max(range.high, other.high), std::min(range.lowest, other.lowest),
-                 std::max(range.highest, other.highest), range.note + (options.shown.range.kind == RangeRule::Kind::fixed ? "" : ", the wider of both logs")};
+        const std::string note = range.note;
+        range = wider(range, range_of(*before, options, camera));
+        if (options.shown.range.kind == RangeRule::Kind::fixed) range.note = note;
     }
     const std::vector<std::string> range_notes = notes_of(range);
     const viz::ColourScale scale = scale_of(after.field.info, range, options.shown);

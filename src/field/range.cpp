@@ -92,4 +92,20 @@ ShownRange find_range(const Field& field, const Passes& passes, const RangeRule&
     return range;
 }
 
+ShownRange wider(const ShownRange& a, const ShownRange& b) {
+    return {std::min(a.low, b.low), std::max(a.high, b.high), std::min(a.lowest, b.lowest), std::max(a.highest, b.highest), a.note + ", the wider of both logs"};
+}
+
+std::vector<double> percentiles_of_size(const Field& field, const Passes& passes, std::span<const double> percentiles) {
+    Values values = values_of_all(field, passes);
+    for (float& value : values.sampled) value = std::abs(value);
+    const double largest = std::max(std::abs(values.lowest), std::abs(values.highest));
+    std::vector<double> found;
+    for (const double p : percentiles) {
+        const double value = values.sampled.empty() ? std::numeric_limits<double>::quiet_NaN() : p >= 100 ? largest : percentile(values.sampled, p);
+        found.push_back(value * field.info.unit.per_inside);
+    }
+    return found;
+}
+
 }  // namespace clsurf

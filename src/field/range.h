@@ -2,7 +2,9 @@
 // The range that a map shows, by rule: outliers and what does not cut must not flatten the colours.
 
 #include <functional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "field/field.h"
 #include "path/passes.h"
@@ -29,5 +31,12 @@ using ShownPoints = std::function<bool(PointIndex)>;
 /// UsageError where none is shown. O(points).
 [[nodiscard]] ShownRange find_range(const Field& field, const Passes& passes, const RangeRule& rule,
                                     const ShownPoints& shown = {});
+
+/// What shows both on one scale.
+[[nodiscard]] ShownRange wider(const ShownRange& a, const ShownRange& b);
+
+/// Percentiles (0 … 100) of |value| in shown units, over some 10^6 evenly spaced cutting points; the 100th is the
+/// largest of all. NaN where no cutting point has a value. O(points).
+[[nodiscard]] std::vector<double> percentiles_of_size(const Field& field, const Passes& passes, std::span<const double> percentiles);
 
 }  // namespace clsurf

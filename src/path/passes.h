@@ -30,6 +30,9 @@ struct Pass {
 /// All pieces in order; together they cover every point of the trajectory exactly once.
 using Passes = Column<Pass>;
 
+/// One cut of `count` points: for what is counted over all values of a field that has no passes.
+[[nodiscard]] inline Passes all_as_one_cut(PointIndex count) { return Passes(1, Pass{0, count - 1, PassKind::cut}); }
+
 /// Cutting runs and what lies between. A vertical approach or retract at the ends of a run, and
 /// points without a position, are not cutting. O(points), parallel.
 [[nodiscard]] Passes find_runs(const Positions& positions, const LineMap& lines);
