@@ -53,6 +53,7 @@ struct Subcommand {
 [[nodiscard]] Subcommand plot_subcommand();
 [[nodiscard]] Subcommand query_subcommand();
 [[nodiscard]] Subcommand render_subcommand();
+[[nodiscard]] Subcommand report_subcommand();
 [[nodiscard]] Subcommand simulate_subcommand();
 [[nodiscard]] Subcommand help_subcommand();
 [[nodiscard]] Subcommand manual_subcommand();

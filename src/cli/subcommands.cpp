@@ -10,6 +10,7 @@ std::span<const Subcommand> subcommands() {
     static const std::vector<Subcommand> table{
         render_subcommand(),
         check_subcommand(),
+        report_subcommand(),
         query_subcommand(),
         info_subcommand(),
         moves_subcommand(),

@@ -33,15 +33,16 @@ const std::map<std::string, std::set<std::string>> rooms{
     {"field", {"core", "machine", "log", "path", "surface"}},
     {"motion", {"core", "program", "machine", "log"}},
     {"quality", {"core", "program", "log", "path", "surface", "field"}},
+    {"report", {"core", "log", "path", "surface", "field", "quality"}},
     {"optimize",
      {"core", "curve", "program", "machine", "log", "path", "surface", "field", "quality", "motion"}},
     {"io",
      {"core", "program", "machine", "log", "path", "surface", "field", "motion", "quality",
-      "optimize"}},
+      "report", "optimize"}},
     {"viz", {"core", "path", "surface", "field", "quality"}},
     {"cli",
      {"core", "program", "machine", "log", "path", "surface", "field", "motion", "quality",
-      "optimize", "io", "viz"}},
+      "report", "optimize", "io", "viz"}},
 };
 
 // How the headers of a third party begin → paths that may include them.

@@ -1,0 +1,16 @@
+#pragma once
+// Text as HTML: what a program, a comment or a file name says is shown, and does nothing else.
+
+#include <string>
+#include <string_view>
+
+namespace clsurf::io {
+
+/// For element content and for attributes in double quotes. Control characters, marks that turn the direction of text,
+/// and what is no UTF-8 (U+FFFD) become visible signs.
+[[nodiscard]] std::string html(std::string_view text);
+
+/// JSON that may stand in a <script> of a type of its own: no `<` is left in it.
+[[nodiscard]] std::string json_for_html(std::string json);
+
+}  // namespace clsurf::io

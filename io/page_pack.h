@@ -1,0 +1,33 @@
+#pragma once
+// What a page carries besides its text: columns of whole numbers and text, packed so that the browser
+// unpacks them with what it has itself: base64 of a zlib stream (RFC 1950, the "deflate" of its
+// DecompressionStream).
+//
+// Integers are differences of an order of 0, 1 or 2, taken between values `stride` apart, folded so
+// that small ones of either sign are small (0, −1, 1, −2, … → 0, 1, 2, 3, …), their bytes apart: all
+// lowest bytes, then all next ones.
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace clsurf::io {
+
+struct PackedColumn {
+    std::size_t count = 0;  ///< values
+    int order = 0;          ///< of the differences
+    int stride = 1;
+    int planes = 0;         ///< bytes per value, 0 … 8
+    std::string base64;
+};
+
+/// |values| < 2^53, so that they are exact in a browser.
+[[nodiscard]] PackedColumn pack_integers(std::span<const std::int64_t> values, int stride = 1);
+/// One plane, no differences: flags, text.
+[[nodiscard]] PackedColumn pack_bytes(std::string_view bytes);
+
+/// RFC 4648, with padding.
+[[nodiscard]] std::string to_base64(std::string_view bytes);
+
+}  // namespace clsurf::io

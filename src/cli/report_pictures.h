@@ -1,0 +1,37 @@
+#pragma once
+// The pictures of a report: maps as `render` draws them.
+
+#include <string>
+#include <vector>
+
+#include "cli/part.h"
+#include "field/range.h"
+#include "io/report_page.h"
+#include "viz/scene.h"
+
+namespace clsurf::cli {
+
+/// A part as the pictures show it. All that is pointed at must outlive it.
+struct PicturedPart {
+    const Part* part = nullptr;
+    const ClSurface* surface = nullptr;
+    std::span<const Field> fields;
+    std::span<const ShownRange> ranges;  ///< per field
+    const QualityReport* report = nullptr;
+    std::vector<viz::OutlineMark> outlines;  ///< one per defect of the report
+    std::string gl;
+};
+
+/// The whole part in a field, with what was found outlined.
+[[nodiscard]] io::PagePicture picture_of_part(const PicturedPart& shown, const std::string& field);
+
+/// A defect and what lies round it, from above, in the field that shows it best.
+[[nodiscard]] io::PagePicture picture_of_defect(const PicturedPart& shown, std::size_t defect);
+
+/// A height map as the whole picture.
+[[nodiscard]] io::PagePicture picture_of_relief(const PicturedPart& shown, const viz::Relief& relief, const Field& field, const ShownRange& range);
+
+/// The colour map of a field where none is named.
+[[nodiscard]] viz::ColourMap default_colour_map(const FieldInfo& info);
+
+}  // namespace clsurf::cli

@@ -1,0 +1,97 @@
+// Everything that a button or a key does: one table. Buttons, tooltips, keys and the help come from it.
+
+import type { ViewPane } from './view_pane';
+import type { Store } from './store';
+
+export interface Action {
+    name: string; // data-action of its button
+    text: string; // on the button; empty: no button
+    key: string; // as KeyboardEvent.key, lower case
+    title: string;
+    group: string;
+    run: () => void;
+    pressed?: () => boolean;
+}
+
+export interface Deeds {
+    savePicture: () => void;
+    showCommand: () => void;
+    showHelp: () => void;
+    locate: () => void;
+    goToDefect: (index: number) => void;
+}
+
+export function actionsOf(store: Store, view: ViewPane, deeds: Deeds, defects: number, logs: number, maps: string[]): Action[] {
+    const { state } = store;
+    const look = (name: string, text: string, key: string): Action => ({ name, text, key, title: `view ${name === 'iso' ? 'isometric' : `from ${name === 'top' ? 'above' : `the ${name}`}`}`, group: 'View', run: () => view.look(name) });
+    const style = (name: 'surface' | 'lines' | 'points', key: string): Action => ({
+        name,
+        text: name[0].toUpperCase() + name.slice(1),
+        key,
+        title: `draw ${name === 'surface' ? 'the surface between passes' : name === 'lines' ? 'the way of the tool as lines' : 'the points alone'}`,
+        group: 'Draw',
+        run: () => store.set({ style: name }),
+        pressed: () => state.style === name,
+    });
+    const tool = (name: 'box' | 'measure', text: string, key: string, title: string): Action => ({
+        name,
+        text,
+        key,
+        title,
+        group: 'Tool',
+        run: () => {
+            store.set({ tool: state.tool === name ? 'turn' : name });
+            if (state.tool !== 'measure') view.clearMeasure();
+        },
+        pressed: () => state.tool === name,
+    });
+    const step = (by: number) => () => {
+        if (defects > 0) deeds.goToDefect(state.defect === null ? (by > 0 ? 0 : defects - 1) : (state.defect + by + defects) % defects);
+    };
+    const point = (by: number) => () => {
+        const vertex = Math.min(view.surface.count - 1, Math.max(0, (state.vertex ?? 0) + by));
+        store.set({ vertex, line: view.surface.line[vertex], defect: null, pass: 0 });
+    };
+    const actions: Action[] = [
+        look('iso', 'Iso', 'i'),
+        look('top', 'Top', 't'),
+        look('front', 'Front', 'f'),
+        look('left', 'Left', 'l'),
+        { name: 'fit', text: 'Fit', key: 'h', title: 'show the whole part', group: 'View', run: () => view.fit() },
+        style('surface', 's'),
+        style('lines', 'n'),
+        style('points', 'o'),
+        tool('box', 'Box zoom', 'b', 'drag a box: the view goes there'),
+        tool('measure', 'Measure', 'm', 'click two places: their distance'),
+        { name: 'defects', text: 'Outlines', key: 'u', title: 'outline the defects', group: 'Defects', run: () => store.set({ defects: !state.defects }), pressed: () => state.defects },
+        { name: 'previous-defect', text: '◀', key: 'v', title: 'the defect before', group: 'Defects', run: step(-1) },
+        { name: 'next-defect', text: 'Defect ▶', key: 'd', title: 'the next defect, the worst first', group: 'Defects', run: step(1) },
+        { name: 'point-before', text: '', key: ',', title: 'the point before', group: 'Cursor', run: point(-1) },
+        { name: 'point-after', text: '', key: '.', title: 'the next point', group: 'Cursor', run: point(1) },
+        { name: 'over', text: 'Time/way', key: 'x', title: 'curves over time or over way', group: 'Curves', run: () => store.set({ over: state.over === 'time' ? 'length' : 'time' }) },
+        { name: 'next-map', text: '', key: 'k', title: 'the next colour map', group: 'Colours', run: () => store.set({ map: maps[(maps.indexOf(state.map) + 1) % maps.length] }) },
+        { name: 'save', text: 'PNG', key: 'p', title: 'save the view as a picture', group: 'Out', run: deeds.savePicture },
+        { name: 'command', text: 'Command', key: 'r', title: 'the clsurf render command line that draws this view', group: 'Out', run: deeds.showCommand },
+        { name: 'theme', text: 'Light/dark', key: 'y', title: 'light or dark', group: 'Page', run: () => store.set({ theme: document.documentElement.dataset.theme === 'dark' ? 'light' : 'dark' }) },
+        { name: 'locate', text: '', key: 'g', title: 'go to a point, a line or a time', group: 'Cursor', run: deeds.locate },
+        { name: 'help', text: '?', key: '?', title: 'all keys', group: 'Page', run: deeds.showHelp },
+    ];
+    if (logs > 1) {
+        const shown = (name: 'before' | 'after' | 'wipe', key: string, title: string): Action => ({
+            name,
+            text: name[0].toUpperCase() + name.slice(1),
+            key,
+            title,
+            group: 'Compare',
+            run: () => store.set(name === 'wipe' ? { shown: name } : { shown: name, vertex: null, hover: null, pass: 0 }),
+            pressed: () => state.shown === name,
+        });
+        actions.push(
+            shown('before', '1', 'the log before'),
+            shown('after', '2', 'the log after'),
+            shown('wipe', 'w', 'before on the left, after on the right: drag the line between'),
+            { name: 'toggle', text: '', key: 'c', title: 'the other log', group: 'Compare', run: () => store.set({ shown: state.shown === 'before' ? 'after' : 'before', vertex: null, hover: null, pass: 0 }) },
+        );
+    }
+    return actions;
+}

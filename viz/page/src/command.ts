@@ -1,0 +1,67 @@
+// The `clsurf render` command line that draws what the page shows. The picture's size is such that its
+// map has as many pixels as the page's view, so that both agree to the pixel.
+
+import { dot, extentAlong, views, wholeScale, type Camera } from './camera';
+import type { Manifest } from './manifest';
+import type { State } from './store';
+import { Kind, type Surface } from './surface';
+
+/** A word that a POSIX shell takes as it is. */
+export function shellWord(text: string): string {
+    return /^[\w@%+=:,./-]+$/.test(text) ? text : `'${text.replaceAll("'", `'\\''`)}'`;
+}
+
+/** Where the map lies on a sheet with legend (Layout of viz/scene.cpp). */
+function panelSize(width: number, height: number): [number, number] {
+    const text = Math.min(60, Math.max(9, Math.min(0.75 * width, height) / 46));
+    const small = Math.max(8, 0.78 * text);
+    return [Math.floor(width - 7.2 * text), Math.floor(height - 3 * small - 3.6 * text)];
+}
+
+/** The sheet whose map has a size. */
+export function sheetSize(width: number, height: number): [number, number] {
+    let sheet: [number, number] = [width, height];
+    for (let i = 0; i < 40; ++i) {
+        const panel = panelSize(...sheet);
+        if (panel[0] === width && panel[1] === height) break;
+        sheet = [sheet[0] + width - panel[0], sheet[1] + height - panel[1]];
+    }
+    return sheet;
+}
+
+const rounded = (value: number, digits: number) => String(Number(value.toPrecision(digits)));
+
+/** --view and --zoom of a camera on a surface. */
+export function viewOptions(camera: Camera, surface: Surface, xyz: Float32Array): string[] {
+    const named = Object.entries(views).find(([, [az, el]]) => Math.abs(az - camera.azimuth) < 1e-9 && Math.abs(el - camera.elevation) < 1e-9);
+    const view = named ? named[0] : `${rounded(camera.azimuth, 6)},${rounded(camera.elevation, 6)}`;
+    const axes = camera.axes;
+    const extent = extentAlong(axes, xyz, (i) => surface.kind(i) !== Kind.rapid);
+    const whole = wholeScale(extent, camera.width, camera.height);
+    const part = camera.mmPerPixel / whole;
+    const x = 0.5 + (dot(axes.right, camera.centre) - (extent.low[0] + extent.high[0]) / 2) / (whole * camera.width);
+    const y = 0.5 - (dot(axes.up, camera.centre) - (extent.low[1] + extent.high[1]) / 2) / (whole * camera.height);
+    const options = ['--view', view];
+    if (Math.abs(part - 1) > 1e-4 || Math.abs(x - 0.5) > 1e-4 || Math.abs(y - 0.5) > 1e-4) {
+        options.push('--zoom', [x - part / 2, y - part / 2, x + part / 2, y + part / 2].map((n) => n.toFixed(6)).join(','));
+    }
+    return options;
+}
+
+export function renderCommand(manifest: Manifest, state: Readonly<State>, camera: Camera, surface: Surface, dark: boolean): string {
+    const { program, log, before, options } = manifest.command;
+    const words = ['clsurf', 'render', program, state.shown === 'before' ? before : log, '-o', 'map.png', ...options];
+    const field = manifest.fields[state.field];
+    words.push('--color', field.name, '--surface', surface.roles[state.role].name);
+    if (state.style !== 'surface') words.push('--style', state.style);
+    words.push(...viewOptions(camera, surface, surface.roles[state.role].xyz));
+    words.push('--range', `${rounded(state.low, 7)},${rounded(state.high, 7)}`, '--colormap', state.map);
+    if (state.bins > 0) words.push('--bins', String(state.bins));
+    if (state.vertex !== null) words.push('--mark-point', String(surface.point[state.vertex]));
+    if (state.line > 0 && surface.runsOfLine(state.line).length > 0) words.push('--mark-line', String(state.line));
+    if (state.defects && manifest.defects.length > 0) words.push('--defects');
+    if (state.shown === 'wipe') words.push('--before', before);
+    words.push('--size', sheetSize(Math.round(camera.width), Math.round(camera.height)).join('x'));
+    if (dark) words.push('--background', 'black');
+    return words.map(shellWord).join(' ');
+}

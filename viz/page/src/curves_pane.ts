@@ -1,0 +1,221 @@
+// Signal curves over time or way: one chart a field, stacked, with common ends and cursor.
+
+import uPlot from 'uplot';
+
+import { element, oncePerFrame, styleValue } from './dom';
+import type { Manifest } from './manifest';
+import type { Store } from './store';
+import { Kind, type Surface } from './surface';
+import { lowerBound, thinCurve } from './thin';
+
+interface Chart {
+    plot: uPlot;
+    holder: HTMLElement;
+    field: number;
+}
+
+/** Way from the first vertex to each [mm]. */
+function wayOf(surface: Surface): Float64Array {
+    const xyz = surface.roles[0].xyz;
+    const way = new Float64Array(surface.count);
+    for (let i = 1; i < surface.count; ++i) {
+        way[i] = way[i - 1] + Math.hypot(xyz[3 * i] - xyz[3 * i - 3], xyz[3 * i + 1] - xyz[3 * i - 2], xyz[3 * i + 2] - xyz[3 * i - 1]);
+    }
+    return way;
+}
+
+export class CurvesPane {
+    readonly element = element('div', { class: 'curves' });
+    private readonly charts: Chart[] = [];
+    private readonly ways = new Map<Surface, Float64Array>();
+    private low = 0;
+    private high = 1;
+    private readonly refill = oncePerFrame(() => this.fill());
+
+    constructor(
+        private readonly manifest: Manifest,
+        private readonly store: Store,
+        private readonly surfaces: Surface[],
+        private readonly surface: () => Surface,
+    ) {
+        store.on((state, changed) => {
+            if (changed.has('field')) this.store.set({ curves: [state.field, ...state.curves.slice(1)] });
+            if (changed.has('curves') || changed.has('theme')) this.build();
+            else if (changed.has('over') || changed.has('shown')) this.showAll();
+            else if (changed.has('vertex')) this.reveal();
+            else if (changed.has('hover')) for (const chart of this.charts) chart.plot.redraw(false);
+        });
+        new ResizeObserver(() => this.resize()).observe(this.element);
+    }
+
+    private x(surface: Surface): Float64Array {
+        if (this.store.state.over === 'time') return surface.time;
+        let way = this.ways.get(surface);
+        if (!way) this.ways.set(surface, (way = wayOf(surface)));
+        return way;
+    }
+
+    build(): void {
+        for (const chart of this.charts) chart.plot.destroy();
+        this.charts.length = 0;
+        this.element.replaceChildren();
+        const { curves } = this.store.state;
+        curves.forEach((field, k) => this.add(field, k, k === curves.length - 1));
+        this.showAll();
+    }
+
+    private add(field: number, index: number, last: boolean): void {
+        const info = this.manifest.fields[field];
+        const holder = element('div', { class: 'chart' });
+        const choice = element('select', { title: 'what this curve shows', 'aria-label': `curve ${index + 1}` });
+        this.manifest.fields.forEach((f, k) => choice.append(new Option(f.unit ? `${f.label} [${f.unit}]` : f.label, String(k), false, k === field)));
+        choice.addEventListener('change', () => {
+            const curves = [...this.store.state.curves];
+            curves[index] = Number(choice.value);
+            if (index === 0) this.store.set({ field: curves[0] });
+            else this.store.set({ curves });
+        });
+        holder.append(choice);
+        this.element.append(holder);
+        const ink = styleValue('--ink');
+        const grid = { stroke: styleValue('--line'), width: 1 };
+        const font = `11px ${styleValue('--font')}`;
+        const plot = new uPlot(
+            {
+                width: 300,
+                height: 80,
+                padding: [6, 12, 0, 0],
+                legend: { show: false },
+                cursor: { drag: { x: true, y: false, setScale: false }, points: { show: false }, y: false },
+                scales: { x: { time: false } },
+                axes: [
+                    { stroke: ink, grid, ticks: grid, font, size: last ? 34 : 0, show: last, labelFont: font, label: this.store.state.over === 'time' ? 'time [s]' : 'way [mm]', labelSize: 13, gap: 2 },
+                    { stroke: ink, grid, ticks: grid, font, size: 62, gap: 3, space: 22 },
+                ],
+                series: [{}, { stroke: styleValue('--curve'), width: 1.2, spanGaps: false, points: { show: false } }, { stroke: styleValue('--second'), width: 1.2, spanGaps: true, points: { show: false } }],
+                hooks: {
+                    draw: [(u) => this.drawCursor(u)],
+                    setSelect: [(u) => this.zoomTo(u)],
+                },
+            },
+            [[0], [null], [null]],
+            holder,
+        );
+        plot.over.addEventListener('click', (event) => this.click(plot, event.offsetX));
+        plot.over.addEventListener('dblclick', () => this.showAll());
+        plot.over.title = `${info.label}: click for the place, drag to enlarge, double click for all`;
+        this.charts.push({ plot, holder, field });
+    }
+
+    private resize(): void {
+        const last = this.charts.length - 1;
+        const each = (this.element.clientHeight - 34) / Math.max(1, this.charts.length);
+        this.charts.forEach((chart, k) => {
+            const height = Math.max(40, Math.floor(each) + (k === last ? 34 : 0));
+            chart.plot.setSize({ width: Math.max(120, this.element.clientWidth), height });
+        });
+        this.refill();
+    }
+
+    showAll(): void {
+        const x = this.x(this.surface());
+        this.range(x[0] ?? 0, x[x.length - 1] ?? 1);
+        this.resize();
+    }
+    private range(low: number, high: number): void {
+        [this.low, this.high] = [low, high > low ? high : low + 1];
+        this.refill();
+    }
+    private zoomTo(plot: uPlot): void {
+        const { left, width } = plot.select;
+        if (width > 3) this.range(plot.posToVal(left, 'x'), plot.posToVal(left + width, 'x'));
+        plot.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
+    }
+
+    private fill(): void {
+        const { state } = this.store;
+        const columns = Math.max(100, Math.floor(this.element.clientWidth * devicePixelRatio));
+        const own = this.surface();
+        const other = this.surfaces.find((s) => s !== own);
+        for (const { plot, field } of this.charts) {
+            const a = thinCurve(this.x(own), own.fields[field], this.low, this.high, columns);
+            const b = other && state.shown !== 'before' ? thinCurve(this.x(other), other.fields[field], this.low, this.high, columns) : { x: [], y: [] };
+            const data = b.x.length > 0 ? uPlot.join([[a.x, a.y], [b.x, b.y]] as uPlot.AlignedData[]) : ([a.x, a.y, a.x.map(() => null)] as uPlot.AlignedData);
+            plot.setData(data, false);
+            plot.batch(() => {
+                plot.setScale('x', { min: this.low, max: this.high });
+                const [least, most] = extremes([...a.y, ...b.y]);
+                const room = 0.06 * (most - least || Math.abs(most) || 1);
+                plot.setScale('y', { min: least - room, max: most + room });
+            });
+        }
+    }
+
+    private drawCursor(plot: uPlot): void {
+        const { vertex, hover } = this.store.state;
+        const x = this.x(this.surface());
+        const g = plot.ctx;
+        for (const [at, colour, width] of [
+            [hover, styleValue('--faint'), 1],
+            [vertex, styleValue('--accent'), 2],
+        ] as const) {
+            if (at === null || x[at] < this.low || x[at] > this.high) continue;
+            const pixel = Math.round(plot.valToPos(x[at], 'x', true));
+            g.strokeStyle = colour;
+            g.lineWidth = width * devicePixelRatio;
+            g.beginPath();
+            g.moveTo(pixel, plot.bbox.top);
+            g.lineTo(pixel, plot.bbox.top + plot.bbox.height);
+            g.stroke();
+        }
+    }
+
+    private click(plot: uPlot, pixel: number): void {
+        const surface = this.surface();
+        const x = this.x(surface);
+        const value = plot.posToVal(pixel, 'x');
+        const after = Math.min(x.length - 1, lowerBound(x, value));
+        const vertex = after > 0 && value - x[after - 1] < x[after] - value ? after - 1 : after;
+        this.store.set({ vertex, line: surface.line[vertex], defect: null, pass: 0 });
+    }
+
+    /** Moves the window so that the cursor lies in it. */
+    private reveal(): void {
+        const { vertex } = this.store.state;
+        if (vertex !== null) {
+            const x = this.x(this.surface())[vertex];
+            const half = (this.high - this.low) / 2;
+            if (x < this.low || x > this.high) return this.range(x - half, x + half);
+        }
+        for (const chart of this.charts) chart.plot.redraw(false);
+    }
+}
+
+function extremes(values: (number | null)[]): [number, number] {
+    let [least, most] = [Infinity, -Infinity];
+    for (const value of values) {
+        if (value === null) continue;
+        least = Math.min(least, value);
+        most = Math.max(most, value);
+    }
+    return least <= most ? [least, most] : [0, 1];
+}
+
+/** A second field worth seeing beside the one that is shown. */
+export function secondCurve(manifest: Manifest, first: number): number {
+    for (const name of ['contour_error', 'speed_mismatch', 'acceleration', 'speed']) {
+        const k = manifest.fields.findIndex((f) => f.name === name);
+        if (k >= 0 && k !== first) return k;
+    }
+    return first;
+}
+
+export function cuttingExtent(surface: Surface, values: Float32Array): [number, number] {
+    let [least, most] = [Infinity, -Infinity];
+    for (let i = 0; i < values.length; ++i) {
+        if (surface.kind(i) !== Kind.cut || !(values[i] === values[i])) continue;
+        least = Math.min(least, values[i]);
+        most = Math.max(most, values[i]);
+    }
+    return [least, most];
+}

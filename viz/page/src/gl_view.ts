@@ -1,0 +1,166 @@
+// One canvas that vtk.js draws a mesh on. Values are places on a texture of one ramp of colours, so that
+// another range or colour map needs no other mesh.
+
+import '@kitware/vtk.js/Rendering/Profiles/Geometry';
+import vtkCellArray from '@kitware/vtk.js/Common/Core/CellArray';
+import vtkDataArray from '@kitware/vtk.js/Common/Core/DataArray';
+import vtkPolyData from '@kitware/vtk.js/Common/DataModel/PolyData';
+import vtkActor from '@kitware/vtk.js/Rendering/Core/Actor';
+import vtkMapper from '@kitware/vtk.js/Rendering/Core/Mapper';
+import vtkRenderer from '@kitware/vtk.js/Rendering/Core/Renderer';
+import vtkRenderWindow from '@kitware/vtk.js/Rendering/Core/RenderWindow';
+import vtkTexture from '@kitware/vtk.js/Rendering/Core/Texture';
+import vtkOpenGLRenderWindow from '@kitware/vtk.js/Rendering/OpenGL/RenderWindow';
+
+import type { Camera } from './camera';
+import { colourAlong, missingColour, type ColourScale, type Rgb } from './colour';
+import { rampImage } from './ramp_image';
+import type { Style } from './store';
+
+const rampColours = 1024;
+
+export interface Mesh {
+    xyz: Float32Array;
+    normals: Float32Array | null;
+    triangles: Uint32Array;
+    segments: Uint32Array; // what has no triangles beside it; with style lines, all of the way
+}
+
+/** Vertex normals, up, the sum of the triangles'. */
+export function normalsOf(xyz: Float32Array, triangles: Uint32Array): Float32Array {
+    const normals = new Float32Array(xyz.length);
+    for (let t = 0; t + 2 < triangles.length; t += 3) {
+        const [a, b, c] = [3 * triangles[t], 3 * triangles[t + 1], 3 * triangles[t + 2]];
+        const [ux, uy, uz] = [xyz[b] - xyz[a], xyz[b + 1] - xyz[a + 1], xyz[b + 2] - xyz[a + 2]];
+        const [vx, vy, vz] = [xyz[c] - xyz[a], xyz[c + 1] - xyz[a + 1], xyz[c + 2] - xyz[a + 2]];
+        let [nx, ny, nz] = [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx];
+        if (nz < 0) [nx, ny, nz] = [-nx, -ny, -nz];
+        for (const v of [a, b, c]) {
+            normals[v] += nx;
+            normals[v + 1] += ny;
+            normals[v + 2] += nz;
+        }
+    }
+    for (let v = 0; v < normals.length; v += 3) {
+        const length = Math.hypot(normals[v], normals[v + 1], normals[v + 2]);
+        if (length > 0) for (let k = 0; k < 3; ++k) normals[v + k] /= length;
+        else normals[v + 2] = 1;
+    }
+    return normals;
+}
+
+/** Cells of `size` corners, each with its size before it, as vtk.js wants them. */
+function cells(corners: Uint32Array, size: number): Uint32Array {
+    const out = new Uint32Array((corners.length / size) * (size + 1));
+    for (let i = 0, at = 0; i < corners.length; i += size) {
+        out[at++] = size;
+        for (let k = 0; k < size; ++k) out[at++] = corners[i + k];
+    }
+    return out;
+}
+
+export class GlView {
+    readonly canvas: HTMLCanvasElement;
+    private readonly window = vtkRenderWindow.newInstance();
+    private readonly renderer = vtkRenderer.newInstance();
+    private readonly gl = vtkOpenGLRenderWindow.newInstance();
+    private readonly actor = vtkActor.newInstance();
+    private readonly mapper = vtkMapper.newInstance();
+    private readonly data = vtkPolyData.newInstance();
+    private radius = 1;
+    private middle = [0, 0, 0];
+
+    constructor(container: HTMLElement) {
+        this.window.addView(this.gl);
+        this.window.addRenderer(this.renderer);
+        this.gl.setContainer(container);
+        this.canvas = container.querySelector('canvas') as HTMLCanvasElement;
+        this.mapper.setInputData(this.data);
+        this.mapper.setScalarVisibility(false);
+        this.actor.setMapper(this.mapper);
+        const property = this.actor.getProperty();
+        property.setColor(1, 1, 1);
+        // A surface that the light only grazes keeps 0.75 of its colour: colours are for reading.
+        property.setAmbient(0.75);
+        property.setDiffuse(0.25);
+        property.setSpecular(0);
+        this.renderer.addActor(this.actor);
+        this.renderer.getActiveCamera().setParallelProjection(true);
+    }
+
+    setMesh(mesh: Mesh, style: Style): void {
+        const { xyz } = mesh;
+        this.data.getPoints().setData(xyz, 3);
+        const empty = new Uint32Array(0);
+        const all = style === 'points' ? Uint32Array.from({ length: xyz.length / 3 }, (_, i) => i) : empty;
+        this.data.setPolys(vtkCellArray.newInstance({ values: style === 'surface' ? cells(mesh.triangles, 3) : empty }));
+        this.data.setLines(vtkCellArray.newInstance({ values: style === 'points' ? empty : cells(mesh.segments, 2) }));
+        this.data.setVerts(vtkCellArray.newInstance({ values: cells(all, 1) }));
+        const lit = style === 'surface' && mesh.normals;
+        const points = this.data.getPointData();
+        // vtk.js takes null away what is there, but its types do not say so.
+        points.setNormals((lit ? vtkDataArray.newInstance({ name: 'normals', numberOfComponents: 3, values: mesh.normals as Float32Array }) : null) as never);
+        this.actor.getProperty().setLighting(Boolean(lit));
+        this.actor.getProperty().setPointSize(3);
+        this.actor.getProperty().setLineWidth(style === 'lines' ? 1.5 : 1);
+        const bounds = [Infinity, -Infinity, Infinity, -Infinity, Infinity, -Infinity];
+        for (let i = 0; i < xyz.length; ++i) {
+            const k = 2 * (i % 3);
+            bounds[k] = Math.min(bounds[k], xyz[i]);
+            bounds[k + 1] = Math.max(bounds[k + 1], xyz[i]);
+        }
+        this.middle = [0, 2, 4].map((k) => (bounds[k] + bounds[k + 1]) / 2);
+        this.radius = Math.max(1e-3, Math.hypot(...[0, 2, 4].map((k) => bounds[k + 1] - bounds[k])) / 2);
+        this.data.modified();
+    }
+
+    /** Places of values on the ramp: u along it, v which row: the ramp, or the colour of no value. */
+    setValues(values: Float32Array, low: number, high: number): void {
+        const places = new Float32Array(2 * values.length);
+        const span = high > low ? high - low : 1;
+        for (let i = 0; i < values.length; ++i) {
+            const value = values[i];
+            const known = value === value;
+            const along = known ? (high > low ? (value - low) / span : 0.5) : 0;
+            places[2 * i] = (0.5 + along * (rampColours - 1)) / rampColours;
+            places[2 * i + 1] = known ? 0.25 : 0.75;
+        }
+        const array = vtkDataArray.newInstance({ name: 'places', numberOfComponents: 2, values: places });
+        this.data.getPointData().setTCoords(array);
+        this.data.modified();
+    }
+
+    setColours(scale: ColourScale): void {
+        const pixels = new Uint8ClampedArray(4 * 2 * rampColours);
+        const put = (i: number, rgb: Rgb) => pixels.set([...rgb, 255], 4 * i);
+        for (let i = 0; i < rampColours; ++i) {
+            put(i, colourAlong(scale, i / (rampColours - 1)));
+            put(rampColours + i, missingColour);
+        }
+        const texture = vtkTexture.newInstance({ interpolate: scale.bins === 0 });
+        texture.setInputData(rampImage(pixels));
+        this.actor.removeAllTextures();
+        this.actor.addTexture(texture);
+    }
+
+    setBackground(rgb: readonly number[]): void {
+        this.renderer.setBackground(rgb[0] / 255, rgb[1] / 255, rgb[2] / 255);
+    }
+
+    resize(width: number, height: number, ratio: number): void {
+        this.gl.setSize(Math.max(1, Math.round(width * ratio)), Math.max(1, Math.round(height * ratio)));
+    }
+
+    render(camera: Camera): void {
+        const { up, towards } = camera.axes;
+        const eye = this.renderer.getActiveCamera();
+        const far = this.radius + Math.hypot(...this.middle.map((m, k) => m - camera.centre[k]));
+        const c = camera.centre;
+        eye.setFocalPoint(c[0], c[1], c[2]);
+        eye.setPosition(c[0] + 2 * far * towards[0], c[1] + 2 * far * towards[1], c[2] + 2 * far * towards[2]);
+        eye.setViewUp(up[0], up[1], up[2]);
+        eye.setParallelScale((camera.mmPerPixel * camera.height) / 2);
+        eye.setClippingRange(0.9 * far, 3.1 * far);
+        this.window.render();
+    }
+}

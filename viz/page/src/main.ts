@@ -1,0 +1,170 @@
+// The page of `clsurf report`: reads its data, puts the panes together, links them.
+
+import 'uplot/dist/uPlot.min.css';
+import './style.css';
+
+import { actionsOf } from './actions';
+import { ColourMap } from './colour';
+import { readBytes } from './columns';
+import { renderCommand } from './command';
+import { CurvesPane, secondCurve } from './curves_pane';
+import { showCommand, showKeys } from './dialogs';
+import { baseName, element } from './dom';
+import { readManifest } from './manifest';
+import { ProgramPane } from './program_pane';
+import { ProgramText } from './program_text';
+import { RangePane } from './range_pane';
+import { readRelief } from './relief';
+import { Store } from './store';
+import { readSurface } from './surface';
+import { TablePane } from './table_pane';
+import { Toolbar } from './toolbar';
+import { TreePane } from './tree_pane';
+import { ViewPane } from './view_pane';
+
+const dark = () => document.documentElement.dataset.theme === 'dark';
+
+async function begin(app: HTMLElement): Promise<void> {
+    const manifest = readManifest();
+    const surfaces = [];
+    for (let k = 0; k < manifest.surfaces.length; ++k) surfaces.push(await readSurface(manifest, k));
+    const text = new ProgramText(await readBytes(manifest.program.text), manifest.program.lines);
+    const relief = manifest.relief ? await readRelief(manifest.relief, manifest.surfaces[0].origin_mm) : null;
+    const maps = manifest.colour_maps.map((info) => new ColourMap(info));
+
+    const system = matchMedia('(prefers-color-scheme: dark)');
+    const setTheme = () => (document.documentElement.dataset.theme = store.state.theme === 'auto' ? (system.matches ? 'dark' : 'light') : store.state.theme);
+    const first = Math.max(0, manifest.fields.findIndex((f) => f.name === manifest.first_field));
+    const store = new Store({
+        field: first,
+        map: manifest.fields[first].diverging ? 'coolwarm' : 'isurface',
+        bins: 0,
+        low: manifest.fields[first].low,
+        high: manifest.fields[first].high,
+        style: 'surface',
+        role: 0,
+        formed: false,
+        defects: true,
+        shown: 'after',
+        wipe: 0.5,
+        vertex: null,
+        hover: null,
+        line: 0,
+        pass: 0,
+        defect: null,
+        tool: 'turn',
+        over: 'time',
+        curves: [first, secondCurve(manifest, first)],
+        theme: 'auto',
+    });
+    setTheme();
+    store.on((state, changed) => {
+        if (changed.has('theme')) setTheme();
+        // Signed fields have a map of their own, unless another was chosen.
+        if (changed.has('field') || changed.has('formed')) {
+            const diverging = state.formed || manifest.fields[state.field].diverging;
+            if (diverging && state.map === 'isurface') store.set({ map: 'coolwarm' });
+            if (!diverging && state.map === 'coolwarm') store.set({ map: 'isurface' });
+        }
+    });
+    system.addEventListener('change', () => {
+        if (store.state.theme !== 'auto') return;
+        store.set({ theme: system.matches ? 'dark' : 'light' });
+    });
+
+    const view = new ViewPane(manifest, store, surfaces, maps, relief);
+    const surface = () => view.surface;
+    const goToDefect = (index: number) => {
+        const defect = manifest.defects[index];
+        if (store.state.shown === 'before') store.set({ shown: 'after' });
+        const vertex = surface().vertexOfPoint(defect.point);
+        const origin = manifest.surfaces[0].origin_mm;
+        store.set({ defect: index, vertex, line: surface().line[vertex], pass: 0 });
+        view.goTo(
+            defect.bounds_mm[0].map((c, k) => c - origin[k]),
+            defect.bounds_mm[1].map((c, k) => c - origin[k]),
+        );
+    };
+    const locate = (kind: string, value: number): string | null => {
+        const s = surface();
+        if (kind === 'line') {
+            if (value < 1 || value > text.lineCount || !Number.isInteger(value)) return `the program has lines 1 … ${text.lineCount}`;
+            const runs = s.runsOfLine(value);
+            store.set({ line: value, vertex: runs.length > 0 ? runs[0][0] : null, defect: null, pass: 0 });
+            return runs.length > 0 ? null : 'no point of this page has that line';
+        }
+        const last = kind === 'point' ? s.info.records - 1 : s.time[s.count - 1];
+        if (value < 0 || value > last) return kind === 'point' ? `the log has points 0 … ${last}` : `the log lasts ${last.toFixed(3)} s`;
+        const vertex = kind === 'point' ? s.vertexOfPoint(value) : s.vertexAtTime(value);
+        store.set({ vertex, line: s.line[vertex], defect: null, pass: 0 });
+        return null;
+    };
+    const savePicture = async () => {
+        const url = URL.createObjectURL(await view.picture());
+        const link = element('a', { href: url, download: `${baseName(manifest.program.name)}.png` });
+        link.click();
+        setTimeout(() => URL.revokeObjectURL(url), 1000);
+    };
+    const actions = actionsOf(
+        store,
+        view,
+        {
+            savePicture: () => void savePicture(),
+            showCommand: () => showCommand(renderCommand(manifest, store.state, view.camera, surface(), dark())),
+            showHelp: () => showKeys(actions),
+            locate: () => toolbar.locator.input.focus(),
+            goToDefect,
+        },
+        manifest.defects.length,
+        surfaces.length,
+        maps.map((m) => m.name),
+    );
+    const toolbar = new Toolbar(manifest, store, actions, locate);
+    const range = new RangePane(manifest, store, view);
+    const curves = new CurvesPane(manifest, store, surfaces, surface);
+    const tree = new TreePane(manifest, store, surface, goToDefect, relief !== null);
+    const program = new ProgramPane(manifest, text, store, surface);
+    const table = new TablePane(manifest, text, store, surface);
+    app.append(
+        toolbar.element,
+        element('div', { class: 'side' }, range.element, tree.element),
+        view.element,
+        program.element,
+        curves.element,
+        table.element,
+    );
+    app.hidden = false;
+    view.begin();
+    range.begin();
+    curves.build();
+    store.on((state, changed) => {
+        if (changed.has('vertex') && state.vertex !== null && state.defect === null) view.reveal(state.vertex);
+    });
+
+    document.addEventListener('keydown', (event) => {
+        const target = event.target as HTMLElement;
+        if (event.ctrlKey || event.metaKey || event.altKey || target.closest('input, textarea, select, dialog')) return;
+        const action = actions.find((a) => a.key === event.key.toLowerCase());
+        if (!action) return;
+        event.preventDefault();
+        action.run();
+    });
+    for (const row of document.querySelectorAll<HTMLElement>('[data-defect]')) {
+        row.title = 'show it above';
+        row.addEventListener('click', () => {
+            goToDefect(Number(row.dataset.defect) - 1);
+            app.scrollIntoView();
+        });
+    }
+    document.documentElement.dataset.ready = 'yes';
+}
+
+const app = document.getElementById('app');
+if (app) {
+    begin(app).catch((error: unknown) => {
+        app.hidden = false;
+        app.className = 'failed';
+        app.textContent = `The view cannot be shown: ${error instanceof Error ? error.message : String(error)}. Pictures and tables below are whole.`;
+        console.error(error);
+    });
+}

@@ -1,0 +1,113 @@
+// What io/page_data.cpp writes: the names are the same there.
+
+export interface PackedColumn {
+    block: number;
+    count: number;
+    order: number;
+    stride: number;
+    planes: number;
+}
+
+export interface FieldInfo {
+    name: string;
+    label: string;
+    unit: string;
+    diverging: boolean;
+    note: string;
+    low: number;
+    high: number;
+    lowest: number;
+    highest: number;
+    range_note: string;
+}
+
+export interface ColourMapInfo {
+    name: string;
+    summary: string;
+    centred: boolean;
+    rgb: string;
+}
+
+export interface DefectRun {
+    pass: number;
+    points: [number, number];
+    lines: [number, number];
+}
+
+export interface Defect {
+    id: number;
+    severity: number;
+    cause: string;
+    text: string;
+    position_mm: [number, number, number];
+    bounds_mm: [[number, number, number], [number, number, number]];
+    depth_um: number | null;
+    point: number;
+    runs: DefectRun[];
+    neighbours: DefectRun[];
+    outlines: number[][]; // x, y, z of the corners of closed lines
+}
+
+export interface SurfaceInfo {
+    log: string;
+    role: string;
+    records: number;
+    period_s: number;
+    step_over_mm: number;
+    origin_mm: [number, number, number];
+    position_quantum_mm: number;
+    time_quantum_s: number;
+    points: number;
+    window: number;
+    line_starts: boolean;
+    pass_count: number;
+    columns: {
+        point: PackedColumn;
+        line: PackedColumn;
+        kind: PackedColumn;
+        triangles: PackedColumn;
+        segments: PackedColumn;
+        time?: PackedColumn;
+        x: PackedColumn;
+        y: PackedColumn;
+        z: PackedColumn;
+        passes: PackedColumn;
+    };
+    roles: { name: string; x: PackedColumn; y: PackedColumn; z: PackedColumn }[];
+    fields: { name: string; quantum: number; values: PackedColumn; missing?: PackedColumn }[];
+}
+
+export interface ReliefInfo {
+    origin_mm: [number, number, number];
+    pitch_mm: number;
+    columns: number;
+    rows: number;
+    z_quantum_mm: number;
+    deviation_quantum_um: number;
+    low: number;
+    high: number;
+    lowest: number;
+    highest: number;
+    note: string;
+    z: PackedColumn;
+    deviation: PackedColumn;
+    missing: PackedColumn;
+}
+
+export interface Manifest {
+    version: number;
+    program: { name: string; lines: number; text: PackedColumn };
+    command: { program: string; log: string; before: string; options: string[] };
+    first_field: string;
+    colour_maps: ColourMapInfo[];
+    fields: FieldInfo[];
+    defects: Defect[];
+    surfaces: SurfaceInfo[];
+    relief?: ReliefInfo;
+}
+
+export function readManifest(): Manifest {
+    const element = document.getElementById('manifest');
+    if (!element) throw new Error('the page has no manifest');
+    return JSON.parse(element.textContent ?? '') as Manifest;
+}

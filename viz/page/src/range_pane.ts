@@ -1,0 +1,141 @@
+// The range of the colours: a histogram of the cutting points with a handle at either end, and the two
+// numbers to type.
+
+import { colourAlong, cssColour } from './colour';
+import { element, numberText, styleValue } from './dom';
+import type { Manifest } from './manifest';
+import type { Store } from './store';
+import { Kind } from './surface';
+import type { ViewPane } from './view_pane';
+
+const bars = 90;
+const beside = 0.25; // of the usual range, seen to each side of it
+
+export class RangePane {
+    readonly element = element('div', { class: 'range' });
+    private readonly canvas = element('canvas', { title: 'drag an end of the range', tabindex: '0', 'aria-label': 'range of the colours' });
+    private readonly low = element('input', { type: 'number', step: 'any', 'aria-label': 'lower end of the range' });
+    private readonly high = element('input', { type: 'number', step: 'any', 'aria-label': 'upper end of the range' });
+    private counts = new Float64Array(bars);
+    private from = 0;
+    private to = 1;
+    private dragged: 'low' | 'high' | null = null;
+
+    constructor(
+        private readonly manifest: Manifest,
+        private readonly store: Store,
+        private readonly view: ViewPane,
+    ) {
+        const reset = element('button', { title: 'the usual range: percentiles 1 to 99 of the cutting points', 'data-action': 'range-auto' }, 'auto');
+        const all = element('button', { title: 'from the lowest to the highest value', 'data-action': 'range-all' }, 'all');
+        reset.addEventListener('click', () => this.reset());
+        all.addEventListener('click', () => {
+            const { lowest, highest } = this.ends();
+            this.store.set({ low: lowest, high: highest });
+        });
+        for (const input of [this.low, this.high]) input.addEventListener('change', () => this.type());
+        this.element.append(element('h3', {}, 'Range'), this.canvas, element('div', { class: 'ends' }, this.low, reset, all, this.high));
+        this.canvas.addEventListener('pointerdown', (event) => {
+            const { low, high } = store.state;
+            const x = this.valueAt(event.offsetX);
+            this.dragged = Math.abs(x - low) <= Math.abs(x - high) ? 'low' : 'high';
+            this.canvas.setPointerCapture(event.pointerId);
+            this.drag(event.offsetX);
+        });
+        this.canvas.addEventListener('pointermove', (event) => this.dragged && this.drag(event.offsetX));
+        this.canvas.addEventListener('pointerup', () => (this.dragged = null));
+        this.canvas.addEventListener('keydown', (event) => {
+            const step = ((this.to - this.from) / 100) * ({ ArrowRight: 1, ArrowLeft: -1 }[event.key] ?? 0);
+            if (step === 0) return;
+            event.preventDefault();
+            const { low, high } = store.state;
+            if (event.shiftKey) this.put(low + step, high);
+            else this.put(low, high + step);
+        });
+        store.on((_, changed) => {
+            if (changed.has('field') || changed.has('formed')) this.reset();
+            if (['field', 'formed', 'shown', 'theme', 'low', 'high', 'map', 'bins'].some((key) => changed.has(key as never))) {
+                if (changed.has('field') || changed.has('formed') || changed.has('shown')) this.count();
+                this.draw();
+            }
+        });
+    }
+
+    begin(): void {
+        this.reset();
+        this.count();
+        this.draw();
+    }
+
+    private ends(): { low: number; high: number; lowest: number; highest: number } {
+        const relief = this.manifest.relief;
+        return this.store.state.formed && relief ? relief : this.manifest.fields[this.store.state.field];
+    }
+    private reset(): void {
+        const { low, high } = this.ends();
+        this.store.set({ low, high });
+    }
+    private put(low: number, high: number): void {
+        if (low < high) this.store.set({ low, high });
+    }
+    private type(): void {
+        const [low, high] = [Number(this.low.value), Number(this.high.value)];
+        if (this.low.value !== '' && this.high.value !== '' && low < high) this.store.set({ low, high });
+        else this.draw();
+    }
+
+    private count(): void {
+        const { low, high, lowest, highest } = this.ends();
+        const room = beside * (high - low || 1);
+        this.from = Math.max(Math.min(lowest, low), low - room);
+        this.to = Math.min(Math.max(highest, high), high + room);
+        if (!(this.to > this.from)) [this.from, this.to] = [low - 1, high + 1];
+        this.counts = new Float64Array(bars);
+        const surface = this.view.surface;
+        const values = this.view.values;
+        for (let i = 0; i < values.length; ++i) {
+            if (!this.store.state.formed && surface.kind(i) !== Kind.cut) continue;
+            const k = Math.floor(((values[i] - this.from) / (this.to - this.from)) * bars);
+            if (k >= 0 && k < bars) ++this.counts[k];
+        }
+    }
+
+    private valueAt(x: number): number {
+        return this.from + (x / this.canvas.clientWidth) * (this.to - this.from);
+    }
+    private drag(x: number): void {
+        const value = Math.min(this.to, Math.max(this.from, this.valueAt(x)));
+        const { low, high } = this.store.state;
+        const least = (this.to - this.from) / 500;
+        if (this.dragged === 'low') this.store.set({ low: Math.min(value, high - least) });
+        else this.store.set({ high: Math.max(value, low + least) });
+    }
+
+    private draw(): void {
+        const { low, high } = this.store.state;
+        const digits = (value: number) => numberText(value, 5);
+        this.low.value = digits(low);
+        this.high.value = digits(high);
+        const [width, height] = [this.canvas.clientWidth, this.canvas.clientHeight];
+        if (width === 0) return;
+        this.canvas.width = width * devicePixelRatio;
+        this.canvas.height = height * devicePixelRatio;
+        const g = this.canvas.getContext('2d') as CanvasRenderingContext2D;
+        g.scale(devicePixelRatio, devicePixelRatio);
+        const { scale } = this.view;
+        const most = Math.max(1, ...this.counts);
+        this.counts.forEach((count, k) => {
+            const value = this.from + ((k + 0.5) / bars) * (this.to - this.from);
+            // Square roots: a mark is some points among a million.
+            const tall = Math.sqrt(count / most) * (height - 6);
+            g.fillStyle = cssColour(colourAlong(scale, (value - low) / (high - low || 1)));
+            g.fillRect((k / bars) * width, height - tall, width / bars + 0.5, tall);
+        });
+        const x = (value: number) => Math.min(width - 1.5, Math.max(1.5, ((value - this.from) / (this.to - this.from)) * width));
+        g.fillStyle = styleValue('--ink');
+        for (const value of [low, high]) {
+            g.fillRect(x(value) - 1, 0, 2, height);
+            g.fillRect(x(value) - 4, 0, 8, 9);
+        }
+    }
+}

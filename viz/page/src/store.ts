@@ -1,0 +1,49 @@
+// The state of the page: one object, changed through set(), which tells who listens what changed.
+
+export type Style = 'surface' | 'lines' | 'points';
+export type Shown = 'after' | 'before' | 'wipe';
+export type Tool = 'turn' | 'box' | 'measure';
+
+export interface State {
+    field: number;
+    map: string; // name of a colour map
+    bins: number;
+    low: number;
+    high: number;
+    style: Style;
+    role: number; // of the surface's roles
+    formed: boolean; // the formed surface in place of the CL surface
+    defects: boolean; // outlined
+    shown: Shown;
+    wipe: number; // 0 … 1 of the width: left of it is before
+    vertex: number | null; // the cursor, a vertex of the surface that is shown
+    hover: number | null; // under the pointer
+    line: number; // 0: none
+    pass: number; // 0: none
+    defect: number | null; // index
+    tool: Tool;
+    over: 'time' | 'length';
+    curves: number[]; // fields; the first follows `field`
+    theme: 'auto' | 'light' | 'dark';
+}
+
+type Listener = (state: Readonly<State>, changed: ReadonlySet<keyof State>) => void;
+
+export class Store {
+    private listeners: Listener[] = [];
+    constructor(readonly state: State) {}
+
+    on(listener: Listener): void {
+        this.listeners.push(listener);
+    }
+    set(change: Partial<State>): void {
+        const changed = new Set<keyof State>();
+        for (const key of Object.keys(change) as (keyof State)[]) {
+            if (Object.is(this.state[key], change[key])) continue;
+            (this.state as unknown as Record<string, unknown>)[key] = change[key];
+            changed.add(key);
+        }
+        if (changed.size === 0) return;
+        for (const listener of this.listeners) listener(this.state, changed);
+    }
+}

@@ -1,0 +1,160 @@
+// A log's surface as the page has it: one entry per kept point ("vertex"), with where it lies, its line,
+// its time and its values.
+
+import { readBytes, readIndices, readNumbers } from './columns';
+import type { Manifest, SurfaceInfo } from './manifest';
+
+export const enum Kind {
+    cut = 0,
+    link = 1,
+    rapid = 2,
+}
+
+export interface Role {
+    name: string;
+    xyz: Float32Array; // 3 per vertex [mm] from the origin
+}
+
+export class Surface {
+    constructor(
+        readonly info: SurfaceInfo,
+        readonly point: Float64Array, // rising
+        readonly line: Uint32Array,
+        readonly time: Float64Array, // [s]
+        readonly kinds: Uint8Array, // Kind, and 4 where it goes on from the vertex before
+        readonly roles: Role[], // the first is what the surface was made from
+        readonly triangles: Uint32Array,
+        readonly segments: Uint32Array,
+        readonly fields: Float32Array[], // shown units; NaN: no value
+        readonly passes: Float64Array, // first and last point of each cut pass
+    ) {
+        // Normals point up, as on a three-axis machine, so front faces must be seen from there too.
+        const xyz = roles[0].xyz;
+        for (let t = 0; t + 2 < triangles.length; t += 3) {
+            const [a, b, c] = [3 * triangles[t], 3 * triangles[t + 1], 3 * triangles[t + 2]];
+            const up = (xyz[b] - xyz[a]) * (xyz[c + 1] - xyz[a + 1]) - (xyz[b + 1] - xyz[a + 1]) * (xyz[c] - xyz[a]);
+            if (up < 0) [triangles[t + 1], triangles[t + 2]] = [triangles[t + 2], triangles[t + 1]];
+        }
+    }
+
+    get count(): number {
+        return this.point.length;
+    }
+    kind(vertex: number): Kind {
+        return this.kinds[vertex] & 3;
+    }
+    joined(vertex: number): boolean {
+        return (this.kinds[vertex] & 4) !== 0;
+    }
+
+    /** The vertex nearest to a value of a rising column. */
+    private nearest(column: Float64Array, value: number): number {
+        let low = 0;
+        let high = column.length - 1;
+        while (low < high) {
+            const middle = (low + high) >> 1;
+            if (column[middle] < value) low = middle + 1;
+            else high = middle;
+        }
+        return low > 0 && value - column[low - 1] <= column[low] - value ? low - 1 : low;
+    }
+    vertexOfPoint(point: number): number {
+        return this.nearest(this.point, point);
+    }
+    vertexAtTime(time: number): number {
+        return this.nearest(this.time, time);
+    }
+    /** Vertices of points [first, last], as a half-open range. */
+    range(first: number, last: number): [number, number] {
+        let begin = this.nearest(this.point, first);
+        while (begin < this.count && this.point[begin] < first) ++begin;
+        let end = begin;
+        while (end < this.count && this.point[end] <= last) ++end;
+        return [begin, end];
+    }
+
+    private runs: Map<number, [number, number][]> | null = null;
+    /** Every run of vertices of a line, as half-open ranges. */
+    runsOfLine(line: number): [number, number][] {
+        if (!this.runs) {
+            this.runs = new Map();
+            for (let begin = 0; begin < this.count; ) {
+                let end = begin + 1;
+                while (end < this.count && this.line[end] === this.line[begin]) ++end;
+                const known = this.runs.get(this.line[begin]);
+                if (known) known.push([begin, end]);
+                else this.runs.set(this.line[begin], [[begin, end]]);
+                begin = end;
+            }
+        }
+        return this.runs.get(line) ?? [];
+    }
+
+    /** Number of the cut pass of a vertex, from 1; 0: none. */
+    passOf(vertex: number): number {
+        const point = this.point[vertex];
+        let low = 0;
+        let high = this.passes.length / 2;
+        while (low < high) {
+            const middle = (low + high) >> 1;
+            if (this.passes[2 * middle + 1] < point) low = middle + 1;
+            else high = middle;
+        }
+        return 2 * low < this.passes.length && this.passes[2 * low] <= point ? low + 1 : 0;
+    }
+}
+
+/** Positions from a common origin, so that two logs lie in one space. */
+async function readPositions(info: SurfaceInfo, origin: readonly number[]): Promise<Float32Array> {
+    const axes = await Promise.all([info.columns.x, info.columns.y, info.columns.z].map((c) => readNumbers(c, info.position_quantum_mm)));
+    const xyz = new Float32Array(3 * axes[0].length);
+    for (let k = 0; k < 3; ++k) {
+        const shift = info.origin_mm[k] - origin[k];
+        for (let i = 0; i < axes[k].length; ++i) xyz[3 * i + k] = axes[k][i] + shift;
+    }
+    return xyz;
+}
+
+async function readRoles(info: SurfaceInfo, origin: readonly number[]): Promise<Role[]> {
+    const own = await readPositions(info, origin);
+    const roles: Role[] = [{ name: info.role, xyz: own }];
+    for (const role of info.roles) {
+        const xyz = own.slice();
+        for (const [k, column] of [role.x, role.y, role.z].entries()) {
+            const steps = await readNumbers(column, info.position_quantum_mm);
+            for (let i = 0; i < steps.length; ++i) xyz[3 * i + k] += steps[i];
+        }
+        roles.push({ name: role.name, xyz });
+    }
+    return roles;
+}
+
+async function readField(field: SurfaceInfo['fields'][number]): Promise<Float32Array> {
+    const values = Float32Array.from(await readNumbers(field.values, field.quantum));
+    if (field.missing) {
+        const missing = await readBytes(field.missing);
+        for (let i = 0; i < values.length; ++i) if (missing[i]) values[i] = NaN;
+    }
+    return values;
+}
+
+export async function readSurface(manifest: Manifest, index: number): Promise<Surface> {
+    const info = manifest.surfaces[index];
+    const { columns } = info;
+    const point = await readNumbers(columns.point);
+    const time = columns.time ? await readNumbers(columns.time, info.time_quantum_s) : point.map((n) => n * info.period_s);
+    const fields: Float32Array[] = [];
+    for (const field of info.fields) fields.push(await readField(field));
+    return new Surface(
+        info,
+        point,
+        await readIndices(columns.line),
+        time,
+        await readBytes(columns.kind),
+        await readRoles(info, manifest.surfaces[0].origin_mm),
+        await readIndices(columns.triangles),
+        await readIndices(columns.segments),
+        fields,
+        await readNumbers(columns.passes),
+    );
+}

@@ -1,0 +1,47 @@
+// The numbers of one point: that under the pointer, else that of the cursor.
+
+import { element, numberText } from './dom';
+import type { Manifest } from './manifest';
+import type { ProgramText } from './program_text';
+import type { Store } from './store';
+import type { Surface } from './surface';
+
+export class TablePane {
+    readonly element = element('div', { class: 'table' });
+
+    constructor(
+        private readonly manifest: Manifest,
+        private readonly text: ProgramText,
+        private readonly store: Store,
+        private readonly surface: () => Surface,
+    ) {
+        store.on((_, changed) => {
+            if (changed.has('vertex') || changed.has('hover') || changed.has('role') || changed.has('shown')) this.draw();
+        });
+        this.draw();
+    }
+
+    private draw(): void {
+        const { vertex, hover, role } = this.store.state;
+        const at = hover ?? vertex;
+        const surface = this.surface();
+        if (at === null) {
+            this.element.replaceChildren(element('p', { class: 'hint' }, 'Click a place, a line, a curve or a defect: the numbers of its point stand here.'));
+            return;
+        }
+        const row = (name: string, value: string, unit = '') => element('tr', {}, element('th', {}, name), element('td', {}, value), element('td', { class: 'unit' }, unit));
+        const positions = surface.roles[Math.min(role, surface.roles.length - 1)].xyz;
+        const origin = this.manifest.surfaces[0].origin_mm;
+        const place = [0, 1, 2].map((k) => (positions[3 * at + k] + origin[k]).toFixed(4)).join('  ');
+        const line = surface.line[at];
+        const rows = [
+            row('Point', String(surface.point[at]), hover === null ? 'cursor' : 'pointer'),
+            row('Line', line > 0 ? String(line) : '–', line > 0 ? this.text.line(line).slice(0, 60) : ''),
+            row('Time', surface.time[at].toFixed(4), 's'),
+            row('Pass', String(surface.passOf(at) || '–'), `of ${surface.info.pass_count}`),
+            row('X Y Z', place, 'mm'),
+            ...this.manifest.fields.map((field, k) => row(field.label, numberText(surface.fields[k][at]), field.unit)),
+        ];
+        this.element.replaceChildren(element('table', {}, element('tbody', {}, ...rows)));
+    }
+}

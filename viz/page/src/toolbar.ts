@@ -1,0 +1,76 @@
+// The bar of buttons: actions, field, colour map, locate.
+
+import type { Action } from './actions';
+import { element } from './dom';
+import type { Manifest } from './manifest';
+import type { Store } from './store';
+
+export interface Locator {
+    kind: HTMLSelectElement;
+    input: HTMLInputElement;
+}
+
+export class Toolbar {
+    readonly element = element('div', { class: 'toolbar', role: 'toolbar' });
+    readonly locator: Locator;
+
+    constructor(manifest: Manifest, store: Store, actions: Action[], locate: (kind: string, value: number) => string | null) {
+        const field = element('select', { title: 'what is coloured', 'aria-label': 'field' });
+        manifest.fields.forEach((f, k) => field.append(new Option(f.unit ? `${f.label} [${f.unit}]` : f.label, String(k))));
+        field.addEventListener('change', () => store.set({ field: Number(field.value), formed: false }));
+        const map = element('select', { title: 'colour map (key K)', 'aria-label': 'colour map' });
+        for (const m of manifest.colour_maps) {
+            const option = new Option(m.name, m.name);
+            option.title = m.summary;
+            map.append(option);
+        }
+        map.addEventListener('change', () => store.set({ map: map.value }));
+        const bins = element('select', { title: 'running colours, or steps', 'aria-label': 'steps of colour' });
+        for (const n of [0, 6, 8, 10, 12, 16]) bins.append(new Option(n === 0 ? 'running' : `${n} steps`, String(n)));
+        bins.addEventListener('change', () => store.set({ bins: Number(bins.value) }));
+        this.element.append(element('span', { class: 'set' }, field, map, bins));
+
+        const groups = new Map<string, HTMLElement>();
+        for (const action of actions) {
+            if (!action.text) continue;
+            let group = groups.get(action.group);
+            if (!group) {
+                groups.set(action.group, (group = element('span', { class: 'set' })));
+                this.element.append(group);
+            }
+            const button = element('button', { 'data-action': action.name, title: `${action.title} (key ${action.key.toUpperCase()})` }, action.text);
+            button.addEventListener('click', () => action.run());
+            group.append(button);
+        }
+        this.locator = this.addLocator(locate);
+        store.on((state) => {
+            field.value = String(state.field);
+            map.value = state.map;
+            bins.value = String(state.bins);
+            this.update(actions);
+        });
+        this.update(actions);
+    }
+
+    private addLocator(locate: (kind: string, value: number) => string | null): Locator {
+        const kind = element('select', { 'aria-label': 'what to go to' }, new Option('line', 'line'), new Option('point', 'point'), new Option('time [s]', 'time'));
+        const input = element('input', { type: 'text', inputmode: 'decimal', size: '8', placeholder: 'go to …', title: 'a number, then Enter (key G)', 'aria-label': 'go to' });
+        const go = () => {
+            const value = Number(input.value.replace(',', '.'));
+            const problem = input.value.trim() === '' || !Number.isFinite(value) ? 'a number is needed' : locate(kind.value, value);
+            input.setCustomValidity(problem ?? '');
+            if (problem) input.reportValidity();
+        };
+        input.addEventListener('keydown', (event) => event.key === 'Enter' && go());
+        input.addEventListener('input', () => input.setCustomValidity(''));
+        this.element.append(element('span', { class: 'set' }, kind, input));
+        return { kind, input };
+    }
+
+    private update(actions: Action[]): void {
+        for (const action of actions) {
+            if (!action.pressed) continue;
+            this.element.querySelector(`[data-action="${action.name}"]`)?.setAttribute('aria-pressed', String(action.pressed()));
+        }
+    }
+}

@@ -1,0 +1,372 @@
+// The view: the surfaces of one or two logs on canvases of their own, what stands over them, and the
+// pointer. Left of the wipe lies the log before.
+
+import { Camera, extentAlong, views, type Extent } from './camera';
+import type { ColourMap, ColourScale } from './colour';
+import { baseName, element, oncePerFrame, styleValue } from './dom';
+import { GlView, normalsOf } from './gl_view';
+import type { Defect, Manifest } from './manifest';
+import { Overlay, type OverlayScene, type Polyline } from './overlay';
+import { Picker } from './picker';
+import type { Relief } from './relief';
+import type { State, Store } from './store';
+import { Kind, type Surface } from './surface';
+
+interface Layer {
+    surface: Surface;
+    view: GlView;
+    box: HTMLElement;
+    picker: Picker | null;
+    normals: Map<number, Float32Array>; // by role
+}
+
+/** Corners of the way as pairs, for style lines. */
+function waySegments(surface: Surface): Uint32Array {
+    const pairs: number[] = [];
+    for (let i = 1; i < surface.count; ++i) if (surface.joined(i)) pairs.push(i - 1, i);
+    return Uint32Array.from(pairs);
+}
+
+export class ViewPane {
+    readonly element = element('div', { class: 'view', tabindex: '0', 'aria-label': 'the surface; drag to turn, shift and drag to move, wheel to zoom' });
+    readonly camera = new Camera();
+    private readonly layers: Layer[] = [];
+    private readonly overlay: Overlay;
+    private drag: { x: number; y: number; moved: boolean; pan: boolean; wipe: boolean } | null = null;
+    private box: [number, number, number, number] | null = null;
+    private places: number[][] = [];
+    readonly draw = oncePerFrame(() => this.drawNow());
+
+    constructor(
+        private readonly manifest: Manifest,
+        private readonly store: Store,
+        surfaces: Surface[],
+        private readonly maps: ColourMap[],
+        private readonly relief: Relief | null,
+    ) {
+        for (const surface of surfaces) {
+            const box = element('div', { class: 'layer' });
+            this.element.append(box);
+            this.layers.push({ surface, view: new GlView(box), box, picker: null, normals: new Map() });
+        }
+        const canvas = element('canvas', { class: 'overlay' });
+        this.element.append(canvas);
+        this.overlay = new Overlay(canvas);
+        this.listen(canvas);
+        store.on((_, changed) => this.update(changed));
+        new ResizeObserver(() => this.resize()).observe(this.element);
+    }
+
+    /** The surface that the cursor belongs to. */
+    get surface(): Surface {
+        return this.active.surface;
+    }
+    private get active(): Layer {
+        return this.layers[this.store.state.shown === 'before' && this.layers.length > 1 ? 1 : 0];
+    }
+    private xyzOf(surface: Surface): Float32Array {
+        return surface.roles[Math.min(this.store.state.role, surface.roles.length - 1)].xyz;
+    }
+    placeOf(vertex: number): number[] {
+        const xyz = this.xyzOf(this.surface);
+        return [xyz[3 * vertex], xyz[3 * vertex + 1], xyz[3 * vertex + 2]];
+    }
+    get scale(): ColourScale {
+        const { map, low, high, bins } = this.store.state;
+        return { map: this.maps.find((m) => m.name === map) ?? this.maps[0], low, high, bins };
+    }
+
+    /** The values that are coloured, one per vertex of what is shown. */
+    get values(): Float32Array {
+        const { formed, field } = this.store.state;
+        return formed && this.relief ? this.relief.deviation : this.surface.fields[field];
+    }
+
+    // ---- what is shown ----
+
+    begin(): void {
+        this.resize();
+        this.fit();
+        this.update(new Set(['style', 'theme', 'map']));
+    }
+
+    private update(changed: ReadonlySet<keyof State>): void {
+        const any = (...keys: (keyof State)[]) => keys.some((key) => changed.has(key));
+        if (any('style', 'role', 'formed')) for (const layer of this.layers) this.remesh(layer);
+        if (any('style', 'role', 'formed', 'field', 'low', 'high')) for (const layer of this.layers) this.revalue(layer);
+        if (any('style', 'role', 'formed', 'field', 'low', 'high', 'map', 'bins')) for (const layer of this.layers) layer.view.setColours(this.scale);
+        if (any('theme')) for (const layer of this.layers) layer.view.setBackground(rgbOf(styleValue('--view')));
+        this.layers.forEach((layer, k) => {
+            const { shown, wipe } = this.store.state;
+            const seen = this.layers.length === 1 || shown === 'wipe' || (shown === 'before') === (k === 1);
+            layer.box.style.visibility = seen ? 'visible' : 'hidden';
+            layer.box.style.clipPath = shown === 'wipe' && k === 1 ? `inset(0 ${100 * (1 - wipe)}% 0 0)` : '';
+        });
+        this.draw();
+    }
+
+    private remesh(layer: Layer): void {
+        const { style, formed, role } = this.store.state;
+        const { surface } = layer;
+        layer.picker = null;
+        if (formed && this.relief && layer === this.layers[0]) {
+            const { xyz, triangles } = this.relief;
+            layer.view.setMesh({ xyz, triangles, normals: normalsOf(xyz, triangles), segments: new Uint32Array(0) }, 'surface');
+            return;
+        }
+        const xyz = this.xyzOf(surface);
+        let normals = layer.normals.get(role) ?? null;
+        if (!normals && style === 'surface') layer.normals.set(role, (normals = normalsOf(xyz, surface.triangles)));
+        layer.view.setMesh({ xyz, normals, triangles: surface.triangles, segments: style === 'lines' ? waySegments(surface) : surface.segments }, style);
+    }
+
+    private revalue(layer: Layer): void {
+        const { formed, field, low, high } = this.store.state;
+        const relief = formed && this.relief && layer === this.layers[0];
+        layer.view.setValues(relief && this.relief ? this.relief.deviation : layer.surface.fields[field], low, high);
+    }
+
+    private resize(): void {
+        const { clientWidth, clientHeight } = this.element;
+        if (clientWidth === 0 || clientHeight === 0) return;
+        this.camera.width = clientWidth;
+        this.camera.height = clientHeight;
+        for (const layer of this.layers) layer.view.resize(clientWidth, clientHeight, devicePixelRatio);
+        this.draw();
+    }
+
+    private extent(): Extent {
+        const { surface } = this;
+        return extentAlong(this.camera.axes, this.xyzOf(surface), (i) => surface.kind(i) !== Kind.rapid);
+    }
+    fit(): void {
+        this.camera.fit(this.extent());
+        this.draw();
+    }
+    look(name: string): void {
+        [this.camera.azimuth, this.camera.elevation] = views[name];
+        this.fit();
+    }
+    /** Brings places into the picture, at a size at which they can be read. */
+    goTo(low: readonly number[], high: readonly number[]): void {
+        const step = this.surface.info.step_over_mm || 1;
+        this.camera.centre = [0, 1, 2].map((k) => (low[k] + high[k]) / 2) as [number, number, number];
+        const size = Math.max(Math.hypot(...[0, 1, 2].map((k) => high[k] - low[k])), 12 * step);
+        this.camera.mmPerPixel = (2.2 * size) / Math.min(this.camera.width, this.camera.height);
+        this.draw();
+    }
+    /** Moves the picture so that a vertex lies in it, if it does not. */
+    reveal(vertex: number): void {
+        const [x, y] = this.camera.project(this.placeOf(vertex));
+        const inside = x > 30 && y > 30 && x < this.camera.width - 130 && y < this.camera.height - 30;
+        if (!inside) this.camera.centre = this.placeOf(vertex) as [number, number, number];
+        this.draw();
+    }
+    clearMeasure(): void {
+        this.places = [];
+        this.draw();
+    }
+
+    private drawNow(): void {
+        for (const layer of this.layers) if (layer.box.style.visibility !== 'hidden') layer.view.render(this.camera);
+        this.overlay.draw(this.camera, this.scene(), devicePixelRatio);
+        this.element.dataset.drawn = String(Number(this.element.dataset.drawn ?? 0) + 1);
+    }
+
+    // ---- what stands over it ----
+
+    private scene(): OverlayScene {
+        const { state } = this.store;
+        const field = this.manifest.fields[state.field];
+        const formed = state.formed && this.relief ? this.relief.info : null;
+        const accent = styleValue('--accent');
+        const { surface } = this;
+        const scene: OverlayScene = {
+            polylines: [...this.defectLines(), ...this.chosenLines()],
+            rings: [],
+            scale: this.scale,
+            lowest: formed?.lowest ?? field.lowest,
+            highest: formed?.highest ?? field.highest,
+            title: formed ? 'Formed surface over its form' : field.label,
+            unit: formed ? 'µm' : field.unit,
+            caption: this.layers.length > 1 && state.shown !== 'wipe' ? `${state.shown}: ${baseName(surface.info.log)}` : '',
+            measure: this.places,
+            box: this.box,
+            wipe: state.shown === 'wipe' ? state.wipe : null,
+        };
+        const ring = (vertex: number, label: string, small: boolean) => scene.rings.push({ at: this.placeOf(vertex), colour: accent, label, small });
+        if (state.line > 0) {
+            const runs = surface.runsOfLine(state.line);
+            if (runs.length > 0 && runs[0][0] !== state.vertex) ring(runs[0][0], '', true);
+        }
+        if (state.vertex !== null) ring(state.vertex, `point ${surface.point[state.vertex]}, line ${surface.line[state.vertex]}`, false);
+        return scene;
+    }
+
+    private defectLines(): Polyline[] {
+        const { state } = this.store;
+        if (!state.defects) return [];
+        const origin = this.manifest.surfaces[0].origin_mm;
+        const lines: Polyline[] = [];
+        this.manifest.defects.forEach((defect: Defect, k) => {
+            const chosen = state.defect === k;
+            defect.outlines.forEach((corners, part) => {
+                lines.push({
+                    xyz: corners.map((c, i) => c - origin[i % 3]),
+                    closed: true,
+                    colour: chosen ? styleValue('--accent') : styleValue('--ink'),
+                    width: chosen ? 2.5 : 1.3,
+                    label: part === 0 && (chosen || k < 30) ? String(defect.id) : undefined,
+                });
+            });
+        });
+        return lines;
+    }
+
+    private runLine([begin, end]: [number, number], colour: string, width: number): Polyline {
+        const xyz = this.xyzOf(this.surface);
+        const corners: number[] = [];
+        const step = Math.max(1, Math.floor((end - begin) / 5000));
+        for (let i = begin; i < end; i += step) corners.push(xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]);
+        if (corners.length === 3) corners.push(...corners);
+        return { xyz: corners, closed: false, colour, width };
+    }
+
+    /** The line, the pass and the runs of the defect that are chosen. */
+    private chosenLines(): Polyline[] {
+        const { state } = this.store;
+        const { surface } = this;
+        const lines: Polyline[] = [];
+        if (state.pass > 0) lines.push(this.runLine(surface.range(surface.passes[2 * state.pass - 2], surface.passes[2 * state.pass - 1]), styleValue('--second'), 2));
+        if (state.defect !== null) {
+            const defect = this.manifest.defects[state.defect];
+            for (const run of defect.neighbours) lines.push(this.runLine(surface.range(...run.points), styleValue('--second'), 2));
+            for (const run of defect.runs) lines.push(this.runLine(surface.range(...run.points), styleValue('--accent'), 2));
+        }
+        for (const run of surface.runsOfLine(state.line).slice(0, 200)) lines.push(this.runLine(run, styleValue('--accent'), 4));
+        return lines;
+    }
+
+    // ---- the pointer ----
+
+    pick(x: number, y: number): number | null {
+        const { state } = this.store;
+        let layer = this.active;
+        if (state.shown === 'wipe' && x < state.wipe * this.camera.width) return null; // before lies there; the cursor belongs to after
+        const { surface } = layer;
+        layer.picker ??= new Picker(this.xyzOf(surface), surface.triangles, state.style, (i) => surface.kind(i) !== Kind.rapid);
+        return layer.picker.pick(this.camera, x, y);
+    }
+
+    private listen(canvas: HTMLCanvasElement): void {
+        const at = (event: MouseEvent): [number, number] => {
+            const box = canvas.getBoundingClientRect();
+            return [event.clientX - box.left, event.clientY - box.top];
+        };
+        canvas.addEventListener('contextmenu', (event) => event.preventDefault());
+        canvas.addEventListener('pointerdown', (event) => {
+            const [x, y] = at(event);
+            const { state } = this.store;
+            const wipe = state.shown === 'wipe' && Math.abs(x - state.wipe * this.camera.width) < 8;
+            this.drag = { x, y, moved: false, pan: event.button !== 0 || event.shiftKey, wipe };
+            if (state.tool === 'box' && event.button === 0 && !wipe) this.box = [x, y, x, y];
+            canvas.setPointerCapture(event.pointerId);
+            this.element.focus({ preventScroll: true });
+        });
+        canvas.addEventListener('pointermove', (event) => {
+            const [x, y] = at(event);
+            if (this.drag) this.dragTo(x, y);
+            else this.hover(x, y);
+        });
+        canvas.addEventListener('pointerup', (event) => {
+            const [x, y] = at(event);
+            this.drop(x, y);
+        });
+        canvas.addEventListener('pointerleave', () => this.store.set({ hover: null }));
+        canvas.addEventListener('dblclick', () => this.fit());
+        canvas.addEventListener(
+            'wheel',
+            (event) => {
+                event.preventDefault();
+                this.camera.zoom(1.0015 ** event.deltaY, ...at(event));
+                this.draw();
+            },
+            { passive: false },
+        );
+    }
+
+    private dragTo(x: number, y: number): void {
+        const drag = this.drag;
+        if (!drag) return;
+        const [dx, dy] = [x - drag.x, y - drag.y];
+        if (!drag.moved && Math.hypot(dx, dy) < 3) return;
+        drag.moved = true;
+        if (drag.wipe) {
+            this.store.set({ wipe: Math.min(0.98, Math.max(0.02, x / this.camera.width)) });
+        } else if (this.box) {
+            this.box = [this.box[0], this.box[1], x, y];
+        } else if (drag.pan) {
+            this.camera.pan(dx, dy);
+        } else {
+            this.camera.turn(dx, dy);
+        }
+        [drag.x, drag.y] = [x, y];
+        this.draw();
+    }
+
+    private drop(x: number, y: number): void {
+        const drag = this.drag;
+        this.drag = null;
+        if (this.box) {
+            const [x0, y0, x1, y1] = this.box;
+            this.box = null;
+            if (Math.abs(x1 - x0) > 6 && Math.abs(y1 - y0) > 6) {
+                this.camera.pan(this.camera.width / 2 - (x0 + x1) / 2, this.camera.height / 2 - (y0 + y1) / 2);
+                this.camera.mmPerPixel *= Math.max(Math.abs(x1 - x0) / this.camera.width, Math.abs(y1 - y0) / this.camera.height);
+            }
+            this.store.set({ tool: 'turn' });
+            this.draw();
+            return;
+        }
+        if (!drag || drag.moved) return;
+        const vertex = this.pick(x, y);
+        if (this.store.state.tool === 'measure') {
+            if (vertex === null) return;
+            this.places = this.places.length === 2 ? [this.placeOf(vertex)] : [...this.places, this.placeOf(vertex)];
+            this.draw();
+            return;
+        }
+        if (vertex !== null) this.store.set({ vertex, line: this.surface.line[vertex], defect: null, pass: 0 });
+    }
+
+    private hoverAt: [number, number] = [0, 0];
+    private readonly hoverLater = oncePerFrame(() => this.store.set({ hover: this.pick(...this.hoverAt) }));
+    private hover(x: number, y: number): void {
+        this.hoverAt = [x, y];
+        this.hoverLater();
+    }
+
+    /** The view with all that stands over it, as PNG. */
+    async picture(): Promise<Blob> {
+        const canvas = element('canvas');
+        canvas.width = Math.round(this.camera.width * devicePixelRatio);
+        canvas.height = Math.round(this.camera.height * devicePixelRatio);
+        const g = canvas.getContext('2d') as CanvasRenderingContext2D;
+        const { shown, wipe } = this.store.state;
+        this.layers.forEach((layer, k) => {
+            if (layer.box.style.visibility === 'hidden') return;
+            layer.view.render(this.camera); // a WebGL canvas keeps its picture only while this task lasts
+            const part = shown === 'wipe' && k === 1 ? Math.round(canvas.width * wipe) : canvas.width;
+            if (part > 0) g.drawImage(layer.view.canvas, 0, 0, part, canvas.height, 0, 0, part, canvas.height);
+        });
+        this.overlay.draw(this.camera, this.scene(), devicePixelRatio);
+        g.drawImage(this.overlay.canvas, 0, 0);
+        return new Promise((resolve, reject) => canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error('no picture'))), 'image/png'));
+    }
+}
+
+/** "#rrggbb" → three numbers. */
+function rgbOf(colour: string): [number, number, number] {
+    const value = Number.parseInt(colour.replace('#', ''), 16);
+    return [(value >> 16) & 255, (value >> 8) & 255, value & 255];
+}
