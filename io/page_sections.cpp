@@ -31,6 +31,9 @@ std::string duration_text(double seconds) {
     return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
 }
 
+/// Four digits, without an exponent where it can be avoided.
+std::string number_text(double value) { return std::abs(value) >= 1e3 && std::abs(value) < 1e7 ? fmt::format("{:.0f}", value) : fmt::format("{:.4g}", value); }
+
 std::string um_text(double mm) { return std::isfinite(mm) ? fmt::format("{:.1f}", mm * um_per_mm) : "–"; }
 
 /// One fact of the summary: what it is, and its value.
@@ -98,7 +101,7 @@ std::string numbers_section(const ReportPage& page) {
         }
         if (info == nullptr) continue;
         text += fmt::format("<tr><td>{}</td>", html(info->label));
-        for (const double value : row.of_magnitude) text += std::isfinite(value) ? fmt::format("<td>{:.4g}</td>", value) : "<td>–</td>";
+        for (const double value : row.of_magnitude) text += std::isfinite(value) ? fmt::format("<td>{}</td>", number_text(value)) : "<td>–</td>";
         text += fmt::format("<td>{}</td></tr>\n", html(info->unit.name));
     }
     text += "</tbody></table></div>\n";
@@ -172,7 +175,7 @@ std::string page_summary(const ReportPage& page) {
     text += fact("Defects", report.step_over > 0 ? fmt::format("{}", report.defects.size()) : "–", severities[worst], worst > 2 ? "bad" : worst > 0 ? "fair" : "good");
     if (worst > 0) text += fact("Deepest", um_text(deepest) + " µm");
     for (const PagePercentiles& row : page.percentiles) {
-        if (row.field == "speed_mismatch" && std::isfinite(row.of_magnitude[2])) text += fact("Speed mismatch", fmt::format("{:.3g} mm/min", row.of_magnitude[2]), "99 %");
+        if (row.field == "speed_mismatch" && std::isfinite(row.of_magnitude[2])) text += fact("Speed mismatch", fmt::format("{:.{}f} mm/min", row.of_magnitude[2], row.of_magnitude[2] < 10 ? 2 : 0), "99 %");
     }
     if (page.quality.formed != nullptr && page.quality.formed->patches > 0) {
         text += fact("Roughness", fmt::format("Rz {:.2f} µm", page.quality.formed->rz * um_per_mm), fmt::format("Ra {:.2f} µm, {}", page.quality.formed->ra * um_per_mm, to_text(page.quality.tool)));

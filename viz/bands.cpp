@@ -29,8 +29,8 @@ constexpr std::int64_t longest_fan = 256;  ///< vertices of a neighbour that one
 
 class Bander {
 public:
-    Bander(const ClSurface& surface, const WayVertices& vertices, const Eigen::Matrix3f& metric, float reach)
-        : s_(surface), v_(vertices), metric_(metric), reach_(reach) {
+    Bander(const ClSurface& surface, const WayVertices& vertices, const NearnessFrame& frame, float reach)
+        : s_(surface), v_(vertices), frame_(frame), reach_(reach) {
         const auto count = static_cast<std::int64_t>(v_.points.size());
         for (const Side side : {Side::left, Side::right}) across(side).resize(v_.points.size());
         parallel_for(count, 16384, [&](std::int64_t first, std::int64_t last) {
@@ -276,14 +276,17 @@ private:
         return v_.points[static_cast<std::size_t>(vertex)];
     }
 
+    [[nodiscard]] Vec3f placed(PointIndex i) const { return frame_.linear * s_.positions[i] + frame_.shift; }
+
     /// The vertex that stands for a point, or −1 where the point is not drawn.
     [[nodiscard]] std::int64_t vertex_of(PointIndex n) const {
         const auto* found = std::lower_bound(v_.points.begin(), v_.points.end(), n);
         std::int64_t best = -1;
         float best_distance = reach_ * reach_;
+        const Vec3f at = placed(n);
         const std::int64_t k = found - v_.points.begin();
         for (std::int64_t c = std::max<std::int64_t>(0, k - 1); c <= k && c < static_cast<std::int64_t>(v_.points.size()); ++c) {
-            const float distance = (metric_ * (s_.positions[point(c)] - s_.positions[n])).squaredNorm();
+            const float distance = (placed(point(c)) - at).squaredNorm();
             if (distance < best_distance) {
                 best_distance = distance;
                 best = c;
@@ -326,7 +329,7 @@ private:
 
     const ClSurface& s_;
     const WayVertices& v_;
-    Eigen::Matrix3f metric_;
+    NearnessFrame frame_;
     float reach_;
     Column<std::int32_t> left_, right_;  ///< per vertex: the vertex across, or none, or later
 };
@@ -352,10 +355,10 @@ WayVertices way_vertices(const ClSurface& surface, std::span<const PointIndex> p
     return vertices;
 }
 
-Bands join_passes(const ClSurface& surface, const WayVertices& vertices, const Eigen::Matrix3f& metric, float reach) {
+Bands join_passes(const ClSurface& surface, const WayVertices& vertices, const NearnessFrame& frame, float reach) {
     Bands all;
     const auto count = static_cast<std::int64_t>(vertices.points.size());
-    const Bander bander(surface, vertices, metric, reach);
+    const Bander bander(surface, vertices, frame, reach);
     constexpr std::int64_t grain = 16384;
     const auto pieces = static_cast<std::size_t>((count + grain - 1) / grain);
     std::vector<Bands> of_piece(pieces);

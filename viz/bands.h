@@ -27,8 +27,14 @@ struct Bands {
     Column<std::uint32_t> segments;   ///< 2 each: where a pass has no other beside it
 };
 
-/// A point is stood for by the nearer of the vertices before and after it, by the length of `metric` · difference;
-/// by none that is farther than `reach`. O(vertices), parallel.
-[[nodiscard]] Bands join_passes(const ClSurface& surface, const WayVertices& vertices, const Eigen::Matrix3f& metric, float reach);
+/// Where nearness is measured: a position of the surface → linear · position + shift.
+struct NearnessFrame {
+    Eigen::Matrix3f linear = Eigen::Matrix3f::Identity();
+    Eigen::Vector3f shift = Eigen::Vector3f::Zero();
+};
+
+/// A point is stood for by the vertex before or after it, whichever is nearer in `frame`; by none that is farther
+/// than `reach` there. O(vertices), parallel.
+[[nodiscard]] Bands join_passes(const ClSurface& surface, const WayVertices& vertices, const NearnessFrame& frame, float reach);
 
 }  // namespace clsurf::viz

@@ -37,6 +37,13 @@ public:
         }
     }
     [[nodiscard]] Vec2f pixel(PointIndex i) const { return linear_ * p_[i] + shift_; }
+    /// Pixels in its first two rows.
+    [[nodiscard]] NearnessFrame frame() const {
+        NearnessFrame frame;
+        frame.linear << linear_, Eigen::RowVector3f::Zero();
+        frame.shift << shift_, 0;
+        return frame;
+    }
     [[nodiscard]] bool visible(PointIndex i, const Vec2f& at) const {
         const bool inside = at.x() > -margin && at.x() < width_ + margin && at.y() > -margin &&
                             at.y() < height_ + margin;
@@ -174,9 +181,7 @@ Detail visible_detail(const ClSurface& surface, std::span<const float> values,
     put_positions(surface.positions, all.points, geometry);
     const auto count = static_cast<std::int64_t>(all.points.size());
     if (request.style == Style::surface) {
-        Eigen::Matrix3f metric = Eigen::Matrix3f::Zero();
-        metric.topRows<2>() = request.projection.leftCols<3>().cast<float>();
-        Bands bands = join_passes(surface, all, metric, reach_steps * step);
+        Bands bands = join_passes(surface, all, projector.frame(), reach_steps * step);
         geometry.triangles = std::move(bands.triangles);
         geometry.segments = std::move(bands.segments);
         put_normals(geometry);

@@ -161,7 +161,7 @@ void choose_points(Shown& shown, PointIndex most) {
     shown.kept = keep_points(shown.surface, *shown.part.lines, shown.fields, shown.quality.report.defects, most);
     shown.vertices = viz::way_vertices(shown.surface, shown.kept.points);
     // The ends of passes are among the points, so the nearer one stands for those between, however far.
-    shown.bands = viz::join_passes(shown.surface, shown.vertices, Eigen::Matrix3f::Identity(), std::numeric_limits<float>::max());
+    shown.bands = viz::join_passes(shown.surface, shown.vertices, viz::NearnessFrame(), std::numeric_limits<float>::max());
 }
 
 io::PageSurface page_surface(const Shown& shown) {

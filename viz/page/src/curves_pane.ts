@@ -5,7 +5,7 @@ import uPlot from 'uplot';
 import { element, oncePerFrame, styleValue } from './dom';
 import type { Manifest } from './manifest';
 import type { Store } from './store';
-import { Kind, type Surface } from './surface';
+import type { Surface } from './surface';
 import { lowerBound, thinCurve } from './thin';
 
 interface Chart {
@@ -92,13 +92,14 @@ export class CurvesPane {
                     { stroke: ink, grid, ticks: grid, font, size: last ? 34 : 0, show: last, labelFont: font, label: this.store.state.over === 'time' ? 'time [s]' : 'way [mm]', labelSize: 13, gap: 2 },
                     { stroke: ink, grid, ticks: grid, font, size: 62, gap: 3, space: 22 },
                 ],
-                series: [{}, { stroke: styleValue('--curve'), width: 1.2, spanGaps: false, points: { show: false } }, { stroke: styleValue('--second'), width: 1.2, spanGaps: true, points: { show: false } }],
+                // The other log lies behind.
+                series: [{}, { stroke: styleValue('--second'), width: 1.2, spanGaps: false, points: { show: false } }, { stroke: styleValue('--curve'), width: 1.2, spanGaps: false, points: { show: false } }],
                 hooks: {
                     draw: [(u) => this.drawCursor(u)],
                     setSelect: [(u) => this.zoomTo(u)],
                 },
             },
-            [[0], [null], [null]],
+            [[0], [null], [null]], // filled by fill()
             holder,
         );
         plot.over.addEventListener('click', (event) => this.click(plot, event.offsetX));
@@ -140,7 +141,7 @@ export class CurvesPane {
         for (const { plot, field } of this.charts) {
             const a = thinCurve(this.x(own), own.fields[field], this.low, this.high, columns);
             const b = other && state.shown !== 'before' ? thinCurve(this.x(other), other.fields[field], this.low, this.high, columns) : { x: [], y: [] };
-            const data = b.x.length > 0 ? uPlot.join([[a.x, a.y], [b.x, b.y]] as uPlot.AlignedData[]) : ([a.x, a.y, a.x.map(() => null)] as uPlot.AlignedData);
+            const data = b.x.length > 0 ? uPlot.join([[b.x, b.y], [a.x, a.y]] as uPlot.AlignedData[]) : ([a.x, a.x.map(() => null), a.y] as uPlot.AlignedData);
             plot.setData(data, false);
             plot.batch(() => {
                 plot.setScale('x', { min: this.low, max: this.high });
@@ -208,14 +209,4 @@ export function secondCurve(manifest: Manifest, first: number): number {
         if (k >= 0 && k !== first) return k;
     }
     return first;
-}
-
-export function cuttingExtent(surface: Surface, values: Float32Array): [number, number] {
-    let [least, most] = [Infinity, -Infinity];
-    for (let i = 0; i < values.length; ++i) {
-        if (surface.kind(i) !== Kind.cut || !(values[i] === values[i])) continue;
-        least = Math.min(least, values[i]);
-        most = Math.max(most, values[i]);
-    }
-    return [least, most];
 }

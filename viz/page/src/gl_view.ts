@@ -80,9 +80,9 @@ export class GlView {
         this.actor.setMapper(this.mapper);
         const property = this.actor.getProperty();
         property.setColor(1, 1, 1);
-        // A surface that the light only grazes keeps 0.75 of its colour: colours are for reading.
-        property.setAmbient(0.75);
-        property.setDiffuse(0.25);
+        // A surface that the light only grazes keeps 0.8 of its colour: colours are for reading.
+        property.setAmbient(0.8);
+        property.setDiffuse(0.2);
         property.setSpecular(0);
         this.renderer.addActor(this.actor);
         this.renderer.getActiveCamera().setParallelProjection(true);

@@ -44,7 +44,7 @@ async function begin(app: HTMLElement): Promise<void> {
         style: 'surface',
         role: 0,
         formed: false,
-        defects: true,
+        defects: false,
         shown: 'after',
         wipe: 0.5,
         vertex: null,
@@ -134,6 +134,10 @@ async function begin(app: HTMLElement): Promise<void> {
         table.element,
     );
     app.hidden = false;
+    const summary = document.getElementById('summary');
+    const setHeight = () => document.documentElement.style.setProperty('--summary', `${summary?.offsetHeight ?? 0}px`);
+    if (summary) new ResizeObserver(setHeight).observe(summary);
+    setHeight();
     view.begin();
     range.begin();
     curves.build();

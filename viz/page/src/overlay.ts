@@ -20,7 +20,16 @@ export interface Ring {
     small: boolean;
 }
 
+/** The number of a defect, where it is strongest. */
+export interface Tag {
+    at: readonly number[];
+    text: string;
+    severity: number;
+    chosen: boolean;
+}
+
 export interface OverlayScene {
+    tags: Tag[]; // the worst first
     polylines: Polyline[];
     rings: Ring[];
     scale: ColourScale;
@@ -34,14 +43,14 @@ export interface OverlayScene {
     wipe: number | null; // of the width
 }
 
-const legendWidth = 104;
+export const legendWidth = 104; // px beside the map
 
 export class Overlay {
     constructor(readonly canvas: HTMLCanvasElement) {}
 
     draw(camera: Camera, scene: OverlayScene, ratio: number): void {
         const { width, height } = camera;
-        this.canvas.width = Math.round(width * ratio);
+        this.canvas.width = Math.round((width + legendWidth) * ratio);
         this.canvas.height = Math.round(height * ratio);
         const g = this.canvas.getContext('2d') as CanvasRenderingContext2D;
         g.scale(ratio, ratio);
@@ -49,6 +58,7 @@ export class Overlay {
         const ink = styleValue('--ink');
         const halo = styleValue('--view');
         for (const line of scene.polylines) this.polyline(g, camera, line, halo);
+        this.tags(g, camera, scene.tags, halo);
         for (const ring of scene.rings) this.ring(g, camera, ring, halo);
         if (scene.measure.length > 0) this.measure(g, camera, scene.measure, ink, halo);
         if (scene.box) {
@@ -97,6 +107,30 @@ export class Overlay {
         g.lineWidth = 1;
     }
 
+    /** Where two would lie on each other, the worse one stays. */
+    private tags(g: CanvasRenderingContext2D, camera: Camera, tags: Tag[], halo: string): void {
+        const placed: number[][] = [];
+        for (const tag of [...tags].sort((a, b) => Number(b.chosen) - Number(a.chosen))) {
+            const [x, y] = camera.project(tag.at);
+            if (placed.some(([px, py]) => Math.abs(px - x) < 22 && Math.abs(py - y) < 17)) continue;
+            placed.push([x, y]);
+            g.font = `600 11px ${styleValue('--font')}`;
+            const half = Math.max(8, g.measureText(tag.text).width / 2 + 4);
+            g.beginPath();
+            g.roundRect(x - half, y - 8, 2 * half, 16, 8);
+            g.fillStyle = tag.chosen ? styleValue('--accent') : styleValue(`--severity-${tag.severity}`);
+            g.strokeStyle = halo;
+            g.lineWidth = 3;
+            g.stroke();
+            g.fill();
+            g.fillStyle = tag.chosen ? halo : '#ffffff';
+            g.textAlign = 'center';
+            g.textBaseline = 'middle';
+            g.fillText(tag.text, x, y + 0.5);
+        }
+        g.lineWidth = 1;
+    }
+
     private ring(g: CanvasRenderingContext2D, camera: Camera, ring: Ring, halo: string): void {
         const [x, y] = camera.project(ring.at);
         for (const [colour, width] of [
@@ -111,7 +145,7 @@ export class Overlay {
         }
         g.lineWidth = 1;
         if (!ring.label) return;
-        const right = x < camera.width - legendWidth - 190;
+        const right = x < camera.width - 190;
         label(g, ring.label, right ? x + 13 : x - 13, y - 12, ring.colour, halo, right ? 'left' : 'right', true);
     }
 
@@ -141,13 +175,11 @@ export class Overlay {
 
     private legend(g: CanvasRenderingContext2D, camera: Camera, scene: OverlayScene, ink: string, halo: string): void {
         const { scale } = scene;
-        const left = camera.width - legendWidth + 14;
+        const left = camera.width + 10;
         const top = 58;
         const height = Math.max(60, Math.min(360, camera.height - top - 70));
-        g.globalAlpha = 0.86;
         g.fillStyle = halo;
-        g.fillRect(camera.width - legendWidth, 0, legendWidth, top + height + 34);
-        g.globalAlpha = 1;
+        g.fillRect(camera.width, 0, legendWidth, camera.height);
         for (let y = 0; y < height; ++y) {
             g.fillStyle = cssColour(colourAlong(scale, 1 - (y + 0.5) / height));
             g.fillRect(left, top + y, 18, 1.5);

@@ -26,7 +26,7 @@ export class RangePane {
         private readonly store: Store,
         private readonly view: ViewPane,
     ) {
-        const reset = element('button', { title: 'the usual range: percentiles 1 to 99 of the cutting points', 'data-action': 'range-auto' }, 'auto');
+        const reset = element('button', { title: 'the usual range: percentiles 1 to 99 of the cutting points', 'data-action': 'range-auto' }, 'usual');
         const all = element('button', { title: 'from the lowest to the highest value', 'data-action': 'range-all' }, 'all');
         reset.addEventListener('click', () => this.reset());
         all.addEventListener('click', () => {
@@ -34,7 +34,7 @@ export class RangePane {
             this.store.set({ low: lowest, high: highest });
         });
         for (const input of [this.low, this.high]) input.addEventListener('change', () => this.type());
-        this.element.append(element('h3', {}, 'Range'), this.canvas, element('div', { class: 'ends' }, this.low, reset, all, this.high));
+        this.element.append(element('h3', {}, 'Range'), this.canvas, element('div', { class: 'ends' }, this.low, this.high, reset, all));
         this.canvas.addEventListener('pointerdown', (event) => {
             const { low, high } = store.state;
             const x = this.valueAt(event.offsetX);

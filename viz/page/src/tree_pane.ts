@@ -29,6 +29,7 @@ export class TreePane {
             this.passes,
         );
         this.fillPasses();
+        this.update(store.state);
         store.on((state, changed) => {
             if (changed.has('shown')) this.fillPasses();
             this.update(state);
@@ -44,7 +45,6 @@ export class TreePane {
 
     private positions(formed: boolean): HTMLElement {
         const list = element('div', { class: 'choices' });
-        this.manifest.surfaces[0].roles;
         const names = [this.manifest.surfaces[0].role, ...this.manifest.surfaces[0].roles.map((r) => r.name)];
         names.forEach((name, role) => list.append(this.choice(name, `role-${role}`, `the surface of the ${name} positions`, () => this.store.set({ role, formed: false }))));
         if (formed) list.append(this.choice('formed', 'formed', 'what the tool leaves standing, over its form', () => this.store.set({ formed: true })));

@@ -6,11 +6,13 @@ import type { ColourMap, ColourScale } from './colour';
 import { baseName, element, oncePerFrame, styleValue } from './dom';
 import { GlView, normalsOf } from './gl_view';
 import type { Defect, Manifest } from './manifest';
-import { Overlay, type OverlayScene, type Polyline } from './overlay';
+import { legendWidth, Overlay, type OverlayScene, type Polyline } from './overlay';
 import { Picker } from './picker';
 import type { Relief } from './relief';
 import type { State, Store } from './store';
 import { Kind, type Surface } from './surface';
+
+const mostTags = 40; // numbers of defects in the picture
 
 interface Layer {
     surface: Surface;
@@ -95,6 +97,7 @@ export class ViewPane {
         if (any('style', 'role', 'formed')) for (const layer of this.layers) this.remesh(layer);
         if (any('style', 'role', 'formed', 'field', 'low', 'high')) for (const layer of this.layers) this.revalue(layer);
         if (any('style', 'role', 'formed', 'field', 'low', 'high', 'map', 'bins')) for (const layer of this.layers) layer.view.setColours(this.scale);
+        if (any('tool')) this.element.dataset.tool = this.store.state.tool;
         if (any('theme')) for (const layer of this.layers) layer.view.setBackground(rgbOf(styleValue('--view')));
         this.layers.forEach((layer, k) => {
             const { shown, wipe } = this.store.state;
@@ -127,11 +130,11 @@ export class ViewPane {
     }
 
     private resize(): void {
-        const { clientWidth, clientHeight } = this.element;
-        if (clientWidth === 0 || clientHeight === 0) return;
-        this.camera.width = clientWidth;
-        this.camera.height = clientHeight;
-        for (const layer of this.layers) layer.view.resize(clientWidth, clientHeight, devicePixelRatio);
+        const [width, height] = [this.element.clientWidth - legendWidth, this.element.clientHeight];
+        if (width < 1 || height < 1) return;
+        this.camera.width = width;
+        this.camera.height = height;
+        for (const layer of this.layers) layer.view.resize(width, height, devicePixelRatio);
         this.draw();
     }
 
@@ -158,7 +161,7 @@ export class ViewPane {
     /** Moves the picture so that a vertex lies in it, if it does not. */
     reveal(vertex: number): void {
         const [x, y] = this.camera.project(this.placeOf(vertex));
-        const inside = x > 30 && y > 30 && x < this.camera.width - 130 && y < this.camera.height - 30;
+        const inside = x > 30 && y > 30 && x < this.camera.width - 30 && y < this.camera.height - 30;
         if (!inside) this.camera.centre = this.placeOf(vertex) as [number, number, number];
         this.draw();
     }
@@ -182,6 +185,12 @@ export class ViewPane {
         const accent = styleValue('--accent');
         const { surface } = this;
         const scene: OverlayScene = {
+            tags: this.manifest.defects.slice(0, mostTags).map((d, k) => ({
+                at: d.position_mm.map((c, i) => c - this.manifest.surfaces[0].origin_mm[i]),
+                text: String(d.id),
+                severity: d.severity,
+                chosen: state.defect === k,
+            })),
             polylines: [...this.defectLines(), ...this.chosenLines()],
             rings: [],
             scale: this.scale,
@@ -205,18 +214,18 @@ export class ViewPane {
 
     private defectLines(): Polyline[] {
         const { state } = this.store;
-        if (!state.defects) return [];
         const origin = this.manifest.surfaces[0].origin_mm;
         const lines: Polyline[] = [];
         this.manifest.defects.forEach((defect: Defect, k) => {
             const chosen = state.defect === k;
+            if (!chosen && !state.defects) return;
             defect.outlines.forEach((corners, part) => {
                 lines.push({
                     xyz: corners.map((c, i) => c - origin[i % 3]),
                     closed: true,
                     colour: chosen ? styleValue('--accent') : styleValue('--ink'),
                     width: chosen ? 2.5 : 1.3,
-                    label: part === 0 && (chosen || k < 30) ? String(defect.id) : undefined,
+                    label: chosen && part === 0 ? String(defect.id) : undefined,
                 });
             });
         });
@@ -251,7 +260,8 @@ export class ViewPane {
 
     pick(x: number, y: number): number | null {
         const { state } = this.store;
-        let layer = this.active;
+        if (x >= this.camera.width) return null; // the legend
+        const layer = this.active;
         if (state.shown === 'wipe' && x < state.wipe * this.camera.width) return null; // before lies there; the cursor belongs to after
         const { surface } = layer;
         layer.picker ??= new Picker(this.xyzOf(surface), surface.triangles, state.style, (i) => surface.kind(i) !== Kind.rapid);
@@ -349,15 +359,16 @@ export class ViewPane {
     /** The view with all that stands over it, as PNG. */
     async picture(): Promise<Blob> {
         const canvas = element('canvas');
-        canvas.width = Math.round(this.camera.width * devicePixelRatio);
-        canvas.height = Math.round(this.camera.height * devicePixelRatio);
+        const size = [this.camera.width, this.camera.height].map((n) => Math.round(n * devicePixelRatio));
+        canvas.width = Math.round((this.camera.width + legendWidth) * devicePixelRatio);
+        canvas.height = size[1];
         const g = canvas.getContext('2d') as CanvasRenderingContext2D;
         const { shown, wipe } = this.store.state;
         this.layers.forEach((layer, k) => {
             if (layer.box.style.visibility === 'hidden') return;
             layer.view.render(this.camera); // a WebGL canvas keeps its picture only while this task lasts
-            const part = shown === 'wipe' && k === 1 ? Math.round(canvas.width * wipe) : canvas.width;
-            if (part > 0) g.drawImage(layer.view.canvas, 0, 0, part, canvas.height, 0, 0, part, canvas.height);
+            const part = shown === 'wipe' && k === 1 ? Math.round(size[0] * wipe) : size[0];
+            if (part > 0) g.drawImage(layer.view.canvas, 0, 0, part, size[1], 0, 0, part, size[1]);
         });
         this.overlay.draw(this.camera, this.scene(), devicePixelRatio);
         g.drawImage(this.overlay.canvas, 0, 0);
