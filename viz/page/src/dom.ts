@@ -35,6 +35,15 @@ export function oncePerFrame(f: () => void): () => void {
     };
 }
 
+/** Calls `f` once nothing has asked for it for so long [ms]. */
+export function afterRest(rest: number, f: () => void): () => void {
+    let timer = 0;
+    return () => {
+        clearTimeout(timer);
+        timer = window.setTimeout(f, rest);
+    };
+}
+
 export function numberText(value: number, digits = 5): string {
     if (!Number.isFinite(value)) return '–';
     const size = Math.abs(value);

@@ -18,6 +18,7 @@ import { rampImage } from './ramp_image';
 import type { Style } from './store';
 
 const rampColours = 1024;
+const coarsePoints = 40_000;
 
 export interface Mesh {
     xyz: Float32Array;
@@ -67,8 +68,11 @@ export class GlView {
     private readonly actor = vtkActor.newInstance();
     private readonly mapper = vtkMapper.newInstance();
     private readonly data = vtkPolyData.newInstance();
+    private readonly coarse = vtkActor.newInstance({ visibility: false }); // what stands for a mesh while a slow machine turns it
+    private readonly coarseData = vtkPolyData.newInstance();
     private radius = 1;
     private middle = [0, 0, 0];
+    private coarseVertices = new Uint32Array(0);
 
     constructor(container: HTMLElement) {
         this.window.addView(this.gl);
@@ -84,6 +88,14 @@ export class GlView {
         property.setAmbient(0.8);
         property.setDiffuse(0.2);
         property.setSpecular(0);
+        const points = vtkMapper.newInstance();
+        points.setInputData(this.coarseData);
+        points.setScalarVisibility(false);
+        this.coarse.setMapper(points);
+        this.coarse.getProperty().setPointSize(4);
+        this.coarse.getProperty().setColor(1, 1, 1);
+        this.coarse.getProperty().setLighting(false);
+        this.renderer.addActor(this.coarse);
         this.renderer.addActor(this.actor);
         this.renderer.getActiveCamera().setParallelProjection(true);
     }
@@ -112,6 +124,27 @@ export class GlView {
         this.middle = [0, 2, 4].map((k) => (bounds[k] + bounds[k + 1]) / 2);
         this.radius = Math.max(1e-3, Math.hypot(...[0, 2, 4].map((k) => bounds[k + 1] - bounds[k])) / 2);
         this.data.modified();
+        this.setCoarsePoints(xyz);
+    }
+
+    /** Every so many-th vertex. */
+    private setCoarsePoints(xyz: Float32Array): void {
+        const count = xyz.length / 3;
+        const step = Math.max(1, Math.ceil(count / coarsePoints));
+        this.coarseVertices = Uint32Array.from({ length: Math.floor(count / step) }, (_, i) => i * step);
+        const some = new Float32Array(3 * this.coarseVertices.length);
+        this.coarseVertices.forEach((v, i) => some.set(xyz.subarray(3 * v, 3 * v + 3), 3 * i));
+        this.coarseData.getPoints().setData(some, 3);
+        this.coarseData.setVerts(vtkCellArray.newInstance({ values: cells(Uint32Array.from(this.coarseVertices, (_, i) => i), 1) }));
+        this.coarseData.modified();
+    }
+
+    /** Shows points in place of the mesh, or the mesh again. Returns whether that changed anything. */
+    setCoarse(coarse: boolean): boolean {
+        if (this.coarse.getVisibility() === coarse) return false;
+        this.coarse.setVisibility(coarse);
+        this.actor.setVisibility(!coarse);
+        return true;
     }
 
     /** Places of values on the ramp: u along it, v which row: the ramp, or the colour of no value. */
@@ -128,6 +161,10 @@ export class GlView {
         const array = vtkDataArray.newInstance({ name: 'places', numberOfComponents: 2, values: places });
         this.data.getPointData().setTCoords(array);
         this.data.modified();
+        const some = new Float32Array(2 * this.coarseVertices.length);
+        this.coarseVertices.forEach((v, i) => some.set(places.subarray(2 * v, 2 * v + 2), 2 * i));
+        this.coarseData.getPointData().setTCoords(vtkDataArray.newInstance({ name: 'places', numberOfComponents: 2, values: some }));
+        this.coarseData.modified();
     }
 
     setColours(scale: ColourScale): void {
@@ -139,8 +176,10 @@ export class GlView {
         }
         const texture = vtkTexture.newInstance({ interpolate: scale.bins === 0 });
         texture.setInputData(rampImage(pixels));
-        this.actor.removeAllTextures();
-        this.actor.addTexture(texture);
+        for (const actor of [this.actor, this.coarse]) {
+            actor.removeAllTextures();
+            actor.addTexture(texture);
+        }
     }
 
     setBackground(rgb: readonly number[]): void {
@@ -149,6 +188,16 @@ export class GlView {
 
     resize(width: number, height: number, ratio: number): void {
         this.gl.setSize(Math.max(1, Math.round(width * ratio)), Math.max(1, Math.round(height * ratio)));
+    }
+
+    /** Draws and waits until it is done [ms]. */
+    timeOfPicture(camera: Camera): number {
+        const begin = performance.now();
+        this.render(camera);
+        const gl = this.canvas.getContext('webgl2'); // the one that vtk.js draws with
+        if (!gl) return 0;
+        gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4)); // waits
+        return performance.now() - begin;
     }
 
     render(camera: Camera): void {

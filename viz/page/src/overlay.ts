@@ -269,5 +269,5 @@ function label(g: CanvasRenderingContext2D, text: string, x: number, y: number, 
 /** The name of a view, where it has one. */
 export function viewName(camera: Camera): string {
     const found = Object.entries(views).find(([, [az, el]]) => az === camera.azimuth && el === camera.elevation);
-    return found ? found[0] : `${camera.azimuth.toFixed(0)}°, ${camera.elevation.toFixed(0)}°`;
+    return found ? `view ${found[0]}` : `${camera.azimuth.toFixed(0)}°, ${camera.elevation.toFixed(0)}°`;
 }

@@ -3,16 +3,17 @@
 
 import { Camera, extentAlong, views, type Extent } from './camera';
 import type { ColourMap, ColourScale } from './colour';
-import { baseName, element, oncePerFrame, styleValue } from './dom';
+import { afterRest, baseName, element, oncePerFrame, styleValue } from './dom';
 import { GlView, normalsOf } from './gl_view';
 import type { Defect, Manifest } from './manifest';
-import { legendWidth, Overlay, type OverlayScene, type Polyline } from './overlay';
+import { legendWidth, Overlay, viewName, type OverlayScene, type Polyline } from './overlay';
 import { Picker } from './picker';
 import type { Relief } from './relief';
 import type { State, Store } from './store';
 import { Kind, type Surface } from './surface';
 
 const mostTags = 40; // numbers of defects in the picture
+const slowFrame = 80; // ms
 
 interface Layer {
     surface: Surface;
@@ -37,7 +38,10 @@ export class ViewPane {
     private drag: { x: number; y: number; moved: boolean; pan: boolean; wipe: boolean } | null = null;
     private box: [number, number, number, number] | null = null;
     private places: number[][] = [];
-    readonly draw = oncePerFrame(() => this.drawNow());
+    private stale = true; // the surfaces must be drawn again, not only what stands over them
+    private readonly drawLater = oncePerFrame(() => this.drawNow());
+    private slow: boolean | null = null; // whether the machine is too slow to draw the whole mesh while it turns
+    private readonly settle = afterRest(250, () => this.setCoarse(false));
 
     constructor(
         private readonly manifest: Manifest,
@@ -99,13 +103,33 @@ export class ViewPane {
         if (any('style', 'role', 'formed', 'field', 'low', 'high', 'map', 'bins')) for (const layer of this.layers) layer.view.setColours(this.scale);
         if (any('tool')) this.element.dataset.tool = this.store.state.tool;
         if (any('theme')) for (const layer of this.layers) layer.view.setBackground(rgbOf(styleValue('--view')));
+        const { shown, wipe } = this.store.state;
         this.layers.forEach((layer, k) => {
-            const { shown, wipe } = this.store.state;
             const seen = this.layers.length === 1 || shown === 'wipe' || (shown === 'before') === (k === 1);
             layer.box.style.visibility = seen ? 'visible' : 'hidden';
             layer.box.style.clipPath = shown === 'wipe' && k === 1 ? `inset(0 ${100 * (1 - wipe)}% 0 0)` : '';
         });
+        if (any('style', 'role', 'formed', 'field', 'low', 'high', 'map', 'bins', 'theme', 'shown')) this.draw();
+        else if (changed.size > 1 || !changed.has('hover')) this.drawLater();
+    }
+
+    /** Draws the surfaces and what stands over them. */
+    draw(): void {
+        this.stale = true;
+        this.drawLater();
+    }
+    /** Draws while the view moves: where the machine is slow, points in place of the mesh. */
+    private drawMoving(): void {
+        this.slow ??= this.active.view.timeOfPicture(this.camera) > slowFrame;
+        if (this.slow) {
+            this.setCoarse(true);
+            this.settle();
+        }
         this.draw();
+    }
+    private setCoarse(coarse: boolean): void {
+        for (const layer of this.layers) if (layer.view.setCoarse(coarse)) this.stale = true;
+        this.drawLater();
     }
 
     private remesh(layer: Layer): void {
@@ -171,8 +195,12 @@ export class ViewPane {
     }
 
     private drawNow(): void {
-        for (const layer of this.layers) if (layer.box.style.visibility !== 'hidden') layer.view.render(this.camera);
+        if (this.stale) {
+            this.stale = false;
+            for (const layer of this.layers) if (layer.box.style.visibility !== 'hidden') layer.view.render(this.camera);
+        }
         this.overlay.draw(this.camera, this.scene(), devicePixelRatio);
+        this.element.dataset.view = viewName(this.camera);
         this.element.dataset.drawn = String(Number(this.element.dataset.drawn ?? 0) + 1);
     }
 
@@ -198,7 +226,7 @@ export class ViewPane {
             highest: formed?.highest ?? field.highest,
             title: formed ? 'Formed surface over its form' : field.label,
             unit: formed ? 'µm' : field.unit,
-            caption: this.layers.length > 1 && state.shown !== 'wipe' ? `${state.shown}: ${baseName(surface.info.log)}` : '',
+            caption: (this.layers.length > 1 && state.shown !== 'wipe' ? `${state.shown}: ${baseName(surface.info.log)}, ` : '') + viewName(this.camera),
             measure: this.places,
             box: this.box,
             wipe: state.shown === 'wipe' ? state.wipe : null,
@@ -292,14 +320,17 @@ export class ViewPane {
             const [x, y] = at(event);
             this.drop(x, y);
         });
-        canvas.addEventListener('pointerleave', () => this.store.set({ hover: null }));
+        canvas.addEventListener('pointerleave', () => {
+            this.hoverAt = null; // also for a question that was asked already
+            this.hoverLater();
+        });
         canvas.addEventListener('dblclick', () => this.fit());
         canvas.addEventListener(
             'wheel',
             (event) => {
                 event.preventDefault();
                 this.camera.zoom(1.0015 ** event.deltaY, ...at(event));
-                this.draw();
+                this.drawMoving();
             },
             { passive: false },
         );
@@ -321,7 +352,8 @@ export class ViewPane {
             this.camera.turn(dx, dy);
         }
         [drag.x, drag.y] = [x, y];
-        this.draw();
+        if (drag.wipe || this.box) this.drawLater();
+        else this.drawMoving();
     }
 
     private drop(x: number, y: number): void {
@@ -349,8 +381,8 @@ export class ViewPane {
         if (vertex !== null) this.store.set({ vertex, line: this.surface.line[vertex], defect: null, pass: 0 });
     }
 
-    private hoverAt: [number, number] = [0, 0];
-    private readonly hoverLater = oncePerFrame(() => this.store.set({ hover: this.pick(...this.hoverAt) }));
+    private hoverAt: [number, number] | null = null;
+    private readonly hoverLater = oncePerFrame(() => this.store.set({ hover: this.hoverAt ? this.pick(...this.hoverAt) : null }));
     private hover(x: number, y: number): void {
         this.hoverAt = [x, y];
         this.hoverLater();
@@ -366,6 +398,7 @@ export class ViewPane {
         const { shown, wipe } = this.store.state;
         this.layers.forEach((layer, k) => {
             if (layer.box.style.visibility === 'hidden') return;
+            layer.view.setCoarse(false);
             layer.view.render(this.camera); // a WebGL canvas keeps its picture only while this task lasts
             const part = shown === 'wipe' && k === 1 ? Math.round(size[0] * wipe) : size[0];
             if (part > 0) g.drawImage(layer.view.canvas, 0, 0, part, size[1], 0, 0, part, size[1]);

@@ -1,0 +1,123 @@
+// What the page's tests share: reports written by the built program, and a headless Chromium to look at
+// them with. A page that logs an error, throws or asks for anything outside itself fails its test.
+
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import fs from 'node:fs';
+import { createRequire } from 'node:module';
+import path from 'node:path';
+
+export const clsurf = process.env.CLSURF;
+export const data = process.env.SAMPLE_DATA;
+export const logs = process.env.SAMPLE_LOGS;
+export const folder = path.join(process.env.PAGE_FOLDER, path.basename(process.argv[1], '.test.mjs'));
+const { chromium } = createRequire(path.join(process.env.PAGE_PACKAGES, 'package.json'))('playwright-core');
+
+export const bottle = { program: `${data}/programs/bottle_uneven.nc`, log: `${logs}/bottle_uneven.biip` };
+
+fs.mkdirSync(folder, { recursive: true });
+
+/** Runs clsurf and returns what it says. */
+export function run(...words) {
+    return execFileSync(clsurf, words, { encoding: 'utf8', maxBuffer: 1 << 28, cwd: folder, stdio: ['ignore', 'pipe', 'inherit'] });
+}
+
+export function writeReport(name, { program, log }, ...options) {
+    const file = path.join(folder, name);
+    run('report', program, log, '-o', file, '-q', ...options);
+    return file;
+}
+
+export async function startBrowser() {
+    return chromium.launch({
+        executablePath: process.env.CHROMIUM,
+        args: ['--no-sandbox', '--no-first-run', '--disable-quic', '--disable-background-networking', '--disable-component-update', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--font-render-hinting=none'],
+    });
+}
+
+/** Opens a report; `page.complaints` gathers what must not happen. */
+export async function openReport(browser, file, { width = 1280, height = 800, colorScheme = 'light', javaScriptEnabled = true } = {}) {
+    const context = await browser.newContext({ viewport: { width, height }, colorScheme, javaScriptEnabled, acceptDownloads: true });
+    const page = await context.newPage();
+    page.setDefaultTimeout(120_000);
+    page.complaints = [];
+    page.on('console', (message) => ['error', 'warning'].includes(message.type()) && !message.text().includes('GPU stall') && page.complaints.push(message.text()));
+    page.on('pageerror', (error) => page.complaints.push(String(error)));
+    page.on('request', (request) => /^(data|blob):/.test(request.url()) || request.url() === `file://${encodeURI(file)}` || page.complaints.push(`asks for ${request.url()}`));
+    page.on('dialog', (dialog) => page.complaints.push(`opens a dialog: ${dialog.message()}`));
+    await page.goto(`file://${encodeURI(file)}`);
+    if (javaScriptEnabled) {
+        await page.waitForFunction(() => document.documentElement.dataset.ready === 'yes' || document.querySelector('#app.failed'), null, { timeout: 300_000 });
+        await settled(page);
+    }
+    return page;
+}
+
+export async function closeReport(page) {
+    assert.deepEqual(page.complaints, []);
+    await page.context().close();
+}
+
+/** Two frames on: what was asked for is drawn. */
+export async function settled(page) {
+    await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(resolve, 30)))));
+}
+
+/** The rows of the table of numbers, by their names. */
+export async function numbers(page) {
+    await settled(page);
+    const rows = await page.$$eval('.table tr', (all) => all.map((row) => [row.querySelector('th').textContent, row.querySelector('td').textContent]));
+    return Object.fromEntries(rows);
+}
+
+/** Clicks into the view and takes the pointer away, so that the numbers are the cursor's. */
+export async function clickView(page, x, y) {
+    await page.locator('.overlay').click({ position: { x, y } });
+    await page.mouse.move(2, 2);
+    await settled(page);
+}
+
+export async function goTo(page, kind, value) {
+    await page.getByLabel('what to go to').selectOption(kind);
+    await page.getByLabel('go to', { exact: true }).fill(String(value));
+    await page.getByLabel('go to', { exact: true }).press('Enter');
+    await settled(page);
+}
+
+export async function press(page, key) {
+    await page.evaluate(() => document.activeElement?.blur());
+    await page.keyboard.press(key);
+    await settled(page);
+}
+
+export async function pressed(page, name) {
+    return (await page.getAttribute(`[data-action="${name}"]`, 'aria-pressed')) === 'true';
+}
+
+export async function chosenLine(page) {
+    return Number(await page.getAttribute('.program .row.chosen', 'data-line'));
+}
+
+/** Compares a screenshot with its baseline by `clsurf compare`: on the mean, since letters are drawn otherwise elsewhere. */
+export async function comparePicture(page, name, most = 0.012) {
+    const made = path.join(folder, `${name}.png`);
+    const baseline = path.join(process.env.PAGE_BASELINE, `${name}.png`);
+    await settled(page);
+    await page.screenshot({ path: made });
+    if (process.env.PAGE_UPDATE) fs.copyFileSync(made, baseline);
+    assert.ok(fs.existsSync(baseline), `${baseline} is missing; look at ${made}`);
+    return compareFiles(made, baseline, most);
+}
+
+export function compareFiles(made, baseline, most) {
+    let text;
+    try {
+        text = execFileSync(clsurf, ['compare', made, baseline, '--json'], { encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] });
+    } catch (error) {
+        assert.equal(error.status, 1, String(error));
+        text = error.stdout;
+    }
+    const { mean_error } = JSON.parse(text);
+    assert.ok(mean_error <= most, `${made} differs from ${baseline}: mean error ${mean_error}, allowed ${most}`);
+    return mean_error;
+}

@@ -1,0 +1,115 @@
+// The command line that the page shows draws the same picture: where the surface lies, and its colours.
+
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import fs from 'node:fs';
+import path from 'node:path';
+import { after, before, test } from 'node:test';
+
+import { bottle, clsurf, closeReport, folder, openReport, press, settled, startBrowser, writeReport } from './browser.mjs';
+
+let browser, page;
+before(async () => {
+    const file = writeReport('bottle.html', bottle);
+    browser = await startBrowser();
+    page = await openReport(browser, file);
+});
+after(async () => {
+    await closeReport(page);
+    await browser.close();
+});
+
+/** Fractions of the map's pixels that both pictures have the same: surface or not, and its colour. */
+async function agreement(blank, ours, theirs, map) {
+    const url = (file) => `data:image/png;base64,${fs.readFileSync(file).toString('base64')}`;
+    return blank.evaluate(
+        async ({ ours, theirs, map }) => {
+            const pixels = async (url, x, y) => {
+                const image = new Image();
+                image.src = url;
+                await image.decode();
+                const canvas = document.createElement('canvas');
+                [canvas.width, canvas.height] = [map.width, map.height];
+                const g = canvas.getContext('2d');
+                g.drawImage(image, -x, -y);
+                return g.getImageData(0, 0, map.width, map.height).data;
+            };
+            const a = await pixels(ours, 0, 0);
+            const b = await pixels(theirs, 0, map.top);
+            let [count, covered, both, coloured] = [0, 0, 0, 0];
+            for (let i = 0; i < a.length; i += 4) {
+                ++count;
+                const white = (p) => p[i] > 245 && p[i + 1] > 245 && p[i + 2] > 245;
+                covered += white(a) === white(b);
+                if (white(a) || white(b)) continue;
+                ++both;
+                // Light falls otherwise: colours are compared at the same brightness.
+                const most = (p) => Math.max(p[i], p[i + 1], p[i + 2]);
+                const far = [0, 1, 2].some((k) => Math.abs(p0(a, i, k, most) - p0(b, i, k, most)) > 0.12);
+                coloured += !far;
+            }
+            function p0(p, i, k, most) {
+                return p[i + k] / most(p);
+            }
+            return { covered: covered / count, coloured: coloured / both, both: both / count };
+        },
+        { ours: url(ours), theirs: url(theirs), map },
+    );
+}
+
+const cases = {
+    'isometric view, whole': async () => press(page, 'i'),
+    'from above, enlarged': async () => {
+        await press(page, 't');
+        await page.mouse.move(480, 300);
+        await page.mouse.wheel(0, -700);
+    },
+    'turned, moved, another field, map and range': async () => {
+        await press(page, 'i');
+        await page.mouse.move(480, 300);
+        await page.mouse.down();
+        await page.mouse.move(430, 330, { steps: 3 });
+        await page.mouse.up();
+        await page.keyboard.down('Shift');
+        await page.mouse.down();
+        await page.mouse.move(470, 350, { steps: 3 });
+        await page.mouse.up();
+        await page.keyboard.up('Shift');
+        await page.getByLabel('field').selectOption({ label: 'Height over the commanded surface [µm]' });
+        await page.getByLabel('colour map').selectOption('cividis');
+        await page.getByLabel('upper end').fill('20');
+        await page.getByLabel('upper end').press('Enter');
+    },
+};
+
+for (const [name, prepare] of Object.entries(cases)) {
+    test(name, async () => {
+        await prepare();
+        await settled(page);
+        await press(page, 'r');
+        const command = await page.getByLabel('command line').inputValue();
+        await page.keyboard.press('Escape');
+        const theirs = path.join(folder, 'render.png');
+        // As a user would: pasted into a shell.
+        execFileSync('bash', ['-c', `${command.replace(/^clsurf /, `'${clsurf}' `).replace('-o map.png', `-o '${theirs}'`)} -q`]);
+        const ours = path.join(folder, 'layer.png');
+        const size = await page.evaluate(() => {
+            document.querySelector('.overlay').style.visibility = 'hidden';
+            const { clientWidth, clientHeight } = document.querySelector('.layer');
+            return [clientWidth, clientHeight];
+        });
+        await page.locator('.layer').screenshot({ path: ours });
+        await page.evaluate(() => (document.querySelector('.overlay').style.visibility = ''));
+        const [, height] = /--size (\d+)x(\d+)/.exec(command).slice(1).map(Number);
+        const text = Math.min(60, Math.max(9, Math.min(0.75 * Number(/--size (\d+)x/.exec(command)[1]), height) / 46));
+        const map = { width: size[0], height: size[1], top: height - size[1] - Math.round(3 * Math.max(8, 0.78 * text)) };
+        const blank = await browser.newPage();
+        const same = await agreement(blank, ours, theirs, map);
+        await blank.close();
+        console.log(name, same);
+        // Marks and the scale bar are drawn over the map that render makes.
+        assert.ok(same.both > 0.15, JSON.stringify(same));
+        assert.ok(same.covered > 0.985, JSON.stringify(same));
+        assert.ok(same.coloured > 0.95, JSON.stringify(same));
+    });
+}

@@ -1,0 +1,242 @@
+// Every button and every key does what its tooltip says.
+
+import assert from 'node:assert/strict';
+import fs from 'node:fs';
+import { after, before, beforeEach, test } from 'node:test';
+
+import { bottle, clickView, closeReport, numbers, openReport, press, pressed, settled, startBrowser, writeReport } from './browser.mjs';
+
+let browser, page;
+before(async () => {
+    const file = writeReport('bottle.html', bottle, '--tool', 'ball:6');
+    browser = await startBrowser();
+    page = await openReport(browser, file);
+});
+after(async () => {
+    await closeReport(page);
+    await browser.close();
+});
+beforeEach(() => press(page, 'i'));
+
+const view = () => page.getAttribute('.view', 'data-view');
+const field = () => page.getByLabel('field').evaluate((select) => select.selectedOptions[0].text);
+const range = async () => [await page.getByLabel('lower end').inputValue(), await page.getByLabel('upper end').inputValue()].map(Number);
+const picture = async () => (await page.locator('.overlay').screenshot()).toString('base64');
+
+test('views', async () => {
+    for (const [name, key] of [['top', 't'], ['front', 'f'], ['left', 'l'], ['iso', 'i']]) {
+        await page.click('[data-action="fit"]');
+        await press(page, key);
+        assert.equal(await view(), `view ${name}`);
+        await press(page, 'i');
+        await page.click(`[data-action="${name}"]`);
+        await settled(page);
+        assert.equal(await view(), `view ${name}`);
+    }
+});
+
+test('dragging turns, the wheel zooms, fit shows the whole part again', async () => {
+    const whole = await picture();
+    await page.mouse.move(500, 300);
+    await page.mouse.down();
+    await page.mouse.move(560, 320, { steps: 3 });
+    await page.mouse.up();
+    await settled(page);
+    assert.match(await view(), /^21°, 43°$/);
+    await page.mouse.wheel(0, -400);
+    await press(page, 'i');
+    assert.equal(await picture(), whole);
+    await page.mouse.wheel(0, -400);
+    await settled(page);
+    assert.notEqual(await picture(), whole);
+    await press(page, 'h');
+    assert.equal(await picture(), whole);
+});
+
+test('surface, lines, points', async () => {
+    for (const [name, key] of [['lines', 'n'], ['points', 'o'], ['surface', 's']]) {
+        await press(page, key);
+        assert.ok(await pressed(page, name));
+        await clickView(page, 330, 250);
+        await page.click(`[data-action="${name === 'surface' ? 'lines' : 'surface'}"]`);
+        await page.click(`[data-action="${name}"]`);
+        assert.ok(await pressed(page, name));
+    }
+    await press(page, 's');
+});
+
+test('box zoom shows what the box held', async () => {
+    await press(page, 't');
+    await clickView(page, 330, 210);
+    const middle = await numbers(page);
+    await press(page, 'b');
+    assert.ok(await pressed(page, 'box'));
+    const box = await page.locator('.overlay').boundingBox();
+    await page.mouse.move(box.x + 280, box.y + 180);
+    await page.mouse.down();
+    await page.mouse.move(box.x + 380, box.y + 240, { steps: 3 });
+    await page.mouse.up();
+    await settled(page);
+    assert.ok(!(await pressed(page, 'box')));
+    const size = await page.evaluate(() => [document.querySelector('.layer').clientWidth, document.querySelector('.layer').clientHeight]);
+    await clickView(page, Math.round(size[0] / 2), Math.round(size[1] / 2));
+    const now = await numbers(page);
+    assert.ok(Math.abs(Number(now.Point) - Number(middle.Point)) < 12, `${now.Point} is not ${middle.Point}`);
+});
+
+test('measure gives the distance of two places', async () => {
+    await press(page, 'm');
+    const before = await picture();
+    await clickView(page, 300, 250);
+    await clickView(page, 400, 250);
+    assert.notEqual(await picture(), before);
+    await press(page, 'm');
+    assert.ok(!(await pressed(page, 'measure')));
+});
+
+test('outlines, defects forth and back', async () => {
+    await press(page, 'u');
+    assert.ok(await pressed(page, 'defects'));
+    await page.click('[data-action="defects"]');
+    assert.ok(!(await pressed(page, 'defects')));
+    const chosen = () => page.getAttribute('.tree .item[aria-pressed="true"]', 'data-choice');
+    await press(page, 'd');
+    const first = await chosen();
+    await page.click('[data-action="next-defect"]');
+    assert.notEqual(await chosen(), first);
+    await press(page, 'v');
+    assert.equal(await chosen(), first);
+    await page.click('[data-action="next-defect"]');
+    await page.click('[data-action="previous-defect"]');
+    assert.equal(await chosen(), first);
+});
+
+test('the cursor goes from point to point', async () => {
+    await clickView(page, 330, 250);
+    const { Point } = await numbers(page);
+    await press(page, '.');
+    assert.equal(Number((await numbers(page)).Point), Number(Point) + 1);
+    await press(page, ',');
+    assert.equal((await numbers(page)).Point, Point);
+});
+
+test('curves over time or over way', async () => {
+    const label = () => page.locator('.chart').last().screenshot();
+    const overTime = (await label()).toString('base64');
+    await press(page, 'x');
+    assert.notEqual((await label()).toString('base64'), overTime);
+    await page.click('[data-action="over"]');
+    await settled(page);
+    assert.equal((await label()).toString('base64'), overTime);
+});
+
+test('fields bring their range and a colour map that fits', async () => {
+    await page.getByLabel('field').selectOption({ label: 'Acceleration along the path [mm/s²]' });
+    await settled(page);
+    assert.equal(await page.getByLabel('colour map').inputValue(), 'coolwarm');
+    const [low, high] = await range();
+    assert.ok(low === -high && high > 0);
+    await page.getByLabel('field').selectOption({ label: 'Path speed [mm/min]' });
+    await settled(page);
+    assert.equal(await page.getByLabel('colour map').inputValue(), 'isurface');
+    assert.equal(await field(), 'Path speed [mm/min]');
+    await page.getByLabel('curve 2').selectOption({ label: 'Jerk [mm/s³]' });
+    await settled(page);
+    assert.equal(await page.locator('.chart').count(), 2);
+});
+
+test('colour maps and steps', async () => {
+    const seen = new Set();
+    for (let k = 0; k < 6; ++k) {
+        await press(page, 'k');
+        seen.add(await picture());
+    }
+    assert.equal(seen.size, 6);
+    await page.getByLabel('steps of colour').selectOption('8');
+    await settled(page);
+    assert.ok(!seen.has(await picture()));
+    await page.getByLabel('steps of colour').selectOption('0');
+});
+
+test('the range is typed, dragged, and usual again', async () => {
+    const usual = await range();
+    await page.getByLabel('upper end').fill('2500');
+    await page.getByLabel('upper end').press('Enter');
+    await settled(page);
+    assert.deepEqual(await range(), [usual[0], 2500]);
+    const box = await page.locator('.range canvas').boundingBox();
+    await page.mouse.move(box.x + 25, box.y + 5);
+    await page.mouse.down();
+    await page.mouse.move(box.x + 70, box.y + 5, { steps: 3 });
+    await page.mouse.up();
+    const dragged = await range();
+    assert.ok(dragged[0] > usual[0] + 200 && dragged[1] === 2500, String(dragged));
+    await page.click('[data-action="range-all"]');
+    const all = await range();
+    assert.ok(all[0] < usual[0] && all[1] >= usual[1]);
+    await page.click('[data-action="range-auto"]');
+    assert.deepEqual(await range(), usual);
+    await page.getByLabel('lower end').fill('9999'); // above the upper end: not taken
+    await page.getByLabel('lower end').press('Enter');
+    assert.deepEqual(await range(), usual);
+});
+
+test('positions and the formed surface', async () => {
+    for (const name of ['feedback', 'formed', 'commanded']) {
+        await page.locator('.choices button', { hasText: name }).click();
+        await settled(page);
+        assert.equal(await page.locator('.choices button[aria-pressed="true"]').textContent(), name);
+        assert.equal(await page.getByLabel('colour map').inputValue(), name === 'formed' ? 'coolwarm' : 'isurface');
+    }
+});
+
+test('the view is saved as PNG', async () => {
+    const waiting = page.waitForEvent('download');
+    await press(page, 'p');
+    const download = await waiting;
+    assert.equal(download.suggestedFilename(), 'bottle_uneven.nc.png');
+    assert.equal(fs.readFileSync(await download.path()).subarray(1, 4).toString(), 'PNG');
+    const again = page.waitForEvent('download');
+    await page.click('[data-action="save"]');
+    await again;
+});
+
+test('light and dark', async () => {
+    const theme = () => page.evaluate(() => document.documentElement.dataset.theme);
+    assert.equal(await theme(), 'light');
+    await press(page, 'y');
+    assert.equal(await theme(), 'dark');
+    await page.click('[data-action="theme"]');
+    assert.equal(await theme(), 'light');
+});
+
+test('the command line and the list of keys open and close', async () => {
+    await press(page, 'r');
+    assert.match(await page.getByLabel('command line').inputValue(), /^clsurf render /);
+    await page.click('[data-action="copy"]');
+    await page.click('[data-action="close"]');
+    await page.click('[data-action="command"]');
+    await page.keyboard.press('Escape');
+    await press(page, '?');
+    // Each key stands there once.
+    const keys = await page.$$eval('kbd', (all) => all.map((key) => key.textContent));
+    assert.equal(new Set(keys).size, keys.length);
+    await page.click('[data-action="close"]');
+    assert.equal(await page.locator('dialog').count(), 0);
+    await page.click('[data-action="help"]');
+    await page.keyboard.press('Escape');
+});
+
+test('G goes to the field for numbers, where keys are letters', async () => {
+    await press(page, 'g');
+    assert.equal(await page.evaluate(() => document.activeElement.getAttribute('aria-label')), 'go to');
+    await page.keyboard.type('t');
+    await settled(page);
+    assert.equal(await view(), 'view iso');
+    await page.getByLabel('go to', { exact: true }).fill('');
+});
+
+test('every button has a tooltip with its key', async () => {
+    const titles = await page.$$eval('.toolbar button', (all) => all.map((b) => b.title));
+    for (const title of titles) assert.match(title, /\(key .\)$/);
+});
