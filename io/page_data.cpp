@@ -4,7 +4,7 @@
 #include <cmath>
 #include <functional>
 
-#include "core/parallel.h"
+#include "core/block.h"
 #include "core/units.h"
 
 namespace clsurf::io {
@@ -108,6 +108,25 @@ void add_roles(Blocks& blocks, Json& surface_json, const std::string& base, cons
     surface_json["roles"] = std::move(roles);
 }
 
+/// Where each run of points with one line begins, whether that point is kept or not, and the line.
+struct LineRuns {
+    std::vector<std::int64_t> points, lines;
+};
+LineRuns line_runs(const LineMap& map) {
+    LineRuns runs;
+    std::vector<LineNumber> block;
+    for (PointIndex begin = 0; begin < map.count(); begin += block_points) {
+        block.resize(static_cast<std::size_t>(std::min(block_points, map.count() - begin)));
+        map.read(begin, block);
+        for (std::size_t i = 0; i < block.size(); ++i) {
+            if (!runs.lines.empty() && runs.lines.back() == block[i]) continue;
+            runs.points.push_back(begin + static_cast<PointIndex>(i));
+            runs.lines.push_back(block[i]);
+        }
+    }
+    return runs;
+}
+
 /// Per kept point: how it belongs to the way.
 std::string kinds_of(const PageSurface& s) {
     std::string kinds(s.kept->points.size(), '\0');
@@ -125,7 +144,9 @@ Json surface_json(Blocks& blocks, const std::string& base, const ReportPage& pag
               {"points", s.kept->all}, {"window", s.kept->window}, {"line_starts", s.kept->line_starts}};
     json["columns"] = Json::object();
     blocks.add(at(base + "/columns", "point"), [&s] { return pack_numbers(std::span<const PointIndex>(s.kept->points), 1); });
-    blocks.add(at(base + "/columns", "line"), [&s] { return pack_kept(*s.kept, 1, [&](PointIndex i) { return static_cast<double>(s.lines->line_at(i)); }); });
+    LineRuns runs = line_runs(*s.lines);
+    blocks.add(at(base + "/columns", "run_points"), [points = std::move(runs.points)] { return pack_integers(points); });
+    blocks.add(at(base + "/columns", "run_lines"), [lines = std::move(runs.lines)] { return pack_integers(lines); });
     blocks.add(at(base + "/columns", "kind"), [&s] { return pack_bytes(kinds_of(s)); });
     blocks.add(at(base + "/columns", "triangles"), [&s] { return pack_numbers(s.triangles, 3); });
     blocks.add(at(base + "/columns", "segments"), [&s] { return pack_numbers(s.segments, 2); });

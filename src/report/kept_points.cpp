@@ -12,6 +12,7 @@ namespace {
 /// Longest chord between kept points of a cut, in step-overs: beyond it triangles between passes are
 /// too long to follow the surface. Where there is no room for so many it grows up to the last.
 constexpr std::array<double, 4> longest_chords{3, 6, 12, 24};
+constexpr double most_for_chords = 0.75;  ///< of the points that may stay
 constexpr PointIndex windows_at_once = 64;
 
 using Marks = Column<std::uint8_t>;  ///< per point: 1, it stays
@@ -118,11 +119,16 @@ private:
 
 PointIndex count_of(const Marks& marks) { return static_cast<PointIndex>(std::count(marks.begin(), marks.end(), std::uint8_t{1})); }
 
+PointIndex longest_pass(const Passes& passes) {
+    PointIndex longest = 2;
+    for (const Pass& pass : passes) longest = std::max(longest, pass.size());
+    return longest;
+}
+
 /// Marks with the shortest windows that leave at most `most` points, or with windows of whole passes,
 /// where nothing more can be left out. Returns the window.
 PointIndex mark_windows(Marks& marks, const Marks& lasting, const Windows& windows, const Passes& passes, PointIndex most) {
-    PointIndex longest = 2;
-    for (const Pass& pass : passes) longest = std::max(longest, pass.size());
+    const PointIndex longest = longest_pass(passes);
     const auto fits = [&](PointIndex window) {
         marks = lasting;
         windows.add(marks, window);
@@ -156,8 +162,13 @@ KeptPoints keep_points(const ClSurface& surface, const LineMap& lines, std::span
         kept.line_starts = count_of(with_lines) <= most / 2;
         if (kept.line_starts) lasting = std::move(with_lines);
         for (const double chord : longest_chords) {
-            kept.window = mark_windows(marks, lasting, Windows(surface, fields, chord * surface.step_over), surface.passes, most);
-            if (count_of(marks) <= most) break;
+            const Windows windows(surface, fields, chord * surface.step_over);
+            marks = lasting;
+            windows.add(marks, longest_pass(surface.passes));
+            const bool room_for_windows = static_cast<double>(count_of(marks)) <= most_for_chords * static_cast<double>(most);
+            if (!room_for_windows && chord != longest_chords.back()) continue;
+            kept.window = mark_windows(marks, lasting, windows, surface.passes, most);
+            break;
         }
     }
     for (PointIndex i = 0; i < count; ++i) {

@@ -376,6 +376,7 @@ foreach(mode kill full inputs)
     ${PROJECT_BINARY_DIR}/tests/hostile_${mode} $<TARGET_FILE:clsurf> ${PROJECT_SOURCE_DIR}/data ${PROJECT_BINARY_DIR}/samples ${mode})
   set_tests_properties(hostile.${mode} PROPERTIES TIMEOUT 300)
 endforeach()
+
 # ---- what hurts in a program, and its repair ----
 set(uneven @DATA@/programs/bottle_uneven.nc)
 clsurf_cli_test(NAME lint_finds_crowded_points ARGS lint @DATA@/programs/petal_zigzag_irregular.ngc EXIT 1 STDOUT "points 0.010 mm apart on pass 7" "point-spacing" "4[0-9][0-9] findings|findings on 121 passes")
@@ -396,3 +397,14 @@ clsurf_cli_test(NAME optimize_refuses_what_is_not SETUP "printf 'G21 G90\nG0 X0 
 clsurf_cli_test(NAME optimize_single_pass SETUP "printf 'G0 X0 Y0 Z0\nG1 X10 F600\nX20\nM2\n' > a.nc" ARGS optimize a.nc -o better.nc EXIT 3 STDERR "no passes beside each other" NO_FILE better.nc)
 clsurf_cli_test(NAME optimize_without_output ARGS optimize ${uneven} EXIT 2 STDERR "output")
 clsurf_cli_test(NAME optimize_wrong_tolerance ARGS optimize ${uneven} -o better.nc --tolerance -1 EXIT 2 STDERR "--tolerance must be above 0 mm" NO_FILE better.nc)
+
+# ---- the linked page (what it does in a browser: tests/page) ----
+clsurf_cli_test(NAME report_writes_one_file ARGS report ${part} ${run} -o r.html FILE r.html)
+clsurf_cli_test(NAME report_of_chosen_fields ARGS report ${part} ${run} -o r.html --fields speed,jerk --color jerk --tool ball:6 --max-size 4 FILE r.html)
+clsurf_cli_test(NAME report_without_output ARGS report ${part} ${run} EXIT 2 STDERR "output")
+clsurf_cli_test(NAME report_unknown_field ARGS report ${part} ${run} -o r.html --fields sped EXIT 2 STDERR "did you mean 'speed'")
+clsurf_cli_test(NAME report_colours_what_it_does_not_have ARGS report ${part} ${run} -o r.html --fields speed,jerk --color height EXIT 2 STDERR "height")
+clsurf_cli_test(NAME report_size_that_is_none ARGS report ${part} ${run} -o r.html --max-size 0.1 EXIT 2 STDERR "--max-size must be 2")
+clsurf_cli_test(NAME report_before_that_is_missing ARGS report ${part} ${run} -o r.html --before nowhere.biip EXIT 3 STDERR "nowhere.biip: error: cannot open")
+clsurf_cli_test(NAME report_into_no_folder ARGS report ${part} ${run} -o nowhere/r.html EXIT 4 STDERR "nowhere")
+clsurf_cli_test(NAME report_of_a_single_pass SETUP "printf 'G1 X0 Y0 F600\\nX20\\n' > a.nc; $CLSURF simulate a.nc -o a.biip" ARGS report a.nc a.biip -o r.html FILE r.html)

@@ -11,8 +11,8 @@ const result = await build({
     format: 'iife',
     target: ['es2022'],
     charset: 'ascii', // bytes that any charset reads the same
-    legalComments: 'none', // licences of what is bundled: NOTICE.md
+    legalComments: 'none',
+    banner: { js: '/* Holds vtk.js (BSD-3-Clause, (c) Kitware Inc.), uPlot (MIT, (c) Leon Sorokin), gl-matrix, D3 and others: viz/page/NOTICE.md of clsurf */' },
     logLevel: 'warning',
-    loader: { '.svg': 'text' },
 });
 process.exitCode = result.errors.length > 0 ? 1 : 0;

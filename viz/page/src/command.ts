@@ -58,7 +58,7 @@ export function renderCommand(manifest: Manifest, state: Readonly<State>, camera
     words.push('--range', `${rounded(state.low, 7)},${rounded(state.high, 7)}`, '--colormap', state.map);
     if (state.bins > 0) words.push('--bins', String(state.bins));
     if (state.vertex !== null) words.push('--mark-point', String(surface.point[state.vertex]));
-    if (state.line > 0 && surface.runsOfLine(state.line).length > 0) words.push('--mark-line', String(state.line));
+    if (state.line > 0 && surface.pointsOfLine(state.line).length > 0) words.push('--mark-line', String(state.line));
     if (state.defects && manifest.defects.length > 0) words.push('--defects');
     if (state.shown === 'wipe') words.push('--before', before);
     words.push('--size', sheetSize(Math.round(camera.width), Math.round(camera.height)).join('x'));

@@ -63,7 +63,8 @@ export interface SurfaceInfo {
     pass_count: number;
     columns: {
         point: PackedColumn;
-        line: PackedColumn;
+        run_points: PackedColumn;
+        run_lines: PackedColumn;
         kind: PackedColumn;
         triangles: PackedColumn;
         segments: PackedColumn;

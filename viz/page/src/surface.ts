@@ -16,10 +16,13 @@ export interface Role {
 }
 
 export class Surface {
+    readonly line: Uint32Array; // 0: none
+
     constructor(
         readonly info: SurfaceInfo,
         readonly point: Float64Array, // rising
-        readonly line: Uint32Array,
+        private readonly runPoints: Float64Array, // where runs of points of one line begin, kept or not
+        private readonly runLines: Uint32Array,
         readonly time: Float64Array, // [s]
         readonly kinds: Uint8Array, // Kind, and 4 where it goes on from the vertex before
         readonly roles: Role[], // the first is what the surface was made from
@@ -28,6 +31,11 @@ export class Surface {
         readonly fields: Float32Array[], // shown units; NaN: no value
         readonly passes: Float64Array, // first and last point of each cut pass
     ) {
+        this.line = new Uint32Array(point.length);
+        for (let i = 0, run = 0; i < point.length; ++i) {
+            while (run + 1 < runPoints.length && runPoints[run + 1] <= point[i]) ++run;
+            this.line[i] = runLines[run];
+        }
         // Normals point up, as on a three-axis machine, so front faces must be seen from there too.
         const xyz = roles[0].xyz;
         for (let t = 0; t + 2 < triangles.length; t += 3) {
@@ -73,21 +81,27 @@ export class Surface {
         return [begin, end];
     }
 
-    private runs: Map<number, [number, number][]> | null = null;
-    /** Every run of vertices of a line, as half-open ranges. */
-    runsOfLine(line: number): [number, number][] {
+    private runs: Map<number, number[]> | null = null; // of a line, by number
+    /** First and last point of every run of a line. */
+    pointsOfLine(line: number): [number, number][] {
         if (!this.runs) {
             this.runs = new Map();
-            for (let begin = 0; begin < this.count; ) {
-                let end = begin + 1;
-                while (end < this.count && this.line[end] === this.line[begin]) ++end;
-                const known = this.runs.get(this.line[begin]);
-                if (known) known.push([begin, end]);
-                else this.runs.set(this.line[begin], [[begin, end]]);
-                begin = end;
-            }
+            this.runLines.forEach((of, run) => {
+                const known = this.runs?.get(of);
+                if (known) known.push(run);
+                else this.runs?.set(of, [run]);
+            });
         }
-        return this.runs.get(line) ?? [];
+        const end = (run: number) => (run + 1 < this.runPoints.length ? this.runPoints[run + 1] : this.info.records) - 1;
+        return (this.runs.get(line) ?? []).map((run) => [this.runPoints[run], end(run)]);
+    }
+    /** Vertices of every run of a line, as half-open ranges; where none of its points is kept, the nearest one. */
+    runsOfLine(line: number): [number, number][] {
+        return this.pointsOfLine(line).map(([first, last]) => {
+            const [begin, end] = this.range(first, last);
+            const nearest = this.vertexOfPoint(first);
+            return end > begin ? [begin, end] : [nearest, nearest + 1];
+        });
     }
 
     /** Number of the cut pass of a vertex, from 1; 0: none. */
@@ -148,7 +162,8 @@ export async function readSurface(manifest: Manifest, index: number): Promise<Su
     return new Surface(
         info,
         point,
-        await readIndices(columns.line),
+        await readNumbers(columns.run_points),
+        await readIndices(columns.run_lines),
         time,
         await readBytes(columns.kind),
         await readRoles(info, manifest.surfaces[0].origin_mm),

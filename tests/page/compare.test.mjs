@@ -1,0 +1,81 @@
+// Before and after: one scale, toggle and wipe.
+
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { after, before, test } from 'node:test';
+
+import { clsurf, closeReport, comparePicture, data, goTo, logs, numbers, openReport, press, pressed, settled, startBrowser, writeReport } from './browser.mjs';
+
+// The same program's log with its ninth loop left out stands for the run before.
+const part = { program: `${data}/programs/dome_loops.nc`, log: `${logs}/dome_loops.biip` };
+const older = process.env.LOG_BEFORE;
+
+let browser, page;
+before(async () => {
+    const file = writeReport('compare.html', part, '--before', older);
+    browser = await startBrowser();
+    page = await openReport(browser, file);
+});
+after(async () => {
+    await closeReport(page);
+    await browser.close();
+});
+
+const layers = () => page.$$eval('.layer', (all) => all.map((l) => l.style.visibility));
+
+test('after is shown first; keys and buttons change to before, wipe and back', async () => {
+    assert.deepEqual(await layers(), ['visible', 'hidden']);
+    for (const [key, name, shown] of [['1', 'before', ['hidden', 'visible']], ['w', 'wipe', ['visible', 'visible']], ['2', 'after', ['visible', 'hidden']]]) {
+        await press(page, key);
+        assert.ok(await pressed(page, name));
+        assert.deepEqual(await layers(), shown);
+        await page.click(`[data-action="${name === 'after' ? 'before' : 'after'}"]`);
+        await page.click(`[data-action="${name}"]`);
+        assert.deepEqual(await layers(), shown);
+    }
+    await press(page, 'c');
+    assert.ok(await pressed(page, 'before'));
+    await press(page, 'c');
+    assert.ok(await pressed(page, 'after'));
+});
+
+test('one scale for both', async () => {
+    const range = async () => [await page.getByLabel('lower end').inputValue(), await page.getByLabel('upper end').inputValue()];
+    const scale = await range();
+    await press(page, '1');
+    assert.deepEqual(await range(), scale);
+    await press(page, '2');
+});
+
+test('points belong to the log that is shown', async () => {
+    await press(page, '1');
+    await goTo(page, 'point', 12000);
+    const before_ = await numbers(page);
+    await press(page, '2');
+    await goTo(page, 'point', 12000);
+    const after_ = await numbers(page);
+    const [match] = JSON.parse(execFileSync(clsurf, ['query', part.program, older, '--point', before_.Point, '--json', '-q'], { encoding: 'utf8' })).matches;
+    assert.equal(Number(before_.Line), match.line);
+    assert.notEqual(before_.Line, after_.Line); // the missing loop lies before
+});
+
+test('the line between is dragged', async () => {
+    await press(page, 'w');
+    const box = await page.locator('.layer').first().boundingBox();
+    await page.mouse.move(box.x + box.width / 2, box.y + 200);
+    await page.mouse.down();
+    await page.mouse.move(box.x + box.width / 4, box.y + 200, { steps: 4 });
+    await page.mouse.up();
+    await settled(page);
+    const clip = await page.locator('.layer').nth(1).evaluate((layer) => layer.style.clipPath);
+    assert.match(clip, /^inset\(0(px)? 7[45]\.?\d*% 0(px)? 0(px)?\)$/);
+    await page.mouse.move(2, 2);
+    await page.click('[data-action="command"]');
+    assert.match(await page.getByLabel('command line').inputValue(), / --before /);
+    await page.keyboard.press('Escape');
+});
+
+test('the wipe as a picture', async () => {
+    await press(page, 't');
+    await comparePicture(page, 'wipe');
+});

@@ -1,0 +1,80 @@
+// The page as a picture: both themes, both usual sizes, on paper, and without JavaScript.
+
+import assert from 'node:assert/strict';
+import fs from 'node:fs';
+import path from 'node:path';
+import { after, before, test } from 'node:test';
+
+import { bottle, clickView, closeReport, comparePicture, folder, goTo, openReport, press, startBrowser, writeReport } from './browser.mjs';
+
+let browser, file;
+before(async () => {
+    file = writeReport('bottle.html', bottle, '--tool', 'ball:6');
+    browser = await startBrowser();
+});
+after(() => browser.close());
+
+/** What is cut off: text wider than its box, panes outside the window. */
+async function clipped(page) {
+    return page.evaluate(() => {
+        const found = [];
+        if (document.documentElement.scrollWidth > innerWidth) found.push('the page is wider than the window');
+        for (const button of document.querySelectorAll('.toolbar button, .choices button, .range button, #summary dd')) {
+            if (button.scrollWidth > button.clientWidth + 1 && button.tagName === 'BUTTON') found.push(button.textContent);
+        }
+        for (const name of ['toolbar', 'side', 'view', 'program', 'curves', 'table']) {
+            const box = document.querySelector(`.${name}`).getBoundingClientRect();
+            if (box.right > innerWidth + 1 || box.bottom > innerHeight + 1 || box.width < 100 || box.height < 30) found.push(name);
+        }
+        return found;
+    });
+}
+
+for (const [name, width, height, colorScheme] of [['light_1280', 1280, 800, 'light'], ['dark_1280', 1280, 800, 'dark'], ['light_1920', 1920, 1080, 'light']]) {
+    test(name, async () => {
+        const page = await openReport(browser, file, { width, height, colorScheme });
+        assert.deepEqual(await clipped(page), []);
+        await goTo(page, 'point', 4848);
+        await comparePicture(page, name);
+        await closeReport(page);
+    });
+}
+
+test('a defect enlarged', async () => {
+    const page = await openReport(browser, file);
+    await press(page, 't');
+    await page.click('[data-choice="defect-9"]');
+    await page.mouse.move(2, 2);
+    await comparePicture(page, 'defect');
+    await closeReport(page);
+});
+
+test('the formed surface', async () => {
+    const page = await openReport(browser, file);
+    await page.locator('.choices button', { hasText: 'formed' }).click();
+    await page.mouse.move(2, 2);
+    await comparePicture(page, 'formed');
+    await clickView(page, 300, 250);
+    await closeReport(page);
+});
+
+test('without JavaScript summary, pictures and tables are there', async () => {
+    const page = await openReport(browser, file, { javaScriptEnabled: false });
+    assert.ok(!(await page.locator('#app').isVisible()));
+    assert.ok(await page.locator('noscript').count() === 1);
+    assert.match(await page.locator('#summary').innerText(), /bottle_uneven\.nc/);
+    assert.ok((await page.locator('#defects tbody tr').count()) > 10);
+    assert.ok((await page.locator('figure img').count()) >= 8);
+    for (const image of await page.locator('figure img').all()) assert.ok(await image.evaluate((i) => i.naturalWidth > 400));
+    await page.screenshot({ path: path.join(folder, 'static.png'), fullPage: true });
+    await closeReport(page);
+});
+
+test('on paper the panes give way to pictures and tables', async () => {
+    const page = await openReport(browser, file);
+    await page.emulateMedia({ media: 'print' });
+    assert.ok(!(await page.locator('#app').isVisible()));
+    assert.ok(await page.locator('#maps img').first().isVisible());
+    fs.writeFileSync(path.join(folder, 'report.pdf'), await page.pdf({ format: 'A4' }));
+    await closeReport(page);
+});
