@@ -292,7 +292,9 @@ export class ViewPane {
         const layer = this.active;
         if (state.shown === 'wipe' && x < state.wipe * this.camera.width) return null; // before lies there; the cursor belongs to after
         const { surface } = layer;
-        layer.picker ??= new Picker(this.xyzOf(surface), surface.triangles, state.style, (i) => surface.kind(i) !== Kind.rapid);
+        // A single pass has no triangles.
+        const style = surface.triangles.length > 0 ? state.style : 'lines';
+        layer.picker ??= new Picker(this.xyzOf(surface), surface.triangles, style, (i) => surface.kind(i) !== Kind.rapid);
         return layer.picker.pick(this.camera, x, y);
     }
 
