@@ -218,7 +218,7 @@ void add_relief(Blocks& blocks, Json& manifest, const PageRelief& relief) {
     std::string missing;
     for (std::size_t k = 0; k < relief.z.size(); ++k) missing += std::isfinite(relief.z[k]) && std::isfinite(relief.deviation[k]) ? '\0' : '\1';
     blocks.add(at("/relief", "z"), [&relief, steps] { return steps(relief.z, position_quantum); });
-    blocks.add(at("/relief", "deviation"), [&relief, steps] { return steps(relief.deviation, quantum_um); });
+    blocks.add(at("/relief", "deviation"), [&relief, steps] { return steps(relief.deviation, quantum_um / um_per_mm); });
     blocks.add(at("/relief", "missing"), [flags = std::move(missing)] { return pack_bytes(flags); });
 }
 
@@ -230,7 +230,7 @@ PageData page_data(const ReportPage& page) {
     const SourceText& text = page.quality.program->main();
     Json& m = data.manifest;
     m = {{"version", 1}, {"program", {{"name", text.name()}, {"lines", text.line_count()}}},
-         {"command", {{"program", page.program}, {"log", page.log}, {"before", page.before}, {"options", page.reading_options}}},
+         {"command", {{"program", page.program}, {"log", page.log}, {"before", page.before}, {"options", page.reading_options}, {"formed", page.formed_options}}},
          {"first_field", page.first_field}};
     m["colour_maps"] = Json::array();
     for (const PageColourMap& map : page.colour_maps) m["colour_maps"].push_back({{"name", map.name}, {"summary", map.summary}, {"centred", map.centred}, {"rgb", to_base64(map.rgb)}});

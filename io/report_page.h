@@ -55,7 +55,7 @@ struct PageRelief {
     double pitch = 0;            ///< [mm]
     std::int64_t columns = 0, rows = 0;
     std::span<const float> z;          ///< [mm] over the origin, row by row; NaN: none
-    std::span<const float> deviation;  ///< [µm] over the form
+    std::span<const float> deviation;  ///< [mm] over the form
     ShownRange range;                  ///< of the deviation [µm]
     std::string note;
 };
@@ -69,6 +69,7 @@ struct PagePercentiles {
 struct ReportPage {
     std::string program, log, before;          ///< as they stand on the command line; `before` empty: none
     std::vector<std::string> reading_options;  ///< that `render` needs too, to read the same
+    std::vector<std::string> formed_options;   ///< … and to draw the formed surface
     std::vector<PageSurface> surfaces;         ///< of `log`, then of `before`
     std::vector<ShownRange> ranges;            ///< per field, of all logs
     std::string first_field;                   ///< shown at first

@@ -311,6 +311,8 @@ ExitCode run(const po::variables_map& values) {
     if (options.quality.tool_given && shown.surface.step_over > 0) {
         formed = form(shown, options, clock);
         page.relief = page_relief(*formed);
+        page.formed_options = {"--surface", "formed", "--tool", to_text(options.quality.tool)};
+        if (options.measured) page.formed_options.insert(page.formed_options.end(), {"--swept", std::string(name_of(*options.measured))});
     }
     clock.begin("draw");
     add_pictures(page, shown, options, formed);

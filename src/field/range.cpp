@@ -102,7 +102,7 @@ std::vector<double> percentiles_of_size(const Field& field, const Passes& passes
     const double largest = std::max(std::abs(values.lowest), std::abs(values.highest));
     std::vector<double> found;
     for (const double p : percentiles) {
-        const double value = values.sampled.empty() ? std::numeric_limits<double>::quiet_NaN() : p >= 100 ? largest : percentile(values.sampled, p);
+        const double value = values.sampled.empty() ? std::numeric_limits<double>::quiet_NaN() : p >= 100 ? largest : nearest_quantile(values.sampled, p / 100);
         found.push_back(value * field.info.unit.per_inside);
     }
     return found;

@@ -10,7 +10,7 @@ import { bottle, clsurf, closeReport, folder, openReport, press, settled, startB
 
 let browser, page;
 before(async () => {
-    const file = writeReport('bottle.html', bottle);
+    const file = writeReport('bottle.html', bottle, '--tool', 'ball:6');
     browser = await startBrowser();
     page = await openReport(browser, file);
 });
@@ -79,6 +79,11 @@ const cases = {
         await page.getByLabel('colour map').selectOption('cividis');
         await page.getByLabel('upper end').fill('20');
         await page.getByLabel('upper end').press('Enter');
+    },
+    'the formed surface': async () => {
+        await press(page, 'i');
+        await page.locator('.choices button', { hasText: 'formed' }).click();
+        await press(page, 'h');
     },
 };
 

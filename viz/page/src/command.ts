@@ -1,10 +1,10 @@
 // The `clsurf render` command line that draws what the page shows. The picture's size is such that its
 // map has as many pixels as the page's view, so that both agree to the pixel.
 
-import { dot, extentAlong, views, wholeScale, type Camera } from './camera';
+import { dot, views, wholeScale, type Camera, type Extent } from './camera';
 import type { Manifest } from './manifest';
 import type { State } from './store';
-import { Kind, type Surface } from './surface';
+import type { Surface } from './surface';
 
 /** A word that a POSIX shell takes as it is. */
 export function shellWord(text: string): string {
@@ -31,12 +31,11 @@ export function sheetSize(width: number, height: number): [number, number] {
 
 const rounded = (value: number, digits: number) => String(Number(value.toPrecision(digits)));
 
-/** --view and --zoom of a camera on a surface. */
-export function viewOptions(camera: Camera, surface: Surface, xyz: Float32Array): string[] {
+/** --view and --zoom of a camera on what has an extent along its axes. */
+export function viewOptions(camera: Camera, extent: Extent): string[] {
     const named = Object.entries(views).find(([, [az, el]]) => Math.abs(az - camera.azimuth) < 1e-9 && Math.abs(el - camera.elevation) < 1e-9);
     const view = named ? named[0] : `${rounded(camera.azimuth, 6)},${rounded(camera.elevation, 6)}`;
     const axes = camera.axes;
-    const extent = extentAlong(axes, xyz, (i) => surface.kind(i) !== Kind.rapid);
     const whole = wholeScale(extent, camera.width, camera.height);
     const part = camera.mmPerPixel / whole;
     const x = 0.5 + (dot(axes.right, camera.centre) - (extent.low[0] + extent.high[0]) / 2) / (whole * camera.width);
@@ -48,13 +47,14 @@ export function viewOptions(camera: Camera, surface: Surface, xyz: Float32Array)
     return options;
 }
 
-export function renderCommand(manifest: Manifest, state: Readonly<State>, camera: Camera, surface: Surface, dark: boolean): string {
+export function renderCommand(manifest: Manifest, state: Readonly<State>, camera: Camera, surface: Surface, extent: Extent, dark: boolean): string {
     const { program, log, before, options } = manifest.command;
     const words = ['clsurf', 'render', program, state.shown === 'before' ? before : log, '-o', 'map.png', ...options];
     const field = manifest.fields[state.field];
-    words.push('--color', field.name, '--surface', surface.roles[state.role].name);
-    if (state.style !== 'surface') words.push('--style', state.style);
-    words.push(...viewOptions(camera, surface, surface.roles[state.role].xyz));
+    if (state.formed) words.push(...manifest.command.formed);
+    else words.push('--color', field.name, '--surface', surface.roles[state.role].name);
+    if (state.style !== 'surface' && !state.formed) words.push('--style', state.style);
+    words.push(...viewOptions(camera, extent));
     words.push('--range', `${rounded(state.low, 7)},${rounded(state.high, 7)}`, '--colormap', state.map);
     if (state.bins > 0) words.push('--bins', String(state.bins));
     if (state.vertex !== null) words.push('--mark-point', String(surface.point[state.vertex]));

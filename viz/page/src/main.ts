@@ -110,7 +110,7 @@ async function begin(app: HTMLElement): Promise<void> {
         view,
         {
             savePicture: () => void savePicture(),
-            showCommand: () => showCommand(renderCommand(manifest, store.state, view.camera, surface(), dark())),
+            showCommand: () => showCommand(renderCommand(manifest, store.state, view.camera, surface(), view.extent(), dark())),
             showHelp: () => showKeys(actions),
             locate: () => toolbar.locator.input.focus(),
             goToDefect,

@@ -98,7 +98,7 @@ export interface ReliefInfo {
 export interface Manifest {
     version: number;
     program: { name: string; lines: number; text: PackedColumn };
-    command: { program: string; log: string; before: string; options: string[] };
+    command: { program: string; log: string; before: string; options: string[]; formed: string[] };
     first_field: string;
     colour_maps: ColourMapInfo[];
     fields: FieldInfo[];

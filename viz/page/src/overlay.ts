@@ -10,7 +10,6 @@ export interface Polyline {
     closed: boolean;
     colour: string;
     width: number;
-    label?: string;
 }
 
 export interface Ring {
@@ -87,12 +86,10 @@ export class Overlay {
         const count = line.xyz.length / 3;
         if (count === 0) return;
         const path = new Path2D();
-        let [topX, topY] = [0, Infinity];
         for (let i = 0; i < count; ++i) {
             const [x, y] = camera.project(line.xyz.slice(3 * i, 3 * i + 3));
             if (i === 0) path.moveTo(x, y);
             else path.lineTo(x, y);
-            if (y < topY) [topX, topY] = [x, y];
         }
         if (line.closed) path.closePath();
         g.lineJoin = 'round';
@@ -103,7 +100,6 @@ export class Overlay {
         g.strokeStyle = line.colour;
         g.lineWidth = line.width;
         g.stroke(path);
-        if (line.label) label(g, line.label, topX, topY - 9, line.colour, halo, 'center', true);
         g.lineWidth = 1;
     }
 

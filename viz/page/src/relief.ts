@@ -8,6 +8,7 @@ export interface Relief {
     xyz: Float32Array; // 3 per vertex [mm] from `origin`
     triangles: Uint32Array;
     deviation: Float32Array; // [µm]
+    missing: Uint8Array; // per vertex: 1, there is none
 }
 
 export async function readRelief(info: ReliefInfo, origin: readonly number[]): Promise<Relief> {
@@ -30,5 +31,5 @@ export async function readRelief(info: ReliefInfo, origin: readonly number[]): P
             if (there(a, d, c)) triangles.push(a, d, c);
         }
     }
-    return { info, xyz, triangles: Uint32Array.from(triangles), deviation };
+    return { info, xyz, triangles: Uint32Array.from(triangles), deviation, missing };
 }

@@ -162,8 +162,10 @@ export class ViewPane {
         this.draw();
     }
 
-    private extent(): Extent {
-        const { surface } = this;
+    /** Of all that is shown. */
+    extent(): Extent {
+        const { surface, relief } = this;
+        if (this.store.state.formed && relief) return extentAlong(this.camera.axes, relief.xyz, (i) => relief.missing[i] === 0);
         return extentAlong(this.camera.axes, this.xyzOf(surface), (i) => surface.kind(i) !== Kind.rapid);
     }
     fit(): void {
@@ -247,13 +249,12 @@ export class ViewPane {
         this.manifest.defects.forEach((defect: Defect, k) => {
             const chosen = state.defect === k;
             if (!chosen && !state.defects) return;
-            defect.outlines.forEach((corners, part) => {
+            defect.outlines.forEach((corners) => {
                 lines.push({
                     xyz: corners.map((c, i) => c - origin[i % 3]),
                     closed: true,
                     colour: chosen ? styleValue('--accent') : styleValue('--ink'),
                     width: chosen ? 2.5 : 1.3,
-                    label: chosen && part === 0 ? String(defect.id) : undefined,
                 });
             });
         });
