@@ -42,6 +42,13 @@ std::string fact(std::string_view name, const std::string& value, std::string_vi
                        note.empty() ? "" : fmt::format(" <small>{}</small>", html(note)));
 }
 
+/// What the log's metadata say of a name; empty: nothing, or no text.
+std::string metadata_text(const Log& log, const char* name) {
+    const Json json = Json::parse(log.metadata, nullptr, false);
+    if (!json.is_object() || !json.contains(name) || !json[name].is_string()) return {};
+    return json[name].get<std::string>();
+}
+
 std::string picture_html(const PagePicture& picture) {
     return fmt::format("<figure><img alt=\"{}\" src=\"data:image/png;base64,{}\"><figcaption><b>{}</b> {}</figcaption></figure>\n", html(picture.title), to_base64(picture.png),
                        html(picture.title), html(picture.text));
@@ -163,6 +170,8 @@ std::string page_summary(const ReportPage& page) {
     const Log& log = *s.log;
     std::string text = fmt::format("<header id=\"summary\">\n<h1>{} <small>{}{}</small></h1>\n<dl>\n", html(base_name(page.program)), html(base_name(page.log)),
                                    page.before.empty() ? "" : html(" · before: " + base_name(page.before)));
+    const std::string machine = metadata_text(log, "machine");
+    if (!machine.empty()) text += fact("Machine", machine);
     text += fact("Duration", duration_text(log.time_of(log.records - 1)), fmt::format("every {:g} ms", log.period * 1e3));
     text += fact("Points", count_text(log.records), fmt::format("{} log", log.format));
     text += fact("Passes", count_text(report.passes), report.step_over > 0 ? fmt::format("{:.3g} mm apart", report.step_over) : "");

@@ -6,6 +6,7 @@ import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
 import { createRequire } from 'node:module';
 import path from 'node:path';
+import { after, before } from 'node:test';
 
 export const clsurf = process.env.CLSURF;
 export const data = process.env.SAMPLE_DATA;
@@ -56,6 +57,21 @@ export async function openReport(browser, file, { width = 1280, height = 800, co
 export async function closeReport(page) {
     assert.deepEqual(page.complaints, []);
     await page.context().close();
+}
+
+/** Writes a report before the tests of a file, gives them its page, and looks at its complaints after them. */
+export function useReport(write, take) {
+    let browser, page;
+    before(async () => {
+        const file = write();
+        browser = await startBrowser();
+        page = await openReport(browser, file);
+        take(page);
+    });
+    after(async () => {
+        if (page) await closeReport(page);
+        await browser?.close();
+    });
 }
 
 /** Two frames on: what was asked for is drawn. */

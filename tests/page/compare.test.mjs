@@ -2,24 +2,16 @@
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 
-import { clsurf, closeReport, comparePicture, data, goTo, logs, numbers, openReport, press, pressed, settled, startBrowser, writeReport } from './browser.mjs';
+import { clsurf, comparePicture, data, goTo, logs, numbers, press, pressed, settled, useReport, writeReport } from './browser.mjs';
 
 // The same program's log with its ninth loop left out stands for the run before.
 const part = { program: `${data}/programs/dome_loops.nc`, log: `${logs}/dome_loops.biip` };
 const older = process.env.LOG_BEFORE;
 
-let browser, page;
-before(async () => {
-    const file = writeReport('compare.html', part, '--before', older);
-    browser = await startBrowser();
-    page = await openReport(browser, file);
-});
-after(async () => {
-    await closeReport(page);
-    await browser.close();
-});
+let page;
+useReport(() => writeReport('compare.html', part, '--before', older), (opened) => (page = opened));
 
 const layers = () => page.$$eval('.layer', (all) => all.map((l) => l.style.visibility));
 

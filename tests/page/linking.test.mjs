@@ -2,20 +2,12 @@
 // is what `clsurf query` and `check` say.
 
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 
-import { bottle, chosenLine, clickView, closeReport, goTo, numbers, openReport, run, settled, startBrowser, writeReport } from './browser.mjs';
+import { bottle, chosenLine, clickView, goTo, numbers, run, settled, useReport, writeReport } from './browser.mjs';
 
-let browser, page;
-before(async () => {
-    const file = writeReport('bottle.html', bottle);
-    browser = await startBrowser();
-    page = await openReport(browser, file);
-});
-after(async () => {
-    await closeReport(page);
-    await browser.close();
-});
+let page;
+useReport(() => writeReport('bottle.html', bottle), (opened) => (page = opened));
 
 const query = (...words) => JSON.parse(run('query', bottle.program, bottle.log, '--json', '-q', ...words)).matches;
 

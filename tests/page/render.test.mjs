@@ -4,20 +4,12 @@ import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 
-import { bottle, clsurf, closeReport, folder, openReport, press, settled, startBrowser, writeReport } from './browser.mjs';
+import { bottle, clsurf, folder, press, settled, useReport, writeReport } from './browser.mjs';
 
-let browser, page;
-before(async () => {
-    const file = writeReport('bottle.html', bottle, '--tool', 'ball:6');
-    browser = await startBrowser();
-    page = await openReport(browser, file);
-});
-after(async () => {
-    await closeReport(page);
-    await browser.close();
-});
+let page;
+useReport(() => writeReport('bottle.html', bottle, '--tool', 'ball:6'), (opened) => (page = opened));
 
 /** Fractions of the map's pixels that both pictures have the same: surface or not, and its colour. */
 async function agreement(blank, ours, theirs, map) {
@@ -108,7 +100,7 @@ for (const [name, prepare] of Object.entries(cases)) {
         const [, height] = /--size (\d+)x(\d+)/.exec(command).slice(1).map(Number);
         const text = Math.min(60, Math.max(9, Math.min(0.75 * Number(/--size (\d+)x/.exec(command)[1]), height) / 46));
         const map = { width: size[0], height: size[1], top: height - size[1] - Math.round(3 * Math.max(8, 0.78 * text)) };
-        const blank = await browser.newPage();
+        const blank = await page.context().browser().newPage();
         const same = await agreement(blank, ours, theirs, map);
         await blank.close();
         // Marks and the scale bar lie on the map that render makes, edges are smoothed otherwise.

@@ -3,9 +3,9 @@
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import path from 'node:path';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 
-import { bottle, closeReport, folder, goTo, openReport, run, startBrowser } from './browser.mjs';
+import { bottle, folder, goTo, run, useReport } from './browser.mjs';
 
 const hostile = [
     '(</script><script>window.harmed = 1</script>)',
@@ -19,8 +19,8 @@ const hostile = [
     '(after the long line)',
 ];
 
-let browser, page, first;
-before(async () => {
+let page, first;
+useReport(() => {
     const text = fs.readFileSync(bottle.program);
     first = text.toString('latin1').split('\n').length;
     const program = path.join(folder, `"><img src=x onerror=window.harmed=1> \u202e'$(touch harmed).nc`);
@@ -28,13 +28,8 @@ before(async () => {
     fs.writeFileSync(program, Buffer.concat([text, ...hostile.flatMap((line) => [Buffer.from(line), Buffer.from('\n')])]));
     fs.copyFileSync(bottle.log, log);
     run('report', program, log, '-o', 'hostile.html', '-q');
-    browser = await startBrowser();
-    page = await openReport(browser, path.join(folder, 'hostile.html'));
-});
-after(async () => {
-    await closeReport(page);
-    await browser.close();
-});
+    return path.join(folder, 'hostile.html');
+}, (opened) => (page = opened));
 
 const line = async (number) => {
     await goTo(page, 'line', number);

@@ -2,20 +2,12 @@
 
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
-import { after, before, beforeEach, test } from 'node:test';
+import { beforeEach, test } from 'node:test';
 
-import { bottle, clickView, closeReport, numbers, openReport, press, pressed, settled, startBrowser, writeReport } from './browser.mjs';
+import { bottle, clickView, numbers, press, pressed, settled, useReport, writeReport } from './browser.mjs';
 
-let browser, page;
-before(async () => {
-    const file = writeReport('bottle.html', bottle, '--tool', 'ball:6');
-    browser = await startBrowser();
-    page = await openReport(browser, file);
-});
-after(async () => {
-    await closeReport(page);
-    await browser.close();
-});
+let page;
+useReport(() => writeReport('bottle.html', bottle, '--tool', 'ball:6'), (opened) => (page = opened));
 beforeEach(() => press(page, 'i'));
 
 const view = () => page.getAttribute('.view', 'data-view');

@@ -22,6 +22,8 @@ import { Toolbar } from './toolbar';
 import { TreePane } from './tree_pane';
 import { ViewPane } from './view_pane';
 
+const system = matchMedia('(prefers-color-scheme: dark)');
+const setTheme = (theme: 'light' | 'dark') => (document.documentElement.dataset.theme = theme);
 const dark = () => document.documentElement.dataset.theme === 'dark';
 
 async function begin(app: HTMLElement): Promise<void> {
@@ -32,8 +34,6 @@ async function begin(app: HTMLElement): Promise<void> {
     const relief = manifest.relief ? await readRelief(manifest.relief, manifest.surfaces[0].origin_mm) : null;
     const maps = manifest.colour_maps.map((info) => new ColourMap(info));
 
-    const system = matchMedia('(prefers-color-scheme: dark)');
-    const setTheme = () => (document.documentElement.dataset.theme = store.state.theme === 'auto' ? (system.matches ? 'dark' : 'light') : store.state.theme);
     const first = Math.max(0, manifest.fields.findIndex((f) => f.name === manifest.first_field));
     const store = new Store({
         field: first,
@@ -55,11 +55,10 @@ async function begin(app: HTMLElement): Promise<void> {
         tool: 'turn',
         over: 'time',
         curves: [first, secondCurve(manifest, first)],
-        theme: 'auto',
+        theme: dark() ? 'dark' : 'light',
     });
-    setTheme();
     store.on((state, changed) => {
-        if (changed.has('theme')) setTheme();
+        if (changed.has('theme')) setTheme(state.theme);
         // Signed fields have a map of their own, unless another was chosen.
         if (changed.has('field') || changed.has('formed')) {
             const diverging = state.formed || manifest.fields[state.field].diverging;
@@ -67,10 +66,7 @@ async function begin(app: HTMLElement): Promise<void> {
             if (!diverging && state.map === 'coolwarm') store.set({ map: 'isurface' });
         }
     });
-    system.addEventListener('change', () => {
-        if (store.state.theme !== 'auto') return;
-        store.set({ theme: system.matches ? 'dark' : 'light' });
-    });
+    system.addEventListener('change', () => store.set({ theme: system.matches ? 'dark' : 'light' }));
 
     const view = new ViewPane(manifest, store, surfaces, maps, relief);
     const surface = () => view.surface;
@@ -164,6 +160,7 @@ async function begin(app: HTMLElement): Promise<void> {
 }
 
 const app = document.getElementById('app');
+setTheme(system.matches ? 'dark' : 'light');
 if (app) {
     begin(app).catch((error: unknown) => {
         app.hidden = false;

@@ -24,7 +24,7 @@ export interface State {
     tool: Tool;
     over: 'time' | 'length';
     curves: number[]; // fields; the first follows `field`
-    theme: 'auto' | 'light' | 'dark';
+    theme: 'light' | 'dark';
 }
 
 type Listener = (state: Readonly<State>, changed: ReadonlySet<keyof State>) => void;
