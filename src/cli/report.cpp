@@ -7,20 +7,17 @@
 
 #include "cli/fields.h"
 #include "cli/formed.h"
-#include "cli/quality.h"
+#include "cli/report_log.h"
 #include "cli/report_pictures.h"
 #include "io/atomic_file.h"
 #include "log/health.h"
 #include "quality/outline.h"
-#include "viz/bands.h"
 #include "viz/image_library.h"
 
 namespace clsurf::cli {
 namespace {
 
 constexpr std::size_t pictured_defects = 6;
-constexpr double usual_bytes = 24;         ///< of a point in the page, before it is known
-constexpr std::uint64_t usual_rest = 3'000'000;  ///< [bytes] of pictures, text and the page's own program
 constexpr int relief_pixels = 700;         ///< of the formed surface across the page
 
 struct ReportOptions {
@@ -32,18 +29,6 @@ struct ReportOptions {
     std::string first_field;
     std::uint64_t most_bytes = 0;
     std::vector<std::string> reading_options;
-};
-
-/// One log, read and put together.
-struct Shown {
-    Part part;
-    ClSurface surface;
-    Quality quality;
-    std::vector<Field> fields;
-    std::vector<Trajectory> other_roles;
-    KeptPoints kept;
-    viz::WayVertices vertices;
-    viz::Bands bands;
 };
 
 void declare(po::options_description& options) {
@@ -116,8 +101,8 @@ bool has_values(const Field& field, const Passes& passes) {
     return false;
 }
 
-Shown prepare(const PartOptions& part_options, const ReportOptions& options, StageClock& clock) {
-    Shown shown;
+ReportLog prepare(const PartOptions& part_options, const ReportOptions& options, StageClock& clock) {
+    ReportLog shown;
     shown.part = load_part(part_options, clock);
     clock.begin("stitch the surface");
     shown.surface = stitch(shown.part);
@@ -144,7 +129,7 @@ void keep_common_fields(std::vector<Field>& fields, const std::vector<Field>& ot
     });
 }
 
-std::vector<ShownRange> ranges_of(const std::vector<Shown>& logs) {
+std::vector<ShownRange> ranges_of(const std::vector<ReportLog>& logs) {
     std::vector<ShownRange> ranges;
     for (std::size_t k = 0; k < logs.front().fields.size(); ++k) {
         ShownRange range = find_range(logs.front().fields[k], logs.front().surface.passes, {});
@@ -156,81 +141,13 @@ std::vector<ShownRange> ranges_of(const std::vector<Shown>& logs) {
     return ranges;
 }
 
-/// Chooses the points of a log's share of the page.
-void choose_points(Shown& shown, PointIndex most) {
-    shown.kept = keep_points(shown.surface, *shown.part.lines, shown.fields, shown.quality.report.defects, most);
-    shown.vertices = viz::way_vertices(shown.surface, shown.kept.points);
-    // The ends of passes are among the points, so the nearer one stands for those between, however far.
-    shown.bands = viz::join_passes(shown.surface, shown.vertices, viz::NearnessFrame(), std::numeric_limits<float>::max());
-}
-
-io::PageSurface page_surface(const Shown& shown) {
-    io::PageSurface page;
-    page.log = &shown.part.log;
-    page.lines = shown.part.lines.get();
-    page.surface = &shown.surface;
-    page.path = &shown.part.path;
-    page.other_roles = shown.other_roles;
-    page.kept = &shown.kept;
-    page.fields = shown.fields;
-    page.joined = shown.vertices.joined;
-    page.triangles = shown.bands.triangles;
-    page.segments = shown.bands.segments;
-    return page;
-}
-
-std::vector<io::PageColourMap> page_colour_maps() {
-    std::vector<io::PageColourMap> maps;
-    for (const viz::ColourMapInfo& info : viz::colour_maps()) {
-        const viz::ColourMap map = viz::make_colour_map(std::string(info.name));
-        io::PageColourMap page{std::string(info.name), std::string(info.summary), map.centred(), {}};
-        constexpr int colours = 256;
-        for (int i = 0; i < colours; ++i) {
-            for (const std::uint8_t c : map.at(static_cast<double>(i) / (colours - 1))) page.rgb += static_cast<char>(c);
-        }
-        maps.push_back(std::move(page));
-    }
-    return maps;
-}
-
-/// The page as large as it may be: points are left out until it fits.
-std::string fit_page(io::ReportPage& page, std::vector<Shown>& logs, const ReportOptions& options) {
-    PointIndex all = 0;
-    for (const Shown& shown : logs) all += shown.surface.positions.size();
-    double most = options.most_bytes > usual_rest ? static_cast<double>(options.most_bytes - usual_rest) / usual_bytes : 1e4;
-    std::string text;
-    constexpr int tries = 8;
-    for (int k = 0; k < tries; ++k) {
-        page.surfaces.clear();
-        PointIndex kept = 0;
-        for (Shown& shown : logs) {
-            const double share = static_cast<double>(shown.surface.positions.size()) / static_cast<double>(all);
-            choose_points(shown, std::max<PointIndex>(1000, std::llround(most * share)));
-            kept += static_cast<PointIndex>(shown.kept.points.size());
-            page.surfaces.push_back(page_surface(shown));
-        }
-        text = io::write_page(page);
-        const bool whole = std::none_of(logs.begin(), logs.end(), [](const Shown& s) { return s.kept.reduced(); });
-        const double filled = static_cast<double>(text.size()) / static_cast<double>(options.most_bytes);
-        // Enough room left for a tenth more points is used.
-        if (filled <= 1 && (whole || filled > 0.9 || k > tries / 2)) return text;
-        const double rest = std::min(static_cast<double>(text.size()), static_cast<double>(usual_rest));
-        const double each = (static_cast<double>(text.size()) - rest) / static_cast<double>(std::max<PointIndex>(1, kept));
-        const double next = 0.96 * (static_cast<double>(options.most_bytes) - rest) / std::max(each, 1.0);
-        most = std::max(1000.0, filled > 1 ? std::min(next, 0.9 * static_cast<double>(kept)) : next);
-    }
-    if (text.size() <= options.most_bytes) return text;
-    throw UsageError(fmt::format("--max-size {:g}: the page has {:.1f} MB with as few points as can be", static_cast<double>(options.most_bytes) / 1e6, static_cast<double>(text.size()) / 1e6),
-                     "its program's text and the passes' ends alone need that; fewer --fields, or a larger --max-size");
-}
-
 /// The formed surface as a height map that a page can carry.
 struct Formed {
     FormedMap map;
     ShownRange range;
 };
 
-Formed form(const Shown& shown, const ReportOptions& options, StageClock& clock) {
+Formed form(const ReportLog& shown, const ReportOptions& options, StageClock& clock) {
     const FormedPart formed(shown.part, shown.surface, options.measured, options.quality.tool, clock);
     viz::MapPanel panel;
     panel.surface = &shown.surface;
@@ -245,7 +162,7 @@ Formed form(const Shown& shown, const ReportOptions& options, StageClock& clock)
     return made;
 }
 
-void add_pictures(io::ReportPage& page, const Shown& shown, const ReportOptions& options, const std::optional<Formed>& formed) {
+void add_pictures(io::ReportPage& page, const ReportLog& shown, const ReportOptions& options, const std::optional<Formed>& formed) {
     PicturedPart pictured{&shown.part, &shown.surface, shown.fields, page.ranges, &shown.quality.report, {}, options.gl};
     for (std::size_t i = 0; i < shown.quality.report.defects.size(); ++i) {
         page.defects.push_back({outlines_of(shown.quality.report.defects[i], shown.surface), {}});
@@ -266,7 +183,7 @@ ExitCode run(const po::variables_map& values) {
     viz::preload_image_library();
     io::AtomicFile output(options.output);  // a name that cannot be written fails before the work
     StageClock clock(read_common(values), options.before.empty() ? 12 : 20);
-    std::vector<Shown> logs;
+    std::vector<ReportLog> logs;
     logs.push_back(prepare(options.part, options, clock));
     print(logs.front().part.diagnostics, values);
     if (!options.before.empty()) {
@@ -277,7 +194,7 @@ ExitCode run(const po::variables_map& values) {
         keep_common_fields(logs.front().fields, logs.back().fields);
         keep_common_fields(logs.back().fields, logs.front().fields);
     }
-    const Shown& shown = logs.front();
+    const ReportLog& shown = logs.front();
     if (shown.fields.empty()) throw InputError(Place::of_file(shown.part.log.name), "no cutting point has a value to show", "too few points, or the program and the log do not belong together?");
 
     clock.begin("measure");
@@ -317,7 +234,7 @@ ExitCode run(const po::variables_map& values) {
     clock.begin("draw");
     add_pictures(page, shown, options, formed);
     clock.begin("write the page");
-    output.write(fit_page(page, logs, options));
+    output.write(fit_page(page, logs));
     output.commit();
     return ExitCode::done;
 }

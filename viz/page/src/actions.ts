@@ -83,14 +83,14 @@ export function actionsOf(store: Store, view: ViewPane, deeds: Deeds, defects: n
             key,
             title,
             group: 'Compare',
-            run: () => store.set(name === 'wipe' ? { shown: name } : { shown: name, vertex: null, hover: null, pass: 0 }),
+            run: () => store.set(name === 'wipe' ? { shown: name } : { shown: name, vertex: null, hover: null, pass: 0, defect: null }),
             pressed: () => state.shown === name,
         });
         actions.push(
             shown('before', '1', 'the log before'),
             shown('after', '2', 'the log after'),
             shown('wipe', 'w', 'before on the left, after on the right: drag the line between'),
-            { name: 'toggle', text: '', key: 'c', title: 'the other log', group: 'Compare', run: () => store.set({ shown: state.shown === 'before' ? 'after' : 'before', vertex: null, hover: null, pass: 0 }) },
+            { name: 'toggle', text: '', key: 'c', title: 'the other log', group: 'Compare', run: () => store.set({ shown: state.shown === 'before' ? 'after' : 'before', vertex: null, hover: null, pass: 0, defect: null }) },
         );
     }
     return actions;

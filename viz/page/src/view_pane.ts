@@ -5,14 +5,14 @@ import { Camera, extentAlong, views, type Extent } from './camera';
 import type { ColourMap, ColourScale } from './colour';
 import { afterRest, baseName, element, oncePerFrame, styleValue } from './dom';
 import { GlView, normalsOf } from './gl_view';
-import type { Defect, Manifest } from './manifest';
-import { legendWidth, Overlay, viewName, type OverlayScene, type Polyline } from './overlay';
+import type { Manifest } from './manifest';
+import { marksOf } from './marks';
+import { legendWidth, Overlay, viewName, type OverlayScene } from './overlay';
 import { Picker } from './picker';
 import type { Relief } from './relief';
 import type { State, Store } from './store';
 import { Kind, type Surface } from './surface';
 
-const mostTags = 40; // numbers of defects in the picture
 const slowFrame = 80; // ms
 
 interface Layer {
@@ -212,17 +212,9 @@ export class ViewPane {
         const { state } = this.store;
         const field = this.manifest.fields[state.field];
         const formed = state.formed && this.relief ? this.relief.info : null;
-        const accent = styleValue('--accent');
         const { surface } = this;
-        const scene: OverlayScene = {
-            tags: this.manifest.defects.slice(0, mostTags).map((d, k) => ({
-                at: d.position_mm.map((c, i) => c - this.manifest.surfaces[0].origin_mm[i]),
-                text: String(d.id),
-                severity: d.severity,
-                chosen: state.defect === k,
-            })),
-            polylines: [...this.defectLines(), ...this.chosenLines()],
-            rings: [],
+        return {
+            ...marksOf(this.manifest, state, surface, this.xyzOf(surface), surface === this.layers[0].surface),
             scale: this.scale,
             lowest: formed?.lowest ?? field.lowest,
             highest: formed?.highest ?? field.highest,
@@ -233,56 +225,6 @@ export class ViewPane {
             box: this.box,
             wipe: state.shown === 'wipe' ? state.wipe : null,
         };
-        const ring = (vertex: number, label: string, small: boolean) => scene.rings.push({ at: this.placeOf(vertex), colour: accent, label, small });
-        if (state.line > 0) {
-            const runs = surface.runsOfLine(state.line);
-            if (runs.length > 0 && runs[0][0] !== state.vertex) ring(runs[0][0], '', true);
-        }
-        if (state.vertex !== null) ring(state.vertex, `point ${surface.point[state.vertex]}, line ${surface.line[state.vertex]}`, false);
-        return scene;
-    }
-
-    private defectLines(): Polyline[] {
-        const { state } = this.store;
-        const origin = this.manifest.surfaces[0].origin_mm;
-        const lines: Polyline[] = [];
-        this.manifest.defects.forEach((defect: Defect, k) => {
-            const chosen = state.defect === k;
-            if (!chosen && !state.defects) return;
-            defect.outlines.forEach((corners) => {
-                lines.push({
-                    xyz: corners.map((c, i) => c - origin[i % 3]),
-                    closed: true,
-                    colour: chosen ? styleValue('--accent') : styleValue('--ink'),
-                    width: chosen ? 2.5 : 1.3,
-                });
-            });
-        });
-        return lines;
-    }
-
-    private runLine([begin, end]: [number, number], colour: string, width: number): Polyline {
-        const xyz = this.xyzOf(this.surface);
-        const corners: number[] = [];
-        const step = Math.max(1, Math.floor((end - begin) / 5000));
-        for (let i = begin; i < end; i += step) corners.push(xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]);
-        if (corners.length === 3) corners.push(...corners);
-        return { xyz: corners, closed: false, colour, width };
-    }
-
-    /** The line, the pass and the runs of the defect that are chosen. */
-    private chosenLines(): Polyline[] {
-        const { state } = this.store;
-        const { surface } = this;
-        const lines: Polyline[] = [];
-        if (state.pass > 0) lines.push(this.runLine(surface.range(surface.passes[2 * state.pass - 2], surface.passes[2 * state.pass - 1]), styleValue('--second'), 2));
-        if (state.defect !== null) {
-            const defect = this.manifest.defects[state.defect];
-            for (const run of defect.neighbours) lines.push(this.runLine(surface.range(...run.points), styleValue('--second'), 2));
-            for (const run of defect.runs) lines.push(this.runLine(surface.range(...run.points), styleValue('--accent'), 2));
-        }
-        for (const run of surface.runsOfLine(state.line).slice(0, 200)) lines.push(this.runLine(run, styleValue('--accent'), 4));
-        return lines;
     }
 
     // ---- the pointer ----

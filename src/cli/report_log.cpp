@@ -1,0 +1,86 @@
+#include "cli/report_log.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "viz/colour_map.h"
+
+namespace clsurf::cli {
+namespace {
+
+constexpr double usual_bytes = 24;         ///< of a point in the page, before it is known
+constexpr std::uint64_t usual_rest = 3'000'000;  ///< [bytes] of pictures, text and the page's own program
+
+/// Chooses the points of a log's share of the page.
+void choose_points(ReportLog& shown, PointIndex most) {
+    shown.kept = keep_points(shown.surface, *shown.part.lines, shown.fields, shown.quality.report.defects, most);
+    shown.vertices = viz::way_vertices(shown.surface, shown.kept.points);
+    // The ends of passes are among the points, so the nearer one stands for those between, however far.
+    shown.bands = viz::join_passes(shown.surface, shown.vertices, viz::NearnessFrame(), std::numeric_limits<float>::max());
+}
+
+io::PageSurface page_surface(const ReportLog& shown) {
+    io::PageSurface page;
+    page.log = &shown.part.log;
+    page.lines = shown.part.lines.get();
+    page.surface = &shown.surface;
+    page.path = &shown.part.path;
+    page.other_roles = shown.other_roles;
+    page.kept = &shown.kept;
+    page.fields = shown.fields;
+    page.joined = shown.vertices.joined;
+    page.triangles = shown.bands.triangles;
+    page.segments = shown.bands.segments;
+    return page;
+}
+
+}  // namespace
+
+std::string fit_page(io::ReportPage& page, std::vector<ReportLog>& logs) {
+    PointIndex all = 0;
+    for (const ReportLog& shown : logs) all += shown.surface.positions.size();
+    double most = page.most_bytes > usual_rest ? static_cast<double>(page.most_bytes - usual_rest) / usual_bytes : 1e4;
+    std::string text;
+    constexpr int tries = 8;
+    for (int k = 0; k < tries; ++k) {
+        page.surfaces.clear();
+        PointIndex kept = 0;
+        for (ReportLog& shown : logs) {
+            const double share = static_cast<double>(shown.surface.positions.size()) / static_cast<double>(all);
+            choose_points(shown, std::max<PointIndex>(1000, std::llround(most * share)));
+            kept += static_cast<PointIndex>(shown.kept.points.size());
+            page.surfaces.push_back(page_surface(shown));
+        }
+        text = io::write_page(page);
+        const bool whole = std::none_of(logs.begin(), logs.end(), [](const ReportLog& s) { return s.kept.reduced(); });
+        const double filled = static_cast<double>(text.size()) / static_cast<double>(page.most_bytes);
+        // Enough room left for a tenth more points is used.
+        if (filled <= 1 && (whole || filled > 0.9 || k > tries / 2)) return text;
+        const double rest = std::min(static_cast<double>(text.size()), static_cast<double>(usual_rest));
+        const double each = (static_cast<double>(text.size()) - rest) / static_cast<double>(std::max<PointIndex>(1, kept));
+        const double next = 0.96 * (static_cast<double>(page.most_bytes) - rest) / std::max(each, 1.0);
+        most = std::max(1000.0, filled > 1 ? std::min(next, 0.9 * static_cast<double>(kept)) : next);
+    }
+    if (text.size() <= page.most_bytes) return text;
+    throw UsageError(fmt::format("--max-size {:g}: the page has {:.1f} MB with as few points as can be", static_cast<double>(page.most_bytes) / 1e6, static_cast<double>(text.size()) / 1e6),
+                     "its program's text and the passes' ends alone need that; fewer --fields, or a larger --max-size");
+}
+
+std::vector<io::PageColourMap> page_colour_maps() {
+    std::vector<io::PageColourMap> maps;
+    for (const viz::ColourMapInfo& info : viz::colour_maps()) {
+        const viz::ColourMap map = viz::make_colour_map(std::string(info.name));
+        io::PageColourMap page{std::string(info.name), std::string(info.summary), map.centred(), {}};
+        constexpr int colours = 256;
+        for (int i = 0; i < colours; ++i) {
+            for (const std::uint8_t c : map.at(static_cast<double>(i) / (colours - 1))) page.rgb += static_cast<char>(c);
+        }
+        maps.push_back(std::move(page));
+    }
+    return maps;
+}
+
+}  // namespace clsurf::cli

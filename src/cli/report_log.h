@@ -1,0 +1,31 @@
+#pragma once
+// ReportLog: what a report shows of one log, and the page that holds as much of it as may be.
+
+#include <vector>
+
+#include "cli/quality.h"
+#include "io/report_page.h"
+#include "viz/bands.h"
+
+namespace clsurf::cli {
+
+/// One log, read and put together; `kept` and what follows are chosen by fit_page().
+struct ReportLog {
+    Part part;
+    ClSurface surface;
+    Quality quality;
+    std::vector<Field> fields;
+    std::vector<Trajectory> other_roles;
+    KeptPoints kept;
+    viz::WayVertices vertices;
+    viz::Bands bands;
+};
+
+/// The page with all points of its logs, or with as many as its `most_bytes` allow. Throws UsageError where the
+/// least that a page must hold is more than that.
+[[nodiscard]] std::string fit_page(io::ReportPage& page, std::vector<ReportLog>& logs);
+
+/// Every named colour map, as colours.
+[[nodiscard]] std::vector<io::PageColourMap> page_colour_maps();
+
+}  // namespace clsurf::cli

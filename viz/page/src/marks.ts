@@ -1,0 +1,64 @@
+// What is marked on the surface: defects, and the line, pass and point that are chosen.
+
+import { styleValue } from './dom';
+import type { Manifest } from './manifest';
+import type { Polyline, Ring, Tag } from './overlay';
+import type { State } from './store';
+import type { Surface } from './surface';
+
+const mostTags = 40; // numbers of defects in the picture
+const mostRuns = 200; // of a line
+const mostCorners = 5000; // of a run
+
+export interface Marks {
+    tags: Tag[];
+    polylines: Polyline[];
+    rings: Ring[];
+}
+
+/** `judged`: the defects are those of this surface. */
+export function marksOf(manifest: Manifest, state: Readonly<State>, surface: Surface, xyz: Float32Array, judged: boolean): Marks {
+    const accent = styleValue('--accent');
+    const marks: Marks = { tags: [], polylines: [], rings: [] };
+    if (judged) addDefects(manifest, state, marks);
+
+    const addRun = ([begin, end]: [number, number], colour: string, width: number) => {
+        const corners: number[] = [];
+        const step = Math.max(1, Math.floor((end - begin) / mostCorners));
+        for (let i = begin; i < end; i += step) corners.push(xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]);
+        if (corners.length === 3) corners.push(...corners);
+        marks.polylines.push({ xyz: corners, closed: false, colour, width });
+    };
+    const beside = styleValue('--second');
+    if (state.pass > 0) addRun(surface.range(surface.passes[2 * state.pass - 2], surface.passes[2 * state.pass - 1]), beside, 2);
+    if (state.defect !== null && judged) {
+        const defect = manifest.defects[state.defect];
+        for (const run of defect.neighbours) addRun(surface.range(...run.points), beside, 2);
+        for (const run of defect.runs) addRun(surface.range(...run.points), accent, 2);
+    }
+    const runs = state.line > 0 ? surface.runsOfLine(state.line) : [];
+    for (const run of runs.slice(0, mostRuns)) addRun(run, accent, 4);
+
+    const addRing = (vertex: number, label: string, small: boolean) =>
+        marks.rings.push({ at: [xyz[3 * vertex], xyz[3 * vertex + 1], xyz[3 * vertex + 2]], colour: accent, label, small });
+    if (runs.length > 0 && runs[0][0] !== state.vertex) addRing(runs[0][0], '', true);
+    if (state.vertex !== null) addRing(state.vertex, `point ${surface.point[state.vertex]}, line ${surface.line[state.vertex]}`, false);
+    return marks;
+}
+
+function addDefects(manifest: Manifest, state: Readonly<State>, marks: Marks): void {
+    const origin = manifest.surfaces[0].origin_mm;
+    manifest.defects.forEach((defect, k) => {
+        const chosen = state.defect === k;
+        if (k < mostTags || chosen) marks.tags.push({ at: defect.position_mm.map((c, i) => c - origin[i]), text: String(defect.id), severity: defect.severity, chosen });
+        if (!chosen && !state.defects) return;
+        for (const corners of defect.outlines) {
+            marks.polylines.push({
+                xyz: corners.map((c, i) => c - origin[i % 3]),
+                closed: true,
+                colour: styleValue(chosen ? '--accent' : '--ink'),
+                width: chosen ? 2.5 : 1.3,
+            });
+        }
+    });
+}
