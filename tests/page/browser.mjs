@@ -69,8 +69,11 @@ export function useReport(write, take) {
         take(page);
     });
     after(async () => {
-        if (page) await closeReport(page);
-        await browser?.close();
+        try {
+            if (page) await closeReport(page);
+        } finally {
+            await browser?.close(); // else the test never ends
+        }
     });
 }
 
