@@ -9,7 +9,7 @@ if(EXISTS ${stamp})
     return()
   endif()
 endif()
-# The lockfile belongs to the project, not to a machine's mirror of the registry.
+# The lockfile belongs to the project, whatever registry a machine asks.
 file(READ ${SOURCE}/package-lock.json lock)
 if(lock MATCHES "\"resolved\"")
   message(FATAL_ERROR "package-lock.json names a registry's host: npm install --omit-lockfile-registry-resolved")
