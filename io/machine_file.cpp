@@ -135,7 +135,7 @@ std::string axis_text(std::string_view name, const MachineAxis& a, double factor
     text += fmt::format("quantum = {}               # encoder step; 0: none\n", whole(a.servo.quantum));
     text += fmt::format("noise = {}                    # rms\n", whole(a.servo.noise));
     text += fmt::format("backlash = {}                 # play between drive and table\n", whole(a.servo.backlash));
-    return text + fmt::format("friction = {}                 # speed lost to Coulomb friction, per minute\n", whole(a.servo.friction * seconds_per_minute));
+    return text + fmt::format("friction = {}                 # speed lost to Coulomb friction, {}/min\n", whole(a.servo.friction * seconds_per_minute), factor == 1 ? "mm" : "deg");
 }
 
 }  // namespace
