@@ -89,7 +89,10 @@ private:
 
 void put(hid_t group, const char* name, hid_t type, std::vector<hsize_t> size, const void* values) {
     const H5 space(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), H5Sclose, name);
-    const H5 set(H5Dcreate2(group, name, type, space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose, name);
+    // Without the time of day: the same export is the same file.
+    const H5 how(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, name);
+    if (H5Pset_obj_track_times(how.id(), false) < 0) throw SystemError(std::string("HDF5 cannot write ") + name);
+    const H5 set(H5Dcreate2(group, name, type, space.id(), H5P_DEFAULT, how.id(), H5P_DEFAULT), H5Dclose, name);
     if (H5Dwrite(set.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0) throw SystemError(std::string("HDF5 cannot write ") + name);
 }
 

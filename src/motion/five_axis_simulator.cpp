@@ -236,7 +236,7 @@ FiveAxisSummary simulate_five_axis(const Program& program, const Machine& machin
     const Machine tip = machine_of_tip(machine);
     const auto run = [&](const FiveAxisSink& to, std::vector<float>* scales, std::vector<float>* peaks) {
         FiveAxisRecorder recorder(blocks, program, machine, to);
-        const SimulationSummary of_tip = simulate(blocks.planned(), tip, start, [&](std::span<const SimulatedPoint> points) { recorder.add(points); }, progress);
+        const SimulationSummary of_tip = simulate(blocks.planned(), tip, start, [&](std::span<const SimulatedPoint> points) { recorder.add(points); }, progress, Planning::by_nodes);
         FiveAxisSummary summary = recorder.finish();
         summary.run.path_deviation = of_tip.path_deviation;
         if (scales != nullptr) *scales = recorder.scales();

@@ -37,7 +37,7 @@ KnotState state_at(const SCurve& profile, double time) {
 }  // namespace
 
 Refiner::Refiner(const Machine& machine, Interpolator& interpolator, std::int64_t blocks)
-    : machine_(&machine), interpolator_(&interpolator), blocks_(std::max<std::int64_t>(1, blocks)), problem_(machine) {
+    : machine_(&machine), interpolator_(&interpolator), blocks_(blocks), problem_(machine) {
     const double period = machine.controller.period;
     knot_time_ = std::clamp(machine.path.max_acceleration / machine.path.max_jerk / cells_a_ramp, 2 * period, 10 * period);
     problem_.clear();
@@ -62,7 +62,9 @@ void Refiner::push(const Run& run, std::span<const Span> spans) {
     for (const Span& span : spans) kept_run.plain = kept_run.plain && span.straight();
     const std::int64_t number = first_run_ + static_cast<std::int64_t>(runs_.size()) - 1;
     const SCurve& profile = kept_run.profile;
-    if (cruises_at_the_cap(kept_run)) {
+    if (blocks_ == 0) {
+        run_as_planned({number, 0, profile.end_of(6)});
+    } else if (cruises_at_the_cap(kept_run)) {
         // Next to the ramps some of it is left, so that other ramps than the planned ones fit.
         const double begins = profile.end_of(2) + cruise_left * knot_time_;
         const double ends = profile.end_of(3) - cruise_left * knot_time_;

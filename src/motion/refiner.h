@@ -18,7 +18,7 @@ namespace clsurf {
 
 class Refiner {
 public:
-    /// `blocks`: most that a window may span. Both must outlive it.
+    /// `blocks`: most that a window may span; 0: runs stay as they are planned. Both must outlive it.
     Refiner(const Machine& machine, Interpolator& interpolator, std::int64_t blocks);
 
     /// The next run, whose profile begins where that of the last one ended; `spans` are the run's own.

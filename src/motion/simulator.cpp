@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "motion/interpolator.h"
 #include "motion/lookahead.h"
@@ -16,9 +19,9 @@ namespace {
 class Controller {
 public:
     // The blocks that are known ahead are shared between the plan and its refinement.
-    Controller(const Machine& machine, PathStream& stream, Interpolator& interpolator)
-        : blocks_((machine.controller.lookahead_blocks + 1) / 2), stream_(&stream), planner_(machine),
-          refiner_(machine, interpolator, machine.controller.lookahead_blocks / 2) {}
+    Controller(const Machine& machine, PathStream& stream, Interpolator& interpolator, Planning planning)
+        : blocks_(planning == Planning::by_nodes ? machine.controller.lookahead_blocks : (machine.controller.lookahead_blocks + 1) / 2), stream_(&stream), planner_(machine),
+          refiner_(machine, interpolator, planning == Planning::by_nodes ? 0 : std::max(1, machine.controller.lookahead_blocks / 2)) {}
 
     /// Runs a section, from rest to rest.
     template <typename Report>
@@ -47,6 +50,8 @@ public:
             if (planner_.plan(window_, speed, nodes)) {
                 pending_ = planner_.runs();
                 while (!pending_.empty() && pending_.front().last <= half) run_first(speed, done);
+            } else if (pending_.empty()) {
+                throw std::logic_error(fmt::format("no plan leads from {} mm/s on in the block of line {}", speed, window_.front().base.line));
             } else {
                 // The plan before goes on: it ends at rest, whatever comes after.
                 run_first(speed, done);
@@ -77,12 +82,12 @@ private:
 }  // namespace
 
 SimulationSummary simulate(const Program& program, const Machine& machine, const Vec3& start,
-                           const PointSink& sink, const Progress& progress) {
+                           const PointSink& sink, const Progress& progress, Planning planning) {
     PathStream stream(program, machine, start);
     const Vec3 from = stream.position();
     Recorder recorder(program, machine, from, sink);
     Interpolator interpolator(machine.controller.period, recorder);
-    Controller controller(machine, stream, interpolator);
+    Controller controller(machine, stream, interpolator, planning);
     const auto report = [&] {
         if (progress) progress("plan and interpolate", static_cast<double>(stream.motions_taken()) / static_cast<double>(std::max<std::int64_t>(1, program.motions.size())));
     };

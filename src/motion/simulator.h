@@ -33,9 +33,15 @@ struct SimulationSummary {
 
 using PointSink = std::function<void(std::span<const SimulatedPoint>)>;
 
+/// How speeds are planned.
+enum class Planning : std::uint8_t {
+    nearly_optimal,  ///< accelerations are carried through the nodes (refiner.h)
+    by_nodes,        ///< acceleration is zero at every node: slower, and gentler to whatever moves along
+};
+
 /// Plans, interpolates and follows a program; points go to `sink` in order, block by block.
 /// Memory: of the look-ahead. Throws InputError (feed 0, rotary axes, splines).
 [[nodiscard]] SimulationSummary simulate(const Program& program, const Machine& machine, const Vec3& start,
-                                         const PointSink& sink, const Progress& progress);
+                                         const PointSink& sink, const Progress& progress = {}, Planning planning = Planning::nearly_optimal);
 
 }  // namespace clsurf
