@@ -39,7 +39,7 @@ test('a small page keeps what it says it keeps, and says what it leaves out', as
     const file = writeReport('small.html', part, '--max-size', '8.5');
     assert.ok(fs.statSync(file).size <= 8.5e6, `${fs.statSync(file).size} bytes`);
     const page = await openReport(browser, file);
-    assert.match(await page.locator('#contents').innerText(), /of 1\u202f000\u202f000 points are in this page. Of each \d+ consecutive points/);
+    assert.match(await page.locator('#contents').innerText(), /of 1\u202f000\u202f000 points are in this page. Of each [\d\u202f]+ consecutive points/);
     // The first point of a line is there, where the page says that all are.
     const starts = /first point of each line/.test(await page.locator('#contents').innerText());
     if (starts) {
