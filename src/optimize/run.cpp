@@ -11,10 +11,6 @@
 namespace clsurf {
 namespace {
 
-/// As the predictor has it for logs (`clsurf check`).
-constexpr double end_zone_step_overs = 2;
-constexpr double least_end_zone = 1.0;  ///< [mm]
-
 struct Columns {
     std::array<std::vector<double>, 6> positions;
     std::vector<LineNumber> line;
@@ -62,8 +58,7 @@ JudgedRun judge_run(Log log, const Program& program, const QualityRules& rules, 
     run.surface = stitch(gather(run.path), *run.lines);
     const bool follows = role == Role::commanded && run.log.has(Role::feedback);
     const Trajectory measured = follows ? reconstruct(run.log, Role::feedback, offset) : Trajectory{};
-    const double end_zone = std::max(least_end_zone, end_zone_step_overs * run.surface.step_over);
-    run.signals = derive_signals(run.surface, run.path, follows ? &measured : nullptr, smooth_pieces(run.log, run.surface.passes), end_zone);
+    run.signals = derive_signals(run.surface, run.path, follows ? &measured : nullptr, smooth_pieces(run.log, run.surface.passes), usual_end_zone(run.surface.step_over));
     run.report = find_defects(run.surface, run.signals, *run.lines, program, run.log.period, rules);
     run.duration = static_cast<double>(std::max<PointIndex>(0, run.log.records - 1)) * run.log.period;
     const Field mismatch = quality_field("speed_mismatch", run.surface, run.signals);
