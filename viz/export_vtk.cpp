@@ -1,5 +1,7 @@
 #include "viz/export_vtk.h"
 
+#include <numeric>
+
 #include <hdf5.h>
 #include <vtkCellArray.h>
 #include <vtkCellType.h>
@@ -14,6 +16,7 @@
 #include <vtkXMLPolyDataWriter.h>
 
 #include "core/error.h"
+#include "viz/bands.h"
 
 namespace clsurf::viz {
 namespace {
@@ -23,8 +26,7 @@ struct Cells {
     Column<std::int64_t> triangles;                  ///< 3 points each
 };
 
-/// Every point of every pass; triangles between a point, the next, and their neighbours on the
-/// earlier pass.
+/// Every point of every pass, and the bands between neighbour passes as they are drawn, over all points.
 Cells cells_of(const ClSurface& surface) {
     Cells cells;
     cells.line_offsets.push_back(0);
@@ -32,22 +34,13 @@ Cells cells_of(const ClSurface& surface) {
         if (pass.kind != PassKind::cut) continue;
         for (PointIndex i = pass.first; i <= pass.last; ++i) cells.line_points.push_back(i);
         cells.line_offsets.push_back(static_cast<std::int64_t>(cells.line_points.size()));
-        for (PointIndex i = pass.first; i < pass.last; ++i) {
-            for (const Side side : {Side::left, Side::right}) {
-                if (!surface.neighbours.has(side, i) || !surface.neighbours.has(side, i + 1)) continue;
-                const PointIndex m = surface.neighbours.neighbour(side, i);
-                const PointIndex n = surface.neighbours.neighbour(side, i + 1);
-                if (m >= i || n >= i + 1) continue;
-                constexpr PointIndex longest = 4096;  // a jump to another part of the way
-                if (std::abs(n - m) > longest) continue;
-                const PointIndex step = n >= m ? 1 : -1;
-                for (PointIndex k = m; k != n; k += step) {
-                    for (const PointIndex p : {i, k, k + step}) cells.triangles.push_back(p);
-                }
-                for (const PointIndex p : {i, n, i + 1}) cells.triangles.push_back(p);
-            }
-        }
     }
+    Column<PointIndex> every(static_cast<std::size_t>(surface.positions.size()));
+    std::iota(every.begin(), every.end(), PointIndex{0});
+    const WayVertices vertices = way_vertices(surface, every);
+    const Bands bands = join_passes(surface, vertices, {}, static_cast<float>(surface.step_over));
+    cells.triangles.resize(bands.triangles.size());
+    for (std::size_t k = 0; k < bands.triangles.size(); ++k) cells.triangles[k] = vertices.points[bands.triangles[k]];
     return cells;
 }
 

@@ -5,6 +5,7 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
+#include <vtkTriangle.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLPolyDataReader.h>
 
@@ -16,13 +17,14 @@
 namespace clsurf::viz {
 namespace {
 
-/// Three passes of a zigzag, stitched.
+/// Passes of a zigzag, stitched: three where nothing else is given.
 struct Made {
     ClSurface surface;
     Column<float> values;
-    Made() {
-        surface.positions = test::zigzag(3, 10, 0.4, 0.1);
+    explicit Made(Positions positions = test::zigzag(3, 10, 0.4, 0.1)) {
+        surface.positions = std::move(positions);
         surface.positions.origin = Vec3(100, 0, 0);
+        surface.step_over = 0.4;
         const Way way(surface.positions);
         surface.passes = find_passes(surface.positions, way, test::one_run(surface.positions), 0.4);
         surface.neighbours = find_neighbours(surface.positions, surface.passes, way, 0.4);
@@ -44,6 +46,27 @@ TEST(ExportVtk, VtpHoldsPointsPassesTrianglesAndColumns) {
     EXPECT_GT(read->GetNumberOfPolys(), 300);
     EXPECT_EQ(read->GetPoint(0)[0], 100.0);
     EXPECT_EQ(read->GetPointData()->GetArray("speed")->GetTuple1(17), 17.0);
+}
+
+TEST(ExportVtk, AMissingPassStaysOpen) {
+    // Two zigzags of 10 × 2 mm, as one that lacks its seventh pass.
+    Positions positions = test::zigzag(6, 10, 0.4, 0.02);
+    const Positions other = test::zigzag(6, 10, 0.4, 0.02);
+    for (PointIndex i = 0; i < other.size(); ++i) test::add(positions, other[i].x(), other[i].y() + 2.8, 0);
+    const Made made(std::move(positions));
+    const test::TemporaryFolder folder;
+    const std::string path = folder / "a.vtp";
+    write_vtp(path, made.surface, {{"speed", &made.values}});
+    vtkNew<vtkXMLPolyDataReader> reader;
+    reader->SetFileName(path.c_str());
+    reader->Update();
+    vtkPolyData* read = reader->GetOutput();
+    double area = 0;
+    for (vtkIdType k = 0; k < read->GetNumberOfCells(); ++k) {
+        vtkCell* cell = read->GetCell(k);
+        if (auto* triangle = vtkTriangle::SafeDownCast(cell)) area += triangle->ComputeArea();
+    }
+    EXPECT_NEAR(area, 40, 0.2);
 }
 
 TEST(ExportVtk, VtkHdfHoldsTheSame) {
