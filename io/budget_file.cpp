@@ -24,7 +24,7 @@ Limits read_limits(const std::string& path, const Rows& rows) {
 
 }  // namespace
 
-Budget read_budget(const std::string& path) { return read_limits<Budget>(path, budget_limits()); }
+QualityBudget read_budget(const std::string& path) { return read_limits<QualityBudget>(path, budget_limits()); }
 
 RunBudget read_run_budget(const std::string& path) { return read_limits<RunBudget>(path, run_budget_limits()); }
 

@@ -10,7 +10,7 @@
 namespace clsurf::io {
 
 /// Throws InputError: unreadable, an unknown key, a value that is not a number ≥ 0.
-[[nodiscard]] Budget read_budget(const std::string& path);
+[[nodiscard]] QualityBudget read_budget(const std::string& path);
 [[nodiscard]] RunBudget read_run_budget(const std::string& path);
 
 }  // namespace clsurf::io

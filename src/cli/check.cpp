@@ -42,7 +42,7 @@ ExitCode run(const po::variables_map& values) {
     PartOptions options = read_part_options(values);
     const std::optional<Role> measured = take_measured_role(options);
     const QualityOptions quality_options = read_quality_options(values);
-    Budget budget;
+    QualityBudget budget;
     if (values.count("budget") > 0) budget = io::read_budget(values["budget"].as<std::string>());
     ReportOutput output(values);
 

@@ -40,15 +40,6 @@ constexpr auto limits = std::to_array<RunBudgetLimit>({
 
 std::span<const RunBudgetLimit> run_budget_limits() { return limits; }
 
-std::vector<BudgetLine> hold(const RunReport& report, const RunBudget& budget) {
-    std::vector<BudgetLine> lines;
-    for (const RunBudgetLimit& limit : limits) {
-        const std::optional<double>& value = budget.*limit.limit;
-        if (!value) continue;
-        const double measured = limit.measure(report);
-        lines.push_back({limit.name, measured, *value, limit.at_least ? measured >= *value : measured <= *value});
-    }
-    return lines;
-}
+std::vector<BudgetLine> hold(const RunReport& report, const RunBudget& budget) { return hold(run_budget_limits(), report, budget); }
 
 }  // namespace clsurf

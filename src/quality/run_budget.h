@@ -4,8 +4,8 @@
 #include <optional>
 #include <span>
 
+#include "quality/budget.h"
 #include "quality/run_report.h"
-#include "quality/verdict.h"
 
 namespace clsurf {
 
@@ -19,12 +19,7 @@ struct RunBudget {
     std::optional<double> min_aligned_percent;
 };
 
-struct RunBudgetLimit {
-    std::string_view name;
-    std::optional<double> RunBudget::* limit;
-    double (*measure)(const RunReport& report);  ///< NaN: not known, which holds no limit
-    bool at_least = false;
-};
+using RunBudgetLimit = BudgetLimit<RunReport, RunBudget>;
 [[nodiscard]] std::span<const RunBudgetLimit> run_budget_limits();
 
 /// Every limit that the budget sets.

@@ -32,32 +32,19 @@ double speed_mismatch(const QualityReport& r) {
 }
 double coverage(const QualityReport& r) { return 100 * r.coverage(); }
 
-constexpr auto limits = std::to_array<BudgetLimit>({
-    {"max_depth_um", &Budget::max_depth_um, depth},
-    {"max_defects", &Budget::max_defects, count},
-    {"max_severity", &Budget::max_severity, severity},
-    {"max_area_mm2", &Budget::max_area_mm2, area},
-    {"max_speed_mismatch_percent", &Budget::max_speed_mismatch_percent, speed_mismatch},
-    {"min_coverage_percent", &Budget::min_coverage_percent, coverage, true},
+constexpr auto limits = std::to_array<QualityLimit>({
+    {"max_depth_um", &QualityBudget::max_depth_um, depth},
+    {"max_defects", &QualityBudget::max_defects, count},
+    {"max_severity", &QualityBudget::max_severity, severity},
+    {"max_area_mm2", &QualityBudget::max_area_mm2, area},
+    {"max_speed_mismatch_percent", &QualityBudget::max_speed_mismatch_percent, speed_mismatch},
+    {"min_coverage_percent", &QualityBudget::min_coverage_percent, coverage, true},
 });
 
 }  // namespace
 
-std::span<const BudgetLimit> budget_limits() { return limits; }
+std::span<const QualityLimit> budget_limits() { return limits; }
 
-std::vector<BudgetLine> hold(const QualityReport& report, const Budget& budget) {
-    std::vector<BudgetLine> lines;
-    for (const BudgetLimit& limit : limits) {
-        const std::optional<double>& value = budget.*limit.limit;
-        if (!value) continue;
-        const double measured = limit.measure(report);
-        lines.push_back({limit.name, measured, *value, limit.at_least ? measured >= *value : measured <= *value});
-    }
-    return lines;
-}
-
-bool all_held(const std::vector<BudgetLine>& lines) {
-    return std::all_of(lines.begin(), lines.end(), [](const BudgetLine& line) { return line.held; });
-}
+std::vector<BudgetLine> hold(const QualityReport& report, const QualityBudget& budget) { return hold(budget_limits(), report, budget); }
 
 }  // namespace clsurf

@@ -95,7 +95,7 @@ TEST(Verdict, HoldsEveryLimitThatIsSet) {
     report.defects[0].severity = 3;
     report.defects[0].speed_mismatch = 0.25;
     EXPECT_TRUE(hold(report, {}).empty());
-    Budget budget;
+    QualityBudget budget;
     budget.max_depth_um = 6;
     budget.max_defects = 2;
     budget.max_speed_mismatch_percent = 25;
