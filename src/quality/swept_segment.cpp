@@ -136,50 +136,46 @@ private:
     std::array<float, intervals + 1> before_{};
 };
 
+/// `lower(along, across, z)` for every cell in reach: its place in the frame of the segment, mm.
+template <typename Lower>
+void lower_cells(const SweptSegment& g, const CellBlock& cells, Lower&& lower) {
+    const Columns rows = rows_of(g, cells);
+    for (int row = rows.first; row < rows.last; ++row) {
+        const Row r = row_of(g, cells, row);
+        float* const z = cells.z + static_cast<std::ptrdiff_t>(row) * cells.columns;
+        for (int column = r.columns.first; column < r.columns.last; ++column) {
+            const float x = static_cast<float>(column) * cells.cell;
+            lower(r.s + g.dx * x, r.w - g.dy * x, z[column]);
+        }
+    }
+}
+
 void lower_bull(const CuttingTool& tool, const SweptSegment& g, const CellBlock& cells) {
     const Touched touched(tool, g);
     const auto radius = static_cast<float>(tool.radius);
     const auto corner = static_cast<float>(tool.corner);
     const float bottom = radius - corner;
-    const Columns rows = rows_of(g, cells);
-    for (int row = rows.first; row < rows.last; ++row) {
-        const Row r = row_of(g, cells, row);
-        float* const z = cells.z + static_cast<std::ptrdiff_t>(row) * cells.columns;
-        for (int column = r.columns.first; column < r.columns.last; ++column) {
-            const float x = static_cast<float>(column) * cells.cell;
-            const float along = r.s + g.dx * x;
-            const float across = r.w - g.dy * x;
-            const float at = std::clamp(along - touched.before(across), 0.0F, g.length);
-            const float off = along - at;
-            const float rho = std::sqrt(off * off + across * across);
-            if (rho > radius) continue;
-            const float out = std::max(0.0F, rho - bottom);
-            const float height = g.z + g.slope * at + (corner - std::sqrt(std::max(0.0F, corner * corner - out * out)));
-            z[column] = std::min(z[column], height);
-        }
-    }
+    lower_cells(g, cells, [&](float along, float across, float& z) {
+        const float at = std::clamp(along - touched.before(across), 0.0F, g.length);
+        const float off = along - at;
+        const float rho = std::sqrt(off * off + across * across);
+        if (rho > radius) return;
+        const float out = std::max(0.0F, rho - bottom);
+        z = std::min(z, g.z + g.slope * at + (corner - std::sqrt(std::max(0.0F, corner * corner - out * out))));
+    });
 }
 
 void lower_flat(const CuttingTool& tool, const SweptSegment& g, const CellBlock& cells) {
     const auto radius = static_cast<float>(tool.radius);
-    const Columns rows = rows_of(g, cells);
-    for (int row = rows.first; row < rows.last; ++row) {
-        const Row r = row_of(g, cells, row);
-        float* const z = cells.z + static_cast<std::ptrdiff_t>(row) * cells.columns;
-        for (int column = r.columns.first; column < r.columns.last; ++column) {
-            const float x = static_cast<float>(column) * cells.cell;
-            const float along = r.s + g.dx * x;
-            const float across = r.w - g.dy * x;
-            const float rest = radius * radius - across * across;
-            if (rest < 0) continue;
-            const float half = std::sqrt(rest);
-            const float first = std::max(0.0F, along - half);
-            const float last = std::min(g.length, along + half);
-            if (first > last) continue;
-            // The bottom stands over the cell all the way between: the lower end counts.
-            z[column] = std::min(z[column], g.z + g.slope * (g.slope >= 0 ? first : last));
-        }
-    }
+    lower_cells(g, cells, [&](float along, float across, float& z) {
+        const float rest = radius * radius - across * across;
+        if (rest < 0) return;
+        const float half = std::sqrt(rest);
+        const float first = std::max(0.0F, along - half);
+        const float last = std::min(g.length, along + half);
+        // The bottom stands over the cell all the way between: the lower end counts.
+        if (first <= last) z = std::min(z, g.z + g.slope * (g.slope >= 0 ? first : last));
+    });
 }
 
 }  // namespace
