@@ -48,7 +48,7 @@ void declare(po::options_description& options) {
 /// What `render` needs to read the same, as words of a command line.
 std::vector<std::string> reading_options_of(const po::variables_map& values) {
     std::vector<std::string> words;
-    for (const char* name : {"dialect", "tools", "layout", "mapping", "work-offset"}) {
+    for (const char* name : {"dialect", "tools", "layout", "mapping", "work-offset", "machine"}) {
         if (values.count(name) > 0) words.insert(words.end(), {fmt::format("--{}", name), values[name].as<std::string>()});
     }
     for (const char* name : {"block-delete", "ignore-lines"}) {
