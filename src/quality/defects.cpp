@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/parallel.h"
 #include "core/statistics.h"
 #include "path/way.h"
 #include "quality/cause.h"
@@ -331,11 +332,18 @@ QualityReport find_defects(const ClSurface& surface, const Signals& signals, con
 
     const FoundSuspects found = find_suspects(surface, signals, report.thresholds, period);
     const Suspects& suspects = found.suspects;
-    std::vector<Built> all = build_family(suspects, motion_family, surface, way, builder);
+    const std::array<Family, 3> families{motion_family, lag_family, relief_family};
+    std::array<std::vector<Built>, families.size()> of_family;
+    parallel_for(families.size(), 1, [&](std::int64_t first, std::int64_t last) {
+        for (auto k = static_cast<std::size_t>(first); k < static_cast<std::size_t>(last); ++k) {
+            of_family[k] = build_family(suspects, families[k], surface, way, builder);
+        }
+    });
+    std::vector<Built> all = std::move(of_family[0]);
     const PointIndex room = std::lround(std::min(effect_seconds / period, 1e6));
-    for (const Family family : {Family(lag_family), Family(relief_family)}) {
+    for (std::size_t k = 1; k < families.size(); ++k) {
         const Explanations before(all, room);
-        for (Built& height : build_family(suspects, family, surface, way, builder)) {
+        for (Built& height : of_family[k]) {
             if (!before.explain(height.core)) all.push_back(std::move(height));
         }
     }
