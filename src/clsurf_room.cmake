@@ -9,6 +9,11 @@ target_compile_features(clsurf_build_options INTERFACE cxx_std_20)
 target_compile_options(clsurf_build_options INTERFACE -ffp-contract=off -Wall -Wextra -Wpedantic
   -Wshadow -Wnon-virtual-dtor $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
   $<$<BOOL:${CLSURF_STRICT}>:-Werror>)
+if(NOT CMAKE_DISABLE_PRECOMPILE_HEADERS)
+  # For ccache; and more false warnings of the same bug, which headers compiled before do not hide.
+  target_compile_options(clsurf_build_options INTERFACE
+    "$<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess;-Wno-stringop-overflow;-Wno-array-bounds>")
+endif()
 if(CLSURF_SANITIZE STREQUAL "address")
   target_compile_options(clsurf_build_options INTERFACE -fsanitize=address,undefined
     -fno-sanitize-recover=all -fno-omit-frame-pointer)
@@ -41,6 +46,11 @@ function(clsurf_room name)
   target_link_libraries(clsurf_${name} PRIVATE $<BUILD_INTERFACE:clsurf_build_options>)
   target_link_libraries(clsurf_${name} PUBLIC ${ROOM_NEEDS})
   target_link_libraries(clsurf_${name} ${ROOM_LIBRARIES})
+  if(name STREQUAL "core")
+    clsurf_precompiled(clsurf_core)
+  else()
+    clsurf_precompiled(clsurf_${name} FROM clsurf_core)
+  endif()
   set_target_properties(clsurf_${name} PROPERTIES EXPORT_NAME ${name}
     VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 

@@ -1,5 +1,7 @@
 #include "core/place.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 namespace clsurf {
@@ -24,13 +26,9 @@ std::string Place::text() const {
     switch (kind) {
         case Kind::none:
         case Kind::file: return file;
-        case Kind::line: {
-            std::string text = file + ":" + std::to_string(number);
-            if (column > 0) text += ":" + std::to_string(column);
-            return text;
-        }
-        case Kind::point: return file + ": point " + std::to_string(number);
-        case Kind::byte: return file + ": byte " + std::to_string(number);
+        case Kind::line: return column > 0 ? fmt::format("{}:{}:{}", file, number, column) : fmt::format("{}:{}", file, number);
+        case Kind::point: return fmt::format("{}: point {}", file, number);
+        case Kind::byte: return fmt::format("{}: byte {}", file, number);
     }
     return file;
 }

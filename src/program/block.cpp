@@ -192,10 +192,10 @@ private:
     void put(char letter, double value, std::size_t column) {
         if (letter == 'G') {
             if (!add_g(block_.words, value, column)) {
-                block_.unknown.push_back({"G" + std::to_string(value), column});
+                block_.unknown.push_back({fmt::format("G{}", value), column});
             }
         } else if (letter == 'M') {
-            if (!add_m(block_.words, value)) block_.unknown.push_back({"M" + std::to_string(value), column});
+            if (!add_m(block_.words, value)) block_.unknown.push_back({fmt::format("M{}", value), column});
         } else {
             if (block_.words.given(letter) && dialect_ == DialectId::linuxcnc) {
                 throw ReadError{std::string("word ") + letter + " is given twice", column, {}};
