@@ -75,6 +75,12 @@ test('on paper the panes give way to pictures and tables', async () => {
     await page.emulateMedia({ media: 'print' });
     assert.ok(!(await page.locator('#app').isVisible()));
     assert.ok(await page.locator('#maps img').first().isVisible());
+    const paper = { width: 718, height: 1046 }; // A4 less margins of 1 cm, in CSS pixels
+    await page.setViewportSize(paper);
+    for (const table of await page.locator('#report table').all()) {
+        const { x, width } = await table.boundingBox();
+        assert.ok(x + width <= paper.width, `a table is ${Math.round(x + width - paper.width)} pixels wider than the sheet`);
+    }
     fs.writeFileSync(path.join(folder, 'report.pdf'), await page.pdf({ format: 'A4' }));
     await closeReport(page);
 });
