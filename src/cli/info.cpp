@@ -55,8 +55,14 @@ void judge_together(Program program, const Log& log, const std::optional<Vec3>& 
     if (!log.has(role) || log.records == 0 || program.motions.size() == 0) return;
     const Vec3 offset = -given.value_or(log.work_offset.value_or(Vec3::Zero()));
     const Trajectory path = reconstruct(log, role, offset, kinematics);
-    if (kinematics) make_tip_motions(program, *kinematics, offset);
-    else note_rotary(log, role, diagnostics);
+    if (kinematics) {
+        program.diagnostics = {};
+        solve_tool_axes(program, *kinematics);
+        diagnostics.append(program.diagnostics);
+        make_tip_motions(program, *kinematics, offset);
+    } else {
+        note_rotary(log, role, diagnostics);
+    }
     const LineMap lines = map_lines(path, log, program, true, diagnostics);
     const LineAgreement a = check_lines(path, program, lines);
     if (a.checked == 0) return;

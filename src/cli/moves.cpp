@@ -11,13 +11,13 @@ namespace {
 
 ExitCode run(const po::variables_map& values) {
     Program program = io::read_program(required(values, "PROGRAM"), read_program_options(values));
-    print(program.diagnostics, values);
     std::optional<Machine> machine;
     if (values.count("machine") > 0) {
         machine = io::read_machine(values["machine"].as<std::string>());
         if (!machine->kinematics.has_rotary()) throw UsageError("--machine: the machine has no rotary axes");
         solve_tool_axes(program, *machine);
     }
+    print(program.diagnostics, values);
     io::write_moves_csv(program.motions, machine ? &machine->kinematics : nullptr, write_to_stdout);
     return ExitCode::done;
 }

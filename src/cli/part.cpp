@@ -81,6 +81,7 @@ Part load_part(const PartOptions& options, StageClock& clock) {
     const Vec3 offset = -options.offset.value_or(part.log.work_offset.value_or(Vec3::Zero()));
     const std::shared_ptr<const Kinematics> kinematics = load_kinematics(options.machine);
     part.path = reconstruct(part.log, role, offset, kinematics);
+    if (kinematics) solve_tool_axes(part.program, *kinematics);
     part.diagnostics.append(part.program.diagnostics);
     part.diagnostics.append(part.log.diagnostics);
     io::check_identity(program, part.log, part.diagnostics);

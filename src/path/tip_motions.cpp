@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "core/error.h"
 #include "core/units.h"
 #include "path/toolpath.h"
@@ -27,6 +29,7 @@ public:
     Motions make() {
         std::vector<std::int64_t> first(from_->kind.size() + 1);  // where each motion begins now
         to_.start = from_->start;
+        to_.calls = from_->calls;
         tip_ = from_->start.vec();
         RotaryAngles before;
         auto offset_change = from_->offsets.begin();
@@ -84,6 +87,7 @@ private:
         to_.rotary.push_back(rotary);
         if (!from_->tool_axis.empty()) to_.tool_axis.push_back(from_->tool_axis[at]);
         if (!from_->file.empty()) to_.file.push_back(from_->file[at]);
+        if (!from_->call.empty()) to_.call.push_back(from_->call[at]);
         tip_ = end;
     }
 
@@ -142,21 +146,48 @@ void make_tip_motions(Program& program, const Kinematics& kinematics, const Vec3
 }
 
 void solve_tool_axes(Program& program, const Machine& machine) {
-    Motions& motions = program.motions;
     const Kinematics& kinematics = machine.kinematics;
-    if (motions.tool_axis.empty() || !kinematics.has_rotary()) return;
-    if (motions.rotary.empty()) motions.rotary = Column<Xyz>(motions.kind.size(), Xyz(0, 0, 0));
     const auto range = [&](std::size_t axis) {
         // Travel is what the axis shows; angles here have the sign applied.
         const double sign = axis == 0 ? kinematics.tilt.sign : kinematics.rotation.sign;
         const MachineAxis& a = machine.rotary[axis];
         return sign > 0 ? AngleRange{a.travel_low, a.travel_high} : AngleRange{-a.travel_high, -a.travel_low};
     };
+    solve_tool_axes(program, kinematics, range(0), range(1));
+}
+
+namespace {
+
+/// The first motion of every axis that the program turns and the machine lacks.
+void note_missing_axes(Program& program, const Kinematics& kinematics) {
+    const Motions& motions = program.motions;
+    for (int k = 0; k < 3; ++k) {
+        const char letter = "abc"[k];
+        if (letter == kinematics.tilt.letter || letter == kinematics.rotation.letter) continue;
+        const auto turned = std::find_if(motions.rotary.begin(), motions.rotary.end(), [&](const Xyz& r) { return std::abs(r.vec()[k]) > 0; });
+        if (turned == motions.rotary.end()) continue;
+        const auto at = static_cast<std::size_t>(turned - motions.rotary.begin());
+        const std::string& file = program.files[motions.file.empty() ? 0 : motions.file[at]].name();
+        program.diagnostics.add({Severity::warning, "program.axis", Place::of_line(file, motions.line[at]),
+                                 fmt::format("axis {} turns, which the machine does not have: it is read as 0", static_cast<char>(letter - 'a' + 'A')), "[kinematics] rotary names the machine's two"});
+    }
+}
+
+}  // namespace
+
+void solve_tool_axes(Program& program, const Kinematics& kinematics, const AngleRange& tilt, const AngleRange& rotation) {
+    Motions& motions = program.motions;
+    if (!kinematics.has_rotary()) return;
+    note_missing_axes(program, kinematics);
+    if (motions.tool_axis.empty()) return;
+    if (motions.rotary.empty()) motions.rotary = Column<Xyz>(motions.kind.size(), Xyz(0, 0, 0));
     const auto is_vector = [&](std::size_t i) { return !std::isnan(motions.tool_axis[i].x); };
     RotaryAngles before;
     std::vector<Vec3> axes;
     for (std::size_t first = 0; first < motions.kind.size();) {
         if (!is_vector(first)) {
+            const Vec3 named = motions.rotary[first].vec();
+            motions.rotary[first] = Xyz(named.array().isNaN().select(kinematics.programmed(before), named));
             before = kinematics.angles_of(motions.rotary[first].vec());
             ++first;
             continue;
@@ -164,7 +195,7 @@ void solve_tool_axes(Program& program, const Machine& machine) {
         axes.clear();
         std::size_t last = first;
         for (; last < motions.kind.size() && is_vector(last); ++last) axes.push_back(motions.tool_axis[last].vec());
-        const std::vector<RotaryAngles> found = follow_rotary(kinematics, axes, before, range(0), range(1));
+        const std::vector<RotaryAngles> found = follow_rotary(kinematics, axes, before, tilt, rotation);
         if (found.size() < axes.size()) {
             throw InputError(Place::of_line(program.main().name(), motions.line[first + found.size()]), "the tool axis cannot be reached within the travel of the rotary axes");
         }

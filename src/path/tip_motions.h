@@ -15,9 +15,12 @@ namespace clsurf {
 /// Events of the program move along with the motions that they stand before. O(motions).
 void make_tip_motions(Program& program, const Kinematics& kinematics, const Vec3& offset);
 
-/// Sets the angles of motions whose tool axis is a vector: those solutions, within the travel of the
-/// axes, that turn them least over each run of such motions. Throws InputError with the line of a
-/// tool axis out of reach. O(motions).
+/// Sets the angles of motions whose tool axis is a vector: those solutions, within the ranges, that turn the
+/// axes least over each run of such motions; motions after it that do not name an axis leave it there. Throws
+/// InputError with the line of a tool axis out of reach. Adds `program.axis` to the program's diagnostics
+/// where an axis turns that the machine does not have. O(motions).
+void solve_tool_axes(Program& program, const Kinematics& kinematics, const AngleRange& tilt = {}, const AngleRange& rotation = {});
+/// Within the travel of the machine's axes.
 void solve_tool_axes(Program& program, const Machine& machine);
 
 }  // namespace clsurf

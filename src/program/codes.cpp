@@ -305,10 +305,16 @@ void Interpreter::report_unused(const Block& block) {
     }
     for (const char letter : {'V', 'W', 'U', 'E'}) {
         if (!is(block, letter) || motion_suppressed_) continue;
-        const bool axis = letter != 'E';
-        note(Severity::warning, axis ? "program.axis" : "program.unknown-word",
-             axis ? fmt::format("axis {} is not carried on", letter) : fmt::format("word {} is not known", letter),
-             block.words.column[static_cast<std::size_t>(letter - 'A')]);
+        const std::size_t column = block.words.column[static_cast<std::size_t>(letter - 'A')];
+        if (letter == 'E') {
+            note(Severity::warning, "program.unknown-word", "word E is not known", column);
+            continue;
+        }
+        // Where such an axis stays at 0 it changes nothing; moved, it takes the tool or the part elsewhere.
+        const bool moves = state_.motion == MotionMode::rapid || state_.motion == MotionMode::feed || state_.motion == MotionMode::cw || state_.motion == MotionMode::ccw;
+        if (block.words.of(letter) == 0) continue;
+        if (moves) fail(fmt::format("axis {} moves: where the tool is with axes U V W is not known", letter), column, "X Y Z A B C are");
+        note(Severity::warning, "program.axis", fmt::format("word {} has no meaning here", letter), column);
     }
 }
 

@@ -160,7 +160,12 @@ bool Interpreter::apply_fanuc(int code, Block& block, std::size_t column) {
         }
         case 670: modal_call_ = {}; return true;
         case 680: rotate_frame(block, column); return true;
-        case 682: case 683: case 684:
+        case 682: tilt_plane(block, column); return true;
+        case 531: case 536:
+            if (!tilted_) note(Severity::warning, "program.rotation", code_text(code) + " without a tilted plane (G68.2) does nothing", column);
+            else turn_to_plane(fanuc_frame_.rotation.direction_to_work(Vec3::UnitZ()), code == 536, code_text(code));
+            return true;
+        case 683: case 684:
             note(Severity::warning, "program.rotation", code_text(code) + ": the tilted plane is not carried out, the path is read as programmed", column);
             motion_suppressed_ = true;
             return true;
@@ -169,10 +174,11 @@ bool Interpreter::apply_fanuc(int code, Block& block, std::size_t column) {
             fanuc_frame_.angle = 0;
             settle_fanuc_frame();
             event("rotation", code_text(code));
+            end_tilted_plane(code_text(code));
             return true;
         default: break;
     }
-    static constexpr auto noted = std::to_array<int>({71, 220, 230, 260, 405, 531, 534, 535, 536, 545, 620, 630, 601, 121, 131, 125, 135});
+    static constexpr auto noted = std::to_array<int>({71, 220, 230, 260, 405, 534, 535, 545, 620, 630, 601, 121, 131, 125, 135});
     if (std::find(noted.begin(), noted.end(), code) != noted.end()) {
         event("mode", code_text(code) + words_text(block, "PQHDR"));
         motion_suppressed_ = code == 220;

@@ -370,6 +370,8 @@ void Interpreter::call(const std::string& name, int repeats, bool locals, const 
     frame.start_file = file;
     frame.start_line = line + (at >= 0 || dialect_ != DialectId::fanuc ? 1 : 0);
     if (at < 0 && dialect_ == DialectId::siemens) frame.start_line = 1;
+    frame.call = call_;
+    call_ = call_from_here();
     frame.repeats = repeats - 1;
     frame.locals = locals;
     frame.counters = std::move(counters_);
@@ -382,6 +384,16 @@ void Interpreter::call(const std::string& name, int repeats, bool locals, const 
     kept_modes_.emplace_back();
     restores_modes_.push_back(false);
     go_to(file, frames_.back().start_line);
+}
+
+/// The call that the line makes which runs; a loop that calls again and again makes one.
+std::uint32_t Interpreter::call_from_here() {
+    std::vector<Call>& calls = program_.motions.calls;
+    constexpr std::size_t most_calls = 1'000'000;  // of lines and ways to them; what more there is counts as its caller
+    if (calls.size() >= most_calls) return call_;
+    const auto [found, is_new] = known_calls_.try_emplace({call_, static_cast<std::uint32_t>(file_), line_}, static_cast<std::uint32_t>(calls.size() + 1));
+    if (is_new) calls.push_back({call_, static_cast<std::uint16_t>(file_), line_});
+    return found->second;
 }
 
 void Interpreter::leave(bool from_end_of_text) {
@@ -405,6 +417,7 @@ void Interpreter::leave(bool from_end_of_text) {
     counters_ = std::move(frame.counters);
     const std::size_t file = frame.file;
     const LineNumber line = frame.line;
+    call_ = frame.call;
     frames_.pop_back();
     go_to(file, line + 1);
 }

@@ -55,6 +55,7 @@ Program Interpreter::run() {
     m.line.shrink_to_fit();
     m.rotary.shrink_to_fit();
     m.file.shrink_to_fit();
+    m.call.shrink_to_fit();
     return std::move(program_);
 }
 

@@ -24,6 +24,7 @@ struct Frame {
     LineNumber line = 0;          ///< the calling line
     std::size_t start_file = 0;   ///< of the subprogram, for repeats
     LineNumber start_line = 0;
+    std::uint32_t call = 0;       ///< that ran before it: index into Motions::calls, from 1
     int repeats = 0;              ///< still to do after this one
     bool locals = false;          ///< a set of local variables was pushed
     std::map<LineNumber, double> counters;  ///< of the repeat and for loops of the caller
@@ -149,6 +150,13 @@ private:
     void control_tool_centre_point(bool on, const std::string& text);
     bool take_tool_axis(const Block& block);
 
+    // tilted_plane.cpp: CYCLE800, G68.2
+    void begin_tilted_plane(const std::string& text);
+    void end_tilted_plane(const std::string& text);
+    void turn_to_plane(const Vec3& axis, bool keeps_tip, const std::string& text);
+    void swivel(const Keyword& keyword);                        ///< CYCLE800
+    void tilt_plane(const Block& block, std::size_t column);    ///< G68.2
+
     // offsets.cpp: work systems, tools, reference points
     void set_offsets(const Block& block);       ///< G10
     void set_tool(int level, const Block& block);  ///< G10 L1, L10, L11
@@ -219,6 +227,7 @@ private:
     void run_modal_call();
     void leave(bool from_end_of_text);
     void count_jump();
+    [[nodiscard]] std::uint32_t call_from_here();
     [[nodiscard]] const ControlIndex& index(std::size_t file);
     [[nodiscard]] LineNumber find_block(double number, LineNumber line, int direction);
     [[nodiscard]] bool load(const std::string& name);  ///< false: no such file
@@ -245,7 +254,10 @@ private:
     bool entry_programmed_ = false;     ///< the entry move has been read
     int length_number_ = 0, radius_number_ = 0;  ///< Fanuc's H and D
     bool tool_centre_point_ = false;    ///< G43.4, TRAORI, M128
+    std::string tool_centre_point_text_;  ///< what switched it on
     bool axis_words_ = false;           ///< G43.5: I J K are the tool axis
+    bool tilted_ = false;               ///< CYCLE800, G68.2: positions are those of the tip, too
+    ProgramFrame swivel_;               ///< of CYCLE800; TRANS, ROT … count in it
     bool feed_missed_ = false;          ///< a cutting motion without feed has been reported
     std::int64_t compensation_ended_ = -1;  ///< motions before G40: the next one is a straight one
     std::int64_t unread_since_ = -1;        ///< motions before the position and the machine parted
@@ -258,6 +270,8 @@ private:
     std::size_t next_byte_ = 0;
     std::string_view current_;  ///< text of the line that runs
     std::vector<Frame> frames_;
+    std::uint32_t call_ = 0;    ///< that runs: index into Motions::calls, from 1; 0: the main program
+    std::map<std::array<std::uint32_t, 3>, std::uint32_t> known_calls_;  ///< by caller, file and line
     std::vector<std::optional<ModalState>> kept_modes_{1};  ///< by level of calls: what M70 and M73 kept
     std::vector<bool> restores_modes_{false};               ///< M73: they come back on return
     std::map<LineNumber, double> counters_;

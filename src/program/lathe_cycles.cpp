@@ -140,6 +140,7 @@ Vec2 Interpreter::record_profile(const std::string& name, std::vector<Compensate
     m.line.resize(first);
     if (!m.rotary.empty()) m.rotary.resize(first);
     if (!m.file.empty()) m.file.resize(first);
+    if (!m.call.empty()) m.call.resize(first);
     m.arcs.resize(first_arc);
     for (std::size_t i = first_event; i < program_.events.size(); ++i) program_.events[i].motion = m.size();
     state_ = state;

@@ -83,6 +83,9 @@ Vec3 Interpreter::rotary_target(const Block& block) const {
             continue;
         }
         const bool incremental = state_.incremental ? (block.absolute & bit) == 0 : (block.incremental & bit) != 0;
+        if (incremental && std::isnan(target[axis])) {
+            fail(fmt::format("an increment of {}: its angle is not known after a tool axis given as a vector", letter), block.words.column[static_cast<std::size_t>(letter - 'A')]);
+        }
         target[axis] = (incremental ? target[axis] : 0.0) + block.words.of(letter);
     }
     return target;
@@ -255,11 +258,12 @@ void Interpreter::push(MotionKind kind, const Vec3& end, const Vec3& rotary, flo
     m.end.push_back(Xyz(end));
     m.feed.push_back(feed);
     m.line.push_back(line_);
-    if (!m.rotary.empty() || rotary.squaredNorm() != 0) {
+    const bool vector = (tool_centre_point_ || tilted_) && !std::isnan(state_.tool_axis.x());
+    const Vec3 angles = vector ? Vec3(Vec3::Constant(std::numeric_limits<double>::quiet_NaN())) : rotary;
+    if (!m.rotary.empty() || angles.squaredNorm() != 0) {
         if (m.rotary.empty()) m.rotary = Column<Xyz>(m.kind.size() - 1, Xyz(0, 0, 0));
-        m.rotary.push_back(Xyz(rotary * rad_per_deg));
+        m.rotary.push_back(Xyz(angles * rad_per_deg));
     }
-    const bool vector = tool_centre_point_ && !std::isnan(state_.tool_axis.x());
     if (vector || !m.tool_axis.empty()) {
         const Xyz none(Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
         if (m.tool_axis.empty()) m.tool_axis = Column<Xyz>(m.kind.size() - 1, none);
@@ -269,8 +273,12 @@ void Interpreter::push(MotionKind kind, const Vec3& end, const Vec3& rotary, flo
         if (m.file.empty()) m.file = Column<std::uint16_t>(m.kind.size() - 1, 0);
         m.file.push_back(static_cast<std::uint16_t>(file_));
     }
+    if (!m.calls.empty()) {
+        if (m.call.empty()) m.call = Column<std::uint32_t>(m.kind.size() - 1, 0);
+        m.call.push_back(call_);
+    }
     state_.position = end;
-    state_.rotary = rotary;
+    state_.rotary = angles;
 }
 
 namespace {

@@ -22,7 +22,7 @@ constexpr auto noted_codes = std::to_array<int>({
 constexpr auto approach_codes = std::to_array<int>({1470, 1480, 2470, 2480, 3470, 3480});
 
 constexpr auto noted_words = std::to_array<std::string_view>({
-    "CYCLE800", "MSG", "FNORM", "FLIN", "FCUB", "STOPRE", "ORIWKS", "ORIMKS", "ORIAXES", "ORIVECT", "ORISON",
+    "MSG", "FNORM", "FLIN", "FCUB", "STOPRE", "ORIWKS", "ORIMKS", "ORIAXES", "ORIVECT", "ORISON",
     "OTOL", "CTOL", "UPATH", "SPATH", "CDOF", "CDOF2", "CDON", "CUT2D", "CUT2DF", "ORISOF", "WORKPIECE", "FGROUP",
     "FIFOCTRL", "STARTFIFO", "STOPFIFO", "NORM", "KONT", "KONTT", "KONTC", "DISPLOF", "DISPLON", "SAVE", "SBLOF", "SBLON",
     "FFWON", "FFWOF", "SOFT", "BRISK", "DRIVE", "SOFTA", "BRISKA", "ACC", "RTLION", "RTLIOF", "TOFFOF", "PAROTOF",
@@ -118,7 +118,7 @@ bool Interpreter::siemens_frame(const Keyword& keyword, Block& block) {
     } else {
         return false;
     }
-    state_.frame = adds ? state_.frame.around(frame) : frame;
+    state_.frame = adds ? state_.frame.around(frame) : swivel_.around(frame);
     const std::optional<double> turned = block.value_of("RPL");
     event("frame", keyword.name + words_text(block, "XYZ") + (turned ? fmt::format(" RPL={:g}", *turned) : std::string()));
     // The words belong to the frame, not to a motion.
@@ -207,6 +207,10 @@ void Interpreter::apply_keyword(const Keyword& keyword, Block& block) {
     }
     if (name == "TRAORI" || name == "TRAFOOF") {
         control_tool_centre_point(name == "TRAORI", text());
+        return;
+    }
+    if (name == "CYCLE800") {
+        swivel(keyword);
         return;
     }
     if (name == "CYCLE832") {

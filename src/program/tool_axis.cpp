@@ -15,6 +15,7 @@ namespace clsurf {
 void Interpreter::control_tool_centre_point(bool on, const std::string& text) {
     if (!on && !tool_centre_point_) return;
     tool_centre_point_ = on;
+    tool_centre_point_text_ = text;
     axis_words_ = on && text == "G43.5";
     state_.tool_axis.setConstant(std::numeric_limits<double>::quiet_NaN());
     event("tool-centre-point", text);
@@ -22,7 +23,7 @@ void Interpreter::control_tool_centre_point(bool on, const std::string& text) {
 
 /// True: the block gives a tool axis as a vector, in the axes of the program.
 bool Interpreter::take_tool_axis(const Block& block) {
-    if (!tool_centre_point_) return false;
+    if (!tool_centre_point_ && !tilted_) return false;
     const bool straight = state_.motion == MotionMode::rapid || state_.motion == MotionMode::feed;
     Vec3 axis = Vec3::Zero();
     bool given = false;

@@ -1,12 +1,17 @@
 #pragma once
 // Tool centre point control: whether a program's positions are those of the tool's tip in the workpiece
-// (G43.4, G43.5, TRAORI, M128) or of the machine's axes (G49, TRAFOOF, M129).
+// (G43.4, G43.5, TRAORI, M128; a tilted plane of G68.2 or CYCLE800) or of the machine's axes (G49, TRAFOOF,
+// M129, G69).
 
 #include <cstdint>
+#include <string_view>
 
 #include "program/program.h"
 
 namespace clsurf {
+
+/// How the event of a plane that is tilted begins.
+inline constexpr std::string_view tilted_plane = "tilted plane ";
 
 /// Goes along the events of a program. Programs begin with it off.
 class ToolCentrePoint {
@@ -19,7 +24,7 @@ public:
         for (; next_ < events.size() && events[next_].motion <= motion; ++next_) {
             const ProgramEvent& event = events[next_];
             if (event.name != "tool-centre-point") continue;
-            on_ = event.value.starts_with("TRAORI") || event.value.starts_with("G43.4") || event.value.starts_with("G43.5") || event.value.starts_with("M128");
+            on_ = event.value.starts_with(tilted_plane) || event.value.starts_with("TRAORI") || event.value.starts_with("G43.4") || event.value.starts_with("G43.5") || event.value.starts_with("M128");
         }
         return on_;
     }

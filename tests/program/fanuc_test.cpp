@@ -1,5 +1,6 @@
 // Fanuc and HNC; the answers are worked out on paper beside each program.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "program/motion_rows.h"
@@ -140,11 +141,50 @@ TEST(FanucTools, GiveLengthsAndRadii) {
 }
 
 TEST(FanucModes, AreNotedAndTheRestReported) {
-    const Program p = parse("G5.1 Q1 R1\nG08 P1\nG0 X1 Y0 Z0\nG2.2 X1 Y1 R1 F60\nG68.2 X0 Y0 Z0 I0 J0 K0\nX5 ,R2\n", "fanuc");
+    const Program p = parse("G5.1 Q1 R1\nG08 P1\nG0 X1 Y0 Z0\nG2.2 X1 Y1 R1 F60\nG68.3 X0 Y0 Z0 R0\nX5 ,R2\n", "fanuc");
     EXPECT_EQ(p.events.at(0).name, "high-speed");
     EXPECT_EQ(p.diagnostics.count("program.rotation"), 1u);
     EXPECT_EQ(p.diagnostics.count("program.unknown-word"), 2u);  // the involute, ,R2
     EXPECT_EQ(p.diagnostics.kept()[0].where.text(), "test.nc:4:1");
+}
+
+/// The tool axis of a motion, as far as the program gives it: "x y z".
+std::string axis_of(const Program& p, std::size_t motion) {
+    if (p.motions.tool_axis.empty()) return "none";
+    const Vec3 a = p.motions.tool_axis[motion].vec();
+    return a.array().isNaN().any() ? "none" : fmt::format("{:.4f} {:.4f} {:.4f}", a.x() + 0.0, a.y() + 0.0, a.z() + 0.0);
+}
+
+TEST(FanucTiltedPlanes, AreEulerAnglesOrTurnsAboutTheWorkAxes) {
+    // I 90: x' = y. J 90 about x': z' = x. So (1, 2, 3) of the plane is y 1, z 2, x 3, moved by (10, 20, 30).
+    Program p = parse("G0 X0 Y0 Z0\nG68.2 X10 Y20 Z30 I90 J90 K0\nG53.1\nG1 X1 Y2 Z3 F60\nG69\nG0 X0 Y0 Z0\n", "fanuc");
+    EXPECT_EQ(p.diagnostics.count("program.rotation"), 0u);
+    EXPECT_EQ(motions(p), (Rows{"rapid 0 0 0", "rapid 0 0 0", "feed 13 21 32", "rapid 0 0 0"}));
+    EXPECT_EQ(axis_of(p, 0), "none");
+    EXPECT_EQ(axis_of(p, 1), "1.0000 0.0000 0.0000");
+    EXPECT_EQ(axis_of(p, 2), "1.0000 0.0000 0.0000");
+    EXPECT_EQ(axis_of(p, 3), "none");
+    // K turns in the plane: the same normal.
+    EXPECT_EQ(axis_of(parse("G0 X0 Y0 Z0\nG68.2 X0 Y0 Z0 I90 J90 K37\nG53.1\n", "fanuc"), 1), "1.0000 0.0000 0.0000");
+    // P1: about the work axes, X first: by 90° (y → z, z → −y), then Y by 90° (x → −z, z → x): normal −y stays −y. Y
+    // first: z → x, which X leaves.
+    EXPECT_EQ(axis_of(parse("G0 X0 Y0 Z0\nG68.2 P1 Q123 X0 Y0 Z0 I90 J90 K0\nG53.1\n", "fanuc"), 1), "0.0000 -1.0000 0.0000");
+    EXPECT_EQ(axis_of(parse("G0 X0 Y0 Z0\nG68.2 P1 Q213 X0 Y0 Z0 I90 J90 K0\nG53.1\n", "fanuc"), 1), "1.0000 0.0000 0.0000");
+    // Inches; arcs in a plane that stands on edge are arcs about its normal.
+    p = parse("G20 G0 X0 Y0 Z0\nG68.2 X1 Y0 Z0 I0 J90 K0\nG53.1\nG1 X0 Y0 Z0 F60\nG2 X1 Y0 R0.5\n", "fanuc");
+    EXPECT_EQ(p.motions.arcs.at(0).axis, 1);
+}
+
+TEST(FanucTiltedPlanes, NameWhatTheyCannotDo) {
+    for (const char* text : {"G68.2 P2 Q0 X0 Y0 Z0 R0\n", "G68.2 P3 Q1 I1 J0 K0\n", "G68.2 P4 I10 J10 K0\n", "G68.3 X0 Y0 Z0\n", "G68.4 X0 Y0 Z0 I0 J10 K0\n", "G18 G68.2 I0 J10 K0\n"}) {
+        const Program p = parse(std::string("G0 X1 Y1 Z1\n") + text, "fanuc");
+        EXPECT_EQ(p.diagnostics.count("program.rotation"), 1u) << text;
+        EXPECT_EQ(p.diagnostics.kept()[0].where.number, 2u) << text;
+        EXPECT_GT(p.diagnostics.kept()[0].where.column, 0u) << text;
+    }
+    EXPECT_EQ(parse("G53.1\nG0 X1\n", "fanuc").diagnostics.count("program.rotation"), 1u) << "no plane";
+    EXPECT_NE(error_of("G68.2 P1 Q113 I1 J1 K1\n", "fanuc").find("Q113 is no order"), std::string::npos);
+    EXPECT_NE(error_of("G0 X0 Y0 Z0\nG68.2 I0 J30 K0\nG53.1\nG91 A5\n", "fanuc").find("test.nc:4:5: error: an increment of A"), std::string::npos);
 }
 
 TEST(FanucBlocks, AreSkippedAtEveryLevel) {
@@ -152,11 +192,15 @@ TEST(FanucBlocks, AreSkippedAtEveryLevel) {
 }
 
 TEST(Programs, TellOfMissingFeedsEndsAndAxes) {
-    const Program p = parse("G1 X1\nG0 X2 U5\n", "fanuc");
+    const Program p = parse("G1 X1\nG0 X2 U0\n", "fanuc");
     EXPECT_EQ(p.diagnostics.count("program.no-feed"), 1u);
     EXPECT_EQ(p.diagnostics.count("program.no-end"), 1u);
-    EXPECT_EQ(p.diagnostics.count("program.axis"), 1u);
     EXPECT_EQ(p.diagnostics.kept()[0].where.text(), "test.nc:1");
+    // An axis beside X Y Z: where it stays at 0 all is known, moved it takes the tool elsewhere.
+    EXPECT_EQ(p.diagnostics.count("program.axis"), 0u);
+    for (const char* dialect : {"fanuc", "siemens", "linuxcnc"}) {
+        EXPECT_TRUE(error_of("G0 X1 Y0 Z0\nG1 X2 V-0.5 F100\n", dialect).starts_with("test.nc:2:7: error: axis V moves: where the tool is with axes U V W is not known")) << dialect;
+    }
     EXPECT_EQ(parse("G1 X1 F1\nM30\n", "fanuc").diagnostics.count("program.no-end"), 0u);
 }
 

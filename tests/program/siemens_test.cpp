@@ -23,6 +23,36 @@ TEST(SiemensFrames, ReplaceOrAdd) {
     EXPECT_NE(error_of("SCALE X0\n", "siemens").find("a factor of 0"), std::string::npos);
 }
 
+TEST(SiemensSwivel, TurnsAxisByAxisAndMoves) {
+    const auto axis = [](const Program& p, std::size_t i) { return Vec3(p.motions.tool_axis[i].vec()); };
+    // Mode 57: X, Y, Z. About X by 90°: (1, 2, 3) → (1, −3, 2); moved by (10, 20, 30) before, by (0, 0, 5) after it.
+    Program p = parse("G0 X0 Y0 Z0\nCYCLE800(0,\"TC\",100000,57,10,20,30,90,0,0,0,0,5,1)\nG1 X1 Y2 Z3 F60\nTRANS X1\nX1 Y2 Z3\nCYCLE800()\nG0 X0 Y0 Z0\n", "siemens");
+    EXPECT_EQ(p.diagnostics.count("program.rotation"), 0u);
+    EXPECT_EQ(motions(p), (Rows{"rapid 0 0 0", "rapid 0 0 0", "feed 11 12 32", "feed 12 12 32", "rapid 0 0 0"}));
+    EXPECT_LE((axis(p, 2) - Vec3(0, -1, 0)).norm(), 1e-12);
+    EXPECT_TRUE(std::isnan(p.motions.tool_axis[4].x));
+    // Mode 27: Z, Y, X. Z by 90° first, then the new Y, which is −x, by 90°: the normal is +y.
+    p = parse("G0 X0 Y0 Z0\nCYCLE800(1,\"TC\",200000,27,0,0,0,90,90,0,0,0,0,-1,100,1)\n", "siemens");
+    EXPECT_LE((axis(p, 1) - Vec3(0, 1, 0)).norm(), 1e-12) << axis(p, 1).transpose();
+    // Added to it: by 90° about the X of that plane, which points down now: x' = −z, the normal goes from y to x.
+    p = parse("G0 X0 Y0 Z0\nCYCLE800(1,\"TC\",200000,27,0,0,0,90,90,0,0,0,0,-1)\nCYCLE800(1,\"TC\",200001,57,0,0,0,90,0,0,0,0,0,-1)\n", "siemens");
+    EXPECT_LE((axis(p, 2) - Vec3(1, 0, 0)).norm(), 1e-12) << axis(p, 2).transpose();
+    // Direction 0: the frame alone, the program turns the axes.
+    p = parse("G0 X0 Y0 Z0\nCYCLE800(0,\"TC\",100000,57,0,0,0,90,0,0,0,0,0,0)\nG1 X1 Y2 Z3 A-90 F60\n", "siemens");
+    EXPECT_EQ(motions(p), (Rows{"rapid 0 0 0", "feed 1 -3 2"}));
+    EXPECT_TRUE(p.motions.tool_axis.empty());
+}
+
+TEST(SiemensSwivel, NamesWhatItCannotDo) {
+    for (const char* mode : {"64", "128", "192"}) {
+        const Program p = parse(std::string("G0 X0 Y0 Z0\nCYCLE800(0,\"TC\",100000,") + mode + ",0,0,0,10,20,0,0,0,0,1)\nX1\n", "siemens");
+        ASSERT_EQ(p.diagnostics.count("program.rotation"), 1u) << mode;
+        EXPECT_EQ(p.diagnostics.kept()[0].where.text(), "test.nc:2:1");
+        EXPECT_EQ(motions(p), (Rows{"rapid 0 0 0", "rapid 1 0 0"}));
+    }
+    EXPECT_NE(error_of("CYCLE800(0,\"TC\",0,9,0,0,0,10,20,30,0,0,0,1)\n", "siemens").find("names no axis for the angle 30"), std::string::npos);
+}
+
 TEST(SiemensPoles, AreAtTheToolTheZeroOrTheLastPole) {
     // Poles (10, 10), one right of the tool (11, 15), three above that one (11, 18).
     EXPECT_EQ(rows("G0 X0 Y0 Z0\nG111 X10 Y10\nG1 F60 RP=5 AP=0\nAP=90\nG110 X1\nRP=2 AP=180\nG112 Y3\nRP=2 AP=90\n"),
