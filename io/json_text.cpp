@@ -4,6 +4,12 @@
 #include "io/json_value.h"
 
 namespace clsurf::io {
+namespace {
+
+Json place_json(const ProgramPlace& place) { return {{"file", place.file}, {"line", place.line}, {"text", place.text}}; }
+
+}  // namespace
+
 std::string program_json(const Program& program, const ToolpathSummary& s, const Diagnostics& diagnostics) {
     Json json{{"kind", "program"},
               {"file", program.main().name()},
@@ -34,10 +40,14 @@ std::string log_json(const Log& log, const Diagnostics& diagnostics) {
 std::string query_json(const std::vector<QueryMatch>& matches, const Diagnostics& diagnostics) {
     Json all = Json::array();
     for (const QueryMatch& m : matches) {
+        Json calls = Json::array();
+        for (const ProgramPlace& call : m.calls.calls) calls.push_back(place_json(call));
         all.push_back({{"point", m.point},
                        {"time_s", number(m.time)},
                        {"line", m.line},
                        {"text", m.text},
+                       {"subprogram", m.calls.subprogram ? place_json(*m.calls.subprogram) : Json()},
+                       {"calls", std::move(calls)},
                        {"position_mm", vector(m.position)},
                        {"speed_mm_min", number(m.speed * seconds_per_minute)},
                        {"acceleration_mm_s2", number(m.acceleration)},

@@ -10,6 +10,7 @@
 #include "core/geometry.h"
 #include "core/point.h"
 #include "log/log.h"
+#include "path/call_chain.h"
 #include "path/toolpath_summary.h"
 #include "program/program.h"
 
@@ -27,6 +28,7 @@ struct QueryMatch {
     std::optional<double> speed_uncertainty, acceleration_uncertainty;  ///< standard deviations, where known
     double confidence = 0;        ///< 0 … 1
     double distance = 0;          ///< [mm] to the asked position; 0 where none was asked
+    CallChain calls;              ///< of a point in a subprogram
     PointRange line_points;       ///< the run of points of this line round the point
 };
 

@@ -79,13 +79,16 @@ PointRange spread(PointIndex point, PointIndex count, PointIndex reach, Same&& s
     return range;
 }
 
-io::QueryMatch match_of(const Part& part, const std::shared_ptr<const MotionEstimate>& estimate, PointIndex point, double distance) {
+io::QueryMatch match_of(const Part& part, const CallChains& chains, const std::shared_ptr<const MotionEstimate>& estimate, PointIndex point, double distance) {
     io::QueryMatch match;
     const LineMap& lines = *part.lines;
     match.point = point;
     match.time = part.log.time_of(point);
     match.line = lines.line_at(point);
-    match.text = std::string(part.program.main().line(match.line));
+    match.calls = chains.of(point);
+    // An aligned line is that of the motion's own file.
+    const bool own = !lines.from_log() && match.calls.subprogram;
+    match.text = own ? match.calls.subprogram->text : std::string(part.program.main().line(match.line));
     match.position = part.path.at(point);
     match.distance = distance;
     match.line_points = spread(point, part.log.records, part.log.records, [&](PointIndex i) { return lines.line_at(i) == match.line; });
@@ -118,6 +121,7 @@ void check_point(const Log& log, PointIndex point) {
 
 std::vector<io::QueryMatch> find_matches(const Part& part, const po::variables_map& values) {
     std::vector<io::QueryMatch> matches;
+    const CallChains chains(part.path, part.log, part.program, *part.lines);
     std::shared_ptr<const MotionEstimate> estimate;
     if (part.derivative == DerivativeMethod::kalman) estimate = estimate_motion(part, find_runs(gather(part.path), *part.lines));
     std::size_t nearest = 1;
@@ -130,12 +134,12 @@ std::vector<io::QueryMatch> find_matches(const Part& part, const po::variables_m
     if (values.count("point") > 0) {
         const PointIndex point = values["point"].as<long long>();
         check_point(part.log, point);
-        matches.push_back(match_of(part, estimate, point, 0));
+        matches.push_back(match_of(part, chains, estimate, point, 0));
     }
     if (values.count("at") > 0) {
         const std::vector<double> at = parse_numbers(values["at"].as<std::string>(), "--at", 3);
         for (const Candidate& c : nearest_points(part.path, Vec3(at[0], at[1], at[2]), nearest)) {
-            matches.push_back(match_of(part, estimate, c.point, std::sqrt(c.squared)));
+            matches.push_back(match_of(part, chains, estimate, c.point, std::sqrt(c.squared)));
         }
     }
     if (values.count("time") > 0) {
@@ -144,14 +148,14 @@ std::vector<io::QueryMatch> find_matches(const Part& part, const po::variables_m
         if (point < 0 || point >= part.log.records || !std::isfinite(time)) {
             throw UsageError(fmt::format("--time {:g}: the log lasts from 0 to {:.6f} s", time, part.log.time_of(part.log.records - 1)));
         }
-        matches.push_back(match_of(part, estimate, point, 0));
+        matches.push_back(match_of(part, chains, estimate, point, 0));
     }
     if (values.count("line") > 0) {
         const long long line = values["line"].as<long long>();
         if (line < 1 || line > part.program.main().line_count()) {
             throw UsageError(fmt::format("--line {}: the program has lines 1 … {}", line, part.program.main().line_count()));
         }
-        for (const PointRange& range : part.lines->points_of(static_cast<LineNumber>(line))) matches.push_back(match_of(part, estimate, range.first, 0));
+        for (const PointRange& range : part.lines->points_of(static_cast<LineNumber>(line))) matches.push_back(match_of(part, chains, estimate, range.first, 0));
     }
     return matches;
 }
@@ -160,6 +164,8 @@ void print_matches(const std::vector<io::QueryMatch>& matches) {
     if (matches.empty()) std::puts("no point: a comment, a setting, or a line that the controller merged with the next one");
     for (const io::QueryMatch& m : matches) {
         fmt::print("line {}: {}\n", m.line, m.text);
+        if (m.calls.subprogram) fmt::print("  in {} line {}: {}\n", m.calls.subprogram->file, m.calls.subprogram->line, m.calls.subprogram->text);
+        for (auto call = m.calls.calls.rbegin(); call != m.calls.calls.rend(); ++call) fmt::print("    called by {} line {}: {}\n", call->file, call->line, call->text);
         fmt::print("  point {} at {:.3f} s, X {:.4f} Y {:.4f} Z {:.4f} mm", m.point, m.time, m.position.x(), m.position.y(), m.position.z());
         if (m.distance > 0) fmt::print(", {:.4f} mm away", m.distance);
         const auto known = [](const std::optional<double>& sigma, double factor) { return sigma ? fmt::format(" ±{:.2g}", *sigma * factor) : std::string(); };
@@ -191,7 +197,8 @@ Subcommand query_subcommand() {
         .name = "query",
         .arguments = "PROGRAM LOG",
         .summary = "which line, which point, what happened there",
-        .description = "Finds points by number, place, line or time and says which line of the program made them.\n\n"
+        .description = "Finds points by number, place, line or time and says which line of the program made them;\n"
+                       "inside a subprogram also its own line, and the calls that led there.\n\n"
                        "  clsurf query part.nc run.biip --at 12.5,-3.0,1.2\n"
                        "  clsurf query part.nc run.biip --line 1204 --json",
         .declare =

@@ -52,6 +52,13 @@ public:
         return line < kind_of_line_.size() ? kind_of_line_[line] : PointKind::idle;
     }
 
+    /// The motion of a point; −1: none, or the lines are a channel's, which does not tell.
+    [[nodiscard]] std::int64_t motion_at(PointIndex point) const {
+        if (from_log()) return -1;
+        const std::uint32_t motion = motion_of_point_[static_cast<std::size_t>(point)];
+        return motion == no_motion ? -1 : static_cast<std::int64_t>(motion);
+    }
+
     /// Every run of consecutive points with that line, in order. O(points).
     [[nodiscard]] std::vector<PointRange> points_of(LineNumber line) const;
 

@@ -10,8 +10,16 @@
 namespace clsurf {
 namespace {
 
-/// "/_N_WKS_DIR/_N_PART_MPF" and "parts/part.mpf" → "PART".
-std::string plain_name(std::string_view path) {
+std::string list_names(const Log& log) {
+    constexpr std::size_t most = 5;
+    std::string names;
+    for (std::size_t i = 0; i < std::min(most, log.programs.size()); ++i) names += (i > 0 ? ", " : "") + log.programs[i].name;
+    return log.programs.size() > most ? names + ", …" : names;
+}
+
+}  // namespace
+
+std::string plain_program_name(std::string_view path) {
     const std::size_t slash = path.find_last_of("/\\");
     if (slash != std::string_view::npos) path.remove_prefix(slash + 1);
     std::string name(path);
@@ -25,22 +33,13 @@ std::string plain_name(std::string_view path) {
     return name;
 }
 
-std::string list_names(const Log& log) {
-    constexpr std::size_t most = 5;
-    std::string names;
-    for (std::size_t i = 0; i < std::min(most, log.programs.size()); ++i) names += (i > 0 ? ", " : "") + log.programs[i].name;
-    return log.programs.size() > most ? names + ", …" : names;
-}
-
-}  // namespace
-
 ProgramLines lines_of_program(const Log& log, const Program& program, Diagnostics& diagnostics) {
     const Channel* line = log.find("line");
     const Channel* index = log.find("program");
     if (line == nullptr || index == nullptr || log.programs.size() < 2) return {};
-    const std::string wanted = plain_name(program.main().name());
+    const std::string wanted = plain_program_name(program.main().name());
     std::vector<char> is_wanted(log.programs.size(), 0);
-    for (std::size_t i = 0; i < log.programs.size(); ++i) is_wanted[i] = plain_name(log.programs[i].name) == wanted ? 1 : 0;
+    for (std::size_t i = 0; i < log.programs.size(); ++i) is_wanted[i] = plain_program_name(log.programs[i].name) == wanted ? 1 : 0;
     if (std::find(is_wanted.begin(), is_wanted.end(), 1) == is_wanted.end()) {
         diagnostics.add({Severity::warning, "map.program", Place::of_file(log.name),
                          fmt::format("the log ran {}; none of them is called {}, so its lines are found by geometry", list_names(log), program.main().name()),

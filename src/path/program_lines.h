@@ -4,6 +4,8 @@
 
 #include <memory>
 #include <optional>
+#include <string>
+#include <string_view>
 
 #include "core/column.h"
 #include "log/log.h"
@@ -22,5 +24,9 @@ struct ProgramLines {
 /// Names are compared without folders, endings and what controls put around them ("/_N_PART_MPF").
 /// Adds `map.program` where the program is not among those of the log.
 [[nodiscard]] ProgramLines lines_of_program(const Log& log, const Program& program, Diagnostics& diagnostics);
+
+/// What is left of a program's name without folders, endings and what controls put around it, in upper case:
+/// "/_N_WKS_DIR/_N_PART_MPF" and "parts/part.mpf" → "PART".
+[[nodiscard]] std::string plain_program_name(std::string_view path);
 
 }  // namespace clsurf
