@@ -90,8 +90,10 @@ CuttingTool required_tool(const po::variables_map& values, const std::string& wh
 
 FormedPart::FormedPart(const Part& part, const ClSurface& surface, std::optional<Role> role, const CuttingTool& tool, StageClock& clock) {
     clock.begin("sweep the tool");
-    read_ = signals_of(part, surface, role);
-    formed_.emplace(surface, read_.signals, part.path.role, read_.swept(part), read_.pieces, tool);
+    upright_ = upright_part(part, role, tool);
+    if (!upright_) read_ = signals_of(part, surface, role);
+    const PartSignals& along = upright_ ? upright_->read : read_;
+    formed_.emplace(upright_ ? upright_->surface : surface, along.signals, part.path.role, along.swept(upright_ ? upright_->path : part.path), along.pieces, tool);
 }
 
 FormedMap make_formed_map(const FormedPart& part, const Box3& box, const viz::Camera& camera) {

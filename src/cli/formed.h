@@ -18,9 +18,10 @@ public:
     FormedPart& operator=(const FormedPart&) = delete;
 
     [[nodiscard]] const FormedSurface& surface() const { return *formed_; }
-    [[nodiscard]] const Signals& signals() const { return read_.signals; }
+    [[nodiscard]] const Signals& signals() const { return upright_ ? upright_->read.signals : read_.signals; }
 
 private:
+    std::unique_ptr<const UprightPart> upright_;  ///< of a tool that is tilted; then nothing was read of the part itself
     PartSignals read_;
     std::optional<FormedSurface> formed_;
 };

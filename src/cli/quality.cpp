@@ -9,13 +9,19 @@
 namespace clsurf::cli {
 namespace {
 
-std::optional<Trajectory> measured_of(const Part& part, std::optional<Role> wanted) {
-    if (part.path.role != Role::commanded || wanted == Role::commanded) return std::nullopt;
-    if (wanted) return reconstruct_like(part.log, *wanted, part.path);
+std::optional<Trajectory> measured_of(const Log& log, const Trajectory& path, std::optional<Role> wanted) {
+    if (path.role != Role::commanded || wanted == Role::commanded) return std::nullopt;
+    if (wanted) return reconstruct_like(log, *wanted, path);
     for (const Role role : {Role::actual, Role::feedback}) {
-        if (part.log.has(role)) return reconstruct_like(part.log, role, part.path);
+        if (log.has(role)) return reconstruct_like(log, role, path);
     }
     return std::nullopt;
+}
+
+PartSignals signals_along(const Log& log, const Trajectory& path, const ClSurface& surface, std::optional<Role> wanted) {
+    PartSignals result{measured_of(log, path, wanted), smooth_pieces(log, surface.passes), {}};
+    result.signals = derive_signals(surface, path, result.measured ? &*result.measured : nullptr, result.pieces, usual_end_zone(surface.step_over));
+    return result;
 }
 
 }  // namespace
@@ -42,10 +48,18 @@ std::optional<Role> take_measured_role(PartOptions& options) {
     return role;
 }
 
-PartSignals signals_of(const Part& part, const ClSurface& surface, std::optional<Role> wanted) {
-    PartSignals result{measured_of(part, wanted), smooth_pieces(part.log, surface.passes), {}};
-    result.signals = derive_signals(surface, part.path, result.measured ? &*result.measured : nullptr, result.pieces, usual_end_zone(surface.step_over));
-    return result;
+PartSignals signals_of(const Part& part, const ClSurface& surface, std::optional<Role> wanted) { return signals_along(part.log, part.path, surface, wanted); }
+
+std::unique_ptr<const UprightPart> upright_part(const Part& part, std::optional<Role> wanted, const CuttingTool& tool) {
+    if (!tilts(part.log, part.path)) return nullptr;
+    if (tool.kind != ToolKind::ball) {
+        throw UsageError(to_text(tool) + " is tilted: where a tool that is no ball touches, its axis decides, and only tools along z are known", "a ball-end tool may be tilted: --tool ball:D");
+    }
+    auto upright = std::make_unique<UprightPart>();
+    upright->path = upright_ball(part.log, part.path, tool.radius);
+    upright->surface = clsurf::stitch(gather(upright->path), *part.lines);
+    upright->read = signals_along(part.log, upright->path, upright->surface, wanted);
+    return upright;
 }
 
 Quality judge(Part& part, const ClSurface& surface, std::optional<Role> wanted, const QualityOptions& options, StageClock& clock) {
@@ -57,14 +71,16 @@ Quality judge(Part& part, const ClSurface& surface, std::optional<Role> wanted, 
     if (surface.step_over <= 0) {
         part.diagnostics.add({Severity::note, "quality.single-pass", Place::of_file(part.log.name), "no pass has another beside it: there is nothing to compare", {}});
     }
-    if (options.tool_given && options.tool.kind == ToolKind::ball && surface.step_over > 0 && surface.step_over < 2 * options.tool.radius) {
-        quality.scallop = scallop_height(options.tool.radius, surface.step_over, std::numeric_limits<double>::infinity());
+    if (!options.tool_given || surface.step_over <= 0) return quality;
+    clock.begin("measure the formed surface");
+    const std::unique_ptr<const UprightPart> upright = upright_part(part, wanted, options.tool);
+    const ClSurface& cut = upright ? upright->surface : surface;
+    const PartSignals& along = upright ? upright->read : read;
+    if (options.tool.kind == ToolKind::ball && cut.step_over > 0 && cut.step_over < 2 * options.tool.radius) {
+        quality.scallop = scallop_height(options.tool.radius, cut.step_over, std::numeric_limits<double>::infinity());
     }
-    if (options.tool_given && surface.step_over > 0) {
-        clock.begin("measure the formed surface");
-        const FormedSurface formed(surface, read.signals, part.path.role, read.swept(part), read.pieces, options.tool);
-        quality.formed = measure_formed(formed, read.signals, quality.report);
-    }
+    const FormedSurface formed(cut, along.signals, part.path.role, along.swept(upright ? upright->path : part.path), along.pieces, options.tool);
+    quality.formed = measure_formed(formed, along.signals, quality.report);
     return quality;
 }
 

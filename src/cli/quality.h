@@ -1,6 +1,7 @@
 #pragma once
 // Quality: a part judged by the predictor, with the options that `check` and `render` share.
 
+#include <memory>
 #include <optional>
 
 #include "cli/part.h"
@@ -27,12 +28,23 @@ struct PartSignals {
     Signals signals;
 
     /// Where the tool cuts.
-    [[nodiscard]] const Trajectory& swept(const Part& part) const { return measured ? *measured : part.path; }
+    [[nodiscard]] const Trajectory& swept(const Trajectory& path) const { return measured ? *measured : path; }
 };
 
 /// Heights are measured from `wanted` or, where nothing is wanted, from the most truthful positions
 /// that the log has besides the commanded ones (actual, then feedback).
 [[nodiscard]] PartSignals signals_of(const Part& part, const ClSurface& surface, std::optional<Role> wanted);
+
+/// A part as an upright tool that cuts the same goes over it.
+struct UprightPart {
+    Trajectory path;
+    ClSurface surface;
+    PartSignals read;
+};
+
+/// nullptr: the tool stands along z all the time. Else it must be a ball, whose centre is what counts; throws
+/// UsageError for other tools.
+[[nodiscard]] std::unique_ptr<const UprightPart> upright_part(const Part& part, std::optional<Role> wanted, const CuttingTool& tool);
 
 struct Quality {
     QualityReport report;

@@ -87,8 +87,11 @@ void own_columns(Trajectory& trajectory, Compute&& compute) {
 
 }  // namespace
 
-Trajectory reconstruct(const Log& log, Role role, const Vec3& offset, std::shared_ptr<const Kinematics> kinematics) {
+namespace {
+
+Trajectory reconstruct_ball(const Log& log, Role role, const Vec3& offset, std::shared_ptr<const Kinematics> kinematics, double ball) {
     Trajectory trajectory = trajectory_of(log, role);
+    trajectory.ball = ball;
     trajectory.offset = offset;
     for (std::size_t axis = 0; axis < 3; ++axis) trajectory.axes[axis] = channel_of(log, role, "xyz"[axis]).values;
     if (kinematics == nullptr || !kinematics->has_rotary()) return trajectory;
@@ -101,7 +104,8 @@ Trajectory reconstruct(const Log& log, Role role, const Vec3& offset, std::share
         copy_block(linear[1], first, y);
         copy_block(linear[2], first, z);
         for (std::size_t i = 0; i < x.size(); ++i) {
-            const Vec3 tip = kinematics->to_workpiece(Vec3(x[i], y[i], z[i]), {tilt[i], rotation[i]}).tip;
+            const ToolPose pose = kinematics->to_workpiece(Vec3(x[i], y[i], z[i]), {tilt[i], rotation[i]});
+            const Vec3 tip = ball > 0 ? Vec3(pose.tip + ball * (pose.axis - Vec3::UnitZ())) : pose.tip;
             x[i] = tip.x();
             y[i] = tip.y();
             z[i] = tip.z();
@@ -111,8 +115,36 @@ Trajectory reconstruct(const Log& log, Role role, const Vec3& offset, std::share
     return trajectory;
 }
 
+}  // namespace
+
+Trajectory reconstruct(const Log& log, Role role, const Vec3& offset, std::shared_ptr<const Kinematics> kinematics) {
+    return reconstruct_ball(log, role, offset, std::move(kinematics), 0);
+}
+
+Trajectory upright_ball(const Log& log, const Trajectory& like, double radius) {
+    return reconstruct_ball(log, like.role, like.offset, like.kinematics, radius);
+}
+
+bool tilts(const Log& log, const Trajectory& trajectory) {
+    if (trajectory.kinematics == nullptr) return false;
+    constexpr double play = 1e-6;
+    const Kinematics& kinematics = *trajectory.kinematics;
+    const AngleReader angles(log, trajectory.role, kinematics);
+    std::vector<double> tilt, rotation;
+    for (PointIndex begin = 0; begin < log.records; begin += block_points) {
+        const auto n = static_cast<std::size_t>(std::min(block_points, log.records - begin));
+        tilt.resize(n);
+        rotation.resize(n);
+        angles.read(begin, tilt, rotation);
+        for (std::size_t i = 0; i < n; ++i) {
+            if (angle_between(kinematics.axis_of({tilt[i], rotation[i]}), Vec3::UnitZ()) > play) return true;
+        }
+    }
+    return false;
+}
+
 Trajectory reconstruct_like(const Log& log, Role role, const Trajectory& like) {
-    return role == like.role ? like : reconstruct(log, role, like.offset, like.kinematics);
+    return role == like.role ? like : reconstruct_ball(log, role, like.offset, like.kinematics, like.ball);
 }
 
 Trajectory tool_axes(const Log& log, Role role, std::shared_ptr<const Kinematics> kinematics) {

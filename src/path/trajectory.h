@@ -23,6 +23,7 @@ struct Trajectory {
     double period = 0;  ///< [s]
     std::string name;   ///< of the log, for messages
     std::shared_ptr<const Kinematics> kinematics;  ///< of machines with rotary axes; nullptr: three axes
+    double ball = 0;    ///< [mm] 0: positions are those of the tip; else as upright_ball() has them
     std::shared_ptr<const void> keep_alive;
 
     /// Gathers points [begin, begin + x.size()); NaN where the log has none. All spans same size.
@@ -34,6 +35,14 @@ struct Trajectory {
 /// `kinematics`, if given, from all five axes. Throws InputError when the log has no such role, or not
 /// the rotary axes that the kinematics need. With rotary axes O(points), parallel.
 [[nodiscard]] Trajectory reconstruct(const Log& log, Role role, const Vec3& offset, std::shared_ptr<const Kinematics> kinematics = nullptr);
+
+/// In place of the tips of a ball of that radius [mm] those that it would have with its axis along z and the same
+/// centre: tip + radius (axis − z). The ball cuts the same, and what knows upright tools knows it. `like`
+/// has kinematics. O(points), parallel.
+[[nodiscard]] Trajectory upright_ball(const Log& log, const Trajectory& like, double radius);
+
+/// Whether the tool axis ever leaves z, by more than 10⁻⁶ rad. False without kinematics. O(points).
+[[nodiscard]] bool tilts(const Log& log, const Trajectory& trajectory);
 
 /// Another role of the same log, by the same way into the workpiece.
 [[nodiscard]] Trajectory reconstruct_like(const Log& log, Role role, const Trajectory& like);

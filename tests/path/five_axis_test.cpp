@@ -74,6 +74,20 @@ TEST(FiveAxisLines, PositionsOfTheAxesBecomeTips) {
     EXPECT_EQ(program.motions.line[180], 3u);
 }
 
+// A ball of 3 mm whose axis is (0, 1, 0), tip at (1, 2, 3): its centre is (1, 5, 3), its lowest point (1, 5, 0). Upright
+// before that, where nothing changes.
+TEST(UprightBall, HasTheSameCentre) {
+    const Kinematics k = test::trunnion();
+    test::MadeLog made = test::run(test::parse_text("G21 G90\nG43.4 H1\nG1 X1 Y2 Z3 F100\nA-90\nM30\n"), k, zero, 0.05);
+    made.finish(0.001);
+    const Trajectory tips = reconstruct(made.log, Role::commanded, -zero, std::make_shared<Kinematics>(k));
+    const Trajectory upright = upright_ball(made.log, tips, 3);
+    EXPECT_LE((upright.at(0) - tips.at(0)).norm(), 1e-12);
+    EXPECT_LE((tips.at(tips.count - 1) - Vec3(1, 2, 3)).norm(), 1e-9);
+    EXPECT_LE((upright.at(upright.count - 1) - Vec3(1, 5, 0)).norm(), 1e-9) << upright.at(upright.count - 1).transpose();
+    EXPECT_TRUE(tilts(made.log, tips));
+}
+
 TEST(FiveAxisLines, EventsStayBeforeTheirMotions) {
     Kinematics k;
     k.type = KinematicsType::table_table;
@@ -112,6 +126,38 @@ TEST(ToolAxisVectors, BecomeAngles) {
             EXPECT_LE(angle_between(machine.kinematics.axis_of(angles), {0.6, 0, 0.8}), 1e-12) << dialect;
         }
         EXPECT_EQ(m.rotary[3], Xyz(0, 0, 0)) << dialect;
+    }
+}
+
+// A plane turned by 90° about X: programmed (x, y, z) is (x, −z, y) of the workpiece, its normal (0, −1, 0). The
+// trunnion's axis is (sin A sin C, −sin A cos C, cos A): A 90 C 0 (or A −90 C 180). On axes that all go through the zero
+// the axis positions of the tip (1, −3, 2) are T(−90°) about x of it: (1, 2, 3) again: what the tool's axes show is what
+// the plane's program says.
+TEST(TiltedPlanes, AreWaysOfTheTipWithTheToolUprightOnThem) {
+    Kinematics k;
+    k.type = KinematicsType::table_table;
+    for (const auto& [text, dialect] : {std::pair{"G90 G21\nG0 X0 Y0 Z0\nG68.2 X0 Y0 Z0 I0 J90 K0\nG53.1\nG1 X1 Y2 Z3 F100\nX2\nG69\nG0 X7 Y8 Z9\nA0 C0\nM30\n", "fanuc"},
+                                        std::pair{"G90 G71\nG0 X0 Y0 Z0\nCYCLE800(0,\"TC\",100000,57,0,0,0,90,0,0,0,0,0,1)\nG1 X1 Y2 Z3 F100\nX2\nCYCLE800()\nG0 X7 Y8 Z9\nA0 C0\nM30\n", "siemens"}}) {
+        Program program = test::parse_text(text, dialect);
+        EXPECT_TRUE(program.diagnostics.empty()) << dialect;
+        solve_tool_axes(program, k);
+        ASSERT_EQ(program.motions.size(), 6) << dialect;
+        const Motions& m = program.motions;
+        EXPECT_LE((m.end[2].vec() - Vec3(1, -3, 2)).norm(), 1e-12) << dialect;
+        for (const std::size_t i : {1u, 2u, 3u}) EXPECT_LE(angle_between(k.axis_of(k.angles_of(m.rotary[i].vec())), {0, -1, 0}), 1e-12) << dialect << i;
+        EXPECT_EQ(m.rotary[4], m.rotary[3]) << dialect;  // G69 turns nothing back
+        EXPECT_EQ(m.rotary[5], Xyz(0, 0, 0)) << dialect;
+        const LineNumber after = m.line[4];
+        make_tip_motions(program, k, Vec3::Zero());
+        ToolCentrePoint control(program);
+        std::int64_t in_plane = 0;
+        Vec3 axes = Vec3::Zero();  // of the last motion of the line behind the plane: those of the axes again
+        for (std::size_t i = 0; i < m.kind.size(); ++i) {
+            in_plane += control.on(static_cast<std::int64_t>(i)) ? 1 : 0;
+            if (m.line[i] == after) axes = k.to_axes(m.end[i].vec(), k.angles_of(m.rotary[i].vec()));
+        }
+        EXPECT_EQ(in_plane, 2) << dialect;  // the turn before them is one of the axes, in chords of its own
+        EXPECT_LE((axes - Vec3(7, 8, 9)).norm(), 1e-9) << dialect;
     }
 }
 
