@@ -75,17 +75,18 @@ FiveAxisBlocks::FiveAxisBlocks(const Program& program, const Machine& machine, c
     motions.rotary = {};
     motions.tool_axis = {};
     motions.file = {};
+    motions.call = {};
     apply_caps();
 }
 
-bool FiveAxisBlocks::ease(const std::vector<float>& scales, const std::vector<float>& peaks) {
+bool FiveAxisBlocks::ease(const std::vector<BlockExcess>& excesses) {
     bool eased = false;
-    for (std::size_t i = 0; i < scales.size(); ++i) {
-        if (!(scales[i] < 1)) continue;
+    for (std::size_t i = 0; i < excesses.size(); ++i) {
+        if (!(excesses[i].scale < 1)) continue;
         eased = true;
-        const double scale = easing * scales[i];
+        const double scale = easing * excesses[i].scale;
         if (kinds_[i] == MotionKind::dwell) feeds_[i] = static_cast<float>(feeds_[i] / scale);
-        else caps_[i] = std::min(caps_[i], std::max<double>(peaks[i], 1e-3) * scale);
+        else caps_[i] = std::min(caps_[i], std::max<double>(excesses[i].peak, 1e-3) * scale);
     }
     apply_caps();
     return eased;

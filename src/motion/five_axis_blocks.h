@@ -18,15 +18,20 @@ struct AxisLimits {
     double low, high, speed, acceleration, jerk;
 };
 
+/// What a block was like in a run.
+struct BlockExcess {
+    float scale = 1;  ///< what its speed must be multiplied by; 1: nothing exceeds its limit
+    float peak = 0;   ///< greatest speed of the tip [mm/s]
+};
+
 /// What the blocks of a program are, and how fast each may be run.
 class FiveAxisBlocks {
 public:
     /// As simulate_five_axis(). Throws InputError (feed 0). `machine` must outlive it.
     FiveAxisBlocks(const Program& program, const Machine& machine, const Vec3& zero, const Vec3& start);
 
-    /// Slows blocks down: by block, what its speed must be multiplied by, and the greatest it had [mm/s].
-    /// False: none was.
-    bool ease(const std::vector<float>& scales, const std::vector<float>& peaks);
+    /// Slows down the blocks that exceed a limit. False: none did.
+    bool ease(const std::vector<BlockExcess>& excesses);
 
     /// The way of the tip for the planner; the line of a motion is its block's number, from 1.
     [[nodiscard]] const Program& planned() const { return planned_; }

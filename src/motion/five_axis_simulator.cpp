@@ -15,9 +15,13 @@
 namespace clsurf {
 namespace {
 
-constexpr int most_rounds = 24;
+constexpr int most_rounds = 32;
 constexpr double limit_play = 1.001;   ///< what counts as held, differentiated
 constexpr int half_width = 8;          ///< of the smoothing of angles [periods]
+constexpr int carry_periods = 16;      ///< over which angles make up for what a rounded corner skips
+constexpr int patient_rounds = 8;      ///< before the tip's own jerk is lowered
+constexpr double most_lowering = 0.97; ///< of that, in a round
+constexpr double nearly_greatest = 0.95;  ///< a rate that counts as the greatest
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// Takes the samples of the tip, and makes those of the axes.
@@ -25,7 +29,7 @@ class FiveAxisRecorder {
 public:
     FiveAxisRecorder(const FiveAxisBlocks& blocks, const Program& program, const Machine& machine, const FiveAxisSink& sink)
         : blocks_(&blocks), program_(&program), machine_(&machine), sink_(&sink), period_(machine.controller.period),
-          scales_(blocks.count(), 1.0F), peaks_(blocks.count(), 0.0F) {}
+          excesses_(blocks.count()) {}
 
     void add(std::span<const SimulatedPoint> points) {
         for (const SimulatedPoint& point : points) add(point);
@@ -34,10 +38,12 @@ public:
     FiveAxisSummary finish() {
         // The angles come to rest after the tip.
         if (!waiting_.empty()) {
-            for (int k = 0; k < half_width; ++k) {
-                Sample last = waiting_.back();
-                last.point.speed = 0;
-                last.point.limit = Ruling::none;
+            Sample last = waiting_.back();
+            last.point.speed = 0;
+            last.point.limit = Ruling::none;
+            for (int k = carry_left_ + 2 * half_width; k > 0; --k) {
+                if (carry_left_ > 0) --carry_left_;
+                last.angles = {of_block_.tilt + carried().tilt, of_block_.rotation + carried().rotation};
                 put(last);
             }
         }
@@ -48,8 +54,9 @@ public:
         return std::move(summary_);
     }
 
-    [[nodiscard]] const std::vector<float>& scales() const { return scales_; }
-    [[nodiscard]] const std::vector<float>& peaks() const { return peaks_; }
+    [[nodiscard]] const std::vector<BlockExcess>& excesses() const { return excesses_; }
+    /// Limit over value of what exceeds its limit most; 1: nothing does.
+    [[nodiscard]] double share() const { return share_; }
 
 private:
     struct Sample {
@@ -61,8 +68,10 @@ private:
 
     void add(const SimulatedPoint& point) {
         Sample sample{point, {}, Vec3::UnitZ(), block_};
+        bool changed = false;
         if (point.line > 0 && point.line <= blocks_->count()) {
             const std::size_t block = point.line - 1;
+            changed = block != block_ && begun_;
             if (block != block_ || !begun_) {
                 block_ = block;
                 part_ = 0;
@@ -76,11 +85,29 @@ private:
         }
         if (begun_) {
             const auto [way, part] = blocks_->waits(block_) ? turn_now() : std::pair(&blocks_->way(block_), part_);
-            sample.angles = way->at(part);
+            of_block_ = way->at(part);
+            sample.angles = of_block_;
+            if (changed && waiting_.size() > 1) {
+                // From where the angles would be had they gone on.
+                const RotaryAngles& a = waiting_[waiting_.size() - 2].angles;
+                const RotaryAngles& b = waiting_.back().angles;
+                carry_ = {2 * b.tilt - a.tilt - sample.angles.tilt, 2 * b.rotation - a.rotation - sample.angles.rotation};
+                carry_left_ = carry_periods;
+            }
+            sample.angles = {sample.angles.tilt + carried().tilt, sample.angles.rotation + carried().rotation};
+            if (carry_left_ > 0) --carry_left_;
             sample.ideal = great_circle(machine_->kinematics.axis_of(way->at(0)), machine_->kinematics.axis_of(way->at(1)), part);
         }
-        peaks_[sample.block] = std::max(peaks_[sample.block], static_cast<float>(point.speed));
+        float& peak = excesses_[sample.block].peak;
+        peak = std::max(peak, static_cast<float>(point.speed));
         put(sample);
+    }
+
+    /// A rounded corner skips the end of one block and the begin of the next, and what the angles do there: they make up
+    /// for it over some periods instead of a step, which no lower speed would make smaller.
+    [[nodiscard]] RotaryAngles carried() const {
+        const double part = static_cast<double>(carry_left_) / carry_periods;
+        return {part * carry_.tilt, part * carry_.rotation};
     }
 
     /// Waits that follow each other are one to the planner, with the number of the last: the way and part of it
@@ -141,19 +168,15 @@ private:
     }
 
     void measure(const FiveAxisPoint& point) {
-        double scale = 1;
         const std::array<AxisLimits, 5>& limits = blocks_->limits();
         for (std::size_t k = 0; k < 5; ++k) {
             const double p = point.commanded[k];
             const double speed = std::abs(p - last_[0][k]) / period_;
             const double acceleration = std::abs(p - 2 * last_[0][k] + last_[1][k]) / (period_ * period_);
             const double jerk = std::abs(p - 3 * last_[0][k] + 3 * last_[1][k] - last_[2][k]) / (period_ * period_ * period_);
-            const auto keep = [&](double value, double limit, double power) {
-                if (value > limit * limit_play) scale = std::min(scale, std::pow(limit / value, power));
-            };
-            keep(speed, limits[k].speed, 1);
-            keep(acceleration, limits[k].acceleration, 0.5);
-            keep(jerk, limits[k].jerk, 1.0 / 3);
+            hold(k, speed, limits[k].speed, 1);
+            hold(k, acceleration, limits[k].acceleration, 2);
+            hold(k, jerk, limits[k].jerk, 3);
             if (k < 3) {
                 const auto axis = static_cast<int>(k);
                 SimulationSummary& run = summary_.run;
@@ -169,11 +192,42 @@ private:
         }
         summary_.run.max_speed = std::max(summary_.run.max_speed, point.speed);
         last_ = {point.commanded, last_[0], last_[1]};
-        if (scale == 1) return;
-        held_ = false;
-        // Whatever takes part in the smoothing may be what is too fast.
-        for (const Sample& sample : waiting_) scales_[sample.block] = std::min(scales_[sample.block], static_cast<float>(scale));
     }
+
+    /// Where a derivative of an axis (its order: 1 … 3) exceeds its limit, blocks are to be slower: a run as a whole
+    /// at half the speed has an eighth of the jerk.
+    void hold(std::size_t axis, double value, double limit, int order) {
+        if (!(value > limit * limit_play)) return;
+        held_ = false;
+        const double share = limit / value;
+        share_ = std::min(share_, share);
+        const double scale = order == 1 ? share : order == 2 ? std::sqrt(share) : std::cbrt(share);
+        if (axis < 3 || order == 1) {
+            // Whatever takes part in the smoothing may be what is too fast.
+            for (const Sample& sample : waiting_) ease(sample.block, scale);
+            return;
+        }
+        // Where blocks meet, the rate of an angle jumps by Δ, and the smoothing turns that into an acceleration and a
+        // jerk in proportion to Δ: the block with the higher rate must come down by the part of Δ that is too much. To
+        // slow down the others as well would keep their difference, and push the jump from block to block.
+        const auto rate = [&](std::size_t j) {
+            const RotaryAngles& a = waiting_[j - 1].angles;
+            const RotaryAngles& b = waiting_[j].angles;
+            return axis == 3 ? b.tilt - a.tilt : b.rotation - a.rotation;
+        };
+        double low = rate(1);
+        double high = low;
+        for (std::size_t j = 2; j < waiting_.size(); ++j) {
+            low = std::min(low, rate(j));
+            high = std::max(high, rate(j));
+        }
+        const double greatest = std::max(std::abs(low), std::abs(high));
+        const double jump = std::max(share, 1 - (1 - share) * (high - low) / greatest);
+        for (std::size_t j = 1; j < waiting_.size(); ++j) {
+            if (std::abs(rate(j)) >= nearly_greatest * greatest) ease(waiting_[j].block, std::min(scale, jump));
+        }
+    }
+    void ease(std::size_t block, double scale) { excesses_[block].scale = std::min(excesses_[block].scale, static_cast<float>(scale)); }
 
     void note_travel(std::size_t axis, double position, LineNumber line) {
         const AxisLimits& limits = blocks_->limits()[axis];
@@ -197,17 +251,21 @@ private:
     const Machine* machine_;
     const FiveAxisSink* sink_;
     double period_;
-    std::vector<float> scales_, peaks_;  ///< by block: what its speed must be multiplied by; its greatest speed [mm/s]
+    std::vector<BlockExcess> excesses_;
     std::size_t block_ = 0;
     double part_ = 0;
     std::size_t waiting_block_ = 0;
     double elapsed_ = 0;  ///< of its wait [s]
     bool begun_ = false;
+    RotaryAngles of_block_; ///< of the last sample, without what is carried
+    RotaryAngles carry_;    ///< what the angles had to make up for at the last change of blocks
+    int carry_left_ = 0;    ///< [periods]
     std::vector<Sample> waiting_;
     std::vector<ServoLoop> servos_;
     std::array<std::array<double, 5>, 3> last_{};
     std::array<bool, 5> outside_{};
     bool held_ = true;
+    double share_ = 1;
     PointIndex points_ = 0;
     std::vector<FiveAxisPoint> block_of_points_;
     FiveAxisSummary summary_;
@@ -233,23 +291,26 @@ Machine machine_of_tip(const Machine& machine) {
 
 FiveAxisSummary simulate_five_axis(const Program& program, const Machine& machine, const Vec3& zero, const Vec3& start, const FiveAxisSink& sink, const Progress& progress) {
     FiveAxisBlocks blocks(program, machine, zero, start);
-    const Machine tip = machine_of_tip(machine);
-    const auto run = [&](const FiveAxisSink& to, std::vector<float>* scales, std::vector<float>* peaks) {
+    Machine tip = machine_of_tip(machine);
+    double share = 1;
+    const auto run = [&](const FiveAxisSink& to, std::vector<BlockExcess>* excesses) {
         FiveAxisRecorder recorder(blocks, program, machine, to);
         const SimulationSummary of_tip = simulate(blocks.planned(), tip, start, [&](std::span<const SimulatedPoint> points) { recorder.add(points); }, progress, Planning::by_nodes);
         FiveAxisSummary summary = recorder.finish();
         summary.run.path_deviation = of_tip.path_deviation;
-        if (scales != nullptr) *scales = recorder.scales();
-        if (peaks != nullptr) *peaks = recorder.peaks();
+        if (excesses != nullptr) *excesses = recorder.excesses();
+        share = recorder.share();
         return summary;
     };
-    std::vector<float> scales, peaks;
+    std::vector<BlockExcess> excesses;
     int rounds = 0;
     for (bool slower = true; slower && rounds < most_rounds; ++rounds) {
-        const FiveAxisSummary tried = run({}, &scales, &peaks);
-        slower = !tried.run.limits_ok && blocks.ease(scales, peaks);
+        const FiveAxisSummary tried = run({}, &excesses);
+        slower = !tried.run.limits_ok && blocks.ease(excesses);
+        // Between blocks of different speed the tip takes as much jerk as it may, however slow they are.
+        if (slower && rounds >= patient_rounds) tip.path.max_jerk *= std::max(most_lowering, share);
     }
-    FiveAxisSummary summary = run(sink, nullptr, nullptr);
+    FiveAxisSummary summary = run(sink, nullptr);
     summary.rounds = rounds;
     if (!summary.run.limits_ok) {
         summary.run.diagnostics.add({Severity::warning, "motion.limits", Place::of_file(program.main().name()),

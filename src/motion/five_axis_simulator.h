@@ -2,10 +2,12 @@
 // Five axes: the way of the tool's tip is planned as that of three (motion/simulator.h); the tool axis goes
 // along, each period's tip and angles become positions of all five axes, and servo loops follow those.
 //
-// Angles are functions of the way within a block, smoothed in time over a few periods where blocks meet;
-// the tip keeps to its path meanwhile, because the linear axes are computed from what the angles are.
+// Angles are functions of the way within a block, smoothed in time over a few periods where blocks meet; what
+// a rounded corner skips of them is made up for behind it.
+// The tip keeps to its path meanwhile, because the linear axes are computed from what the angles are.
 // What the axes cannot run is found by running it: blocks on which speed, acceleration or jerk of an axis is too
-// great are made slower, in rounds, until all limits hold. Cost: that of the planner a round.
+// great are made slower, in rounds, until all limits hold; after some rounds the tip's jerk is lowered, too. Cost: that of
+// the planner a round.
 
 #include <functional>
 #include <span>
