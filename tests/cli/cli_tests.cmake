@@ -172,6 +172,20 @@ clsurf_cli_test(NAME work_offset_given_without_lines SETUP "${displace_without_l
 clsurf_cli_test(NAME work_offset_wrong ARGS info ${part} ${run} --work-offset 1,2 EXIT 2 STDERR "--work-offset: '1,2' is not 3 numbers")
 clsurf_cli_test(NAME info_layout ARGS info @LOGS@/petal_spiral.raw --layout @DATA@/logs/petal_spiral.layout.toml STDOUT "84271 records")
 clsurf_cli_test(NAME query_at ARGS query ${part} ${run} --at -5.87,0,2.45 STDOUT "^line 1768")
+# Line 14 runs inside O3, which line 10 of O2 calls, which line 6 called the second time.
+set(nested_calls "printf '%s\\n' O1 'G21 G90 G54' 'G0 X0 Y0 Z0' 'M98 P2' 'G0 X0 Y10' 'M98 P2' M30 O2 G91 'M98 P3' G90 M99 O3 'G1 X5 F600' M99 > nested.nc; $CLSURF simulate nested.nc -o run.biip")
+clsurf_cli_test(NAME query_of_nested_calls SETUP "${nested_calls}" ARGS query nested.nc run.biip --at 3,10,0
+  STDOUT "line 14: G1 X5 F600" "in nested.nc line 14: G1 X5 F600" "called by nested.nc line 10: M98 P3.*called by nested.nc line 6: M98 P2")
+clsurf_cli_test(NAME query_of_nested_calls_without_lines SETUP "${nested_calls}" ARGS query nested.nc run.biip --at 3,0,0 --ignore-lines --json
+  STDOUT "\"subprogram\": .*\"line\": 14,.*\"calls\": .*\"line\": 4,.*\"line\": 10,")
+clsurf_cli_test(NAME query_outside_of_calls SETUP "${nested_calls}" ARGS query nested.nc run.biip --at 0,7,0 --json STDOUT "\"calls\": \\[\\]" "\"subprogram\": null")
+# A plane milled by a ball of 6 mm that leans by 20° to either side in turn, its centre on passes 0.6 mm apart: scallops are
+# those of an upright one, 0.6²/(8 · 3) = 15 µm, though the tips of two neighbours lie 0.6 ± 2.05 mm apart.
+set(trunnion @DATA@/machines/five_axis_trunnion.toml)
+set(leaning "awk 'BEGIN { t = 20 * atan2(0, -1) / 180; print \"G21 G90 G54\\nG0 X0 Y0 Z20\\nG43.4 H1\"; for (i = 0; i < 6; ++i) { s = i % 2 ? 1 : -1; printf \"G0 X%g Y%.6f Z5 A%g C0\\nG1 Z%.6f F1200\\nX%g\\nG0 Z5\\n\", i % 2 ? 12 : 0, 0.6 * i + s * 3 * sin(t), s * 20, 3 - 3 * cos(t), i % 2 ? 0 : 12 } print \"M30\" }' > plane.nc; $CLSURF simulate plane.nc --machine ${trunnion} -o run.biip")
+clsurf_cli_test(NAME check_of_a_leaning_ball SETUP "${leaning}" ARGS check plane.nc run.biip --machine ${trunnion} --tool ball:6
+  STDOUT "scallop between clean passes with ball:6: 15.0" "formed surface, .* Rz 1[45][.].. .at most 15")
+clsurf_cli_test(NAME check_of_a_leaning_bull SETUP "${leaning}" ARGS check plane.nc run.biip --machine ${trunnion} --tool bull:6,1 EXIT 2 STDERR "bull:6,1 is tilted" "--tool ball:D")
 clsurf_cli_test(NAME query_json ARGS query ${part} ${run} --point 5000 --json STDOUT "\"line\": 638" "\"confidence\": 1.0")
 clsurf_cli_test(NAME query_time ARGS query ${part} ${run} --time 3.2 STDOUT "point 3200 at 3.200 s")
 clsurf_cli_test(NAME query_line ARGS query ${part} ${run} --line 515 STDOUT "X1.053 Z4.590")
