@@ -68,6 +68,22 @@ private:
     double tilt_factor_, rotation_factor_;
 };
 
+/// body(point, angles) for the points in order, until it says true; whether it did.
+template <typename Body>
+bool for_angles(const Log& log, const AngleReader& angles, Body&& body) {
+    std::vector<double> tilt, rotation;
+    for (PointIndex begin = 0; begin < log.records; begin += block_points) {
+        const auto n = static_cast<std::size_t>(std::min(block_points, log.records - begin));
+        tilt.resize(n);
+        rotation.resize(n);
+        angles.read(begin, tilt, rotation);
+        for (std::size_t i = 0; i < n; ++i) {
+            if (body(begin + static_cast<PointIndex>(i), RotaryAngles{tilt[i], rotation[i]})) return true;
+        }
+    }
+    return false;
+}
+
 /// A trajectory over columns of its own. compute(first, last, x, y, z) fills a stretch of them.
 template <typename Compute>
 void own_columns(Trajectory& trajectory, Compute&& compute) {
@@ -129,18 +145,7 @@ bool tilts(const Log& log, const Trajectory& trajectory) {
     if (trajectory.kinematics == nullptr) return false;
     constexpr double play = 1e-6;
     const Kinematics& kinematics = *trajectory.kinematics;
-    const AngleReader angles(log, trajectory.role, kinematics);
-    std::vector<double> tilt, rotation;
-    for (PointIndex begin = 0; begin < log.records; begin += block_points) {
-        const auto n = static_cast<std::size_t>(std::min(block_points, log.records - begin));
-        tilt.resize(n);
-        rotation.resize(n);
-        angles.read(begin, tilt, rotation);
-        for (std::size_t i = 0; i < n; ++i) {
-            if (angle_between(kinematics.axis_of({tilt[i], rotation[i]}), Vec3::UnitZ()) > play) return true;
-        }
-    }
-    return false;
+    return for_angles(log, AngleReader(log, trajectory.role, kinematics), [&](PointIndex, const RotaryAngles& angles) { return angle_between(kinematics.axis_of(angles), Vec3::UnitZ()) > play; });
 }
 
 Trajectory reconstruct_like(const Log& log, Role role, const Trajectory& like) {
@@ -176,8 +181,6 @@ Trajectory axis_angle(const Log& log, Role role, char letter) {
 void note_poles(const Log& log, Role role, const Kinematics& kinematics, Diagnostics& diagnostics) {
     const double near = std::sin(2 * rad_per_deg);
     constexpr double much = 45 * rad_per_deg;
-    const AngleReader angles(log, role, kinematics);
-    std::vector<double> tilt, rotation;
     bool inside = false;
     PointIndex since = 0;
     double low = 0, high = 0;
@@ -188,25 +191,20 @@ void note_poles(const Log& log, Role role, const Kinematics& kinematics, Diagnos
         }
         inside = false;
     };
-    for (PointIndex begin = 0; begin < log.records; begin += block_points) {
-        const auto n = static_cast<std::size_t>(std::min(block_points, log.records - begin));
-        tilt.resize(n);
-        rotation.resize(n);
-        angles.read(begin, tilt, rotation);
-        for (std::size_t i = 0; i < n; ++i) {
-            if (!(kinematics.rotation.direction.cross(kinematics.axis_of({tilt[i], 0})).norm() < near)) {
-                leave();
-                continue;
-            }
-            if (!inside) {
-                inside = true;
-                since = begin + static_cast<PointIndex>(i);
-                low = high = rotation[i];
-            }
-            low = std::min(low, rotation[i]);
-            high = std::max(high, rotation[i]);
+    (void)for_angles(log, AngleReader(log, role, kinematics), [&](PointIndex point, const RotaryAngles& angles) {
+        if (!(kinematics.rotation.direction.cross(kinematics.axis_of({angles.tilt, 0})).norm() < near)) {
+            leave();
+            return false;
         }
-    }
+        if (!inside) {
+            inside = true;
+            since = point;
+            low = high = angles.rotation;
+        }
+        low = std::min(low, angles.rotation);
+        high = std::max(high, angles.rotation);
+        return false;
+    });
     leave();
 }
 
