@@ -16,4 +16,12 @@ namespace clsurf {
 /// The speed at which an arc takes the whole normal acceleration, √(a r) [mm/s].
 [[nodiscard]] double arc_speed(double radius, double normal_acceleration);
 
+/// The speed at which one period is as long as the chord of an arc of radius r that turns by `turning`,
+/// 2 r sin(α/2)/T [mm/s]: at least one point lies on it (Li et al. 2025, Eq. 7).
+[[nodiscard]] double period_speed(double radius, double turning, double period);
+
+/// The speed at which turning by α takes the whole acceleration of one period, a T/(2 sin(α/2)) [mm/s]:
+/// for a corner that is passed as it is.
+[[nodiscard]] double turn_speed(double turning, double acceleration, double period);
+
 }  // namespace clsurf

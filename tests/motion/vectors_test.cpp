@@ -1,4 +1,4 @@
-// Profiles, scan and junction speeds against vectors that were computed independently
+// Profiles and scan against vectors that were computed independently
 // (tests/motion/vectors): the tolerance of each is that of its makers.
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "motion/junction.h"
+#include "motion/interpolator.h"
 #include "motion/lookahead.h"
 #include "motion/scurve.h"
 #include "support/vector_rows.h"
@@ -102,11 +102,25 @@ TEST(SCurveVectors, FivePhasesOfLi) {
     }
 }
 
-TEST(JunctionVectors, ArcAndChord) {
-    for (VectorRow& r : rows("junction_speed.txt")) {
-        const double a = r.number(), period = r.number(), error = r.number(), radius = r.number();
-        near(arc_speed(radius, a), r.number(), 1e-9, 1e-12, r.name);
-        near(chord_speed(radius, error, period), r.number(), 1e-9, 1e-12, r.name);
+// A period of constant acceleration in parts of the same way: v² is linear in it.
+TEST(InterpolatorVectors, EqualLengthsOfAPeriod) {
+    for (VectorRow& r : rows("equal_length.txt")) {
+        const double v0 = r.number(), v1 = r.number(), period = r.number();
+        const int parts = static_cast<int>(r.number());
+        const double way = r.number();
+        const double acceleration = (v1 - v0) / period;
+        const std::vector<double> speeds = r.numbers(parts + 1), times = r.numbers(parts + 1);
+        near(CellMotion{way, v0, acceleration, 0}.duration(), period, 1e-9, 1e-12, r.name);
+        double time = 0;
+        for (std::size_t k = 0; k < static_cast<std::size_t>(parts); ++k) {
+            near(time, times[k], 1e-9, 1e-12, r.name);
+            const CellMotion part{way / parts, speeds[k], acceleration, 0};
+            double speed = 0;
+            near(part.way_at(part.duration(), speed), way / parts, 1e-9, 1e-12, r.name);
+            near(speed, speeds[k + 1], 1e-9, 1e-9, r.name);
+            time += part.duration();
+        }
+        near(time, period, 1e-9, 1e-12, r.name);
     }
 }
 
