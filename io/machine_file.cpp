@@ -50,14 +50,20 @@ std::string_view take_word(const TomlFile& file, const toml::table& table, std::
     return *found;
 }
 
+/// One of the values of an enumeration, by its name.
+template <std::size_t Count, typename Mode>
+void take_mode(const TomlFile& file, const toml::table& table, std::string_view key, Mode& value) {
+    std::array<std::string_view, Count> names;
+    for (std::size_t i = 0; i < Count; ++i) names[i] = name_of(static_cast<Mode>(i));
+    const std::string_view name = take_word(file, table, key, names);
+    if (!name.empty()) value = static_cast<Mode>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
 void read_controller(const TomlFile& file, const toml::table& table, ControllerSettings& c) {
     file.allow(table, {"period", "lookahead_blocks", "corner", "tolerance", "chord_tolerance", "block_time", "feed_override"});
     take(file, table, "period", c.period, Low::above_zero, 1.0, 1.0);
     if (const auto blocks = file.integer(table, "lookahead_blocks", 2, 100000)) c.lookahead_blocks = static_cast<int>(*blocks);
-    const std::array<std::string_view, 2> modes{name_of(CornerMode::arc), name_of(CornerMode::stop)};
-    if (const std::string_view mode = take_word(file, table, "corner", modes); !mode.empty()) {
-        c.corner = mode == modes[0] ? CornerMode::arc : CornerMode::stop;
-    }
+    take_mode<3>(file, table, "corner", c.corner);
     take(file, table, "tolerance", c.tolerance, Low::above_zero);
     take(file, table, "chord_tolerance", c.chord_tolerance, Low::above_zero);
     take(file, table, "block_time", c.block_time, Low::zero, 1.0, 1.0);
@@ -164,7 +170,7 @@ std::string machine_text(const Machine& machine) {
     text += fmt::format("name = \"{}\"\n\n[controller]\n", machine.name);
     text += fmt::format("period = {}                # interpolation period\n", c.period);
     text += fmt::format("lookahead_blocks = {}\n", c.lookahead_blocks);
-    text += fmt::format("corner = \"{}\"                # arc: rounded inside the tolerance; stop: exact stop\n", name_of(c.corner));
+    text += fmt::format("corner = \"{}\"                # spline: rounded inside the tolerance; arc: by circular arcs; stop: exact stop\n", name_of(c.corner));
     text += fmt::format("tolerance = {}              # of corners and path; G64 P in a program replaces it\n", c.tolerance);
     text += fmt::format("chord_tolerance = {}       # of the steps of a period against arcs\n", c.chord_tolerance);
     text += fmt::format("block_time = {}                # s, a block takes no less; 0: not limited\n", c.block_time);

@@ -7,42 +7,8 @@ namespace clsurf {
 namespace {
 
 constexpr double even_weights = 1e-12;   ///< below it the slopes on both sides do not change: their mean
-constexpr double way_exact = 1e-12;      ///< of the chord: where Newton's steps end
-constexpr int most_steps = 60;
 
 }  // namespace
-
-Vec3 AkimaSpan::at(double u) const {
-    return coefficients[0] + u * (coefficients[1] + u * (coefficients[2] + u * coefficients[3]));
-}
-
-Vec3 AkimaSpan::derivative(double u) const {
-    return coefficients[1] + u * (2 * coefficients[2] + 3 * u * coefficients[3]);
-}
-
-double AkimaSpan::way_to(double u) const {
-    static constexpr std::array<double, 5> node{0, -0.5384693101056831, 0.5384693101056831, -0.9061798459386640, 0.9061798459386640};
-    static constexpr std::array<double, 5> weight{0.5688888888888889, 0.4786286704993665, 0.4786286704993665, 0.2369268850561891, 0.2369268850561891};
-    double sum = 0;
-    for (std::size_t k = 0; k < node.size(); ++k) sum += weight[k] * derivative(0.5 * u * (1 + node[k])).norm();
-    return 0.5 * u * sum;
-}
-
-double AkimaSpan::at_way(double way) const {
-    double low = 0, high = chord;
-    if (way <= 0) return low;
-    if (way >= way_to(chord)) return high;
-    double u = chord * way / way_to(chord);
-    for (int step = 0; step < most_steps; ++step) {
-        const double over = way_to(u) - way;
-        if (std::abs(over) <= way_exact * chord) break;
-        (over > 0 ? high : low) = u;
-        const double speed = derivative(u).norm();
-        const double next = speed > 0 ? u - over / speed : high;
-        u = next > low && next < high ? next : 0.5 * (low + high);
-    }
-    return u;
-}
 
 Vec3 akima_tangent(const Vec3& before_2, const Vec3& before_1, const Vec3& behind_1, const Vec3& behind_2) {
     const double of_before = (behind_2 - behind_1).norm();
@@ -77,7 +43,7 @@ void AkimaStream::take_tangent() {
     if (tangents_ == AkimaTangents::unit && tangent.norm() > 0) tangent.normalize();
     if (known_++ > 0) {
         const auto& [begin, slope, chord] = segments_[1];
-        sink_({{begin, tangent_, (3 * slope - 2 * tangent_ - tangent) / chord, (tangent_ + tangent - 2 * slope) / (chord * chord)}, chord});
+        sink_(hermite(begin, begin + chord * slope, tangent_, tangent, chord));
     }
     tangent_ = tangent;
 }
@@ -96,10 +62,10 @@ void AkimaStream::finish() {
     }
 }
 
-std::vector<AkimaSpan> akima_spans(std::span<const Vec3> points, AkimaTangents tangents) {
-    std::vector<AkimaSpan> spans;
+std::vector<CubicSpan> akima_spans(std::span<const Vec3> points, AkimaTangents tangents) {
+    std::vector<CubicSpan> spans;
     spans.reserve(points.size());
-    AkimaStream stream([&](const AkimaSpan& span) { spans.push_back(span); }, tangents);
+    AkimaStream stream([&](const CubicSpan& span) { spans.push_back(span); }, tangents);
     for (const Vec3& point : points) stream.add(point);
     stream.finish();
     return spans;

@@ -19,7 +19,7 @@
 #include <span>
 #include <vector>
 
-#include "core/geometry.h"
+#include "curve/cubic_span.h"
 
 namespace clsurf {
 
@@ -28,31 +28,18 @@ enum class AkimaTangents : unsigned char {
     unit,   ///< made as long as 1, so that u is the way to 1 part in 10⁴ on smooth curves
 };
 
-/// One cubic between two points.
-struct AkimaSpan {
-    std::array<Vec3, 4> coefficients;  ///< A, B, C, D
-    double chord = 0;                  ///< h [mm]
-
-    [[nodiscard]] Vec3 at(double u) const;          ///< [mm], u ∈ [0, h]
-    [[nodiscard]] Vec3 derivative(double u) const;  ///< dr/du
-    /// Way from u = 0 to `u` [mm], by Gauss's rule with 5 points.
-    [[nodiscard]] double way_to(double u) const;
-    /// The u where the way from u = 0 is `way` [mm], clipped to [0, h]. Newton's method, kept in a bracket.
-    [[nodiscard]] double at_way(double way) const;
-};
-
 /// The tangent (not made unit) at a point between four slopes before and behind it, in their order.
 [[nodiscard]] Vec3 akima_tangent(const Vec3& before_2, const Vec3& before_1, const Vec3& behind_1, const Vec3& behind_2);
 
 /// All spans through points of which no two neighbours are the same [mm]; two points: a straight line,
 /// fewer: none. Symmetric: the points in reverse give the same curve. O(points).
-[[nodiscard]] std::vector<AkimaSpan> akima_spans(std::span<const Vec3> points, AkimaTangents tangents = AkimaTangents::plain);
+[[nodiscard]] std::vector<CubicSpan> akima_spans(std::span<const Vec3> points, AkimaTangents tangents = AkimaTangents::plain);
 
 /// The same span by span while points come, two points behind them: a controller's form. What comes out
 /// is what akima_spans() makes of all points at once.
 class AkimaStream {
 public:
-    using Sink = std::function<void(const AkimaSpan&)>;
+    using Sink = std::function<void(const CubicSpan&)>;
 
     explicit AkimaStream(Sink sink, AkimaTangents tangents = AkimaTangents::plain) : sink_(std::move(sink)), tangents_(tangents) {}
 

@@ -2,6 +2,9 @@
 
 namespace clsurf {
 
-std::string_view name_of(CornerMode mode) { return mode == CornerMode::arc ? "arc" : "stop"; }
+std::string_view name_of(CornerMode mode) {
+    constexpr std::array<std::string_view, 3> names{"spline", "arc", "stop"};
+    return names[static_cast<std::size_t>(mode)];
+}
 
 }  // namespace clsurf

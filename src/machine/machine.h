@@ -32,8 +32,9 @@ struct MachineAxis {
 };
 
 enum class CornerMode : unsigned char {
-    arc,   ///< rounded inside the tolerance, passed without a stop
-    stop,  ///< exact stop at every corner
+    spline,  ///< rounded inside the tolerance by a curve of continuous curvature
+    arc,     ///< rounded inside the tolerance by circular arcs
+    stop,    ///< exact stop at every corner
 };
 
 /// The word of a machine file.
@@ -42,7 +43,7 @@ enum class CornerMode : unsigned char {
 struct ControllerSettings {
     double period = 0.001;          ///< interpolation period [s]
     int lookahead_blocks = 500;
-    CornerMode corner = CornerMode::arc;
+    CornerMode corner = CornerMode::spline;
     double tolerance = 0.01;        ///< of corners and path [mm]; G64 P replaces it
     double chord_tolerance = 0.002; ///< of the steps of a period against arcs [mm]
     double block_time = 0;          ///< a block takes no less [s]: what the controller needs to prepare one

@@ -19,13 +19,14 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <string_view>
 #include <vector>
 
 #include "core/geometry.h"
 #include "machine/machine.h"
-#include "motion/path_element.h"
-#include "program/program.h"
+#include "motion/block_stream.h"
+#include "motion/corner_arcs.h"
 
 namespace clsurf {
 
@@ -46,11 +47,6 @@ enum class Ruling : std::uint8_t {
 /// "feed", "axis speed", …
 [[nodiscard]] std::string_view name_of(Ruling ruling);
 
-/// Derivatives of a position by the way: none, 1/mm, 1/mm².
-struct PathDerivatives {
-    Vec3 first, second, third;
-};
-
 /// Where the position on a span comes from, and how fast it may be passed.
 struct Span {
     PathElement base;
@@ -58,7 +54,6 @@ struct Span {
     double length = 0;  ///< [mm]
     std::array<Vec3, 5> rounding{};  ///< Σ rounding[k] τᵏ, τ from the span's begin
     bool rounded = false;
-    std::int64_t block = 0;  ///< number of its element in the section
 
     // Greatest values on the span: of the first to third derivative of the position by the way, an axis each.
     Vec3 slope = Vec3::Zero(), bend = Vec3::Zero(), twist = Vec3::Zero();
@@ -82,7 +77,7 @@ struct Span {
     /// length of its first derivative, path speed over speed along the programmed way.
     [[nodiscard]] Vec3 at(double tau, double& deviation, double& pace) const;
     [[nodiscard]] PathDerivatives derivatives(double tau) const;
-    [[nodiscard]] bool straight() const { return !rounded && !base.arc; }
+    [[nodiscard]] bool straight() const { return !rounded && base.straight(); }
 };
 
 class PathStream {
@@ -99,16 +94,8 @@ public:
     bool begin_section();
     /// The next span of the section in order; false: none is left.
     bool next(Span& span);
-    /// Wait after the section [s]; known when next() has returned false.
-    [[nodiscard]] double dwell() const { return dwell_; }
-    /// Line of the dwell; 0: none.
-    [[nodiscard]] LineNumber dwell_line() const { return dwell_line_; }
-    /// Motions taken so far, of all.
-    [[nodiscard]] std::int64_t motions_taken() const { return next_motion_; }
-    /// Where the axes stand before the first section.
-    [[nodiscard]] const Vec3& position() const { return at_; }
-    /// Where the section ends; known when next() has returned false.
-    [[nodiscard]] const Vec3& section_end() const { return section_end_; }
+    /// Where the program stands; what its section ends with is known when next() has returned false.
+    [[nodiscard]] const BlockStream& blocks() const { return blocks_; }
 
 private:
     struct Joint {
@@ -116,38 +103,28 @@ private:
         Vec3 turn = Vec3::Zero(), bend = Vec3::Zero();  ///< Δt; Δk [1/mm]
         double turning = 0;    ///< |Δt|
         double tolerance = 0;
+        double widest = 0;     ///< that its rounding may be
         double width = 0, bend_width = 0;
         double deviation = 0;  ///< of the overlapping roundings, before they are scaled
         double scale = 1;
     };
 
     bool pull();
-    bool stops_between(const PathElement& before, const PathElement& after) const;
     void add_joint(const PathElement& before, const PathElement& after);
     void settle();
     void settle_width(std::int64_t i);
     void make_spans(std::int64_t element);
     void add_roundings(Span& span, double begin, std::int64_t element) const;
     void set_limits(Span& span) const;
-    [[nodiscard]] bool next_element(PathElement& element);
-    void follow_events(std::int64_t motion);
 
     Joint& joint(std::int64_t i) { return joints_[static_cast<std::size_t>(i - first_joint_)]; }
     [[nodiscard]] const Joint& joint(std::int64_t i) const { return joints_[static_cast<std::size_t>(i - first_joint_)]; }
 
-    const Program* program_;
     const Machine* machine_;
-    bool has_arcs_ = false;
-    Vec3 at_;                          ///< end of the last element taken
-    std::int64_t next_motion_ = 0;
-    std::size_t next_event_ = 0;
-    double tolerance_ = 0;             ///< in force; 0: exact path
-    bool waiting_ = false;             ///< an element is read that begins the next section
-    PathElement waiting_element_;
-    double dwell_ = 0;
-    LineNumber dwell_line_ = 0;
-    double pending_dwell_ = 0;         ///< met before the next element
-    LineNumber pending_dwell_line_ = 0;
+    double bend_share_ = 0;            ///< of the tolerance, for jumps of curvature
+    BlockStream blocks_;
+    std::unique_ptr<CornerArcs> arcs_;
+    ElementSource* source_;            ///< the last of what shapes the path
 
     // The section: elements from first_element_ on; joint i lies between elements i and i + 1.
     std::deque<PathElement> elements_;
@@ -157,7 +134,6 @@ private:
     std::int64_t element_count_ = 0;
     bool closed_ = false;
     double closed_at_ = 0;
-    Vec3 section_end_;
     std::int64_t widths_done_ = 0, deviations_done_ = 0, scales_done_ = 0, spans_done_ = 0;
     std::deque<Span> ready_;
     std::vector<double> cuts_;  ///< scratch of make_spans()

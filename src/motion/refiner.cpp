@@ -95,7 +95,7 @@ void Refiner::add(const Stretch& stretch) {
     if (!divided_ && waiting_.size() == 2 && cells_.empty()) divide(waiting_.front());
     divided_ = true;
     divide(waiting_.back());
-    const bool full = cells_.size() >= most_cells || (!cells_.empty() && kept(stretch.run).spans.back().block - cells_.front().block >= blocks_);
+    const bool full = cells_.size() >= most_cells || (!cells_.empty() && kept(stretch.run).spans.back().base.block - cells_.front().block >= blocks_);
     if (full && !ends_at_rest_) solve(false);
 }
 
@@ -143,7 +143,7 @@ void Refiner::add_cells(const Stretch& stretch) {
             if (open_.length == 0) {
                 open_.parts = 0;
                 open_.run = stretch.run;
-                open_.block = span.block;
+                open_.block = span.base.block;
             }
             parts_.push_back({&span, way - begin, next_way - way});
             ++open_.parts;

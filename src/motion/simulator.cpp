@@ -32,7 +32,7 @@ public:
         bool ended = false;
         while (true) {
             Span span;
-            while (!ended && (window_.empty() || window_.back().block - window_.front().block < blocks_)) {
+            while (!ended && (window_.empty() || window_.back().base.block - window_.front().base.block < blocks_)) {
                 if (stream_->next(span)) window_.push_back(span);
                 else ended = true;
             }
@@ -41,9 +41,9 @@ public:
             std::size_t half = window_.size();
             std::vector<std::size_t> nodes;
             if (!ended) {
-                const std::int64_t middle = window_.front().block + std::max(1, blocks_ / 2);
+                const std::int64_t middle = window_.front().base.block + std::max(1, blocks_ / 2);
                 half = 1;
-                while (half + 1 < window_.size() && window_[half].block < middle) ++half;
+                while (half + 1 < window_.size() && window_[half].base.block < middle) ++half;
                 nodes.push_back(half);
             }
             std::size_t done = 0;
@@ -84,18 +84,18 @@ private:
 SimulationSummary simulate(const Program& program, const Machine& machine, const Vec3& start,
                            const PointSink& sink, const Progress& progress, Planning planning) {
     PathStream stream(program, machine, start);
-    const Vec3 from = stream.position();
+    const Vec3 from = stream.blocks().position();
     Recorder recorder(program, machine, from, sink);
     Interpolator interpolator(machine.controller.period, recorder);
     Controller controller(machine, stream, interpolator, planning);
     const auto report = [&] {
-        if (progress) progress("plan and interpolate", static_cast<double>(stream.motions_taken()) / static_cast<double>(std::max<std::int64_t>(1, program.motions.size())));
+        if (progress) progress("plan and interpolate", static_cast<double>(stream.blocks().motions_taken()) / static_cast<double>(std::max<std::int64_t>(1, program.motions.size())));
     };
     Vec3 at = from;
     while (stream.begin_section()) {
         controller.run_section(report);
-        at = stream.section_end();
-        interpolator.rest(at, stream.dwell(), stream.dwell_line());
+        at = stream.blocks().section_end();
+        interpolator.rest(at, stream.blocks().dwell(), stream.blocks().dwell_line());
     }
     recorder.add(at, 0, interpolator.line(), Ruling::none, 0);
     return recorder.finish();

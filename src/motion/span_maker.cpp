@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::int64_t reach_of_a_joint = PathStream::reach_of_a_joint;
 constexpr double least_span = 1e-9;  ///< [mm] nearer cuts are one
-constexpr double most_turn = 0.75;   ///< [rad] of an arc in one span: limits of axes change round it
+constexpr double most_turn = 0.75;   ///< [rad] of a curve in one span: limits of axes change round it
 constexpr double share_of_bend = 0.5;  ///< of the jerk that a twist leaves: for accelerating in a bend
 // An easing is the greatest speed that leaves these parts of the tangential limits: much, for long
 // ramps through bends; little, where speeds stay nearly the same.
@@ -36,7 +36,7 @@ void add_product(std::array<Vec3, 5>& sum, const Vec3& factor, double a, double 
 
 PathDerivatives Span::derivatives(double tau) const {
     const std::array<Vec3, 5>& c = rounding;
-    PathDerivatives d{base.tangent(from + tau), base.second_derivative(from + tau), base.third_derivative(from + tau)};
+    PathDerivatives d = base.derivatives(from + tau);
     if (!rounded) return d;
     d.first += c[1] + tau * (2 * c[2] + tau * (3 * c[3] + tau * 4 * c[4]));
     d.second += 2 * c[2] + tau * (6 * c[3] + tau * 12 * c[4]);
@@ -62,8 +62,8 @@ void PathStream::make_spans(std::int64_t element) {
         if (width > 0) cut(j.at - width), cut(j.at + width);
         if (j.bend_width > 0) cut(j.at - j.bend_width), cut(j.at + j.bend_width);
     }
-    if (base.arc) {
-        const int parts = static_cast<int>(std::ceil(base.length * base.rate / most_turn));
+    if (!base.straight()) {
+        const int parts = static_cast<int>(std::ceil(base.turning() / most_turn));
         for (int k = 1; k < parts; ++k) cuts_.push_back(base.length * k / parts);
     }
     std::sort(cuts_.begin(), cuts_.end());
@@ -76,7 +76,6 @@ void PathStream::make_spans(std::int64_t element) {
         span.base = base;
         span.from = from;
         span.length = cuts_[k] - from;
-        span.block = element;
         add_roundings(span, begin + from, element);
         set_limits(span);
         ready_.push_back(span);
@@ -107,9 +106,11 @@ void PathStream::add_roundings(Span& span, double begin, std::int64_t element) c
     // The third derivative of what is rounded is linear or constant, that of an arc as good as: its
     // greatest value is at a checked point; those below change between them by no more than the next one allows.
     const double step = span.length / (checked_points - 1);
-    const bool plain = !span.rounded && !span.base.arc;
+    const bool plain = span.straight();
+    std::array<Vec3, checked_points> thirds;
     for (int k = 0; k < (plain ? 1 : checked_points); ++k) {
         const PathDerivatives d = span.derivatives(k * step);
+        thirds[static_cast<std::size_t>(k)] = d.third;
         span.slope = span.slope.cwiseMax(d.first.cwiseAbs());
         span.bend = span.bend.cwiseMax(d.second.cwiseAbs());
         span.twist = span.twist.cwiseMax(d.third.cwiseAbs());
@@ -123,12 +124,21 @@ void PathStream::add_roundings(Span& span, double begin, std::int64_t element) c
         const double play = 0.125 * turn * turn * (span.base.radius + std::abs(span.base.growth * span.base.length * rate)) * rate * rate * rate;
         span.twist.array() += (span.base.first.cwiseAbs() + span.base.second.cwiseAbs()).array().min(1.0) * play;
     }
+    double fourth = 24 * span.rounding[4].norm() + (span.base.arc ? span.base.radius * std::pow(span.base.rate, 4) : 0.0);
+    if (span.base.cubic) {
+        // By the way a cubic is no polynomial: its differences stand for the derivatives, with as much again.
+        Vec3 play = Vec3::Zero();
+        for (std::size_t k = 1; k < thirds.size(); ++k) {
+            fourth = std::max(fourth, 2 * (thirds[k] - thirds[k - 1]).norm() / step);
+            if (k + 1 < thirds.size()) play = play.cwiseMax((thirds[k - 1] - 2 * thirds[k] + thirds[k + 1]).cwiseAbs());
+        }
+        span.twist += 0.25 * play;
+    }
     // Between checked points a function is at most its values there plus step²/8 of its second derivative.
     const double curve = step * step / 8;
     span.slope += curve * span.twist;
     const double greatest_twist = span.twist.norm();
     span.greatest_slope += curve * greatest_twist;
-    const double fourth = 24 * span.rounding[4].norm() + (span.base.arc ? span.base.radius * std::pow(span.base.rate, 4) : 0.0);
     span.bend.array() += curve * fourth;
     span.greatest_bend += curve * fourth;
 }
@@ -143,15 +153,16 @@ void PathStream::set_limits(Span& span) const {
         if (speed < span.cap) span.cap = speed, span.ruling = why;
     };
     if (!rapid) limit(span.base.feed * override_factor, override_factor == 1 ? Ruling::feed : Ruling::feed_override);
-    if (machine_->controller.block_time > 0) limit(span.base.length / machine_->controller.block_time, Ruling::block_time);
+    if (machine_->controller.block_time > 0) limit(span.base.block_length / machine_->controller.block_time, Ruling::block_time);
     for (int i = 0; i < 3; ++i) {
         if (span.slope[i] > 0) limit(machine_->axes[static_cast<std::size_t>(i)].max_speed / span.slope[i], Ruling::axis_speed);
     }
+    limit(span.base.greatest_speed, Ruling::corner_tolerance);
     span.free_cap = span.cap;
     span.free_ruling = span.ruling;
     span.acceleration = path.max_acceleration;
     span.jerk = path.max_jerk;
-    const bool corner = span.rounded && !span.base.arc;
+    const bool corner = span.rounded && span.base.straight();
     for (int i = 0; i < 3; ++i) {
         const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(i)];
         const double jerk = axis.max_jerk > 0 ? axis.max_jerk : std::numeric_limits<double>::infinity();

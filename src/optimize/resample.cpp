@@ -42,7 +42,7 @@ public:
 
 private:
     std::vector<double> way_;
-    std::vector<AkimaSpan> spans_;
+    std::vector<CubicSpan> spans_;
 };
 
 class Resampler {

@@ -31,7 +31,7 @@ const std::map<std::string, std::set<std::string>> rooms{
     {"path", {"core", "program", "machine", "log"}},
     {"surface", {"core", "machine", "path"}},
     {"field", {"core", "machine", "log", "path", "surface"}},
-    {"motion", {"core", "program", "machine", "log"}},
+    {"motion", {"core", "curve", "program", "machine", "log"}},
     {"quality", {"core", "program", "log", "path", "surface", "field"}},
     {"report", {"core", "log", "path", "surface", "field", "quality"}},
     {"optimize",

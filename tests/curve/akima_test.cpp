@@ -47,9 +47,9 @@ void expect_points(const std::vector<Vec3>& found, const std::vector<double>& ex
     for (std::size_t i = 0; i < points.size(); ++i) EXPECT_LE((found[i] - points[i]).norm(), 1e-8 + 1e-6 * points[i].norm()) << "point " << i;
 }
 
-std::vector<Vec3> middles(const std::vector<AkimaSpan>& spans) {
+std::vector<Vec3> middles(const std::vector<CubicSpan>& spans) {
     std::vector<Vec3> middles;
-    for (const AkimaSpan& span : spans) middles.push_back(span.at(0.5 * span.chord));
+    for (const CubicSpan& span : spans) middles.push_back(span.at(0.5 * span.chord));
     return middles;
 }
 
@@ -65,14 +65,14 @@ TEST(AkimaVectors, TangentsPointsAndLengths) {
     ASSERT_EQ(cases.size(), 5U);
     for (const Case& c : cases) {
         const std::vector<Vec3> points = points_of(c.at("points"));
-        const std::vector<AkimaSpan> spans = akima_spans(points);
+        const std::vector<CubicSpan> spans = akima_spans(points);
         std::vector<Vec3> tangents;
-        for (const AkimaSpan& span : spans) tangents.push_back(span.derivative(0));
+        for (const CubicSpan& span : spans) tangents.push_back(span.derivative(0));
         tangents.push_back(spans.back().derivative(spans.back().chord));
         expect_points(tangents, c.at("tangents"));
         expect_points(middles(spans), c.at("mid"));
         expect_points(middles(akima_spans(points, AkimaTangents::unit)), c.at("unit_mid"));
-        const std::vector<AkimaSpan> unit = akima_spans(points, AkimaTangents::unit);
+        const std::vector<CubicSpan> unit = akima_spans(points, AkimaTangents::unit);
         for (std::size_t i = 0; i < spans.size(); ++i) {
             EXPECT_NEAR(spans[i].way_to(spans[i].chord), c.at("lengths")[i], 1e-6);
             EXPECT_NEAR(unit[i].way_to(unit[i].chord), c.at("unit_lengths")[i], 1e-6);
@@ -81,7 +81,7 @@ TEST(AkimaVectors, TangentsPointsAndLengths) {
 }
 
 TEST(Akima, OfTwoPointsIsTheirLine) {
-    const std::vector<AkimaSpan> spans = akima_spans(std::vector<Vec3>{{1, 2, 3}, {4, 6, 3}});
+    const std::vector<CubicSpan> spans = akima_spans(std::vector<Vec3>{{1, 2, 3}, {4, 6, 3}});
     ASSERT_EQ(spans.size(), 1U);
     EXPECT_LE((spans[0].at(2.5) - Vec3(2.5, 4, 3)).norm(), 1e-12);
     EXPECT_NEAR(spans[0].way_to(5), 5, 1e-12);
@@ -93,7 +93,7 @@ TEST(Akima, MeetsItsPointsWithOneTangent) {
     std::mt19937 random(1);
     for (int trial = 0; trial < 1000; ++trial) {
         const std::vector<Vec3> points = random_path(random, 3 + static_cast<std::size_t>(trial % 20));
-        const std::vector<AkimaSpan> spans = akima_spans(points, trial % 2 == 0 ? AkimaTangents::plain : AkimaTangents::unit);
+        const std::vector<CubicSpan> spans = akima_spans(points, trial % 2 == 0 ? AkimaTangents::plain : AkimaTangents::unit);
         ASSERT_EQ(spans.size() + 1, points.size());
         for (std::size_t i = 0; i < spans.size(); ++i) {
             EXPECT_LE((spans[i].at(0) - points[i]).norm(), 1e-12);
@@ -108,11 +108,11 @@ TEST(Akima, IsTheSameForthAndBack) {
     std::mt19937 random(2);
     for (int trial = 0; trial < 1000; ++trial) {
         std::vector<Vec3> points = random_path(random, 2 + static_cast<std::size_t>(trial % 12));
-        const std::vector<AkimaSpan> forth = akima_spans(points);
+        const std::vector<CubicSpan> forth = akima_spans(points);
         std::reverse(points.begin(), points.end());
-        const std::vector<AkimaSpan> back = akima_spans(points);
+        const std::vector<CubicSpan> back = akima_spans(points);
         for (std::size_t i = 0; i < forth.size(); ++i) {
-            const AkimaSpan& other = back[back.size() - 1 - i];
+            const CubicSpan& other = back[back.size() - 1 - i];
             EXPECT_LE((forth[i].at(0.3 * forth[i].chord) - other.at(0.7 * other.chord)).norm(), 1e-9);
         }
     }
@@ -121,9 +121,9 @@ TEST(Akima, IsTheSameForthAndBack) {
 TEST(Akima, StreamGivesSpansTwoPointsBehind) {
     std::mt19937 random(3);
     const std::vector<Vec3> points = random_path(random, 9);
-    const std::vector<AkimaSpan> whole = akima_spans(points);
-    std::vector<AkimaSpan> given;
-    AkimaStream stream([&](const AkimaSpan& span) { given.push_back(span); });
+    const std::vector<CubicSpan> whole = akima_spans(points);
+    std::vector<CubicSpan> given;
+    AkimaStream stream([&](const CubicSpan& span) { given.push_back(span); });
     for (std::size_t i = 0; i < points.size(); ++i) {
         stream.add(points[i]);
         EXPECT_EQ(given.size(), i < 3 ? 0 : i - 2) << "after point " << i;
@@ -141,8 +141,8 @@ TEST(Akima, ComesNearACircleWithTheFourthPower) {
             const double angle = 0.5 * std::numbers::pi * i / spans_of_quarter;
             points.emplace_back(10 * std::cos(angle), 10 * std::sin(angle), 0);
         }
-        const std::vector<AkimaSpan> spans = akima_spans(points);
-        const AkimaSpan& middle = spans[spans.size() / 2];
+        const std::vector<CubicSpan> spans = akima_spans(points);
+        const CubicSpan& middle = spans[spans.size() / 2];
         return std::abs(middle.at(0.5 * middle.chord).norm() - 10);
     };
     EXPECT_NEAR(error(5) / error(10), 16, 1.5);
@@ -151,7 +151,7 @@ TEST(Akima, ComesNearACircleWithTheFourthPower) {
 
 TEST(Akima, AtWayInvertsTheWay) {
     std::mt19937 random(4);
-    for (const AkimaSpan& span : akima_spans(random_path(random, 200))) {
+    for (const CubicSpan& span : akima_spans(random_path(random, 200))) {
         for (const double part : {0.0, 0.1, 0.5, 0.93, 1.0}) {
             const double way = part * span.way_to(span.chord);
             EXPECT_NEAR(span.way_to(span.at_way(way)), way, 1e-9);

@@ -144,8 +144,11 @@ TEST(TransitionArc, BetweenArcsTouchesBoth) {
         };
         EXPECT_LT(off(centre0, rho0), 1e-8);
         EXPECT_LT(off(centre1, rho1), 1e-8);
-        if (a.limited == ArcLimit::error) near(a.error, error, 1e-6, 0, "as large as allowed");
-        else if (a.deflection < 2) EXPECT_GT(std::max(a.way_before / before.length, a.way_after / after.length), 0.05);
+        if (a.limited == ArcLimit::error) {
+            near(a.error, error, 1e-6, 0, "as large as allowed");
+        } else if (a.deflection < 2) {
+            EXPECT_GT(std::max(a.way_before / before.length, a.way_after / after.length), 0.05);
+        }
     }
     EXPECT_GT(found, 0.9 * trials);
 }

@@ -1,0 +1,28 @@
+#pragma once
+// CubicSpan: one cubic of a curve in space, r(u) = A + B u + C u² + D u³.
+
+#include <array>
+
+#include "core/geometry.h"
+
+namespace clsurf {
+
+struct CubicSpan {
+    std::array<Vec3, 4> coefficients;  ///< A, B, C, D
+    double chord = 0;                  ///< where u ends [mm]
+
+    [[nodiscard]] Vec3 at(double u) const;          ///< [mm], u ∈ [0, chord]
+    [[nodiscard]] Vec3 derivative(double u) const;  ///< dr/du
+    [[nodiscard]] Vec3 second_derivative(double u) const;
+    /// Way from u = 0 to `u` [mm], by Gauss's rule with 5 points.
+    [[nodiscard]] double way_to(double u) const;
+    /// The u where the way from u = 0 is `way` [mm], clipped to [0, chord]; `length`: way_to(chord). Newton's
+    /// method, kept in a bracket.
+    [[nodiscard]] double at_way(double way, double length) const;
+    [[nodiscard]] double at_way(double way) const { return at_way(way, way_to(chord)); }
+};
+
+/// The cubic from `begin` to `end` with these derivatives there, over u ∈ [0, chord].
+[[nodiscard]] CubicSpan hermite(const Vec3& begin, const Vec3& end, const Vec3& derivative_at_begin, const Vec3& derivative_at_end, double chord);
+
+}  // namespace clsurf

@@ -1,0 +1,153 @@
+#include "motion/block_stream.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include "core/error.h"
+#include "motion/junction.h"
+
+namespace clsurf {
+namespace {
+
+constexpr double reversal = 179.0 * std::numbers::pi / 180;
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+double path_tolerance(const ProgramEvent& event, const Machine& machine) {
+    const std::string& text = event.value;
+    if (machine.controller.corner == CornerMode::stop || text.starts_with("G61") || text.starts_with("G60")) return 0;
+    const std::size_t p = text.find('P');
+    if (p != std::string::npos) {
+        double value = 0;
+        const char* first = text.data() + p + 1;
+        while (first < text.data() + text.size() && (*first == ' ' || *first == '=')) ++first;
+        const auto read = std::from_chars(first, text.data() + text.size(), value);
+        if (read.ec == std::errc() && value > 0) return value;
+    }
+    return machine.controller.tolerance;
+}
+
+bool stops_between(const PathElement& before, const PathElement& after) {
+    const double turning = deflection(before.tangent(before.length).normalized(), after.tangent(0).normalized());
+    if (turning > reversal) return true;
+    if (before.tolerance > 0 && after.tolerance > 0) return false;
+    // On an exact path only what is straight on, with no jump of curvature, is passed without a stop.
+    const double bend = (after.second_derivative(0) - before.second_derivative(before.length)).norm();
+    return turning > straight_on || bend > least_bend_jump;
+}
+
+}  // namespace
+
+BlockStream::BlockStream(const Program& program, const Machine& machine, const Vec3& start) : program_(&program), machine_(&machine), at_(start) {
+    tolerance_ = machine.controller.corner == CornerMode::stop ? 0 : machine.controller.tolerance;
+    // Where the program itself says where it begins, the axes stand there.
+    const Xyz& known = program.motions.start;
+    if (known.x == known.x) at_.x() = known.x;
+    if (known.y == known.y) at_.y() = known.y;
+    if (known.z == known.z) at_.z() = known.z;
+}
+
+void BlockStream::follow_events(std::int64_t motion) {
+    const std::vector<ProgramEvent>& events = program_->events;
+    for (; next_event_ < events.size() && events[next_event_].motion <= motion; ++next_event_) {
+        if (events[next_event_].name == "path-mode") tolerance_ = path_tolerance(events[next_event_], *machine_);
+    }
+}
+
+/// The next motion with a way; dwells on the way to it are added up.
+bool BlockStream::read(PathElement& element) {
+    const Motions& motions = program_->motions;
+    const auto fail = [&](std::int64_t m, const std::string& what) {
+        const auto line = motions.line[static_cast<std::size_t>(m)];
+        Place place = Place::of_line(program_->main().name(), line);
+        place.source = std::string(program_->main().line(line));
+        throw InputError(place, what);
+    };
+    while (next_motion_ < motions.size()) {
+        const std::int64_t m = next_motion_++;
+        const auto i = static_cast<std::size_t>(m);
+        follow_events(m);
+        const MotionKind kind = motions.kind[i];
+        if (kind == MotionKind::dwell) {
+            pending_dwell_ += std::max(0.0F, motions.feed[i]);
+            pending_dwell_line_ = motions.line[i];
+            continue;
+        }
+        if (kind == MotionKind::spline) fail(m, "splines cannot be simulated yet");
+        if (!motions.rotary.empty()) {
+            const Xyz before = m > 0 ? motions.rotary[i - 1] : Xyz{};
+            const Xyz& now = motions.rotary[i];
+            const auto moved = [](double a, double b) { return b == b && b != a && !(a != a && b == 0); };
+            if (moved(before.x, now.x) || moved(before.y, now.y) || moved(before.z, now.z)) {
+                fail(m, "a rotary axis moves: only x, y and z can be simulated");
+            }
+        }
+        const Xyz& to = motions.end[i];
+        const Vec3 end(to.x == to.x ? to.x : at_.x(), to.y == to.y ? to.y : at_.y(), to.z == to.z ? to.z : at_.z());
+        element = element_of(kind, is_arc(kind) ? motions.arc_of(m) : nullptr, at_, end);
+        if (!(element.length > 0)) continue;
+        element.line = motions.line[i];
+        element.block = blocks_++;
+        element.block_length = element.length;
+        element.tolerance = tolerance_;
+        element.feed = infinite;
+        if (kind != MotionKind::rapid) {
+            element.feed = motions.feed[i];
+            if (!(element.feed > 0) || !std::isfinite(element.feed)) fail(m, "a feed motion without a feed greater than 0");
+        }
+        at_ = end;
+        return true;
+    }
+    return false;
+}
+
+void BlockStream::take_dwell() {
+    dwell_ = pending_dwell_;
+    dwell_line_ = pending_dwell_line_;
+    pending_dwell_ = 0;
+    closed_ = true;
+}
+
+bool BlockStream::begin_section() {
+    section_end_ = at_;
+    dwell_ = 0;
+    dwell_line_ = 0;
+    closed_ = begun_ = false;
+    if (waiting_) return true;
+    if (!read(waiting_element_)) {
+        // Dwells at the very end still take their time.
+        take_dwell();
+        return dwell_ > 0;
+    }
+    waiting_ = true;
+    if (pending_dwell_ > 0) {
+        // A wait before the first motion: a section without a way.
+        section_end_ = waiting_element_.begin;
+        take_dwell();
+    }
+    return true;
+}
+
+bool BlockStream::next(PathElement& element) {
+    if (closed_) return false;
+    if (!waiting_ && !read(waiting_element_)) {
+        section_end_ = last_.end;
+        take_dwell();
+        return false;
+    }
+    waiting_ = true;
+    if (begun_ && (pending_dwell_ > 0 || stops_between(last_, waiting_element_))) {
+        section_end_ = last_.end;
+        take_dwell();
+        return false;
+    }
+    element = last_ = waiting_element_;
+    waiting_ = false;
+    begun_ = true;
+    return true;
+}
+
+}  // namespace clsurf

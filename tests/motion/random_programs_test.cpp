@@ -1,0 +1,130 @@
+// Random programs on random machines: every limit holds when the points are differentiated, the path stays
+// inside its tolerance, nothing is NaN, the end is exact, and a second run gives the same bits.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include <fmt/format.h>
+
+#include "support/made_motion.h"
+
+namespace clsurf {
+namespace {
+
+/// What a file of random machines and programs is made of.
+class Maker {
+public:
+    explicit Maker(std::uint64_t seed) : random_(seed) {}
+
+    Machine machine(CornerMode corner) {
+        Machine machine;
+        machine.controller.corner = corner;
+        machine.controller.period = spread(0.0005, 0.004);
+        machine.controller.tolerance = spread(0.001, 0.2);
+        machine.controller.lookahead_blocks = static_cast<int>(spread(2, 300));
+        if (chance(0.3)) machine.controller.feed_override = spread(0.01, 5);
+        machine.path = {spread(20, 500), spread(200, 5000), spread(200, 5000), spread(5000, 200000)};
+        const bool any_jerk = chance(0.1);
+        for (MachineAxis& axis : machine.axes) {
+            axis.max_speed = spread(20, 500);
+            axis.max_acceleration = spread(200, 5000);
+            axis.max_jerk = any_jerk ? 0 : spread(5000, 200000);
+        }
+        return machine;
+    }
+
+    std::string program() {
+        const double scale = spread(0.01, 20);
+        std::string text = chance(0.15) ? "G61\n" : "G64\n";
+        Vec3 at = Vec3::Zero(), before = Vec3::Zero();
+        for (int block = 0; block < 60; ++block) {
+            const double kind = uniform(0, 1);
+            Vec3 to = at + scale * spread(0.02, 1) * Vec3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
+            if (kind < 0.05) to = at;                                      // no way
+            else if (kind < 0.1) to = before;                              // back again
+            else if (kind < 0.2) to = at + uniform(0, 2) * (at - before);  // straight on
+            before = at;
+            if (chance(0.05)) text += fmt::format("G4 P{:.3f}\n", uniform(0, 0.02));
+            if (chance(0.03)) text += chance(0.5) ? fmt::format("G64 P{:.4f}\n", spread(0.001, 0.2)) : "G61\n";
+            const double feed = spread(50, 20000);
+            if (kind < 0.65) {
+                text += fmt::format("G{} X{:.6f} Y{:.6f} Z{:.6f} F{:.1f}\n", kind < 0.55 ? 1 : 0, to.x(), to.y(), to.z(), feed);
+                at = to;
+                continue;
+            }
+            // Arcs: spirals up, flat ones, three in a row, some far smaller than the tolerance.
+            const int arcs = chance(0.2) ? 3 : 1;
+            for (int k = 0; k < arcs; ++k) {
+                if (chance(0.15)) to = at + Vec3(spread(1e-4, 1e-2), spread(1e-4, 1e-2), 0);
+                if (chance(0.6)) to.z() = at.z();
+                const double radius = 0.5 * std::hypot(to.x() - at.x(), to.y() - at.y()) * spread(1.01, 5);
+                text += fmt::format("G{} X{:.6f} Y{:.6f} Z{:.6f} R{:.6f} F{:.1f}\n", chance(0.5) ? 2 : 3, to.x(), to.y(), to.z(), radius, feed);
+                before = at;
+                at = to;
+                to = at + scale * spread(0.02, 1) * Vec3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
+            }
+        }
+        end_ = at;
+        return text + "M2\n";
+    }
+    [[nodiscard]] const Vec3& end() const { return end_; }
+
+private:
+    double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
+    double spread(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
+    bool chance(double part) { return uniform(0, 1) < part; }
+
+    std::mt19937_64 random_;
+    Vec3 end_ = Vec3::Zero();
+};
+
+std::string parts_of_limits(const SimulationSummary& s, const Machine& machine) {
+    std::string parts = fmt::format("T {} speed {:.4f}", machine.controller.period, s.max_speed / machine.path.max_speed);
+    for (int x = 0; x < 3; ++x) {
+        const MachineAxis& axis = machine.axes[static_cast<std::size_t>(x)];
+        parts += fmt::format(", {} {:.4f} {:.4f} {:.4f}", axis_names[static_cast<std::size_t>(x)], s.max_axis_speed[x] / axis.max_speed, s.max_acceleration[x] / axis.max_acceleration,
+                             s.max_jerk[x] / axis.max_jerk);
+    }
+    return parts;
+}
+
+/// The greatest tolerance that a program asks for.
+double greatest_tolerance(const Program& program, const Machine& machine) {
+    double greatest = machine.controller.tolerance;
+    for (const ProgramEvent& event : program.events) {
+        const std::size_t p = event.value.find('P');
+        if (event.name == "path-mode" && p != std::string::npos) greatest = std::max(greatest, std::stod(event.value.substr(p + 1)));
+    }
+    return greatest;
+}
+
+class RandomPrograms : public testing::TestWithParam<CornerMode> {};
+
+TEST_P(RandomPrograms, HoldLimitsToleranceAndEnd) {
+    Maker maker(20260721);
+    constexpr int rounds = 6;
+    for (int round = 0; round < rounds; ++round) {
+        const Machine machine = maker.machine(GetParam());
+        const std::string text = maker.program();
+        const Program program = program_of(text);
+        const Recorded r = run_program(program, machine);
+        EXPECT_TRUE(r.summary.limits_ok) << "round " << round << ": " << parts_of_limits(r.summary, machine);
+        const double tolerance = greatest_tolerance(program, machine);
+        EXPECT_LE(r.summary.path_deviation, tolerance * (1 + 1e-9)) << round;
+        EXPECT_LE(greatest_distance(elements_of(program), r.points, 1 + r.points.size() / 2000, 25), r.summary.path_deviation + 1e-6) << round;
+        ASSERT_LT((r.points.back().commanded - maker.end()).norm(), 1e-5) << round;
+        for (const SimulatedPoint& p : r.points) ASSERT_TRUE(p.commanded.allFinite() && p.feedback.allFinite() && std::isfinite(p.speed)) << round;
+        if (round % 10 != 0) continue;
+        const Recorded again = run_program(program, machine);
+        ASSERT_EQ(again.points.size(), r.points.size());
+        for (std::size_t i = 0; i < r.points.size(); ++i) ASSERT_TRUE(again.points[i].commanded == r.points[i].commanded && again.points[i].feedback == r.points[i].feedback);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Corners, RandomPrograms, testing::Values(CornerMode::spline, CornerMode::arc, CornerMode::stop),
+                         [](const auto& mode) { return std::string(name_of(mode.param)); });
+
+}  // namespace
+}  // namespace clsurf
