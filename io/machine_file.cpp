@@ -60,10 +60,11 @@ void take_mode(const TomlFile& file, const toml::table& table, std::string_view 
 }
 
 void read_controller(const TomlFile& file, const toml::table& table, ControllerSettings& c) {
-    file.allow(table, {"period", "lookahead_blocks", "corner", "tolerance", "chord_tolerance", "block_time", "feed_override"});
+    file.allow(table, {"period", "lookahead_blocks", "corner", "curve", "tolerance", "chord_tolerance", "block_time", "feed_override"});
     take(file, table, "period", c.period, Low::above_zero, 1.0, 1.0);
     if (const auto blocks = file.integer(table, "lookahead_blocks", 2, 100000)) c.lookahead_blocks = static_cast<int>(*blocks);
     take_mode<3>(file, table, "corner", c.corner);
+    take_mode<3>(file, table, "curve", c.curve);
     take(file, table, "tolerance", c.tolerance, Low::above_zero);
     take(file, table, "chord_tolerance", c.chord_tolerance, Low::above_zero);
     take(file, table, "block_time", c.block_time, Low::zero, 1.0, 1.0);
@@ -171,6 +172,7 @@ std::string machine_text(const Machine& machine) {
     text += fmt::format("period = {}                # interpolation period\n", c.period);
     text += fmt::format("lookahead_blocks = {}\n", c.lookahead_blocks);
     text += fmt::format("corner = \"{}\"                # spline: rounded inside the tolerance; arc: by circular arcs; stop: exact stop\n", name_of(c.corner));
+    text += fmt::format("curve = \"{}\"                   # through short lines: akima, least-squares or none\n", name_of(c.curve));
     text += fmt::format("tolerance = {}              # of corners and path; G64 P in a program replaces it\n", c.tolerance);
     text += fmt::format("chord_tolerance = {}       # of the steps of a period against arcs\n", c.chord_tolerance);
     text += fmt::format("block_time = {}                # s, a block takes no less; 0: not limited\n", c.block_time);

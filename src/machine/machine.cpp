@@ -7,4 +7,9 @@ std::string_view name_of(CornerMode mode) {
     return names[static_cast<std::size_t>(mode)];
 }
 
+std::string_view name_of(CurveMode mode) {
+    constexpr std::array<std::string_view, 3> names{"none", "akima", "least-squares"};
+    return names[static_cast<std::size_t>(mode)];
+}
+
 }  // namespace clsurf

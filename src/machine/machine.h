@@ -37,13 +37,22 @@ enum class CornerMode : unsigned char {
     stop,    ///< exact stop at every corner
 };
 
+/// What takes the place of short lines.
+enum class CurveMode : unsigned char {
+    none,           ///< they are driven as lines
+    akima,          ///< Akima's curve through their points
+    least_squares,  ///< cubics beside their points
+};
+
 /// The word of a machine file.
 [[nodiscard]] std::string_view name_of(CornerMode mode);
+[[nodiscard]] std::string_view name_of(CurveMode mode);
 
 struct ControllerSettings {
     double period = 0.001;          ///< interpolation period [s]
     int lookahead_blocks = 500;
     CornerMode corner = CornerMode::spline;
+    CurveMode curve = CurveMode::none;
     double tolerance = 0.01;        ///< of corners and path [mm]; G64 P replaces it
     double chord_tolerance = 0.002; ///< of the steps of a period against arcs [mm]
     double block_time = 0;          ///< a block takes no less [s]: what the controller needs to prepare one

@@ -41,7 +41,12 @@ PathStream::PathStream(const Program& program, const Machine& machine, const Vec
     const bool arcs = machine.controller.corner == CornerMode::arc;
     // Drives that bear any jerk bear the jumps of curvature at the ends of arcs.
     const bool evens_bends = !arcs || std::any_of(machine.axes.begin(), machine.axes.end(), [](const MachineAxis& axis) { return axis.max_jerk > 0; });
-    if (evens_bends && (arcs || !program.motions.arcs.empty())) bend_share_ = share_of_bends;
+    const bool curves = machine.controller.curve != CurveMode::none;
+    if (evens_bends && (arcs || curves || !program.motions.arcs.empty())) bend_share_ = share_of_bends;
+    if (curves) {
+        curves_ = std::make_unique<CurveBlocks>(*source_, machine.controller.curve);
+        source_ = curves_.get();
+    }
     if (arcs) {
         arcs_ = std::make_unique<CornerArcs>(*source_, machine.controller.period, 1 - bend_share_);
         source_ = arcs_.get();

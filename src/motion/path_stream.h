@@ -27,6 +27,7 @@
 #include "machine/machine.h"
 #include "motion/block_stream.h"
 #include "motion/corner_arcs.h"
+#include "motion/curve_blocks.h"
 
 namespace clsurf {
 
@@ -123,6 +124,7 @@ private:
     const Machine* machine_;
     double bend_share_ = 0;            ///< of the tolerance, for jumps of curvature
     BlockStream blocks_;
+    std::unique_ptr<CurveBlocks> curves_;
     std::unique_ptr<CornerArcs> arcs_;
     ElementSource* source_;            ///< the last of what shapes the path
 

@@ -130,7 +130,7 @@ TransitionArc transition_arc(const PathElement& before, const PathElement& after
     const Corner corner(before, after, none.deflection);
     TransitionArc arc;
     ArcLimit limited = ArcLimit::length;
-    if (!before.arc && !after.arc) {
+    if (before.straight() && after.straight()) {
         const double asked = radius_at_error(none.deflection, error) * std::tan(0.5 * none.deflection);
         const double share = 0.5 * std::min(before.length, after.length);
         limited = asked < share ? ArcLimit::error : ArcLimit::length;

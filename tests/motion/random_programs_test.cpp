@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -18,9 +19,10 @@ class Maker {
 public:
     explicit Maker(std::uint64_t seed) : random_(seed) {}
 
-    Machine machine(CornerMode corner) {
+    Machine machine(CornerMode corner, CurveMode curve) {
         Machine machine;
         machine.controller.corner = corner;
+        machine.controller.curve = curve;
         machine.controller.period = spread(0.0005, 0.004);
         machine.controller.tolerance = spread(0.001, 0.2);
         machine.controller.lookahead_blocks = static_cast<int>(spread(2, 300));
@@ -46,6 +48,17 @@ public:
             else if (kind < 0.1) to = before;                              // back again
             else if (kind < 0.2) to = at + uniform(0, 2) * (at - before);  // straight on
             before = at;
+            if (chance(0.1)) {  // a bend of short lines
+                const double radius = scale * spread(0.02, 1), step = spread(0.02, 0.4);
+                const double feed = spread(50, 20000);
+                const Vec3 centre = at - radius * Vec3::UnitX();
+                for (int k = 1; k < 12; ++k) {
+                    at = centre + radius * Vec3(std::cos(k * step), std::sin(k * step), 0.1 * k * step);
+                    text += fmt::format("G1 X{:.6f} Y{:.6f} Z{:.6f} F{:.1f}\n", at.x(), at.y(), at.z(), feed);
+                }
+                before = to = at;
+                continue;
+            }
             if (chance(0.05)) text += fmt::format("G4 P{:.3f}\n", uniform(0, 0.02));
             if (chance(0.03)) text += chance(0.5) ? fmt::format("G64 P{:.4f}\n", spread(0.001, 0.2)) : "G61\n";
             const double feed = spread(50, 20000);
@@ -100,13 +113,18 @@ double greatest_tolerance(const Program& program, const Machine& machine) {
     return greatest;
 }
 
-class RandomPrograms : public testing::TestWithParam<CornerMode> {};
+struct Modes {
+    CornerMode corner;
+    CurveMode curve;
+};
+
+class RandomPrograms : public testing::TestWithParam<Modes> {};
 
 TEST_P(RandomPrograms, HoldLimitsToleranceAndEnd) {
     Maker maker(20260721);
     constexpr int rounds = 6;
     for (int round = 0; round < rounds; ++round) {
-        const Machine machine = maker.machine(GetParam());
+        const Machine machine = maker.machine(GetParam().corner, GetParam().curve);
         const std::string text = maker.program();
         const Program program = program_of(text);
         const Recorded r = run_program(program, machine);
@@ -123,8 +141,14 @@ TEST_P(RandomPrograms, HoldLimitsToleranceAndEnd) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Corners, RandomPrograms, testing::Values(CornerMode::spline, CornerMode::arc, CornerMode::stop),
-                         [](const auto& mode) { return std::string(name_of(mode.param)); });
+INSTANTIATE_TEST_SUITE_P(PathModes, RandomPrograms,
+                         testing::Values(Modes{CornerMode::spline, CurveMode::none}, Modes{CornerMode::arc, CurveMode::none}, Modes{CornerMode::stop, CurveMode::none},
+                                         Modes{CornerMode::spline, CurveMode::akima}, Modes{CornerMode::spline, CurveMode::least_squares}, Modes{CornerMode::arc, CurveMode::akima}),
+                         [](const auto& modes) {
+                             std::string name = fmt::format("{}_{}", name_of(modes.param.corner), name_of(modes.param.curve));
+                             std::replace(name.begin(), name.end(), '-', '_');
+                             return name;
+                         });
 
 }  // namespace
 }  // namespace clsurf
