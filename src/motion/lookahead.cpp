@@ -107,6 +107,10 @@ void WindowPlanner::divide(const Run& run, const Verdict& verdict, std::vector<R
 }
 
 bool WindowPlanner::plan(std::span<const Span> spans, double start_speed, std::span<const std::size_t> nodes) {
+    if (refined_ && plan_with(Span::easings - 1, spans, start_speed, nodes)) {
+        best_.swap(runs_);
+        return true;
+    }
     double shortest = std::numeric_limits<double>::infinity();
     for (std::size_t easing = 0; easing < Span::easings; ++easing) {
         if (!plan_with(easing, spans, start_speed, nodes)) continue;

@@ -40,7 +40,9 @@ struct Run {
 
 class WindowPlanner {
 public:
-    explicit WindowPlanner(const Machine& machine) : machine_(&machine) {}
+    /// `refined`: the plan is what a refinement starts from. It then needs no comparison of easings: the one is taken
+    /// that leaves least to ramps, whose steady speeds are the nearest to the refined ones.
+    WindowPlanner(const Machine& machine, bool refined) : machine_(&machine), refined_(refined) {}
 
     /// Plans spans from a speed to rest at their end. `nodes`: span numbers where a node has to be. False:
     /// the start speed cannot be braked from with these nodes. The runs stay until the next call.
@@ -59,6 +61,7 @@ private:
     void divide(const Run& run, const Verdict& verdict, std::vector<Run>& into) const;
 
     const Machine* machine_;
+    bool refined_;
     std::size_t easing_ = 0;  ///< of the spans, in force in plan_with()
     std::vector<Run> runs_, next_, best_;
     std::vector<Stretch> stretches_;

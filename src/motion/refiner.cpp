@@ -9,14 +9,15 @@
 namespace clsurf {
 namespace {
 
-constexpr std::size_t most_cells = 400;  ///< of a window
+constexpr std::size_t most_cells = 150;  ///< of a window
 constexpr double run_share = 0.65;       ///< of a window, before it is planned again
 constexpr double rest_share = 0.25;      ///< of the jerk phase next to a rest: run as planned, as v² is no quadratic there
 constexpr double growth = 0.15;          ///< of the time from or to a rest: longest cell
 constexpr double cells_a_ramp = 5;       ///< over the time in which the jerk reaches the greatest acceleration
 constexpr double most_change = 0.05;     ///< of the speed in a cell, by the jerk
-constexpr double least_cell = 0.4;       ///< periods: shorter spans share a cell
-constexpr double brief_cell = 2.5;       ///< periods
+constexpr double least_cell = 3;         ///< periods: spans share a cell until it lasts as long, and their stations hold the limits of each
+// The places where a part of a span is held, by the periods that it lasts: two, three, five, nine.
+constexpr double middling = 2.5;
 constexpr double long_cruise = 20, cruise_left = 4;  ///< cells
 
 Ruling ruling_of(Row row, Ruling at_cap) {
@@ -159,64 +160,52 @@ void Refiner::add_cells(const Stretch& stretch) {
 
 void Refiner::close_cell() {
     if (open_.length == 0) return;
-    problem_.add_cell(open_.length, SpeedProblem::value_between(open_.length, end_, open_end_));
     open_.at_cap = Ruling::none;
-    double least = std::numeric_limits<double>::infinity();
+    CellLimits limits{std::numeric_limits<double>::infinity(), machine_->path.max_acceleration, machine_->path.max_jerk};
+    stations_.clear();
     double begin = 0;
     for (std::size_t k = parts_.size() - open_.parts; k < parts_.size(); ++k) {
         const CellPart& part = parts_[k];
-        const double cap = std::min(part.span->free_cap, part.span->cap);
-        if (cap < least) {
-            least = cap;
-            open_.at_cap = part.span->free_ruling;
-        }
-        add_stations(part, begin);
+        add_part(part, begin, limits);
         begin += part.length;
     }
+    problem_.add_cell(open_.length, SpeedProblem::value_between(open_.length, end_, open_end_), limits);
+    for (const Station& station : stations_) problem_.add_station(station);
     cells_.push_back(open_);
     end_ = open_end_;
     open_ = {};
 }
 
-void Refiner::add_stations(const CellPart& part, double begin) {
+/// What a part of the open cell, `begin` after its begin, leaves of the limits; where it is bent, its stations.
+void Refiner::add_part(const CellPart& part, double begin, CellLimits& limits) {
     const Span& span = *part.span;
-    Station station;
-    station.cap = span.free_cap;
+    const auto cap = [&](double speed, Ruling why) {
+        if (speed < limits.cap) limits.cap = speed, open_.at_cap = why;
+    };
+    cap(span.free_cap, span.free_ruling);
     if (span.straight()) {
-        station.acceleration = span.acceleration;
-        station.jerk = span.jerk;
-        for (const double share : {0.0, 0.5, 1.0}) {
-            station.at = begin + share * part.length;
-            station.between = share == 0.5;
-            problem_.add_station(station);
-        }
+        limits.acceleration = std::min(limits.acceleration, span.acceleration);
+        limits.jerk = std::min(limits.jerk, span.jerk);
         return;
     }
-    station.bent = true;
-    station.acceleration = machine_->path.max_acceleration;
-    station.jerk = machine_->path.max_jerk;
-    // What lasts a few periods only has no time to leave its limits between three places.
-    const bool brief = part.length < brief_cell * machine_->controller.period * std::max(end_.speed, open_end_.speed);
-    for (const int eighth : {0, 1, 2, 3, 4, 5, 6, 7, 8}) {
-        const double share = 0.125 * eighth;
-        station.at = begin + share * part.length;
-        station.between = eighth % 4 == 2;
-        station.checked = eighth % 2 == 1 || (brief && station.between);
-        if (brief && eighth % 2 == 1) continue;
-        const PathDerivatives d = span.derivatives(part.from + share * part.length);
+    const double periods = part.length / (machine_->controller.period * std::max(end_.speed, open_end_.speed));
+    const int pieces = periods < middling ? 4 : 8;
+    Station station;
+    double curvature = 0;
+    for (int k = 0; k <= pieces; ++k) {
+        const double way = part.length * k / pieces;
+        const PathDerivatives d = span.derivatives(part.from + way);
+        station.at = begin + way;
         station.slope = d.first;
         station.bend = d.second;
         station.twist = d.third;
-        const double curvature = d.second.norm();
-        station.cap = span.free_cap;
-        if (curvature > 0) {
-            const double normal = arc_speed(1 / curvature, machine_->path.max_normal_acceleration);
-            const double chord = chord_speed(1 / curvature, machine_->controller.chord_tolerance, machine_->controller.period);
-            if (normal < station.cap && normal <= chord) open_.at_cap = Ruling::axis_acceleration;
-            if (chord < station.cap && chord < normal) open_.at_cap = Ruling::chord_error;
-            station.cap = std::min({station.cap, normal, chord});
-        }
-        problem_.add_station(station);
+        curvature = std::max(curvature, d.second.squaredNorm());
+        stations_.push_back(station);
+    }
+    if (curvature > 0) {
+        const double radius = 1 / std::sqrt(curvature);
+        cap(arc_speed(radius, machine_->path.max_normal_acceleration), Ruling::axis_acceleration);
+        cap(chord_speed(radius, machine_->controller.chord_tolerance, machine_->controller.period), Ruling::chord_error);
     }
 }
 

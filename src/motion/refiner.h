@@ -52,7 +52,7 @@ private:
     void divide(Stretch& stretch);
     void add_cells(const Stretch& stretch);
     void close_cell();
-    void add_stations(const CellPart& part, double begin);
+    void add_part(const CellPart& part, double begin, CellLimits& limits);
     void solve(bool to_the_end);
     void run_cells(std::size_t count, bool to_rest);
     void close();
@@ -77,6 +77,7 @@ private:
     KnotState start_, end_;         ///< of the cells
     Cell open_;                     ///< the cell being made
     KnotState open_end_;
+    std::vector<Station> stations_;  ///< of the cell being made
 };
 
 }  // namespace clsurf

@@ -20,7 +20,7 @@ class Controller {
 public:
     // The blocks that are known ahead are shared between the plan and its refinement.
     Controller(const Machine& machine, PathStream& stream, Interpolator& interpolator, Planning planning)
-        : blocks_(planning == Planning::by_nodes ? machine.controller.lookahead_blocks : (machine.controller.lookahead_blocks + 1) / 2), stream_(&stream), planner_(machine),
+        : blocks_(planning == Planning::by_nodes ? machine.controller.lookahead_blocks : (machine.controller.lookahead_blocks + 1) / 2), stream_(&stream), planner_(machine, planning == Planning::nearly_optimal),
           refiner_(machine, interpolator, planning == Planning::by_nodes ? 0 : std::max(1, machine.controller.lookahead_blocks / 2)) {}
 
     /// Runs a section, from rest to rest.

@@ -6,7 +6,7 @@
 namespace clsurf {
 namespace {
 
-constexpr int most_steps = 45;
+constexpr int most_steps = 60;
 constexpr double end_gap = 4e-3;         ///< of the time: how far from the optimum it stops
 constexpr double boundary_share = 0.97;  ///< of the way to a limit in one step
 // A start far from every limit, as its slacks say, converges best.
@@ -18,10 +18,27 @@ constexpr double mended = 1e-4;          ///< of a bound
 // The spline holds the limits at stations; a little is left for what lies between them.
 constexpr double acceleration_share = 0.9995, jerk_share = 0.997;
 constexpr double held = 1 + 3e-4;
-constexpr double lowering = 0.998;
-constexpr int most_rounds = 4;
+constexpr double lowering = 0.998;  ///< of a limit that is broken between its rows, besides
+constexpr double early_gap = 0.3, nearly_held = 0.8;
+constexpr double later_slack = 0.05;
+constexpr int most_rounds = 6;
+constexpr double last_look = 0.02, look_step = 0.5;
+// Rows are left out until the solution without them breaks them. In from the beginning is what comes near its limit
+// with the speeds to begin with, or could with some more speed and acceleration.
+constexpr double near_limit = 0.6;
+constexpr double faster = 1.2, steeper = 0.3;
 
-double dot(const double* w, const double* c) { return w[0] * c[0] + w[1] * c[1] + w[2] * c[2]; }
+using Three = std::array<double, 3>;
+
+double dot(const Three& w, const double* c) { return w[0] * c[0] + w[1] * c[1] + w[2] * c[2]; }
+
+Three sum(double a, const Three& u, double b, const Three& v) { return {a * u[0] + b * v[0], a * u[1] + b * v[1], a * u[2] + b * v[2]}; }
+
+constexpr std::uint8_t acceleration_bit(int axis) { return static_cast<std::uint8_t>(1U << static_cast<unsigned>(axis)); }
+constexpr std::uint8_t jerk_bit(int axis) { return static_cast<std::uint8_t>(8U << static_cast<unsigned>(axis)); }
+
+/// Weights below to above: the sides' signs.
+const Eigen::Array2d signs(-1, 1);
 
 }  // namespace
 
@@ -38,18 +55,19 @@ void SpeedProblem::clear() {
     value_.assign(1, 0.0);
 }
 
-void SpeedProblem::add_cell(double length, double value) {
+void SpeedProblem::add_cell(double length, double value, const CellLimits& limits) {
     const auto at = static_cast<std::uint32_t>(stations_.size());
     value_.resize(cells_.size() + 1);  // without the one beyond the end
     Cell cell;
     cell.length = length;
+    cell.limits = limits;
     cell.first_station = cell.end_station = at;
     cells_.push_back(cell);
     value_.push_back(value);
 }
 
 void SpeedProblem::add_station(const Station& station) {
-    stations_.push_back(station);
+    stations_.push_back({station});
     cells_.back().end_station = static_cast<std::uint32_t>(stations_.size());
 }
 
@@ -78,95 +96,159 @@ SpeedProblem::Weights SpeedProblem::weights_at(std::size_t cell, double at) cons
     const double h_before = cell > 0 ? cells_[cell - 1].length : h;
     const double h_after = cell + 1 < cells_.size() ? cells_[cell + 1].length : h;
     const double before = 1 / (h_before + h), after = 1 / (h + h_after);
-    const double begin[3] = {h * before, h_before * before, 0};
-    const double begin_slope[3] = {-2 * before, 2 * before, 0};
+    const Three begin{h * before, h_before * before, 0};
+    const Three begin_slope{-2 * before, 2 * before, 0};
     Weights w{{}, {}, {2 * before / h, (-2 * after - 2 * before) / h, 2 * after / h}};
-    for (int q = 0; q < 3; ++q) {
+    for (std::size_t q = 0; q < 3; ++q) {
         w.b[q] = begin[q] + at * (begin_slope[q] + 0.5 * at * w.curve[q]);
         w.slope[q] = begin_slope[q] + at * w.curve[q];
     }
     return w;
 }
 
-void SpeedProblem::make_rows() {
-    places_.clear();
-    limits_.clear();
-    kinds_.clear();
-    for (std::size_t i = 0; i < cells_.size(); ++i) {
-        const Cell& cell = cells_[i];
-        for (std::uint32_t s = cell.first_station; s < cell.end_station; ++s) {
-            const Station& station = stations_[s];
-            if (station.checked) continue;
-            const Weights w = weights_at(i, station.at);
-            Place place;
-            place.cell = static_cast<std::uint32_t>(i);
-            place.first = static_cast<std::uint32_t>(limits_.size());
-            for (int q = 0; q < 3; ++q) place.b[q] = w.b[q];
-            const auto add = [&](Row kind, double of_curve, double of_slope, double of_b, double limit) {
-                Limit row{};
-                for (int q = 0; q < 3; ++q) row.w[q] = (of_curve * w.curve[q] + of_slope * w.slope[q] + of_b * w.b[q]) / limit;
-                limits_.push_back(row);
-                kinds_.push_back(kind);
-            };
-            const double v = station.cap;
-            const double share = acceleration_share * cell.acceleration_share;
-            add(Row::cap, 0, 0, 1, v * v);
-            if (!station.between) add(Row::tangential_acceleration, 0, 0.5, 0, station.acceleration * share);
-            for (int x = 0; station.bent && x < 3; ++x) {
-                const double limit = machine_->axes[static_cast<std::size_t>(x)].max_acceleration * share;
-                if (std::abs(station.slope[x]) * station.acceleration + std::abs(station.bend[x]) * v * v > limit) {
-                    add(Row::axis_acceleration, 0, 0.5 * station.slope[x], station.bend[x], limit);
-                }
-            }
-            place.jerks = static_cast<std::uint32_t>(limits_.size());
-            if (!station.between || !station.bent) add(Row::tangential_jerk, 0.5, 0, 0, station.jerk * jerk_share * cell.jerk_share);
-            for (int x = 0; station.bent && x < 3; ++x) {
-                const double limit = machine_->axes[static_cast<std::size_t>(x)].max_jerk * jerk_share * cell.jerk_share;
-                if (limit <= 0) continue;
-                const double ramp = std::abs(station.slope[x]) * station.jerk + 3 * std::abs(station.bend[x]) * v * station.acceleration;
-                const double steady = std::abs(station.twist[x]) * v * v * v;
-                if (ramp + steady > limit) {
-                    add(steady > 0.5 * limit ? Row::corner_jerk : Row::axis_jerk, 0.5 * station.slope[x], 1.5 * station.bend[x], station.twist[x], limit);
-                }
-            }
-            place.end = static_cast<std::uint32_t>(limits_.size());
-            places_.push_back(place);
-        }
-    }
+std::array<SpeedProblem::Weights, 3> SpeedProblem::weights_along(std::size_t cell) const {
+    const double h = cells_[cell].length;
+    return {weights_at(cell, 0), weights_at(cell, 0.5 * h), weights_at(cell, h)};
 }
 
-/// Greatest part of a limit of an axis at a station: of the acceleration, and of the jerk.
-double SpeedProblem::exceeding(const Station& s, const double* c, const Weights& w, double& jerk) const {
-    const double b = dot(w.b, c), slope = dot(w.slope, c), curve = dot(w.curve, c);
-    const double root = std::sqrt(b);
-    double acceleration = 0;
-    jerk = 0;
-    for (int x = 0; x < 3; ++x) {
-        const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(x)];
-        acceleration = std::max(acceleration, std::abs(0.5 * s.slope[x] * slope + s.bend[x] * b) / axis.max_acceleration);
-        if (axis.max_jerk <= 0) continue;
-        jerk = std::max(jerk, std::abs(0.5 * s.slope[x] * curve + 1.5 * s.bend[x] * slope + s.twist[x] * b) * root / axis.max_jerk);
-    }
-    return acceleration;
-}
-
-/// Where limits are broken between stations the cell gets less of them; false: nowhere.
-bool SpeedProblem::lower_shares() {
-    bool any = false;
+/// Rows for what may come to its limit, judged by the values to begin with.
+void SpeedProblem::need_likely_rows() {
     for (std::size_t i = 0; i < cells_.size(); ++i) {
         Cell& cell = cells_[i];
-        double acceleration = 0, jerk = 0;
-        for (std::uint32_t s = cell.first_station; s < cell.end_station; ++s) {
-            if (!stations_[s].bent) continue;
-            double here = 0;
-            acceleration = std::max(acceleration, exceeding(stations_[s], &value_[i], weights_at(i, stations_[s].at), here));
-            jerk = std::max(jerk, here);
+        const double* c = &value_[i];
+        const std::array<Weights, 3> along = weights_along(i);
+        std::size_t fastest = 0;
+        for (std::size_t k = 1; k < 3; ++k) {
+            if (dot(along[k].b, c) > dot(along[fastest].b, c)) fastest = k;
         }
-        // With a little more than what was found: the next solution differs.
-        if (acceleration > held) cell.acceleration_share *= lowering / acceleration, any = true;
-        if (jerk > held) cell.jerk_share *= lowering / jerk, any = true;
+        const double b = dot(along[fastest].b, c);
+        cell.jerk[fastest] = true;  // its bound is least there
+        const double acceleration = 0.5 * std::max(std::abs(dot(along[0].slope, c)), std::abs(dot(along[2].slope, c)));
+        if (acceleration > near_limit * cell.limits.acceleration) cell.acceleration = true;
+        const double speed = std::min(faster * std::sqrt(b), cell.limits.cap);
+        const double steep = std::max(acceleration, steeper * cell.limits.acceleration);
+        for (std::uint32_t s = cell.first_station; s < cell.end_station; ++s) {
+            HeldStation& held_station = stations_[s];
+            const Station& station = held_station.station;
+            for (int x = 0; x < 3; ++x) {
+                const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(x)];
+                const double slope = std::abs(station.slope[x]), bend = std::abs(station.bend[x]), twist = std::abs(station.twist[x]);
+                if (slope * steep + bend * speed * speed > axis.max_acceleration) held_station.needed |= acceleration_bit(x);
+                if (axis.max_jerk <= 0) continue;
+                if (slope * cell.limits.jerk + speed * (3 * bend * steep + twist * speed * speed) > axis.max_jerk) held_station.needed |= jerk_bit(x);
+            }
+        }
+    }
+}
+
+/// Rows for what is above a part of its limit and has none; false: nothing is.
+bool SpeedProblem::need_broken_rows(double part) {
+    bool any = false;
+    const auto need = [&](bool& row) { any = any || !row, row = true; };
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+        Cell& cell = cells_[i];
+        const double* c = &value_[i];
+        const std::array<Weights, 3> along = weights_along(i);
+        const double b = dot(along[0].b, c), curve = dot(along[0].curve, c), slope = dot(along[0].slope, c);
+        if (std::abs(0.5 * dot(along[2].slope, c)) > part * cell.limits.acceleration) need(cell.acceleration);
+        // The tangential jerk is greatest where the speed is: at an end, or where b turns over.
+        double fastest = slope + 0.5 * cell.length * curve > 0 ? cell.length : 0;
+        if (slope > 0 && slope + cell.length * curve < 0) fastest = -slope / curve;
+        const double along_path = std::abs(0.5 * curve) * std::sqrt(b + fastest * (slope + 0.5 * fastest * curve));
+        if (along_path > part * cell.limits.jerk) {
+            bool& row = cell.jerk[static_cast<std::size_t>(std::lround(2 * fastest / cell.length))];
+            if (!row) {
+                need(row);
+            } else if (part >= 1) {  // between the rows
+                cell.jerk_share *= lowering * cell.limits.jerk / along_path;
+                any = true;
+            }
+        }
+        for (std::uint32_t s = cell.first_station; s < cell.end_station; ++s) {
+            HeldStation& held_station = stations_[s];
+            const Station& station = held_station.station;
+            const double b_here = b + station.at * (slope + 0.5 * station.at * curve);
+            const double slope_here = slope + station.at * curve;
+            const double root = std::sqrt(b_here);
+            std::uint8_t broken = 0;
+            for (int x = 0; x < 3; ++x) {
+                const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(x)];
+                const double acceleration = std::abs(0.5 * station.slope[x] * slope_here + station.bend[x] * b_here);
+                if (acceleration > part * axis.max_acceleration) broken |= acceleration_bit(x);
+                if (axis.max_jerk <= 0) continue;
+                const double jerk = std::abs(0.5 * station.slope[x] * curve + 1.5 * station.bend[x] * slope_here + station.twist[x] * b_here) * root;
+                if (jerk > part * axis.max_jerk) broken |= jerk_bit(x);
+            }
+            any = any || (broken & ~held_station.needed) != 0;
+            held_station.needed |= broken;
+        }
     }
     return any;
+}
+
+void SpeedProblem::add_cap(std::uint32_t number, std::size_t cell, const Three& weights, double cap) {
+    const double share = 1 / (cap * cap);
+    Limit row;
+    row.w = {weights[0] * share, weights[1] * share, weights[2] * share};
+    row.low = -least_share * dot(row.w, &value_[cell]);
+    row.cell = static_cast<std::uint32_t>(cell);
+    row.number = number;
+    rows_.push_back(row);
+}
+
+void SpeedProblem::add_row(std::uint32_t number, Row kind, std::size_t cell, const Three& w, double limit) {
+    Limit row;
+    row.w = {w[0] / limit, w[1] / limit, w[2] / limit};
+    row.kind = kind;
+    row.cell = static_cast<std::uint32_t>(cell);
+    row.number = number;
+    rows_.push_back(row);
+}
+
+void SpeedProblem::add_jerk(std::uint32_t number, Row kind, std::size_t cell, const Three& w, const Three& b, double limit) {
+    add_row(number, kind, cell, w, limit);
+    rows_.back().v = b;
+    rows_.back().unit = 0;
+}
+
+void SpeedProblem::make_rows() {
+    rows_.clear();
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+        Cell& cell = cells_[i];
+        const bool last_cell = i + 1 == cells_.size();
+        const std::array<Weights, 3> along = weights_along(i);
+        const Weights& last = along[2];
+        // A cell's b lies below the greatest of its coefficient and b at its ends (they are its Bézier points).
+        if (i > 0 && !last_cell) add_cap(0, i, {0, 1, 0}, cell.limits.cap);
+        if (!last_cell) {
+            const CellLimits& next = cells_[i + 1].limits;
+            add_cap(1, i, last.b, std::min(cell.limits.cap, next.cap));
+            if (cell.acceleration) add_row(2, Row::tangential_acceleration, i, sum(0.5, last.slope, 0, last.slope), acceleration_share * std::min(cell.limits.acceleration, next.acceleration));
+        }
+        const double jerk = jerk_share * cell.jerk_share * cell.limits.jerk;
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            if (cell.jerk[k]) add_jerk(3 + k, Row::tangential_jerk, i, sum(0.5, along[k].curve, 0, along[k].curve), along[k].b, jerk);
+        }
+        for (std::uint32_t s = cell.first_station; s < cell.end_station; ++s) {
+            if (stations_[s].needed == 0) continue;
+            const Station& station = stations_[s].station;
+            const Weights w = weights_at(i, station.at);
+            for (int x = 0; x < 3; ++x) {
+                const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(x)];
+                const std::uint32_t number = 6 + 6 * (s - cell.first_station) + 2 * static_cast<std::uint32_t>(x);
+                if ((stations_[s].needed & acceleration_bit(x)) != 0) {
+                    add_row(number, Row::axis_acceleration, i, sum(0.5 * station.slope[x], w.slope, station.bend[x], w.b), acceleration_share * axis.max_acceleration);
+                }
+                if ((stations_[s].needed & jerk_bit(x)) != 0) {
+                    const double limit = jerk_share * axis.max_jerk;
+                    const double steady = std::abs(station.twist[x]) * cell.limits.cap * cell.limits.cap * cell.limits.cap;
+                    const Three moving = sum(1.5 * station.bend[x], w.slope, station.twist[x], w.b);
+                    add_jerk(number + 1, steady > 0.5 * limit ? Row::corner_jerk : Row::axis_jerk, i, sum(0.5 * station.slope[x], w.curve, 1, moving), w.b, limit);
+                }
+            }
+        }
+        cell.end_row = static_cast<std::uint32_t>(rows_.size());
+    }
 }
 
 double SpeedProblem::time() const {
@@ -175,37 +257,42 @@ double SpeedProblem::time() const {
     return sum;
 }
 
-/// body(place, row, bound, fall): g = bound ∓ w · c; its gradient is fall · place.b ∓ w.
-template <typename Body>
-void SpeedProblem::for_each_row(Body&& body) {
-    for (const Place& p : places_) {
-        const double* c = &value_[p.cell];
-        for (std::uint32_t k = p.first; k < p.jerks; ++k) body(p, limits_[k], 1.0, 0.0);
-        const double b = p.b[0] * c[0] + p.b[1] * c[1] + p.b[2] * c[2];
-        const double root = 1 / std::sqrt(b);
-        const double fall = -0.5 * root / b;
-        for (std::uint32_t k = p.jerks; k < p.end; ++k) body(p, limits_[k], root, fall);
+/// No speeds take less [s].
+double SpeedProblem::time_at_caps() const {
+    double sum = 0;
+    for (const Cell& cell : cells_) sum += cell.length / cell.limits.cap;
+    return sum;
+}
+
+/// Slacks of at least a part of the bound, and multipliers for a product of `centre`.
+void SpeedProblem::begin(Limit& row, double centre, double slack) const {
+    row.follow(&value_[row.cell]);
+    row.slack = row.left().max(slack * row.bound);
+    if (row.kind == Row::cap) row.slack[1] = row.left()[1];
+    row.multiplier = centre * row.slack.inverse();
+    row.slack_step.setZero();
+    row.multiplier_step.setZero();
+}
+
+/// Rows that have become needed, beside those that are there with what they are in the middle of.
+void SpeedProblem::add_needed_rows() {
+    rows_before_.swap(rows_);
+    const double centre = gap_ / static_cast<double>(2 * rows_before_.size());
+    make_rows();
+    std::size_t before = 0;
+    for (Limit& row : rows_) {
+        if (before < rows_before_.size() && rows_before_[before].cell == row.cell && rows_before_[before].number == row.number) row = rows_before_[before++];
+        else begin(row, centre, later_slack);
     }
 }
 
-void SpeedProblem::begin() {
-    sides_ = static_cast<double>(2 * limits_.size() + value_.size());
-    const double centre = first_gap * time() / sides_;
-    floor_ = value_;
-    above_.resize(value_.size());
-    for (std::size_t i = 0; i < value_.size(); ++i) {
-        floor_[i] = value_[i] - (1 - least_share) * std::abs(value_[i]);
-        const double above = std::max(value_[i] - floor_[i], 1e-300);
-        above_[i].slack = above;
-        above_[i].multiplier = centre / above;
+/// Takes parts of the steps.
+void SpeedProblem::advance(double primal, double dual) {
+    for (std::size_t i = 0; i < step_.size(); ++i) value_[i] += primal * step_[i];
+    for (Limit& row : rows_) {
+        row.slack += primal * row.slack_step;
+        row.multiplier += dual * row.multiplier_step;
     }
-    for_each_row([&](const Place& p, Limit& row, double bound, double) {
-        const double r = dot(row.w, &value_[p.cell]);
-        row.high.slack = std::max(bound - r, first_slack * bound);
-        row.low.slack = std::max(bound + r, first_slack * bound);
-        row.high.multiplier = centre / row.high.slack;
-        row.low.multiplier = centre / row.low.slack;
-    });
 }
 
 /// The Newton matrix, and its right side but for the barrier.
@@ -222,35 +309,44 @@ void SpeedProblem::assemble() {
         d0_[i + 1] = 1.5 * gradient / c;
     }
     gap_ = broken_ = 0;
-    for (std::size_t i = 0; i < above_.size(); ++i) {
-        Side& side = above_[i];
-        side.inverse = 1 / side.slack;
-        d0_[i] += side.multiplier * side.inverse;
-        gap_ += side.slack * side.multiplier;
+    std::size_t at = 0;
+    for (std::size_t k = 0; k < n; ++k) {
+        double d00 = 0, d11 = 0, d22 = 0, d01 = 0, d12 = 0, d02 = 0;
+        Three pull{};
+        for (; at < cells_[k].end_row; ++at) {
+            Limit& row = rows_[at];
+            const Three& w = row.w;
+            const Three& v = row.v;
+            row.follow(&value_[k]);
+            // A bound that is convex leaves more than its tangent did.
+            const Sides left = row.left();
+            row.slack = row.slack.max(left);
+            row.inverse = row.slack.inverse();
+            const Sides weight = row.multiplier * row.inverse;
+            gap_ += (row.multiplier * row.slack).sum();
+            const Sides missing = row.slack - left;
+            broken_ = std::max(broken_, missing.maxCoeff() * row.root);
+            // The sides' gradients are fall v ∓ w.
+            const Sides force = weight * missing;
+            const double of_w = force[1] - force[0], of_b = row.fall * force.sum();
+            const double both = weight.sum(), mixed = row.fall * (weight[1] - weight[0]), square = row.fall * row.fall * both;
+            const Three u = sum(both, w, mixed, v), t = sum(mixed, w, square, v);
+            pull = sum(1, pull, 1, sum(of_w, w, of_b, v));
+            d00 += u[0] * w[0] + t[0] * v[0];
+            d11 += u[1] * w[1] + t[1] * v[1];
+            d22 += u[2] * w[2] + t[2] * v[2];
+            d01 += u[0] * w[1] + t[0] * v[1];
+            d12 += u[1] * w[2] + t[1] * v[2];
+            d02 += u[0] * w[2] + t[0] * v[2];
+        }
+        d0_[k] += d00;
+        d0_[k + 1] += d11;
+        d0_[k + 2] += d22;
+        d1_[k] += d01;
+        d1_[k + 1] += d12;
+        d2_[k] += d02;
+        for (std::size_t q = 0; q < 3; ++q) pull_[k + q] += pull[q];
     }
-    const auto add = [&](const Place& p, Side& side, double g, double bound, double v0, double v1, double v2) {
-        side.inverse = 1 / side.slack;
-        const double weight = side.multiplier * side.inverse;
-        gap_ += side.multiplier * side.slack;
-        const double missing = side.slack - g;
-        broken_ = std::max(broken_, missing / bound);
-        const double force = weight * missing;
-        const std::size_t k = p.cell;
-        pull_[k] += force * v0;
-        pull_[k + 1] += force * v1;
-        pull_[k + 2] += force * v2;
-        d0_[k] += weight * v0 * v0;
-        d0_[k + 1] += weight * v1 * v1;
-        d0_[k + 2] += weight * v2 * v2;
-        d1_[k] += weight * v0 * v1;
-        d1_[k + 1] += weight * v1 * v2;
-        d2_[k] += weight * v0 * v2;
-    };
-    for_each_row([&](const Place& p, Limit& row, double bound, double fall) {
-        const double r = dot(row.w, &value_[p.cell]);
-        add(p, row.high, bound - r, bound, fall * p.b[0] - row.w[0], fall * p.b[1] - row.w[1], fall * p.b[2] - row.w[2]);
-        add(p, row.low, bound + r, bound, fall * p.b[0] + row.w[0], fall * p.b[1] + row.w[1], fall * p.b[2] + row.w[2]);
-    });
 }
 
 /// L D Lᵀ of the five diagonals in place; the coefficients at the ends are known.
@@ -286,97 +382,62 @@ void SpeedProblem::substitute() {
     for (const std::size_t end : {std::size_t{0}, std::size_t{1}, cells_.size(), cells_.size() + 1}) step_[end] = 0;
 }
 
-/// Steps of slacks and multipliers that go with step_; `corrected`: for the products of the steps before.
-void SpeedProblem::set_steps(bool corrected) {
-    for_each_row([&](const Place& p, Limit& row, double bound, double fall) {
-        const double* s = &step_[p.cell];
-        const double r = dot(row.w, &value_[p.cell]);
-        const double dr = dot(row.w, s);
-        const double db = fall * dot(p.b, s);
-        set_step(row.high, bound - r, db - dr, corrected);
-        set_step(row.low, bound + r, db + dr, corrected);
-    });
-    for (std::size_t i = 0; i < above_.size(); ++i) set_step(above_[i], above_[i].slack, step_[i], corrected);
-}
-
-void SpeedProblem::set_step(Side& side, double g, double change, bool corrected) const {
-    const double product = corrected ? side.slack_step * side.multiplier_step : 0.0;
-    side.slack_step = g - side.slack + change;
-    side.multiplier_step = (centre_ - product - side.multiplier * side.slack_step) * side.inverse - side.multiplier;
-}
-
-/// Right side of the corrector: Mehrotra's, with the products of the predictor's steps.
-void SpeedProblem::correct(double centre) {
-    centre_ = centre;
-    step_ = pull_;
-    for (std::size_t i = 0; i < above_.size(); ++i) {
-        step_[i] += (centre - above_[i].slack_step * above_[i].multiplier_step) * above_[i].inverse;
+/// Steps of slacks and multipliers without a barrier, and the right sides that the corrector needs of them.
+SpeedProblem::Steps SpeedProblem::predict() {
+    centring_.assign(value_.size(), 0);
+    products_.assign(value_.size(), 0);
+    Steps steps;
+    Sides primal = Sides::Zero(), dual = Sides::Zero(), by_primal = Sides::Zero(), by_dual = Sides::Zero(), by_both = Sides::Zero();
+    std::size_t at = 0;
+    for (std::size_t k = 0; k < cells_.size(); ++k) {
+        const double* s = &step_[k];
+        Three centring{}, products{};
+        for (; at < cells_[k].end_row; ++at) {
+            Limit& row = rows_[at];
+            row.slack_step = row.left() - row.slack + (signs * dot(row.w, s) + row.fall * dot(row.v, s));
+            const Sides part = row.slack_step * row.inverse;
+            row.multiplier_step = -row.multiplier * (part + 1);
+            primal = primal.max(-part);
+            dual = dual.max(part + 1);
+            by_primal += row.slack_step * row.multiplier;
+            by_dual += row.slack * row.multiplier_step;
+            const Sides product = row.slack_step * row.multiplier_step;
+            by_both += product;
+            const Sides weighted = product * row.inverse;
+            centring = sum(1, centring, 1, sum(row.inverse[1] - row.inverse[0], row.w, row.fall * row.inverse.sum(), row.v));
+            products = sum(1, products, 1, sum(weighted[1] - weighted[0], row.w, row.fall * weighted.sum(), row.v));
+        }
+        for (std::size_t q = 0; q < 3; ++q) {
+            centring_[k + q] += centring[q];
+            products_[k + q] += products[q];
+        }
     }
-    for_each_row([&](const Place& p, Limit& row, double, double fall) {
-        const double high = (centre - row.high.slack_step * row.high.multiplier_step) * row.high.inverse;
-        const double low = (centre - row.low.slack_step * row.low.multiplier_step) * row.low.inverse;
-        for (int q = 0; q < 3; ++q) step_[p.cell + static_cast<std::size_t>(q)] += (high + low) * fall * p.b[q] + (low - high) * row.w[q];
-    });
+    return {primal.maxCoeff(), dual.maxCoeff(), by_primal.sum(), by_dual.sum(), by_both.sum()};
 }
 
-void SpeedProblem::longest_steps(double& primal, double& dual) const {
-    primal = dual = 1 / boundary_share;
-    const auto shorten = [&](const Side& side) {
-        if (side.slack + primal * side.slack_step < 0) primal = -side.slack / side.slack_step;
-        if (side.multiplier + dual * side.multiplier_step < 0) dual = -side.multiplier / side.multiplier_step;
-    };
-    for (const Side& side : above_) shorten(side);
-    for (const Limit& row : limits_) {
-        shorten(row.high);
-        shorten(row.low);
+/// Steps towards `centre`, corrected by the products of those before (Mehrotra 1992).
+SpeedProblem::Steps SpeedProblem::correct(double centre) {
+    Sides primal = Sides::Zero(), dual = Sides::Zero();
+    for (Limit& row : rows_) {
+        const double* s = &step_[row.cell];
+        const Sides product = row.slack_step * row.multiplier_step;
+        row.slack_step = row.left() - row.slack + (signs * dot(row.w, s) + row.fall * dot(row.v, s));
+        row.multiplier_step = (centre - product - row.multiplier * row.slack_step) * row.inverse - row.multiplier;
+        primal = primal.max(-row.slack_step * row.inverse);
+        dual = dual.max(-row.multiplier_step / row.multiplier);
     }
-    primal *= boundary_share;
-    dual *= boundary_share;
-}
-
-double SpeedProblem::gap_after(double primal, double dual) const {
-    double gap = 0;
-    const auto add = [&](const Side& side) {
-        gap += (side.slack + primal * side.slack_step) * (side.multiplier + dual * side.multiplier_step);
-    };
-    for (const Side& side : above_) add(side);
-    for (const Limit& row : limits_) {
-        add(row.high);
-        add(row.low);
-    }
-    return gap;
-}
-
-void SpeedProblem::advance(double primal, double dual) {
-    for (std::size_t i = 0; i < step_.size(); ++i) {
-        value_[i] += primal * step_[i];
-        above_[i].slack += primal * above_[i].slack_step;
-        above_[i].multiplier += dual * above_[i].multiplier_step;
-    }
-    for_each_row([&](const Place& p, Limit& row, double bound, double) {
-        const double r = dot(row.w, &value_[p.cell]);
-        const auto move = [&](Side& side, double g) {
-            side.multiplier += dual * side.multiplier_step;
-            // A bound that is convex leaves more than its tangent did.
-            side.slack = std::max(side.slack + primal * side.slack_step, g);
-        };
-        move(row.high, bound - r);
-        move(row.low, bound + r);
-    });
+    return {primal.maxCoeff(), dual.maxCoeff()};
 }
 
 /// Which limit each cell is nearest to.
 void SpeedProblem::judge() {
     std::vector<double> nearest(cells_.size(), 0);
-    for (const Place& p : places_) {
-        const double* c = &value_[p.cell];
-        const double root = std::sqrt(dot(p.b, c));
-        for (std::uint32_t k = p.first; k < p.end; ++k) {
-            const double part = std::abs(dot(limits_[k].w, c)) * (k < p.jerks ? 1.0 : root);
-            if (part > nearest[p.cell]) {
-                nearest[p.cell] = part;
-                cells_[p.cell].ruling = kinds_[k];
-            }
+    for (Limit& row : rows_) {
+        row.follow(&value_[row.cell]);
+        const double part = std::abs(row.value) * row.root;
+        if (part > nearest[row.cell]) {
+            nearest[row.cell] = part;
+            cells_[row.cell].ruling = row.kind;
         }
     }
 }
@@ -399,10 +460,14 @@ bool SpeedProblem::optimise(const KnotState& start, const KnotState& end) {
         if (!(value_[i] > 0)) return false;
     }
     const double planned = time();
+    if (planned < (1 + end_gap) * time_at_caps()) return false;
+    need_likely_rows();
     for (int round = 0; round < most_rounds; ++round) {
         make_rows();
+        const double centre = first_gap * time() / static_cast<double>(2 * rows_.size());
+        for (Limit& row : rows_) begin(row, centre, first_slack);
         if (!iterate() || time() > planned) return false;
-        if (!lower_shares()) {
+        if (!need_broken_rows(held)) {
             judge();
             return true;
         }
@@ -412,10 +477,19 @@ bool SpeedProblem::optimise(const KnotState& start, const KnotState& end) {
 
 /// Newton's steps to the optimum for the rows; false: it was not found.
 bool SpeedProblem::iterate() {
-    begin();
+    double look_at = early_gap;
     for (int k = 0; k < most_steps; ++k) {
         assemble();
-        if (gap_ < end_gap * time() && broken_ < mended) return true;
+        const double gap = gap_ / time();
+        if (gap < end_gap && broken_ < mended) return true;
+        if (gap < look_at) {
+            // While slacks are large, rows can join without ado.
+            look_at = gap > last_look ? look_step * gap : 0;
+            if (need_broken_rows(nearly_held)) {
+                add_needed_rows();
+                assemble();
+            }
+        }
         if (!step()) return false;
     }
     return broken_ < mended;
@@ -423,20 +497,19 @@ bool SpeedProblem::iterate() {
 
 bool SpeedProblem::step() {
     if (!factorise()) return false;
-    centre_ = 0;
     step_ = pull_;
     substitute();
-    set_steps(false);
-    double primal = 0, dual = 0;
-    longest_steps(primal, dual);
-    const double left = gap_after(primal, dual) / gap_;
+    const auto taken = [](double most) { return std::min(1.0, boundary_share / most); };
+    const Steps predicted = predict();
+    const double primal = taken(predicted.primal), dual = taken(predicted.dual);
+    const double left = gap_ + primal * predicted.by_primal + dual * predicted.by_dual + primal * dual * predicted.by_both;
     constexpr double least_centre = 1e-3;
-    correct(std::clamp(left, least_centre, 1.0) * gap_ / sides_);
+    const double centre = std::clamp(left / gap_, least_centre, 1.0) * gap_ / static_cast<double>(2 * rows_.size());
+    for (std::size_t i = 0; i < step_.size(); ++i) step_[i] = pull_[i] + centre * centring_[i] - products_[i];
     substitute();
-    set_steps(true);
-    longest_steps(primal, dual);
-    if (!std::isfinite(primal) || !std::isfinite(dual)) return false;
-    advance(primal, dual);
+    const Steps corrected = correct(centre);
+    if (!std::isfinite(corrected.primal) || !std::isfinite(corrected.dual)) return false;
+    advance(taken(corrected.primal), taken(corrected.dual));
     return true;
 }
 

@@ -11,6 +11,8 @@
 // Solved by a primal-dual interior-point method; c being coupled to two neighbours on either side, the
 // Newton matrix has five diagonals, and a step costs time linear in cells.
 
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -24,17 +26,17 @@ struct KnotState {
     double speed = 0, acceleration = 0;
 };
 
-/// What may rule at a station, in the order of its rows.
+/// What may rule in a cell.
 enum class Row : std::uint8_t { cap, tangential_acceleration, axis_acceleration, tangential_jerk, axis_jerk, corner_jerk };
 
-/// The path and its limits at a point of a cell.
+/// A cell's limits of the speed [mm/s] and along the path.
+struct CellLimits {
+    double cap = 0, acceleration = 0, jerk = 0;
+};
+
+/// The derivatives of a bent path at a place of a cell.
 struct Station {
-    double at = 0;    ///< way after the cell's begin [mm]
-    double cap = 0;   ///< of the speed [mm/s]
-    double acceleration = 0, jerk = 0;  ///< tangential
-    bool bent = false;                  ///< bend and twist are not zero
-    bool between = false;               ///< an extra place in a bend: the tangential limits are not repeated there
-    bool checked = false;               ///< only looked at when the rest is solved
+    double at = 0;  ///< way after the cell's begin [mm]
     Vec3 slope = Vec3::Zero(), bend = Vec3::Zero(), twist = Vec3::Zero();  ///< x′, x″ [1/mm], x‴ [1/mm²]
 };
 
@@ -44,12 +46,12 @@ public:
 
     void clear();
     /// A cell after the last one; `value`: its coefficient to begin with [mm²/s²], greater than 0.
-    void add_cell(double length, double value);
-    /// A place of the last cell where limits are held.
+    void add_cell(double length, double value, const CellLimits& limits);
+    /// A place of the last cell where the limits of the axes are held.
     void add_station(const Station& station);
 
-    /// The fastest speeds from one state to another. False: none was found that holds every limit;
-    /// the values are then what they were. At least four cells.
+    /// The fastest speeds from one state to another. False: none was found that holds every limit, or none much
+    /// faster; the values are then what they were. At least four cells.
     [[nodiscard]] bool solve(const KnotState& start, const KnotState& end);
 
     /// Forgets the first cells.
@@ -65,69 +67,83 @@ public:
 private:
     struct Cell {
         double length = 0;
-        std::uint32_t first_station = 0, end_station = 0;
+        CellLimits limits;
+        std::uint32_t first_station = 0, end_station = 0, end_row = 0;
+        // Rows found to be needed: of the acceleration at the end; of the jerk at begin, middle and end.
+        bool acceleration = false;
+        std::array<bool, 3> jerk{};
+        double jerk_share = 1;  ///< of the jerk along the path, lowered where it is broken between rows
         Row ruling = Row::cap;
-        // Parts of the limits that are used, lowered where they are broken between stations.
-        double acceleration_share = 1, jerk_share = 1;
     };
-    /// One side of a row: g ≥ 0 with its slack s > 0, equal to g once a start that breaks limits has been mended, and its multiplier.
-    struct Side {
-        double slack = 0, multiplier = 0;
-        double inverse = 0;  ///< 1/slack at the last assemble()
-        double slack_step = 0, multiplier_step = 0;
+    struct HeldStation {
+        Station station;
+        std::uint8_t needed = 0;  ///< a bit for the acceleration of each axis, then one for the jerk of each
     };
-    /// |w · c| ≤ 1, for a jerk 1/√b at the row's place.
+    /// Of the two sides of a row: w · c below, and above.
+    using Sides = Eigen::Array2d;
+    /// −low/√m ≤ w · c ≤ 1/√m: for a jerk m is b at its place, otherwise 1. Each side is g ≥ 0 with its slack s > 0,
+    /// equal to g once a start that breaks limits has been mended, and its multiplier.
     struct Limit {
-        double w[3];
-        Side high, low;  ///< bound − w · c and bound + w · c
+        Sides slack = Sides::Zero(), multiplier = Sides::Zero();
+        Sides inverse = Sides::Zero();  ///< 1/slack at the last assemble()
+        Sides slack_step = Sides::Zero(), multiplier_step = Sides::Zero();
+        std::array<double, 3> w{}, v{};  ///< of the cell's three coefficients: m = unit + v · c
+        double unit = 1, low = 1;
+        double value = 0, root = 1, bound = 1, fall = 0;  ///< w · c; √m, 1/√m, and its derivative by m
+        std::uint32_t cell = 0, number = 0;  ///< number: of its place and what it limits, in the cell
+        Row kind = Row::cap;
+        void follow(const double* c) {
+            value = w[0] * c[0] + w[1] * c[1] + w[2] * c[2];
+            root = std::sqrt(unit + v[0] * c[0] + v[1] * c[1] + v[2] * c[2]);
+            bound = 1 / root;
+            fall = -0.5 * bound * bound * bound;
+        }
+        [[nodiscard]] Sides left() const { return {bound - value, low * bound + value}; }
     };
     /// Weights of a cell's three coefficients for b, b′ and b″ at a place.
     struct Weights {
-        double b[3], slope[3], curve[3];
+        std::array<double, 3> b{}, slope{}, curve{};
     };
-    struct Place {
-        double b[3];  ///< weights of c for b
-        std::uint32_t first = 0, jerks = 0, end = 0;  ///< rows; from `jerks` on of the second kind
-        std::uint32_t cell = 0;
+    /// Greatest steps of slacks and multipliers to their limits, as 1/step; and sums over the sides.
+    struct Steps {
+        double primal = 0, dual = 0;
+        double by_primal = 0, by_dual = 0, by_both = 0;  ///< how the gap changes with the steps taken
     };
 
     [[nodiscard]] bool optimise(const KnotState& start, const KnotState& end);
-    template <typename Body>
-    void for_each_row(Body&& body);
     void fix_ends(const KnotState& start, const KnotState& end);
+    void need_likely_rows();
+    [[nodiscard]] bool need_broken_rows(double part);
     void make_rows();
-    void begin();
+    void add_needed_rows();
+    void add_cap(std::uint32_t number, std::size_t cell, const std::array<double, 3>& weights, double cap);
+    void add_row(std::uint32_t number, Row kind, std::size_t cell, const std::array<double, 3>& w, double limit);
+    void add_jerk(std::uint32_t number, Row kind, std::size_t cell, const std::array<double, 3>& w, const std::array<double, 3>& b, double limit);
+    void begin(Limit& row, double centre, double slack) const;
+    void advance(double primal, double dual);
     void assemble();
     [[nodiscard]] bool step();
     [[nodiscard]] bool factorise();
     void substitute();
-    void set_steps(bool corrected);
-    void set_step(Side& side, double g, double change, bool corrected) const;
-    void correct(double centre);
-    void longest_steps(double& primal, double& dual) const;
-    [[nodiscard]] double gap_after(double primal, double dual) const;
-    void advance(double primal, double dual);
+    [[nodiscard]] Steps predict();
+    [[nodiscard]] Steps correct(double centre);
     [[nodiscard]] double time() const;
+    [[nodiscard]] double time_at_caps() const;
     void judge();
-    [[nodiscard]] double exceeding(const Station& station, const double* c, const Weights& weights, double& jerk) const;
-    [[nodiscard]] bool lower_shares();
     [[nodiscard]] bool iterate();
+    /// At begin, middle and end.
+    [[nodiscard]] std::array<Weights, 3> weights_along(std::size_t cell) const;
     [[nodiscard]] Weights weights_at(std::size_t cell, double at) const;
 
     const Machine* machine_;
     std::vector<Cell> cells_;
-    std::vector<Station> stations_;
+    std::vector<HeldStation> stations_;
     std::vector<double> value_;  ///< of the cells, with one beyond each end
-    std::vector<Place> places_;
-    std::vector<Limit> limits_;
-    std::vector<Side> above_;    ///< of the coefficients: c above a part of what it began with
-    std::vector<double> floor_;
-    std::vector<Row> kinds_;     ///< of the limits
-    // Newton: five diagonals, right side without the barrier, step.
-    std::vector<double> d0_, d1_, d2_, pull_, step_;
-    double centre_ = 0;   ///< product of slack and multiplier that is aimed at
-    double sides_ = 0;    ///< their number
-    double gap_ = 0, broken_ = 0;  ///< sum of the products; greatest part of a bound that a limit is broken by
+    std::vector<Limit> rows_;    ///< in the order of their cells and numbers
+    std::vector<Limit> rows_before_;
+    // Newton: five diagonals, right side without the barrier, its parts with centre and with products, step.
+    std::vector<double> d0_, d1_, d2_, pull_, centring_, products_, step_;
+    double gap_ = 0, broken_ = 0;  ///< sum of slack times multiplier; greatest part of a bound that a limit is broken by
 };
 
 }  // namespace clsurf

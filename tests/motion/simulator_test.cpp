@@ -91,7 +91,7 @@ TEST(Simulator, ACircleShrinksByTheGainOfTheLoop) {
 TEST(Simulator, CornersStayInsideTheToleranceAndEndsAreExact) {
     const Recorded r = run("G64 P0.02\nG1 X10 F6000\nY10\nX0\nY0\nM2\n", ideal());
     EXPECT_LE(r.summary.path_deviation, 0.02);
-    EXPECT_GT(r.summary.path_deviation, 0.019);
+    EXPECT_GT(r.summary.path_deviation, 0.018);  // a period seldom ends in the middle of a corner
     EXPECT_EQ(r.points.back().commanded, Vec3(0, 0, 0));
     for (std::size_t i = 100; i + 100 < r.points.size(); ++i) ASSERT_GT(r.points[i].speed, 0.1) << i;
 }
