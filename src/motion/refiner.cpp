@@ -17,7 +17,7 @@ constexpr double cells_a_ramp = 5;       ///< over the time in which the jerk re
 constexpr double most_change = 0.05;     ///< of the speed in a cell, by the jerk
 constexpr double least_cell = 3;         ///< periods: spans share a cell until it lasts as long, and their stations hold the limits of each
 // The places where a part of a span is held, by the periods that it lasts: two, three, five, nine.
-constexpr double middling = 2.5;
+constexpr double briefest = 0.5, brief = 1, middling = 2.5;
 constexpr double long_cruise = 20, cruise_left = 4;  ///< cells
 
 Ruling ruling_of(Row row, Ruling at_cap) {
@@ -189,7 +189,7 @@ void Refiner::add_part(const CellPart& part, double begin, CellLimits& limits) {
         return;
     }
     const double periods = part.length / (machine_->controller.period * std::max(end_.speed, open_end_.speed));
-    const int pieces = periods < middling ? 4 : 8;
+    const int pieces = periods < briefest ? 1 : periods < brief ? 2 : periods < middling ? 4 : 8;
     Station station;
     double curvature = 0;
     for (int k = 0; k <= pieces; ++k) {

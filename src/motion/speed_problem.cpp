@@ -6,7 +6,7 @@
 namespace clsurf {
 namespace {
 
-constexpr int most_steps = 60;
+constexpr int most_steps = 90;
 constexpr double end_gap = 4e-3;         ///< of the time: how far from the optimum it stops
 constexpr double boundary_share = 0.97;  ///< of the way to a limit in one step
 // A start far from every limit, as its slacks say, converges best.
@@ -22,7 +22,7 @@ constexpr double lowering = 0.998;  ///< of a limit that is broken between its r
 constexpr double early_gap = 0.3, nearly_held = 0.8;
 constexpr double later_slack = 0.05;
 constexpr int most_rounds = 6;
-constexpr double last_look = 0.02, look_step = 0.5;
+constexpr double last_look = 0.02, look_step = 0.3;
 // Rows are left out until the solution without them breaks them. In from the beginning is what comes near its limit
 // with the speeds to begin with, or could with some more speed and acceleration.
 constexpr double near_limit = 0.6;
@@ -326,10 +326,21 @@ void SpeedProblem::assemble() {
             gap_ += (row.multiplier * row.slack).sum();
             const Sides missing = row.slack - left;
             broken_ = std::max(broken_, missing.maxCoeff() * row.root);
-            // The sides' gradients are fall v ∓ w.
             const Sides force = weight * missing;
-            const double of_w = force[1] - force[0], of_b = row.fall * force.sum();
-            const double both = weight.sum(), mixed = row.fall * (weight[1] - weight[0]), square = row.fall * row.fall * both;
+            const double of_w = force[1] - force[0], both = weight.sum();
+            if (row.unit > 0) {
+                pull = sum(1, pull, of_w, w);
+                d00 += both * w[0] * w[0];
+                d11 += both * w[1] * w[1];
+                d22 += both * w[2] * w[2];
+                d01 += both * w[0] * w[1];
+                d12 += both * w[1] * w[2];
+                d02 += both * w[0] * w[2];
+                continue;
+            }
+            // The sides' gradients are fall v ∓ w.
+            const double of_b = row.fall * force.sum();
+            const double mixed = row.fall * (weight[1] - weight[0]), square = row.fall * row.fall * both;
             const Three u = sum(both, w, mixed, v), t = sum(mixed, w, square, v);
             pull = sum(1, pull, 1, sum(of_w, w, of_b, v));
             d00 += u[0] * w[0] + t[0] * v[0];
