@@ -9,8 +9,8 @@
 namespace clsurf {
 namespace {
 
-constexpr std::size_t most_cells = 150;  ///< of a window
-constexpr double run_share = 0.65;       ///< of a window, before it is planned again
+constexpr std::size_t most_cells = 250;  ///< of a window
+constexpr double run_share = 0.85;       ///< of a window, before it is planned again
 constexpr double rest_share = 0.25;      ///< of the jerk phase next to a rest: run as planned, as v² is no quadratic there
 constexpr double growth = 0.15;          ///< of the time from or to a rest: longest cell
 constexpr double cells_a_ramp = 5;       ///< over the time in which the jerk reaches the greatest acceleration
