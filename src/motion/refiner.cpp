@@ -15,7 +15,9 @@ constexpr double rest_share = 0.25;      ///< of the jerk phase next to a rest: 
 constexpr double growth = 0.15;          ///< of the time from or to a rest: longest cell
 constexpr double cells_a_ramp = 5;       ///< over the time in which the jerk reaches the greatest acceleration
 constexpr double most_change = 0.05;     ///< of the speed in a cell, by the jerk
-constexpr double least_cell = 3;         ///< periods: spans share a cell until it lasts as long, and their stations hold the limits of each
+// Spans share a cell until it lasts as long as that, and their stations hold the limits of each: a part of the
+// same time, as in less of it a speed hardly changes.
+constexpr double least_cells_a_ramp = 13, least_periods = 0.4, most_periods = 3;
 // The places where a part of a span is held, by the periods that it lasts: two, three, five, nine.
 constexpr double briefest = 0.5, brief = 1, middling = 2.5;
 constexpr double long_cruise = 20, cruise_left = 4;  ///< cells
@@ -40,7 +42,9 @@ KnotState state_at(const SCurve& profile, double time) {
 Refiner::Refiner(const Machine& machine, Interpolator& interpolator, std::int64_t blocks)
     : machine_(&machine), interpolator_(&interpolator), blocks_(blocks), problem_(machine) {
     const double period = machine.controller.period;
-    knot_time_ = std::clamp(machine.path.max_acceleration / machine.path.max_jerk / cells_a_ramp, 2 * period, 10 * period);
+    const double ramp = machine.path.max_acceleration / machine.path.max_jerk;
+    knot_time_ = std::clamp(ramp / cells_a_ramp, 2 * period, 10 * period);
+    least_time_ = std::clamp(ramp / least_cells_a_ramp, least_periods * period, most_periods * period);
     problem_.clear();
 }
 
@@ -150,7 +154,7 @@ void Refiner::add_cells(const Stretch& stretch) {
             ++open_.parts;
             open_.length += next_way - way;
             open_end_ = {next.speed, next.acceleration};
-            if (open_.length >= least_cell * machine_->controller.period * std::max(next.speed, end_.speed)) close_cell();
+            if (open_.length >= least_time_ * std::max(next.speed, end_.speed)) close_cell();
             way = next_way;
             time = next_time;
         }

@@ -61,7 +61,7 @@ private:
     const Machine* machine_;
     Interpolator* interpolator_;
     std::int64_t blocks_;
-    double knot_time_;  ///< longest cell [s]
+    double knot_time_, least_time_;  ///< longest cell, and the shortest where spans are shorter [s]
 
     std::deque<KeptRun> runs_;
     std::int64_t first_run_ = 0;
