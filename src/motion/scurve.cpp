@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace clsurf {
 namespace {
@@ -11,6 +12,7 @@ namespace {
 // carry rounding relative to the way.
 constexpr double relative_play = 1e-9;
 constexpr double absolute_play = 1e-12;  ///< [mm]
+constexpr double speed_play = 4 * std::numeric_limits<double>::epsilon();
 
 constexpr std::array<double, 7> jerk_signs{1, 0, -1, 0, -1, 0, 1};
 
@@ -150,7 +152,10 @@ PlannedProfile plan_scurve(double way, double start_speed, double end_speed, con
     double ve = end_speed;
     const double towards = ve > vs ? limits.acceleration : limits.deceleration;
     plan.needed_way = ramp_distance(vs, ve, towards, limits.jerk);
-    if (plan.needed_way > way * (1 + relative_play) + absolute_play) {
+    // A difference of speeds carries their rounding: on a way so short that it is no more than that, the ramp fits.
+    const double rounding = speed_play * std::max(vs, ve);
+    const double least_way = 0.5 * (vs + ve) * ramp_time(std::max(0.0, std::abs(ve - vs) - rounding), towards, limits.jerk);
+    if (least_way > way * (1 + relative_play) + absolute_play) {
         if (ve < vs) {
             plan.status = ProfileStatus::infeasible_decel;
             plan.allowed_start = reach(ve, way, limits.deceleration, limits.jerk);

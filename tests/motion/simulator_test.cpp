@@ -231,6 +231,18 @@ TEST(Simulator, ABlockTimeHoldsShortBlocksBack) {
     EXPECT_GT(r.summary.ruled[static_cast<std::size_t>(Ruling::block_time)], 4000);
 }
 
+// From 47.27 mm/s a way of 7.58e-7 mm gains 3.5e-12 mm/s, which is 500 times the rounding of the speed itself, so that
+// the way that its ramp takes is known to 0.05 %.
+TEST(Simulator, ASpeedReachedOverHardlyAnyWayIsPlanned) {
+    const double way = 7.58264e-07, jerk = 50000, acceleration = 2000, before = 47.273111160212636;
+    const double after = reach(before, way, acceleration, jerk);
+    for (const auto& [from, to] : {std::pair{before, after}, std::pair{after, before}, std::pair{47.273111160215855, before}}) {
+        const PlannedProfile plan = plan_scurve(way, from, to, {100, acceleration, acceleration, jerk});
+        EXPECT_EQ(plan.status, ProfileStatus::ok);
+        EXPECT_EQ(plan.profile.length(), way);
+    }
+}
+
 TEST(Simulator, RefusesWhatItCannotRun) {
     EXPECT_THROW(run("G1 X1 A5 F100\nM2\n", ideal()), InputError);
     EXPECT_THROW(run("G1 X1 F0\nM2\n", ideal()), InputError);
