@@ -61,6 +61,8 @@ ExitCode run(const po::variables_map& values) {
     const std::string output_path = required(values, "output");
     if (values.count("tolerance") > 0) rules.tolerance = values["tolerance"].as<double>();
     if (!(rules.tolerance > 0) || !std::isfinite(rules.tolerance)) throw UsageError("--tolerance must be above 0 mm");
+    if (values.count("decimals") > 0) rules.least_decimals = values["decimals"].as<int>();
+    if (rules.least_decimals < 0 || rules.least_decimals > 9) throw UsageError("--decimals must be 0 to 9");
     rules.start = read_start(values);
     rules.header = fmt::format("clsurf {} optimize, tolerance {} mm", version, rules.tolerance);
     const Machine machine = values.count("machine") > 0 ? io::read_machine(values["machine"].as<std::string>()) : Machine{};
@@ -99,7 +101,7 @@ Subcommand optimize_subcommand() {
         .arguments = "PROGRAM -o better.nc",
         .summary = "a smoother program inside a tolerance, with proof",
         .description = "Runs the program on the machine, puts the points of its finishing passes in step with those of the passes beside\n"
-                       "them, on a smooth curve through the old points and never farther from the programmed path than the tolerance, and\n"
+                       "them, on the smoothest curve that is never farther from the programmed path than the tolerance, and\n"
                        "runs it again. Written is only what is better: speeds of neighbour passes differ less, no more defects, not longer, inside\n"
                        "the tolerance. Otherwise exit code 1, with the reason. Lines with anything but line number, G1, X, Y, Z stay byte for byte.\n\n"
                        "  clsurf optimize part.nc --machine mill.toml --tolerance 0.005 -o better.nc --picture better.png",
@@ -109,7 +111,8 @@ Subcommand optimize_subcommand() {
                 options.add_options()
                     ("output,o", po::value<std::string>()->value_name("FILE"), "the new program")
                     ("picture", po::value<std::string>()->value_name("FILE"), "speeds before and after on one scale (PNG), also where the new program is refused")
-                    ("tolerance", po::value<double>()->value_name("MM"), "how far the new path may leave the programmed one (default: 0.005)");
+                    ("tolerance", po::value<double>()->value_name("MM"), "how far the new path may leave the programmed one (default: 0.005)")
+                    ("decimals", po::value<int>()->value_name("N"), "new coordinates have at least so many, if the controller reads them (default: as many as the program's)");
                 // clang-format on
                 declare_simulation(options);
                 declare_json(options);

@@ -77,7 +77,7 @@ std::optional<PlainLine> read_plain_line(std::string_view text) {
     return any ? std::optional(line) : std::nullopt;
 }
 
-LineEditor::LineEditor(const Program& program) : program_(&program) {
+LineEditor::LineEditor(const Program& program, int least_decimals) : program_(&program), decimals_(least_decimals) {
     const Motions& motions = program.motions;
     const auto count = static_cast<std::size_t>(motions.size());
     const SourceText& main = program.main();
@@ -109,11 +109,14 @@ LineEditor::LineEditor(const Program& program) : program_(&program) {
                 for (std::size_t u = 0; u < units.size(); ++u) fits[u] += says(units[u]) ? 1 : 0;
             } else {
                 editable_[i] = says(unit_) ? 1 : 0;
+                if (editable_[i] != 0) decimals_ = std::max(decimals_, *std::max_element(line->decimals.begin(), line->decimals.end()));
             }
         }
         if (turn == 0) unit_ = fits[1] > fits[0] ? units[1] : units[0];
     }
 }
+
+double LineEditor::rounding() const { return 0.5 * std::sqrt(3.0) * unit_ * std::pow(10.0, -decimals_); }
 
 void LineEditor::replace(std::int64_t first, std::int64_t last, const std::vector<Vec3>& points) {
     const Motions& motions = program_->motions;
@@ -121,7 +124,6 @@ void LineEditor::replace(std::int64_t first, std::int64_t last, const std::vecto
     const std::string_view end_of_line = line_end_of(main.text());
     const LineNumber first_line = motions.line[static_cast<std::size_t>(first)], last_line = motions.line[static_cast<std::size_t>(last)];
     const std::size_t old_lines = last_line - first_line + 1;
-    std::array<int, 3> decimals{0, 0, 0};
     std::array<std::string, 3> words{"X", "Y", "Z"};
     std::vector<std::string_view> numbers;
     std::string first_code;
@@ -129,7 +131,6 @@ void LineEditor::replace(std::int64_t first, std::int64_t last, const std::vecto
     for (LineNumber n = first_line; n <= last_line; ++n) {
         const PlainLine line = *read_plain_line(main.line(n));
         for (std::size_t a = 0; a < 3; ++a) {
-            decimals[a] = std::max(decimals[a], line.decimals[a]);
             if (!line.axis[a].empty()) words[a] = line.axis[a];
             all_axes = all_axes && !line.axis[a].empty();
         }
@@ -138,14 +139,10 @@ void LineEditor::replace(std::int64_t first, std::int64_t last, const std::vecto
         code_everywhere = code_everywhere && !line.code.empty();
         blanks = blanks || line.blanks;
     }
-    // An axis that stood still so far is written as finely as the others.
-    const int finest = *std::max_element(decimals.begin(), decimals.end());
-    for (int& d : decimals) d = d == 0 ? finest : d;
-
     Edit edit{first_line, last_line, {}};
     std::array<std::string, 3> modal;
     const Vec3 begin = motions.begin_of(first).vec();
-    for (std::size_t a = 0; a < 3; ++a) modal[a] = number_text(begin[static_cast<int>(a)] / unit_, decimals[a]);
+    for (std::size_t a = 0; a < 3; ++a) modal[a] = number_text(begin[static_cast<int>(a)] / unit_, decimals_);
     const bool numbered = numbers.size() == old_lines;
     bool code_written = false;
     for (std::size_t k = 0; k < points.size(); ++k) {
@@ -159,7 +156,7 @@ void LineEditor::replace(std::int64_t first, std::int64_t last, const std::vecto
         if (code_everywhere || !code_written) text += first_code;
         bool moves = false;
         for (std::size_t a = 0; a < 3; ++a) {
-            const std::string number = number_text(points[k][static_cast<int>(a)] / unit_, decimals[a]);
+            const std::string number = number_text(points[k][static_cast<int>(a)] / unit_, decimals_);
             if (number == modal[a] && !all_axes) continue;
             moves = moves || number != modal[a];
             add(words[a] + number);

@@ -31,17 +31,20 @@ struct PlainLine {
 
 class LineEditor {
 public:
-    /// Looks at all lines. `program` must outlive it. O(text).
-    explicit LineEditor(const Program& program);
+    /// Looks at all lines. `program` must outlive it. New coordinates have as many decimals as the finest of those
+    /// lines, or `least_decimals` where that is more. O(text).
+    explicit LineEditor(const Program& program, int least_decimals = 0);
 
     /// Whether the line of a motion may be rewritten.
     [[nodiscard]] bool editable(std::int64_t motion) const { return editable_[static_cast<std::size_t>(motion)] != 0; }
     /// mm per unit of the program's words.
     [[nodiscard]] double unit() const { return unit_; }
+    /// How far a point may be moved by being written [mm].
+    [[nodiscard]] double rounding() const;
 
     /// Puts `points` in place of the ends of the motions first … last, whose lines follow each other. Calls
     /// must come in the order of the program. The last point must be where the last motion ended. Coordinates
-    /// are rounded to the decimals of the lines that are replaced.
+    /// are rounded.
     void replace(std::int64_t first, std::int64_t last, const std::vector<Vec3>& points);
 
     /// Gives motions a feed [mm/s], one entry a motion of the program, 0: as it is. Only lines that may be
@@ -65,6 +68,7 @@ private:
     std::vector<std::uint8_t> editable_;
     std::vector<Edit> edits_;
     double unit_ = 1;
+    int decimals_ = 0;  ///< of new coordinates
     std::size_t changed_ = 0;
 };
 

@@ -6,16 +6,19 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/statistics.h"
 #include "core/units.h"
 #include "optimize/levelling.h"
 #include "optimize/line_edit.h"
+#include "optimize/need.h"
 #include "optimize/resample.h"
 
 namespace clsurf {
 namespace {
 
-constexpr std::array<double, 3> shares_of_spacing{1.0, 0.5, 0.33};
-constexpr std::array<double, 4> steps_between_passes{0.2, 0.1, 0.07, 0.05};
+constexpr std::array<double, 3> shares_of_tolerance{0.2, 0.1, 0.4};  ///< that lines may leave the curve by
+constexpr double block_reserve = 1.1;    ///< of the way in a block time
+constexpr std::array<double, 6> steps_between_passes{0.2, 0.1, 0.07, 0.05, 0.035, 0.02};
 constexpr double play_of_feeds = 0.01;   ///< a motion this little too fast (a share) gets no feed
 constexpr double interval_width = 0.03;  ///< of the speeds in a constant-speed interval
 constexpr double most_points = 8e6;      ///< of all runs together; then what there is has to do
@@ -38,6 +41,16 @@ QualityRules as_judged(const QualityReport& report, QualityRules rules) {
     return rules;
 }
 
+/// The median feed of the cutting lines [mm/s].
+double usual_feed(const Program& program) {
+    std::vector<double> feeds;
+    for (std::int64_t i = 0; i < program.motions.size(); ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        if (program.motions.kind[k] == MotionKind::feed && program.motions.feed[k] > 0) feeds.push_back(program.motions.feed[k]);
+    }
+    return feeds.empty() ? 0 : median(feeds);
+}
+
 class Optimizer {
 public:
     Optimizer(const Program& program, const ReadProgram& read, const Machine& machine, const OptimizeRules& rules, const Progress& progress, Diagnostics& diagnostics)
@@ -53,15 +66,16 @@ public:
         before_ = &result.before;
         defects_before_ = find_defects(before_->surface, before_->signals, *before_->lines, program_, machine_.controller.period, fixed_).defects.size();
         const ProgrammedSurface laid = lay_out(program_);
-        const double spacing = fitting_spacing(program_, laid, rules_.tolerance);
+        needed_ = motions_in_need(result.before, program_, {});
+        shortest_line_ = block_reserve * machine_.controller.block_time * usual_feed(program_);
         std::optional<Tried> best;
         const auto keep = [&](Tried tried) {
             if (!best || better(tried, *best)) best = std::move(tried);
         };
-        for (const double share : shares_of_spacing) {
+        for (const double share : shares_of_tolerance) {
             // What is tried last is left out first where a program is long.
             if (points_ >= most_points) break;
-            const Base base = resampled(laid, share * spacing);
+            const Base base = resampled(laid, share * rules_.tolerance);
             if (base.stretches > 0) propose_for(base, keep);
         }
         if (!best || points_ < most_points) propose_for({program_, std::string(program_.main().text()), true, 0, 0}, keep);
@@ -106,10 +120,11 @@ private:
         return speeds;
     }
 
-    Base resampled(const ProgrammedSurface& laid, double spacing) {
+    Base resampled(const ProgrammedSurface& laid, double chord_error) {
         Base base;
-        LineEditor editor(program_);
-        const std::vector<Stretch> stretches = resample(program_, laid, editor, {rules_.tolerance, spacing, ResampleRules{}.corner_angle});
+        const double spacing = 0.5 * fitting_spacing(program_, laid, chord_error);
+        LineEditor editor(program_, rules_.least_decimals);
+        const std::vector<Stretch> stretches = resample(program_, laid, editor, {rules_.tolerance, spacing, chord_error, shortest_line_, ResampleRules{}.corner_angle}, needed_);
         for (const Stretch& stretch : stretches) editor.replace(stretch.first, stretch.last, stretch.points);
         base.text = editor.text(rules_.header);
         base.program = read_(base.text);
@@ -167,6 +182,8 @@ private:
     const Progress& progress_;
     Diagnostics& diagnostics_;
     QualityRules fixed_;
+    std::vector<std::uint8_t> needed_;  ///< one entry a motion
+    double shortest_line_ = 0;          ///< [mm] below which blocks take longer than their way
     const JudgedRun* before_ = nullptr;
     std::size_t defects_before_ = 0;
     double points_ = 0;  ///< simulated so far

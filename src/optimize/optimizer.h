@@ -15,6 +15,7 @@ namespace clsurf {
 
 struct OptimizeRules {
     double tolerance = 0.005;   ///< [mm] from the programmed path
+    int least_decimals = 0;     ///< of new coordinates; 0: as many as the program has
     Vec3 start = Vec3::Zero();  ///< [mm] where the axes stand before the program
     QualityRules quality;
     std::string header;         ///< text of the comment that says where the program comes from

@@ -1,7 +1,9 @@
 #pragma once
-// Resampling: new points for stretches of a program, in step with the neighbour passes, on Akima's curve
-// through the old ones, never farther from the programmed lines than a bound.
+// Resampling: new points for stretches of a program, in step with the neighbour passes, on the smoothest way
+// inside a tube round the programmed lines.
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "optimize/line_edit.h"
@@ -10,9 +12,11 @@
 namespace clsurf {
 
 struct ResampleRules {
-    double tolerance = 0.005;   ///< [mm] from the programmed path, all in all
-    double spacing = 0;         ///< [mm] of way between points; 0: by curvature and the program's own spacing
-    double corner_angle = 0.5;  ///< [rad] a point where the path turns by more stays where it is
+    double tolerance = 0.005;    ///< [mm] from the programmed path, all in all
+    double spacing = 0;          ///< [mm] of way between points where the path bends most; 0: fitting_spacing()
+    double chord_error = 0.001;  ///< [mm] of lines against the curve: where it bends less, lines are 2, 4 or 8 spacings long
+    double shortest_line = 0;    ///< [mm] that stations are chosen for: blocks that are passed faster than the controller reads them slow it down
+    double corner_angle = 0.5;   ///< [rad] a point where the path turns by more stays where it is
 };
 
 /// Motions first … last (lines that may be rewritten, on one pass) and the points that take the place of
@@ -22,11 +26,12 @@ struct Stretch {
     std::vector<Vec3> points;  ///< [mm]
 };
 
-/// The spacing that a program's points should have [mm]: its own usual one, or less where curvature asks for
-/// it (95th percentile, a chord error of half the tolerance).
-[[nodiscard]] double fitting_spacing(const Program& program, const ProgrammedSurface& laid, double tolerance);
+/// The spacing that lines need where the path bends most [mm]: for a chord error at the 98th percentile of curvature, between
+/// a fifth of the program's own usual spacing and the whole of it.
+[[nodiscard]] double fitting_spacing(const Program& program, const ProgrammedSurface& laid, double chord_error);
 
-/// Stretches of all passes, in the order of the program. O(points).
-[[nodiscard]] std::vector<Stretch> resample(const Program& program, const ProgrammedSurface& laid, const LineEditor& editor, const ResampleRules& rules);
+/// Stretches of all passes, in the order of the program. `needed`: one entry a motion, 0 where it is to stay; empty:
+/// all are looked at. O(points), parallel.
+[[nodiscard]] std::vector<Stretch> resample(const Program& program, const ProgrammedSurface& laid, const LineEditor& editor, const ResampleRules& rules, std::span<const std::uint8_t> needed);
 
 }  // namespace clsurf

@@ -61,9 +61,9 @@ JudgedRun judge_run(Log log, const Program& program, const QualityRules& rules, 
     run.signals = derive_signals(run.surface, run.path, follows ? &measured : nullptr, smooth_pieces(run.log, run.surface.passes), usual_end_zone(run.surface.step_over));
     run.report = find_defects(run.surface, run.signals, *run.lines, program, run.log.period, rules);
     run.duration = static_cast<double>(std::max<PointIndex>(0, run.log.records - 1)) * run.log.period;
-    const Field mismatch = quality_field("speed_mismatch", run.surface, run.signals);
+    run.speed_differences = quality_field("speed_mismatch", run.surface, run.signals).values;
     std::vector<float> sizes;
-    for (const float value : mismatch.values) {
+    for (const float value : run.speed_differences) {
         if (value == value) sizes.push_back(std::abs(value));
     }
     if (sizes.empty()) return run;

@@ -29,6 +29,7 @@ struct JudgedRun {
     QualityReport report;
     double duration = 0;              ///< [s]
     double mismatch = 0;              ///< [mm/s] 95th percentile of the speed difference to the neighbour passes
+    Column<float> speed_differences;  ///< [mm/s] per point, to the neighbour pass that differs most; NaN: none beside it
     double greatest_mismatch = 0;     ///< [mm/s] 99.9th percentile of it
 };
 

@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "curve/polyline.h"
 #include "optimize/line_edit.h"
+#include "optimize/need.h"
 #include "optimize/optimizer.h"
 #include "optimize/parts.h"
 #include "optimize/resample.h"
@@ -40,7 +41,7 @@ double farthest(const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
 
 std::string resampled_text(const Program& program, double tolerance, double spacing) {
     LineEditor editor(program);
-    for (const Stretch& stretch : resample(program, lay_out(program), editor, {tolerance, spacing, 0.5})) editor.replace(stretch.first, stretch.last, stretch.points);
+    for (const Stretch& stretch : resample(program, lay_out(program), editor, {tolerance, spacing, 0.2 * tolerance, 0, 0.5}, {})) editor.replace(stretch.first, stretch.last, stretch.points);
     return editor.text("");
 }
 
@@ -84,6 +85,29 @@ TEST(Resample, PutsPointsSideBySide) {
         EXPECT_GE(shared, of_pass[pass].size() * 8 / 10) << "pass " << pass;
         EXPECT_GT(of_pass[pass].size(), 15U);
     }
+}
+
+// Flat passes; the fourth one has 100 points where the others have six.
+TEST(Need, IsWhereARunDiffersAndBesideIt) {
+    const Program program = read_text(wavy_zigzag(7, 30, [](int pass, double x) { return pass == 3 && x > 10 && x < 12 ? 0.02 : 0.31; }, 0));
+    Machine machine = brisk();
+    machine.controller.block_time = 0.002;
+    Diagnostics diagnostics;
+    const JudgedRun run = judge_run(simulate_to_log(program, machine, Vec3::Zero(), {}).log, program, {}, diagnostics);
+    const std::vector<std::uint8_t> needed = motions_in_need(run, program, {});
+    ASSERT_EQ(needed.size(), static_cast<std::size_t>(program.motions.size()));
+    const auto needed_near = [&](double x, double y) {
+        for (std::size_t i = 0; i < needed.size(); ++i) {
+            const Vec3 end = program.motions.end[i].vec();
+            if (std::abs(end.x() - x) < 0.2 && std::abs(end.y() - y) < 0.01 && end.z() < 5) return needed[i] != 0;
+        }
+        return false;
+    };
+    const double slow = 30 - 11;  // the fourth pass runs back
+    EXPECT_TRUE(needed_near(slow, 1.2));
+    EXPECT_TRUE(needed_near(slow, 0.8) && needed_near(slow, 1.6)) << "the passes beside it";
+    EXPECT_TRUE(needed_near(slow, 0.4)) << "the next but one";
+    EXPECT_FALSE(needed_near(8, 1.2) || needed_near(8, 0));
 }
 
 TEST(Deviation, IsThatOfAPlantedBump) {

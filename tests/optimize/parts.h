@@ -16,10 +16,10 @@ inline Program read_text(const std::string& text) {
     return parse_program(SourceText("part.nc", *bytes, bytes), {});
 }
 
-/// A zigzag over z = sin-shaped waves: passes along x, 0.4 mm apart. `spacing(pass, x)` is the way in x to the next point.
+/// A zigzag over z = sin-shaped waves of a height [mm]: passes along x, 0.4 mm apart. `spacing(pass, x)` is the way in x to the next point.
 template <typename Spacing>
-std::string wavy_zigzag(int passes, double length, const Spacing& spacing) {
-    const auto z = [](double x, double y) { return 0.8 * std::sin(0.9 * x + 0.1 * y); };
+std::string wavy_zigzag(int passes, double length, const Spacing& spacing, double height = 0.8) {
+    const auto z = [=](double x, double y) { return height * std::sin(0.9 * x + 0.1 * y); };
     std::string text = "%\n(WAVES)\nG21 G90 G17 G40 G49 G80\nG64 P0.005\nS12000 M3\nG0 X0 Y0 Z10\nG1 Z0 F1000\nG1 F3000\n";
     for (int pass = 0; pass < passes; ++pass) {
         const double y = 0.4 * pass;

@@ -1,0 +1,22 @@
+#pragma once
+// The smoothest way through a tube: points that may leave their places by so much, and lie so that
+// the path bends as evenly as it can. What an axis feels of a bend at speed v is x‴ v³, so the sum of the squares of
+// the third derivatives is what is made small.
+
+#include <span>
+#include <vector>
+
+#include "core/geometry.h"
+
+namespace clsurf {
+
+/// Points no farther than `radii` [mm] from `places`, with a small sum of squared third divided differences over
+/// `ways` [mm] (strictly rising); a radius of 0 holds a point. `start` is where the search begins, one point a
+/// place; empty: at the places. Fewer than four places: the start.
+///
+/// Alternating directions (S. Boyd et al., Foundations and Trends in Machine Learning 3 (2011) 1–122, section 3) over a
+/// matrix with three diagonals to each side: 60 rounds, of which the last ends inside the tube; not the optimum, but
+/// within some per cent of its speed. O(points).
+[[nodiscard]] std::vector<Vec3> smoothest_in_tube(std::span<const Vec3> places, std::span<const double> ways, std::span<const double> radii, std::span<const Vec3> start);
+
+}  // namespace clsurf
