@@ -13,7 +13,11 @@ std::string optimize_text(const Optimized& r) {
         const double change = before > 0 ? 100 * (after / before - 1) : 0;
         text += fmt::format("{:<28} {:>12.{}f} {:>12.{}f} {:>+8.1f} % {}\n", name, before, digits, after, digits, change, unit);
     };
-    text += fmt::format("{:<28} {:>12} {:>12} {:>10}\n", "", "before", "after", "change");
+    if (r.measured) {
+        text += fmt::format("log: {:.3f} s, speed mismatch {:.1f} mm/min (p95), {} defects; {} motions are in need of repair, all others stay\n", r.measured->duration,
+                            r.measured->mismatch * seconds_per_minute, r.measured->defects, r.measured->motions_in_need);
+    }
+    text += fmt::format("{:<28} {:>12} {:>12} {:>10}\n", "simulated", "before", "after", "change");
     row("time", r.before.duration, r.after.duration, 3, "s");
     row("speed mismatch, p95", r.before.mismatch * seconds_per_minute, r.after.mismatch * seconds_per_minute, 1, "mm/min");
     row("speed mismatch, p99.9", r.before.greatest_mismatch * seconds_per_minute, r.after.greatest_mismatch * seconds_per_minute, 1, "mm/min");
@@ -23,6 +27,15 @@ std::string optimize_text(const Optimized& r) {
     text += r.proof.accepted ? "accepted\n" : fmt::format("refused: {}\n", r.proof.reason);
     return text;
 }
+
+namespace {
+
+Json measured_json(const std::optional<Measured>& measured) {
+    if (!measured) return nullptr;
+    return Json{{"points", measured->points}, {"time_s", number(measured->duration)}, {"mismatch", number(measured->mismatch * seconds_per_minute)}, {"defects", measured->defects}, {"motions_in_need", measured->motions_in_need}};
+}
+
+}  // namespace
 
 std::string optimize_json(const Optimized& r, const Diagnostics& diagnostics) {
     return dump(Json{{"accepted", r.proof.accepted},
@@ -38,6 +51,8 @@ std::string optimize_json(const Optimized& r, const Diagnostics& diagnostics) {
                      {"lines_before", r.proof.lines_before},
                      {"lines_after", r.proof.lines_after},
                      {"lines_changed", r.proof.changed_lines},
+                     {"proof", "simulation"},
+                     {"log", measured_json(r.measured)},
                      {"diagnostics", list(diagnostics)}});
 }
 

@@ -14,6 +14,7 @@
 #include "field/range.h"
 #include "io/atomic_file.h"
 #include "io/compressed.h"
+#include "io/log_format.h"
 #include "io/machine_file.h"
 #include "io/optimize_report.h"
 #include "io/program_file.h"
@@ -33,6 +34,19 @@ Program read_text(const io::Source& source, const std::string& text, const io::P
     io::ProgramOptions same = options;
     same.dialect = dialect;
     return io::read_program(changed, same);
+}
+
+/// The recorded run of --log. Throws UsageError where its options are given without it.
+std::optional<Log> read_measured(const po::variables_map& values) {
+    if (values.count("log") == 0) {
+        for (const char* name : {"layout", "mapping", "period", "work-offset"}) {
+            if (values.count(name) > 0) throw UsageError(std::string("--") + name + " is of a log: give --log");
+        }
+        return std::nullopt;
+    }
+    Log log = io::open_log(values["log"].as<std::string>(), read_log_options(values));
+    if (const std::optional<Vec3> offset = read_work_offset(values)) log.work_offset = *offset;
+    return log;
 }
 
 /// Both runs side by side, speeds on one scale.
@@ -69,13 +83,14 @@ ExitCode run(const po::variables_map& values) {
     const io::ProgramOptions options = read_program_options(values);
     const io::Source source = io::open_source(required(values, "PROGRAM"));
     const Program program = io::read_program(source, options);
+    std::optional<Log> measured = read_measured(values);
     io::AtomicFile output(output_path);
     std::unique_ptr<io::AtomicFile> picture;
     if (values.count("picture") > 0) picture = std::make_unique<io::AtomicFile>(values["picture"].as<std::string>());
     ProgressBar bar(read_common(values));
     Diagnostics diagnostics = program.diagnostics;
     const Optimized result = optimize(
-        program, [&](const std::string& text) { return read_text(source, text, options, program.dialect->name); }, machine, rules, bar.callback(), diagnostics);
+        program, [&](const std::string& text) { return read_text(source, text, options, program.dialect->name); }, machine, rules, std::move(measured), bar.callback(), diagnostics);
     bar.clear();
     if (read_json(values)) {
         write_to_stdout(io::optimize_json(result, diagnostics));
@@ -114,6 +129,9 @@ Subcommand optimize_subcommand() {
                     ("tolerance", po::value<double>()->value_name("MM"), "how far the new path may leave the programmed one (default: 0.005)")
                     ("decimals", po::value<int>()->value_name("N"), "new coordinates have at least so many, if the controller reads them (default: as many as the program's)");
                 // clang-format on
+                options.add_options()("log", po::value<std::string>()->value_name("LOG"), "a recorded run of the program: only what differs there from the passes beside it is repaired; the proof is by simulation all the same");
+                declare_log_options(options);
+                declare_work_offset(options);
                 declare_simulation(options);
                 declare_json(options);
                 declare_program_options(options);

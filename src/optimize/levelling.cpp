@@ -48,13 +48,13 @@ std::vector<float> means_by_motion(const JudgedRun& run, const Program& program,
     return sum;
 }
 
-std::vector<float> levelling_feeds(const std::vector<float>& own, const std::vector<float>& target, double play, double width) {
+std::vector<float> levelling_feeds(const std::vector<float>& own, const std::vector<float>& target, const std::vector<std::uint8_t>& may_slow, double play, double width) {
     std::vector<float> feeds(own.size(), 0);
     const auto bound = static_cast<float>(1 - play), apart = static_cast<float>(1 + width);
     std::size_t first = 0;  // of the interval
     float low = 0, high = 0;
     for (std::size_t i = 0; i < own.size(); ++i) {
-        if (!(target[i] < bound * own[i])) {
+        if (!(target[i] < bound * own[i]) || (!may_slow.empty() && may_slow[i] == 0)) {
             low = 0;
             continue;
         }

@@ -2,6 +2,7 @@
 // Levelling: the speeds that neighbour passes can all hold. Where a run shows a pass faster than the one
 // beside it, its lines get a feed that brings both together.
 
+#include <cstdint>
 #include <vector>
 
 #include "optimize/run.h"
@@ -17,8 +18,8 @@ namespace clsurf {
 [[nodiscard]] std::vector<float> means_by_motion(const JudgedRun& run, const Program& program, const std::vector<float>& values);
 
 /// Feeds that bring motions from their own speed down to a target [mm/s]; 0: the motion is slow enough.
-/// Neighbouring motions with a feed form constant-speed intervals, inside which targets differ by less than `width`
+/// Motions whose entry in `may_slow` is 0 get none; empty: all may. Neighbouring motions with a feed form constant-speed intervals, inside which targets differ by less than `width`
 /// (a share); each has the lowest of them.
-[[nodiscard]] std::vector<float> levelling_feeds(const std::vector<float>& own, const std::vector<float>& target, double play, double width);
+[[nodiscard]] std::vector<float> levelling_feeds(const std::vector<float>& own, const std::vector<float>& target, const std::vector<std::uint8_t>& may_slow, double play, double width);
 
 }  // namespace clsurf

@@ -118,7 +118,7 @@ LineEditor::LineEditor(const Program& program, int least_decimals) : program_(&p
 
 double LineEditor::rounding() const { return 0.5 * std::sqrt(3.0) * unit_ * std::pow(10.0, -decimals_); }
 
-void LineEditor::replace(std::int64_t first, std::int64_t last, const std::vector<Vec3>& points) {
+std::size_t LineEditor::replace(std::int64_t first, std::int64_t last, const std::vector<Vec3>& points) {
     const Motions& motions = program_->motions;
     const SourceText& main = program_->main();
     const std::string_view end_of_line = line_end_of(main.text());
@@ -145,6 +145,7 @@ void LineEditor::replace(std::int64_t first, std::int64_t last, const std::vecto
     for (std::size_t a = 0; a < 3; ++a) modal[a] = number_text(begin[static_cast<int>(a)] / unit_, decimals_);
     const bool numbered = numbers.size() == old_lines;
     bool code_written = false;
+    std::size_t written = 0;
     for (std::size_t k = 0; k < points.size(); ++k) {
         std::string text;
         const bool is_last = k + 1 == points.size();
@@ -164,11 +165,13 @@ void LineEditor::replace(std::int64_t first, std::int64_t last, const std::vecto
         }
         if (!moves) continue;  // nearer to the point before than the decimals tell
         code_written = true;
+        ++written;
         edit.text += text;
         edit.text += end_of_line;
     }
     changed_ += old_lines;
     edits_.push_back(std::move(edit));
+    return written;
 }
 
 void LineEditor::set_feeds(const std::vector<float>& feeds) {

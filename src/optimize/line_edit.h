@@ -44,8 +44,8 @@ public:
 
     /// Puts `points` in place of the ends of the motions first … last, whose lines follow each other. Calls
     /// must come in the order of the program. The last point must be where the last motion ended. Coordinates
-    /// are rounded.
-    void replace(std::int64_t first, std::int64_t last, const std::vector<Vec3>& points);
+    /// are rounded, and points that fall on the one before are left out; returns how many lines were written.
+    std::size_t replace(std::int64_t first, std::int64_t last, const std::vector<Vec3>& points);
 
     /// Gives motions a feed [mm/s], one entry a motion of the program, 0: as it is. Only lines that may be
     /// rewritten get one; behind them the programmed feed is set again, on the next line where that may

@@ -17,7 +17,7 @@ void mark(Marks& marks, const PointRange& points) {
 
 Marks marked_places(const JudgedRun& run, const NeedRules& rules) {
     Marks marks(static_cast<std::size_t>(run.surface.positions.size()), 0);
-    const double step = rules.speed_step * run.report.thresholds.usual_speed;
+    const double step = rules.share * run.report.thresholds.of[index_of(Quantity::speed)] * run.report.thresholds.usual_speed;
     for (PointIndex i = 0; i < run.surface.positions.size(); ++i) {
         if (run.signals[i].zone != Zone::outside && std::abs(run.speed_differences[static_cast<std::size_t>(i)]) > step) marks[static_cast<std::size_t>(i)] = 1;
     }

@@ -9,7 +9,7 @@
 namespace clsurf {
 
 struct NeedRules {
-    double speed_step = 0.01;   ///< against a neighbour pass, relative to the usual speed, from which on a place is repaired
+    double share = 0.5;         ///< of the threshold of a speed step, from which on a place is repaired
     double reach = 2;           ///< [mm] of way before and behind such a place
     int passes_aside = 2;       ///< which are repaired with it
 };

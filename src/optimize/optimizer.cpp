@@ -56,8 +56,9 @@ public:
     Optimizer(const Program& program, const ReadProgram& read, const Machine& machine, const OptimizeRules& rules, const Progress& progress, Diagnostics& diagnostics)
         : program_(program), read_(read), machine_(machine), rules_(rules), progress_(progress), diagnostics_(diagnostics) {}
 
-    Optimized run() {
+    Optimized run(std::optional<Log> measured) {
         Optimized result;
+        if (measured) result.measured = judge_measured(std::move(*measured));
         SimulatedRun simulated = simulate_to_log(program_, machine_, rules_.start, progress_);
         result.run_before = std::move(simulated.summary);
         result.before = judge_run(std::move(simulated.log), program_, rules_.quality, diagnostics_);
@@ -66,7 +67,7 @@ public:
         before_ = &result.before;
         defects_before_ = find_defects(before_->surface, before_->signals, *before_->lines, program_, machine_.controller.period, fixed_).defects.size();
         const ProgrammedSurface laid = lay_out(program_);
-        needed_ = motions_in_need(result.before, program_, {});
+        if (!measured_) needed_ = motions_in_need(result.before, program_, {});
         shortest_line_ = block_reserve * machine_.controller.block_time * usual_feed(program_);
         std::optional<Tried> best;
         const auto keep = [&](Tried tried) {
@@ -78,7 +79,7 @@ public:
             const Base base = resampled(laid, share * rules_.tolerance);
             if (base.stretches > 0) propose_for(base, keep);
         }
-        if (!best || points_ < most_points) propose_for({program_, std::string(program_.main().text()), true, 0, 0}, keep);
+        if (!best || points_ < most_points) propose_for({program_, std::string(program_.main().text()), true, 0, 0, measured_ ? needed_ : std::vector<std::uint8_t>{}}, keep);
         result.proof = std::move(best->proof);
         result.text = std::move(best->text);
         result.after = std::move(best->run);
@@ -93,7 +94,16 @@ private:
         std::string text;
         bool original = false;
         std::size_t stretches = 0, changed_lines = 0;
+        std::vector<std::uint8_t> may_slow;  ///< per motion, whether it may get a feed; empty: all may
     };
+
+    Measured judge_measured(Log log) {
+        const JudgedRun run = judge_run(std::move(log), program_, rules_.quality, diagnostics_);
+        if (run.surface.step_over <= 0) throw InputError(Place::of_file(run.log.name), "has no passes beside each other: it does not tell what is out of step");
+        needed_ = motions_in_need(run, program_, {});
+        measured_ = true;
+        return {run.surface.positions.size(), run.duration, run.mismatch, run.report.defects.size(), static_cast<std::size_t>(std::count(needed_.begin(), needed_.end(), 1))};
+    }
 
     /// The points alone, then with feeds that bring neighbour passes within a step of each other.
     template <typename Keep>
@@ -106,7 +116,7 @@ private:
         for (const std::vector<float>& target : targets) {
             if (points_ >= most_points) return;
             LineEditor editor(base.program);
-            editor.set_feeds(levelling_feeds(own, target, play_of_feeds, interval_width));
+            editor.set_feeds(levelling_feeds(own, target, base.may_slow, play_of_feeds, interval_width));
             Tried levelled = prove(base, editor.text(base.original ? rules_.header : ""), editor.changed_lines());
             const bool too_slow = levelled.run.duration > before_->duration;
             keep(std::move(levelled));
@@ -125,7 +135,15 @@ private:
         const double spacing = 0.5 * fitting_spacing(program_, laid, chord_error);
         LineEditor editor(program_, rules_.least_decimals);
         const std::vector<Stretch> stretches = resample(program_, laid, editor, {rules_.tolerance, spacing, chord_error, shortest_line_, ResampleRules{}.corner_angle}, needed_);
-        for (const Stretch& stretch : stretches) editor.replace(stretch.first, stretch.last, stretch.points);
+        std::int64_t old = 0;  // motions so far
+        for (const Stretch& stretch : stretches) {
+            const std::size_t lines = editor.replace(stretch.first, stretch.last, stretch.points);
+            if (!measured_) continue;
+            base.may_slow.insert(base.may_slow.end(), needed_.begin() + old, needed_.begin() + stretch.first);
+            base.may_slow.insert(base.may_slow.end(), lines, 1);
+            old = stretch.last + 1;
+        }
+        if (measured_) base.may_slow.insert(base.may_slow.end(), needed_.begin() + old, needed_.end());
         base.text = editor.text(rules_.header);
         base.program = read_(base.text);
         base.stretches = stretches.size();
@@ -183,6 +201,7 @@ private:
     Diagnostics& diagnostics_;
     QualityRules fixed_;
     std::vector<std::uint8_t> needed_;  ///< one entry a motion
+    bool measured_ = false;             ///< that tells a recorded run
     double shortest_line_ = 0;          ///< [mm] below which blocks take longer than their way
     const JudgedRun* before_ = nullptr;
     std::size_t defects_before_ = 0;
@@ -191,8 +210,8 @@ private:
 
 }  // namespace
 
-Optimized optimize(const Program& program, const ReadProgram& read, const Machine& machine, const OptimizeRules& rules, const Progress& progress, Diagnostics& diagnostics) {
-    return Optimizer(program, read, machine, rules, progress, diagnostics).run();
+Optimized optimize(const Program& program, const ReadProgram& read, const Machine& machine, const OptimizeRules& rules, std::optional<Log> measured, const Progress& progress, Diagnostics& diagnostics) {
+    return Optimizer(program, read, machine, rules, progress, diagnostics).run(std::move(measured));
 }
 
 }  // namespace clsurf

@@ -406,6 +406,10 @@ clsurf_cli_test(NAME intervals_wrong_ratio ARGS intervals ${uneven} --curvature-
 clsurf_cli_test(NAME intervals_as_colours ARGS render @DATA@/programs/transition_g61.nc @LOGS@/transition_g61.biip --color interval -o map.png --size 160x120 FILE map.png)
 clsurf_cli_test(NAME optimize_accepts_what_is_better ARGS optimize ${uneven} --machine @DATA@/machines/linuxcnc_logs.toml --json -o better.nc
   STDOUT "\"accepted\": true" "\"deviation_mm\": 0.00[0-4]" "\"lines_before\": 3716" FILE better.nc)
+clsurf_cli_test(NAME optimize_starts_from_a_log ARGS optimize ${uneven} --log ${run} --machine @DATA@/machines/linuxcnc_logs.toml --json -o better.nc
+  STDOUT "\"accepted\": true" "\"proof\": \"simulation\"" "\"motions_in_need\": [1-9]" FILE better.nc)
+clsurf_cli_test(NAME optimize_log_options_without_a_log ARGS optimize ${uneven} --period 0.001 -o better.nc EXIT 2 STDERR "--period is of a log" NO_FILE better.nc)
+clsurf_cli_test(NAME optimize_wrong_decimals ARGS optimize ${uneven} --decimals 12 -o better.nc EXIT 2 STDERR "--decimals must be 0 to 9" NO_FILE better.nc)
 clsurf_cli_test(NAME optimize_refuses_what_is_not SETUP "printf 'G21 G90\nG0 X0 Y0 Z0\nG1 X10 F600 (A)\nY0.3 (B)\nX0 (C)\nY0.6 (D)\nX10 (E)\nY0.9 (F)\nX0 (G)\nM2\n' > a.nc"
   ARGS optimize a.nc -o better.nc EXIT 1 STDOUT "refused: no stretch" NO_FILE better.nc)
 clsurf_cli_test(NAME optimize_single_pass SETUP "printf 'G0 X0 Y0 Z0\nG1 X10 F600\nX20\nM2\n' > a.nc" ARGS optimize a.nc -o better.nc EXIT 3 STDERR "no passes beside each other" NO_FILE better.nc)

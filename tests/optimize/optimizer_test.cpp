@@ -144,7 +144,7 @@ TEST(Optimizer, IsBetterInEveryRespectOrRefuses) {
     OptimizeRules rules;
     rules.header = "by a test";
     Diagnostics diagnostics;
-    const Optimized result = optimize(program, read_text, brisk(), rules, {}, diagnostics);
+    const Optimized result = optimize(program, read_text, brisk(), rules, {}, {}, diagnostics);
     EXPECT_EQ(result.proof.accepted, result.proof.reason.empty());
     if (!result.proof.accepted) return;
     EXPECT_LT(result.after.mismatch, result.before.mismatch);
@@ -172,14 +172,14 @@ TEST(Optimizer, RefusesWhereNothingCanBeRewritten) {
     for (const char c : text) commented += c == '\n' ? " (KEEP)\n" : std::string(1, c);
     const Program program = read_text(commented);
     Diagnostics diagnostics;
-    const Optimized result = optimize(program, read_text, brisk(), {}, {}, diagnostics);
+    const Optimized result = optimize(program, read_text, brisk(), {}, {}, {}, diagnostics);
     EXPECT_FALSE(result.proof.accepted);
     EXPECT_EQ(result.proof.reason, "no stretch of the program can be rewritten");
 }
 
 TEST(Optimizer, RefusesASinglePass) {
     Diagnostics diagnostics;
-    EXPECT_THROW((void)optimize(read_text("G0 X0 Y0 Z0\nG1 X10 F600\nX20\n"), read_text, brisk(), {}, {}, diagnostics), InputError);
+    EXPECT_THROW((void)optimize(read_text("G0 X0 Y0 Z0\nG1 X10 F600\nX20\n"), read_text, brisk(), {}, {}, {}, diagnostics), InputError);
 }
 
 }  // namespace
