@@ -18,9 +18,10 @@ namespace {
 
 constexpr std::array<double, 3> shares_of_tolerance{0.2, 0.1, 0.4};  ///< that lines may leave the curve by
 constexpr double block_reserve = 1.1;    ///< of the way in a block time
-constexpr std::array<double, 6> steps_between_passes{0.2, 0.1, 0.07, 0.05, 0.035, 0.02};
+constexpr std::array<double, 7> steps_between_passes{0.35, 0.2, 0.1, 0.07, 0.05, 0.035, 0.02};
 constexpr double play_of_feeds = 0.01;   ///< a motion this little too fast (a share) gets no feed
 constexpr double interval_width = 0.03;  ///< of the speeds in a constant-speed interval
+constexpr double growth_weight = 0.03;   ///< of a program's growth, against shares of mismatch and defects
 constexpr double most_points = 8e6;      ///< of all runs together; then what there is has to do
 
 /// A run of a proposal, and how it holds against the program.
@@ -183,9 +184,10 @@ private:
         return {};
     }
 
-    /// What is left of mismatch and defects, as shares.
+    /// What is left of mismatch and defects, as shares; of two that are nearly as good the shorter program wins.
     [[nodiscard]] double score(const Tried& t) const {
-        return t.run.mismatch / before_->mismatch + static_cast<double>(t.proof.defects_after) / std::max<double>(1, static_cast<double>(defects_before_));
+        const double growth = static_cast<double>(t.proof.lines_after) / static_cast<double>(t.proof.lines_before);
+        return growth_weight * growth + t.run.mismatch / before_->mismatch + static_cast<double>(t.proof.defects_after) / std::max<double>(1, static_cast<double>(defects_before_));
     }
 
     [[nodiscard]] bool better(const Tried& a, const Tried& b) const {
