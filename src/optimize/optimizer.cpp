@@ -21,7 +21,7 @@ constexpr double block_reserve = 1.1;    ///< of the way in a block time
 constexpr std::array<double, 7> steps_between_passes{0.35, 0.2, 0.1, 0.07, 0.05, 0.035, 0.02};
 constexpr double play_of_feeds = 0.01;   ///< a motion this little too fast (a share) gets no feed
 constexpr double interval_width = 0.03;  ///< of the speeds in a constant-speed interval
-constexpr double growth_weight = 0.03;   ///< of a program's growth, against shares of mismatch and defects
+constexpr double growth_weight = 0.1;   ///< of a program's growth, against shares of mismatch and defects
 constexpr double most_points = 8e6;      ///< of all runs together; then what there is has to do
 
 /// A run of a proposal, and how it holds against the program.
