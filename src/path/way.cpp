@@ -47,6 +47,11 @@ double Way::to(PointIndex i) const {
 
 bool Way::at_least(PointIndex i, PointIndex j, double distance) const {
     if (i > j) std::swap(i, j);
+    if (j - i <= stride) {
+        double way = 0;
+        for (PointIndex k = i; k < j && way < distance; ++k) way += step(k);
+        return way >= distance;
+    }
     const PointIndex from = (i + stride - 1) / stride;
     const PointIndex to = j / stride;
     if (from < to && sums_[static_cast<std::size_t>(to)] - sums_[static_cast<std::size_t>(from)] >= distance) {

@@ -1,6 +1,7 @@
 #include "quality/suspects.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <numeric>
@@ -67,6 +68,23 @@ public:
 private:
     std::vector<std::atomic<std::size_t>> parent_;
 };
+
+/// Index of the first of `points`, which ascend, that is not below `point`: steps that double away
+/// from `hint`, since what is looked up one after the other lies side by side.
+std::size_t lower_bound_near(const std::vector<PointIndex>& points, std::size_t hint, PointIndex point) {
+    std::size_t low = std::min(hint, points.size());
+    std::size_t high = low;
+    for (std::size_t step = 1; low > 0 && points[low - 1] >= point; step *= 2) {
+        high = low - 1;
+        low -= std::min(step, low);
+    }
+    for (std::size_t step = 1; high < points.size() && points[high] < point; step *= 2) {
+        low = high + 1;
+        high = std::min(high + step, points.size());
+    }
+    const auto begin = points.begin() + static_cast<std::ptrdiff_t>(low);
+    return static_cast<std::size_t>(std::lower_bound(begin, points.begin() + static_cast<std::ptrdiff_t>(high), point) - points.begin());
+}
 
 }  // namespace
 
@@ -204,34 +222,37 @@ std::vector<Suspects> group_suspects(const Suspects& suspects, const ClSurface& 
     Groups groups(suspects.size());
     const double along = std::max(joined_along, 2 * surface.step_over);
     const float beside = joined_beside * static_cast<float>(surface.step_over);
-    /// Joins a suspect with those of another pass round a point of it.
-    const auto join_near = [&](std::size_t k, PointIndex point) {
-        const auto after = std::lower_bound(points.begin(), points.end(), point);
+    /// Joins a suspect with those of another pass round a point of it. `hint`: where the last one was.
+    const auto join_near = [&](std::size_t k, PointIndex point, std::size_t& hint) {
+        const std::size_t after = hint = lower_bound_near(points, hint, point);
         const Eigen::Vector3f place = surface.positions[point];
-        for (const auto& found : {after, after == points.begin() ? after : after - 1}) {
-            if (found == points.end() || (surface.positions[*found] - place).norm() > beside) continue;
-            groups.join(k, static_cast<std::size_t>(found - points.begin()));
+        for (const std::size_t found : {after, after == 0 ? after : after - 1}) {
+            if (found == points.size() || (surface.positions[points[found]] - place).norm() > beside) continue;
+            groups.join(k, found);
         }
     };
-    const auto join = [&](std::size_t k) {
+    using Hints = std::array<std::array<std::size_t, 3>, 2>;  // by side: beside, and over that pass
+    const auto join = [&](std::size_t k, Hints& hints) {
         const PointIndex point = points[k];
         if (k > 0 && !way.at_least(points[k - 1], point, along)) groups.join(k - 1, k);
         for (const Side side : {Side::left, Side::right}) {
             if (!surface.neighbours.has(side, point)) continue;
             const PointIndex adjacent = surface.neighbours.neighbour(side, point);
-            join_near(k, adjacent);
+            std::array<std::size_t, 3>& near = hints[static_cast<std::size_t>(side)];
+            join_near(k, adjacent, near[2]);
             // Over one clean pass.
             for (const Side other : {Side::left, Side::right}) {
                 if (!surface.neighbours.has(other, adjacent)) continue;
                 const PointIndex next = surface.neighbours.neighbour(other, adjacent);
                 const Eigen::Vector3f on = surface.positions[next] - surface.positions[adjacent];
-                if (on.dot(surface.positions[adjacent] - surface.positions[point]) > 0) join_near(k, next);
+                if (on.dot(surface.positions[adjacent] - surface.positions[point]) > 0) join_near(k, next, near[static_cast<std::size_t>(other)]);
             }
         }
     };
     constexpr std::int64_t grain = 4096;
     parallel_for(count, grain, [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t k = first; k < last; ++k) join(static_cast<std::size_t>(k));
+        Hints hints{};
+        for (std::int64_t k = first; k < last; ++k) join(static_cast<std::size_t>(k), hints);
     });
     std::vector<Suspects> result;
     std::vector<std::size_t> number(suspects.size());  // of the group, by its root
