@@ -171,7 +171,7 @@ std::string machine_text(const Machine& machine) {
     text += fmt::format("name = \"{}\"\n\n[controller]\n", machine.name);
     text += fmt::format("period = {}                # interpolation period\n", c.period);
     text += fmt::format("lookahead_blocks = {}\n", c.lookahead_blocks);
-    text += fmt::format("corner = \"{}\"                # spline: rounded inside the tolerance; arc: by circular arcs; stop: exact stop\n", name_of(c.corner));
+    text += fmt::format("corner = \"{}\"                # rounded inside the tolerance: by arcs, with a jerk limit by a spline; spline: always; stop: exact stop\n", name_of(c.corner));
     text += fmt::format("curve = \"{}\"                   # through short lines: akima, least-squares or none\n", name_of(c.curve));
     text += fmt::format("tolerance = {}              # of corners and path; G64 P in a program replaces it\n", c.tolerance);
     text += fmt::format("chord_tolerance = {}       # of the steps of a period against arcs\n", c.chord_tolerance);

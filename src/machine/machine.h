@@ -33,7 +33,7 @@ struct MachineAxis {
 
 enum class CornerMode : unsigned char {
     spline,  ///< rounded inside the tolerance by a curve of continuous curvature
-    arc,     ///< rounded inside the tolerance by circular arcs
+    arc,     ///< rounded inside the tolerance by circular arcs; as `spline` where an axis has a jerk limit
     stop,    ///< exact stop at every corner
 };
 
@@ -51,7 +51,7 @@ enum class CurveMode : unsigned char {
 struct ControllerSettings {
     double period = 0.001;          ///< interpolation period [s]
     int lookahead_blocks = 500;
-    CornerMode corner = CornerMode::spline;
+    CornerMode corner = CornerMode::arc;
     CurveMode curve = CurveMode::none;
     double tolerance = 0.01;        ///< of corners and path [mm]; G64 P replaces it
     double chord_tolerance = 0.002; ///< of the steps of a period against arcs [mm]

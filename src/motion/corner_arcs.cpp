@@ -11,7 +11,7 @@ namespace clsurf {
 void CornerArcs::add_corner(const PathElement& after) {
     const double tolerance = std::min(held_.tolerance, after.tolerance);
     TransitionArc arc;
-    if (tolerance > 0) arc = transition_arc(held_, after, share_ * tolerance);
+    if (tolerance > 0) arc = transition_arc(held_, after, tolerance);
     const bool rounded = arc.kind == CornerKind::arc;
     const double end = held_.length - (rounded ? arc.way_before : 0);
     if (end - used_ >= no_way) ready_.push_back(used_ > 0 || rounded ? held_.part(used_, end) : held_);

@@ -10,8 +10,8 @@ namespace clsurf {
 
 class CornerArcs final : public ElementSource {
 public:
-    /// `share`: of the tolerance that the arcs may take. The source must outlive it.
-    CornerArcs(ElementSource& source, double period, double share) : source_(&source), period_(period), share_(share) {}
+    /// The source must outlive it.
+    CornerArcs(ElementSource& source, double period) : source_(&source), period_(period) {}
 
     [[nodiscard]] bool next(PathElement& element) override;
 
@@ -19,7 +19,7 @@ private:
     void add_corner(const PathElement& after);
 
     ElementSource* source_;
-    double period_, share_;
+    double period_;
     bool holds_ = false;
     PathElement held_;       ///< the last block
     double used_ = 0;        ///< of its way by the arc at its begin [mm]

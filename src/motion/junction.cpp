@@ -15,6 +15,4 @@ double arc_speed(double radius, double normal_acceleration) { return std::sqrt(n
 
 double period_speed(double radius, double turning, double period) { return 2 * radius * std::sin(0.5 * turning) / period; }
 
-double turn_speed(double turning, double acceleration, double period) { return acceleration * period / (2 * std::sin(0.5 * turning)); }
-
 }  // namespace clsurf

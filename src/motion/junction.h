@@ -20,8 +20,4 @@ namespace clsurf {
 /// 2 r sin(α/2)/T [mm/s]: at least one point lies on it (Li et al. 2025, Eq. 7).
 [[nodiscard]] double period_speed(double radius, double turning, double period);
 
-/// The speed at which turning by α takes the whole acceleration of one period, a T/(2 sin(α/2)) [mm/s]:
-/// for a corner that is passed as it is.
-[[nodiscard]] double turn_speed(double turning, double acceleration, double period);
-
 }  // namespace clsurf

@@ -28,7 +28,7 @@ public:
         machine.controller.lookahead_blocks = static_cast<int>(spread(2, 300));
         if (chance(0.3)) machine.controller.feed_override = spread(0.01, 5);
         machine.path = {spread(20, 500), spread(200, 5000), spread(200, 5000), spread(5000, 200000)};
-        const bool any_jerk = chance(0.1);
+        const bool any_jerk = corner == CornerMode::arc || chance(0.1);
         for (MachineAxis& axis : machine.axes) {
             axis.max_speed = spread(20, 500);
             axis.max_acceleration = spread(200, 5000);
