@@ -1,6 +1,10 @@
 # The package as a stranger meets it: installed into an empty folder, found, linked, run.
 
 if(CLSURF_SANITIZE STREQUAL "none")
+  set(launcher)
+  if(CCACHE_PROGRAM)
+    set(launcher -DCMAKE_CXX_COMPILER_LAUNCHER=${CCACHE_PROGRAM})
+  endif()
   set(here ${CMAKE_CURRENT_BINARY_DIR}/consumer)
   add_test(NAME consumer.install
     COMMAND ${CMAKE_COMMAND} --install ${PROJECT_BINARY_DIR} --prefix ${here}/installed)
@@ -9,7 +13,7 @@ if(CLSURF_SANITIZE STREQUAL "none")
       --build-generator ${CMAKE_GENERATOR}
       --build-options -DCMAKE_PREFIX_PATH=${here}/installed -DCMAKE_BUILD_TYPE=Release
                       -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}
-                      -DCMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER}
+                      ${launcher}
       --test-command consumer)
   set_tests_properties(consumer.install PROPERTIES FIXTURES_SETUP installed_tree)
   set_tests_properties(consumer.uses_the_installed_package PROPERTIES FIXTURES_REQUIRED installed_tree)
