@@ -313,6 +313,11 @@ void Interpreter::report_unused(const Block& block) {
         // Where such an axis stays at 0 it changes nothing; moved, it takes the tool or the part elsewhere.
         const bool moves = state_.motion == MotionMode::rapid || state_.motion == MotionMode::feed || state_.motion == MotionMode::cw || state_.motion == MotionMode::ccw;
         if (block.words.of(letter) == 0) continue;
+        if (moves && dialect_ == DialectId::linuxcnc) {
+            // Its axes U V W are never increments of X Y Z, which stay true.
+            note(Severity::warning, "program.axis", fmt::format("axis {} moves: positions are those of X Y Z without it", letter), column);
+            continue;
+        }
         if (moves) fail(fmt::format("axis {} moves: where the tool is with axes U V W is not known", letter), column, "X Y Z A B C are");
         note(Severity::warning, "program.axis", fmt::format("word {} has no meaning here", letter), column);
     }
