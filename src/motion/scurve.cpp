@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <limits>
 
+#include "motion/root_between.h"
+
 namespace clsurf {
 namespace {
 
@@ -38,30 +40,11 @@ double peak_speed(double way, double vs, double ve, const RampLimits& limits) {
     double low = std::max(vs, ve);
     double high = limits.speed;
     if (!std::isfinite(high)) high = reach(low, way, std::max(limits.acceleration, limits.deceleration), limits.jerk);
-    double at_low = excess(low);
-    double at_high = excess(high);
+    const double at_low = excess(low);
+    const double at_high = excess(high);
     if (at_low >= 0) return low;
     if (at_high <= 0) return high;
-    // Regula falsi (Illinois), which keeps its bracket.
-    constexpr int most_steps = 200;
-    int side = 0;
-    for (int i = 0; i < most_steps && high - low > 1e-15 * high; ++i) {
-        double middle = (low * at_high - high * at_low) / (at_high - at_low);
-        if (!(middle > low && middle < high) || i % 8 == 7) middle = 0.5 * (low + high);
-        if (middle <= low || middle >= high) break;
-        const double at_middle = excess(middle);
-        if (std::abs(at_middle) <= 1e-15 * way) return middle;
-        if (at_middle < 0) {
-            low = middle, at_low = at_middle;
-            if (side < 0) at_high *= 0.5;
-            side = -1;
-        } else {
-            high = middle, at_high = at_middle;
-            if (side > 0) at_low *= 0.5;
-            side = 1;
-        }
-    }
-    return low;
+    return root_between(low, at_low, high, at_high, 1e-15, 1e-15 * way, excess);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "motion/junction.h"
+#include "motion/root_between.h"
 
 namespace clsurf {
 namespace {
@@ -15,29 +16,10 @@ constexpr double least_way = 1e-7;   ///< [mm] a shorter tangent is rounding
 constexpr double in_plane = 1e-9;    ///< of the chord: how far it may leave the plane of its tangents
 constexpr double most_turn = 0.9;    ///< of what a block may turn until the arc would be a half circle
 
-/// Where f, negative at `low` and not at `high`, has its root (regula falsi, Illinois); the side of `low`.
+/// Of a way between 0, where f is negative, and `high`, where it is not.
 template <typename F>
-double root_between(double low, double high, const F& f) {
-    double at_low = f(low);
-    double at_high = f(high);
-    int side = 0;
-    constexpr int most_steps = 100;
-    for (int i = 0; i < most_steps && high - low > 1e-14 * high; ++i) {
-        double middle = (low * at_high - high * at_low) / (at_high - at_low);
-        if (!(middle > low && middle < high) || i % 8 == 7) middle = 0.5 * (low + high);
-        const double value = f(middle);
-        if (value == 0) return middle;
-        if (value < 0) {
-            low = middle, at_low = value;
-            if (side < 0) at_high *= 0.5;
-            side = -1;
-        } else {
-            high = middle, at_high = value;
-            if (side > 0) at_low *= 0.5;
-            side = 1;
-        }
-    }
-    return low;
+double way_to_root(double high, const F& f) {
+    return root_between(0, f(0), high, f(high), 1e-14, 0, f);
 }
 
 /// One block seen from the corner outwards.
@@ -73,10 +55,10 @@ public:
         return angle(t0, chord) - 0.5 * angle(t0, after_.tangent(way_after));
     }
     [[nodiscard]] double way_after(double way_before) const {
-        return root_between(0, share_after_, [&](double way) { return imbalance(way_before, way); });
+        return way_to_root(share_after_, [&](double way) { return imbalance(way_before, way); });
     }
     [[nodiscard]] double way_before(double way_after) const {
-        return root_between(0, share_before_, [&](double way) { return -imbalance(way, way_after); });
+        return way_to_root(share_before_, [&](double way) { return -imbalance(way, way_after); });
     }
     /// The circle through a place on each block.
     [[nodiscard]] TransitionArc circle(double way_before, double way_after) const {
@@ -139,7 +121,7 @@ TransitionArc transition_arc(const PathElement& before, const PathElement& after
         arc = corner.longest();
         if (arc.kind == CornerKind::arc && arc.error > error) {
             const auto excess = [&](double way) { return corner.circle(way, corner.way_after(way)).error - error; };
-            const double way = root_between(0, arc.way_before, excess);
+            const double way = way_to_root(arc.way_before, excess);
             arc = corner.circle(way, corner.way_after(way));
             limited = ArcLimit::error;
         }
