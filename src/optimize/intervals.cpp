@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "motion/junction.h"
+
 namespace clsurf {
 
 SpeedLimits speed_limits_of(const Machine& machine) {
@@ -15,10 +17,7 @@ double planned_speed(const SpeedInterval& interval, double feed, const SpeedLimi
     const double bend = interval.greatest_curvature;
     if (!(bend > 0)) return speed;
     speed = std::min(speed, std::sqrt(overload * limits.normal_acceleration / bend));
-    if (limits.chord_tolerance > 0) {
-        const double radius = 1 / bend, e = limits.chord_tolerance;
-        speed = std::min(speed, 2 * (radius <= e ? radius : std::sqrt(2 * radius * e - e * e)) / limits.period);
-    }
+    if (limits.chord_tolerance > 0) speed = std::min(speed, chord_speed(1 / bend, limits.chord_tolerance, limits.period));
     if (limits.jerk > 0) speed = std::min(speed, std::cbrt(limits.jerk / (bend * bend)));
     return speed;
 }
