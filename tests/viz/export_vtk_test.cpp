@@ -5,6 +5,7 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
 #include <vtkTriangle.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLPolyDataReader.h>
@@ -32,15 +33,19 @@ struct Made {
     }
 };
 
+vtkSmartPointer<vtkPolyData> read_vtp(const std::string& path) {
+    vtkNew<vtkXMLPolyDataReader> reader;
+    reader->SetFileName(path.c_str());
+    reader->Update();
+    return reader->GetOutput();
+}
+
 TEST(ExportVtk, VtpHoldsPointsPassesTrianglesAndColumns) {
     const Made made;
     const test::TemporaryFolder folder;
     const std::string path = folder / "a.vtp";
     write_vtp(path, made.surface, {{"speed", &made.values}});
-    vtkNew<vtkXMLPolyDataReader> reader;
-    reader->SetFileName(path.c_str());
-    reader->Update();
-    vtkPolyData* read = reader->GetOutput();
+    const vtkSmartPointer<vtkPolyData> read = read_vtp(path);
     EXPECT_EQ(read->GetNumberOfPoints(), made.surface.positions.size());
     EXPECT_EQ(read->GetNumberOfLines(), 3);
     EXPECT_GT(read->GetNumberOfPolys(), 300);
@@ -57,10 +62,7 @@ TEST(ExportVtk, AMissingPassStaysOpen) {
     const test::TemporaryFolder folder;
     const std::string path = folder / "a.vtp";
     write_vtp(path, made.surface, {{"speed", &made.values}});
-    vtkNew<vtkXMLPolyDataReader> reader;
-    reader->SetFileName(path.c_str());
-    reader->Update();
-    vtkPolyData* read = reader->GetOutput();
+    const vtkSmartPointer<vtkPolyData> read = read_vtp(path);
     double area = 0;
     for (vtkIdType k = 0; k < read->GetNumberOfCells(); ++k) {
         vtkCell* cell = read->GetCell(k);
