@@ -86,10 +86,10 @@ private:
     /// closes what that leaves open.
     [[nodiscard]] std::int32_t seen_across(std::int64_t b, Side side) const {
         const PointIndex i = point(b);
-        if (!s_.neighbours.has(side, i)) return none;
+        if (!s_.neighbours.has(side, i) || link(b)) return none;
         const PointIndex m = s_.neighbours.neighbour(side, i);
         const std::int64_t a = m < i ? vertex_of(m) : -1;
-        if (m < i && a < 0) return none;
+        if (m < i && (a < 0 || link(a))) return none;
         const auto way = static_cast<float>(tangent_step_overs * s_.step_over);
         const Vec3f tangent = s_.positions[point(moved(b, +1, way))] - s_.positions[point(moved(b, -1, way))];
         const Vec3f d = s_.positions[m < i ? point(a) : m] - s_.positions[i];
@@ -197,7 +197,7 @@ private:
     /// Returns whether it came to the next band.
     bool seam(std::int64_t b, int b_step, Side side, Column<std::uint32_t>& triangles) const {
         std::int64_t a = earlier(b, side);
-        const int a_step = step_across(a, b, b_step, side);
+        const int a_step = step_across(a, b, b_step);
         const float first = distance(a, b);
         const float width = std::max(first, least_width * static_cast<float>(s_.step_over));
         const std::size_t begin = triangles.size();
@@ -209,10 +209,18 @@ private:
         float now = first;
         float way = 0;  // of both passes
         bool turned = false;  // both ways lead away from each other
+        // Both passes lead into the link of a turn. Of passes that run alike only the end of the earlier leads to
+        // the beginning of the later; their other links go to other passes.
+        const auto may = [&](std::int64_t vertex, int step, bool leads_across) {
+            if (!goes_on(vertex, step)) return false;
+            const bool linked = link(vertex + step);
+            if (!through_links) return !linked;
+            return a_step != b_step || (leads_across && (linked || link(vertex)));
+        };
         for (std::int64_t moved = 0; moved < longest_gap; ++moved) {
             if (a_step > 0 && b_step < 0 && b - a <= 1) return false;  // met in the turn
-            const bool a_may = goes_on(a, a_step) && (through_links || !link(a + a_step));
-            const bool b_may = goes_on(b, b_step) && (through_links || !link(b + b_step));
+            const bool a_may = may(a, a_step, b_step > 0);
+            const bool b_may = may(b, b_step, b_step < 0);
             if (!a_may && !b_may) {
                 if (through_links) break;
                 at_ends = triangles.size();
@@ -256,20 +264,13 @@ private:
         return false;
     }
 
-    /// In which direction the other pass goes on where the own one goes in b_step: as along the band before,
-    /// or as it lies.
-    [[nodiscard]] int step_across(std::int64_t a, std::int64_t b, int b_step, Side side) const {
-        std::int64_t back = b;
-        constexpr int looked = 8;
-        for (int k = 0; k < looked && goes_on(back, -b_step); ++k) {
-            back -= b_step;
-            if (!has_earlier(back, side)) break;
-            if (earlier(back, side) != a) return earlier(back, side) < a ? 1 : -1;
-        }
-        const auto ends = [&](std::int64_t v) -> Vec3f {
-            return s_.positions[point(goes_on(v, +1) ? v + 1 : v)] - s_.positions[point(goes_on(v, -1) ? v - 1 : v)];
-        };
-        return ends(a).dot(ends(b)) > 0 ? b_step : -b_step;
+    /// In which direction the other pass goes on where the own one goes in b_step: not the one that leads back
+    /// along the band.
+    [[nodiscard]] int step_across(std::int64_t a, std::int64_t b, int b_step) const {
+        const auto way = static_cast<float>(s_.step_over);
+        const auto chord = [&](std::int64_t from, int direction) -> Vec3f { return s_.positions[point(moved(from, direction, way))] - s_.positions[point(from)]; };
+        const Vec3f back = chord(b, -b_step);
+        return chord(a, +1).dot(back) > chord(a, -1).dot(back) ? -1 : 1;
     }
 
     [[nodiscard]] PointIndex point(std::int64_t vertex) const {
@@ -336,19 +337,38 @@ private:
 
 }  // namespace
 
+Passes pieces_of_way(const ClSurface& surface) {
+    Passes pieces;
+    auto jog = surface.jogs.begin();
+    for (const Pass& pass : surface.passes) {
+        PointIndex first = pass.first;
+        for (; jog != surface.jogs.end() && jog->first <= pass.last; ++jog) {
+            if (jog->first > first) pieces.push_back({first, jog->first - 1, pass.kind});
+            first = std::max(first, jog->first);
+            const PointIndex last = std::min(jog->last, pass.last);
+            if (last >= first) pieces.push_back({first, last, PassKind::link});
+            first = last + 1;
+            if (jog->last > pass.last) break;  // goes on in the next
+        }
+        if (first <= pass.last) pieces.push_back({first, pass.last, pass.kind});
+    }
+    return pieces;
+}
+
 WayVertices way_vertices(const ClSurface& surface, std::span<const PointIndex> points) {
     WayVertices vertices;
     vertices.points.reserve(points.size());
     std::size_t at = 0;
-    for (std::size_t k = 0; k < surface.passes.size(); ++k) {
-        const Pass& pass = surface.passes[k];
-        const bool rapid = pass.kind == PassKind::rapid;
+    const Passes pieces = pieces_of_way(surface);
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+        const Pass& piece = pieces[k];
+        const bool rapid = piece.kind == PassKind::rapid;
         // Neighbouring pieces of one run (pass, link, the next turn of a spiral) hang together.
-        bool joins = k > 0 && surface.passes[k - 1].kind != PassKind::rapid;
-        for (; at < points.size() && points[at] <= pass.last; ++at) {
+        bool joins = k > 0 && pieces[k - 1].kind != PassKind::rapid;
+        for (; at < points.size() && points[at] <= piece.last; ++at) {
             vertices.points.push_back(points[at]);
             vertices.joined.push_back(joins && !rapid ? 1 : 0);
-            vertices.links.push_back(pass.kind == PassKind::link ? 1 : 0);
+            vertices.links.push_back(piece.kind == PassKind::link ? 1 : 0);
             joins = true;
         }
     }

@@ -18,6 +18,10 @@ struct WayVertices {
     Column<std::uint8_t> links;   ///< 1: on the way from one pass to the next
 };
 
+/// The passes with the steps sideways between closed loops as links of their own: bands end there, so that how
+/// fast such a step was made is not drawn into the passes beside it.
+[[nodiscard]] Passes pieces_of_way(const ClSurface& surface);
+
 /// The vertices of points, rising: one each; those of rapids are joined to nothing. Domain: the ends of
 /// all passes and links are among them.
 [[nodiscard]] WayVertices way_vertices(const ClSurface& surface, std::span<const PointIndex> points);

@@ -67,7 +67,7 @@ struct Part {
     bool link = false;
 };
 
-/// Cut passes in parts, in order.
+/// Passes and links in parts, in order.
 std::vector<Part> parts_of(const Passes& passes) {
     std::vector<Part> parts;
     for (std::size_t k = 0; k < passes.size(); ++k) {
@@ -159,7 +159,7 @@ Detail visible_detail(const ClSurface& surface, std::span<const float> values,
                       const DetailRequest& request) {
     const Projector projector(surface, request);
     const auto step = static_cast<float>(request.vertex_step);
-    const std::vector<Part> parts = parts_of(surface.passes);
+    const std::vector<Part> parts = parts_of(pieces_of_way(surface));
     std::vector<Vertices> of_part(parts.size());
     parallel_for(static_cast<std::int64_t>(parts.size()), 1, [&](std::int64_t first, std::int64_t last) {
         for (std::int64_t k = first; k < last; ++k) {

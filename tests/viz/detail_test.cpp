@@ -1,6 +1,9 @@
 // Detail: the triangles between passes leave nothing open, and end where the passes do.
 #include "viz/detail.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "path/way.h"
@@ -21,19 +24,22 @@ ClSurface surface_of(Positions positions, double step_over) {
     return surface;
 }
 
-/// Seen from above, 0,0 in the middle.
-Detail detail_of(const ClSurface& surface) {
+/// Seen from above, 0,0 in the middle; `values` empty: 1 everywhere.
+Detail detail_of(const ClSurface& surface, std::vector<float> values = {}) {
     DetailRequest request;
     request.projection << pixels_per_mm, 0, 0, 500, 0, pixels_per_mm, 0, 500;
     request.width = request.height = 1000;
-    return visible_detail(surface, std::vector<float>(static_cast<std::size_t>(surface.positions.size()), 1.0F), request);
+    if (values.empty()) values.resize(static_cast<std::size_t>(surface.positions.size()), 1.0F);
+    return visible_detail(surface, values, request);
 }
 
 class Covered {
 public:
-    explicit Covered(const Detail& detail) : g_(detail.geometry) {}
-    bool operator()(double x, double y) const {
+    explicit Covered(const Detail& detail) : detail_(detail), g_(detail.geometry) {}
+    /// By a triangle with a value of at least that at a corner.
+    bool operator()(double x, double y, float least = 0) const {
         for (std::size_t t = 0; t + 2 < g_.triangles.size(); t += 3) {
+            if (std::max({value(t), value(t + 1), value(t + 2)}) < least) continue;
             double side[3];
             for (std::size_t k = 0; k < 3; ++k) {
                 const Vec2 a = corner(t + k);
@@ -47,10 +53,12 @@ public:
     }
 
 private:
+    [[nodiscard]] float value(std::size_t k) const { return detail_.values[g_.triangles[k]]; }
     [[nodiscard]] Vec2 corner(std::size_t k) const {
         const std::size_t v = g_.triangles[k];
         return Vec2(g_.xyz[3 * v] + g_.origin.x(), g_.xyz[3 * v + 1] + g_.origin.y());
     }
+    const Detail& detail_;
     const Geometry& g_;
 };
 
@@ -63,6 +71,29 @@ TEST(Detail, LeavesNothingOpenWhereLoopsBegin) {
     }
     EXPECT_FALSE(covered(5.5, 0.01));
     EXPECT_FALSE(covered(10.1, 0.01));
+}
+
+TEST(Detail, DrawsAStepSidewaysNowhereElse) {
+    ClSurface surface = surface_of(test::loops(10, 12, 0.4, 0.02), 0.4);
+    std::vector<float> values(static_cast<std::size_t>(surface.positions.size()), 1.0F);
+    const auto in_jog = [&](PointIndex i) { return i > 0 && surface.positions[i].y() == 0 && surface.positions[i - 1].y() == 0; };
+    for (PointIndex i = 0; i < surface.positions.size(); ++i) {
+        if (!in_jog(i)) continue;
+        values[static_cast<std::size_t>(i)] = 100;
+        if (in_jog(i - 1)) surface.jogs.back().last = i;
+        else surface.jogs.push_back({i, i});
+    }
+    ASSERT_EQ(surface.jogs.size(), 11U);
+    const Detail detail = detail_of(surface, values);
+    const Covered covered(detail);
+    for (double x = 5.65; x < 9.95; x += 0.043) {
+        for (double y = -0.6; y < 0.6; y += 0.037) {
+            EXPECT_TRUE(covered(x, y)) << x << ' ' << y;
+            if (std::abs(y) > 0.04) {
+                EXPECT_FALSE(covered(x, y, 2)) << x << ' ' << y;
+            }
+        }
+    }
 }
 
 TEST(Detail, EndsInALineWhereThePassesDo) {
