@@ -92,8 +92,8 @@ FormedPart::FormedPart(const Part& part, const ClSurface& surface, std::optional
     clock.begin("sweep the tool");
     upright_ = upright_part(part, role, tool);
     if (!upright_) read_ = signals_of(part, surface, role);
-    const PartSignals& along = upright_ ? upright_->read : read_;
-    formed_.emplace(upright_ ? upright_->surface : surface, along.signals, part.path.role, along.swept(upright_ ? upright_->path : part.path), along.pieces, tool);
+    const ToolRun run = upright_ ? upright_->run() : ToolRun{part.path, surface, read_};
+    formed_.emplace(run.formed(tool));
 }
 
 FormedMap make_formed_map(const FormedPart& part, const Box3& box, const viz::Camera& camera) {

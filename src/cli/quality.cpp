@@ -50,6 +50,8 @@ std::optional<Role> take_measured_role(PartOptions& options) {
 
 PartSignals signals_of(const Part& part, const ClSurface& surface, std::optional<Role> wanted) { return signals_along(part.log, part.path, surface, wanted); }
 
+FormedSurface ToolRun::formed(const CuttingTool& tool) const { return {surface, read.signals, path.role, read.swept(path), read.pieces, tool}; }
+
 std::unique_ptr<const UprightPart> upright_part(const Part& part, std::optional<Role> wanted, const CuttingTool& tool) {
     if (!tilts(part.log, part.path)) return nullptr;
     if (tool.kind != ToolKind::ball) {
@@ -74,13 +76,12 @@ Quality judge(Part& part, const ClSurface& surface, std::optional<Role> wanted, 
     if (!options.tool_given || surface.step_over <= 0) return quality;
     clock.begin("measure the formed surface");
     const std::unique_ptr<const UprightPart> upright = upright_part(part, wanted, options.tool);
-    const ClSurface& cut = upright ? upright->surface : surface;
-    const PartSignals& along = upright ? upright->read : read;
-    if (options.tool.kind == ToolKind::ball && cut.step_over > 0 && cut.step_over < 2 * options.tool.radius) {
-        quality.scallop = scallop_height(options.tool.radius, cut.step_over, std::numeric_limits<double>::infinity());
+    const ToolRun run = upright ? upright->run() : ToolRun{part.path, surface, read};
+    const double step_over = run.surface.step_over;
+    if (options.tool.kind == ToolKind::ball && step_over > 0 && step_over < 2 * options.tool.radius) {
+        quality.scallop = scallop_height(options.tool.radius, step_over, std::numeric_limits<double>::infinity());
     }
-    const FormedSurface formed(cut, along.signals, part.path.role, along.swept(upright ? upright->path : part.path), along.pieces, options.tool);
-    quality.formed = measure_formed(formed, along.signals, quality.report);
+    quality.formed = measure_formed(run.formed(options.tool), run.read.signals, quality.report);
     return quality;
 }
 

@@ -35,11 +35,23 @@ struct PartSignals {
 /// that the log has besides the commanded ones (actual, then feedback).
 [[nodiscard]] PartSignals signals_of(const Part& part, const ClSurface& surface, std::optional<Role> wanted);
 
+/// What a tool is swept along.
+struct ToolRun {
+    const Trajectory& path;
+    const ClSurface& surface;
+    const PartSignals& read;
+
+    /// Refers to what this refers to.
+    [[nodiscard]] FormedSurface formed(const CuttingTool& tool) const;
+};
+
 /// A part as an upright tool that cuts the same goes over it.
 struct UprightPart {
     Trajectory path;
     ClSurface surface;
     PartSignals read;
+
+    [[nodiscard]] ToolRun run() const { return {path, surface, read}; }
 };
 
 /// nullptr: the tool stands along z all the time. Else it must be a ball, whose centre is what counts; throws

@@ -23,7 +23,6 @@ struct IntervalRules {
     double flat_curvature = 1e-3; ///< [1/mm] less counts as this much
     double drift_ratio = 4;       ///< greatest over least curvature inside; 0: not looked at
     double reach = 0;             ///< [mm] of way to each side that a curvature is measured over, at least
-    double overload = 1;          ///< of the normal acceleration at the greatest curvature
 };
 
 /// Points first … last of a pass; neighbours share the point between them.

@@ -16,6 +16,6 @@ struct SpeedLimits {
 [[nodiscard]] SpeedLimits speed_limits_of(const Machine& machine);
 
 /// The speed that an interval can be run at [mm/s], at most `feed`.
-[[nodiscard]] double planned_speed(const SpeedInterval& interval, double feed, const SpeedLimits& limits, double overload = 1);
+[[nodiscard]] double planned_speed(const SpeedInterval& interval, double feed, const SpeedLimits& limits);
 
 }  // namespace clsurf

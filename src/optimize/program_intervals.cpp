@@ -58,7 +58,7 @@ private:
             }
             for (PointIndex i = ends[piece.first] + 1; i <= ends[piece.last]; ++i) of_point_[static_cast<std::size_t>(i)] = static_cast<std::uint32_t>(result_.intervals.size());
             const double most = std::min(interval.feed * machine_.controller.feed_override, machine_.path.max_speed);
-            interval.own_speed = interval.speed = planned_speed(piece, most, speed_limits_of(machine_), rules_.overload);
+            interval.own_speed = interval.speed = planned_speed(piece, most, speed_limits_of(machine_));
             result_.intervals.push_back(interval);
         }
         for (std::size_t k = first + 1; k + 1 < result_.intervals.size(); ++k) {
