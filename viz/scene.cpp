@@ -418,11 +418,18 @@ Camera map_camera(const std::vector<MapPanel>& panels, const Look& look) {
     const Rect rect = panel_rect(panels, 0, look, Layout(look));
     const auto width = static_cast<int>(rect.width);
     const auto height = static_cast<int>(rect.height);
-    if (!look.box.isEmpty()) return camera_for(look.view, look.box, width, height, look.zoom);
-    const ViewAxes axes = axes_of(look.view);
-    Box3 extent;
-    for (const MapPanel& map : panels) extent.extend(map.relief != nullptr ? extent_of(*map.relief, axes) : extent_of(*map.surface, axes));
-    return camera_for(axes, extent, width, height, look.zoom);
+    const auto extent = [&](const ViewAxes& axes) {
+        Box3 all;
+        for (const MapPanel& map : panels) all.extend(map.relief != nullptr ? extent_of(*map.relief, axes) : extent_of(*map.surface, axes));
+        return all;
+    };
+    if (look.box.isEmpty()) {
+        const ViewAxes axes = axes_of(look.view);
+        return camera_for(axes, extent(axes), width, height, look.zoom);
+    }
+    // Where the box is larger than the part, as one may give it along Z, the part is what counts.
+    const Box3 filled = look.box.intersection(extent(ViewAxes::Identity()));
+    return camera_for(look.view, filled.isEmpty() ? look.box : filled, width, height, look.zoom);
 }
 
 Sheet map_sheet(const std::vector<MapPanel>& panels, const Camera& camera, const ColourScale& scale, const MapTexts& texts, const Look& look) {

@@ -64,7 +64,8 @@ struct MapTexts {
 /// Extent along the axes of a view of the points that do not belong to rapids [mm]. O(points), parallel.
 [[nodiscard]] Box3 extent_of(const ClSurface& surface, const ViewAxes& axes);
 
-/// What the map panels show: a camera of the panels' size. The box, where there is one, else all that is drawn.
+/// What the map panels show: a camera of the panels' size. What the part fills of the box,
+/// where there is one, else all that is drawn.
 [[nodiscard]] Camera map_camera(const std::vector<MapPanel>& panels, const Look& look);
 
 /// Whether a position lies in the picture and, where there is one, in the box.
