@@ -1,6 +1,6 @@
 #pragma once
-// Scene: a quality map on a sheet: panels, title, legend, marks, scale bar, axes. To draw another
-// thing, add a function to scene.cpp that puts it on the sheet.
+// Scene: a quality map on a sheet: panels, what stands round them (map_margin.h), what is marked on
+// them (map_marks.h). To draw another thing, add a function that puts it on the sheet.
 
 #include <string>
 #include <vector>

@@ -1,0 +1,144 @@
+#include "viz/map_margin.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace clsurf::viz {
+namespace {
+
+void add_text(Sheet& sheet, double x, double y, std::string text, double size, Align align, Rgb rgb, bool bold = false) {
+    sheet.texts.push_back({x, y, std::move(text), size, align, bold, rgb});
+}
+
+/// Beyond an end of the bar there are values: a point of the end's colour.
+void add_beyond(Sheet& sheet, const ColourScale& scale, bool above, double x, double width, double y, double height, Rgb frame) {
+    const Rgb rgb = scale.colour(above ? scale.high : scale.low);
+    const double sign = above ? 1 : -1;
+    constexpr int slices = 24;
+    for (int k = 0; k < slices; ++k) {
+        const double part = 1 - (k + 0.5) / slices;
+        const double low = sign > 0 ? y + height * k / slices : y - height * (k + 1) / slices;
+        sheet.quads.push_back({{x + 0.5 * width * (1 - part), low, width * part, height / slices + 0.3}, rgb});
+    }
+    sheet.lines.push_back({{{x, y}, {x + 0.5 * width, y + sign * height}, {x + width, y}}, 1.0, frame});
+}
+
+/// Round values; where the colours are steps, their edges, as many as have room.
+std::vector<double> legend_ticks(const ColourScale& scale, int wanted) {
+    if (!(scale.high > scale.low)) return {scale.low};
+    if (scale.bins == 0) return nice_ticks(scale.low, scale.high, std::max(2, wanted));
+    std::vector<double> edges;
+    const int each = (scale.bins - 1) / std::max(2, 2 * wanted) + 1;
+    for (int k = each; k < scale.bins; k += each) edges.push_back(scale.low + (scale.high - scale.low) * k / scale.bins);
+    return edges;
+}
+
+}  // namespace
+
+void add_title(Sheet& sheet, const MapTexts& texts, const Look& look, const MapLayout& layout, Rgb ink) {
+    const double width = look.width - 2 * layout.margin;
+    const double top = look.height - layout.margin;
+    sheet.texts.push_back(fitted({layout.margin, top - 0.5 * layout.text, texts.title, 1.25 * layout.text, Align::left, true, ink}, width));
+    sheet.texts.push_back(fitted({layout.margin, top - 2.0 * layout.text, texts.subtitle, layout.small_text, Align::left, false, faint(ink, look.background)}, width));
+    const double note_width = 0.72 * (look.width - layout.legend_width) - layout.margin;
+    FlatText note{layout.margin, layout.margin * 0.5 + 0.5 * layout.small_text, "", layout.small_text, Align::left, false, faint(ink, look.background)};
+    // From the top: a line takes as many notes as fit; there is room for two.
+    constexpr std::size_t most_lines = 2;
+    std::vector<FlatText> lines;
+    for (const std::string& part : texts.notes) {
+        FlatText longer = note;
+        longer.text = lines.empty() ? part : lines.back().text + "; " + part;
+        if (!lines.empty() && (lines.size() == most_lines || text_width(longer) <= note_width)) {
+            lines.back() = std::move(longer);
+            continue;
+        }
+        lines.push_back(note);
+        lines.back().text = part;
+    }
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+        lines[k].y += 1.25 * layout.small_text * static_cast<double>(lines.size() - 1 - k);
+        sheet.texts.push_back(fitted(std::move(lines[k]), note_width));
+    }
+}
+
+void add_legend(Sheet& sheet, const ColourScale& scale, const FieldInfo& field, const Beyond& beyond, const Look& look, const MapLayout& layout, Rgb ink) {
+    const double x = look.width - layout.legend_width + 0.6 * layout.text;
+    const double bar_width = 1.3 * layout.text;
+    const double bottom = layout.note_height + 7.2 * layout.text;
+    const double top = look.height - layout.title_height - 2.6 * layout.text;
+    const double height = top - bottom;
+    if (height < 3 * layout.text) return;
+    const int cells = scale.bins > 0 ? scale.bins : static_cast<int>(std::clamp(height, 16.0, 512.0));
+    for (int k = 0; k < cells; ++k) {
+        const double value = scale.low + (scale.high - scale.low) * (k + 0.5) / cells;
+        sheet.quads.push_back({{x, bottom + height * k / cells, bar_width, height / cells + 0.6}, scale.colour(value)});
+    }
+    const Rgb frame = faint(ink, look.background);
+    sheet.lines.push_back({{{x, bottom}, {x + bar_width, bottom}, {x + bar_width, top}, {x, top}, {x, bottom}}, 1.0, frame});
+    const std::vector<double> ticks = legend_ticks(scale, static_cast<int>(height / (3 * layout.text)));
+    double step = ticks.size() > 1 ? ticks[1] - ticks[0] : 1.0;
+    if (scale.bins > 0) step /= 10;  // the edges of steps are not round
+    // The ends of the range stand there exactly; ticks too near to them give way.
+    const double near = 1.3 * layout.small_text / height * (scale.high - scale.low);
+    for (const double end : {scale.low, scale.high}) {
+        if (!(scale.high > scale.low) && end == scale.high) continue;
+        const double y = end == scale.low ? bottom : top;
+        add_text(sheet, x + bar_width + 0.5 * layout.text, y, tick_text(end, scale.bins > 0 ? step : step / 10), layout.small_text, Align::left, ink, true);
+    }
+    for (const double tick : ticks) {
+        if (tick - scale.low < near || scale.high - tick < near) continue;
+        const double t = scale.high > scale.low ? (tick - scale.low) / (scale.high - scale.low) : 0.5;
+        const double y = bottom + t * height;
+        sheet.lines.push_back({{{x + bar_width, y}, {x + bar_width + 0.3 * layout.text, y}}, 1.0, frame});
+        add_text(sheet, x + bar_width + 0.5 * layout.text, y, tick_text(tick, step), layout.small_text, Align::left, ink);
+    }
+    const double point = 0.9 * layout.text;
+    if (beyond.above) add_beyond(sheet, scale, true, x, bar_width, top, point, frame);
+    if (beyond.below) add_beyond(sheet, scale, false, x, bar_width, bottom, point, frame);
+    const std::string unit = field.unit.name.empty() ? std::string() : fmt::format("[{}]", field.unit.name);
+    add_text(sheet, x, top + 2.1 * layout.text, unit, layout.text, Align::left, ink, true);
+    if (beyond.missing) {
+        const double y = bottom - 2.0 * layout.text;
+        sheet.quads.push_back({{x, y - 0.4 * layout.text, bar_width, 0.8 * layout.text}, missing_colour});
+        add_text(sheet, x + bar_width + 0.5 * layout.text, y, "no value", layout.small_text, Align::left, ink);
+    }
+}
+
+void add_scale_bar(Sheet& sheet, const MeshPanel& panel, const MapLayout& layout, Rgb ink) {
+    const double wanted = 0.22 * panel.rect.width * panel.camera.mm_per_pixel;
+    const double power = std::pow(10.0, std::floor(std::log10(wanted)));
+    double length = power;
+    for (const double factor : {2.0, 5.0}) {
+        if (factor * power <= wanted) length = factor * power;
+    }
+    const double pixels = length / panel.camera.mm_per_pixel;
+    const double x = panel.rect.x + panel.rect.width - layout.margin - pixels;
+    const double y = 0.55 * layout.margin + 0.2 * layout.text;
+    const double tick = 0.35 * layout.text;
+    sheet.lines.push_back({{{x, y + tick}, {x, y - tick}}, 1.5, ink});
+    sheet.lines.push_back({{{x, y}, {x + pixels, y}}, 1.5, ink});
+    sheet.lines.push_back({{{x + pixels, y + tick}, {x + pixels, y - tick}}, 1.5, ink});
+    add_text(sheet, x + 0.5 * pixels, y + 0.9 * layout.text, fmt::format("{:g} mm", length), layout.small_text, Align::centre, ink);
+}
+
+void add_axes(Sheet& sheet, const MeshPanel& panel, const MapLayout& layout, Rgb ink) {
+    // Below the legend, where no map can be under it.
+    const Vec2 origin(panel.rect.x + panel.rect.width + 0.42 * layout.legend_width, 3.4 * layout.text);
+    const double length = 2.0 * layout.text;
+    for (int axis = 0; axis < 3; ++axis) {
+        const Vec3 direction = Vec3::Unit(axis);
+        const Vec2 flat(direction.dot(panel.camera.right), direction.dot(panel.camera.up));
+        if (flat.norm() < 0.15) continue;  // it points at the eye
+        static constexpr Rgb colours[3] = {{200, 40, 40}, {30, 140, 50}, {40, 80, 200}};
+        sheet.lines.push_back({{origin, origin + length * flat}, 2.0, colours[axis]});
+        const Vec2 at = origin + (length + 0.55 * layout.text) * flat.normalized() * std::max(0.5, flat.norm());
+        add_text(sheet, at.x(), at.y(), std::string(1, "XYZ"[axis]), layout.small_text, Align::centre, ink);
+    }
+}
+
+}  // namespace clsurf::viz

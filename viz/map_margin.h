@@ -1,0 +1,26 @@
+#pragma once
+// MapMargin: what stands round a map: title, legend, scale bar, axes.
+
+#include "viz/colour_map.h"
+#include "viz/map_layout.h"
+
+namespace clsurf::viz {
+
+/// What the colours of a map leave out: values beyond the range by more than can be read off it.
+struct Beyond {
+    bool below = false, above = false, missing = false;
+};
+
+/// Title, subtitle and notes.
+void add_title(Sheet& sheet, const MapTexts& texts, const Look& look, const MapLayout& layout, Rgb ink);
+
+/// The colours with their numbers; an end beyond which there are values is pointed.
+void add_legend(Sheet& sheet, const ColourScale& scale, const FieldInfo& field, const Beyond& beyond, const Look& look, const MapLayout& layout, Rgb ink);
+
+/// A bar of a round length, true in the whole picture since the projection is parallel.
+void add_scale_bar(Sheet& sheet, const MeshPanel& panel, const MapLayout& layout, Rgb ink);
+
+/// X, Y and Z as the camera sees them.
+void add_axes(Sheet& sheet, const MeshPanel& panel, const MapLayout& layout, Rgb ink);
+
+}  // namespace clsurf::viz
