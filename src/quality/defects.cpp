@@ -167,10 +167,9 @@ private:
         std::vector<double> accelerations;
         for (const Suspect* s : core) {
             const Comparison& c = s->comparison;
-            const float lag = c.residual[index_of(Quantity::lag)];
-            // Measured and commanded relief differ by the lag; where there is no lag the relief is all.
-            const bool by_relief = defect.quantity == Quantity::relief || !(lag == lag);
-            heights.push_back(by_relief ? c.residual[index_of(Quantity::relief)] : lag);
+            // Measured and commanded relief differ by the lag; where nothing was measured the relief is all.
+            const bool by_relief = defect.quantity == Quantity::relief || !signals_.measured;
+            heights.push_back(c.residual[index_of(by_relief ? Quantity::relief : Quantity::lag)]);
             speeds.push_back(c.speed_jump);
             mismatches.push_back(c.residual[index_of(Quantity::speed)]);
             accelerations.push_back(c.step[index_of(Quantity::acceleration)]);

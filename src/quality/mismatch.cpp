@@ -18,6 +18,8 @@ constexpr std::size_t sampled_points = 50'000;
 constexpr float normal_deviation = 1.4826F;  ///< standard deviations per median absolute deviation
 constexpr float along_or_against = 0.866F;   ///< cos 30°: neighbours run along with the feed or against it
 constexpr std::size_t fewest_passes = 2;     ///< for a median
+constexpr float shape_left = 0.35F;          ///< of a relief: more is left of it beside it where it is the part's own
+constexpr float shape_beside = 0.6F;         ///< of the largest relief around: a smaller one lies beside an edge
 
 /// Median of one quantity over places; NaN with fewer than two.
 template <typename Read>
@@ -45,6 +47,24 @@ float change_of_two_periods(const Signals& signals, float Sample::*signal, Point
     if (point < reach || point + reach >= signals.size()) return 0;
     const float change = std::abs(signals[point + reach].*signal - signals[point - reach].*signal) / reach;
     return change == change ? change : 0;
+}
+
+/// Whether a relief is the part's own. A pass that lies off lifts the chords of its neighbours, or lowers them, by
+/// as much as it stands out: with the pass beside it, or both, its relief adds up to nothing. That of an edge
+/// or a fillet of the part adds up to the angle by which the surface turns there, and beside one reliefs may add up
+/// to anything, but are smaller. Counted from the mean of all `places` around.
+bool is_shape(float relief, const Compared& left, const Compared& right, std::span<const Compared> places) {
+    float sum = relief;
+    int known = 1;
+    for (const Compared& place : places) {
+        if (!(place.relief == place.relief)) continue;  // a pass at the border
+        sum += place.relief;
+        ++known;
+    }
+    const float mean = sum / static_cast<float>(known);
+    const float own = relief - mean, l = left.relief - mean, r = right.relief - mean;
+    if (std::min({std::abs(own + l), std::abs(own + r), std::abs(own + l + r)}) > shape_left * std::abs(own)) return true;
+    return std::any_of(places.begin(), places.end(), [&](const Compared& v) { return std::abs(own) < shape_beside * std::abs(v.relief - mean); });
 }
 
 float quantile(std::vector<float>& values, double share) { return values.empty() ? none : quantile_below(values, share); }
@@ -145,7 +165,8 @@ Comparison Comparer::compare(PointIndex point, int aside) const {
     result.speed_jump = mine.speed - usual;
     result.residual[index_of(Quantity::speed)] = result.speed_jump / reference;
     result.residual[index_of(Quantity::lag)] = mine.lag - median_of(places, [](const Compared& v) { return v.lag; });
-    result.residual[index_of(Quantity::relief)] = mine.relief - median_of(places, [](const Compared& v) { return v.relief; });
+    const float usual_relief = median_of(places, [](const Compared& v) { return v.relief; });
+    result.residual[index_of(Quantity::relief)] = even > 0 && is_shape(mine.relief, beside_it[0][0], beside_it[1][0], places) ? 0 : mine.relief - usual_relief;
     Eigen::Vector3f consensus;
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
         consensus[axis] = median_of(places, [axis](const Compared& v) { return v.acceleration[axis]; });
