@@ -43,7 +43,7 @@ for (const [name, width, height, colorScheme] of [['light_1280', 1280, 800, 'lig
 test('a defect enlarged', async () => {
     const page = await openReport(browser, file);
     await press(page, 't');
-    await page.click('[data-choice="defect-9"]');
+    await page.click('[data-choice="defect-7"]');
     await page.mouse.move(2, 2);
     await comparePicture(page, 'defect');
     await closeReport(page);
