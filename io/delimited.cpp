@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "io/text_mapping.h"
+#include "log/channel.h"
 
 namespace clsurf::io {
 
@@ -33,12 +34,14 @@ int probe_delimited(std::span<const std::byte> head, const LogOptions& options) 
     do {
         line = first_line(rest);
     } while (is_comment(line) && !rest.empty());
-    // A header that names at least one axis position.
+    // A header that names a position by its role, or all three of them without.
+    std::size_t axes = 0;
     for (const std::string& field : split(line, detect_separator(line))) {
-        const std::string name = plan_from_header(field).name;
-        if (name.size() > 2 && (name.starts_with("cmd.") || name.starts_with("fb.") || name.starts_with("act."))) return 80;
+        const std::string name = settled_name(plan_from_header(field).name);
+        if (is_position(name)) return 80;
+        axes += name == "x" || name == "y" || name == "z" ? 1 : 0;
     }
-    return 0;
+    return axes == 3 ? 70 : 0;
 }
 
 int probe_halsampler(std::span<const std::byte> head, const LogOptions& options) {

@@ -60,6 +60,7 @@ Log open_log(const Source& source, const LogOptions& options) {
                          "a foreign binary needs --layout FILE, a text without channel names --mapping FILE");
     }
     Log log = format->open(source, options);
+    settle_names(log);
     settle_units(log);
     if (!(log.period > 0)) log.period = log.measured_period();
     if (!(log.period > 0)) {

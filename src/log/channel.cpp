@@ -107,6 +107,14 @@ void settle_unit(Log& log, Channel& channel) {
     channel.unit = std::string(wanted);
 }
 
+constexpr std::array<std::string_view, 6> axes{"x", "y", "z", "a", "b", "c"};
+
+bool is_known(std::string_view name) {
+    return std::any_of(table.begin(), table.end(), [&](const ChannelInfo& info) {
+        return info.name.ends_with('.') ? name.size() == info.name.size() + 1 && name.starts_with(info.name) : name == info.name;
+    });
+}
+
 /// Clocks that do not begin with the first record: a time of day, a time since 1970.
 void settle_time_origin(Log& log, Channel& time) {
     if (log.records == 0) return;
@@ -120,6 +128,33 @@ void settle_time_origin(Log& log, Channel& time) {
 }  // namespace
 
 std::span<const ChannelInfo> known_channels() { return table; }
+
+std::string settled_name(std::string_view name) {
+    std::string low(name);
+    for (char& c : low) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    const bool meant = is_known(low) || std::find(axes.begin(), axes.end(), low) != axes.end();
+    return meant ? low : std::string(name);
+}
+
+bool is_position(std::string_view name) { return is_known(name) && (name.starts_with("cmd.") || name.starts_with("fb.") || name.starts_with("act.")); }
+
+void settle_names(Log& log) {
+    for (Channel& channel : log.channels) {
+        const std::string name = settled_name(channel.name);
+        if (log.find(name) == nullptr) channel.name = name;
+    }
+    if (std::any_of(log.channels.begin(), log.channels.end(), [](const Channel& c) { return is_position(c.name); })) return;
+    std::string taken;
+    for (const std::string_view axis : axes) {
+        const auto found = std::find_if(log.channels.begin(), log.channels.end(), [&](const Channel& c) { return c.name == axis; });
+        if (found == log.channels.end()) continue;
+        taken += (taken.empty() ? "" : ", ") + found->name;
+        found->name = "cmd." + std::string(axis);
+    }
+    if (taken.empty()) return;
+    log.diagnostics.add({Severity::note, "log.roles", Place::of_file(log.name), fmt::format("whose positions {} are is not said: they are taken as the commanded ones", taken),
+                         "`--mapping` names them: cmd.x, fb.x, act.x"});
+}
 
 void settle_units(Log& log) {
     for (Channel& channel : log.channels) {

@@ -3,6 +3,7 @@
 // it is kept under its own name and unit.
 
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "log/log.h"
@@ -18,6 +19,16 @@ struct ChannelInfo {
 
 /// Every name that the project knows.
 [[nodiscard]] std::span<const ChannelInfo> known_channels();
+
+/// A name as it is known, whatever its case; bare axes likewise. Others as they are.
+[[nodiscard]] std::string settled_name(std::string_view name);
+
+/// "cmd.x", "fb.c", "act.y", …
+[[nodiscard]] bool is_position(std::string_view name);
+
+/// Gives channels their settled names. Where no position says whose it is, channels x, y, z,
+/// a, b, c are the commanded ones, with a note `log.roles`.
+void settle_names(Log& log);
 
 /// Brings positions to mm and deg, speeds to mm/min and time to seconds since the first record, as
 /// the rest of the project reads them. Scale, bias and unit change, the raw values stay. Each change

@@ -33,6 +33,23 @@ TEST(Delimited, TakesThePeriodFromAClockOfAnyUnitAndOrigin) {
     EXPECT_DOUBLE_EQ(log.find("cmd.x")->values.at(0), 1.5);
 }
 
+TEST(Delimited, TakesPositionsWithoutARoleAsCommanded) {
+    const test::TemporaryFolder folder;
+    const Log log = open(folder, "Time,LINE,X [in],Y,Z,fb\n0,3,1,2,3,9\n0.002,4,1,2,3,9\n");
+    EXPECT_DOUBLE_EQ(log.find("cmd.x")->values.at(0), 25.4);
+    EXPECT_EQ(log.find("cmd.z")->values.at(1), 3);
+    EXPECT_EQ(log.find("line")->values.at(1), 4);
+    EXPECT_NE(log.find("fb"), nullptr);
+    EXPECT_DOUBLE_EQ(log.period, 0.002);
+    EXPECT_EQ(log.diagnostics.count("log.roles"), 1U);
+    // Where one role is named, X is something else.
+    const Log named = open(folder, "time,X,FB.X\n0,1,2\n0.002,1,2\n");
+    EXPECT_NE(named.find("x"), nullptr);
+    EXPECT_EQ(named.find("fb.x")->values.at(0), 2);
+    EXPECT_EQ(named.find("cmd.x"), nullptr);
+    EXPECT_EQ(named.diagnostics.count("log.roles"), 0U);
+}
+
 TEST(Delimited, UnderstandsSemicolonsWithDecimalCommas) {
     const test::TemporaryFolder folder;
     const Log log = open(folder, "time;cmd.x\n0;1,25\n0,001;1,5\n");
