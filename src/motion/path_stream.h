@@ -59,6 +59,7 @@ struct Span {
     // Greatest values on the span: of the first to third derivative of the position by the way, an axis each.
     Vec3 slope = Vec3::Zero(), bend = Vec3::Zero(), twist = Vec3::Zero();
     double greatest_slope = 0, greatest_bend = 0;  ///< of the vectors
+    double fourth = 0;                             ///< of the length of the fourth derivative [1/mm³]
     // Speed allowed by what does not depend on bends: feed, speed of path and axes; and why.
     double free_cap = 0;
     Ruling free_ruling = Ruling::none;

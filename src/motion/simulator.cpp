@@ -11,6 +11,7 @@
 #include "motion/lookahead.h"
 #include "motion/recorder.h"
 #include "motion/refiner.h"
+#include "motion/scan_driver.h"
 
 namespace clsurf {
 namespace {
@@ -24,8 +25,7 @@ public:
           refiner_(machine, interpolator, planning == Planning::by_nodes ? 0 : std::max(1, machine.controller.lookahead_blocks / 2)) {}
 
     /// Runs a section, from rest to rest.
-    template <typename Report>
-    void run_section(const Report& report) {
+    void run_section(const std::function<void()>& report) {
         window_.clear();
         pending_.clear();
         double speed = 0;
@@ -88,12 +88,15 @@ SimulationSummary simulate(const Program& program, const Machine& machine, const
     Recorder recorder(program, machine, from, sink);
     Interpolator interpolator(machine.controller.period, recorder);
     Controller controller(machine, stream, interpolator, planning);
+    ScanDriver scan(machine, stream, interpolator);
+    const bool scans = planning == Planning::nearly_optimal && jerks_freely(machine);
     const auto report = [&] {
         if (progress) progress("plan and interpolate", static_cast<double>(stream.blocks().motions_taken()) / static_cast<double>(std::max<std::int64_t>(1, program.motions.size())));
     };
     Vec3 at = from;
     while (stream.begin_section()) {
-        controller.run_section(report);
+        if (scans) scan.run_section(report);
+        else controller.run_section(report);
         at = stream.blocks().section_end();
         interpolator.rest(at, stream.blocks().dwell(), stream.blocks().dwell_line());
     }

@@ -124,7 +124,8 @@ void PathStream::add_roundings(Span& span, double begin, std::int64_t element) c
         const double play = 0.125 * turn * turn * (span.base.radius + std::abs(span.base.growth * span.base.length * rate)) * rate * rate * rate;
         span.twist.array() += (span.base.first.cwiseAbs() + span.base.second.cwiseAbs()).array().min(1.0) * play;
     }
-    double fourth = 24 * span.rounding[4].norm() + (span.base.arc ? span.base.radius * std::pow(span.base.rate, 4) : 0.0);
+    double& fourth = span.fourth;
+    fourth = 24 * span.rounding[4].norm() + (span.base.arc ? span.base.radius * std::pow(span.base.rate, 4) : 0.0);
     if (span.base.cubic) {
         // By the way a cubic is no polynomial: its differences stand for the derivatives, with as much again.
         Vec3 play = Vec3::Zero();

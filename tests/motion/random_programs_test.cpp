@@ -19,7 +19,8 @@ class Maker {
 public:
     explicit Maker(std::uint64_t seed) : random_(seed) {}
 
-    Machine machine(CornerMode corner, CurveMode curve) {
+    /// `jerk`: a limit of it that counts.
+    Machine machine(CornerMode corner, CurveMode curve, bool jerk) {
         Machine machine;
         machine.controller.corner = corner;
         machine.controller.curve = curve;
@@ -28,7 +29,8 @@ public:
         machine.controller.lookahead_blocks = static_cast<int>(spread(2, 300));
         if (chance(0.3)) machine.controller.feed_override = spread(0.01, 5);
         machine.path = {spread(20, 500), spread(200, 5000), spread(200, 5000), spread(5000, 200000)};
-        const bool any_jerk = corner == CornerMode::arc || chance(0.1);
+        const bool any_jerk = !jerk || corner == CornerMode::arc || chance(0.1);
+        if (!jerk) machine.path.max_jerk = 1e9;
         for (MachineAxis& axis : machine.axes) {
             axis.max_speed = spread(20, 500);
             axis.max_acceleration = spread(200, 5000);
@@ -116,6 +118,7 @@ double greatest_tolerance(const Program& program, const Machine& machine) {
 struct Modes {
     CornerMode corner;
     CurveMode curve;
+    bool jerk = true;
 };
 
 class RandomPrograms : public testing::TestWithParam<Modes> {};
@@ -124,7 +127,7 @@ TEST_P(RandomPrograms, HoldLimitsToleranceAndEnd) {
     Maker maker(20260721);
     constexpr int rounds = 6;
     for (int round = 0; round < rounds; ++round) {
-        const Machine machine = maker.machine(GetParam().corner, GetParam().curve);
+        const Machine machine = maker.machine(GetParam().corner, GetParam().curve, GetParam().jerk);
         const std::string text = maker.program();
         const Program program = program_of(text);
         const Recorded r = run_program(program, machine);
@@ -143,9 +146,11 @@ TEST_P(RandomPrograms, HoldLimitsToleranceAndEnd) {
 
 INSTANTIATE_TEST_SUITE_P(PathModes, RandomPrograms,
                          testing::Values(Modes{CornerMode::spline, CurveMode::none}, Modes{CornerMode::arc, CurveMode::none}, Modes{CornerMode::stop, CurveMode::none},
-                                         Modes{CornerMode::spline, CurveMode::akima}, Modes{CornerMode::spline, CurveMode::least_squares}, Modes{CornerMode::arc, CurveMode::akima}),
+                                         Modes{CornerMode::spline, CurveMode::akima}, Modes{CornerMode::spline, CurveMode::least_squares}, Modes{CornerMode::arc, CurveMode::akima},
+                                         Modes{CornerMode::spline, CurveMode::none, false}, Modes{CornerMode::arc, CurveMode::none, false}, Modes{CornerMode::stop, CurveMode::none, false},
+                                         Modes{CornerMode::spline, CurveMode::akima, false}),
                          [](const auto& modes) {
-                             std::string name = fmt::format("{}_{}", name_of(modes.param.corner), name_of(modes.param.curve));
+                             std::string name = fmt::format("{}_{}{}", name_of(modes.param.corner), name_of(modes.param.curve), modes.param.jerk ? "" : "_without_jerk_limit");
                              std::replace(name.begin(), name.end(), '-', '_');
                              return name;
                          });
