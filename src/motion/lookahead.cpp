@@ -46,16 +46,23 @@ bool scan_speeds(std::span<const Stretch> stretches, std::span<double> speeds) {
     return true;
 }
 
-void WindowPlanner::set_limits(Run& run, std::span<const Span> spans) const {
+const Easing& WindowPlanner::eased(std::span<const Span> spans, std::size_t span) {
+    Easing& easing = eased_[span];
+    if (easing.cap < 0) easing = ease(spans[span], *machine_, easing_);
+    return easing;
+}
+
+void WindowPlanner::set_limits(Run& run, std::span<const Span> spans) {
     run.length = 0;
     run.speed = 0;
     run.acceleration = run.jerk = std::numeric_limits<double>::infinity();
     for (std::size_t i = run.first; i < run.last; ++i) {
         const Span& s = spans[i];
+        const Easing limits = run.eased ? eased(spans, i) : Easing{s.cap, s.acceleration, s.jerk};
         run.length += s.length;
-        run.speed = std::max(run.speed, run.eased ? s.eased[easing_].cap : s.cap);
-        run.acceleration = std::min(run.acceleration, run.eased ? s.eased[easing_].acceleration : s.acceleration);
-        run.jerk = std::min(run.jerk, run.eased ? s.eased[easing_].jerk : s.jerk);
+        run.speed = std::max(run.speed, limits.cap);
+        run.acceleration = std::min(run.acceleration, limits.acceleration);
+        run.jerk = std::min(run.jerk, limits.jerk);
     }
     run.checked = false;
 }
@@ -107,12 +114,12 @@ void WindowPlanner::divide(const Run& run, const Verdict& verdict, std::vector<R
 }
 
 bool WindowPlanner::plan(std::span<const Span> spans, double start_speed, std::span<const std::size_t> nodes) {
-    if (refined_ && plan_with(Span::easings - 1, spans, start_speed, nodes)) {
+    if (refined_ && plan_with(easings - 1, spans, start_speed, nodes)) {
         best_.swap(runs_);
         return true;
     }
     double shortest = std::numeric_limits<double>::infinity();
-    for (std::size_t easing = 0; easing < Span::easings; ++easing) {
+    for (std::size_t easing = 0; easing < easings; ++easing) {
         if (!plan_with(easing, spans, start_speed, nodes)) continue;
         double time = 0;
         bool bent = false;
@@ -131,6 +138,7 @@ bool WindowPlanner::plan(std::span<const Span> spans, double start_speed, std::s
 
 bool WindowPlanner::plan_with(std::size_t easing, std::span<const Span> spans, double start_speed, std::span<const std::size_t> nodes) {
     easing_ = easing;
+    eased_.assign(spans.size(), Easing{-1, 0, 0});
     runs_.clear();
     std::size_t begin = 0;
     for (std::size_t n = 0; n <= nodes.size(); ++n) {
@@ -143,7 +151,7 @@ bool WindowPlanner::plan_with(std::size_t easing, std::span<const Span> spans, d
         runs_.push_back(run);
         begin = end;
     }
-    const auto end_cap = [&](const Run& run, std::size_t span) { return run.eased ? spans[span].eased[easing_].cap : spans[span].cap; };
+    const auto end_cap = [&](const Run& run, std::size_t span) { return run.eased ? eased(spans, span).cap : spans[span].cap; };
     while (true) {
         stretches_.clear();
         speeds_.clear();

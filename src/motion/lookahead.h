@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "motion/easing.h"
 #include "motion/path_stream.h"
 #include "motion/scurve.h"
 
@@ -56,13 +57,15 @@ private:
         std::size_t span = 0;  ///< where
     };
     [[nodiscard]] bool plan_with(std::size_t easing, std::span<const Span> spans, double start_speed, std::span<const std::size_t> nodes);
-    void set_limits(Run& run, std::span<const Span> spans) const;
+    [[nodiscard]] const Easing& eased(std::span<const Span> spans, std::size_t span);
+    void set_limits(Run& run, std::span<const Span> spans);
     [[nodiscard]] Verdict judge(const Run& run, std::span<const Span> spans) const;
     void divide(const Run& run, const Verdict& verdict, std::vector<Run>& into) const;
 
     const Machine* machine_;
     bool refined_;
-    std::size_t easing_ = 0;  ///< of the spans, in force in plan_with()
+    std::size_t easing_ = 0;  ///< in force in plan_with()
+    std::vector<Easing> eased_;  ///< of the spans by that, as far as it was asked for; otherwise its cap is less than 0
     std::vector<Run> runs_, next_, best_;
     std::vector<Stretch> stretches_;
     std::vector<double> speeds_;

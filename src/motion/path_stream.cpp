@@ -4,17 +4,10 @@
 #include <cmath>
 #include <limits>
 
-
 namespace clsurf {
 namespace {
 
 constexpr double share_of_bends = 0.25;  ///< of the tolerance, for jumps of curvature, where there are arcs
-
-/// (w − |d|)³/(6 w²) where |d| < w.
-double rounding_at(double distance, double width) {
-    const double left = width - std::abs(distance);
-    return left > 0 ? left * left * left / (6 * width * width) : 0.0;
-}
 
 }  // namespace
 
@@ -117,32 +110,64 @@ void PathStream::settle_width(std::int64_t i) {
     Joint& j = joint(i);
     if (j.turning == 0) return;
     const std::int64_t last = element_count_ - 2;
-    double widest = std::min(j.at, j.widest);
+    const double allowed = (1 - bend_share_) * j.tolerance;
+    double widest = std::min({j.at, j.widest, 6 * allowed / j.turning});
     if (closed_) widest = std::min(widest, closed_at_ - j.at);
     if (i - reach_of_a_joint >= 0) widest = std::min(widest, j.at - joint(i - reach_of_a_joint).at);
     if (i + reach_of_a_joint <= last) widest = std::min(widest, joint(i + reach_of_a_joint).at - j.at);
-    const double allowed = (1 - bend_share_) * j.tolerance;
-    const auto deviation = [&](double width) {
-        double sum = 0;
-        for (std::int64_t k = i; k >= std::max<std::int64_t>(first_joint_, i - reach_of_a_joint) && j.at - joint(k).at < width; --k) {
-            sum += joint(k).turning * rounding_at(j.at - joint(k).at, width);
-        }
-        for (std::int64_t k = i + 1; k <= std::min(last, i + reach_of_a_joint) && joint(k).at - j.at < width; ++k) {
-            sum += joint(k).turning * rounding_at(joint(k).at - j.at, width);
-        }
-        return sum;
-    };
-    double high = std::min(widest, 6 * allowed / j.turning);
-    if (deviation(high) > allowed) {
-        double low = 0;
-        constexpr int halvings = 12;  // the scale of settle() makes up for what is left
-        for (int k = 0; k < halvings; ++k) {
-            const double middle = 0.5 * (low + high);
-            (deviation(middle) > allowed ? high : low) = middle;
-        }
-        high = low > 0 ? low : high;
+    if (!(widest > 0)) return;
+    const std::int64_t low = std::max(first_joint_, i - reach_of_a_joint), high = std::min(last, i + reach_of_a_joint);
+    // Σ |Δt| (w − |d|)³/(6 w²) is convex in w: from anywhere Newton's method comes down to the root from above.
+    double width = widest;
+    if (i > low && joint(i - 1).width > 0) width = std::min(widest, joint(i - 1).width);
+    constexpr int most_steps = 60;
+    constexpr double near = 1e-7;
+    for (int k = 0; k < most_steps; ++k) {
+        double cubes = 0, slopes = 0;
+        const auto add = [&](const Joint& other, double distance) {
+            const double left = width - distance;
+            if (left <= 0) return false;
+            cubes += other.turning * left * left * left;
+            slopes += other.turning * left * left * (width + 2 * distance);
+            return true;
+        };
+        for (std::int64_t n = i; n >= low && add(joint(n), j.at - joint(n).at); --n) {}
+        for (std::int64_t n = i + 1; n <= high && add(joint(n), joint(n).at - j.at); ++n) {}
+        const double scale = 1 / (6 * width * width);
+        const double next = std::min(widest, width - width * (cubes * scale - allowed) / (slopes * scale));
+        const bool found = std::abs(next - width) <= near * width;
+        width = next;
+        if (found) break;
     }
-    j.width = high;
+    j.width = width;
+    j.share = j.turning / (6 * width * width);
+}
+
+/// The deviation at a joint where every rounding is as wide as it may be.
+void PathStream::settle_deviation(std::int64_t i) {
+    Joint& j = joint(i);
+    const std::int64_t high = std::min(element_count_ - 2, i + reach_of_a_joint);
+    for (std::int64_t k = std::max(first_joint_, i - reach_of_a_joint); k <= high; ++k) {
+        const Joint& other = joint(k);
+        const double left = other.width - std::abs(other.at - j.at);
+        if (left > 0) j.deviation += other.share * left * left * left;
+    }
+}
+
+/// Narrower where the deviations of those that it reaches need it.
+void PathStream::settle_scale(std::int64_t i) {
+    Joint& j = joint(i);
+    double scale = 1;
+    const std::int64_t high = std::min(element_count_ - 2, i + reach_of_a_joint);
+    for (std::int64_t k = std::max(first_joint_, i - reach_of_a_joint); k <= high; ++k) {
+        const Joint& other = joint(k);
+        const double allowed = (1 - bend_share_) * other.tolerance;
+        if (other.deviation > allowed && std::abs(other.at - j.at) < j.width) scale = std::min(scale, allowed / other.deviation);
+    }
+    j.width *= scale;
+    if (j.width > 0) j.turn_share = j.turn / (6 * j.width * j.width);
+    if (j.bend_width > 0) j.bend_share = j.bend / (12 * j.bend_width * j.bend_width);
+    j.reach = std::max(j.width, j.bend_width);
 }
 
 /// Takes every stage as far as the elements known allow.
@@ -150,22 +175,8 @@ void PathStream::settle() {
     const std::int64_t joints = element_count_ - 1;
     const auto known = [&](std::int64_t done_before) { return closed_ ? joints : std::max<std::int64_t>(0, done_before - reach_of_a_joint); };
     while (widths_done_ < known(joints)) settle_width(widths_done_++);
-    for (; deviations_done_ < (closed_ ? joints : std::max<std::int64_t>(0, widths_done_ - reach_of_a_joint)); ++deviations_done_) {
-        Joint& j = joint(deviations_done_);
-        const std::int64_t low = std::max(first_joint_, deviations_done_ - reach_of_a_joint);
-        const std::int64_t high = std::min(joints - 1, deviations_done_ + reach_of_a_joint);
-        for (std::int64_t k = low; k <= high; ++k) j.deviation += joint(k).turning * rounding_at(joint(k).at - j.at, joint(k).width > 0 ? joint(k).width : 1e-300);
-    }
-    for (; scales_done_ < (closed_ ? joints : std::max<std::int64_t>(0, deviations_done_ - reach_of_a_joint)); ++scales_done_) {
-        Joint& j = joint(scales_done_);
-        const std::int64_t low = std::max(first_joint_, scales_done_ - reach_of_a_joint);
-        const std::int64_t high = std::min(joints - 1, scales_done_ + reach_of_a_joint);
-        for (std::int64_t k = low; k <= high; ++k) {
-            const Joint& other = joint(k);
-            const double allowed = (1 - bend_share_) * other.tolerance;
-            if (std::abs(other.at - j.at) < j.width && other.deviation > allowed) j.scale = std::min(j.scale, allowed / other.deviation);
-        }
-    }
+    while (deviations_done_ < known(widths_done_)) settle_deviation(deviations_done_++);
+    while (scales_done_ < known(deviations_done_)) settle_scale(scales_done_++);
 }
 
 bool PathStream::next(Span& span) {

@@ -18,12 +18,12 @@
 
 #include <array>
 #include <cstdint>
-#include <deque>
 #include <memory>
 #include <string_view>
 #include <vector>
 
 #include "core/geometry.h"
+#include "core/queue.h"
 #include "machine/machine.h"
 #include "motion/block_stream.h"
 #include "motion/corner_arcs.h"
@@ -68,12 +68,6 @@ struct Span {
     Ruling ruling = Ruling::none;
     // Tangential limits of a straight path with these slopes.
     double acceleration = 0, jerk = 0;
-    // Lower speeds that leave more or less of the tangential limits, and what they leave.
-    struct Easing {
-        double cap = 0, acceleration = 0, jerk = 0;
-    };
-    static constexpr std::size_t easings = 3;
-    std::array<Easing, easings> eased{};
 
     /// Position τ after the span's begin; `deviation`: how far the rounding moves it [mm]; `pace`: the
     /// length of its first derivative, path speed over speed along the programmed way.
@@ -107,16 +101,21 @@ private:
         double tolerance = 0;
         double widest = 0;     ///< that its rounding may be
         double width = 0, bend_width = 0;
+        double share = 0;      ///< of (w − |d|)³ in its rounding, as wide as it may be [1/mm²]
         double deviation = 0;  ///< of the overlapping roundings, before they are scaled
-        double scale = 1;
+        // As it is rounded: of (w − |d|)³ with the width as scaled, of d (v − |d|)³, and how far either reaches.
+        Vec3 turn_share = Vec3::Zero(), bend_share = Vec3::Zero();
+        double reach = 0;
     };
 
     bool pull();
     void add_joint(const PathElement& before, const PathElement& after);
     void settle();
     void settle_width(std::int64_t i);
+    void settle_deviation(std::int64_t i);
+    void settle_scale(std::int64_t i);
     void make_spans(std::int64_t element);
-    void add_roundings(Span& span, double begin, std::int64_t element) const;
+    void add_roundings(Span& span, double begin) const;
     void set_limits(Span& span) const;
 
     Joint& joint(std::int64_t i) { return joints_[static_cast<std::size_t>(i - first_joint_)]; }
@@ -130,16 +129,18 @@ private:
     ElementSource* source_;            ///< the last of what shapes the path
 
     // The section: elements from first_element_ on; joint i lies between elements i and i + 1.
-    std::deque<PathElement> elements_;
-    std::deque<double> ends_;          ///< way to each element's end [mm]
-    std::deque<Joint> joints_;
+    Queue<PathElement> elements_;
+    Queue<double> ends_;               ///< way to each element's end [mm]
+    Queue<Joint> joints_;
     std::int64_t first_element_ = 0, first_joint_ = 0;
     std::int64_t element_count_ = 0;
     bool closed_ = false;
     double closed_at_ = 0;
     std::int64_t widths_done_ = 0, deviations_done_ = 0, scales_done_ = 0, spans_done_ = 0;
-    std::deque<Span> ready_;
-    std::vector<double> cuts_;  ///< scratch of make_spans()
+    Queue<Span> ready_;
+    // Scratch of make_spans(): joints whose roundings reach into the element, and where it is cut.
+    std::vector<const Joint*> reaching_;
+    std::vector<double> cuts_;
 };
 
 }  // namespace clsurf

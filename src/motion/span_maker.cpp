@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "motion/junction.h"
 #include "motion/path_stream.h"
@@ -11,16 +10,8 @@
 namespace clsurf {
 namespace {
 
-constexpr std::int64_t reach_of_a_joint = PathStream::reach_of_a_joint;
 constexpr double least_span = 1e-9;  ///< [mm] nearer cuts are one
 constexpr double most_turn = 0.75;   ///< [rad] of a curve in one span: limits of axes change round it
-constexpr double share_of_bend = 0.5;  ///< of the jerk that a twist leaves: for accelerating in a bend
-// An easing is the greatest speed that leaves these parts of the tangential limits: much, for long
-// ramps through bends; little, where speeds stay nearly the same.
-struct LeastLeft {
-    double acceleration, jerk;
-};
-constexpr std::array<LeastLeft, Span::easings> least_left{{{0.5, 0.5}, {0.2, 0.3}, {0.1, 0.15}}};
 constexpr int checked_points = 5;    ///< of a span whose bounds are not at its ends
 
 /// Adds factor · (a + b τ)(c + e τ)³ to a polynomial in τ.
@@ -30,6 +21,71 @@ void add_product(std::array<Vec3, 5>& sum, const Vec3& factor, double a, double 
         sum[k] += a * cube[k] * factor;
         sum[k + 1] += b * cube[k] * factor;
     }
+}
+
+/// Takes a derivative into the greatest values on a span.
+void take(const Vec3& value, Vec3& greatest, double& greatest_length) {
+    greatest = greatest.cwiseMax(value.cwiseAbs());
+    greatest_length = std::max(greatest_length, value.squaredNorm());
+}
+
+/// Greatest values on a rounded line, where derivatives are polynomials: below those of their Bézier points.
+void bound_line(Span& span) {
+    const double l = span.length;
+    const std::array<Vec3, 5>& c = span.rounding;
+    const Vec3 slope = span.base.direction + c[1];
+    const Vec3 linear = 2 * l * c[2], square = 3 * l * l * c[3], cube = 4 * l * l * l * c[4];
+    take(slope, span.slope, span.greatest_slope);
+    take(slope + linear / 3, span.slope, span.greatest_slope);
+    take(slope + linear * (2.0 / 3) + square / 3, span.slope, span.greatest_slope);
+    take(slope + linear + square + cube, span.slope, span.greatest_slope);
+    const Vec3 bend = 2 * c[2], bend_linear = 6 * l * c[3], bend_square = 12 * l * l * c[4];
+    take(bend, span.bend, span.greatest_bend);
+    take(bend + 0.5 * bend_linear, span.bend, span.greatest_bend);
+    take(bend + bend_linear + bend_square, span.bend, span.greatest_bend);
+    span.greatest_slope = std::sqrt(span.greatest_slope);
+    span.greatest_bend = std::sqrt(span.greatest_bend);
+    span.twist = (6 * c[3]).cwiseAbs().cwiseMax((6 * c[3] + 24 * l * c[4]).cwiseAbs());
+    span.fourth = 24 * c[4].norm();
+}
+
+/// Greatest values on an arc or a cubic, rounded or not. The third derivative of what is rounded is linear, that of
+/// an arc as good as: its greatest value is at a checked point; those below change between them by no more than
+/// the next one allows.
+void bound_curve(Span& span) {
+    const double step = span.length / (checked_points - 1);
+    std::array<Vec3, checked_points> thirds;
+    for (int k = 0; k < checked_points; ++k) {
+        const PathDerivatives d = span.derivatives(k * step);
+        thirds[static_cast<std::size_t>(k)] = d.third;
+        take(d.first, span.slope, span.greatest_slope);
+        take(d.second, span.bend, span.greatest_bend);
+        span.twist = span.twist.cwiseMax(d.third.cwiseAbs());
+    }
+    span.greatest_slope = std::sqrt(span.greatest_slope);
+    span.greatest_bend = std::sqrt(span.greatest_bend);
+    if (span.base.arc) {
+        const double turn = span.base.rate * step;  // between checked points
+        const double rate = span.base.rate;
+        const double play = 0.125 * turn * turn * (span.base.radius + std::abs(span.base.growth * span.base.length * rate)) * rate * rate * rate;
+        span.twist.array() += (span.base.first.cwiseAbs() + span.base.second.cwiseAbs()).array().min(1.0) * play;
+    }
+    span.fourth = 24 * span.rounding[4].norm() + (span.base.arc ? span.base.radius * std::pow(span.base.rate, 4) : 0.0);
+    if (span.base.cubic) {
+        // By the way a cubic is no polynomial: its differences stand for the derivatives, with as much again.
+        Vec3 play = Vec3::Zero();
+        for (std::size_t k = 1; k < thirds.size(); ++k) {
+            span.fourth = std::max(span.fourth, 2 * (thirds[k] - thirds[k - 1]).norm() / step);
+            if (k + 1 < thirds.size()) play = play.cwiseMax((thirds[k - 1] - 2 * thirds[k] + thirds[k + 1]).cwiseAbs());
+        }
+        span.twist += 0.25 * play;
+    }
+    // Between checked points a function is at most its values there plus step²/8 of its second derivative.
+    const double curve = step * step / 8;
+    span.slope += curve * span.twist;
+    span.greatest_slope += curve * span.twist.norm();
+    span.bend.array() += curve * span.fourth;
+    span.greatest_bend += curve * span.fourth;
 }
 
 }  // namespace
@@ -50,17 +106,20 @@ void PathStream::make_spans(std::int64_t element) {
     const double begin = end - base.length;
     const std::int64_t low = std::max(first_joint_, element - 1 - reach_of_a_joint);
     const std::int64_t high = std::min(element_count_ - 2, element + reach_of_a_joint);
+    reaching_.clear();
+    for (std::int64_t k = low; k <= high; ++k) {
+        const Joint& j = joint(k);
+        if (j.at + j.reach > begin && j.at - j.reach < end) reaching_.push_back(&j);
+    }
     cuts_.clear();
     cuts_.push_back(0);
     cuts_.push_back(base.length);
     const auto cut = [&](double at) {
         if (at - begin > least_span && end - at > least_span) cuts_.push_back(at - begin);
     };
-    for (std::int64_t k = low; k <= high; ++k) {
-        const Joint& j = joint(k);
-        const double width = j.width * j.scale;
-        if (width > 0) cut(j.at - width), cut(j.at + width);
-        if (j.bend_width > 0) cut(j.at - j.bend_width), cut(j.at + j.bend_width);
+    for (const Joint* j : reaching_) {
+        if (j->width > 0) cut(j->at - j->width), cut(j->at + j->width);
+        if (j->bend_width > 0) cut(j->at - j->bend_width), cut(j->at + j->bend_width);
     }
     if (!base.straight()) {
         const int parts = static_cast<int>(std::ceil(base.turning() / most_turn));
@@ -72,76 +131,46 @@ void PathStream::make_spans(std::int64_t element) {
         const bool last = k + 1 == cuts_.size();
         if (cuts_[k] - from < least_span && !last) continue;
         if (!last && base.length - cuts_[k] < least_span) continue;
-        Span span;
+        Span& span = ready_.emplace_back();
         span.base = base;
         span.from = from;
         span.length = cuts_[k] - from;
-        add_roundings(span, begin + from, element);
+        add_roundings(span, begin + from);
         set_limits(span);
-        ready_.push_back(span);
         from = cuts_[k];
     }
 }
 
-void PathStream::add_roundings(Span& span, double begin, std::int64_t element) const {
+/// What the joints within reach add from `begin` on, and the bounds of all derivatives.
+void PathStream::add_roundings(Span& span, double begin) const {
     const double middle = begin + 0.5 * span.length;
     for (Vec3& c : span.rounding) c.setZero();
-    const std::int64_t low = std::max(first_joint_, element - 1 - reach_of_a_joint);
-    const std::int64_t high = std::min(element_count_ - 2, element + reach_of_a_joint);
-    for (std::int64_t k = low; k <= high; ++k) {
-        const Joint& j = joint(k);
-        const double side = middle > j.at ? 1.0 : -1.0;
-        const double distance = begin - j.at;  // of τ = 0
-        const double width = j.width * j.scale;
-        if (width > 0 && std::abs(middle - j.at) < width) {
+    std::array<Vec3, 5>& sum = span.rounding;
+    for (const Joint* j : reaching_) {
+        const double side = middle > j->at ? 1.0 : -1.0;
+        const double distance = begin - j->at;  // of τ = 0
+        const double away = std::abs(middle - j->at);
+        if (away < j->width) {
             span.rounded = true;
-            add_product(span.rounding, j.turn / (6 * width * width), 1, 0, width - side * distance, -side);
+            const double left = j->width - side * distance;
+            sum[0] += left * left * left * j->turn_share;
+            sum[1] -= 3 * side * left * left * j->turn_share;
+            sum[2] += 3 * left * j->turn_share;
+            sum[3] -= side * j->turn_share;
         }
-        if (j.bend_width > 0 && std::abs(middle - j.at) < j.bend_width) {
+        if (away < j->bend_width) {
             span.rounded = true;
-            const double v = j.bend_width;
-            add_product(span.rounding, j.bend / (12 * v * v), distance, 1, v - side * distance, -side);
+            add_product(sum, j->bend_share, distance, 1, j->bend_width - side * distance, -side);
         }
     }
-    // The third derivative of what is rounded is linear or constant, that of an arc as good as: its
-    // greatest value is at a checked point; those below change between them by no more than the next one allows.
-    const double step = span.length / (checked_points - 1);
-    const bool plain = span.straight();
-    std::array<Vec3, checked_points> thirds;
-    for (int k = 0; k < (plain ? 1 : checked_points); ++k) {
-        const PathDerivatives d = span.derivatives(k * step);
-        thirds[static_cast<std::size_t>(k)] = d.third;
-        span.slope = span.slope.cwiseMax(d.first.cwiseAbs());
-        span.bend = span.bend.cwiseMax(d.second.cwiseAbs());
-        span.twist = span.twist.cwiseMax(d.third.cwiseAbs());
-        span.greatest_slope = std::max(span.greatest_slope, d.first.norm());
-        span.greatest_bend = std::max(span.greatest_bend, d.second.norm());
+    if (span.straight()) {
+        span.slope = span.base.direction.cwiseAbs();
+        span.greatest_slope = 1;
+    } else if (span.base.straight()) {
+        bound_line(span);
+    } else {
+        bound_curve(span);
     }
-    if (plain) return;
-    if (span.base.arc) {
-        const double turn = span.base.rate * step;  // between checked points
-        const double rate = span.base.rate;
-        const double play = 0.125 * turn * turn * (span.base.radius + std::abs(span.base.growth * span.base.length * rate)) * rate * rate * rate;
-        span.twist.array() += (span.base.first.cwiseAbs() + span.base.second.cwiseAbs()).array().min(1.0) * play;
-    }
-    double& fourth = span.fourth;
-    fourth = 24 * span.rounding[4].norm() + (span.base.arc ? span.base.radius * std::pow(span.base.rate, 4) : 0.0);
-    if (span.base.cubic) {
-        // By the way a cubic is no polynomial: its differences stand for the derivatives, with as much again.
-        Vec3 play = Vec3::Zero();
-        for (std::size_t k = 1; k < thirds.size(); ++k) {
-            fourth = std::max(fourth, 2 * (thirds[k] - thirds[k - 1]).norm() / step);
-            if (k + 1 < thirds.size()) play = play.cwiseMax((thirds[k - 1] - 2 * thirds[k] + thirds[k + 1]).cwiseAbs());
-        }
-        span.twist += 0.25 * play;
-    }
-    // Between checked points a function is at most its values there plus step²/8 of its second derivative.
-    const double curve = step * step / 8;
-    span.slope += curve * span.twist;
-    const double greatest_twist = span.twist.norm();
-    span.greatest_slope += curve * greatest_twist;
-    span.bend.array() += curve * fourth;
-    span.greatest_bend += curve * fourth;
 }
 
 void PathStream::set_limits(Span& span) const {
@@ -166,56 +195,17 @@ void PathStream::set_limits(Span& span) const {
     const bool corner = span.rounded && span.base.straight();
     for (int i = 0; i < 3; ++i) {
         const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(i)];
-        const double jerk = axis.max_jerk > 0 ? axis.max_jerk : std::numeric_limits<double>::infinity();
         if (span.slope[i] > 0) {
             span.acceleration = std::min(span.acceleration, axis.max_acceleration / span.slope[i]);
-            span.jerk = std::min(span.jerk, jerk / span.slope[i]);
+            if (axis.max_jerk > 0) span.jerk = std::min(span.jerk, axis.max_jerk / span.slope[i]);
         }
         if (span.bend[i] > 0) limit(std::sqrt(axis.max_acceleration / span.bend[i]), Ruling::axis_acceleration);
-        if (span.twist[i] > 0) limit(std::cbrt(jerk / span.twist[i]), corner ? Ruling::corner_tolerance : Ruling::jerk);
+        if (span.twist[i] > 0 && axis.max_jerk > 0) limit(std::cbrt(axis.max_jerk / span.twist[i]), corner ? Ruling::corner_tolerance : Ruling::jerk);
     }
     if (span.greatest_bend > 0) {
         const double radius = 1 / span.greatest_bend;
         limit(arc_speed(radius, path.max_normal_acceleration), Ruling::axis_acceleration);
         limit(chord_speed(radius, machine_->controller.chord_tolerance, machine_->controller.period), Ruling::chord_error);
-    }
-    // What a speed leaves of the tangential limits. In a bend an acceleration costs jerk too, 3 y″ v a,
-    // as much at once as the tangential jerk itself: what the twist leaves is shared between them.
-    const auto left = [&](double speed, double& acceleration, double& jerk) {
-        acceleration = span.acceleration;
-        jerk = span.jerk;
-        for (int i = 0; i < 3; ++i) {
-            const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(i)];
-            if (span.slope[i] > 0) acceleration = std::min(acceleration, (axis.max_acceleration - span.bend[i] * speed * speed) / span.slope[i]);
-            if (axis.max_jerk <= 0 || span.bend[i] <= 0) continue;
-            const double room = axis.max_jerk - span.twist[i] * speed * speed * speed;
-            acceleration = std::min(acceleration, share_of_bend * room / (3 * span.bend[i] * speed));
-        }
-        acceleration = std::max(acceleration, 0.0);
-        for (int i = 0; i < 3; ++i) {
-            const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(i)];
-            if (axis.max_jerk <= 0 || span.slope[i] <= 0) continue;
-            const double room = axis.max_jerk - span.twist[i] * speed * speed * speed;
-            jerk = std::min(jerk, (room - 3 * span.bend[i] * speed * acceleration) / span.slope[i]);
-        }
-    };
-    for (std::size_t e = 0; e < least_left.size(); ++e) {
-        Span::Easing& eased = span.eased[e];
-        const auto enough = [&](double speed) {
-            left(speed, eased.acceleration, eased.jerk);
-            return eased.acceleration >= least_left[e].acceleration * span.acceleration && eased.jerk >= least_left[e].jerk * span.jerk;
-        };
-        eased.cap = span.cap;
-        if (enough(span.cap)) continue;
-        double low = 0;
-        double high = span.cap;
-        constexpr int halvings = 40;
-        for (int k = 0; k < halvings && high - low > 1e-3 * high; ++k) {
-            const double middle = 0.5 * (low + high);
-            (enough(middle) ? low : high) = middle;
-        }
-        eased.cap = low;
-        left(low, eased.acceleration, eased.jerk);
     }
 }
 

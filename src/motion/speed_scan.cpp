@@ -36,20 +36,16 @@ void SpeedScan::add_limit(double at, double slope, double bend, double accelerat
 
 SpeedScan::Bounds SpeedScan::bounds(std::size_t cell, double b, double next) const {
     const Cell& c = cells_[cell];
-    const double rate = 0.5 / c.length;  // the next b is not below 0 and not above what it may be
+    // The next b is neither below 0 nor above what it may be.
+    const double rate = 0.5 / c.length;
     Bounds bounds{{-c.acceleration, 0}, {c.acceleration, 0}};
-    const auto at_least = [&](Line line) {
-        if (line.at(b) > bounds.low.at(b)) bounds.low = line;
+    double low = -c.acceleration, high = c.acceleration;
+    const auto narrow = [&](const Line& least, const Line& greatest) {
+        if (least.at(b) > low) bounds.low = least, low = least.at(b);
+        if (greatest.at(b) < high) bounds.high = greatest, high = greatest.at(b);
     };
-    const auto at_most = [&](Line line) {
-        if (line.at(b) < bounds.high.at(b)) bounds.high = line;
-    };
-    at_least({0, -rate});
-    at_most({rate * next, -rate});
-    for (std::size_t r = first_row(cell); r < c.end_row; ++r) {
-        at_least({-rows_[r].width, -rows_[r].tilt});
-        at_most({rows_[r].width, -rows_[r].tilt});
-    }
+    narrow({0, -rate}, {rate * next, -rate});
+    for (std::size_t r = first_row(cell); r < c.end_row; ++r) narrow({-rows_[r].width, -rows_[r].tilt}, {rows_[r].width, -rows_[r].tilt});
     return bounds;
 }
 

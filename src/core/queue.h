@@ -1,0 +1,45 @@
+#pragma once
+// Queue: first in, first out, with its items side by side in memory, so that a look at neighbours costs no more than in a vector.
+
+#include <cstddef>
+#include <vector>
+
+namespace clsurf {
+
+/// Each item is moved once on the average. Adding one moves the others.
+template <typename T>
+class Queue {
+public:
+    [[nodiscard]] bool empty() const { return first_ == items_.size(); }
+    [[nodiscard]] std::size_t size() const { return items_.size() - first_; }
+    [[nodiscard]] T& operator[](std::size_t i) { return items_[first_ + i]; }
+    [[nodiscard]] const T& operator[](std::size_t i) const { return items_[first_ + i]; }
+    [[nodiscard]] T& front() { return items_[first_]; }
+    [[nodiscard]] const T& front() const { return items_[first_]; }
+    [[nodiscard]] T& back() { return items_.back(); }
+    [[nodiscard]] const T& back() const { return items_.back(); }
+
+    T& emplace_back() {
+        if (items_.size() == items_.capacity() && first_ >= size()) {
+            items_.erase(items_.begin(), items_.begin() + static_cast<std::ptrdiff_t>(first_));
+            first_ = 0;
+        }
+        return items_.emplace_back();
+    }
+    /// None of these.
+    void push_back(const T& item) { emplace_back() = item; }
+    void pop_front() {
+        if (++first_ == items_.size()) clear();
+    }
+    void pop_back() { items_.pop_back(); }
+    void clear() {
+        items_.clear();
+        first_ = 0;
+    }
+
+private:
+    std::vector<T> items_;
+    std::size_t first_ = 0;
+};
+
+}  // namespace clsurf
