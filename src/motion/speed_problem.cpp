@@ -37,9 +37,6 @@ Three sum(double a, const Three& u, double b, const Three& v) { return {a * u[0]
 constexpr std::uint8_t acceleration_bit(int axis) { return static_cast<std::uint8_t>(1U << static_cast<unsigned>(axis)); }
 constexpr std::uint8_t jerk_bit(int axis) { return static_cast<std::uint8_t>(8U << static_cast<unsigned>(axis)); }
 
-/// Weights below to above: the sides' signs.
-const Eigen::Array2d signs(-1, 1);
-
 }  // namespace
 
 double SpeedProblem::value_between(double length, const KnotState& begin, const KnotState& end) {
@@ -52,6 +49,7 @@ double SpeedProblem::value_between(double length, const KnotState& begin, const 
 void SpeedProblem::clear() {
     cells_.clear();
     stations_.clear();
+    ruling_.clear();
     value_.assign(1, 0.0);
 }
 
@@ -77,6 +75,7 @@ void SpeedProblem::drop_front(std::size_t count) {
     cells_.erase(cells_.begin(), cells_.begin() + static_cast<std::ptrdiff_t>(count));
     stations_.erase(stations_.begin(), stations_.begin() + static_cast<std::ptrdiff_t>(stations));
     value_.erase(value_.begin(), value_.begin() + static_cast<std::ptrdiff_t>(count));
+    ruling_.erase(ruling_.begin(), ruling_.begin() + static_cast<std::ptrdiff_t>(std::min(count, ruling_.size())));
     for (Cell& cell : cells_) cell.first_station -= stations, cell.end_station -= stations;
 }
 
@@ -188,27 +187,20 @@ bool SpeedProblem::need_broken_rows(double part) {
 
 void SpeedProblem::add_cap(std::uint32_t number, std::size_t cell, const Three& weights, double cap) {
     const double share = 1 / (cap * cap);
-    Limit row;
+    LimitRow row;
     row.w = {weights[0] * share, weights[1] * share, weights[2] * share};
     row.low = -least_share * dot(row.w, &value_[cell]);
     row.cell = static_cast<std::uint32_t>(cell);
     row.number = number;
-    rows_.push_back(row);
+    rows_.add(row);
 }
 
 void SpeedProblem::add_row(std::uint32_t number, Row kind, std::size_t cell, const Three& w, double limit) {
-    Limit row;
-    row.w = {w[0] / limit, w[1] / limit, w[2] / limit};
-    row.kind = kind;
-    row.cell = static_cast<std::uint32_t>(cell);
-    row.number = number;
-    rows_.push_back(row);
+    rows_.add({{w[0] / limit, w[1] / limit, w[2] / limit}, {}, 1, 1, static_cast<std::uint32_t>(cell), number, kind});
 }
 
 void SpeedProblem::add_jerk(std::uint32_t number, Row kind, std::size_t cell, const Three& w, const Three& b, double limit) {
-    add_row(number, kind, cell, w, limit);
-    rows_.back().v = b;
-    rows_.back().unit = 0;
+    rows_.add({{w[0] / limit, w[1] / limit, w[2] / limit}, b, 0, 1, static_cast<std::uint32_t>(cell), number, kind});
 }
 
 void SpeedProblem::make_rows() {
@@ -247,7 +239,6 @@ void SpeedProblem::make_rows() {
                 }
             }
         }
-        cell.end_row = static_cast<std::uint32_t>(rows_.size());
     }
 }
 
@@ -264,116 +255,42 @@ double SpeedProblem::time_at_caps() const {
     return sum;
 }
 
-/// Slacks of at least a part of the bound, and multipliers for a product of `centre`.
-void SpeedProblem::begin(Limit& row, double centre, double slack) const {
-    row.follow(&value_[row.cell]);
-    row.slack = row.left().max(slack * row.bound);
-    if (row.kind == Row::cap) row.slack[1] = row.left()[1];
-    row.multiplier = centre * row.slack.inverse();
-    row.slack_step.setZero();
-    row.multiplier_step.setZero();
-}
-
 /// Rows that have become needed, beside those that are there with what they are in the middle of.
 void SpeedProblem::add_needed_rows() {
-    rows_before_.swap(rows_);
-    const double centre = gap_ / static_cast<double>(2 * rows_before_.size());
+    std::swap(rows_before_, rows_);
     make_rows();
-    std::size_t before = 0;
-    for (Limit& row : rows_) {
-        if (before < rows_before_.size() && rows_before_[before].cell == row.cell && rows_before_[before].number == row.number) row = rows_before_[before++];
-        else begin(row, centre, later_slack);
-    }
-}
-
-/// Takes parts of the steps.
-void SpeedProblem::advance(double primal, double dual) {
-    for (std::size_t i = 0; i < step_.size(); ++i) value_[i] += primal * step_[i];
-    for (Limit& row : rows_) {
-        row.slack += primal * row.slack_step;
-        row.multiplier += dual * row.multiplier_step;
-    }
+    rows_.begin(value_.data(), gap_ / rows_before_.sides(), later_slack, &rows_before_);
 }
 
 /// The Newton matrix, and its right side but for the barrier.
 void SpeedProblem::assemble() {
     const std::size_t n = cells_.size();
-    d0_.assign(n + 2, 0);
-    d1_.assign(n + 2, 0);
-    d2_.assign(n + 2, 0);
-    pull_.assign(n + 2, 0);
+    for (std::vector<double>* part : {&newton_.d0, &newton_.d1, &newton_.d2, &newton_.pull}) part->assign(n + 2, 0);
     for (std::size_t i = 0; i < n; ++i) {
         const double c = value_[i + 1];
         const double gradient = 0.5 * cells_[i].length / (c * std::sqrt(c));
-        pull_[i + 1] = gradient;
-        d0_[i + 1] = 1.5 * gradient / c;
+        newton_.pull[i + 1] = gradient;
+        newton_.d0[i + 1] = 1.5 * gradient / c;
     }
-    gap_ = broken_ = 0;
-    std::size_t at = 0;
-    for (std::size_t k = 0; k < n; ++k) {
-        double d00 = 0, d11 = 0, d22 = 0, d01 = 0, d12 = 0, d02 = 0;
-        Three pull{};
-        for (; at < cells_[k].end_row; ++at) {
-            Limit& row = rows_[at];
-            const Three& w = row.w;
-            const Three& v = row.v;
-            row.follow(&value_[k]);
-            // A bound that is convex leaves more than its tangent did.
-            const Sides left = row.left();
-            row.slack = row.slack.max(left);
-            row.inverse = row.slack.inverse();
-            const Sides weight = row.multiplier * row.inverse;
-            gap_ += (row.multiplier * row.slack).sum();
-            const Sides missing = row.slack - left;
-            broken_ = std::max(broken_, missing.maxCoeff() * row.root);
-            const Sides force = weight * missing;
-            const double of_w = force[1] - force[0], both = weight.sum();
-            if (row.unit > 0) {
-                pull = sum(1, pull, of_w, w);
-                d00 += both * w[0] * w[0];
-                d11 += both * w[1] * w[1];
-                d22 += both * w[2] * w[2];
-                d01 += both * w[0] * w[1];
-                d12 += both * w[1] * w[2];
-                d02 += both * w[0] * w[2];
-                continue;
-            }
-            // The sides' gradients are fall v ∓ w.
-            const double of_b = row.fall * force.sum();
-            const double mixed = row.fall * (weight[1] - weight[0]), square = row.fall * row.fall * both;
-            const Three u = sum(both, w, mixed, v), t = sum(mixed, w, square, v);
-            pull = sum(1, pull, 1, sum(of_w, w, of_b, v));
-            d00 += u[0] * w[0] + t[0] * v[0];
-            d11 += u[1] * w[1] + t[1] * v[1];
-            d22 += u[2] * w[2] + t[2] * v[2];
-            d01 += u[0] * w[1] + t[0] * v[1];
-            d12 += u[1] * w[2] + t[1] * v[2];
-            d02 += u[0] * w[2] + t[0] * v[2];
-        }
-        d0_[k] += d00;
-        d0_[k + 1] += d11;
-        d0_[k + 2] += d22;
-        d1_[k] += d01;
-        d1_[k + 1] += d12;
-        d2_[k] += d02;
-        for (std::size_t q = 0; q < 3; ++q) pull_[k + q] += pull[q];
-    }
+    const LimitRows::Gap gap = rows_.assemble(value_.data(), newton_);
+    gap_ = gap.sum;
+    broken_ = gap.broken;
 }
 
 /// L D Lᵀ of the five diagonals in place; the coefficients at the ends are known.
 bool SpeedProblem::factorise() {
     const std::size_t first = 2, last = cells_.size() - 1;
     for (std::size_t i = first; i <= last; ++i) {
-        if (!(d0_[i] > 0) || !std::isfinite(d0_[i])) return false;
-        d0_[i] = 1 / d0_[i];
-        const double l1 = d1_[i] * d0_[i], l2 = d2_[i] * d0_[i];
+        if (!(newton_.d0[i] > 0) || !std::isfinite(newton_.d0[i])) return false;
+        newton_.d0[i] = 1 / newton_.d0[i];
+        const double l1 = newton_.d1[i] * newton_.d0[i], l2 = newton_.d2[i] * newton_.d0[i];
         if (i + 1 <= last) {
-            d0_[i + 1] -= l1 * d1_[i];
-            d1_[i + 1] -= l1 * d2_[i];
+            newton_.d0[i + 1] -= l1 * newton_.d1[i];
+            newton_.d1[i + 1] -= l1 * newton_.d2[i];
         }
-        if (i + 2 <= last) d0_[i + 2] -= l2 * d2_[i];
-        d1_[i] = l1;
-        d2_[i] = l2;
+        if (i + 2 <= last) newton_.d0[i + 2] -= l2 * newton_.d2[i];
+        newton_.d1[i] = l1;
+        newton_.d2[i] = l2;
     }
     return true;
 }
@@ -382,75 +299,15 @@ bool SpeedProblem::factorise() {
 void SpeedProblem::substitute() {
     const std::size_t first = 2, last = cells_.size() - 1;
     for (std::size_t i = first; i <= last; ++i) {
-        if (i + 1 <= last) step_[i + 1] -= d1_[i] * step_[i];
-        if (i + 2 <= last) step_[i + 2] -= d2_[i] * step_[i];
+        if (i + 1 <= last) step_[i + 1] -= newton_.d1[i] * step_[i];
+        if (i + 2 <= last) step_[i + 2] -= newton_.d2[i] * step_[i];
     }
     for (std::size_t i = last + 1; i-- > first;) {
-        step_[i] *= d0_[i];
-        if (i + 1 <= last) step_[i] -= d1_[i] * step_[i + 1];
-        if (i + 2 <= last) step_[i] -= d2_[i] * step_[i + 2];
+        step_[i] *= newton_.d0[i];
+        if (i + 1 <= last) step_[i] -= newton_.d1[i] * step_[i + 1];
+        if (i + 2 <= last) step_[i] -= newton_.d2[i] * step_[i + 2];
     }
     for (const std::size_t end : {std::size_t{0}, std::size_t{1}, cells_.size(), cells_.size() + 1}) step_[end] = 0;
-}
-
-/// Steps of slacks and multipliers without a barrier, and the right sides that the corrector needs of them.
-SpeedProblem::Steps SpeedProblem::predict() {
-    centring_.assign(value_.size(), 0);
-    products_.assign(value_.size(), 0);
-    Steps steps;
-    Sides primal = Sides::Zero(), dual = Sides::Zero(), by_primal = Sides::Zero(), by_dual = Sides::Zero(), by_both = Sides::Zero();
-    std::size_t at = 0;
-    for (std::size_t k = 0; k < cells_.size(); ++k) {
-        const double* s = &step_[k];
-        Three centring{}, products{};
-        for (; at < cells_[k].end_row; ++at) {
-            Limit& row = rows_[at];
-            row.slack_step = row.left() - row.slack + (signs * dot(row.w, s) + row.fall * dot(row.v, s));
-            const Sides part = row.slack_step * row.inverse;
-            row.multiplier_step = -row.multiplier * (part + 1);
-            primal = primal.max(-part);
-            dual = dual.max(part + 1);
-            by_primal += row.slack_step * row.multiplier;
-            by_dual += row.slack * row.multiplier_step;
-            const Sides product = row.slack_step * row.multiplier_step;
-            by_both += product;
-            const Sides weighted = product * row.inverse;
-            centring = sum(1, centring, 1, sum(row.inverse[1] - row.inverse[0], row.w, row.fall * row.inverse.sum(), row.v));
-            products = sum(1, products, 1, sum(weighted[1] - weighted[0], row.w, row.fall * weighted.sum(), row.v));
-        }
-        for (std::size_t q = 0; q < 3; ++q) {
-            centring_[k + q] += centring[q];
-            products_[k + q] += products[q];
-        }
-    }
-    return {primal.maxCoeff(), dual.maxCoeff(), by_primal.sum(), by_dual.sum(), by_both.sum()};
-}
-
-/// Steps towards `centre`, corrected by the products of those before (Mehrotra 1992).
-SpeedProblem::Steps SpeedProblem::correct(double centre) {
-    Sides primal = Sides::Zero(), dual = Sides::Zero();
-    for (Limit& row : rows_) {
-        const double* s = &step_[row.cell];
-        const Sides product = row.slack_step * row.multiplier_step;
-        row.slack_step = row.left() - row.slack + (signs * dot(row.w, s) + row.fall * dot(row.v, s));
-        row.multiplier_step = (centre - product - row.multiplier * row.slack_step) * row.inverse - row.multiplier;
-        primal = primal.max(-row.slack_step * row.inverse);
-        dual = dual.max(-row.multiplier_step / row.multiplier);
-    }
-    return {primal.maxCoeff(), dual.maxCoeff()};
-}
-
-/// Which limit each cell is nearest to.
-void SpeedProblem::judge() {
-    std::vector<double> nearest(cells_.size(), 0);
-    for (Limit& row : rows_) {
-        row.follow(&value_[row.cell]);
-        const double part = std::abs(row.value) * row.root;
-        if (part > nearest[row.cell]) {
-            nearest[row.cell] = part;
-            cells_[row.cell].ruling = row.kind;
-        }
-    }
 }
 
 bool SpeedProblem::solve(const KnotState& start, const KnotState& end) {
@@ -475,11 +332,11 @@ bool SpeedProblem::optimise(const KnotState& start, const KnotState& end) {
     need_likely_rows();
     for (int round = 0; round < most_rounds; ++round) {
         make_rows();
-        const double centre = first_gap * time() / static_cast<double>(2 * rows_.size());
-        for (Limit& row : rows_) begin(row, centre, first_slack);
+        rows_.begin(value_.data(), first_gap * time() / rows_.sides(), first_slack);
         if (!iterate() || time() > planned) return false;
         if (!need_broken_rows(held)) {
-            judge();
+            ruling_.assign(cells_.size(), Row::cap);
+            rows_.judge(value_.data(), ruling_);
             return true;
         }
     }
@@ -508,19 +365,23 @@ bool SpeedProblem::iterate() {
 
 bool SpeedProblem::step() {
     if (!factorise()) return false;
-    step_ = pull_;
+    step_ = newton_.pull;
     substitute();
     const auto taken = [](double most) { return std::min(1.0, boundary_share / most); };
-    const Steps predicted = predict();
+    newton_.centring.assign(value_.size(), 0);
+    newton_.products.assign(value_.size(), 0);
+    const LimitRows::Steps predicted = rows_.predict(step_.data(), newton_);
     const double primal = taken(predicted.primal), dual = taken(predicted.dual);
     const double left = gap_ + primal * predicted.by_primal + dual * predicted.by_dual + primal * dual * predicted.by_both;
     constexpr double least_centre = 1e-3;
-    const double centre = std::clamp(left / gap_, least_centre, 1.0) * gap_ / static_cast<double>(2 * rows_.size());
-    for (std::size_t i = 0; i < step_.size(); ++i) step_[i] = pull_[i] + centre * centring_[i] - products_[i];
+    const double centre = std::clamp(left / gap_, least_centre, 1.0) * gap_ / rows_.sides();
+    for (std::size_t i = 0; i < step_.size(); ++i) step_[i] = newton_.pull[i] + centre * newton_.centring[i] - newton_.products[i];
     substitute();
-    const Steps corrected = correct(centre);
+    const LimitRows::Steps corrected = rows_.correct(step_.data(), centre);
     if (!std::isfinite(corrected.primal) || !std::isfinite(corrected.dual)) return false;
-    advance(taken(corrected.primal), taken(corrected.dual));
+    const double forward = taken(corrected.primal);
+    for (std::size_t i = 0; i < step_.size(); ++i) value_[i] += forward * step_[i];
+    rows_.advance(forward, taken(corrected.dual));
     return true;
 }
 
