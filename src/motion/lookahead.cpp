@@ -69,16 +69,28 @@ void WindowPlanner::set_limits(Run& run, std::span<const Span> spans) {
 
 WindowPlanner::Verdict WindowPlanner::judge(const Run& run, std::span<const Span> spans) const {
     Verdict verdict;
-    double way = 0;
+    const SCurve& profile = run.profile;
+    double end = 0;
     double from = 0;
-    MotionState at_from = run.profile.at(0);
+    MotionState at_from = profile.at(0);
+    bool known = true;  // from and at_from are those of the span's begin
     for (std::size_t i = run.first; i < run.last; ++i) {
         const Span& s = spans[i];
-        way += s.length;
-        const bool last = i + 1 == run.last;
-        const double to = last ? run.profile.duration() : run.profile.time_at(way);
-        const MotionState at_to = run.profile.at(to);
-        const Extremes e = extremes(run.profile, from, at_from, to, at_to);
+        const double begin = end;
+        end += s.length;
+        if (begin >= profile.start_of(3).way && end <= profile.start_of(4).way) {
+            const double part = profile.peak_speed() / s.cap;
+            if (part > verdict.worst) verdict = {part, true, i};
+            known = false;
+            continue;
+        }
+        if (!known) {
+            from = profile.time_at(begin);
+            at_from = profile.at(from);
+        }
+        const double to = i + 1 == run.last ? profile.duration() : profile.time_at(end);
+        const MotionState at_to = profile.at(to);
+        const Extremes e = extremes(profile, from, at_from, to, at_to);
         const double v = e.speed;
         double worst = v / s.cap;
         bool at_cap = true;
@@ -88,13 +100,14 @@ WindowPlanner::Verdict WindowPlanner::judge(const Run& run, std::span<const Span
                 const double acceleration = (s.slope[k] * e.acceleration + s.bend[k] * v * v) / axis.max_acceleration;
                 if (acceleration > worst) worst = acceleration, at_cap = false;
                 if (axis.max_jerk <= 0) continue;
-                const double jerk = (s.slope[k] * run.profile.jerk() + 3 * s.bend[k] * v * e.acceleration + s.twist[k] * v * v * v) / axis.max_jerk;
+                const double jerk = (s.slope[k] * profile.jerk() + 3 * s.bend[k] * v * e.acceleration + s.twist[k] * v * v * v) / axis.max_jerk;
                 if (jerk > worst) worst = jerk, at_cap = false;
             }
         }
         if (worst > verdict.worst) verdict = {worst, at_cap, i};
         from = to;
         at_from = at_to;
+        known = true;
     }
     return verdict;
 }

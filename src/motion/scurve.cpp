@@ -115,9 +115,13 @@ double SCurve::time_at(double way) const {
     const MotionState& start = starts_[phase];
     const double begin = ends_[phase] - durations_[phase];
     const double jerk = jerk_signs[phase] * jerk_;
+    // With the acceleration that the phase begins with: exact where there is no jerk.
+    const double left = way - start.way;
+    double t = 2 * left / (start.speed + std::sqrt(std::max(0.0, start.speed * start.speed + 2 * start.acceleration * left)));
+    if (jerk == 0) return begin + std::min(t, durations_[phase]);
     double low = 0;
     double high = durations_[phase];
-    double t = 0.5 * high;
+    if (!(t < high)) t = 0.5 * high;
     for (int i = 0; i < 100 && high - low > 1e-15 * ends_[6]; ++i) {
         const MotionState s = advance(start, t, jerk);
         const double excess = s.way - way;

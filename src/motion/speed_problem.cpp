@@ -26,7 +26,7 @@ constexpr double last_look = 0.02, look_step = 0.3;
 // Rows are left out until the solution without them breaks them. In from the beginning is what comes near its limit
 // with the speeds to begin with, or could with some more speed and acceleration.
 constexpr double near_limit = 0.6;
-constexpr double faster = 1.2, steeper = 0.3;
+constexpr double faster = 1.1, steeper = 0.15;
 
 using Three = std::array<double, 3>;
 
@@ -66,7 +66,11 @@ void SpeedProblem::add_cell(double length, double value, const CellLimits& limit
 
 void SpeedProblem::add_station(const Station& station) {
     stations_.push_back({station});
-    cells_.back().end_station = static_cast<std::uint32_t>(stations_.size());
+    Cell& cell = cells_.back();
+    cell.end_station = static_cast<std::uint32_t>(stations_.size());
+    cell.slope = cell.slope.cwiseMax(station.slope.cwiseAbs());
+    cell.bend = cell.bend.cwiseMax(station.bend.cwiseAbs());
+    cell.twist = cell.twist.cwiseMax(station.twist.cwiseAbs());
 }
 
 void SpeedProblem::drop_front(std::size_t count) {
@@ -90,24 +94,41 @@ void SpeedProblem::fix_ends(const KnotState& start, const KnotState& end) {
     value_[n + 1] = value_[n] + 2 * end.acceleration * last;
 }
 
-SpeedProblem::Weights SpeedProblem::weights_at(std::size_t cell, double at) const {
-    const double h = cells_[cell].length;
-    const double h_before = cell > 0 ? cells_[cell - 1].length : h;
-    const double h_after = cell + 1 < cells_.size() ? cells_[cell + 1].length : h;
-    const double before = 1 / (h_before + h), after = 1 / (h + h_after);
-    const Three begin{h * before, h_before * before, 0};
-    const Three begin_slope{-2 * before, 2 * before, 0};
-    Weights w{{}, {}, {2 * before / h, (-2 * after - 2 * before) / h, 2 * after / h}};
-    for (std::size_t q = 0; q < 3; ++q) {
-        w.b[q] = begin[q] + at * (begin_slope[q] + 0.5 * at * w.curve[q]);
-        w.slope[q] = begin_slope[q] + at * w.curve[q];
+/// The weights at the begins of all cells.
+void SpeedProblem::weigh() {
+    begins_.resize(cells_.size());
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+        const double h = cells_[i].length;
+        const double before = 1 / ((i > 0 ? cells_[i - 1].length : h) + h), after = 1 / (h + (i + 1 < cells_.size() ? cells_[i + 1].length : h));
+        begins_[i] = {{h * before, 1 - h * before, 0}, {-2 * before, 2 * before, 0}, {2 * before / h, (-2 * after - 2 * before) / h, 2 * after / h}};
     }
+}
+
+SpeedProblem::Weights SpeedProblem::weights_at(std::size_t cell, double at) const {
+    const Weights& begin = begins_[cell];
+    Weights w;
+    for (std::size_t q = 0; q < 3; ++q) {
+        w.b[q] = begin.b[q] + at * (begin.slope[q] + 0.5 * at * begin.curve[q]);
+        w.slope[q] = begin.slope[q] + at * begin.curve[q];
+    }
+    w.curve = begin.curve;
     return w;
 }
 
 std::array<SpeedProblem::Weights, 3> SpeedProblem::weights_along(std::size_t cell) const {
     const double h = cells_[cell].length;
     return {weights_at(cell, 0), weights_at(cell, 0.5 * h), weights_at(cell, h)};
+}
+
+/// Whether an axis may be above a part of a limit at a station of a cell where v², acceleration and jerk along the path are at most these.
+bool SpeedProblem::may_break(const Cell& cell, double part, double acceleration, double square, double jerk) const {
+    const double speed = std::sqrt(square);
+    for (int x = 0; x < 3; ++x) {
+        const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(x)];
+        if (cell.slope[x] * acceleration + cell.bend[x] * square > part * axis.max_acceleration) return true;
+        if (axis.max_jerk > 0 && cell.slope[x] * jerk + speed * (3 * cell.bend[x] * acceleration + cell.twist[x] * square) > part * axis.max_jerk) return true;
+    }
+    return false;
 }
 
 /// Rows for what may come to its limit, judged by the values to begin with.
@@ -126,6 +147,7 @@ void SpeedProblem::need_likely_rows() {
         if (acceleration > near_limit * cell.limits.acceleration) cell.acceleration = true;
         const double speed = std::min(faster * std::sqrt(b), cell.limits.cap);
         const double steep = std::max(acceleration, steeper * cell.limits.acceleration);
+        if (!may_break(cell, 1, steep, speed * speed, cell.limits.jerk)) continue;
         for (std::uint32_t s = cell.first_station; s < cell.end_station; ++s) {
             HeldStation& held_station = stations_[s];
             const Station& station = held_station.station;
@@ -147,13 +169,15 @@ bool SpeedProblem::need_broken_rows(double part) {
     for (std::size_t i = 0; i < cells_.size(); ++i) {
         Cell& cell = cells_[i];
         const double* c = &value_[i];
-        const std::array<Weights, 3> along = weights_along(i);
-        const double b = dot(along[0].b, c), curve = dot(along[0].curve, c), slope = dot(along[0].slope, c);
-        if (std::abs(0.5 * dot(along[2].slope, c)) > part * cell.limits.acceleration) need(cell.acceleration);
+        const Weights& begin = begins_[i];
+        const double b = dot(begin.b, c), curve = dot(begin.curve, c), slope = dot(begin.slope, c);
+        const double last_slope = slope + cell.length * curve, last = b + 0.5 * cell.length * (slope + last_slope);
+        if (0.5 * std::abs(last_slope) > part * cell.limits.acceleration) need(cell.acceleration);
         // The tangential jerk is greatest where the speed is: at an end, or where b turns over.
         double fastest = slope + 0.5 * cell.length * curve > 0 ? cell.length : 0;
-        if (slope > 0 && slope + cell.length * curve < 0) fastest = -slope / curve;
-        const double along_path = std::abs(0.5 * curve) * std::sqrt(b + fastest * (slope + 0.5 * fastest * curve));
+        if (slope > 0 && last_slope < 0) fastest = -slope / curve;
+        const double greatest = std::max({b, last, b + fastest * (slope + 0.5 * fastest * curve)});
+        const double along_path = std::abs(0.5 * curve) * std::sqrt(greatest);
         if (along_path > part * cell.limits.jerk) {
             bool& row = cell.jerk[static_cast<std::size_t>(std::lround(2 * fastest / cell.length))];
             if (!row) {
@@ -163,6 +187,7 @@ bool SpeedProblem::need_broken_rows(double part) {
                 any = true;
             }
         }
+        if (!may_break(cell, part, 0.5 * std::max(std::abs(slope), std::abs(last_slope)), greatest, along_path)) continue;
         for (std::uint32_t s = cell.first_station; s < cell.end_station; ++s) {
             HeldStation& held_station = stations_[s];
             const Station& station = held_station.station;
@@ -329,6 +354,7 @@ bool SpeedProblem::optimise(const KnotState& start, const KnotState& end) {
     }
     const double planned = time();
     if (planned < (1 + end_gap) * time_at_caps()) return false;
+    weigh();
     need_likely_rows();
     for (int round = 0; round < most_rounds; ++round) {
         make_rows();

@@ -67,6 +67,8 @@ private:
         double length = 0;
         CellLimits limits;
         std::uint32_t first_station = 0, end_station = 0;
+        // Greatest of its stations.
+        Vec3 slope = Vec3::Zero(), bend = Vec3::Zero(), twist = Vec3::Zero();
         // Rows found to be needed: of the acceleration at the end; of the jerk at begin, middle and end.
         bool acceleration = false;
         std::array<bool, 3> jerk{};
@@ -82,6 +84,8 @@ private:
     };
     [[nodiscard]] bool optimise(const KnotState& start, const KnotState& end);
     void fix_ends(const KnotState& start, const KnotState& end);
+    [[nodiscard]] bool may_break(const Cell& cell, double part, double acceleration, double square, double jerk) const;
+    void weigh();
     void need_likely_rows();
     [[nodiscard]] bool need_broken_rows(double part);
     void make_rows();
@@ -103,6 +107,7 @@ private:
     const Machine* machine_;
     std::vector<Cell> cells_;
     std::vector<HeldStation> stations_;
+    std::vector<Weights> begins_;  ///< weights at the begin of each cell
     std::vector<double> value_;  ///< of the cells, with one beyond each end
     std::vector<Row> ruling_;    ///< of the cells
     LimitRows rows_, rows_before_;
