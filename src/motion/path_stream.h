@@ -115,6 +115,7 @@ private:
     void settle_deviation(std::int64_t i);
     void settle_scale(std::int64_t i);
     void make_spans(std::int64_t element);
+    void find_roundings(std::int64_t element, double begin, double end);
     void add_roundings(Span& span, double begin) const;
     void set_limits(Span& span) const;
 
@@ -138,8 +139,11 @@ private:
     double closed_at_ = 0;
     std::int64_t widths_done_ = 0, deviations_done_ = 0, scales_done_ = 0, spans_done_ = 0;
     Queue<Span> ready_;
-    // Scratch of make_spans(): joints whose roundings reach into the element, and where it is cut.
+    // Scratch of make_spans(): joints whose roundings reach into a part of the element, the sum of those that cover it as a
+    // polynomial from its begin, and where it is cut.
     std::vector<const Joint*> reaching_;
+    std::array<Vec3, 4> covering_;
+    bool covered_ = false;
     std::vector<double> cuts_;
 };
 

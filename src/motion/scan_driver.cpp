@@ -38,8 +38,19 @@ Vec3 ScanDriver::curving(const Span& span) const {
     return (5 * machine_->path.max_acceleration * span.twist).array() + fastest * fastest * span.fourth;
 }
 
+/// No axis comes to its limit on a span, as long as the acceleration along the path keeps to that of a straight one.
+bool ScanDriver::gentle(const Span& span) const {
+    if (span.straight()) return true;
+    if (span.cap < span.free_cap) return false;
+    for (int x = 0; x < 3; ++x) {
+        const double bending = span.bend[x] * span.cap * span.cap;
+        if (span.slope[x] * span.acceleration + bending > machine_->axes[static_cast<std::size_t>(x)].max_acceleration) return false;
+    }
+    return true;
+}
+
 void ScanDriver::divide(const Span& span) {
-    if (span.straight()) {
+    if (gentle(span)) {
         scan_.add_cell(span.length, span.free_cap, span.acceleration);
         cells_.push_back({&span, 0, span.free_ruling});
         return;

@@ -35,6 +35,7 @@ private:
     };
 
     [[nodiscard]] bool take_span();
+    [[nodiscard]] bool gentle(const Span& span) const;
     [[nodiscard]] Vec3 curving(const Span& span) const;
     void divide(const Span& span);
     void add_cell(Cell cell, double length, const Vec3& accelerations);

@@ -23,6 +23,16 @@ void add_product(std::array<Vec3, 5>& sum, const Vec3& factor, double a, double 
     }
 }
 
+/// Adds factor · (w − |d|)³ to a polynomial in τ, whose origin is `distance` after the corner, on one side of it: 1 behind, −1 before.
+template <std::size_t size>
+void add_cube(std::array<Vec3, size>& sum, const Vec3& factor, double width, double distance, double side) {
+    const double left = width - side * distance;
+    sum[0] += left * left * left * factor;
+    sum[1] -= 3 * side * left * left * factor;
+    sum[2] += 3 * left * factor;
+    sum[3] -= side * factor;
+}
+
 /// Takes a derivative into the greatest values on a span.
 void take(const Vec3& value, Vec3& greatest, double& greatest_length) {
     greatest = greatest.cwiseMax(value.cwiseAbs());
@@ -100,17 +110,29 @@ PathDerivatives Span::derivatives(double tau) const {
     return d;
 }
 
+/// The joints whose roundings reach into an element.
+void PathStream::find_roundings(std::int64_t element, double begin, double end) {
+    reaching_.clear();
+    covering_.fill(Vec3::Zero());
+    covered_ = false;
+    const std::int64_t high = std::min(element_count_ - 2, element + reach_of_a_joint);
+    for (std::int64_t k = std::max(first_joint_, element - 1 - reach_of_a_joint); k <= high; ++k) {
+        const Joint& j = joint(k);
+        if (j.at + j.reach <= begin || j.at - j.reach >= end) continue;
+        if (j.bend_width == 0 && j.at - j.width <= begin && j.at + j.width >= end) {
+            add_cube(covering_, j.turn_share, j.width, begin - j.at, k < element ? 1.0 : -1.0);
+            covered_ = true;
+        } else {
+            reaching_.push_back(&j);
+        }
+    }
+}
+
 void PathStream::make_spans(std::int64_t element) {
     const PathElement& base = elements_[static_cast<std::size_t>(element - first_element_)];
     const double end = ends_[static_cast<std::size_t>(element - first_element_)];
     const double begin = end - base.length;
-    const std::int64_t low = std::max(first_joint_, element - 1 - reach_of_a_joint);
-    const std::int64_t high = std::min(element_count_ - 2, element + reach_of_a_joint);
-    reaching_.clear();
-    for (std::int64_t k = low; k <= high; ++k) {
-        const Joint& j = joint(k);
-        if (j.at + j.reach > begin && j.at - j.reach < end) reaching_.push_back(&j);
-    }
+    find_roundings(element, begin, end);
     cuts_.clear();
     cuts_.push_back(0);
     cuts_.push_back(base.length);
@@ -144,19 +166,18 @@ void PathStream::make_spans(std::int64_t element) {
 /// What the joints within reach add from `begin` on, and the bounds of all derivatives.
 void PathStream::add_roundings(Span& span, double begin) const {
     const double middle = begin + 0.5 * span.length;
-    for (Vec3& c : span.rounding) c.setZero();
     std::array<Vec3, 5>& sum = span.rounding;
+    const std::array<Vec3, 4>& c = covering_;
+    const double from = span.from;
+    sum = {c[0] + from * (c[1] + from * (c[2] + from * c[3])), c[1] + from * (2 * c[2] + 3 * from * c[3]), c[2] + 3 * from * c[3], c[3], Vec3::Zero()};
+    span.rounded = covered_;
     for (const Joint* j : reaching_) {
         const double side = middle > j->at ? 1.0 : -1.0;
         const double distance = begin - j->at;  // of τ = 0
         const double away = std::abs(middle - j->at);
         if (away < j->width) {
             span.rounded = true;
-            const double left = j->width - side * distance;
-            sum[0] += left * left * left * j->turn_share;
-            sum[1] -= 3 * side * left * left * j->turn_share;
-            sum[2] += 3 * left * j->turn_share;
-            sum[3] -= side * j->turn_share;
+            add_cube(sum, j->turn_share, j->width, distance, side);
         }
         if (away < j->bend_width) {
             span.rounded = true;
