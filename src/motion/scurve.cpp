@@ -127,8 +127,8 @@ double SCurve::time_at(double way) const {
         const double excess = s.way - way;
         if (std::abs(excess) <= 1e-14 * length_) break;
         (excess < 0 ? low : high) = t;
-        const double newton = s.speed > 0 ? t - excess / s.speed : low;
-        t = newton > low && newton < high ? newton : 0.5 * (low + high);
+        const double next = s.speed > 0 ? t - excess * s.speed / (s.speed * s.speed - 0.5 * excess * s.acceleration) : low;
+        t = next > low && next < high ? next : 0.5 * (low + high);
     }
     return begin + t;
 }

@@ -55,7 +55,7 @@ public:
     [[nodiscard]] MotionState in_phase(int phase, double t) const;
     /// State at t; from the end on exactly (length, end speed, 0).
     [[nodiscard]] MotionState at(double t) const;
-    /// When a way is reached [s]; way in 0 … length. Guarded Newton inside a phase.
+    /// When a way is reached [s]; way in 0 … length. Closed without jerk, otherwise by Halley's method, kept in a bracket.
     [[nodiscard]] double time_at(double way) const;
 
     /// Sets length and end speed to what they are meant to be, free of the phases' rounding.
