@@ -119,8 +119,8 @@ struct NamedAssignment {
 
 class BlockReader {
 public:
-    BlockReader(Cursor& cursor, Variables& variables, DialectId dialect, Block& block)
-        : c_(cursor), variables_(variables), dialect_(dialect), block_(block) {}
+    BlockReader(Cursor& cursor, Variables& variables, DialectId dialect, double least_increment, Block& block)
+        : c_(cursor), variables_(variables), dialect_(dialect), least_increment_(least_increment), block_(block) {}
 
     void read() {
         block_.clear();
@@ -229,7 +229,9 @@ private:
             return;
         }
         // A word with a vacant variable of Fanuc is not there.
-        if (const std::optional<double> value = read_or_vacant(c_, variables_, dialect_)) put(letter, *value, column);
+        constexpr std::string_view lengths = "ABCIJKQRUVWXYZ";
+        const double increment = lengths.find(letter) == std::string_view::npos ? 1.0 : least_increment_;
+        if (const std::optional<double> value = read_or_vacant(c_, variables_, dialect_, increment)) put(letter, *value, column);
     }
 
     /// After a letter only a function's name may stand for a value: `Xsin[30]`.
@@ -423,6 +425,7 @@ private:
     Cursor& c_;
     Variables& variables_;
     DialectId dialect_;
+    double least_increment_;
     Block& block_;
     std::vector<NumberedAssignment> numbered_;
     std::vector<NamedAssignment> named_;
@@ -430,8 +433,8 @@ private:
 
 }  // namespace
 
-void read_block(Cursor& cursor, Variables& variables, DialectId dialect, Block& block) {
-    BlockReader(cursor, variables, dialect, block).read();
+void read_block(Cursor& cursor, Variables& variables, DialectId dialect, double least_increment, Block& block) {
+    BlockReader(cursor, variables, dialect, least_increment, block).read();
 }
 
 }  // namespace clsurf

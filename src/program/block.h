@@ -60,8 +60,9 @@ struct Block {
     }
 };
 
-/// Reads the words from the cursor to the end of the line. Throws ReadError.
-void read_block(Cursor& cursor, Variables& variables, DialectId dialect, Block& block);
+/// Reads the words from the cursor to the end of the line. `least_increment`: of lengths, which
+/// Fanuc's ROUND rounds to in their words. Throws ReadError.
+void read_block(Cursor& cursor, Variables& variables, DialectId dialect, double least_increment, Block& block);
 
 /// The words of these letters as they would be written, each after a blank: " P0.01 Q2".
 [[nodiscard]] std::string words_text(const Block& block, const char* letters);

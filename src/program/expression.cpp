@@ -1,10 +1,12 @@
 #include "program/expression.h"
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 
 #include "core/units.h"
 
@@ -91,41 +93,45 @@ constexpr double equal_within = 1e-6;  ///< RS274/NGC tests for equality with th
 enum class Operator : std::uint8_t {
     power, multiply, divide, modulo, integer_divide, add, subtract,
     equal, unequal, greater, greater_equal, less, less_equal, logical_and, logical_or, logical_xor,
+    bit_and, bit_or, bit_xor,
 };
 
 struct OperatorRow {
     std::string_view text;
     Operator op;
-    int rank;  ///< higher binds tighter
+    int rank;     ///< higher binds tighter: of RS274 and Heidenhain
+    int fanuc;    ///< AND binds as tightly as *, OR and XOR as +
+    int siemens;  ///< comparisons come last (Job Planning, "Priority of the operations")
     bool word;
 };
 
-constexpr std::array<OperatorRow, 25> operators{{
-    {"**", Operator::power, 5, false},
-    {"*", Operator::multiply, 4, false},
-    {"/", Operator::divide, 4, false},
-    {"MOD", Operator::modulo, 4, true},
-    {"DIV", Operator::integer_divide, 4, true},
-    {"+", Operator::add, 3, false},
-    {"-", Operator::subtract, 3, false},
-    {"==", Operator::equal, 2, false},
-    {"<>", Operator::unequal, 2, false},
-    {">=", Operator::greater_equal, 2, false},
-    {"<=", Operator::less_equal, 2, false},
-    {">", Operator::greater, 2, false},
-    {"<", Operator::less, 2, false},
-    {"EQ", Operator::equal, 2, true},
-    {"NE", Operator::unequal, 2, true},
-    {"GT", Operator::greater, 2, true},
-    {"GE", Operator::greater_equal, 2, true},
-    {"LT", Operator::less, 2, true},
-    {"LE", Operator::less_equal, 2, true},
-    {"AND", Operator::logical_and, 1, true},
-    {"OR", Operator::logical_or, 1, true},
-    {"XOR", Operator::logical_xor, 1, true},
-    {"B_AND", Operator::logical_and, 1, true},
-    {"B_OR", Operator::logical_or, 1, true},
-    {"B_XOR", Operator::logical_xor, 1, true},
+constexpr std::array<OperatorRow, 26> operators{{
+    {"**", Operator::power, 5, 5, 11, false},
+    {"^", Operator::power, 5, 5, 11, false},  // heidenhain-iso
+    {"*", Operator::multiply, 4, 4, 9, false},
+    {"/", Operator::divide, 4, 4, 9, false},
+    {"MOD", Operator::modulo, 4, 4, 9, true},
+    {"DIV", Operator::integer_divide, 4, 4, 9, true},
+    {"+", Operator::add, 3, 3, 8, false},
+    {"-", Operator::subtract, 3, 3, 8, false},
+    {"==", Operator::equal, 2, 2, 1, false},
+    {"<>", Operator::unequal, 2, 2, 1, false},
+    {">=", Operator::greater_equal, 2, 2, 1, false},
+    {"<=", Operator::less_equal, 2, 2, 1, false},
+    {">", Operator::greater, 2, 2, 1, false},
+    {"<", Operator::less, 2, 2, 1, false},
+    {"EQ", Operator::equal, 2, 2, 1, true},
+    {"NE", Operator::unequal, 2, 2, 1, true},
+    {"GT", Operator::greater, 2, 2, 1, true},
+    {"GE", Operator::greater_equal, 2, 2, 1, true},
+    {"LT", Operator::less, 2, 2, 1, true},
+    {"LE", Operator::less_equal, 2, 2, 1, true},
+    {"AND", Operator::logical_and, 1, 4, 4, true},
+    {"OR", Operator::logical_or, 1, 3, 2, true},
+    {"XOR", Operator::logical_xor, 1, 3, 3, true},
+    {"B_AND", Operator::bit_and, 1, 4, 7, true},
+    {"B_OR", Operator::bit_or, 1, 3, 5, true},
+    {"B_XOR", Operator::bit_xor, 1, 3, 6, true},
 }};
 
 using Function = double (*)(double);
@@ -162,10 +168,37 @@ constexpr std::array<FunctionRow, 18> functions{{
     {"NOT", [](double v) { return v == 0 ? 1.0 : 0.0; }},
 }};
 
+/// Of Heidenhain's formulas alone.
+constexpr std::array<FunctionRow, 5> heidenhain_functions{{
+    {"SQ", [](double v) { return v * v; }},
+    {"NEG", [](double v) { return -v; }},
+    {"FRAC", [](double v) { return v - std::trunc(v); }},
+    {"SGN", [](double v) { return v > 0 ? 1.0 : v < 0 ? -1.0 : 0.0; }},
+    {"LOG", [](double v) { return std::log10(v); }},
+}};
+
+/// Fanuc keeps digits in four bits each: 18 stands for binary 0001'0010. BIN reads it as 12.
+constexpr double most_digits = 1e15;
+double from_decimal_digits(double v) {
+    if (!(v >= 0 && v < most_digits)) return vacant;
+    double value = 0;
+    double ten = 1;
+    for (auto rest = static_cast<std::uint64_t>(v); rest > 0; rest /= 16, ten *= 10) value += static_cast<double>(rest % 16) * ten;
+    return value;
+}
+double to_decimal_digits(double v) {
+    if (!(v >= 0 && v < most_digits)) return vacant;
+    double value = 0;
+    double sixteen = 1;
+    for (auto rest = static_cast<std::uint64_t>(v); rest > 0; rest /= 10, sixteen *= 16) value += static_cast<double>(rest % 10) * sixteen;
+    return value;
+}
+constexpr std::array<FunctionRow, 2> fanuc_functions{{{"BIN", from_decimal_digits}, {"BCD", to_decimal_digits}}};
+
 class Reader {
 public:
-    Reader(Cursor& cursor, const Variables& variables, DialectId dialect)
-        : c_(cursor), variables_(variables), dialect_(dialect) {}
+    Reader(Cursor& cursor, const Variables& variables, DialectId dialect, double least_increment = 1)
+        : c_(cursor), variables_(variables), dialect_(dialect), least_increment_(least_increment) {}
 
     double expression(int least_rank) {
         enter();
@@ -197,17 +230,14 @@ private:
         if (++depth_ > deepest_nesting) throw ReadError{"expression is nested too deeply", c_.column(), {}};
     }
 
-    /// Fanuc and RS274 differ: Fanuc's AND binds as tightly as *, its OR and XOR as +.
     [[nodiscard]] int rank(const OperatorRow& row) const {
-        if (dialect_ != DialectId::fanuc) return row.rank;
-        if (row.op == Operator::logical_and) return 4;
-        if (row.op == Operator::logical_or || row.op == Operator::logical_xor) return 3;
-        return row.rank;
+        return dialect_ == DialectId::fanuc ? row.fanuc : dialect_ == DialectId::siemens ? row.siemens : row.rank;
     }
 
     const OperatorRow* take_operator() {
         c_.skip_blanks();
         for (const OperatorRow& row : operators) {
+            if (row.text == "^" && dialect_ != DialectId::heidenhain_iso) continue;
             if (row.word ? take_operator_word(row.text) : take_symbol(row.text)) return &row;
         }
         return nullptr;
@@ -263,11 +293,28 @@ private:
             case Operator::greater_equal: return a > b || near(a, b) ? 1 : 0;
             case Operator::less: return a < b && !near(a, b) ? 1 : 0;
             case Operator::less_equal: return a < b || near(a, b) ? 1 : 0;
-            case Operator::logical_and: return a != 0 && b != 0 ? 1 : 0;
-            case Operator::logical_or: return a != 0 || b != 0 ? 1 : 0;
-            case Operator::logical_xor: return (a != 0) != (b != 0) ? 1 : 0;
+            case Operator::logical_and:
+                if (dialect_ == DialectId::fanuc) return bitwise(Operator::bit_and, a, b, column);
+                return a != 0 && b != 0 ? 1 : 0;
+            case Operator::logical_or:
+                if (dialect_ == DialectId::fanuc) return bitwise(Operator::bit_or, a, b, column);
+                return a != 0 || b != 0 ? 1 : 0;
+            case Operator::logical_xor:
+                if (dialect_ == DialectId::fanuc) return bitwise(Operator::bit_xor, a, b, column);
+                return (a != 0) != (b != 0) ? 1 : 0;
+            case Operator::bit_and:
+            case Operator::bit_or:
+            case Operator::bit_xor: return bitwise(op, a, b, column);
         }
         return 0;
+    }
+    /// Bit by bit on whole numbers: B_AND … of Siemens, AND, OR and XOR of Fanuc.
+    static double bitwise(Operator op, double a, double b, std::size_t column) {
+        constexpr double most = 9e15;  // whole numbers that a double holds
+        if (!(std::abs(a) < most && std::abs(b) < most)) throw ReadError{"too large for an operation bit by bit", column, {}};
+        const std::int64_t x = std::llround(a);
+        const std::int64_t y = std::llround(b);
+        return static_cast<double>(op == Operator::bit_and ? x & y : op == Operator::bit_or ? x | y : x ^ y);
     }
     static bool same(double a, double b) { return std::abs(a - b) < equal_within; }
     /// RS274 orders exactly: a loop that counts by tenths ends where its sum ends.
@@ -281,7 +328,7 @@ private:
             return next == '-' ? -v : v;
         }
         if (next == '[') return bracketed('[', ']');
-        if (next == '(' && dialect_ == DialectId::siemens) return bracketed('(', ')');
+        if (next == '(' && (dialect_ == DialectId::siemens || dialect_ == DialectId::heidenhain_iso)) return bracketed('(', ')');
         if (next == '#') return hash_variable();
         if (is_digit(next) || next == '.') return number();
         if (is_letter(next) || next == '_' || next == '$') return name();
@@ -371,6 +418,18 @@ private:
             return arc_tangent(column);
         }
         if (id == "EXISTS") return exists();
+        if (id == "POW" && dialect_ == DialectId::fanuc) {
+            const std::vector<double> v = arguments(id, 2);
+            return std::pow(v[0], v[1]);
+        }
+        if ((id == "MINVAL" || id == "MAXVAL") && dialect_ == DialectId::siemens) {
+            const std::vector<double> v = arguments(id, 2);
+            return id == "MINVAL" ? std::min(v[0], v[1]) : std::max(v[0], v[1]);
+        }
+        if (id == "BOUND" && dialect_ == DialectId::siemens) {  // lower, upper, value
+            const std::vector<double> v = arguments(id, 3);
+            return std::max(v[0], std::min(v[2], v[1]));
+        }
         if (id == "PI" || id == "$PI") {
             c_.at += id.size();
             return 180.0 * rad_per_deg;
@@ -379,19 +438,47 @@ private:
             c_.at += id.size();
             return id == "TRUE" ? 1 : 0;
         }
-        for (const FunctionRow& row : functions) {
-            // `SIN[1]` and `sin#1` alike: the name ends where the letters of the function end.
-            if (id != row.name) continue;
+        if (const FunctionRow* row = function(id)) {
             c_.at += id.size();
             const double given = value();
             const double argument = std::isnan(given) ? 0 : given;
-            const double result = row.value(argument);
+            double result = row->value(argument);
+            if (dialect_ == DialectId::fanuc) {
+                // FIX and FUP of Fanuc count by magnitude; ROUND in a word rounds to the least increment.
+                if (id == "FIX" || id == "FUP") result = std::copysign(row->value(std::abs(argument)), argument);
+                if (id == "ROUND") result = row->value(argument / least_increment_) * least_increment_;
+            }
             if (std::isnan(result) && !std::isnan(argument)) {
-                throw ReadError{std::string(row.name) + " of " + std::to_string(argument) + " is not defined", column, {}};
+                throw ReadError{std::string(row->name) + " of " + std::to_string(argument) + " is not defined", column, {}};
             }
             return result;
         }
         return variable(id, column);
+    }
+
+    [[nodiscard]] const FunctionRow* function(const std::string& id) const {
+        const auto in = [&](std::span<const FunctionRow> table) {
+            const auto found = std::find_if(table.begin(), table.end(), [&](const FunctionRow& row) { return row.name == id; });
+            return found == table.end() ? nullptr : &*found;
+        };
+        if (const FunctionRow* found = in(functions)) return found;
+        if (dialect_ == DialectId::fanuc) return in(fanuc_functions);
+        return dialect_ == DialectId::heidenhain_iso ? in(heidenhain_functions) : nullptr;
+    }
+
+    /// The values between brackets of a function of several: POW[2,3], MINVAL(R1,R2).
+    std::vector<double> arguments(const std::string& id, std::size_t count) {
+        const std::size_t column = c_.column();
+        c_.at += id.size();
+        const char open = dialect_ == DialectId::siemens ? '(' : '[';
+        const char close = dialect_ == DialectId::siemens ? ')' : ']';
+        std::vector<double> values;
+        if (!c_.take(open)) throw ReadError{std::string("expected '") + open + "' after " + id, c_.column(), {}};
+        do {
+            values.push_back(expression(0));
+        } while (c_.take(','));
+        if (!c_.take(close) || values.size() != count) throw ReadError{id + " needs " + std::to_string(count) + " values in brackets", column, {}};
+        return values;
     }
 
     double exists() {
@@ -461,6 +548,7 @@ private:
     Cursor& c_;
     const Variables& variables_;
     DialectId dialect_;
+    double least_increment_;
     int depth_ = 0;
 };
 
@@ -475,8 +563,8 @@ std::optional<double> evaluate_or_vacant(Cursor& cursor, const Variables& variab
     return std::isnan(value) ? std::nullopt : std::optional(value);
 }
 
-std::optional<double> read_or_vacant(Cursor& cursor, const Variables& variables, DialectId dialect) {
-    const double value = Reader(cursor, variables, dialect).value();
+std::optional<double> read_or_vacant(Cursor& cursor, const Variables& variables, DialectId dialect, double least_increment) {
+    const double value = Reader(cursor, variables, dialect, least_increment).value();
     return std::isnan(value) ? std::nullopt : std::optional(value);
 }
 

@@ -252,7 +252,7 @@ bool Interpreter::control(const Statement& statement) {
         case ControlKind::if_then: {
             if (!condition(parsed.rest)) return true;
             Cursor c{text, static_cast<std::size_t>(std::stoul(parsed.label))};
-            read_block(c, variables_, dialect_, block_);
+            read_block(c, variables_, dialect_, state_.least_increment(), block_);
             execute(block_);
             return true;
         }
@@ -271,7 +271,7 @@ bool Interpreter::control(const Statement& statement) {
                 std::fill(after_label.text.begin(), after_label.text.begin() + static_cast<std::ptrdiff_t>(parsed.rest), ' ');
                 if (control(after_label)) return true;
                 Cursor c{after_label.text, 0};
-                read_block(c, variables_, dialect_, block_);
+                read_block(c, variables_, dialect_, state_.least_increment(), block_);
                 execute(block_);
             }
             return true;

@@ -145,7 +145,7 @@ void Interpreter::run_block(std::string_view line) {
         if (statement.text.empty()) return;
         if (!control(statement)) {
             Cursor cursor{statement.text, 0};
-            read_block(cursor, variables_, dialect_, block_);
+            read_block(cursor, variables_, dialect_, state_.least_increment(), block_);
             execute(block_);
         }
         if (!unknown_name_.empty()) {

@@ -86,6 +86,20 @@ TEST(FanucMacro, CallsModallyAfterEveryMotion) {
               (Rows{"rapid 0 0 0", "rapid 1 0 0", "feed 1 0 -2", "rapid 1 0 0", "rapid 2 0 0", "feed 2 0 -2", "rapid 2 0 0", "rapid 3 0 0"}));
 }
 
+TEST(FanucMacro, CountsAsTheManualHasIt) {
+    // AND, OR and XOR work bit by bit: 5 is 101, 3 is 011.
+    EXPECT_EQ(rows("G0 X[5 AND 3] Y[5 OR 3] Z[5 XOR 3]\n"), (Rows{"rapid 1 7 6"}));
+    EXPECT_EQ(rows("#1=4\nIF[[#1 GT 3] AND [#1 LE 5]]GOTO 1\nG0 X9 Y9 Z9\nN1 G0 X1 Y1 Z1\n"), (Rows{"rapid 1 1 1"}));
+    // FIX cuts, FUP rounds up, both by magnitude.
+    EXPECT_EQ(rows("#1=FIX[-1.2]\n#2=FUP[-1.2]\n#3=FUP[1.2]\nG0 X#1 Y#2 Z#3\n"), (Rows{"rapid -1 -2 2"}));
+    // ROUND rounds to whole numbers; in a word to the least increment: 0.001 mm, 0.0001 in.
+    EXPECT_EQ(rows("#1=ROUND[2.5]\nG0 X#1 Y[ROUND[1.2345]+ROUND[2.3456]] Z0\n"), (Rows{"rapid 3 3.581 0"}));
+    EXPECT_EQ(rows("G20\nG0 X0 Y0 Z[ROUND[1.00004]]\n"), (Rows{"rapid 0 0 25.4"}));
+    // Digits in four bits each: 12 is 0001'0010, which is 18. 2 to the third.
+    EXPECT_EQ(rows("G0 X[BCD[12]] Y[BIN[18]] Z[POW[2,3]]\n"), (Rows{"rapid 18 12 8"}));
+    EXPECT_NE(error_of("#1=BIN[-1]\n", "fanuc").find("BIN of -1"), std::string::npos);
+}
+
 TEST(FanucMacro, JumpsLoopsAndReturnsToABlock) {
     EXPECT_EQ(rows("G0 X0 Y0 Z0\n#100=30\nGOTO #100\nX9\nN30 X1\nM98 P20007\nX9\nN50 X2\nM30\nO7\nG91 Y1\nG90 M99\n"),
               (Rows{"rapid 0 0 0", "rapid 1 0 0", "rapid 1 1 0", "rapid 1 2 0", "rapid 9 2 0", "rapid 2 2 0"}));
