@@ -52,6 +52,7 @@ Statement clean_line(std::string_view line, DialectId dialect) {
     // A byte order mark and bytes that no controller reads are blanks; in quotes all stays.
     if (text.starts_with("\xef\xbb\xbf")) text.replace(0, 3, "   ");
     bool quoted = false;
+    bool formula = false;
     for (std::size_t i = 0; i < text.size(); ++i) {
         char& c = text[i];
         if (c == '"') quoted = !quoted;
@@ -61,7 +62,9 @@ Statement clean_line(std::string_view line, DialectId dialect) {
             text.resize(i);
             break;
         }
-        const bool comment = c == '(' && dialect != DialectId::siemens;
+        // Parentheses are those of expressions in siemens, and of formulas in heidenhain-iso: Q1 = 2 * ( Q2 + 1 ).
+        formula = formula || (c == '=' && dialect == DialectId::heidenhain_iso);
+        const bool comment = c == '(' && dialect != DialectId::siemens && !formula;
         if (!comment) continue;
         const std::size_t end = text.find(')', i);
         if (end == std::string::npos) statement.open_comment = true;
@@ -70,7 +73,10 @@ Statement clean_line(std::string_view line, DialectId dialect) {
         i = stop - 1;
     }
     if (dialect == DialectId::heidenhain_iso) {
-        std::replace(text.begin(), text.end(), '*', ' ');
+        // '*' ends a block; in a formula (Q1 = Q2 * 3 *) the last one does.
+        while (!text.empty() && text.back() == ' ') text.pop_back();
+        if (!formula) std::replace(text.begin(), text.end(), '*', ' ');
+        else if (text.back() == '*') text.pop_back();
         std::replace(text.begin(), text.end(), '~', ' ');  // a block that goes on
     }
     if (dialect == DialectId::linuxcnc && text.find('"') == std::string::npos) close_numbers(text);
@@ -89,11 +95,14 @@ Statement clean_line(std::string_view line, DialectId dialect) {
     };
     take_skip(at);
     // "%" alone begins and ends a tape; "%name" is a program's name.
-    if (text[at] == '%') {
+    const auto take_tape_mark = [&] {
+        if (at == std::string::npos || text[at] != '%') return false;
         statement.tape_mark = true;
+        if (dialect == DialectId::heidenhain_iso) statement.title = text.substr(at + 1);
         text.clear();
-        return statement;
-    }
+        return true;
+    };
+    if (take_tape_mark()) return statement;
     // The block number.
     at = text.find_first_not_of(' ');
     if (at != std::string::npos && upper(text[at]) == 'N' && at + 1 < text.size() &&
@@ -102,6 +111,8 @@ Statement clean_line(std::string_view line, DialectId dialect) {
         while (end < text.size() && (is_digit(text[end]) || text[end] == '.' || text[end] == ' ')) ++end;
         std::fill(text.begin() + static_cast<std::ptrdiff_t>(at), text.begin() + static_cast<std::ptrdiff_t>(end), ' ');
         take_skip(end);
+        at = text.find_first_not_of(' ');
+        if (dialect == DialectId::heidenhain_iso) (void)take_tape_mark();
     }
     return statement;
 }

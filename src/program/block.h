@@ -74,7 +74,8 @@ void read_block(Cursor& cursor, Variables& variables, DialectId dialect, double 
 struct Statement {
     std::string text;          ///< same columns as the line: comments are replaced by blanks
     bool deleted = false;      ///< begins with '/'
-    bool tape_mark = false;    ///< '%' alone
+    bool tape_mark = false;    ///< '%', alone or before a name
+    std::string title;         ///< of heidenhain-iso: what stands behind '%'
     bool open_comment = false; ///< a '(' that is not closed
 };
 [[nodiscard]] Statement clean_line(std::string_view line, DialectId dialect);

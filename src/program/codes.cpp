@@ -129,8 +129,8 @@ void Interpreter::apply_common(int code, Block& block, std::size_t column) {
         case 170: state_.plane_axis = 2; return;
         case 180: state_.plane_axis = 1; return;
         case 190: state_.plane_axis = 0; return;
-        case 200: state_.unit_mm = mm_per_inch; return;
-        case 210: state_.unit_mm = 1; return;
+        case 200: state_.count_in(mm_per_inch); return;
+        case 210: state_.count_in(1); return;
         case 280: case 300: reference(code, block); return;
         case 330: state_.motion = MotionMode::thread; return;
         case 430: case 431: case 432: case 440: case 490:

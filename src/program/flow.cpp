@@ -369,7 +369,7 @@ void Interpreter::call(const std::string& name, int repeats, bool locals, const 
     frame.line = line_;
     frame.start_file = file;
     frame.start_line = line + (at >= 0 || dialect_ != DialectId::fanuc ? 1 : 0);
-    if (at < 0 && dialect_ == DialectId::siemens) frame.start_line = 1;
+    if (at < 0 && (dialect_ == DialectId::siemens || dialect_ == DialectId::heidenhain_iso)) frame.start_line = 1;
     frame.call = call_;
     call_ = call_from_here();
     frame.repeats = repeats - 1;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <sstream>
 
 #include <fmt/format.h>
 
@@ -32,6 +33,30 @@ void Interpreter::set_heidenhain_frame(std::size_t kind, const ProgramFrame& fra
     motion_suppressed_ = true;
 }
 
+/// `%NAME G71` begins a program with its unit of measure, and ends it; `%NAME` alone calls one.
+void Interpreter::heidenhain_title(const std::string& title) {
+    std::istringstream words(title);
+    std::string name;
+    std::string unit;
+    words >> name >> unit;
+    const std::string_view before = program_.files[file_].text().substr(0, static_cast<std::size_t>(current_.data() - program_.files[file_].text().data()));
+    const bool begins = before.find_first_not_of(" \t\r\n\xef\xbb\xbf") == std::string_view::npos;
+    if (begins) {
+        count_in_inches(unit == "G70");
+        event("program", title);
+    } else if (unit == "G70" || unit == "G71") {
+        leave(false);
+    } else {
+        call(name, 1, false, {});
+    }
+}
+
+/// Inch programs give the feed in tenths of an inch.
+void Interpreter::count_in_inches(bool inches) {
+    state_.unit_mm = inches ? mm_per_inch : 1;
+    state_.feed_unit_mm = inches ? 0.1 * mm_per_inch : 1;
+}
+
 bool Interpreter::apply_heidenhain(int code, Block& block, std::size_t column) {
     const Words& w = block.words;
     const auto not_carried_out = [&](const char* what) {
@@ -40,8 +65,8 @@ bool Interpreter::apply_heidenhain(int code, Block& block, std::size_t column) {
         return true;
     };
     switch (code) {
-        case 700: state_.unit_mm = mm_per_inch; return true;
-        case 710: state_.unit_mm = 1; return true;
+        case 700: count_in_inches(true); return true;
+        case 710: count_in_inches(false); return true;
         case 50: arc_kind_ = ArcKind::by_radius; state_.motion = last_clockwise_ ? MotionMode::cw : MotionMode::ccw; return true;
         case 60: arc_kind_ = ArcKind::tangential; state_.motion = MotionMode::cw; return true;
         case 160: arc_kind_ = ArcKind::tangential; state_.motion = MotionMode::cw; polar_line_ = true; return true;
@@ -74,7 +99,7 @@ bool Interpreter::apply_heidenhain(int code, Block& block, std::size_t column) {
         case 280: {
             Vec3 factors = Vec3::Ones();
             for (int k = 0; k < 3; ++k) {
-                if (w.given("XYZ"[k]) || block_mentions("XYZ"[k], block)) factors[k] = -1;
+                if (w.given("XYZ"[k]) || take_mention("XYZ"[k], block)) factors[k] = -1;
             }
             set_heidenhain_frame(mirror, ProgramFrame::scaled(factors, Vec3::Zero()));
             event("mirror", "G28");
@@ -130,8 +155,8 @@ bool Interpreter::apply_heidenhain(int code, Block& block, std::size_t column) {
 }
 
 /// An axis letter that stands without a number, as in G28 X Y.
-bool Interpreter::block_mentions(char letter, const Block& block) const {
-    return std::any_of(block.unknown.begin(), block.unknown.end(), [&](const UnknownWord& word) { return word.text.size() == 1 && upper(word.text[0]) == letter; });
+bool Interpreter::take_mention(char letter, Block& block) {
+    return std::erase_if(block.unknown, [&](const UnknownWord& word) { return word.text.size() == 1 && upper(word.text[0]) == letter; }) > 0;
 }
 
 /// I J K give the pole, which stays: in the block of the arc, or before it.

@@ -126,7 +126,7 @@ bool Interpreter::run_plain(const Words& words) {
     const bool rapid = mode == MotionMode::rapid;
     push(rapid ? MotionKind::rapid : MotionKind::feed, p, state_.rotary,
          rapid ? std::numeric_limits<float>::quiet_NaN()
-               : static_cast<float>(state_.feed * unit / seconds_per_minute));
+               : static_cast<float>(state_.feed * state_.feed_unit_mm / seconds_per_minute));
     return true;
 }
 
@@ -134,6 +134,10 @@ void Interpreter::run_block(std::string_view line) {
     try {
         const Statement statement = clean_line(line, dialect_);
         if (statement.open_comment) note(Severity::warning, "program.open-comment", "'(' is not closed");
+        if (statement.tape_mark && !statement.title.empty()) {
+            heidenhain_title(statement.title);
+            return;
+        }
         if (statement.tape_mark) {
             // The second % ends the tape; "%name" of other controls is a title.
             const bool alone = line.find_first_not_of("% \t\r") == std::string_view::npos;

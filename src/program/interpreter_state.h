@@ -139,9 +139,12 @@ private:
     // heidenhain.cpp
     bool apply_heidenhain(int code, Block& block, std::size_t column);
     void set_heidenhain_frame(std::size_t kind, const ProgramFrame& frame);
-    [[nodiscard]] bool block_mentions(char letter, const Block& block) const;
+    static bool take_mention(char letter, Block& block);
+    void heidenhain_title(const std::string& title);            ///< %NAME G71
+    void count_in_inches(bool inches);                          ///< G70, G71
     void take_pole(const Block& block);
     bool arc_of_heidenhain(const Block& block, ArcWords& words);
+    void arc_along_tangent(ArcWords& words) const;
     [[nodiscard]] Vec2 end_tangent(int u, int v) const;
     bool q_function(std::string_view text);                     ///< D00 … D13
     bool call_label(std::string_view text);                     ///< L5,3

@@ -134,9 +134,9 @@ void Interpreter::move(const Block& block) {
 
 float Interpreter::feed_for(double length) {
     switch (state_.feed_mode) {
-        case FeedMode::per_minute: return static_cast<float>(state_.feed * state_.unit_mm / seconds_per_minute);
+        case FeedMode::per_minute: return static_cast<float>(state_.feed * state_.feed_unit_mm / seconds_per_minute);
         case FeedMode::per_revolution:
-            return static_cast<float>(state_.feed * state_.unit_mm * state_.spindle / seconds_per_minute);
+            return static_cast<float>(state_.feed * state_.feed_unit_mm * state_.spindle / seconds_per_minute);
         case FeedMode::inverse_time: return static_cast<float>(length * state_.feed / seconds_per_minute);
     }
     return 0;

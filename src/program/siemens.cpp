@@ -39,8 +39,10 @@ bool contains(const List& list, const Value& value) {
 
 bool Interpreter::apply_siemens(int code, Block& block, std::size_t column) {
     switch (code) {
-        case 700: case 7000: state_.unit_mm = mm_per_inch; return true;
-        case 710: case 7100: state_.unit_mm = 1; return true;
+        case 700: state_.unit_mm = mm_per_inch; return true;  // lengths alone, not the feed
+        case 710: state_.unit_mm = 1; return true;
+        case 7000: state_.count_in(mm_per_inch); return true;
+        case 7100: state_.count_in(1); return true;
         case 530: case 1530: machine_coordinates_ = true; return true;
         case 5000: select_work_system(0); return true;
         case 580: case 590:
