@@ -336,13 +336,13 @@ private:
         return index + "]";
     }
 
-    /// IC(…): whether it stands here, and its value.
-    double incremental_value(bool& incremental) {
+    /// A value, in AC(…) or IC(…) or without.
+    double coordinate(std::optional<bool>& increment) {
         for (const auto& [name, adds] : {std::pair{std::string_view("IC"), true}, std::pair{std::string_view("AC"), false}}) {
             Cursor inside = c_;
             if (!inside.take_word(name) || inside.peek() != '(') continue;
             c_ = inside;
-            incremental = adds;
+            increment = adds;
             return read_value(c_, variables_, dialect_);
         }
         return evaluate(c_, variables_, dialect_);
@@ -404,16 +404,20 @@ private:
             put(letter, evaluate(c_, variables_, dialect_), column);
             return;
         }
+        std::optional<bool> increment;
         if (id == "RP") {
-            block_.polar_radius = incremental_value(block_.polar_radius_incremental);
+            block_.polar_radius = coordinate(increment);
+            block_.polar_radius_incremental = increment.value_or(false);
             return;
         }
         if (id == "AP") {
-            block_.polar_angle = incremental_value(block_.polar_angle_incremental);
+            block_.polar_angle = coordinate(increment);
+            block_.polar_angle_incremental = increment.value_or(false);
             return;
         }
         static constexpr std::array<std::string_view, 14> of_blocks{"AR", "RPL", "I1", "J1", "K1", "RND", "RNDM", "CHR", "CHF", "ANG", "DISR", "A3", "B3", "C3"};
-        const double value = evaluate(c_, variables_, dialect_);
+        const bool of_block = std::find(of_blocks.begin(), of_blocks.end(), id) != of_blocks.end();
+        const double value = of_block ? coordinate(increment) : evaluate(c_, variables_, dialect_);
         if (id == "CR") {
             put('R', value, column);
         } else if (id == "TURN") {
@@ -422,8 +426,8 @@ private:
             variables_.set(100000 + std::stoi(id.substr(1)), value);
         } else if (id.starts_with("R[")) {
             variables_.set(100000 + std::stoi(id.substr(2)), value);
-        } else if (std::find(of_blocks.begin(), of_blocks.end(), id) != of_blocks.end()) {
-            block_.named.emplace_back(id, value);
+        } else if (of_block) {
+            block_.named.push_back({id, value, column, increment});
         } else if (variables_.find(id.substr(0, id.find('['))) != nullptr) {
             variables_.set(id, value);
         } else if (id[0] == 'S' || id[0] == 'M' || id[0] == 'H' || id == "LIMS" || id == "ADIS" || id == "ADISPOS" || id == "P") {

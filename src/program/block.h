@@ -2,6 +2,7 @@
 // Block: one line of a program read to words, whatever its dialect. Assignments are carried out while
 // it is read (RS274 and Fanuc: after the whole block has been read with the old values).
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -27,23 +28,33 @@ struct UnknownWord {
     std::size_t column = 0;
 };
 
+/// A word of several letters: AR=, RPL=, I1=.
+struct NamedWord {
+    std::string name;
+    double value = 0;
+    std::size_t column = 0;
+    std::optional<bool> increment;  ///< IC(…) true, AC(…) false
+};
+
 struct Block {
     Words words;
     std::uint32_t absolute = 0, incremental = 0;  ///< letters given as AC(…), IC(…)
     int extra_turns = 0;                          ///< TURN=
     std::optional<double> polar_radius, polar_angle;  ///< @ and ^ of LinuxCNC, RP= and AP= of Siemens, as written
     bool polar_radius_incremental = false, polar_angle_incremental = false;  ///< IC(…)
-    std::vector<std::pair<std::string, double>> named;  ///< words of several letters: AR=, RPL=, I1=
+    std::vector<NamedWord> named;
     std::vector<std::pair<char, double>> centres; ///< every I, J, K of Fanuc, which macro calls count
     std::vector<Keyword> keywords;
     std::vector<UnknownWord> unknown;
 
-    /// The value of a word of several letters.
+    /// A word of several letters, or null.
+    [[nodiscard]] const NamedWord* find(std::string_view name) const {
+        const auto found = std::find_if(named.begin(), named.end(), [&](const NamedWord& word) { return word.name == name; });
+        return found == named.end() ? nullptr : &*found;
+    }
     [[nodiscard]] std::optional<double> value_of(std::string_view name) const {
-        for (const auto& [key, value] : named) {
-            if (key == name) return value;
-        }
-        return std::nullopt;
+        const NamedWord* word = find(name);
+        return word == nullptr ? std::nullopt : std::optional(word->value);
     }
 
     void clear() {

@@ -22,6 +22,11 @@ constexpr auto noted_everywhere = std::to_array<NotedCode>({
     
 });
 bool is(const Block& block, char letter) { return block.words.given(letter); }
+/// G0 to G3, or a thread.
+bool names_motion(const Block& block) {
+    const auto* first = block.words.g.data();
+    return std::any_of(first, first + block.words.g_count, [](std::int32_t code) { return code <= 30 || (code >= 330 && code <= 350) || code == 3310 || code == 3320; });
+}
 
 constexpr auto cycle_codes = std::to_array<int>({730, 740, 760, 810, 820, 830, 840, 850, 860, 870, 880, 890, 843});
 
@@ -49,7 +54,7 @@ void Interpreter::execute(Block& block) {
     machine_coordinates_ = false;
     motion_suppressed_ = false;
     call_program_ = -1;
-    arc_by_points_ = arc_by_points_ && block.words.g_count == 0;  // CIP stays until the next G code
+    if (dialect_ == DialectId::siemens && names_motion(block)) arc_kind_ = ArcKind::usual;  // what ends CIP and CT
     if (data_entry_ && !is_data_end(block)) return;
     if (macro_call(block)) return;
     for (const Keyword& keyword : block.keywords) {
@@ -299,9 +304,11 @@ void Interpreter::report_unused(const Block& block) {
     for (const UnknownWord& word : block.unknown) {
         note(Severity::warning, "program.unknown-word", "'" + word.text + "' is not known", word.column);
     }
-    for (const auto& [name, value] : block.named) {
-        const bool corner = name == "RND" || name == "RNDM" || name == "CHR" || name == "CHF" || name == "ANG" || name == "DISR";
-        if (corner) note(Severity::warning, "program.corner", fmt::format("{}={:g} is not carried out: the corner is read as programmed", name, value));
+    for (const NamedWord& word : block.named) {
+        const bool corner = word.name == "RND" || word.name == "RNDM" || word.name == "CHR" || word.name == "CHF" || word.name == "DISR";
+        if (corner) note(Severity::warning, "program.corner", fmt::format("{}={:g} is not carried out: the corner is read as programmed", word.name, word.value), word.column);
+        const bool line = word.name == "ANG" && (motion_suppressed_ || !ends_by_angle(block));
+        if (line) note(Severity::warning, "program.corner", fmt::format("ANG={:g} is not carried out without one coordinate of the plane: the end is read as programmed", word.value), word.column);
     }
     for (const char letter : {'V', 'W', 'U', 'E'}) {
         if (!is(block, letter) || motion_suppressed_) continue;

@@ -169,7 +169,7 @@ struct SiemensWord {
     std::string_view text;
     ControlKind kind;
 };
-constexpr std::array<SiemensWord, 15> siemens_words{{
+constexpr std::array<SiemensWord, 17> siemens_words{{
     {"IF", ControlKind::if_begin},       {"ELSE", ControlKind::else_branch},
     {"ENDIF", ControlKind::if_end},      {"WHILE", ControlKind::while_begin},
     {"ENDWHILE", ControlKind::while_end}, {"FOR", ControlKind::for_begin},
@@ -177,8 +177,19 @@ constexpr std::array<SiemensWord, 15> siemens_words{{
     {"ENDLOOP", ControlKind::while_end}, {"REPEAT", ControlKind::do_begin},
     {"UNTIL", ControlKind::do_while},    {"RET", ControlKind::leave},
     {"M17", ControlKind::leave},         {"PROC", ControlKind::label},
-    {"ENDPROC", ControlKind::leave},
+    {"ENDPROC", ControlKind::leave},     {"REPEATB", ControlKind::repeat_block},
+    {"CASE", ControlKind::choice},
 }};
+
+/// GOTO, GOTOF, GOTOB, GOTOC with its label, behind the letters GOTO.
+void read_go_to(Cursor& c, Control& control) {
+    const char way = c.at < c.text.size() ? upper(c.text[c.at]) : ' ';
+    const bool named = way == 'F' || way == 'B' || way == 'C';
+    if (named) ++c.at;
+    control.direction = way == 'F' ? 1 : way == 'B' ? -1 : 0;
+    control.may_miss = way == 'C';
+    control.label = c.identifier();
+}
 
 Control parse_siemens(std::string_view statement) {
     Control control;
@@ -193,10 +204,11 @@ Control parse_siemens(std::string_view statement) {
         control.rest = after.at + 1;
         return control;
     }
-    if (id.starts_with("GOTO")) {
+    if (id == "GOTO" || id == "GOTOF" || id == "GOTOB" || id == "GOTOC") {
         control.kind = ControlKind::go_to;
-        control.direction = id == "GOTOF" ? 1 : id == "GOTOB" ? -1 : 0;
-        control.label = after.identifier();
+        c.skip_blanks();
+        c.at += 4;
+        read_go_to(c, control);
         return control;
     }
     for (const SiemensWord& row : siemens_words) {
@@ -204,8 +216,8 @@ Control parse_siemens(std::string_view statement) {
         control.kind = row.kind;
         control.rest = after.at;
         if (id == "LOOP") control.rest = std::string_view::npos;
-        if (id == "REPEAT" && !after.identifier().empty()) {
-            control.kind = ControlKind::repeat_section;
+        if (id == "REPEATB" || (id == "REPEAT" && !after.identifier().empty())) {
+            control.kind = id == "REPEATB" ? ControlKind::repeat_block : ControlKind::repeat_section;
             control.label = after.identifier();
             control.rest = after.at + after.text.substr(after.at).find_first_not_of(' ') + control.label.size();
             return control;
@@ -214,10 +226,8 @@ Control parse_siemens(std::string_view statement) {
             const std::size_t at = find_word(statement, "GOTO", after.at);
             if (at != std::string_view::npos) {
                 control.kind = ControlKind::if_go_to;
-                const char way = at + 4 < statement.size() ? upper(statement[at + 4]) : ' ';
-                control.direction = way == 'F' ? 1 : way == 'B' ? -1 : 0;
-                Cursor target{statement, at + (way == 'F' || way == 'B' ? 5 : 4)};
-                control.label = target.identifier();
+                Cursor target{statement, at + 4};
+                read_go_to(target, control);
             }
         }
         return control;

@@ -26,7 +26,9 @@ enum class ControlKind : std::uint8_t {
     break_loop, continue_loop,
     go_to, if_go_to, if_then,             // IF […] GOTO n, IF […] THEN …
     label,                                // a place to jump to; a program number
-    repeat_section,                       // REPEAT LABEL P=n: from the label on, n times more
+    repeat_section,                       // REPEAT LABEL P=n, REPEAT FROM TO P=n: these lines, n times more
+    repeat_block,                         // REPEATB LABEL P=n: that line, n times more
+    choice,                               // CASE v OF 1 GOTOF A … DEFAULT GOTOF B
     end_loop,                             // end of an endless loop
 };
 
@@ -36,6 +38,7 @@ struct Control {
     std::size_t rest = 0;   ///< byte of the statement where its expression or arguments begin
     std::size_t target = 0; ///< of IF … GOTO: byte where the target begins
     int direction = 0;      ///< of a GOTO: +1 forward, −1 backward, 0 both
+    bool may_miss = false;  ///< GOTOC: without its label the program goes on
     LineNumber line = 0;    ///< where it stands, in an index
     int partner = -1;       ///< index of its other end: while ↔ end, if → its endif
     int next_branch = -1;   ///< of if, elseif: the next elseif, else or endif

@@ -157,20 +157,9 @@ bool Interpreter::control(const Statement& statement) {
             counters_[line_] = std::floor(count + 1e-6) - 1;
             return true;
         }
-        case ControlKind::repeat_section: {
-            Cursor c{text, parsed.rest};
-            double times = 1;
-            if (c.take_word("P")) {
-                if (!c.take('=')) throw ReadError{"expected '=' after P", c.column(), {}};
-                times = evaluate(c, variables_, dialect_);
-            }
-            if (c.peek() != '\0') throw ReadError{"REPEAT between two labels is not supported", c.column(), {}};
-            const int at = index(file_).find(ControlKind::label, parsed.label, line_, -1);
-            if (at < 0) fail(fmt::format("REPEAT: there is no label '{}' before it", parsed.label));
-            const LineNumber begin = index(file_).all()[static_cast<std::size_t>(at)].line;
-            repeat_from(begin, times);
-            return true;
-        }
+        case ControlKind::repeat_section:
+        case ControlKind::repeat_block: repeat_lines(parsed, text); return true;
+        case ControlKind::choice: choose(text, parsed.rest); return true;
         case ControlKind::repeat_end: {
             const Control& begin = partner_of(own(), "endrepeat");
             double& left = counters_[begin.line];
@@ -225,28 +214,12 @@ bool Interpreter::control(const Statement& statement) {
         case ControlKind::if_go_to:
         case ControlKind::go_to: {
             if (parsed.kind == ControlKind::if_go_to && !condition(parsed.rest)) return true;
-            count_jump();
-            LineNumber line = 0;
             std::string label = parsed.label;
             if (label.empty() && dialect_ == DialectId::fanuc) {
                 Cursor c{text, parsed.target};
                 label = fmt::format("{}", std::lround(read_value(c, variables_, dialect_)));
             }
-            const bool number = dialect_ == DialectId::fanuc ||
-                                (label.size() > 1 && label[0] == 'N' && is_digit(label[1]));
-            if (number) {
-                const std::string digits = dialect_ == DialectId::fanuc ? label : label.substr(1);
-                double value = 0;
-                if (read_decimal(digits, 0, value) > 0) {
-                    line = find_block(value, line_, parsed.direction);
-                }
-            } else {
-                // Backwards from the end of this line: its own label counts.
-                const int at = index(file_).find(ControlKind::label, label, line_ + (parsed.direction < 0 ? 1 : 0), parsed.direction);
-                if (at >= 0) line = index(file_).all()[static_cast<std::size_t>(at)].line;
-            }
-            if (line == 0) fail(fmt::format("there is no block to go to: '{}'", label));
-            go_to(file_, line);
+            jump_to(label, parsed.direction, parsed.may_miss);
             return true;
         }
         case ControlKind::if_then: {
@@ -280,6 +253,110 @@ bool Interpreter::control(const Statement& statement) {
         case ControlKind::none: return false;
     }
     return false;
+}
+
+/// To a label or a block number. `may_miss`: without it the program goes on.
+void Interpreter::jump_to(const std::string& label, int direction, bool may_miss) {
+    count_jump();
+    const bool number = dialect_ == DialectId::fanuc || (label.size() > 1 && label[0] == 'N' && is_digit(label[1]));
+    LineNumber line = 0;
+    if (number) {
+        const std::string digits = dialect_ == DialectId::fanuc ? label : label.substr(1);
+        double value = 0;
+        if (read_decimal(digits, 0, value) > 0) line = find_block(value, line_, direction);
+    } else {
+        // Backwards from the end of this line: its own label counts.
+        const int at = index(file_).find(ControlKind::label, label, line_ + (direction < 0 ? 1 : 0), direction);
+        if (at >= 0) line = index(file_).all()[static_cast<std::size_t>(at)].line;
+    }
+    if (line == 0 && may_miss) return;
+    if (line == 0) fail(fmt::format("there is no block to go to: '{}'", label));
+    const bool leaves = !sections_.empty() && sections_.back().level == frames_.size() && (line < sections_.back().begin || line > sections_.back().end);
+    if (leaves) {
+        sections_.pop_back();
+        watch_section();
+    }
+    go_to(file_, line);
+}
+
+/// CASE v OF 1 GOTOF A 2 GOTOF B DEFAULT GOTOF C
+void Interpreter::choose(const std::string& text, std::size_t begin) {
+    Cursor c{text, begin};
+    const double wanted = evaluate(c, variables_, dialect_);
+    if (!c.take_word("OF")) throw ReadError{"expected OF after the value of CASE", c.column(), {}};
+    while (c.peek() != '\0') {
+        const bool chosen = c.take_word("DEFAULT") || std::abs(read_value(c, variables_, dialect_) - wanted) < 1e-9;
+        const std::string jump = c.identifier();
+        const bool known = jump == "GOTO" || jump == "GOTOF" || jump == "GOTOB" || jump == "GOTOC";
+        if (!known) throw ReadError{"expected GOTOF or GOTOB and a label in CASE", c.column(), {}};
+        (void)c.take_word(jump);
+        const std::string label = c.identifier();
+        if (chosen) {
+            jump_to(label, jump == "GOTOF" ? 1 : jump == "GOTOB" ? -1 : 0, jump == "GOTOC");
+            return;
+        }
+        (void)c.take_word(label);
+    }
+}
+
+/// REPEAT and REPEATB: lines between labels once more, P times. From one label on, as far as ENDLABEL
+/// or this line.
+void Interpreter::repeat_lines(const Control& repeat, const std::string& text) {
+    Cursor c{text, repeat.rest};
+    const auto line_of = [&](const std::string& label) {
+        int at = index(file_).find(ControlKind::label, label, line_, -1);
+        if (at < 0) at = index(file_).find(ControlKind::label, label, line_, 1);
+        if (at < 0) fail(fmt::format("REPEAT: there is no label '{}'", label));
+        return index(file_).all()[static_cast<std::size_t>(at)].line;
+    };
+    Section section{.begin = line_of(repeat.label), .level = frames_.size(), .back = line_};
+    section.end = section.begin;
+    if (repeat.kind == ControlKind::repeat_section) {
+        const std::string until = c.identifier();
+        Cursor after = c;
+        const bool named = !until.empty() && after.take_word(until) && after.peek() != '=';
+        if (named) {
+            c = after;
+            section.end = line_of(until);
+        } else {
+            const int end = index(file_).find(ControlKind::label, "ENDLABEL", section.begin, 1);
+            const LineNumber line = end < 0 ? 0 : index(file_).all()[static_cast<std::size_t>(end)].line;
+            section.end = line != 0 && (line < line_ || section.begin > line_) ? line : line_ - 1;
+        }
+    }
+    double times = 1;
+    if (c.take_word("P")) {
+        if (!c.take('=')) throw ReadError{"expected '=' after P", c.column(), {}};
+        times = evaluate(c, variables_, dialect_);
+    }
+    if (c.peek() != '\0') throw ReadError{"expected P= after the labels of REPEAT", c.column(), {}};
+    if (section.end < section.begin || (section.begin <= line_ && line_ <= section.end)) fail(fmt::format("REPEAT: no lines to repeat from '{}' on", repeat.label));
+    if (sections_.size() >= deepest_call) fail(fmt::format("repeats are nested more than {} deep", deepest_call));
+    section.left = std::floor(times);
+    if (!(section.left >= 1)) return;
+    sections_.push_back(section);
+    next_of_section();
+}
+
+/// Once more from its beginning, or back behind its REPEAT.
+void Interpreter::next_of_section() {
+    Section& section = sections_.back();
+    count_jump();
+    if (section.left >= 1) {
+        section.left -= 1;
+        go_to(file_, section.begin);
+    } else {
+        go_to(file_, section.back + 1);
+        sections_.pop_back();
+    }
+    watch_section();
+}
+
+/// Which line to stop before: that behind the section that is repeated at this level of calls.
+void Interpreter::watch_section() {
+    while (!sections_.empty() && sections_.back().level > frames_.size()) sections_.pop_back();
+    const bool here = !sections_.empty() && sections_.back().level == frames_.size();
+    behind_section_ = here ? sections_.back().end + 1 : 0;
 }
 
 /// Back to a line, `times` times; then on.
@@ -383,6 +460,7 @@ void Interpreter::call(const std::string& name, int repeats, bool locals, const 
     frames_.push_back(std::move(frame));
     kept_modes_.emplace_back();
     restores_modes_.push_back(false);
+    watch_section();
     go_to(file, frames_.back().start_line);
 }
 
@@ -419,6 +497,7 @@ void Interpreter::leave(bool from_end_of_text) {
     const LineNumber line = frame.line;
     call_ = frame.call;
     frames_.pop_back();
+    watch_section();
     go_to(file, line + 1);
 }
 

@@ -73,7 +73,7 @@ bool Interpreter::apply_heidenhain(int code, Block& block, std::size_t column) {
         case 70: state_.motion = MotionMode::feed; return true;  // parallel to an axis
         case 0: case 10: case 20: case 30:
             polar_line_ = false;
-            arc_kind_ = ArcKind::about_pole;
+            arc_kind_ = ArcKind::usual;
             return false;
         case 100: case 110:
             polar_line_ = true;
@@ -81,7 +81,7 @@ bool Interpreter::apply_heidenhain(int code, Block& block, std::size_t column) {
             return true;
         case 120: case 130: case 150:
             polar_line_ = true;
-            arc_kind_ = ArcKind::about_pole;
+            arc_kind_ = ArcKind::usual;
             if (code != 150) last_clockwise_ = code == 120;
             state_.motion = last_clockwise_ ? MotionMode::cw : MotionMode::ccw;
             return true;
@@ -173,19 +173,8 @@ void Interpreter::take_pole(const Block& block) {
 }
 
 bool Interpreter::arc_of_heidenhain(const Block& block, ArcWords& words) {
-    const int u = (words.axis + 1) % 3;
-    const int v = (words.axis + 2) % 3;
     if (arc_kind_ == ArcKind::tangential) {
-        const Vec2 way(words.end[u] - words.begin[u], words.end[v] - words.begin[v]);
-        const Vec2 tangent = end_tangent(u, v);
-        const double across = tangent.x() * way.y() - tangent.y() * way.x();
-        if (tangent.isZero()) fail("a tangential arc needs a motion before it");
-        if (std::abs(across) < 1e-12) fail("a tangential arc to a point straight ahead is a line");
-        const double radius = way.squaredNorm() / (2 * across);  // left: positive
-        words.centre = words.begin;
-        words.centre[u] -= radius * tangent.y();
-        words.centre[v] += radius * tangent.x();
-        words.clockwise = radius < 0;
+        arc_along_tangent(words);
         return true;
     }
     last_clockwise_ = words.clockwise;
@@ -193,6 +182,22 @@ bool Interpreter::arc_of_heidenhain(const Block& block, ArcWords& words) {
     words.centre = polar_.pole;
     words.centre[words.axis] = words.begin[words.axis];
     return true;
+}
+
+/// G06, G16 and CT: the arc goes on in the direction of the last motion.
+void Interpreter::arc_along_tangent(ArcWords& words) const {
+    const int u = (words.axis + 1) % 3;
+    const int v = (words.axis + 2) % 3;
+    const Vec2 way(words.end[u] - words.begin[u], words.end[v] - words.begin[v]);
+    const Vec2 tangent = end_tangent(u, v);
+    const double across = tangent.x() * way.y() - tangent.y() * way.x();
+    if (tangent.isZero()) fail("a tangential arc needs a motion before it");
+    if (std::abs(across) < 1e-12) fail("a tangential arc to a point straight ahead is a line");
+    const double radius = way.squaredNorm() / (2 * across);  // left: positive
+    words.centre = words.begin;
+    words.centre[u] -= radius * tangent.y();
+    words.centre[v] += radius * tangent.x();
+    words.clockwise = radius < 0;
 }
 
 /// Direction in which the last motion ends, in programmed coordinates; zero: there is none.

@@ -84,6 +84,10 @@ void Interpreter::run_lines() {
 }
 
 void Interpreter::run_line() {
+    if (next_line_ == behind_section_) {
+        next_of_section();
+        return;
+    }
     if (next_byte_ >= program_.files[file_].text().size()) {
         leave(true);
         return;

@@ -37,6 +37,14 @@ struct CycleState {
     double initial = std::numeric_limits<double>::quiet_NaN();  ///< level where the cycle began [mm]
 };
 
+/// Lines that Siemens' REPEAT runs once more.
+struct Section {
+    LineNumber begin = 0, end = 0;
+    double left = 0;        ///< times still to begin
+    std::size_t level = 0;  ///< of calls
+    LineNumber back = 0;    ///< the line of REPEAT
+};
+
 /// What a cycle does between R and its bottom.
 struct Stroke {
     bool dwells = false, feeds_out = false, pecks = false, breaks_chips = false;
@@ -72,7 +80,8 @@ struct HeidenhainFrames {
     std::array<ProgramFrame, 4> frame;
     std::vector<std::size_t> order;
 };
-enum class ArcKind : std::uint8_t { about_pole, by_radius, tangential };
+/// How arcs are given: usually, or as Heidenhain's G05, by Siemens' CIP, or by its CT and Heidenhain's G06.
+enum class ArcKind : std::uint8_t { usual, by_radius, by_points, tangential };
 
 class Interpreter {
 public:
@@ -128,6 +137,8 @@ private:
     bool apply_siemens(int code, Block& block, std::size_t column);
     void set_pole(int code, const Block& block);                ///< G110 … G112
     bool siemens_frame(const Keyword& keyword, Block& block);   ///< true: the keyword was one
+    [[nodiscard]] bool ends_by_angle(const Block& block) const;  ///< ANG=
+    void end_by_angle(const Block& block, Vec3& end) const;
     [[nodiscard]] std::vector<std::optional<double>> arguments_of(const Keyword& keyword) const;
     bool call_siemens(const std::string& name, const Keyword& keyword, int repeats);
     void start_modal_call(const Keyword& called);
@@ -227,6 +238,11 @@ private:
     void call(const std::string& name, int repeats, bool locals, const std::vector<double>& arguments);
     void call_from_words(const Block& block);   ///< M98, G65, L…
     void repeat_from(LineNumber begin, double times);
+    void jump_to(const std::string& label, int direction, bool may_miss);
+    void choose(const std::string& text, std::size_t begin);    ///< CASE
+    void repeat_lines(const Control& repeat, const std::string& text);
+    void next_of_section();
+    void watch_section();
     void run_modal_call();
     void leave(bool from_end_of_text);
     void count_jump();
@@ -273,6 +289,8 @@ private:
     std::size_t next_byte_ = 0;
     std::string_view current_;  ///< text of the line that runs
     std::vector<Frame> frames_;
+    std::vector<Section> sections_;
+    LineNumber behind_section_ = 0;  ///< the line to stop before; 0: none
     std::uint32_t call_ = 0;    ///< that runs: index into Motions::calls, from 1; 0: the main program
     std::map<std::array<std::uint32_t, 3>, std::uint32_t> known_calls_;  ///< by caller, file and line
     std::vector<std::optional<ModalState>> kept_modes_{1};  ///< by level of calls: what M70 and M73 kept
@@ -292,11 +310,10 @@ private:
     Vec3 local_zero_ = Vec3::Zero(), mirror_at_ = Vec3::Zero();  ///< G52, G51.1 [mm]
     std::array<bool, 3> mirrored_{};
     bool data_entry_ = false;           ///< G10 L50 … G11: lines are parameters of the control
-    bool arc_by_points_ = false;        ///< CIP
     HeidenhainFrames heidenhain_frames_;
     Vec3 datum_ = Vec3::Zero();         ///< Heidenhain's G54 [mm]
     double turned_by_ = 0;              ///< its G73 [deg]
-    ArcKind arc_kind_ = ArcKind::about_pole;
+    ArcKind arc_kind_ = ArcKind::usual;
     bool polar_line_ = false;           ///< its G10 … G16: R and H give the end
     bool last_clockwise_ = false;
     mutable std::string unknown_name_;  ///< of a variable of the control that the block has read

@@ -48,6 +48,7 @@ Vec3 Interpreter::read_axes(const Block& block, bool machine) {
         const double from = std::isnan(base[axis]) ? 0.0 : base[axis];
         base[axis] = incremental ? from + value : value;
     }
+    if (ends_by_angle(block)) end_by_angle(block, base);
     if (block.polar_radius || block.polar_angle) {
         if (dialect_ == DialectId::linuxcnc) put_polar(block, base);
         else put_about_pole(block, base);

@@ -242,9 +242,9 @@ void Interpreter::apply_keyword(const Keyword& keyword, Block& block) {
         event("lathe", name);
         return;
     }
-    if (name == "CIP") {
-        state_.motion = MotionMode::cw;  // which way, the point between tells
-        arc_by_points_ = true;
+    if (name == "CIP" || name == "CT") {
+        state_.motion = MotionMode::cw;  // which way, the point between or the tangent tells
+        arc_kind_ = name == "CIP" ? ArcKind::by_points : ArcKind::tangential;
         return;
     }
     if (siemens_frame(keyword, block) || siemens_cycle(keyword)) return;
@@ -274,6 +274,25 @@ void Interpreter::apply_keyword(const Keyword& keyword, Block& block) {
     note(Severity::warning, "program.unknown-word", "'" + name + "' is not known", keyword.column);
 }
 
+/// ANG= with one coordinate of the plane: a line whose other coordinate the angle gives.
+bool Interpreter::ends_by_angle(const Block& block) const {
+    if (block.find("ANG") == nullptr || (state_.motion != MotionMode::rapid && state_.motion != MotionMode::feed)) return false;
+    return block.words.given("XYZ"[(state_.plane_axis + 1) % 3]) != block.words.given("XYZ"[(state_.plane_axis + 2) % 3]);
+}
+
+void Interpreter::end_by_angle(const Block& block, Vec3& end) const {
+    const int u = (state_.plane_axis + 1) % 3;
+    const int v = (state_.plane_axis + 2) % 3;
+    const NamedWord& angle = *block.find("ANG");
+    const Vec3 from = state_.programmed().array().isNaN().select(0.0, state_.programmed());
+    const Vec2 way(std::cos(angle.value * rad_per_deg), std::sin(angle.value * rad_per_deg));
+    const bool along = block.words.given("XYZ"[u]);
+    const double given = along ? way.x() : way.y();
+    if (std::abs(given) < 1e-9) fail(fmt::format("a line at ANG={:g} does not reach the given {}", angle.value, "XYZ"[along ? u : v]), angle.column);
+    if (along) end[v] = from[v] + (end[u] - from[u]) * way.y() / way.x();
+    else end[u] = from[u] + (end[v] - from[v]) * way.x() / way.y();
+}
+
 /// Arcs of the dialects that are given by other words than I J K and R. `words` has begin, end and
 /// axis; true: centre and direction are set.
 bool Interpreter::arc_of_dialect(const Block& block, ArcWords& words) {
@@ -281,11 +300,16 @@ bool Interpreter::arc_of_dialect(const Block& block, ArcWords& words) {
     if (dialect_ == DialectId::heidenhain_iso) return arc_of_heidenhain(block, words);
     const int u = (words.axis + 1) % 3;
     const int v = (words.axis + 2) % 3;
-    if (arc_by_points_) {
+    if (arc_kind_ == ArcKind::tangential) {
+        if (std::abs(words.end[words.axis] - words.begin[words.axis]) > 1e-6) fail("CT out of the plane (G17, G18, G19) is not supported");
+        arc_along_tangent(words);
+        return true;
+    }
+    if (arc_kind_ == ArcKind::by_points) {
         Vec3 between = words.begin;
         for (int k = 0; k < 3; ++k) {
-            const std::optional<double> value = block.value_of(std::string(1, "IJK"[k]) + "1");
-            if (value) between[k] = *value * state_.unit_mm + (state_.incremental ? words.begin[k] : 0.0);
+            const NamedWord* word = block.find(std::string(1, "IJK"[k]) + "1");
+            if (word != nullptr) between[k] = word->value * state_.unit_mm + (word->increment.value_or(state_.incremental) ? words.begin[k] : 0.0);
         }
         const Vec2 b(between[u] - words.begin[u], between[v] - words.begin[v]);
         const Vec2 e(words.end[u] - words.begin[u], words.end[v] - words.begin[v]);

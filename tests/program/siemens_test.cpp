@@ -81,6 +81,27 @@ TEST(SiemensArcs, ByAngleByPointsAndByRadius) {
     EXPECT_EQ(p.motions.arcs.at(1).turns, 3);
 }
 
+TEST(SiemensArcs, TakePointsAsIncrementsAndGoOnAlongTheTangent) {
+    // Through (5, 15) from (5, 5) to (15, 15): about (10, 10), clockwise.
+    Program p = parse("G0 X5 Y5 Z0\nCIP X15 Y15 I1=IC(0) J1=IC(10) F60\nG91 CIP X-10 Y-10 I1=AC(15) J1=AC(5)\n", "siemens");
+    EXPECT_EQ(motions(p), (Rows{"rapid 5 5 0", "cw 15 15 0", "cw 5 5 0"}));
+    EXPECT_NEAR(p.motions.arcs.at(0).centre.x, 10, 1e-9);
+    EXPECT_NEAR(p.motions.arcs.at(1).centre.y, 10, 1e-9);
+    // Along +X, then tangentially to (20, 10): a quarter about (10, 10), and on to (10, 20). G1 ends it.
+    p = parse("G0 X0 Y0 Z0\nG1 X10 F60\nCT X20 Y10\nX10 Y20\nG1 X0\n", "siemens");
+    EXPECT_EQ(motions(p), (Rows{"rapid 0 0 0", "feed 10 0 0", "ccw 20 10 0", "ccw 10 20 0", "feed 0 20 0"}));
+    EXPECT_NEAR(p.motions.arcs.at(0).centre.x, 10, 1e-9);
+    EXPECT_NEAR(p.motions.arcs.at(1).centre.y, 10, 1e-9);
+}
+
+TEST(SiemensLines, EndWhereTheAngleMeetsACoordinate) {
+    EXPECT_EQ(rows("G0 X0 Y0 Z0\nG1 X10 ANG=45 F60\nY0 ANG=-90\nX0 ANG=180\n"), (Rows{"rapid 0 0 0", "feed 10 10 0", "feed 10 0 0", "feed 0 0 0"}));
+    const Program p = parse("G0 X0 Y0 Z0\nG1 ANG=45 F60\nX10 Y20 ANG=90\n", "siemens");
+    ASSERT_EQ(p.diagnostics.count("program.corner"), 2u);
+    EXPECT_EQ(p.diagnostics.kept()[0].where.text(), "test.nc:2:4");
+    EXPECT_NE(error_of("G0 X0 Y0\nG1 X10 ANG=90 F60\n", "siemens").find("does not reach the given X"), std::string::npos);
+}
+
 TEST(SiemensCycles, DrillOnceOrAfterEveryMotion) {
     // RTP 10, RFP 0, SDIS 2, DP −5.
     EXPECT_EQ(rows("G0 X1 Y1 Z20 F60\nCYCLE81(10,0,2,-5)\n"), (Rows{"rapid 1 1 20", "rapid 1 1 2", "feed 1 1 -5", "rapid 1 1 10"}));
@@ -123,6 +144,42 @@ TEST(SiemensFlow, JumpsAndLoops) {
               (Rows{"rapid 0 0 0", "rapid 1 0 0", "rapid 2 0 0", "rapid 2 5 0", "rapid 2 6 0", "rapid 2 6 5", "rapid 8 6 5", "rapid 8 10 5"}));
     // A section is repeated from its label on, twice more.
     EXPECT_EQ(rows("G0 X0 Y0 Z0\nSECTION: G91 X1\nREPEAT SECTION P=2\nG90 Y1\nM30\n"), (Rows{"rapid 0 0 0", "rapid 1 0 0", "rapid 2 0 0", "rapid 3 0 0", "rapid 3 1 0"}));
+}
+
+TEST(SiemensFlow, RepeatsBlocksAndSections) {
+    // One block three times more; the lines between two labels, the second among them; as far as ENDLABEL.
+    EXPECT_EQ(rows("G0 X0 Y0 Z0\nPOS: G91 X1 Y2\nREPEATB POS P=3\nM30\n"),
+              (Rows{"rapid 0 0 0", "rapid 1 2 0", "rapid 2 4 0", "rapid 3 6 0", "rapid 4 8 0"}));
+    EXPECT_EQ(rows("G0 X0 Y0 Z0\nBEGIN: G91 X1\nUNTIL_HERE: Y1\nZ1\nREPEAT BEGIN UNTIL_HERE P=2\nG90 Z9\nM30\n"),
+              (Rows{"rapid 0 0 0", "rapid 1 0 0", "rapid 1 1 0", "rapid 1 1 1", "rapid 2 1 1", "rapid 2 2 1", "rapid 3 2 1", "rapid 3 3 1", "rapid 3 3 9"}));
+    EXPECT_EQ(rows("G0 X0 Y0 Z0\nHERE: G91 X1\nENDLABEL:\nZ1\nREPEAT HERE\nM30\n"), (Rows{"rapid 0 0 0", "rapid 1 0 0", "rapid 1 0 1", "rapid 2 0 1"}));
+    // Sections within sections: AA runs BB twice more each time.
+    EXPECT_EQ(rows("G0 X0 Y0 Z0 G91\nBB: X1\nAA: Y1\nREPEATB BB P=2\nREPEAT AA P=1\nM30\n"),
+              (Rows{"rapid 0 0 0", "rapid 1 0 0", "rapid 1 1 0", "rapid 2 1 0", "rapid 3 1 0", "rapid 3 2 0", "rapid 4 2 0", "rapid 5 2 0"}));
+    // A jump out of it ends it: without, X3 would come back to the second turn.
+    EXPECT_EQ(rows("R1=0\nGOTOF START\nAA: R1=R1+1\nX=R1\nIF R1==2 GOTOF OUT\nENDLABEL:\nM30\nSTART: G0 X0\nREPEAT AA P=5\nM30\nOUT: X3\nM30\n").size(), 4u);
+    EXPECT_NE(error_of("REPEAT NOWHERE P=2\n", "siemens").find("no label 'NOWHERE'"), std::string::npos);
+}
+
+TEST(SiemensFlow, ChoosesByCase) {
+    const std::string program = "CASE R1 OF 1 GOTOF A1 2 GOTOF A2 DEFAULT GOTOF A3\nA1: G0 X1\nM30\nA2: G0 X2\nM30\nA3: G0 X3\nM30\n";
+    EXPECT_EQ(rows("G0 X0 Y0 Z0\nR1=2\n" + program).back(), "rapid 2 0 0");
+    EXPECT_EQ(rows("G0 X0 Y0 Z0\nR1=7\n" + program).back(), "rapid 3 0 0");
+    EXPECT_EQ(rows("G0 X0 Y0 Z0\nGOTOC NOWHERE\nX1\n").back(), "rapid 1 0 0");
+}
+
+TEST(SiemensExpressions, FollowTheManualsPriorities) {
+    // Bits before AND before OR, comparisons last of all: 6 B_OR 1 is 7; 2 == (1 AND 1) is not so.
+    EXPECT_EQ(rows("G0 X=6 B_OR 1 Y=6 B_AND 3 Z=6 B_XOR 3\n"), (Rows{"rapid 7 2 5"}));
+    EXPECT_EQ(rows("G0 X=(2 == 1 AND 1) Y=(1 + 2 == 3) Z=((2 == 2) AND (3 > 1))\n"), (Rows{"rapid 0 1 1"}));
+    EXPECT_EQ(rows("G0 X=MINVAL(3,R1) Y=MAXVAL(3,4) Z=BOUND(0,10,12)\n"), (Rows{"rapid 0 4 10"}));
+}
+
+TEST(SiemensUnits, G70TakesLengthsAndLeavesFeeds) {
+    const Program p = parse("G0 X0 Y0 Z0\nG70 G1 X1 F60\nG700 X2\nG71 X10\n", "siemens");
+    EXPECT_EQ(motions(p), (Rows{"rapid 0 0 0", "feed 25.4 0 0", "feed 50.8 0 0", "feed 10 0 0"}));
+    EXPECT_FLOAT_EQ(p.motions.feed[1], 1);     // 60 mm/min
+    EXPECT_FLOAT_EQ(p.motions.feed[2], 25.4F);  // 60 in/min
 }
 
 TEST(SiemensFlow, CallsFilesBesideTheProgramWithArguments) {
