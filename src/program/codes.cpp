@@ -299,8 +299,24 @@ void Interpreter::dwell(const Block& block) {
     push(MotionKind::dwell, tool_position(), state_.rotary, static_cast<float>(seconds));
 }
 
+/// Words of arcs, cycles and calls beside a straight motion, which uses none of them: an R that was
+/// meant as a corner, an I whose G2 is missing. Blocks with a code of another kind are left to it.
+void Interpreter::report_idle(const Block& block) {
+    constexpr auto plain_codes = std::to_array<int>({0, 10, 170, 180, 190, 200, 210, 700, 710, 900, 910, 940});
+    const bool straight = (state_.motion == MotionMode::rapid || state_.motion == MotionMode::feed) && !motion_suppressed_;
+    const auto* first = block.words.g.data();
+    const bool plain = std::all_of(first, first + block.words.g_count, [&](int code) { return std::find(plain_codes.begin(), plain_codes.end(), code) != plain_codes.end(); });
+    const bool theirs = block.words.m_count > 0 || !block.keywords.empty() || modal_call_.active || tool_centre_point_ || compensation_.on();
+    if (!straight || !plain || theirs || dialect_ == DialectId::heidenhain_iso) return;
+    for (const char letter : std::string_view(dialect_ == DialectId::siemens ? "IJK" : "IJKLPQR")) {
+        if (!is(block, letter)) continue;
+        note(Severity::warning, "program.unused-word", fmt::format("word {} has no meaning beside a straight motion: it is left out", letter), block.words.column[static_cast<std::size_t>(letter - 'A')]);
+    }
+}
+
 /// Words that no part of the interpreter has a meaning for.
 void Interpreter::report_unused(const Block& block) {
+    report_idle(block);
     for (const UnknownWord& word : block.unknown) {
         note(Severity::warning, "program.unknown-word", "'" + word.text + "' is not known", word.column);
     }

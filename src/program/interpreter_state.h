@@ -114,6 +114,7 @@ private:
     void apply_keyword(const Keyword& keyword, Block& block);
     void dwell(const Block& block);
     void report_unused(const Block& block);
+    void report_idle(const Block& block);
 
     // fanuc.cpp
     bool apply_fanuc(int code, Block& block, std::size_t column);

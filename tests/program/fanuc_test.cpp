@@ -154,6 +154,15 @@ TEST(FanucTools, GiveLengthsAndRadii) {
     EXPECT_EQ(none.diagnostics.count("program.cutter-compensation"), 1u);
 }
 
+TEST(FanucBlocks, NameWordsThatAStraightMotionDoesNotUse) {
+    // A corner without its comma, a centre without its G2; M and H words are the machine's own.
+    const Program p = parse("G0 X0 Y0 Z0\nG1 X10 R5 F60\nX20 I5\nX30 M3 P2\nX40 H1\nM98 P9 L2\nM30\nO9\nX50\nM99\n", "fanuc");
+    ASSERT_EQ(p.diagnostics.count("program.unused-word"), 2u);
+    EXPECT_EQ(p.diagnostics.kept()[0].where.text(), "test.nc:2:8");
+    EXPECT_EQ(p.diagnostics.kept()[1].where.text(), "test.nc:3:5");
+    EXPECT_EQ(p.motions.size(), 7);
+}
+
 TEST(FanucModes, AreNotedAndTheRestReported) {
     const Program p = parse("G5.1 Q1 R1\nG08 P1\nG0 X1 Y0 Z0\nG2.2 X1 Y1 R1 F60\nG68.3 X0 Y0 Z0 R0\nX5 ,R2\n", "fanuc");
     EXPECT_EQ(p.events.at(0).name, "high-speed");
