@@ -112,13 +112,13 @@ public:
             if (off_since < 0) off_since = i;
             off_way += chord;
             if (stand.distance < lost_distance || off_way < retry_after) continue;
-            if (const std::optional<Stand> found = search(off_since, stand.motion)) {
-                diagnostics_.add({Severity::note, "map.resumed", Place::of_point(log_.name, off_since),
+            if (const std::optional<Rejoined> found = rejoin(off_since, i, stand.motion)) {
+                diagnostics_.add({Severity::note, "map.resumed", Place::of_point(log_.name, found->point),
                                   fmt::format("the log goes on at line {}, not after line {}",
-                                              line_of(found->motion), line_of(stand.motion)),
+                                              line_of(found->stand.motion), line_of(stand.motion)),
                                   {}});
-                stand = *found;
-                i = off_since;
+                stand = found->stand;
+                i = found->point;
                 before = position(i);
                 put(i, static_cast<std::uint32_t>(stand.motion), confidence_of(stand.distance));
                 off_since = -1;
@@ -182,6 +182,28 @@ private:
     void put(PointIndex i, std::uint32_t motion, double confidence) {
         motion_[static_cast<std::size_t>(i)] = motion;
         confidence_[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(std::lround(confidence * 255));
+    }
+
+    /// Where the walk begins anew.
+    struct Rejoined {
+        PointIndex point = 0;
+        Stand stand;
+    };
+
+    /// From point `off` on, where the walk went off, or, after a way that is none of the program's (a
+    /// retract, the way back to where a run is resumed), from the first point that is back on it; `now`
+    /// is the last point that was looked at. O(log(now − off)) searches.
+    std::optional<Rejoined> rejoin(PointIndex off, PointIndex now, std::int64_t from) {
+        if (const std::optional<Stand> stand = search(off, from)) return Rejoined{off, *stand};
+        const std::optional<Stand> stand = search(now, from);
+        if (!stand) return std::nullopt;
+        Rejoined back{now, *stand};
+        for (PointIndex still_off = off; back.point - still_off > 1;) {
+            const PointIndex middle = still_off + (back.point - still_off) / 2;
+            if (const std::optional<Stand> earlier = search(middle, from)) back = {middle, *earlier};
+            else still_off = middle;
+        }
+        return back;
     }
 
     /// The first place at or after motion `from` (then: of the whole program) from where the walk

@@ -279,7 +279,8 @@ std::string decimals(double value) {
 
 void look_for_work_offset(const Trajectory& path, const Program& program, const LineMap* map, Diagnostics& diagnostics) {
     const std::optional<Vec3> shift = find_shift(path, program, map);
-    if (!shift) return;
+    constexpr double least_shift = 1e-3;  // [mm] displaced by nothing, they are off for another reason
+    if (!shift || shift->norm() < least_shift) return;
     const Vec3 offset = -(path.offset + *shift);
     diagnostics.add({Severity::warning, "map.work-offset", Place::of_file(path.name),
                      fmt::format("the positions lie parallel to the programmed path, displaced by X {} Y {} Z {} mm", decimals(-shift->x()), decimals(-shift->y()), decimals(-shift->z())),

@@ -3,11 +3,15 @@
 // (a kernel reports the last line of what it merged, and changes the number where a blend begins).
 #include "path/line_map.h"
 
+#include <cmath>
+
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "io/log_format.h"
 #include "io/program_file.h"
 #include "path/alignment.h"
+#include "program/interpreter.h"
 
 namespace clsurf {
 namespace {
@@ -92,6 +96,61 @@ TEST(LineMap, FindsItsPlaceInALogThatBeginsInTheMiddle) {
     const LineMap whole = map_lines(reconstruct(log, Role::commanded, Vec3::Zero()), log, program, true, diagnostics);
     for (const PointIndex i : {0, 500, 5000}) {
         EXPECT_NEAR(ours.line_at(i), whole.line_at(i + cut), 2.0) << i;
+    }
+}
+
+/// Ways in steps of 0.1 mm as a trajectory without lines.
+struct Walked {
+    std::vector<double> axis[3];
+
+    void go(const Vec3& from, const Vec3& to) {
+        const auto n = static_cast<int>(std::ceil((to - from).norm() / 0.1));
+        for (int i = 0; i < n; ++i) {
+            for (int k = 0; k < 3; ++k) axis[k].push_back((from + (to - from) * i / n)[k]);
+        }
+    }
+    [[nodiscard]] PointIndex size() const { return static_cast<PointIndex>(axis[0].size()); }
+    [[nodiscard]] Trajectory trajectory() const {
+        Trajectory path;
+        path.count = size();
+        path.period = 0.001;
+        path.name = "walked";
+        for (std::size_t k = 0; k < 3; ++k) {
+            path.axes[k] = {reinterpret_cast<const std::byte*>(axis[k].data()), sizeof(double), path.count, ScalarType::f64, false, 1.0, 0.0};
+        }
+        return path;
+    }
+};
+
+TEST(LineMap, GoesOnBehindAWayThatIsNoneOfTheProgramsOwn) {
+    // Line k + 2 is the pass at Y k. The run is stopped on line 8, goes up and back, and is resumed on line 5.
+    std::string text = "G0 X0 Y0 Z0\nG1 F600\n";
+    for (int k = 1; k <= 9; ++k) text += fmt::format("X{} Y{}\n", k % 2 == 1 ? 30 : 0, k);
+    const Program program = parse_program(SourceText("test.nc", text, nullptr), {});
+    const auto end_of = [](int line) { return line < 3 ? Vec3(0, 0, 0) : Vec3((line - 2) % 2 == 1 ? 30 : 0, line - 2, 0); };
+    Walked log;
+    for (int line = 3; line <= 7; ++line) log.go(end_of(line - 1), end_of(line));
+    const Vec3 stop = 0.5 * (end_of(7) + end_of(8));
+    log.go(end_of(7), stop);
+    const Vec3 up(0, 0, 40);
+    log.go(stop, stop + up);
+    log.go(stop + up, end_of(4) + up);
+    log.go(end_of(4) + up, end_of(4));
+    const PointIndex resumed = log.size();
+    std::vector<PointIndex> ends;
+    for (int line = 5; line <= 11; ++line) {
+        log.go(end_of(line - 1), end_of(line));
+        ends.push_back(log.size());
+    }
+    Diagnostics diagnostics;
+    const LineMap lines = align_lines(log.trajectory(), program, diagnostics);
+    EXPECT_EQ(diagnostics.count("map.resumed"), 1u);
+    EXPECT_EQ(diagnostics.count("map.lost"), 1u);
+    PointIndex begin = resumed;
+    for (int line = 5; line <= 11; ++line) {
+        const PointIndex end = ends[static_cast<std::size_t>(line - 5)];
+        EXPECT_EQ(lines.line_at((begin + end) / 2), static_cast<LineNumber>(line));
+        begin = end;
     }
 }
 
