@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/error.h"
 #include "io/compressed.h"
@@ -200,6 +202,26 @@ TEST(Simulator, AZigzagUnderAJerkLimitIsNearItsOptimum) {
     const SimulationSummary summary = simulate(program, Machine{}, Vec3::Zero(), [](std::span<const SimulatedPoint>) {}, {});
     EXPECT_TRUE(summary.limits_ok);
     EXPECT_LT(summary.duration, 39.5);
+}
+
+// Without a jerk limit a bend of short lines is passed back as it was passed forth, but for what a period changes.
+TEST(Simulator, PassesABendBackAsForth) {
+    Machine machine = ideal();
+    machine.path.max_jerk = 2 * machine.path.max_acceleration / machine.controller.period;
+    for (MachineAxis& axis : machine.axes) axis.max_jerk = 0;
+    std::vector<std::string> bend;
+    for (int i = -200; i <= 200; ++i) bend.push_back(fmt::format("G1 X{:.5f} Y{:.5f} F12000\n", 0.1 * i, 4 * std::exp(-0.0002 * (i - 30) * (i - 30))));
+    const Recorded forth = run("G64\nG0 X-20\n" + fmt::format("{}", fmt::join(bend, "")) + "M2\n", machine);
+    std::reverse(bend.begin(), bend.end());
+    const Recorded back = run("G64\nG0 X20\n" + fmt::format("{}", fmt::join(bend, "")) + "M2\n", machine);
+    EXPECT_TRUE(forth.summary.limits_ok && back.summary.limits_ok);
+    const auto speed_at = [](const Recorded& r, double x) {
+        std::size_t i = r.points.size() - 1;
+        const bool behind = r.points[i].commanded.x() > x;
+        while (i > 0 && (r.points[i - 1].commanded.x() > x) == behind) --i;
+        return r.points[i].speed;
+    };
+    for (const double x : {-15.0, -8.0, -2.0, 0.0, 2.0, 3.0, 4.0, 6.0, 9.0, 16.0}) EXPECT_NEAR(speed_at(forth, x), speed_at(back, x), 3) << x;
 }
 
 TEST(Simulator, DegenerateMovesKeepLimitsAndEnd) {
