@@ -9,6 +9,7 @@
 
 #include "core/block.h"
 #include "core/statistics.h"
+#include "quality/slant.h"
 
 namespace clsurf {
 namespace {
@@ -17,6 +18,7 @@ constexpr float none = std::numeric_limits<float>::quiet_NaN();
 constexpr std::size_t sampled_points = 50'000;
 constexpr float normal_deviation = 1.4826F;  ///< standard deviations per median absolute deviation
 constexpr float along_or_against = 0.866F;   ///< cos 30°: neighbours run along with the feed or against it
+constexpr float round_a_corner = 0.5F;       ///< cos 60°: straight across a corner they have turned more than that
 constexpr std::size_t fewest_passes = 2;     ///< for a median
 constexpr float shape_left = 0.35F;          ///< of a relief: more is left of it beside it where it is the part's own
 constexpr float shape_beside = 0.6F;         ///< of the largest relief around: a smaller one lies beside an edge
@@ -109,6 +111,43 @@ Compared compared_at(const Signals& signals, const Station& at, const Eigen::Vec
     return result;
 }
 
+template <typename F>
+Station Comparer::for_each_beside(PointIndex point, Side side, int aside, float least_cosine, F&& f) const {
+    Station before{point, 0};
+    Station at = beside(surface_, before, signals_.feed(point), side);
+    const Station adjacent = at;
+    for (int passes = 1; passes <= aside && at.exists(); ++passes) {
+        const Eigen::Vector3f feed = signals_.feed(at.nearest());
+        const bool runs_along = std::abs(feed.dot(signals_.feed(before.nearest()))) > least_cosine;
+        if (signals_[at.nearest()].zone == Zone::outside || !runs_along) break;
+        f(at, passes);
+        if (passes == aside) break;
+        const Station next = beyond(surface_, before, at, feed);
+        before = at;
+        at = next;
+    }
+    return adjacent;
+}
+
+void Comparer::compare_along_slant(PointIndex point, Comparison& comparison) const {
+    constexpr int aside = 3;
+    std::array<Beside, 2 * aside> places;
+    std::size_t count = 0;
+    for (const Side side : {Side::left, Side::right}) {
+        (void)for_each_beside(point, side, aside, round_a_corner, [&](const Station& at, int passes) { places[count++] = {at, side == Side::left ? passes : -passes}; });
+    }
+    const std::optional<AlongSlant> slanted = along_slant(surface_, signals_, point, std::span(places).first(count));
+    if (!slanted) return;
+    const float reference = std::max(slanted->speed, least_speed_);
+    const auto lessen = [&](Quantity q, float residual, float step) {
+        if (std::abs(residual) < std::abs(comparison.residual[index_of(q)])) comparison.residual[index_of(q)] = residual;
+        comparison.step[index_of(q)] = std::min(comparison.step[index_of(q)], step);
+    };
+    lessen(Quantity::speed, (signals_[point].speed - slanted->speed) / reference, slanted->speed_step / reference);
+    lessen(Quantity::acceleration, (signals_.acceleration(point) - slanted->acceleration).norm(), slanted->acceleration_step);
+    if (slanted->corner) lessen(Quantity::relief, signals_[point].relief - slanted->relief, slanted->relief_step);
+}
+
 Comparison Comparer::compare(PointIndex point, int aside) const {
     Comparison result;
     result.step.fill(none);
@@ -122,19 +161,11 @@ Comparison Comparer::compare(PointIndex point, int aside) const {
     float speed_step = none;
     for (const Side side : {Side::left, Side::right}) {
         const auto s = static_cast<std::size_t>(side);
-        Station before = here;
-        Station at = beside(surface_, here, signals_.feed(point), side);
-        (side == Side::left ? result.beside_left : result.beside_right) = at;
-        while (count[s] < aside && at.exists()) {
-            const Eigen::Vector3f feed = signals_.feed(at.nearest());
-            const bool runs_along = std::abs(feed.dot(signals_.feed(before.nearest()))) > along_or_against;
-            if (signals_[at.nearest()].zone == Zone::outside || !runs_along) break;
-            beside_it[s][static_cast<std::size_t>(count[s]++)] = compared_at(signals_, at, normal);
-            if (count[s] == aside) break;
-            const Station next = beyond(surface_, before, at, feed);
-            before = at;
-            at = next;
-        }
+        Station& adjacent_place = side == Side::left ? result.beside_left : result.beside_right;
+        adjacent_place = for_each_beside(point, side, aside, along_or_against, [&](const Station& at, int passes) {
+            beside_it[s][static_cast<std::size_t>(passes - 1)] = compared_at(signals_, at, normal);
+            count[s] = passes;
+        });
         if (count[s] == 0) continue;
         const Compared& adjacent = beside_it[s][0];
         const auto widen = [&](Quantity q, float difference) {

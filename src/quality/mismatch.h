@@ -51,7 +51,16 @@ public:
     /// O(1): up to `aside` passes on each side. With one, the steps are the same, residuals mean little.
     [[nodiscard]] Comparison compare(PointIndex point, int aside = passes_aside) const;
 
+    /// Where the passes round the point do one after the other what it does too, its motion is
+    /// compared along their slant (slant.h), in corners its relief too: they differ by the lesser of both.
+    void compare_along_slant(PointIndex point, Comparison& comparison) const;
+
 private:
+    /// f(station, passes away: from 1) for the passes on one side, at most `aside`, as long as each turns
+    /// by less than the angle of that cosine from the one before. Returns the place on the adjacent pass.
+    template <typename F>
+    Station for_each_beside(PointIndex point, Side side, int aside, float least_cosine, F&& f) const;
+
     const ClSurface& surface_;
     const Signals& signals_;
     float least_speed_;

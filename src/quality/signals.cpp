@@ -134,7 +134,7 @@ public:
         }
     }
 
-    /// Normals and heights; after derive_motion() of everything.
+    /// Normals and heights; after derive_motion() and mark_zones() of everything.
     void derive_heights(PointRange piece, PointIndex first, PointIndex last) const {
         const PointIndex from = std::max(piece.first, first - smoother_.reach());
         const PointIndex to = std::min(piece.last, last + smoother_.reach());
@@ -179,6 +179,8 @@ private:
         const Eigen::Vector3f across = a - b;
         normal = feed.cross(across).normalized();
         if (!left.exists() || !right.exists()) return none;
+        // Where a pass is interrupted, by an island, what lies beside is its retract or its end.
+        if (out_[left.nearest()].zone == Zone::outside || out_[right.nearest()].zone == Zone::outside) return none;
         const float share = (here - b).dot(across) / across.squaredNorm();
         if (!(share > 0.2F && share < 0.8F)) return none;
         return (here - b - share * across).dot(normal);
@@ -309,8 +311,8 @@ Signals derive_signals(const ClSurface& surface, const Trajectory& path, const T
     const Deriver deriver(surface, path, measured, signals);
     deriver.note_windows(signals);
     for_each_stretch(path.count, pieces, [&](PointRange piece, PointIndex first, PointIndex last) { deriver.derive_motion(piece, first, last); });
-    for_each_stretch(path.count, pieces, [&](PointRange piece, PointIndex first, PointIndex last) { deriver.derive_heights(piece, first, last); });
     mark_zones(surface, pieces, end_zone, path.period, signals);
+    for_each_stretch(path.count, pieces, [&](PointRange piece, PointIndex first, PointIndex last) { deriver.derive_heights(piece, first, last); });
     return signals;
 }
 

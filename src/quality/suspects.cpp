@@ -186,6 +186,9 @@ private:
                 suspect.comparison = comparer_.compare(suspect.point);
                 measure(suspect, thresholds_);
                 if (*std::max_element(suspect.share.begin(), suspect.share.end()) < suspect_share) continue;
+                comparer_.compare_along_slant(suspect.point, suspect.comparison);
+                measure(suspect, thresholds_);
+                if (*std::max_element(suspect.share.begin(), suspect.share.end()) < suspect_share) continue;
                 suspect.pass = pass_of(surface_.passes, suspect.point);
                 suspect.border = is_border(suspect, signals_);
                 of_piece[static_cast<std::size_t>(first / grain)].push_back(suspect);

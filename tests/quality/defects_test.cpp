@@ -1,5 +1,9 @@
 #include "quality/defects.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "core/parallel.h"
@@ -84,6 +88,55 @@ TEST(Defects, OfARecordedPartAreWhereTheProgramHasThem) {
         const bool dense = std::any_of(here->runs.begin(), here->runs.end(), [](const DefectRun& run) { return run.last_line - run.first_line > 100; });
         EXPECT_TRUE(dense) << "y = " << y;
     }
+}
+
+/// A zigzag of 24 passes, 24 mm long and 0.3 mm apart, on each of which the speed falls to half round a
+/// place that lies 0.3 mm farther on every pass: along an edge at 45° to the feed. `steady`: a pass that
+/// does not slow down; −1: none.
+planted::PlantedLog slow_along_an_edge(int steady) {
+    constexpr int passes = 24;
+    constexpr double apart = 0.3;
+    constexpr double length = 24;
+    planted::PlantedLog log;
+    const double period = log.recipe.period = 0.001;
+    log.program = "G1 F3000 X0 Y0 Z0\n";
+    const auto put = [&](double x, double y, std::uint32_t line, int pass) {
+        const double p[3] = {x, y, 0};
+        for (int axis = 0; axis < 3; ++axis) {
+            log.commanded[axis].push_back(p[axis]);
+            log.measured[axis].push_back(p[axis]);
+        }
+        log.line.push_back(line);
+        log.pass.push_back(pass);
+    };
+    std::uint32_t line = 1;
+    for (int k = 0; k < passes; ++k) {
+        const bool back = k % 2 == 1;
+        const double y = k * apart;
+        log.program += fmt::format("X{} Y{}\n", back ? 0.0 : length, y);
+        ++line;
+        for (double s = 0; s < length;) {
+            const double x = back ? length - s : s;
+            put(x, y, line, k);
+            const double off = (x - 8 - k * apart) / 0.7;
+            const double ends = std::sqrt(1 + 2 * 600 * std::min(s, length - s));
+            s += period * std::min(ends, k == steady ? 50.0 : 50 - 25 * std::exp(-off * off));
+        }
+        if (k + 1 == passes) break;
+        log.program += fmt::format("Y{}\n", y + apart);
+        ++line;
+        for (double s = 0; s < apart; s += 0.01) put(back ? 0.0 : length, y + s, line, -1);
+    }
+    return log;
+}
+
+TEST(Defects, AreNotWhatAllPassesDoOneAfterTheOther) {
+    EXPECT_TRUE(planted::judge(slow_along_an_edge(-1)).defects.empty());
+    // A pass that does not slow down with the others is one, where they do.
+    const QualityReport report = planted::judge(slow_along_an_edge(12));
+    EXPECT_TRUE(std::any_of(report.defects.begin(), report.defects.end(), [](const Defect& d) {
+        return std::abs(d.position.y() - 3.6) < 1e-3 && std::abs(d.position.x() - 11.6) < 1 && d.speed_jump > 5;
+    }));
 }
 
 TEST(Verdict, HoldsEveryLimitThatIsSet) {
