@@ -279,6 +279,29 @@ void BiipWriter::close() {
     file_.commit();
 }
 
+Diagnostics fit_biip(Log& log) {
+    Diagnostics notes;
+    const auto taken = [&](const std::string& name) { return std::any_of(log.channels.begin(), log.channels.end(), [&](const Channel& c) { return c.name == name; }); };
+    for (Channel& channel : log.channels) {
+        if (channel.unit.size() > unit_bytes) {
+            notes.add({Severity::note, "log.name", Place::of_file(log.name), fmt::format("the unit '{}' of channel '{}' is too long for a BIIP log: left out", channel.unit, channel.name), {}});
+            channel.unit.clear();
+        }
+        if (channel.name.size() < name_bytes) continue;
+        // The end tells most: "/Nck/!SD/nckServoDataCmdTorque32 [u1, 4]".
+        std::string name;
+        for (int number = 1; name.empty() || taken(name); ++number) {
+            const std::string mark = number == 1 ? "" : fmt::format("~{}", number);
+            std::size_t begin = channel.name.size() - (name_bytes - 1 - mark.size());
+            while (begin < channel.name.size() && (static_cast<unsigned char>(channel.name[begin]) & 0xc0) == 0x80) ++begin;  // a whole character
+            name = channel.name.substr(begin) + mark;
+        }
+        notes.add({Severity::note, "log.name", Place::of_file(log.name), fmt::format("the name '{}' is too long for a BIIP log: '{}' there", channel.name, name), {}});
+        channel.name = name;
+    }
+    return notes;
+}
+
 void write_biip(const std::string& path, const std::vector<Channel>& channels, PointIndex records,
                 double period, const std::string& metadata) {
     std::vector<StoredChannel> stored;

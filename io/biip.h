@@ -47,6 +47,10 @@ private:
     std::uint64_t records_ = 0;
 };
 
+/// Shortens names of channels to the 23 bytes that BIIP has for them, and leaves out units of more than
+/// 8; each is a note `log.name`.
+[[nodiscard]] Diagnostics fit_biip(Log& log);
+
 /// Writes channels of a log as BIIP: stored types and scales are kept, big-endian values turned, and
 /// channels with a bias become f64. `metadata` is a JSON object's text. O(records), by blocks.
 /// Throws SystemError (disk full), UsageError (a name or unit too long).

@@ -146,6 +146,7 @@ struct Packing {
 constexpr auto packings = std::to_array<Packing>({
     {{0x1f, 0x8b, 0x08}, 3, unpack_gzip},
     {{0x28, 0xb5, 0x2f, 0xfd}, 4, unpack_zstd},
+    {{0x50, 0x2a, 0x4d, 0x18}, 4, unpack_zstd},  // a skippable frame, with which pzstd begins
     {{0xfd, '7', 'z', 'X', 'Z', 0x00}, 6, unpack_xz},
 });
 

@@ -34,14 +34,14 @@ constexpr auto pins = std::to_array<Pin>({
     {"motion-type", "motion", ""},
 });
 
-/// The axis of "joint.0.…" (in the order X Y Z A B C U V W) or "axis.x.…"; '\0': none.
+/// The axis of "joint.0.…" (in the order X Y Z A B C U V W; "axis.0.…" up to 2.7) or "axis.x.…"; '\0': none.
 char axis_of(std::string_view pin) {
     constexpr std::string_view axes = "xyzabcuvw";
     for (const std::string_view prefix : {"joint.", "axis."}) {
         if (!pin.starts_with(prefix) || pin.size() < prefix.size() + 2 || pin[prefix.size() + 1] != '.') continue;
         const char c = pin[prefix.size()];
         if (prefix == "axis." && axes.find(c) != std::string_view::npos) return c;
-        if (prefix == "joint." && c >= '0' && c <= '8') return axes[static_cast<std::size_t>(c - '0')];
+        if (c >= '0' && c <= '8') return axes[static_cast<std::size_t>(c - '0')];
     }
     return '\0';
 }

@@ -122,6 +122,25 @@ std::vector<ColumnPlan> plan_columns(std::span<const SourceColumn> columns, cons
     return plans;
 }
 
+namespace {
+
+/// A line of units below the names, "s;mm;mm" or "[s],[mm],[mm]": one whose fields all are no numbers.
+void take_units(std::string_view rest, TextPlan& plan, std::vector<SourceColumn>& columns, std::string_view text) {
+    const std::vector<std::string> units = split(first_line(rest), plan.separator);
+    const bool numbers = std::any_of(units.begin(), units.end(), [](const std::string& f) { return looks_like_number(f); });
+    const bool words = std::any_of(units.begin(), units.end(), [](const std::string& f) { return !f.empty(); });
+    if (numbers || !words || units.size() != columns.size() || rest.empty()) return;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        std::string_view unit = units[i];
+        if (unit.size() >= 2 && (unit.front() == '[' || unit.front() == '(')) unit = unit.substr(1, unit.size() - 2);
+        if (columns[i].known.unit.empty() && unit != "-") columns[i].known.unit = std::string(unit);
+    }
+    plan.data_begin = static_cast<std::size_t>(rest.data() - text.data());
+    ++plan.first_data_line;
+}
+
+}  // namespace
+
 TextPlan plan_text(const Source& source, const Mapping* mapping) {
     const std::string_view text = source.text();
     std::string_view rest = text;
@@ -136,7 +155,7 @@ TextPlan plan_text(const Source& source, const Mapping* mapping) {
         ++line_number;
     } while (is_comment(line) && !rest.empty());
     plan.separator = mapping != nullptr && mapping->separator != '\0' ? mapping->separator : detect_separator(line);
-    plan.decimal_comma = plan.separator != ',';
+    plan.decimal_comma = true;  // beside comma separators a comma can only stand in quotes
     const std::vector<std::string> fields = split(line, plan.separator);
     const bool header = std::any_of(fields.begin(), fields.end(), [](const std::string& f) { return !f.empty() && !looks_like_number(f); });
     plan.data_begin = static_cast<std::size_t>((header ? rest.data() : before.data()) - text.data());
@@ -152,6 +171,7 @@ TextPlan plan_text(const Source& source, const Mapping* mapping) {
         const ColumnPlan known = header ? plan_from_header(field) : ColumnPlan{};
         columns.push_back({header ? field : std::string(), known.name, known});
     }
+    if (header) take_units(rest, plan, columns, text);
     if (mapping == nullptr) {
         // Two columns of one name are an error here, not a guess: read_table() says so.
         for (const SourceColumn& c : columns) plan.columns.push_back(c.known);

@@ -131,7 +131,7 @@ std::string_view first_line(std::string_view& rest) {
 
 bool is_comment(std::string_view line) {
     const std::size_t at = line.find_first_not_of(" \t");
-    return at == std::string_view::npos || line[at] == '#';
+    return at == std::string_view::npos || line[at] == '#' || line.starts_with("sep=");  // Excel's separator
 }
 
 char detect_separator(std::string_view line) {
@@ -175,11 +175,12 @@ bool looks_like_number(std::string_view field) {
     return !bad && !field.empty();
 }
 
-/// "cmd.x [mm]" → name and unit.
+/// "cmd.x [mm]", "Time (ms)" → name and unit.
 ColumnPlan plan_from_header(std::string_view field) {
     ColumnPlan plan;
-    const std::size_t open = field.find('[');
-    if (open != std::string_view::npos && field.ends_with(']')) {
+    const char close = field.empty() ? ' ' : field.back();
+    const std::size_t open = close == ']' ? field.rfind('[') : close == ')' ? field.rfind('(') : std::string_view::npos;
+    if (open != std::string_view::npos) {
         plan.unit = std::string(field.substr(open + 1, field.size() - open - 2));
         field = field.substr(0, open);
         while (!field.empty() && field.back() == ' ') field.remove_suffix(1);

@@ -37,7 +37,7 @@ struct TextPlan {
 
 /// The first line of `rest` without its end; `rest` goes on behind it.
 [[nodiscard]] std::string_view first_line(std::string_view& rest);
-/// Empty, or begins with '#'.
+/// Empty, or begins with '#' or "sep=".
 [[nodiscard]] bool is_comment(std::string_view line);
 /// Tab, semicolon or comma where the line has one, in this order; else a blank.
 [[nodiscard]] char detect_separator(std::string_view line);
@@ -51,7 +51,7 @@ constexpr std::size_t most_columns = 4096;
 [[nodiscard]] double parse_number(std::string_view field, bool decimal_comma, bool& bad);
 /// The field is a number, with a decimal point or comma.
 [[nodiscard]] bool looks_like_number(std::string_view field);
-/// "cmd.x [mm]" → name and unit.
+/// "cmd.x [mm]", "Time (ms)" → name and unit.
 [[nodiscard]] ColumnPlan plan_from_header(std::string_view field);
 /// No control characters but tabs and ends of lines.
 [[nodiscard]] bool is_text(std::span<const std::byte> head);

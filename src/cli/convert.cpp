@@ -9,7 +9,7 @@ namespace clsurf::cli {
 namespace {
 
 ExitCode run(const po::variables_map& values) {
-    const Log log = io::open_log(required(values, "LOG"), read_log_options(values));
+    Log log = io::open_log(required(values, "LOG"), read_log_options(values));
     print(log.diagnostics, values);
     std::string metadata = log.metadata;
     if (values.count("program") > 0) {
@@ -17,6 +17,7 @@ ExitCode run(const po::variables_map& values) {
         for (const std::string& path : values["program"].as<std::vector<std::string>>()) programs.push_back(io::identify(io::open_source(path)));
         metadata = io::with_programs(metadata, programs);
     }
+    print(io::fit_biip(log), values);
     io::write_biip(required(values, "output"), log.channels, log.records, log.period, metadata);
     return ExitCode::done;
 }

@@ -58,6 +58,20 @@ TEST(Biip, ReadsBackWhatItWrote) {
     EXPECT_TRUE(log.diagnostics.empty());
 }
 
+TEST(Biip, HoldsShortNamesOfChannelsThatHaveLongOnes) {
+    Log log;
+    log.channels.push_back({"/Nck/!SD/nckServoDataCmdTorque32 [u1, 4]", "Newtonmetre", {}});
+    log.channels.push_back({"/Nck/!SE/nckServoDataCmdTorque32 [u1, 4]", "", {}});
+    log.channels.push_back({"cmd.x", "mm", {}});
+    EXPECT_EQ(fit_biip(log).count("log.name"), 3u);
+    // The last 23 bytes; the second of them marked: two bytes less of it.
+    EXPECT_EQ(log.channels[0].name, "DataCmdTorque32 [u1, 4]");
+    EXPECT_EQ(log.channels[0].unit, "");
+    EXPECT_EQ(log.channels[1].name.size(), 23u);
+    EXPECT_TRUE(log.channels[1].name.ends_with("~2"));
+    EXPECT_EQ(log.channels[2].name, "cmd.x");
+}
+
 TEST(Biip, TakesEveryWholeRecordOfAFileThatWasNotClosed) {
     const test::TemporaryFolder folder;
     std::string bytes = test::read_file(write_made(folder));

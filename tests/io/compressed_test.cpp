@@ -1,5 +1,6 @@
 #include "io/compressed.h"
 
+#include <algorithm>
 #include <cstring>
 #include <functional>
 
@@ -72,6 +73,12 @@ TEST(Compressed, JoinsMembersThatFollowEachOther) {
     for (const Packer& packer : packers) {
         EXPECT_EQ(unpacked(source(packer.pack("ab") + packer.pack("cd"))).text(), "abcd") << packer.name;
     }
+}
+
+TEST(Compressed, ReadsZstandardBehindASkippableFrame) {
+    const auto zstd = std::find_if(std::begin(packers), std::end(packers), [](const Packer& packer) { return std::string(packer.name) == "zstd"; });
+    ASSERT_NE(zstd, std::end(packers));
+    EXPECT_EQ(unpacked(source(std::string("\x50\x2a\x4d\x18\x04\0\0\0abcd", 12) + zstd->pack(text))).text(), text);
 }
 
 TEST(Compressed, NamesThePlaceWhereTheDataAreCut) {

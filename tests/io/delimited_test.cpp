@@ -57,6 +57,38 @@ TEST(Delimited, UnderstandsSemicolonsWithDecimalCommas) {
     EXPECT_DOUBLE_EQ(log.period, 0.001);
 }
 
+TEST(Delimited, UnderstandsHeadersAsOtherToolsWriteThem) {
+    const test::TemporaryFolder folder;
+    // Capitals, units in parentheses; Excel's line about the separator.
+    Log log = open(folder, "sep=;\nTime (ms);CMD.X (cm);Line\n0;1,5;7\n4;1,6;7\n");
+    EXPECT_DOUBLE_EQ(log.period, 0.004);
+    EXPECT_DOUBLE_EQ(log.find("cmd.x")->values.at(0), 15);
+    EXPECT_EQ(log.find("line")->values.at(1), 7);
+    // A line of units below the names.
+    log = open(folder, "time,cmd.x,cmd.y,line\n[min],in,mm,-\n0,1,2,3\n0.001,2,2,3\n");
+    EXPECT_EQ(log.records, 2);
+    EXPECT_DOUBLE_EQ(log.period, 0.06);
+    EXPECT_DOUBLE_EQ(log.find("cmd.x")->values.at(0), 25.4);
+    EXPECT_TRUE(log.diagnostics.count("log.bad-number") == 0 && log.diagnostics.count("log.unit") == 2);
+    // Decimal commas in quotes between separating ones.
+    log = open(folder, "\"time\",\"cmd.x\"\n\"0,000\",\"1,25\"\n\"0,001\",\"1,5\"\n");
+    EXPECT_DOUBLE_EQ(log.period, 0.001);
+    EXPECT_DOUBLE_EQ(log.find("cmd.x")->values.at(0), 1.25);
+    // A micro sign of ISO 8859-1.
+    log = open(folder, "time [s];cmd.x [\xb5m]\n0;1500\n1;1600\n");
+    EXPECT_DOUBLE_EQ(log.find("cmd.x")->values.at(0), 1.5);
+}
+
+TEST(Delimited, SaysThatATextIsUtf16) {
+    const test::TemporaryFolder folder;
+    try {
+        (void)open(folder, std::string("\xff\xfet\0i\0", 6));
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("UTF-16"), std::string::npos);
+    }
+}
+
 TEST(Delimited, TakesABadNumberAsMissingAndNamesItsPlace) {
     const test::TemporaryFolder folder;
     const Log log = open(folder, "time,cmd.x\n0,1\n0.001,oops\n0.002\n");

@@ -41,6 +41,12 @@ TEST(Halscope, ReadsTheOldFormWithANameBeforeEachValue) {
     EXPECT_DOUBLE_EQ(log.find("line")->values.at(0), 3);
 }
 
+TEST(Halscope, NumbersAxesAsLinuxcnc27Did) {
+    const Log log = open("Sampling period is 1000000 nSec\naxis.0.motor-pos-cmd +1.5 axis.2.motor-pos-fb -2 \naxis.0.motor-pos-cmd +2.5 axis.2.motor-pos-fb -3 \n");
+    EXPECT_DOUBLE_EQ(log.find("cmd.x")->values.at(1), 2.5);
+    EXPECT_DOUBLE_EQ(log.find("fb.z")->values.at(0), -2);
+}
+
 TEST(Halscope, KeepsTheNameOfASecondPinOfAnAxis) {
     const Log log = open("# Sampling period is 1000000 ns\njoint.0.motor-pos-cmd;joint.0.pos-cmd\n1;2\n");
     EXPECT_DOUBLE_EQ(log.find("cmd.x")->values.at(0), 1);
