@@ -8,27 +8,42 @@
 
 namespace clsurf {
 
-std::vector<float> levelled_speeds(const JudgedRun& run, double step) {
-    const PointIndex count = run.surface.positions.size();
-    std::vector<float> speed(static_cast<std::size_t>(count), std::numeric_limits<float>::quiet_NaN());
-    for (PointIndex i = 0; i < count; ++i) {
-        if (run.signals[i].zone != Zone::outside) speed[static_cast<std::size_t>(i)] = run.signals[i].speed;
+std::vector<float> compared_speeds(const JudgedRun& run) {
+    std::vector<float> speeds(static_cast<std::size_t>(run.surface.positions.size()), std::numeric_limits<float>::quiet_NaN());
+    for (std::size_t i = 0; i < speeds.size(); ++i) {
+        if (run.signals.samples[i].zone != Zone::outside) speeds[i] = run.signals.samples[i].speed;
     }
+    return speeds;
+}
+
+void level_speeds(const JudgedRun& run, double step, std::vector<float>& speeds, std::vector<std::int32_t>& causes) {
     const auto ratio = static_cast<float>(1 + step);
     const auto level = [&](PointIndex i) {
-        float& mine = speed[static_cast<std::size_t>(i)];
+        float& mine = speeds[static_cast<std::size_t>(i)];
+        std::int32_t& cause = causes[static_cast<std::size_t>(i)];
         if (!(mine == mine)) return;
         for (const Side side : {Side::left, Side::right}) {
             const Station at = beside(run.surface, {i, 0}, run.signals.feed(i), side);
             if (!at.exists()) continue;
+            const std::int32_t other_cause = causes[static_cast<std::size_t>(at.nearest())];
+            if (cause < 0 && other_cause < 0) continue;
             const auto j = static_cast<std::size_t>(at.point);
-            const float other = at.fraction > 0 ? speed[j] + at.fraction * (speed[j + 1] - speed[j]) : speed[j];
-            if (ratio * other < mine) mine = ratio * other;
+            const float other = at.fraction > 0 ? speeds[j] + at.fraction * (speeds[j + 1] - speeds[j]) : speeds[j];
+            if (!(ratio * other < mine)) continue;
+            mine = ratio * other;
+            if (cause < 0) cause = other_cause;
         }
     };
+    const auto count = static_cast<PointIndex>(speeds.size());
     for (PointIndex i = 0; i < count; ++i) level(i);
     for (PointIndex i = count; i-- > 0;) level(i);
-    return speed;
+}
+
+std::vector<float> levelled_speeds(const JudgedRun& run, double step) {
+    std::vector<float> speeds = compared_speeds(run);
+    std::vector<std::int32_t> everywhere(speeds.size(), 0);
+    level_speeds(run, step, speeds, everywhere);
+    return speeds;
 }
 
 std::vector<float> means_by_motion(const JudgedRun& run, const Program& program, const std::vector<float>& values) {
@@ -48,13 +63,13 @@ std::vector<float> means_by_motion(const JudgedRun& run, const Program& program,
     return sum;
 }
 
-std::vector<float> levelling_feeds(const std::vector<float>& own, const std::vector<float>& target, const std::vector<std::uint8_t>& may_slow, double play, double width) {
-    std::vector<float> feeds(own.size(), 0);
-    const auto bound = static_cast<float>(1 - play), apart = static_cast<float>(1 + width);
+std::vector<float> levelling_feeds(const std::vector<float>& target, const std::vector<std::uint8_t>& may_slow, double width) {
+    std::vector<float> feeds(target.size(), 0);
+    const auto apart = static_cast<float>(1 + width);
     std::size_t first = 0;  // of the interval
     float low = 0, high = 0;
-    for (std::size_t i = 0; i < own.size(); ++i) {
-        if (!(target[i] < bound * own[i]) || (!may_slow.empty() && may_slow[i] == 0)) {
+    for (std::size_t i = 0; i < target.size(); ++i) {
+        if (target[i] <= 0 || (!may_slow.empty() && may_slow[i] == 0)) {
             low = 0;
             continue;
         }

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <array>
-
-#include <fmt/format.h>
+#include <set>
 
 #include "core/error.h"
 #include "core/statistics.h"
-#include "core/units.h"
+#include "optimize/cure.h"
 #include "optimize/levelling.h"
 #include "optimize/line_edit.h"
 #include "optimize/need.h"
@@ -18,29 +17,13 @@ namespace {
 
 constexpr std::array<double, 3> shares_of_tolerance{0.2, 0.1, 0.4};  ///< that lines may leave the curve by
 constexpr double block_reserve = 1.1;    ///< of the way in a block time
-constexpr std::array<double, 7> steps_between_passes{0.35, 0.2, 0.1, 0.07, 0.05, 0.035, 0.02};
-constexpr double play_of_feeds = 0.01;   ///< a motion this little too fast (a share) gets no feed
-constexpr double interval_width = 0.03;  ///< of the speeds in a constant-speed interval
-constexpr double growth_weight = 0.1;   ///< of a program's growth, against shares of mismatch and defects
-constexpr double most_points = 8e6;      ///< of all runs together; then what there is has to do
-
-/// A run of a proposal, and how it holds against the program.
-struct Tried {
-    Proof proof;
-    std::string text;
-    JudgedRun run;
-    SimulationSummary summary;
-};
-
-/// The thresholds that one run was judged by, as fixed rules for another: a cleaner run must not be judged
-/// more strictly for being cleaner.
-QualityRules as_judged(const QualityReport& report, QualityRules rules) {
-    const auto threshold = [&](Quantity q) { return report.thresholds.of[index_of(q)]; };
-    rules.thresholds.speed = std::max(rules.thresholds.speed, threshold(Quantity::speed));
-    if (report.thresholds.usual_acceleration > 0) rules.thresholds.acceleration = std::max(rules.thresholds.acceleration, threshold(Quantity::acceleration) / report.thresholds.usual_acceleration);
-    rules.thresholds.most = 1;
-    return rules;
-}
+constexpr std::array<double, 3> steps_between_passes{0.1, 0.05, 0.02};
+constexpr double play_of_feeds = 0.003;  ///< a motion this little too fast (a share) gets no feed
+constexpr double cure_step = 0.7;        ///< of the threshold of a speed step, that is left about defects
+constexpr int rounds = 8;                ///< of a cure
+constexpr double most_share = 0.65;      ///< of the time there is, that a round may reckon with: ramps to and from slower places take more
+constexpr std::array<double, 2> first_shares{0.3, 0.65};  ///< of a cure that begins with the cheap defects, and of one that takes all it can
+constexpr double most_points = 4e6;      ///< of all runs together; then what there is has to do
 
 /// The median feed of the cutting lines [mm/s].
 double usual_feed(const Program& program) {
@@ -52,51 +35,45 @@ double usual_feed(const Program& program) {
     return feeds.empty() ? 0 : median(feeds);
 }
 
+/// The targets of a proposal, and lower ones from a speed per point of its run [mm/s]; its own where none is lower.
+std::vector<float> lowered_targets(const Proposal& proposal, const std::vector<float>& speeds) {
+    const std::vector<float> own = means_by_motion(proposal.run, proposal.draft->program, compared_speeds(proposal.run));
+    const std::vector<float> wanted = means_by_motion(proposal.run, proposal.draft->program, speeds);
+    std::vector<float> targets = proposal.targets;
+    targets.resize(wanted.size(), 0);
+    bool any = false;
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+        const bool too_fast = wanted[i] < (1 - play_of_feeds) * own[i];
+        if (!too_fast || (targets[i] > 0 && targets[i] <= wanted[i])) continue;
+        targets[i] = wanted[i];
+        any = true;
+    }
+    return any ? targets : proposal.targets;
+}
+
 class Optimizer {
 public:
     Optimizer(const Program& program, const ReadProgram& read, const Machine& machine, const OptimizeRules& rules, const Progress& progress, Diagnostics& diagnostics)
-        : program_(program), read_(read), machine_(machine), rules_(rules), progress_(progress), diagnostics_(diagnostics) {}
+        : program_(program), read_(read), machine_(machine), rules_(rules), diagnostics_(diagnostics), prover_(program, read, machine, rules, progress, diagnostics) {
+        if (prover_.before().surface.step_over <= 0) throw InputError(Place::of_file(program_.main().name()), "has no passes beside each other: there is nothing to bring into step");
+    }
 
     Optimized run(std::optional<Log> measured) {
         Optimized result;
         if (measured) result.measured = judge_measured(std::move(*measured));
-        SimulatedRun simulated = simulate_to_log(program_, machine_, rules_.start, progress_);
-        result.run_before = std::move(simulated.summary);
-        result.before = judge_run(std::move(simulated.log), program_, rules_.quality, diagnostics_);
-        if (result.before.surface.step_over <= 0) throw InputError(Place::of_file(program_.main().name()), "has no passes beside each other: there is nothing to bring into step");
-        fixed_ = as_judged(result.before.report, rules_.quality);
-        before_ = &result.before;
-        defects_before_ = find_defects(before_->surface, before_->signals, *before_->lines, program_, machine_.controller.period, fixed_).defects.size();
-        const ProgrammedSurface laid = lay_out(program_);
-        if (!measured_) needed_ = motions_in_need(result.before, program_, {});
-        shortest_line_ = block_reserve * machine_.controller.block_time * usual_feed(program_);
-        std::optional<Tried> best;
-        const auto keep = [&](Tried tried) {
-            if (!best || better(tried, *best)) best = std::move(tried);
-        };
-        for (const double share : shares_of_tolerance) {
-            // What is tried last is left out first where a program is long.
-            if (points_ >= most_points) break;
-            const Base base = resampled(laid, share * rules_.tolerance);
-            if (base.stretches > 0) propose_for(base, keep);
-        }
-        if (!best || points_ < most_points) propose_for({program_, std::string(program_.main().text()), true, 0, 0, measured_ ? needed_ : std::vector<std::uint8_t>{}}, keep);
-        result.proof = std::move(best->proof);
-        result.text = std::move(best->text);
-        result.after = std::move(best->run);
-        result.run_after = std::move(best->summary);
+        else needed_ = motions_in_need(prover_.before(), program_, {});
+        propose_all();
+        result.before = prover_.take_before();
+        result.run_before = prover_.summary_before();
+        result.proof = std::move(best_->proof);
+        result.text = std::move(best_->text);
+        result.after = std::move(best_->run);
+        result.run_after = std::move(best_->summary);
         return result;
     }
 
 private:
-    /// A program whose points were moved (or none), before feeds are set.
-    struct Base {
-        Program program;
-        std::string text;
-        bool original = false;
-        std::size_t stretches = 0, changed_lines = 0;
-        std::vector<std::uint8_t> may_slow;  ///< per motion, whether it may get a feed; empty: all may
-    };
+    using Tried = std::shared_ptr<Proposal>;
 
     Measured judge_measured(Log log) {
         const JudgedRun run = judge_run(std::move(log), program_, rules_.quality, diagnostics_);
@@ -106,108 +83,120 @@ private:
         return {run.surface.positions.size(), run.duration, run.mismatch, run.report.defects.size(), static_cast<std::size_t>(std::count(needed_.begin(), needed_.end(), 1))};
     }
 
-    /// The points alone, then with feeds that bring neighbour passes within a step of each other.
-    template <typename Keep>
-    void propose_for(const Base& base, const Keep& keep) {
-        Tried plain = prove(base, base.text, 0);
-        const std::vector<float> own = means_by_motion(plain.run, base.program, speeds_of(plain.run));
-        std::vector<std::vector<float>> targets;
-        for (const double step : steps_between_passes) targets.push_back(means_by_motion(plain.run, base.program, levelled_speeds(plain.run, step)));
-        keep(std::move(plain));
-        for (const std::vector<float>& target : targets) {
-            if (points_ >= most_points) return;
-            LineEditor editor(base.program);
-            editor.set_feeds(levelling_feeds(own, target, base.may_slow, play_of_feeds, interval_width));
-            Tried levelled = prove(base, editor.text(base.original ? rules_.header : ""), editor.changed_lines());
-            const bool too_slow = levelled.run.duration > before_->duration;
-            keep(std::move(levelled));
-            if (too_slow) return;  // lower feeds take longer still
+    [[nodiscard]] bool has_time() const { return prover_.points() < most_points; }
+
+    void propose_all() {
+        const ProgrammedSurface laid = lay_out(program_);
+        const double shortest_line = block_reserve * machine_.controller.block_time * usual_feed(program_);
+        std::vector<Tried> plain;  // the points alone
+        for (const double share : shares_of_tolerance) {
+            // What is tried last is left out first where a program is long.
+            if (!has_time()) break;
+            const auto draft = std::make_shared<const Draft>(resampled(laid, share * rules_.tolerance, shortest_line));
+            if (draft->stretches > 0) plain.push_back(propose(draft, {}));
+        }
+        if (plain.empty()) propose(std::make_shared<const Draft>(Draft{program_, std::string(program_.main().text()), 0, 0, {}}), {});
+        std::stable_sort(plain.begin(), plain.end(), [&](const Tried& a, const Tried& b) { return prover_.score(*a) < prover_.score(*b); });
+        for (const Tried& points : plain) {
+            for (const double share : first_shares) cure(points, share);
+            level(points);
         }
     }
 
-    static std::vector<float> speeds_of(const JudgedRun& run) {
-        std::vector<float> speeds(run.signals.samples.size());
-        for (std::size_t i = 0; i < speeds.size(); ++i) speeds[i] = run.signals.samples[i].speed;
-        return speeds;
+    /// Feeds that bring neighbour passes within a step of each other everywhere.
+    void level(const Tried& plain) {
+        for (const double step : steps_between_passes) {
+            if (!has_time()) return;
+            const Tried levelled = propose(plain->draft, lowered_targets(*plain, levelled_speeds(plain->run, step)));
+            if (levelled->run.duration > prover_.before().duration) return;  // lower feeds take longer still
+        }
     }
 
-    Base resampled(const ProgrammedSurface& laid, double chord_error) {
-        Base base;
+    /// Round by round slower where defects are left, as long as there is time to lose, a share of it in the first round.
+    void cure(Tried from, double share) {
+        const JudgedRun& before = prover_.before();
+        CureRules rules;
+        rules.step = cure_step * before.report.thresholds.of[index_of(Quantity::speed)];
+        rules.lag_power = lag_power(machine_);
+        for (int round = 0; round < rounds && has_time(); ++round) {
+            rules.budget = share * (before.duration - from->run.duration);
+            if (rules.budget <= 0) return;
+            const CuringSpeeds cure = curing_speeds(from->run, rules);
+            const std::vector<float> targets = lowered_targets(*from, cure.speeds);
+            if (targets == from->targets) {
+                if (share == most_share) return;
+                share = std::min(2 * share, most_share);
+                continue;
+            }
+            const Tried cured = propose(from->draft, targets);
+            const Tried kept = has_time() ? without_losses(*from, cure, *cured, rules.hopeless) : nullptr;
+            Tried next = from;
+            for (const Tried& tried : {cured, kept}) {
+                if (tried && tried->run.duration <= before.duration && prover_.score(*tried) < prover_.score(*next)) next = tried;
+            }
+            share = next == from ? share / 2 : std::min(2 * share, most_share);
+            from = next;
+        }
+    }
+
+    /// The feeds of `from` where its cure left no fewer defects, those of the cure elsewhere; such defects become hopeless.
+    /// nullptr: all have fewer, or none.
+    Tried without_losses(const Proposal& from, const CuringSpeeds& cure, const Proposal& cured, std::vector<Vec3>& hopeless) {
+        const std::vector<int> gains = gains_of(cure, from.run, cured.run);
+        const std::vector<std::int32_t> causes = causes_by_motion(cure, from.run, from.draft->program);
+        std::vector<float> targets = cured.targets;
+        bool any = false;  // is left
+        std::set<std::size_t> lost;
+        for (std::size_t i = 0; i < targets.size(); ++i) {
+            const float old = from.targets.empty() ? 0 : from.targets[i];
+            if (targets[i] == old) continue;
+            if (causes[i] < 0 || gains[static_cast<std::size_t>(causes[i])] > 0) {
+                any = true;
+                continue;
+            }
+            targets[i] = old;
+            lost.insert(static_cast<std::size_t>(causes[i]));
+        }
+        for (const std::size_t k : lost) hopeless.push_back(from.run.report.defects[k].position);
+        return lost.empty() || !any ? nullptr : propose(from.draft, std::move(targets));
+    }
+
+    Tried propose(const std::shared_ptr<const Draft>& draft, std::vector<float> targets) {
+        const auto tried = std::make_shared<Proposal>(prover_.prove(draft, std::move(targets)));
+        if (!best_ || prover_.better(*tried, *best_)) best_ = tried;
+        return tried;
+    }
+
+    [[nodiscard]] Draft resampled(const ProgrammedSurface& laid, double chord_error, double shortest_line) const {
+        Draft draft;
         const double spacing = 0.5 * fitting_spacing(program_, laid, chord_error);
         LineEditor editor(program_, rules_.least_decimals);
-        const std::vector<Stretch> stretches = resample(program_, laid, editor, {rules_.tolerance, spacing, chord_error, shortest_line_, ResampleRules{}.corner_angle}, needed_);
+        const std::vector<Stretch> stretches = resample(program_, laid, editor, {rules_.tolerance, spacing, chord_error, shortest_line, ResampleRules{}.corner_angle}, needed_);
         std::int64_t old = 0;  // motions so far
         for (const Stretch& stretch : stretches) {
             const std::size_t lines = editor.replace(stretch.first, stretch.last, stretch.points);
             if (!measured_) continue;
-            base.may_slow.insert(base.may_slow.end(), needed_.begin() + old, needed_.begin() + stretch.first);
-            base.may_slow.insert(base.may_slow.end(), lines, 1);
+            draft.may_slow.insert(draft.may_slow.end(), needed_.begin() + old, needed_.begin() + stretch.first);
+            draft.may_slow.insert(draft.may_slow.end(), lines, 1);
             old = stretch.last + 1;
         }
-        if (measured_) base.may_slow.insert(base.may_slow.end(), needed_.begin() + old, needed_.end());
-        base.text = editor.text(rules_.header);
-        base.program = read_(base.text);
-        base.stretches = stretches.size();
-        base.changed_lines = editor.changed_lines();
-        return base;
-    }
-
-    Tried prove(const Base& base, const std::string& text, std::size_t feed_lines) {
-        Tried tried;
-        tried.text = text;
-        const Program changed = read_(tried.text);
-        tried.proof.intervals = base.stretches;
-        tried.proof.changed_lines = base.changed_lines + feed_lines;
-        tried.proof.lines_before = program_.main().line_count();
-        tried.proof.lines_after = changed.main().line_count();
-        tried.proof.deviation = measure_deviation(program_, changed);
-        SimulatedRun simulated = simulate_to_log(changed, machine_, rules_.start, progress_);
-        tried.summary = std::move(simulated.summary);
-        points_ += static_cast<double>(tried.summary.points);
-        tried.run = judge_run(std::move(simulated.log), changed, fixed_, diagnostics_);
-        tried.proof.defects_before = defects_before_;
-        tried.proof.defects_after = tried.run.report.defects.size();
-        tried.proof.reason = objection(tried);
-        tried.proof.accepted = tried.proof.reason.empty();
-        return tried;
-    }
-
-    /// Why a proposal cannot be taken; empty: it can.
-    [[nodiscard]] std::string objection(const Tried& t) const {
-        if (t.proof.changed_lines == 0) return "no stretch of the program can be rewritten";
-        if (t.proof.deviation.disordered > 0) return fmt::format("line {} would no longer do the same", t.proof.deviation.disordered);
-        if (t.proof.deviation.greatest > rules_.tolerance) return fmt::format("it would leave the programmed path by {:.4f} mm at line {}", t.proof.deviation.greatest, t.proof.deviation.line);
-        if (!t.summary.limits_ok) return "the machine's limits would not be kept";
-        if (t.run.mismatch >= before_->mismatch) return fmt::format("the speeds of neighbour passes would differ by {:.0f} instead of {:.0f} mm/min", t.run.mismatch * seconds_per_minute, before_->mismatch * seconds_per_minute);
-        if (t.proof.defects_after > t.proof.defects_before) return fmt::format("there would be {} defects instead of {}", t.proof.defects_after, t.proof.defects_before);
-        if (t.run.duration > before_->duration) return fmt::format("it would take {:.3f} instead of {:.3f} s", t.run.duration, before_->duration);
-        return {};
-    }
-
-    /// What is left of mismatch and defects, as shares; of two that are nearly as good the shorter program wins.
-    [[nodiscard]] double score(const Tried& t) const {
-        const double growth = static_cast<double>(t.proof.lines_after) / static_cast<double>(t.proof.lines_before);
-        return growth_weight * growth + t.run.mismatch / before_->mismatch + static_cast<double>(t.proof.defects_after) / std::max<double>(1, static_cast<double>(defects_before_));
-    }
-
-    [[nodiscard]] bool better(const Tried& a, const Tried& b) const {
-        if (a.proof.accepted != b.proof.accepted) return a.proof.accepted;
-        return score(a) < score(b);
+        if (measured_) draft.may_slow.insert(draft.may_slow.end(), needed_.begin() + old, needed_.end());
+        draft.text = editor.text(rules_.header);
+        draft.program = read_(draft.text);
+        draft.stretches = stretches.size();
+        draft.changed_lines = editor.changed_lines();
+        return draft;
     }
 
     const Program& program_;
     const ReadProgram& read_;
     const Machine& machine_;
     const OptimizeRules& rules_;
-    const Progress& progress_;
     Diagnostics& diagnostics_;
-    QualityRules fixed_;
+    Prover prover_;
+    Tried best_;
     std::vector<std::uint8_t> needed_;  ///< one entry a motion
     bool measured_ = false;             ///< that tells a recorded run
-    double shortest_line_ = 0;          ///< [mm] below which blocks take longer than their way
-    const JudgedRun* before_ = nullptr;
-    std::size_t defects_before_ = 0;
-    double points_ = 0;  ///< simulated so far
 };
 
 }  // namespace

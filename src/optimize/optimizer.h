@@ -3,34 +3,12 @@
 // those) so that neighbour passes are programmed alike; it is taken only where a run on the machine
 // shows it to be better in every respect.
 
-#include <functional>
 #include <optional>
 #include <string>
-#include <vector>
 
-#include "optimize/deviation.h"
-#include "optimize/run.h"
+#include "optimize/proposal.h"
 
 namespace clsurf {
-
-struct OptimizeRules {
-    double tolerance = 0.005;   ///< [mm] from the programmed path
-    int least_decimals = 0;     ///< of new coordinates; 0: as many as the program has
-    Vec3 start = Vec3::Zero();  ///< [mm] where the axes stand before the program
-    QualityRules quality;
-    std::string header;         ///< text of the comment that says where the program comes from
-};
-
-/// A proposal held against the program.
-struct Proof {
-    bool accepted = false;
-    std::string reason;         ///< why not, or empty
-    Deviation deviation;
-    std::size_t intervals = 0;  ///< stretches that were changed
-    LineNumber lines_before = 0, lines_after = 0;
-    std::size_t changed_lines = 0;  ///< of the old program
-    std::size_t defects_before = 0, defects_after = 0;  ///< by the thresholds of the run before
-};
 
 /// What a recorded run of the program shows.
 struct Measured {
@@ -48,9 +26,6 @@ struct Optimized {
     JudgedRun before, after;
     SimulationSummary run_before, run_after;
 };
-
-/// Reads a text in the program's dialect, as the program itself was read.
-using ReadProgram = std::function<Program(const std::string& text)>;
 
 /// Runs the program, proposes, runs and judges the proposals. With a recorded run `measured` of the program, only what that
 /// run shows to be in need is changed; what a proposal is worth is found by simulation, before and after. Throws

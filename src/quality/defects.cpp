@@ -321,7 +321,7 @@ QualityReport find_defects(const ClSurface& surface, const Signals& signals, con
     report.step_over = surface.step_over;
     report.has_lag = signals.measured;
     report.note = signals.speed_note + ", " + signals.acceleration_note + ", " + signals.height_note;
-    report.thresholds = measure_thresholds(surface, signals, rules.thresholds);
+    report.thresholds = rules.fixed ? *rules.fixed : measure_thresholds(surface, signals, rules.thresholds);
     const Way way(surface.positions);
     const CauseFinder causes(surface, signals, lines, program, way);
     const Builder builder(surface, signals, lines, causes, way, rules);

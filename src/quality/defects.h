@@ -10,6 +10,7 @@
 // grouped apart, so that a lag all over the part does not hide a slow pass; a height that lies where
 // the motion differs belongs to that.
 
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -60,6 +61,7 @@ struct Defect {
 
 struct QualityRules {
     ThresholdRule thresholds;
+    std::optional<Thresholds> fixed;  ///< those that another run was judged by, instead of the run's own
     std::array<double, 3> depth_of_severity{0.002, 0.005, 0.020};  ///< [mm] where 2, 3, 4 begin
 };
 

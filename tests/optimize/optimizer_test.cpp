@@ -146,6 +146,9 @@ TEST(Optimizer, IsBetterInEveryRespectOrRefuses) {
     Diagnostics diagnostics;
     const Optimized result = optimize(program, read_text, brisk(), rules, {}, {}, diagnostics);
     EXPECT_EQ(result.proof.accepted, result.proof.reason.empty());
+    EXPECT_EQ(result.proof.defects_before, result.before.report.defects.size());
+    EXPECT_EQ(result.proof.defects_after, result.after.report.defects.size());
+    EXPECT_EQ(result.before.report.thresholds.of, result.after.report.thresholds.of);
     if (!result.proof.accepted) return;
     EXPECT_LT(result.after.mismatch, result.before.mismatch);
     EXPECT_LE(result.after.duration, result.before.duration);

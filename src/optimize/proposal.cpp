@@ -1,0 +1,83 @@
+#include "optimize/proposal.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "optimize/levelling.h"
+#include "optimize/line_edit.h"
+
+namespace clsurf {
+namespace {
+
+constexpr double interval_width = 0.005;  ///< of the speeds in a constant-speed interval: wider, passes side by side differ by as much
+constexpr double growth_weight = 0.03;    ///< of a program's growth, against shares of mismatch and defects
+constexpr double goal_of_mismatch = 0.5;  ///< share left, from which on …
+constexpr double beyond_goal = 0.3;       ///< … less mismatch counts less
+
+}  // namespace
+
+Prover::Prover(const Program& program, const ReadProgram& read, const Machine& machine, const OptimizeRules& rules, const Progress& progress, Diagnostics& diagnostics)
+    : program_(program), read_(read), machine_(machine), rules_(rules), progress_(progress), diagnostics_(diagnostics) {
+    SimulatedRun simulated = simulate_to_log(program_, machine_, rules_.start, progress_);
+    summary_before_ = std::move(simulated.summary);
+    before_ = judge_run(std::move(simulated.log), program_, rules_.quality, diagnostics_);
+}
+
+Proposal Prover::prove(const std::shared_ptr<const Draft>& draft, std::vector<float> targets) {
+    Proposal result;
+    result.draft = draft;
+    result.targets = std::move(targets);
+    result.text = draft->text;
+    Proof& proof = result.proof;
+    proof.intervals = draft->stretches;
+    proof.changed_lines = draft->changed_lines;
+    if (!result.targets.empty()) {
+        LineEditor editor(draft->program);
+        editor.set_feeds(levelling_feeds(result.targets, draft->may_slow, interval_width));
+        result.text = editor.text("");
+        proof.changed_lines += editor.changed_lines();
+    }
+    const Program changed = read_(result.text);
+    proof.lines_before = program_.main().line_count();
+    proof.lines_after = changed.main().line_count();
+    proof.deviation = measure_deviation(program_, changed);
+    SimulatedRun simulated = simulate_to_log(changed, machine_, rules_.start, progress_);
+    result.summary = std::move(simulated.summary);
+    points_ += static_cast<double>(result.summary.points);
+    // A cleaner run must not be judged more strictly for being cleaner.
+    QualityRules as_before = rules_.quality;
+    as_before.fixed = before_.report.thresholds;
+    result.run = judge_run(std::move(simulated.log), changed, as_before, diagnostics_);
+    proof.defects_before = before_.report.defects.size();
+    proof.defects_after = result.run.report.defects.size();
+    proof.reason = objection(result);
+    proof.accepted = proof.reason.empty();
+    return result;
+}
+
+/// Why a proposal cannot be taken; empty: it can.
+std::string Prover::objection(const Proposal& p) const {
+    if (p.proof.changed_lines == 0) return "no stretch of the program can be rewritten";
+    if (p.proof.deviation.disordered > 0) return fmt::format("line {} would no longer do the same", p.proof.deviation.disordered);
+    if (p.proof.deviation.greatest > rules_.tolerance) return fmt::format("it would leave the programmed path by {:.4f} mm at line {}", p.proof.deviation.greatest, p.proof.deviation.line);
+    if (!p.summary.limits_ok) return "the machine's limits would not be kept";
+    if (p.run.mismatch >= before_.mismatch) return fmt::format("the speeds of neighbour passes would differ by {:.0f} instead of {:.0f} mm/min", p.run.mismatch * seconds_per_minute, before_.mismatch * seconds_per_minute);
+    if (p.proof.defects_after > p.proof.defects_before) return fmt::format("there would be {} defects instead of {}", p.proof.defects_after, p.proof.defects_before);
+    if (p.run.duration > before_.duration) return fmt::format("it would take {:.3f} instead of {:.3f} s", p.run.duration, before_.duration);
+    return {};
+}
+
+double Prover::score(const Proposal& p) const {
+    const double growth = static_cast<double>(p.proof.lines_after) / static_cast<double>(p.proof.lines_before);
+    const double mismatch = p.run.mismatch / before_.mismatch, defects = static_cast<double>(p.proof.defects_after) / std::max<double>(1, static_cast<double>(p.proof.defects_before));
+    return growth_weight * growth + std::max(mismatch, goal_of_mismatch) + beyond_goal * std::min(mismatch, goal_of_mismatch) + defects;
+}
+
+bool Prover::better(const Proposal& a, const Proposal& b) const {
+    if (a.proof.accepted != b.proof.accepted) return a.proof.accepted;
+    return score(a) < score(b);
+}
+
+}  // namespace clsurf
