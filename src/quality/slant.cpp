@@ -47,17 +47,6 @@ public:
         return a + (place - static_cast<float>(k)) * (speed_at(signals, side[k + 1]) - a);
     }
 
-    /// The path turns on the surface, about its normal, by more than a corner's angle within the profile.
-    [[nodiscard]] bool turns(const Signals& signals, const Eigen::Vector3f& normal) const {
-        const auto along_surface = [&](const Station& at) {
-            const Eigen::Vector3f feed = signals.feed(at.nearest());
-            return Eigen::Vector3f((feed - feed.dot(normal) * normal).normalized());
-        };
-        const Eigen::Vector3f here = along_surface(stations_[0].front());
-        return std::any_of(stations_.begin(), stations_.end(), [&](const std::vector<Station>& side) {
-            return std::any_of(side.begin(), side.end(), [&](const Station& at) { return along_surface(at).dot(here) < corner_cosine; });
-        });
-    }
     /// What the pass does within the profile that is nearest to what the point does, each quantity on its own.
     [[nodiscard]] Compared nearest(const Signals& signals, const Compared& own, const Eigen::Vector3f& normal) const {
         Compared result = compared_at(signals, stations_[0].front(), normal);
@@ -140,6 +129,29 @@ Agreement agreement(const Signals& signals, std::span<const Profile> profiles, f
     return result;
 }
 
+/// Within the slants' reach the path turns on the surface, about its normal, by more than a corner's angle.
+bool turns(const ClSurface& surface, const Signals& signals, PointIndex point, const Eigen::Vector3f& normal) {
+    const Positions& p = surface.positions;
+    const auto step_over = static_cast<float>(surface.step_over);
+    const auto along_surface = [&](PointIndex i) {
+        const Eigen::Vector3f feed = signals.feed(i);
+        return Eigen::Vector3f(feed - feed.dot(normal) * normal);
+    };
+    const Eigen::Vector3f here = along_surface(point);
+    for (const PointIndex step : {-1, 1}) {
+        float way = 0, looked = 0;
+        for (PointIndex i = point + step; i >= 0 && i < p.size() && signals[i].zone != Zone::outside && way < steepest * step_over; i += step) {
+            way += (p[i] - p[i - step]).norm();
+            if (way < looked) continue;
+            looked = way + sampled_every * step_over;
+            const Eigen::Vector3f there = along_surface(i);
+            const float dot = there.dot(here);
+            if (dot < 0 || dot * dot < corner_cosine * corner_cosine * there.squaredNorm() * here.squaredNorm()) return true;
+        }
+    }
+    return false;
+}
+
 /// Straight across the feed the passes hardly differ.
 bool agree_straight(const Signals& signals, std::span<const Beside> places) {
     const auto [low, high] = std::minmax_element(places.begin(), places.end(), [&](const Beside& a, const Beside& b) { return signals[a.at.nearest()].speed < signals[b.at.nearest()].speed; });
@@ -180,7 +192,7 @@ std::optional<AlongSlant> along_slant(const ClSurface& surface, const Signals& s
     const Eigen::Vector3f feed = signals.feed(point);
     const Eigen::Vector3f normal = signals.normal(point);
     const Compared own = compared_at(signals, {point, 0}, normal);
-    const bool corner = Profile(surface, signals, {{point, 0}, 1}, feed).turns(signals, normal);
+    const bool corner = turns(surface, signals, point, normal);
     if (!corner && (places.size() < fewest || agree_straight(signals, places))) return std::nullopt;
     std::vector<Profile> profiles;
     profiles.reserve(places.size());
