@@ -51,22 +51,18 @@ constexpr std::array<FunctionRow, 5> heidenhain_functions{{
     {"LOG", [](double v) { return std::log10(v); }},
 }};
 
+/// The digits of v in one base, read as those of another; undefined where a double does not hold them.
+double digits_again(double v, std::uint64_t base, double other) {
+    constexpr double most = 1e15;
+    if (!(v >= 0 && v < most)) return undefined;
+    double value = 0;
+    double place = 1;
+    for (auto rest = static_cast<std::uint64_t>(v); rest > 0; rest /= base, place *= other) value += static_cast<double>(rest % base) * place;
+    return value;
+}
 /// Fanuc keeps digits in four bits each: 18 stands for binary 0001'0010. BIN reads it as 12.
-constexpr double most_digits = 1e15;
-double from_decimal_digits(double v) {
-    if (!(v >= 0 && v < most_digits)) return undefined;
-    double value = 0;
-    double ten = 1;
-    for (auto rest = static_cast<std::uint64_t>(v); rest > 0; rest /= 16, ten *= 10) value += static_cast<double>(rest % 16) * ten;
-    return value;
-}
-double to_decimal_digits(double v) {
-    if (!(v >= 0 && v < most_digits)) return undefined;
-    double value = 0;
-    double sixteen = 1;
-    for (auto rest = static_cast<std::uint64_t>(v); rest > 0; rest /= 10, sixteen *= 16) value += static_cast<double>(rest % 10) * sixteen;
-    return value;
-}
+double from_decimal_digits(double v) { return digits_again(v, 16, 10); }
+double to_decimal_digits(double v) { return digits_again(v, 10, 16); }
 constexpr std::array<FunctionRow, 2> fanuc_functions{{{"BIN", from_decimal_digits}, {"BCD", to_decimal_digits}}};
 
 }  // namespace
