@@ -203,20 +203,25 @@ test('light and dark', async () => {
 });
 
 test('the command line and the list of keys open and close', async () => {
+    // A browser tells of a closed dialog a task later than it closes it.
+    const gone = () => page.locator('dialog').waitFor({ state: 'detached' });
     await press(page, 'r');
     assert.match(await page.getByLabel('command line').inputValue(), /^clsurf render /);
     await page.click('[data-action="copy"]');
     await page.click('[data-action="close"]');
+    await gone();
     await page.click('[data-action="command"]');
     await page.keyboard.press('Escape');
+    await gone();
     await press(page, '?');
     // Each key stands there once.
     const keys = await page.$$eval('kbd', (all) => all.map((key) => key.textContent));
     assert.equal(new Set(keys).size, keys.length);
     await page.click('[data-action="close"]');
-    assert.equal(await page.locator('dialog').count(), 0);
+    await gone();
     await page.click('[data-action="help"]');
     await page.keyboard.press('Escape');
+    await gone();
 });
 
 test('G goes to the field for numbers, where keys are letters', async () => {
