@@ -339,18 +339,9 @@ private:
 
 Passes pieces_of_way(const ClSurface& surface) {
     Passes pieces;
-    auto jog = surface.jogs.begin();
+    JogCutter cutter(surface.jogs);
     for (const Pass& pass : surface.passes) {
-        PointIndex first = pass.first;
-        for (; jog != surface.jogs.end() && jog->first <= pass.last; ++jog) {
-            if (jog->first > first) pieces.push_back({first, jog->first - 1, pass.kind});
-            first = std::max(first, jog->first);
-            const PointIndex last = std::min(jog->last, pass.last);
-            if (last >= first) pieces.push_back({first, last, PassKind::link});
-            first = last + 1;
-            if (jog->last > pass.last) break;  // goes on in the next
-        }
-        if (first <= pass.last) pieces.push_back({first, pass.last, pass.kind});
+        cutter.cut({pass.first, pass.last}, [&](const PointRange& part, bool jog) { pieces.push_back({part.first, part.last, jog ? PassKind::link : pass.kind}); });
     }
     return pieces;
 }

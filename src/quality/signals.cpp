@@ -275,22 +275,6 @@ void mark_zones(const ClSurface& surface, const std::vector<PointRange>& pieces,
     }
 }
 
-/// Pieces cut where loops are joined: the speed sideways is not that of the pass.
-std::vector<PointRange> cut_at_jogs(const std::vector<PointRange>& pieces, const std::vector<PointRange>& jogs) {
-    std::vector<PointRange> cut;
-    auto jog = jogs.begin();
-    for (PointRange piece : pieces) {
-        for (; jog != jogs.end() && jog->first <= piece.last; ++jog) {
-            if (jog->first <= piece.first) continue;
-            cut.push_back({piece.first, jog->first - 1});
-            cut.push_back({jog->first, std::min(jog->last, piece.last)});
-            piece.first = cut.back().last + 1;
-        }
-        if (piece.size() > 0) cut.push_back(piece);
-    }
-    return cut;
-}
-
 }  // namespace
 
 double usual_end_zone(double step_over) {
@@ -302,7 +286,10 @@ double usual_end_zone(double step_over) {
 Signals derive_signals(const ClSurface& surface, const Trajectory& path, const Trajectory* measured,
                        const std::vector<PointRange>& smooth, double end_zone) {
     Signals signals;
-    const std::vector<PointRange> pieces = cut_at_jogs(smooth, surface.jogs);
+    // Where loops are joined the speed sideways is not that of the pass.
+    std::vector<PointRange> pieces;
+    JogCutter cutter(surface.jogs);
+    for (const PointRange& piece : smooth) cutter.cut(piece, [&](const PointRange& part, bool) { pieces.push_back(part); });
     signals.samples.resize(static_cast<std::size_t>(path.count));
     signals.measured = measured != nullptr;
     for (const Trajectory* role : {&path, measured}) {
