@@ -74,19 +74,20 @@ constexpr auto conversions = std::to_array<Conversion>({
     {"rad/s²", "deg/s²", deg_per_rad},
 });
 
+/// nullptr: no name that the project knows.
+const ChannelInfo* info_of(std::string_view name) {
+    const auto found = std::find_if(table.begin(), table.end(), [&](const ChannelInfo& info) {
+        return info.name.ends_with('.') ? name.size() == info.name.size() + 1 && name.starts_with(info.name) : name == info.name;
+    });
+    return found == table.end() ? nullptr : &*found;
+}
+
 /// The unit that a channel of that name has; empty: its own.
 std::string_view unit_of(std::string_view name) {
-    for (const ChannelInfo& info : table) {
-        if (!info.name.ends_with('.')) {
-            if (info.name == name) return info.unit;
-            continue;
-        }
-        if (name.size() != info.name.size() + 1 || !name.starts_with(info.name)) continue;
-        const char axis = name.back();
-        const bool rotary = axis >= 'a' && axis <= 'c' && !info.rotary_unit.empty();
-        return rotary ? info.rotary_unit : info.unit;
-    }
-    return {};
+    const ChannelInfo* info = info_of(name);
+    if (info == nullptr) return {};
+    const bool rotary = name.back() >= 'a' && name.back() <= 'c' && info->name.ends_with('.') && !info->rotary_unit.empty();
+    return rotary ? info->rotary_unit : info->unit;
 }
 
 void settle_unit(Log& log, Channel& channel) {
@@ -114,12 +115,6 @@ void settle_unit(Log& log, Channel& channel) {
 
 constexpr std::array<std::string_view, 6> axes{"x", "y", "z", "a", "b", "c"};
 
-bool is_known(std::string_view name) {
-    return std::any_of(table.begin(), table.end(), [&](const ChannelInfo& info) {
-        return info.name.ends_with('.') ? name.size() == info.name.size() + 1 && name.starts_with(info.name) : name == info.name;
-    });
-}
-
 /// Clocks that do not begin with the first record: a time of day, a time since 1970.
 void settle_time_origin(Log& log, Channel& time) {
     if (log.records == 0) return;
@@ -137,11 +132,15 @@ std::span<const ChannelInfo> known_channels() { return table; }
 std::string settled_name(std::string_view name) {
     std::string low(name);
     for (char& c : low) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    const bool meant = is_known(low) || std::find(axes.begin(), axes.end(), low) != axes.end();
+    const bool meant = info_of(low) != nullptr || std::find(axes.begin(), axes.end(), low) != axes.end();
     return meant ? low : std::string(name);
 }
 
-bool is_position(std::string_view name) { return is_known(name) && (name.starts_with("cmd.") || name.starts_with("fb.") || name.starts_with("act.")); }
+bool is_position(std::string_view name) {
+    // Of the channels only positions are lengths.
+    const ChannelInfo* info = info_of(name);
+    return info != nullptr && info->unit == "mm";
+}
 
 void settle_names(Log& log) {
     for (Channel& channel : log.channels) {
