@@ -9,6 +9,7 @@
 
 #include "core/block.h"
 #include "core/statistics.h"
+#include "quality/median_of.h"
 #include "quality/slant.h"
 
 namespace clsurf {
@@ -22,23 +23,6 @@ constexpr float round_a_corner = 0.5F;       ///< cos 60°: straight across a co
 constexpr std::size_t fewest_passes = 2;     ///< for a median
 constexpr float shape_left = 0.35F;          ///< of a relief: more is left of it beside it where it is the part's own
 constexpr float shape_beside = 0.6F;         ///< of the largest relief around: a smaller one lies beside an edge
-
-/// Median of one quantity over places; NaN with fewer than two.
-template <typename Read>
-float median_of(std::span<const Compared> places, Read&& read) {
-    std::array<float, 2 * Comparer::passes_aside> values;
-    std::size_t count = 0;
-    for (const Compared& place : places) {
-        const float value = read(place);
-        if (!(value == value)) continue;
-        std::size_t k = count++;
-        for (; k > 0 && values[k - 1] > value; --k) values[k] = values[k - 1];
-        values[k] = value;
-    }
-    if (count < fewest_passes) return none;
-    const std::size_t middle = count / 2;
-    return count % 2 == 1 ? values[middle] : 0.5F * (values[middle - 1] + values[middle]);
-}
 
 float larger(float a, float b) { return !(a == a) || b > a ? b : a; }
 
@@ -188,19 +172,19 @@ Comparison Comparer::compare(PointIndex point, int aside) const {
         for (int k = 0; k < (even > 0 ? even : count[s]); ++k) all[n++] = beside_it[s][static_cast<std::size_t>(k)];
     }
     const std::span<const Compared> places(all.data(), n);
-    const float usual = median_of(places, [](const Compared& v) { return v.speed; });
+    const float usual = median_of(places, fewest_passes, [](const Compared& v) { return v.speed; });
     const float reference = std::max(usual == usual ? usual : mine.speed, least_speed_);
     result.step[index_of(Quantity::speed)] = speed_step / reference;
     result.play[index_of(Quantity::speed)] = change_of_two_periods(signals_, &Sample::speed, point) / reference;
     if (signals_.measured) result.play[index_of(Quantity::lag)] = change_of_two_periods(signals_, &Sample::lag, point);
     result.speed_jump = mine.speed - usual;
     result.residual[index_of(Quantity::speed)] = result.speed_jump / reference;
-    result.residual[index_of(Quantity::lag)] = mine.lag - median_of(places, [](const Compared& v) { return v.lag; });
-    const float usual_relief = median_of(places, [](const Compared& v) { return v.relief; });
+    result.residual[index_of(Quantity::lag)] = mine.lag - median_of(places, fewest_passes, [](const Compared& v) { return v.lag; });
+    const float usual_relief = median_of(places, fewest_passes, [](const Compared& v) { return v.relief; });
     result.residual[index_of(Quantity::relief)] = even > 0 && is_shape(mine.relief, beside_it[0][0], beside_it[1][0], places) ? 0 : mine.relief - usual_relief;
     Eigen::Vector3f consensus;
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
-        consensus[axis] = median_of(places, [axis](const Compared& v) { return v.acceleration[axis]; });
+        consensus[axis] = median_of(places, fewest_passes, [axis](const Compared& v) { return v.acceleration[axis]; });
     }
     result.residual[index_of(Quantity::acceleration)] = (mine.acceleration - consensus).norm();
     return result;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "quality/median_of.h"
 #include "quality/mismatch.h"
 
 namespace clsurf {
@@ -104,12 +105,6 @@ private:
     std::array<std::vector<Station>, 2> stations_;  ///< against the feed and with it, from the station itself on
 };
 
-float median(std::span<float> values) {
-    std::sort(values.begin(), values.end());
-    const std::size_t middle = values.size() / 2;
-    return values.size() % 2 == 1 ? values[middle] : 0.5F * (values[middle - 1] + values[middle]);
-}
-
 /// Speeds of the passes on a slant [mm along the feed per pass], and how far they are from their median.
 struct Agreement {
     float speed = none;
@@ -123,8 +118,8 @@ Agreement agreement(const Signals& signals, std::span<const Profile> profiles, f
         if (speed != speed) return {};
         values[count++] = speed;
     }
-    const std::span<float> there(values.data(), count);
-    Agreement result{median(there), 0};
+    const std::span<const float> there(values.data(), count);
+    Agreement result{median_of(there, 1, [](float value) { return value; }), 0};
     for (const float value : there) result.disagreement += std::abs(value - result.speed);
     return result;
 }
@@ -170,18 +165,10 @@ AlongSlant summarise(const Compared& own, std::span<const Profile> profiles, F&&
         result.acceleration_step = std::max(result.acceleration_step, (own.acceleration - there.acceleration).norm());
         result.relief_step = std::max(result.relief_step, std::abs(own.relief - there.relief));
     }
-    const auto median_of = [&](auto&& read) {
-        std::array<float, 2 * most_passes> values;
-        std::size_t count = 0;
-        for (std::size_t k = 0; k < profiles.size(); ++k) {
-            const float v = read(places[k]);
-            if (v == v) values[count++] = v;
-        }
-        return count == 0 ? none : median(std::span(values.data(), count));
-    };
-    result.speed = median_of([](const Compared& c) { return c.speed; });
-    result.relief = median_of([](const Compared& c) { return c.relief; });
-    for (Eigen::Index axis = 0; axis < 3; ++axis) result.acceleration[axis] = median_of([axis](const Compared& c) { return c.acceleration[axis]; });
+    const std::span<const Compared> there(places.data(), profiles.size());
+    result.speed = median_of(there, 1, [](const Compared& c) { return c.speed; });
+    result.relief = median_of(there, 1, [](const Compared& c) { return c.relief; });
+    for (Eigen::Index axis = 0; axis < 3; ++axis) result.acceleration[axis] = median_of(there, 1, [axis](const Compared& c) { return c.acceleration[axis]; });
     return result;
 }
 

@@ -1,0 +1,29 @@
+#pragma once
+// The median of what a few passes say of a quantity, where some say nothing.
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <span>
+
+namespace clsurf {
+
+/// Of at most ten values; NaN are left out, and of an even number it is the mean of the middle two. NaN of
+/// fewer than `fewest`.
+template <typename T, typename Read>
+[[nodiscard]] float median_of(std::span<const T> places, std::size_t fewest, Read&& read) {
+    std::array<float, 10> values;
+    std::size_t count = 0;
+    for (const T& place : places) {
+        const float value = read(place);
+        if (!(value == value)) continue;
+        std::size_t k = count++;
+        for (; k > 0 && values[k - 1] > value; --k) values[k] = values[k - 1];
+        values[k] = value;
+    }
+    if (count < fewest) return std::numeric_limits<float>::quiet_NaN();
+    const std::size_t middle = count / 2;
+    return count % 2 == 1 ? values[middle] : 0.5F * (values[middle - 1] + values[middle]);
+}
+
+}  // namespace clsurf
