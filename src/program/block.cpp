@@ -263,6 +263,7 @@ private:
         if (next == ahead.at) return false;
         ahead.at = next;
         if (!ahead.take('=')) return false;
+        if (!(number < 1e4)) throw ReadError{"no such variable number", c_.column(), {}};
         c_ = ahead;
         numbered_.push_back({100000 + static_cast<int>(number), evaluate(c_, variables_, dialect_)});
         return true;

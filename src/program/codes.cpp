@@ -156,7 +156,7 @@ void Interpreter::apply_common(int code, Block& block, std::size_t column) {
             return;
         case 591: case 592: case 593: select_work_system(6 + code - 590); return;
         case 541:
-            select_work_system(6 + (is(block, 'P') ? static_cast<int>(block.words.of('P')) : 1));
+            select_work_system(6 + (is(block, 'P') ? static_cast<int>(std::clamp(block.words.of('P'), -1e6, 1e6)) : 1));
             return;
         case 800: state_.motion = MotionMode::none; state_.cycle = 0; return;
         case 900: state_.incremental = false; return;

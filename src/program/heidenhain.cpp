@@ -231,6 +231,7 @@ bool Interpreter::q_function(std::string_view text) {
     const std::size_t next = read_decimal(c.text, c.at, code);
     if (next == c.at) return false;
     c.at = next;
+    code = std::min(code, 1e4);
     int target = -1;
     if (upper(c.peek()) == 'Q') {
         double number = 0;

@@ -328,7 +328,7 @@ void Interpreter::flatten_bezier(const std::vector<Vec2>& control) {
 
 void Interpreter::nurbs_point(const Block& block) {
     if (nurbs_.empty()) {
-        nurbs_order_ = block.words.given('L') ? static_cast<int>(block.words.of('L')) : 3;
+        nurbs_order_ = block.words.given('L') ? static_cast<int>(std::clamp(block.words.of('L'), 0.0, 1e6)) : 3;
         if (nurbs_order_ < 2 || nurbs_order_ > 20) fail("the order of a spline (L) is 2 … 20");
         const Vec3 p = state_.position;
         nurbs_.emplace_back(p.x(), p.y(), block.words.given('P') ? block.words.of('P') : 1.0);

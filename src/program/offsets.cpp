@@ -18,14 +18,14 @@ bool is(const Block& block, char letter) { return block.words.given(letter); }
 
 void Interpreter::set_offsets(const Block& block) {
     motion_suppressed_ = true;
-    const int level = is(block, 'L') ? static_cast<int>(block.words.of('L')) : 0;
+    const int level = is(block, 'L') ? static_cast<int>(std::clamp(block.words.of('L'), -1e6, 1e6)) : 0;
     if (dialect_ == DialectId::fanuc && set_fanuc_offsets(level, block)) return;
     if (level != 2 && level != 20) {
         if (dialect_ == DialectId::linuxcnc) set_tool(level, block);
         event("tool-table", "G10" + words_text(block, "LPRZXYIJQ"));
         return;
     }
-    int system = is(block, 'P') ? static_cast<int>(block.words.of('P')) : 0;
+    int system = is(block, 'P') ? static_cast<int>(std::clamp(block.words.of('P'), -1e6, 1e6)) : 0;
     if (system == 0) system = state_.work_system;
     const Vec3 machine = state_.to_machine(state_.position);
     const Vec3 machine_rotary = state_.rotary + state_.rotary_offset();

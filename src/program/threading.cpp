@@ -71,7 +71,7 @@ void Interpreter::thread_cycle(const Block& block) {
     const double degression = word('R', 1);
     const double angle = word('Q', 0);
     const double springs = word('H', 0);
-    const int tapers = static_cast<int>(word('L', 0));
+    const int tapers = static_cast<int>(std::clamp(word('L', 0), -1.0, 4.0));
     thread.taper = word('E', 0) * state_.unit_mm;
     if (!(w.of('P') > 0)) fail("the pitch (P) of G76 must be greater than 0");
     if (thread.crest == 0) fail("I of G76 must not be 0");
