@@ -131,9 +131,12 @@ public:
         return defect;
     }
 
-    /// The border of the part shows what it always shows: all that starts the defect has one neighbour.
+    /// The border of the part shows what it always shows: three quarters of what starts the defect, or
+    /// more, lie there.
     [[nodiscard]] static bool at_border(Sites core, Family family) {
-        return std::all_of(core.begin(), core.end(), [&](const Suspect* s) { return s->border || largest(s->score, family) < 1; });
+        const auto starts = [&](const Suspect* s) { return largest(s->score, family) >= 1; };
+        const auto all = std::count_if(core.begin(), core.end(), starts);
+        return 4 * std::count_if(core.begin(), core.end(), [&](const Suspect* s) { return s->border && starts(s); }) >= 3 * all;
     }
 
 private:

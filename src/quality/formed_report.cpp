@@ -55,7 +55,7 @@ Across across_at(const FormedSurface& formed, const Signals& signals, PointIndex
 std::vector<PointIndex> spread_points(const Signals& signals) {
     std::vector<PointIndex> found;
     const auto count = signals.size();
-    const auto inner = [&](PointIndex i) { return signals[i].zone == Zone::inner && signals.normal(i).allFinite(); };
+    const auto inner = [&](PointIndex i) { return signals[i].zone >= Zone::near_end && signals.normal(i).allFinite(); };
     for (std::size_t k = 0; k < patches_wanted; ++k) {
         const auto first = static_cast<PointIndex>(static_cast<double>(count) * static_cast<double>(k) / patches_wanted);
         const auto end = static_cast<PointIndex>(static_cast<double>(count) * static_cast<double>(k + 1) / patches_wanted);

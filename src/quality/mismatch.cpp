@@ -21,6 +21,7 @@ constexpr float normal_deviation = 1.4826F;  ///< standard deviations per median
 constexpr float along_or_against = 0.866F;   ///< cos 30°: neighbours run along with the feed or against it
 constexpr float round_a_corner = 0.5F;       ///< cos 60°: straight across a corner they have turned more than that
 constexpr std::size_t fewest_passes = 2;     ///< for a median
+constexpr float slack_step_overs = 0.5F;     ///< along the feed between the ends of passes that end side by side
 constexpr float shape_left = 0.35F;          ///< of a relief: more is left of it beside it where it is the part's own
 constexpr float shape_beside = 0.6F;         ///< of the largest relief around: a smaller one lies beside an edge
 
@@ -132,7 +133,44 @@ void Comparer::compare_along_slant(PointIndex point, Comparison& comparison) con
     if (slanted->corner) lessen(Quantity::relief, signals_[point].relief - slanted->relief, slanted->relief_step);
 }
 
-Comparison Comparer::compare(PointIndex point, int aside) const {
+Comparison Comparer::compare(PointIndex point, int aside) const { return compare_with(Peers::all, point, aside); }
+
+std::array<float, quantities> Comparer::change_nearby(PointIndex point, float reference) const {
+    std::array<float, quantities> change{};
+    const Positions& p = surface_.positions;
+    const Sample& mine = signals_[point];
+    const auto widen = [&](Quantity q, float value) { change[index_of(q)] = larger(change[index_of(q)], value); };
+    for (const PointIndex direction : {-1, 1}) {
+        for (PointIndex i = point + direction; i >= 0 && i < p.size() && signals_[i].zone != Zone::outside; i += direction) {
+            const Sample& there = signals_[i];
+            widen(Quantity::speed, std::abs(there.speed - mine.speed) / reference);
+            widen(Quantity::lag, std::abs(there.lag - mine.lag));
+            widen(Quantity::relief, std::abs(there.relief - mine.relief));
+            widen(Quantity::acceleration, (signals_.acceleration(i) - signals_.acceleration(point)).norm());
+            if (!((p[i] - p[point]).norm() < slack_step_overs * static_cast<float>(surface_.step_over))) break;
+        }
+    }
+    return change;
+}
+
+Comparison Comparer::compare_at_end(PointIndex point) const {
+    Comparison result = compare_with(Peers::same_way, point, passes_aside);
+    const float reference = std::max(signals_[point].speed, least_speed_);
+    result.slack = change_nearby(point, reference);
+    // What the others do not, it does by itself.
+    std::array<float, quantities> others{};
+    for (const Side side : {Side::left, Side::right}) {
+        (void)for_each_beside(point, side, passes_aside, along_or_against, [&](const Station& at, int) {
+            if (signals_.feed(at.nearest()).dot(signals_.feed(point)) < 0) return;
+            const std::array<float, quantities> there = change_nearby(at.nearest(), reference);
+            for (std::size_t q = 0; q < quantities; ++q) others[q] = std::max(others[q], there[q]);
+        });
+    }
+    for (std::size_t q = 0; q < quantities; ++q) result.slack[q] = std::min(result.slack[q], others[q]);
+    return result;
+}
+
+Comparison Comparer::compare_with(Peers peers, PointIndex point, int aside) const {
     Comparison result;
     result.step.fill(none);
     result.residual.fill(none);
@@ -146,9 +184,9 @@ Comparison Comparer::compare(PointIndex point, int aside) const {
     for (const Side side : {Side::left, Side::right}) {
         const auto s = static_cast<std::size_t>(side);
         Station& adjacent_place = side == Side::left ? result.beside_left : result.beside_right;
-        adjacent_place = for_each_beside(point, side, aside, along_or_against, [&](const Station& at, int passes) {
-            beside_it[s][static_cast<std::size_t>(passes - 1)] = compared_at(signals_, at, normal);
-            count[s] = passes;
+        adjacent_place = for_each_beside(point, side, aside, along_or_against, [&](const Station& at, int) {
+            if (peers == Peers::same_way && signals_.feed(at.nearest()).dot(signals_.feed(point)) < 0) return;
+            beside_it[s][static_cast<std::size_t>(count[s]++)] = compared_at(signals_, at, normal);
         });
         if (count[s] == 0) continue;
         const Compared& adjacent = beside_it[s][0];

@@ -34,6 +34,7 @@ struct Comparison {
     std::array<float, quantities> step;      ///< ≥ 0; NaN: not known
     std::array<float, quantities> residual;  ///< signed; of the acceleration the length; NaN: not known
     std::array<float, quantities> play{};    ///< of the step, where log and place agree to a period only
+    std::array<float, quantities> slack{};   ///< of step and residual, where passes begin and end a little apart
     float speed_jump = 0;                    ///< residual of the speed [mm/s]
     int left = 0, right = 0;                 ///< passes that were compared with
     Station beside_left, beside_right;       ///< on the adjacent passes
@@ -51,11 +52,24 @@ public:
     /// O(1): up to `aside` passes on each side. With one, the steps are the same, residuals mean little.
     [[nodiscard]] Comparison compare(PointIndex point, int aside = passes_aside) const;
 
+    /// Among passes of the point's own way, where all of them begin or end there. They do so a little apart,
+    /// and change fast: as much as all of them change within half a step-over is slack.
+    [[nodiscard]] Comparison compare_at_end(PointIndex point) const;
+
     /// Where the passes round the point do one after the other what it does too, its motion is
     /// compared along their slant (slant.h), in corners its relief too: they differ by the lesser of both.
     void compare_along_slant(PointIndex point, Comparison& comparison) const;
 
 private:
+    /// What a place is compared with: all passes, or those only that run the same way, of a zigzag every
+    /// second one.
+    enum class Peers : std::uint8_t { all, same_way };
+
+    [[nodiscard]] Comparison compare_with(Peers peers, PointIndex point, int aside) const;
+
+    /// How much each quantity changes along the pass within half a step-over; speeds over `reference`.
+    [[nodiscard]] std::array<float, quantities> change_nearby(PointIndex point, float reference) const;
+
     /// f(station, passes away: from 1) for the passes on one side, at most `aside`, as long as each turns
     /// by less than the angle of that cosine from the one before. Returns the place on the adjacent pass.
     template <typename F>

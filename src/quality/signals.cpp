@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/block.h"
+#include "core/statistics.h"
 #include "log/quantum.h"
 #include "path/way.h"
 #include "surface/station.h"
@@ -16,7 +17,8 @@ namespace clsurf {
 namespace {
 
 constexpr float none = std::numeric_limits<float>::quiet_NaN();
-constexpr double speed_seconds = 0.010;    ///< window: an oscillation of 20 ms keeps four fifths of its height
+constexpr double speed_seconds = 0.010;    ///< longest window: an oscillation of 20 ms keeps four fifths of its height …
+constexpr double speed_way = 0.4;          ///< [mm] … and of fast passes one of 0.8 mm, since marks are seen by their length
 constexpr double height_seconds = 0.015;   ///< window of the mean that heights are smoothed with
 constexpr PointIndex relief_every = 3;     ///< points: normals and reliefs are those of every third
 constexpr double longest_lag = 0.1;        ///< [s] that the measured position may come after the commanded one
@@ -24,7 +26,7 @@ constexpr PointIndex shortest_reach = 64;  ///< points
 constexpr PointIndex longest_reach = 4096;
 constexpr PointIndex lead = 16;            ///< points that it may come before: logs that were put together
 constexpr float farthest_lag = 2.0F;       ///< step-overs; farther, the paths have nothing to do with each other
-constexpr double longest_ramp = 5.0;       ///< [mm]
+constexpr double longest_ramp = 20.0;      ///< [mm] 100 mm/s are reached over 17 mm at 300 mm/s²
 constexpr double rise_seconds = 0.005;     ///< in which the speed of a ramp rises …
 constexpr float least_rise = 0.005F;       ///< … by this share at least
 constexpr float slowest = 1e-3F;           ///< [mm/s]; slower, the feed has no direction
@@ -88,12 +90,12 @@ void for_each_stretch(PointIndex count, const std::vector<PointRange>& pieces, F
 
 class Deriver {
 public:
-    Deriver(const ClSurface& surface, const Trajectory& path, const Trajectory* measured, Signals& out)
+    Deriver(const ClSurface& surface, const Trajectory& path, const Trajectory* measured, double usual_speed, Signals& out)
         : surface_(surface),
           path_(path),
           measured_(measured),
           out_(out),
-          speed_({window_points(speed_seconds, path.period, 5), 2, 1, path.period}),
+          speed_({window_points(std::min(speed_seconds, speed_way / usual_speed), path.period, 5), 2, 1, path.period}),
           acceleration_(derivative_filter(2, path.period)),
           smoother_(window_points(height_seconds, path.period, 1)),
           reach_(std::clamp(static_cast<PointIndex>(std::lround(std::min(longest_lag / path.period, 1e6))), shortest_reach, longest_reach)) {}
@@ -227,6 +229,24 @@ private:
     PointIndex reach_;
 };
 
+/// Speed [mm/s] that a twentieth of the points of cut passes, evenly chosen, exceed; 0: none moves.
+double usual_speed_of(const ClSurface& surface, double period) {
+    constexpr PointIndex chosen = 20'000;
+    constexpr double chord_seconds = 0.010;
+    const Positions& positions = surface.positions;
+    const PointIndex every = std::max<PointIndex>(1, positions.size() / chosen);
+    const PointIndex chord = std::max<PointIndex>(1, std::lround(std::min(chord_seconds / period, 1e6)));
+    std::vector<float> speeds;
+    for (const Pass& pass : surface.passes) {
+        if (pass.kind != PassKind::cut) continue;
+        for (PointIndex i = (pass.first + every - 1) / every * every; i + chord <= pass.last; i += every) {
+            const float way = (positions[i + chord] - positions[i]).norm();
+            if (way > 0) speeds.push_back(way / static_cast<float>(static_cast<double>(chord) * period));
+        }
+    }
+    return speeds.empty() ? 0 : quantile_below(speeds, 0.95);
+}
+
 /// The finest step of the axes: one that moves in step-overs only would seem to have a coarse one.
 float quantum_of_axes(const Trajectory& role) {
     double finest = 0;
@@ -245,13 +265,10 @@ void mark_end(PointIndex end, PointIndex count, int direction, double end_zone, 
     for (PointIndex k = 0; k < count; ++k) {
         const PointIndex i = end + direction * k;
         Sample& sample = signals[i];
-        if (gone < end_zone) {
-            sample.zone = Zone::outside;
-        } else if (ramp && gone < end_zone + longest_ramp) {
-            if (sample.zone == Zone::inner) sample.zone = Zone::ramp;
-        } else {
-            return;
-        }
+        ramp = ramp && gone < end_zone + longest_ramp;
+        if (gone < end_zone) sample.zone = Zone::outside;
+        else if (gone > 2 * end_zone + longest_ramp) return;
+        else if (sample.zone != Zone::outside) sample.zone = std::min(sample.zone, ramp ? Zone::ramp : Zone::near_end);
         if (k % stride == 0) {
             const float speed = sample.speed;
             if (gone >= end_zone && !(speed > (1 + least_rise) * before)) ramp = false;
@@ -295,7 +312,7 @@ Signals derive_signals(const ClSurface& surface, const Trajectory& path, const T
     for (const Trajectory* role : {&path, measured}) {
         if (role != nullptr) signals.quantum = std::max(signals.quantum, quantum_of_axes(*role));
     }
-    const Deriver deriver(surface, path, measured, signals);
+    const Deriver deriver(surface, path, measured, usual_speed_of(surface, path.period), signals);
     deriver.note_windows(signals);
     for_each_stretch(path.count, pieces, [&](PointRange piece, PointIndex first, PointIndex last) { deriver.derive_motion(piece, first, last); });
     mark_zones(surface, pieces, end_zone, path.period, signals);

@@ -14,9 +14,10 @@ namespace clsurf {
 
 /// Where on a pass a point lies.
 enum class Zone : std::uint8_t {
-    outside,  ///< not on a cut pass, or next to where a pass begins or ends: not compared
-    ramp,     ///< the tool still speeds up from the pass's beginning, or slows down to its end
-    inner,
+    outside,   ///< not on a cut pass, or next to where a pass begins or ends: not compared
+    ramp,      ///< the tool still speeds up from the pass's beginning, or slows down to its end
+    near_end,  ///< as near to an end as ramps are found, but it does neither
+    inner,     ///< the pass goes on
 };
 
 /// What is known of a point, side by side: whoever compares passes looks at all of it at once, on a

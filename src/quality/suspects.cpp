@@ -11,30 +11,26 @@
 namespace clsurf {
 namespace {
 
-constexpr double site_seconds = 0.005;
+constexpr double site_seconds = 0.005;  ///< between sites at most, and less on fast passes:
+constexpr double sites_way = 0.25;      ///< [mm] marks are seen by their length
 constexpr float site_way = 0.1F;        ///< step-overs
+constexpr int fewest_alike = 2;         ///< passes of the same way on each side, where two ways cannot be told from a fault
 constexpr float suspect_share = 0.5F;   ///< of a threshold
 constexpr double joined_along = 1.0;    ///< [mm] of way between suspects of one pass, or two step-overs
 constexpr float joined_beside = 1.0F;   ///< step-overs along the feed between suspects of two passes
 
 /// How far residual and step pass the thresholds, together.
 void measure(Suspect& suspect, const Thresholds& thresholds) {
+    suspect.share.fill(0);
+    suspect.score.fill(0);
     for (std::size_t q = 0; q < quantities; ++q) {
-        const float share = std::abs(suspect.comparison.residual[q]) / thresholds.of[q];
-        if (!(share == share)) continue;
+        const Comparison& c = suspect.comparison;
+        const float share = std::max(0.0F, std::abs(c.residual[q]) - c.slack[q]) / thresholds.of[q];
+        if (!(c.residual[q] == c.residual[q])) continue;
         suspect.share[q] = share;
-        const float step = (suspect.comparison.step[q] - suspect.comparison.play[q]) / thresholds.of[q];
+        const float step = (c.step[q] - c.play[q] - c.slack[q]) / thresholds.of[q];
         suspect.score[q] = step == step ? std::min(step, 2 * share) : 0;
     }
-}
-
-/// A difference is no surprise where there is no pass on one side, or where a pass begins or ends
-/// beside one that goes on.
-bool is_border(const Suspect& suspect, const Signals& signals) {
-    const Comparison& c = suspect.comparison;
-    if (c.left == 0 || c.right == 0) return true;
-    const auto ramps = [&](PointIndex i) { return signals[i].zone == Zone::ramp; };
-    return ramps(suspect.point) || ramps(c.beside_left.nearest()) || ramps(c.beside_right.nearest());
 }
 
 /// Sets of suspects that were joined, from any number of threads: roots are hung below lower ones only,
@@ -114,7 +110,7 @@ public:
           signals_(signals),
           thresholds_(thresholds),
           comparer_(surface, signals, thresholds.usual_speed),
-          stride_(std::max<PointIndex>(1, std::lround(std::min(site_seconds / period, 1e6)))),
+          stride_(stride(thresholds.usual_speed, period)),
           judged_(static_cast<std::size_t>(signals.size() / stride_ + 1), 0) {}
 
     FoundSuspects find() {
@@ -132,6 +128,11 @@ public:
     }
 
 private:
+    [[nodiscard]] static PointIndex stride(double usual_speed, double period) {
+        const double seconds = usual_speed > 0 ? std::min(site_seconds, sites_way / usual_speed) : site_seconds;
+        return std::max<PointIndex>(1, std::lround(std::min(seconds / period, 1e6)));
+    }
+
     /// Sites whose step to an adjacent pass is half a threshold or more.
     [[nodiscard]] std::vector<PointIndex> sites_with_step() const {
         const PointIndex count = signals_.size();
@@ -168,6 +169,23 @@ private:
         return sites;
     }
 
+    /// Compares where passes begin or end. Beside one that goes on, and where there is no pass on one side, a
+    /// difference is no surprise. Where all begin or end, the two ways of a zigzag differ by nature: there
+    /// a suspect is what differs from passes of its own way.
+    void compare_at_end(Suspect& suspect) const {
+        const Comparison& c = suspect.comparison;
+        suspect.border = c.left == 0 || c.right == 0;
+        if (suspect.border) return;
+        const std::array zones{signals_[suspect.point].zone, signals_[c.beside_left.nearest()].zone, signals_[c.beside_right.nearest()].zone};
+        const auto any = [&](Zone zone) { return std::find(zones.begin(), zones.end(), zone) != zones.end(); };
+        if (!any(Zone::ramp)) return;
+        const Comparison alike = comparer_.compare_at_end(suspect.point);
+        suspect.border = any(Zone::inner) || std::min(alike.left, alike.right) < fewest_alike;
+        if (suspect.border) return;
+        suspect.comparison = alike;
+        measure(suspect, thresholds_);
+    }
+
     /// Looks at those that were not looked at yet. Returns the suspects among them.
     std::vector<PointIndex> judge(const std::vector<PointIndex>& sites) {
         std::vector<PointIndex> fresh;
@@ -189,8 +207,9 @@ private:
                 comparer_.compare_along_slant(suspect.point, suspect.comparison);
                 measure(suspect, thresholds_);
                 if (*std::max_element(suspect.share.begin(), suspect.share.end()) < suspect_share) continue;
+                compare_at_end(suspect);
+                if (*std::max_element(suspect.share.begin(), suspect.share.end()) < suspect_share) continue;
                 suspect.pass = pass_of(surface_.passes, suspect.point);
-                suspect.border = is_border(suspect, signals_);
                 of_piece[static_cast<std::size_t>(first / grain)].push_back(suspect);
             }
         });

@@ -13,7 +13,7 @@ namespace clsurf {
 struct Suspect {
     PointIndex point = 0;
     std::size_t pass = 0;     ///< index into surface.passes
-    bool border = false;            ///< no pass on one side, or the pass beside it begins or ends there
+    bool border = false;            ///< no pass on one side, or one begins or ends there: the difference is expected
     std::array<float, quantities> share{};  ///< |residual| over threshold
     std::array<float, quantities> score{};  ///< the same, where the step passes it too; from 1 on a defect starts
     Comparison comparison;

@@ -235,7 +235,7 @@ clsurf_cli_test(NAME compare_updates SETUP "cp ${shot}/speed_iso.png a.png" ARGS
 
 # ---- the predictor ----
 clsurf_cli_test(NAME check_text ARGS check ${part} ${run} --tool ball:6
-  STDOUT "point_spacing +-20.0 +-84.8" "2408-2568" "scallop between clean passes with ball:6: 7")
+  STDOUT "point_spacing +-20.0 +-85.5" "2408-2568" "scallop between clean passes with ball:6: 7")
 # What was planted, and nothing else: data/logs/README.md.
 clsurf_cli_test(NAME check_planted_zigzag ARGS check @DATA@/programs/planted_zigzag.nc @LOGS@/planted_zigzag.biip --tool ball:6
   STDOUT "1 +3 lag_step +-9[.][0-9] +-0[.][0-9] +4[.]0 +9[.][0-9] .* 680-686, 747-753" "2 +2 lag_step +.3[.][0-9] .* 1785-1792, 1883-1889"

@@ -90,13 +90,13 @@ TEST(Defects, OfARecordedPartAreWhereTheProgramHasThem) {
     }
 }
 
-/// A zigzag of 24 passes, 24 mm long and 0.3 mm apart, on each of which the speed falls to half round a
-/// place that lies 0.3 mm farther on every pass: along an edge at 45° to the feed. `steady`: a pass that
-/// does not slow down; −1: none.
-planted::PlantedLog slow_along_an_edge(int steady) {
+constexpr double apart = 0.3;    // [mm] passes of plane_zigzag
+constexpr double length = 24.0;  // [mm] … and what they are long
+
+/// A zigzag of 24 passes over a plane. `speed`: [mm/s] on a pass at x, the way s [mm] from its beginning.
+template <typename Speed>
+planted::PlantedLog plane_zigzag(Speed&& speed) {
     constexpr int passes = 24;
-    constexpr double apart = 0.3;
-    constexpr double length = 24;
     planted::PlantedLog log;
     const double period = log.recipe.period = 0.001;
     log.program = "G1 F3000 X0 Y0 Z0\n";
@@ -118,9 +118,7 @@ planted::PlantedLog slow_along_an_edge(int steady) {
         for (double s = 0; s < length;) {
             const double x = back ? length - s : s;
             put(x, y, line, k);
-            const double off = (x - 8 - k * apart) / 0.7;
-            const double ends = std::sqrt(1 + 2 * 600 * std::min(s, length - s));
-            s += period * std::min(ends, k == steady ? 50.0 : 50 - 25 * std::exp(-off * off));
+            s += period * speed(k, x, s);
         }
         if (k + 1 == passes) break;
         log.program += fmt::format("Y{}\n", y + apart);
@@ -130,6 +128,27 @@ planted::PlantedLog slow_along_an_edge(int steady) {
     return log;
 }
 
+/// Speed after the way s with an acceleration [mm/s²] from 1 mm/s.
+double reached(double acceleration, double s) { return std::sqrt(1 + 2 * acceleration * s); }
+
+/// On each pass the speed falls to half round a place that lies 0.3 mm farther on every pass: along an
+/// edge at 45° to the feed. `steady`: a pass that does not slow down; −1: none.
+planted::PlantedLog slow_along_an_edge(int steady) {
+    return plane_zigzag([steady](int k, double x, double s) {
+        const double off = (x - 8 - k * apart) / 0.7;
+        return std::min(reached(600, std::min(s, length - s)), k == steady ? 50.0 : 50 - 25 * std::exp(-off * off));
+    });
+}
+
+/// The tool speeds up over 7 mm and slows down over 2, so that the two ways differ near both ends; pass 12
+/// does by `share` more from x = 3 to 5, inside the ramp.
+planted::PlantedLog unlike_ramps(double share) {
+    return plane_zigzag([share](int k, double x, double s) {
+        const double planned = std::min({66.7, reached(300, s), reached(1100, length - s)});
+        return k == 12 && x > 3 && x < 5 ? (1 + share) * planned : planned;
+    });
+}
+
 TEST(Defects, AreNotWhatAllPassesDoOneAfterTheOther) {
     EXPECT_TRUE(planted::judge(slow_along_an_edge(-1)).defects.empty());
     // A pass that does not slow down with the others is one, where they do.
@@ -137,6 +156,34 @@ TEST(Defects, AreNotWhatAllPassesDoOneAfterTheOther) {
     EXPECT_TRUE(std::any_of(report.defects.begin(), report.defects.end(), [](const Defect& d) {
         return std::abs(d.position.y() - 3.6) < 1e-3 && std::abs(d.position.x() - 11.6) < 1 && d.speed_jump > 5;
     }));
+}
+
+TEST(Defects, AreNotHowPassesBeginAndEnd) {
+    EXPECT_TRUE(planted::judge(unlike_ramps(0)).defects.empty());
+    for (const double share : {-0.2, 0.2}) {
+        const QualityReport report = planted::judge(unlike_ramps(share));
+        ASSERT_EQ(report.defects.size(), 1U) << share;
+        EXPECT_NEAR(report.defects[0].position.y(), 12 * apart, 1e-3);
+        EXPECT_NEAR(report.defects[0].position.x(), 4, 1.5);
+        EXPECT_EQ(report.defects[0].speed_jump > 0, share > 0);
+    }
+}
+
+TEST(Defects, OfFastPassesAreSeenByTheirLength) {
+    // 100 mm/s and a wave of 1 mm: ten points of a millisecond.
+    planted::Recipe recipe;
+    recipe.feed = 100;
+    recipe.length = 60;
+    recipe.width = 10;
+    recipe.noise = 1e-4;
+    recipe.scatter = 0;
+    recipe.quantum = 1e-4;
+    recipe.defects = {{.kind = planted::Kind::oscillation, .first_pass = 12, .last_pass = 12, .from = 20, .to = 24, .amplitude = 0.08}};
+    const planted::PlantedLog log = planted::make_planted_log(recipe);
+    const planted::Score score = planted::score(log, planted::judge(log));
+    EXPECT_EQ(score.found, 1);
+    EXPECT_EQ(score.named, 1);
+    EXPECT_EQ(score.right, score.reported);
 }
 
 TEST(Verdict, HoldsEveryLimitThatIsSet) {
