@@ -14,10 +14,7 @@
 namespace clsurf::io {
 namespace {
 
-SourceText source_text(const std::string& path) {
-    Source source = open_source(path);
-    return {source.name, source.text(), source.keep_alive};
-}
+SourceText text_of(const Source& source) { return {source.name, source.text(), source.keep_alive}; }
 
 /// Subprograms stand beside the program under their name, as the controls write it.
 std::optional<SourceText> load_beside(const std::filesystem::path& folder, const std::string& name) {
@@ -29,19 +26,14 @@ std::optional<SourceText> load_beside(const std::filesystem::path& folder, const
         for (const std::string_view ending : endings) {
             const std::filesystem::path path = folder / (stem + std::string(ending));
             std::error_code error;
-            if (std::filesystem::is_regular_file(path, error)) return source_text(path.string());
+            if (std::filesystem::is_regular_file(path, error)) return text_of(open_source(path.string()));
         }
     }
     return std::nullopt;
 }
 
-}  // namespace
-
-Program read_program(const std::string& path, const ProgramOptions& options) {
-    return read_program(open_source(path), options);
-}
-
-Program read_program(const Source& source, const ProgramOptions& wanted) {
+/// Throws InputError and UsageError.
+InterpreterOptions interpreter_options(const Source& source, const ProgramOptions& wanted) {
     InterpreterOptions options;
     options.block_delete = wanted.block_delete;
     if (!wanted.tools.empty()) options.tools = read_tool_table(map_file(wanted.tools));
@@ -56,8 +48,23 @@ Program read_program(const Source& source, const ProgramOptions& wanted) {
     const std::filesystem::path folder = std::filesystem::path(source.name).parent_path();
     options.load = [folder](const std::string& name) { return load_beside(folder.empty() ? "." : folder, name); };
     if (source.bytes.empty()) throw InputError(Place::of_file(source.name), "is empty, expected an NC program");
-    SourceText text(source.name, source.text(), source.keep_alive);
-    return parse_program(std::move(text), options);
+    return options;
+}
+
+}  // namespace
+
+Program read_program(const std::string& path, const ProgramOptions& options) {
+    return read_program(open_source(path), options);
+}
+
+Program read_program(const Source& source, const ProgramOptions& options) {
+    const InterpreterOptions how = interpreter_options(source, options);
+    return parse_program(text_of(source), how);
+}
+
+std::unique_ptr<ProgramReader> open_program(const Source& source, const ProgramOptions& options) {
+    const InterpreterOptions how = interpreter_options(source, options);
+    return std::make_unique<ProgramReader>(text_of(source), how);
 }
 
 }  // namespace clsurf::io

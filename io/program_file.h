@@ -1,10 +1,11 @@
 #pragma once
 // Programs from files.
 
+#include <memory>
 #include <string>
 
 #include "io/mapped_file.h"
-#include "program/program.h"
+#include "program/program_reader.h"
 
 namespace clsurf::io {
 
@@ -19,5 +20,7 @@ struct ProgramOptions {
 /// Throws InputError (unreadable, empty, wrong arc, endless loop, tool table), UsageError (unknown dialect).
 [[nodiscard]] Program read_program(const std::string& path, const ProgramOptions& options = {});
 [[nodiscard]] Program read_program(const Source& source, const ProgramOptions& options = {});
+/// The same for who goes through its motions once: they never stand in memory whole.
+[[nodiscard]] std::unique_ptr<ProgramReader> open_program(const Source& source, const ProgramOptions& options = {});
 
 }  // namespace clsurf::io

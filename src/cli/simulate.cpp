@@ -43,6 +43,7 @@ std::string rotary_text(const FiveAxisSummary& s, const Kinematics& k) {
     return text + fmt::format("{:<24} {:.4f} deg off the great circles\n", "tool axis", s.orientation_error * deg_per_rad);
 }
 
+/// The program is gone through many times, and stands in memory.
 ExitCode run_five_axis(Program program, const Machine& machine, const Vec3& zero, const Vec3& start, io::SimulatedLogWriter& log, const po::variables_map& values) {
     solve_tool_axes(program, machine);
     make_tip_motions(program, machine.kinematics, -zero);
@@ -68,18 +69,26 @@ ExitCode run(const po::variables_map& values) {
     const Vec3 start = read_start(values);
     const std::string path = required(values, "PROGRAM");
     const io::Source source = io::open_source(path);
-    const Program program = io::read_program(source, read_program_options(values));
+    const bool five_axes = machine.kinematics.has_rotary();
     const std::optional<Vec3> zero = read_work_offset(values);
-    if (zero && !machine.kinematics.has_rotary()) throw UsageError("--work-offset is for machines with rotary axes; positions of three are the program's");
-    const std::string metadata = zero ? fmt::format("{{\"work_offset\": [{}, {}, {}]}}", zero->x(), zero->y(), zero->z()) : "{}";
-    io::SimulatedLogWriter log(output, machine, io::with_programs(metadata, std::vector<ProgramReference>{io::identify(source)}));
-    if (machine.kinematics.has_rotary()) return run_five_axis(program, machine, zero.value_or(Vec3::Zero()), start, log, values);
+    if (zero && !five_axes) throw UsageError("--work-offset is for machines with rotary axes; positions of three are the program's");
+    const auto open_log = [&] {
+        const std::string metadata = zero ? fmt::format("{{\"work_offset\": [{}, {}, {}]}}", zero->x(), zero->y(), zero->z()) : "{}";
+        return io::SimulatedLogWriter(output, machine, io::with_programs(metadata, std::vector<ProgramReference>{io::identify(source)}));
+    };
+    if (five_axes) {
+        Program program = io::read_program(source, read_program_options(values));
+        io::SimulatedLogWriter log = open_log();
+        return run_five_axis(std::move(program), machine, zero.value_or(Vec3::Zero()), start, log, values);
+    }
+    const std::unique_ptr<ProgramReader> program = io::open_program(source, read_program_options(values));
+    io::SimulatedLogWriter log = open_log();
     ProgressBar bar(read_common(values));
     const SimulationSummary summary = simulate(
-        program, machine, start, [&](std::span<const SimulatedPoint> points) { log.append(points); }, bar.callback());
+        *program, machine, start, [&](std::span<const SimulatedPoint> points) { log.append(points); }, bar.callback());
     log.close();
     bar.clear();
-    Diagnostics diagnostics = program.diagnostics;
+    Diagnostics diagnostics = program->program().diagnostics;
     diagnostics.append(summary.diagnostics);
     if (read_json(values)) {
         write_to_stdout(io::simulation_json(summary, diagnostics));

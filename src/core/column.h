@@ -79,6 +79,11 @@ public:
         }
     }
     void clear() noexcept { size_ = 0; }
+    /// Without the first elements. O(those that stay).
+    void drop_front(std::size_t count) noexcept {
+        size_ -= count;
+        if (size_ > 0) std::memmove(static_cast<void*>(data_), data_ + count, size_ * sizeof(T));
+    }
 
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
     [[nodiscard]] std::size_t capacity() const noexcept { return capacity_; }

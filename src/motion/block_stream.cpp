@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "core/error.h"
 #include "motion/junction.h"
@@ -41,50 +42,66 @@ bool stops_between(const PathElement& before, const PathElement& after) {
 
 }  // namespace
 
-BlockStream::BlockStream(const Program& program, const Machine& machine, const Vec3& start) : program_(&program), machine_(&machine), at_(start) {
+BlockStream::BlockStream(MotionSource& source, const Machine& machine, const Vec3& start) : source_(&source), machine_(&machine), at_(start) {
     tolerance_ = machine.controller.corner == CornerMode::stop ? 0 : machine.controller.tolerance;
     // Where the program itself says where it begins, the axes stand there.
-    const Xyz& known = program.motions.start;
+    const Xyz& known = source.program().motions.start;
     if (known.x == known.x) at_.x() = known.x;
     if (known.y == known.y) at_.y() = known.y;
     if (known.z == known.z) at_.z() = known.z;
 }
 
 void BlockStream::follow_events(std::int64_t motion) {
-    const std::vector<ProgramEvent>& events = program_->events;
+    const std::vector<ProgramEvent>& events = source_->program().events;
     for (; next_event_ < events.size() && events[next_event_].motion <= motion; ++next_event_) {
         if (events[next_event_].name == "path-mode") tolerance_ = path_tolerance(events[next_event_], *machine_);
     }
 }
 
+double BlockStream::done() const {
+    return static_cast<double>(taken_before_ + next_motion_) / static_cast<double>(std::max<std::int64_t>(1, source_->outline().motions));
+}
+
+/// False: the program has no more.
+bool BlockStream::at_a_motion() {
+    while (next_motion_ >= source_->piece_size()) {
+        if (!source_->next_piece()) return false;
+        taken_before_ += std::exchange(next_motion_, 0);
+        next_event_ = 0;
+    }
+    return true;
+}
+
+/// Whether a rotary axis moves.
+bool BlockStream::turns(const Motions& motions, std::size_t motion) {
+    const Xyz before = std::exchange(rotary_, motions.rotary.empty() ? Xyz{} : motions.rotary[motion]);
+    const auto moved = [](double a, double b) { return b == b && b != a && !(a != a && b == 0); };
+    return moved(before.x, rotary_.x) || moved(before.y, rotary_.y) || moved(before.z, rotary_.z);
+}
+
 /// The next motion with a way; dwells on the way to it are added up.
 bool BlockStream::read(PathElement& element) {
-    const Motions& motions = program_->motions;
+    const Motions& motions = source_->program().motions;
     const auto fail = [&](std::int64_t m, const std::string& what) {
+        const SourceText& text = source_->program().main();
         const auto line = motions.line[static_cast<std::size_t>(m)];
-        Place place = Place::of_line(program_->main().name(), line);
-        place.source = std::string(program_->main().line(line));
+        Place place = Place::of_line(text.name(), line);
+        place.source = std::string(text.line(line));
         throw InputError(place, what);
     };
-    while (next_motion_ < motions.size()) {
+    while (at_a_motion()) {
         const std::int64_t m = next_motion_++;
         const auto i = static_cast<std::size_t>(m);
         follow_events(m);
         const MotionKind kind = motions.kind[i];
+        const bool turning = turns(motions, i);
         if (kind == MotionKind::dwell) {
             pending_dwell_ += std::max(0.0F, motions.feed[i]);
             pending_dwell_line_ = motions.line[i];
             continue;
         }
         if (kind == MotionKind::spline) fail(m, "splines cannot be simulated yet");
-        if (!motions.rotary.empty()) {
-            const Xyz before = m > 0 ? motions.rotary[i - 1] : Xyz{};
-            const Xyz& now = motions.rotary[i];
-            const auto moved = [](double a, double b) { return b == b && b != a && !(a != a && b == 0); };
-            if (moved(before.x, now.x) || moved(before.y, now.y) || moved(before.z, now.z)) {
-                fail(m, "a rotary axis moves: only x, y and z can be simulated");
-            }
-        }
+        if (turning) fail(m, "a rotary axis moves: only x, y and z can be simulated");
         const Xyz& to = motions.end[i];
         const Vec3 end(to.x == to.x ? to.x : at_.x(), to.y == to.y ? to.y : at_.y(), to.z == to.z ? to.z : at_.z());
         element = element_of(kind, is_arc(kind) ? motions.arc_of(m) : nullptr, at_, end);

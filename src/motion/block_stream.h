@@ -5,7 +5,7 @@
 #include "core/geometry.h"
 #include "machine/machine.h"
 #include "motion/path_element.h"
-#include "program/program.h"
+#include "program/motion_source.h"
 
 namespace clsurf {
 
@@ -22,9 +22,9 @@ public:
 
 class BlockStream final : public ElementSource {
 public:
-    /// Both must outlive it. `start`: where the axes stand; coordinates that the program has not
-    /// set stay there [mm].
-    BlockStream(const Program& program, const Machine& machine, const Vec3& start);
+    /// Both must outlive it; the source is at its begin. `start`: where the axes stand; coordinates that the
+    /// program has not set stay there [mm].
+    BlockStream(MotionSource& source, const Machine& machine, const Vec3& start);
 
     /// Goes to the next section. False: the program has ended.
     /// Throws InputError (feed 0, rotary axes, splines).
@@ -37,21 +37,25 @@ public:
     [[nodiscard]] LineNumber dwell_line() const { return dwell_line_; }
     [[nodiscard]] const Vec3& section_end() const { return section_end_; }
 
-    /// Motions taken so far, of all.
-    [[nodiscard]] std::int64_t motions_taken() const { return next_motion_; }
+    /// Part of the program's motions taken so far.
+    [[nodiscard]] double done() const;
     /// Where the axes stand before the first section.
     [[nodiscard]] const Vec3& position() const { return at_; }
 
 private:
     [[nodiscard]] bool read(PathElement& element);
+    [[nodiscard]] bool at_a_motion();
+    [[nodiscard]] bool turns(const Motions& motions, std::size_t motion);
     void follow_events(std::int64_t motion);
     void take_dwell();
 
-    const Program* program_;
+    MotionSource* source_;
     const Machine* machine_;
     Vec3 at_;                   ///< end of the last element read
-    std::int64_t next_motion_ = 0, blocks_ = 0;
-    std::size_t next_event_ = 0;
+    std::int64_t next_motion_ = 0, taken_before_ = 0;  ///< in the piece at hand, and in those before
+    std::size_t next_event_ = 0;                       ///< in the piece
+    std::int64_t blocks_ = 0;
+    Xyz rotary_;                ///< of the last motion [rad]
     double tolerance_ = 0;      ///< in force; 0: exact path
     bool waiting_ = false;      ///< an element is read that begins the next section
     PathElement waiting_element_, last_;

@@ -29,13 +29,13 @@ Vec3 Span::at(double tau, double& deviation, double& pace) const {
     return position + added;
 }
 
-PathStream::PathStream(const Program& program, const Machine& machine, const Vec3& start)
-    : machine_(&machine), blocks_(program, machine, start), source_(&blocks_) {
+PathStream::PathStream(MotionSource& source, const Machine& machine, const Vec3& start)
+    : machine_(&machine), blocks_(source, machine, start), source_(&blocks_) {
     // Only drives that bear any jerk bear the jumps of curvature at the ends of arcs.
     const bool arcs = machine.controller.corner == CornerMode::arc &&
                       std::none_of(machine.axes.begin(), machine.axes.end(), [](const MachineAxis& axis) { return axis.max_jerk > 0; });
     const bool curves = machine.controller.curve != CurveMode::none;
-    if (!arcs && (curves || !program.motions.arcs.empty())) bend_share_ = share_of_bends;
+    if (!arcs && (curves || source.outline().arcs)) bend_share_ = share_of_bends;
     if (curves) {
         curves_ = std::make_unique<CurveBlocks>(*source_, machine.controller.curve);
         source_ = curves_.get();

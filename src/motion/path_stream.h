@@ -81,9 +81,9 @@ public:
     /// Joints to each side that a rounding may cross: bounds the blocks that must be known.
     static constexpr std::int64_t reach_of_a_joint = 20;
 
-    /// Both must outlive it. `start`: where the axes stand; coordinates that the program has not
-    /// set stay there [mm].
-    PathStream(const Program& program, const Machine& machine, const Vec3& start);
+    /// Both must outlive it; the source is at its begin. `start`: where the axes stand; coordinates that the
+    /// program has not set stay there [mm].
+    PathStream(MotionSource& source, const Machine& machine, const Vec3& start);
 
     /// Goes to the next section, the way between two exact stops. False: the program has ended.
     /// Throws InputError (feed 0, rotary axes, splines).

@@ -83,15 +83,21 @@ private:
 
 SimulationSummary simulate(const Program& program, const Machine& machine, const Vec3& start,
                            const PointSink& sink, const Progress& progress, Planning planning) {
-    PathStream stream(program, machine, start);
+    WholeProgram whole(program);
+    return simulate(whole, machine, start, sink, progress, planning);
+}
+
+SimulationSummary simulate(MotionSource& source, const Machine& machine, const Vec3& start,
+                           const PointSink& sink, const Progress& progress, Planning planning) {
+    PathStream stream(source, machine, start);
     const Vec3 from = stream.blocks().position();
-    Recorder recorder(program, machine, from, sink);
+    Recorder recorder(source.program(), machine, from, sink);
     Interpolator interpolator(machine.controller.period, recorder);
     Controller controller(machine, stream, interpolator, planning);
     ScanDriver scan(machine, stream, interpolator);
     const bool scans = planning == Planning::nearly_optimal && jerks_freely(machine);
     const auto report = [&] {
-        if (progress) progress("plan and interpolate", static_cast<double>(stream.blocks().motions_taken()) / static_cast<double>(std::max<std::int64_t>(1, program.motions.size())));
+        if (progress) progress("plan and interpolate", stream.blocks().done());
     };
     Vec3 at = from;
     while (stream.begin_section()) {

@@ -32,11 +32,9 @@ public:
         to_.calls = from_->calls;
         tip_ = from_->start.vec();
         RotaryAngles before;
-        auto offset_change = from_->offsets.begin();
         for (std::int64_t i = 0; i < from_->size(); ++i) {
             const auto at = static_cast<std::size_t>(i);
             first[at] = to_.size();
-            for (; offset_change != from_->offsets.end() && offset_change->first <= i; ++offset_change) to_.offsets.push_back({to_.size(), offset_change->offset});
             const RotaryAngles angles = kinematics_->angles_of(from_->rotary[at].vec());
             const bool tip_programmed = control_.on(i);
             const bool level = is_zero(before) && is_zero(angles);

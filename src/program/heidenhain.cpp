@@ -184,44 +184,6 @@ bool Interpreter::arc_of_heidenhain(const Block& block, ArcWords& words) {
     return true;
 }
 
-/// G06, G16 and CT: the arc goes on in the direction of the last motion.
-void Interpreter::arc_along_tangent(ArcWords& words) const {
-    const int u = (words.axis + 1) % 3;
-    const int v = (words.axis + 2) % 3;
-    const Vec2 way(words.end[u] - words.begin[u], words.end[v] - words.begin[v]);
-    const Vec2 tangent = end_tangent(u, v);
-    const double across = tangent.x() * way.y() - tangent.y() * way.x();
-    if (tangent.isZero()) fail("a tangential arc needs a motion before it");
-    if (std::abs(across) < 1e-12) fail("a tangential arc to a point straight ahead is a line");
-    const double radius = way.squaredNorm() / (2 * across);  // left: positive
-    words.centre = words.begin;
-    words.centre[u] -= radius * tangent.y();
-    words.centre[v] += radius * tangent.x();
-    words.clockwise = radius < 0;
-}
-
-/// Direction in which the last motion ends, in programmed coordinates; zero: there is none.
-Vec2 Interpreter::end_tangent(int u, int v) const {
-    const Motions& m = program_.motions;
-    for (std::int64_t i = m.size() - 1; i >= 0; --i) {
-        const auto at = static_cast<std::size_t>(i);
-        if (m.kind[at] == MotionKind::dwell) continue;
-        const Vec3 end = state_.frame.to_programmed(m.end[at].vec());
-        Vec2 way;
-        if (const Arc* arc = m.arc_of(i)) {
-            const Vec3 centre = state_.frame.to_programmed(arc->centre.vec());
-            const Vec2 out(end[u] - centre[u], end[v] - centre[v]);
-            const bool mirrored = state_.frame.circle(arc->axis) && state_.frame.circle(arc->axis)->reversed;
-            way = (m.kind[at] == MotionKind::ccw) != mirrored ? Vec2(-out.y(), out.x()) : Vec2(out.y(), -out.x());
-        } else {
-            const Vec3 begin = state_.frame.to_programmed(m.begin_of(i).vec());
-            way = Vec2(end[u] - begin[u], end[v] - begin[v]);
-        }
-        if (way.norm() > 1e-12 && way.allFinite()) return way.normalized();
-    }
-    return Vec2::Zero();
-}
-
 /// D00 … D12: `D01 Q5 P01 +Q2 P02 3` sets Q5, D09 … D12 jump to the label of the third. True: it was one.
 bool Interpreter::q_function(std::string_view text) {
     Cursor c{text, 0};

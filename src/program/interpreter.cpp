@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -39,15 +40,41 @@ Interpreter::Interpreter(SourceText text, const InterpreterOptions& options)
         state_.retract_to_r = true;
         program_.motions.start = Xyz(0, 0, 0);
     }
+    const std::string_view bytes = program_.main().text();
+    if (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff")) {
+        throw InputError(Place::of_file(program_.main().name()), "is UTF-16 text, expected ASCII or UTF-8", "convert it first, as with iconv -f UTF-16 -t UTF-8");
+    }
+}
+
+std::int64_t Interpreter::read_on(std::int64_t motions) {
+    if (!ended_) {
+        while (!ended_ && settled() < motions) run_line();
+        if (ended_ && !nurbs_.empty()) note(Severity::warning, "program.open-spline", "a spline is not closed at the end");
+    }
+    return settled();
+}
+
+std::int64_t Interpreter::settled() const {
+    const std::int64_t all = program_.motions.size();
+    if (ended_ || all == 0) return all;
+    // The next motion begins where the last one ends.
+    return compensation_.on() ? std::min(all - 1, static_cast<std::int64_t>(open_motions_)) : all - 1;
+}
+
+void Interpreter::forget(std::int64_t motions) {
+    keep_ways(motions);
+    program_.motions.drop_front(motions);
+    std::vector<ProgramEvent>& events = program_.events;
+    events.erase(events.begin(), std::find_if(events.begin(), events.end(), [motions](const ProgramEvent& e) { return e.motion >= motions; }));
+    for (ProgramEvent& e : events) e.motion -= motions;
+    forgotten_ += static_cast<std::uint64_t>(motions);
+    open_motions_ -= std::min(open_motions_, static_cast<std::size_t>(motions));
+    compensation_ended_ -= motions;
+    unread_since_ -= motions;
 }
 
 Program Interpreter::run() {
-    const std::string_view text = program_.files[0].text();
-    if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) {
-        throw InputError(Place::of_file(program_.files[0].name()), "is UTF-16 text, expected ASCII or UTF-8", "convert it first, as with iconv -f UTF-16 -t UTF-8");
-    }
-    run_lines();
-    if (!nurbs_.empty()) note(Severity::warning, "program.open-spline", "a spline is not closed at the end");
+    (void)read_on(std::numeric_limits<std::int64_t>::max());
     Motions& m = program_.motions;
     m.kind.shrink_to_fit();
     m.end.shrink_to_fit();
@@ -77,10 +104,6 @@ void Interpreter::go_to(std::size_t file, LineNumber line) {
     next_byte_ = line > text.line_count()
                      ? text.text().size()
                      : static_cast<std::size_t>(text.line(line).data() - text.text().data());
-}
-
-void Interpreter::run_lines() {
-    while (!ended_) run_line();
 }
 
 void Interpreter::run_line() {

@@ -85,12 +85,22 @@ enum class ArcKind : std::uint8_t { usual, by_radius, by_points, tangential };
 
 class Interpreter {
 public:
+    /// Throws InputError (UTF-16).
     Interpreter(SourceText text, const InterpreterOptions& options);
+    /// All of the program.
     Program run();
+
+    /// Runs lines until so many motions of program() are settled, or to the end. How many are: what comes
+    /// later neither changes them nor looks back at them.
+    [[nodiscard]] std::int64_t read_on(std::int64_t motions);
+    /// Takes the first settled motions, and events before them, out of program().
+    void forget(std::int64_t motions);
+    [[nodiscard]] bool ended() const { return ended_; }
+    [[nodiscard]] const Program& program() const { return program_; }
 
 private:
     // interpreter.cpp: lines, calls, output
-    void run_lines();
+    [[nodiscard]] std::int64_t settled() const;
     void run_line();
     void run_block(std::string_view line);
     bool run_plain(const Words& words);
@@ -156,10 +166,14 @@ private:
     void count_in_inches(bool inches);                          ///< G70, G71
     void take_pole(const Block& block);
     bool arc_of_heidenhain(const Block& block, ArcWords& words);
-    void arc_along_tangent(ArcWords& words) const;
-    [[nodiscard]] Vec2 end_tangent(int u, int v) const;
     bool q_function(std::string_view text);                     ///< D00 … D13
     bool call_label(std::string_view text);                     ///< L5,3
+
+    // tangential_arc.cpp
+    void arc_along_tangent(ArcWords& words) const;
+    [[nodiscard]] Vec2 end_tangent(int u, int v) const;
+    [[nodiscard]] Vec3 way_at_end(std::int64_t motion) const;
+    void keep_ways(std::int64_t motions);
 
     // tool_axis.cpp: five axes
     void control_tool_centre_point(bool on, const std::string& text);
@@ -253,7 +267,8 @@ private:
     [[nodiscard]] bool load(const std::string& name);  ///< false: no such file
 
     InterpreterOptions options_;
-    std::uint64_t most_motions_ = 0;
+    std::uint64_t most_motions_ = 0, forgotten_ = 0;
+    std::vector<Vec3> forgotten_ways_;  ///< of the motions forgotten the last, and the last that is not parallel to it [mm]
     Program program_;
     DialectId dialect_;
     std::vector<ControlIndex> indexes_;

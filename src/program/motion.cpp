@@ -10,4 +10,23 @@ const Arc* Motions::arc_of(std::int64_t i) const {
     return found != arcs.end() && found->motion == i ? &*found : nullptr;
 }
 
+void Motions::drop_front(std::int64_t count) {
+    if (count == 0) return;
+    const auto n = static_cast<std::size_t>(count);
+    start = end[n - 1];
+    const auto drop = [n](auto& column) {
+        if (!column.empty()) column.drop_front(n);
+    };
+    drop(kind);
+    drop(end);
+    drop(feed);
+    drop(line);
+    drop(rotary);
+    drop(tool_axis);
+    drop(file);
+    drop(call);
+    arcs.erase(arcs.begin(), std::find_if(arcs.begin(), arcs.end(), [count](const Arc& arc) { return arc.motion >= count; }));
+    for (Arc& arc : arcs) arc.motion -= count;
+}
+
 }  // namespace clsurf

@@ -3,7 +3,7 @@
 // controller runs them (subprograms and loops unrolled).
 //
 // Positions are those of the *active work coordinate system*, in mm, as the program gives them after
-// G20/21, G90/91 and G92/G52; what is known of the way to machine coordinates stands in `offsets`.
+// G20/21, G90/91 and G92/G52.
 
 #include <cstdint>
 #include <limits>
@@ -29,13 +29,6 @@ struct Arc {
     std::uint8_t axis = 2;     ///< axis of rotation: 2 z (G17), 1 y (G18), 0 x (G19)
 };
 
-/// From motion `first` on: machine position = position + offset (translation only), as far as the
-/// program itself tells; NaN where it depends on the controller's tables.
-struct OffsetChange {
-    std::int64_t first = 0;
-    Xyz offset;
-};
-
 /// A call of a subprogram, at one place and with one way there.
 struct Call {
     std::uint32_t caller = 0;  ///< the call inside which it stands: index into Motions::calls, from 1; 0: the main program
@@ -56,7 +49,6 @@ struct Motions {
     Column<std::uint32_t> call;  ///< the call that runs: index into calls, from 1; 0: none; empty when nothing is called
     std::vector<Call> calls;     ///< a call stands behind its caller; the same line called again is the same
     std::vector<Arc> arcs;     ///< sorted by motion
-    std::vector<OffsetChange> offsets;  ///< sorted by first
     Xyz start{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN(),
               std::numeric_limits<double>::quiet_NaN()};  ///< before the first motion; NaN: unknown
 
@@ -67,6 +59,9 @@ struct Motions {
     }
     /// The arc of motion i; nullptr for anything but cw and ccw. O(log arcs).
     [[nodiscard]] const Arc* arc_of(std::int64_t i) const;
+
+    /// Without the first motions; their calls stay. O(motions that stay).
+    void drop_front(std::int64_t count);
 };
 
 }  // namespace clsurf

@@ -249,7 +249,7 @@ void Interpreter::probe(const Vec3& end, const Vec3& rotary) {
 
 void Interpreter::push(MotionKind kind, const Vec3& end, const Vec3& rotary, float feed) {
     Motions& m = program_.motions;
-    if (m.kind.size() >= most_motions_) fail(fmt::format("more than {} motions from {} lines: loops or repeats without end?", most_motions_, program_.main().line_count()));
+    if (forgotten_ + m.kind.size() >= most_motions_) fail(fmt::format("more than {} motions from {} lines: loops or repeats without end?", most_motions_, program_.main().line_count()));
     if (end.array().isInf().any()) fail("a position is not finite");
     if (feed == 0 && kind != MotionKind::dwell && !feed_missed_) {
         feed_missed_ = true;

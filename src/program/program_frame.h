@@ -16,6 +16,7 @@ public:
     [[nodiscard]] Vec3 to_work(const Vec3& p) const { return active_ ? Vec3(times(turn_, p) + shift_) : p; }
     [[nodiscard]] Vec3 to_programmed(const Vec3& w) const { return active_ ? times(back_, w - shift_) : w; }
     [[nodiscard]] Vec3 direction_to_work(const Vec3& d) const { return active_ ? times(turn_, d) : d; }
+    [[nodiscard]] Vec3 direction_to_programmed(const Vec3& d) const { return active_ ? times(back_, d) : d; }
 
     /// First `inner`, then this one.
     [[nodiscard]] ProgramFrame around(const ProgramFrame& inner) const {

@@ -25,7 +25,8 @@ std::string lines_through(const std::vector<Vec3>& points) {
 std::vector<PathElement> shaped(const std::vector<Vec3>& points, CurveMode mode) {
     const Program program = program_of(lines_through(points));
     const Machine machine;
-    BlockStream blocks(program, machine, Vec3(-1, -1, -1));
+    WholeProgram motions(program);
+    BlockStream blocks(motions, machine, Vec3(-1, -1, -1));
     CurveBlocks curves(blocks, mode);
     std::vector<PathElement> elements;
     EXPECT_TRUE(blocks.begin_section());

@@ -1,0 +1,37 @@
+#include "program/program_reader.h"
+
+#include <utility>
+
+#include "program/interpreter_state.h"
+
+namespace clsurf {
+
+ProgramReader::ProgramReader(const SourceText& text, const InterpreterOptions& options, std::int64_t piece)
+    : interpreter_(std::make_unique<Interpreter>(text, options)), piece_(piece) {
+    read_piece();
+    first_is_read_ = interpreter_->ended();
+    if (first_is_read_) return;
+    while (size_ > 0) read_piece();
+    interpreter_ = std::make_unique<Interpreter>(text, options);
+}
+
+ProgramReader::~ProgramReader() = default;
+
+void ProgramReader::read_piece() {
+    interpreter_->forget(size_);
+    size_ = interpreter_->read_on(piece_);
+    outline_.motions += size_;
+    outline_.arcs = outline_.arcs || !program().motions.arcs.empty();
+}
+
+bool ProgramReader::next_piece() {
+    if (!std::exchange(first_is_read_, false)) {
+        interpreter_->forget(size_);
+        size_ = interpreter_->read_on(piece_);
+    }
+    return size_ > 0;
+}
+
+const Program& ProgramReader::program() const { return interpreter_->program(); }
+
+}  // namespace clsurf
