@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "core/block.h"
-
 namespace clsurf {
 namespace {
 
@@ -15,45 +13,61 @@ constexpr double limit_play = 1.001;  ///< what counts as held, differentiated
 }  // namespace
 
 Recorder::Recorder(const Program& program, const Machine& machine, const Vec3& start, const PointSink& sink)
-    : program_(&program), machine_(&machine), sink_(&sink), rate_(1 / machine.controller.period), last_(start) {
-    for (std::size_t i = 0; i < 3; ++i) {
-        servos_.emplace_back(machine.axes[i].servo, machine.controller.period, start[static_cast<int>(i)], i + 1);
-    }
-    block_.reserve(static_cast<std::size_t>(block_points));
-}
-
-void Recorder::add(const Vec3& position, double speed, LineNumber line, Ruling ruling, double deviation) {
-    SimulatedPoint& point = block_.emplace_back();
-    point.commanded = position;
-    point.speed = speed;
-    point.line = line;
-    point.limit = ruling;
-    for (int i = 0; i < 3; ++i) point.feedback[i] = servos_[static_cast<std::size_t>(i)].follow(position[i]);
-    measure(position, line);
-    summary_.path_deviation = std::max(summary_.path_deviation, deviation);
-    ++summary_.ruled[static_cast<std::size_t>(ruling)];
-    ++summary_.points;
-    if (static_cast<PointIndex>(block_.size()) == block_points) flush();
+    : program_(&program), machine_(&machine), sink_(&sink), rate_(1 / machine.controller.period),
+      servos_{ServoLoop(machine.axes[0].servo, machine.controller.period, start.x(), 1), ServoLoop(machine.axes[1].servo, machine.controller.period, start.y(), 2),
+              ServoLoop(machine.axes[2].servo, machine.controller.period, start.z(), 3)},
+      last_(start) {
+    block_.reserve(points_at_once);
 }
 
 void Recorder::flush() {
+    follow();
+    measure();
     (*sink_)(block_);
     block_.clear();
 }
 
-void Recorder::measure(const Vec3& position, LineNumber line) {
-    // Before the first point the axes stand at the start.
-    const Vec3 step = position - last_;
-    const Vec3 bend = step - last_step_;
-    const Vec3 twist = bend - last_bend_;
-    greatest_step_ = std::max(greatest_step_, step.squaredNorm());
-    step_ = step_.cwiseMax(step.cwiseAbs());
-    bend_ = bend_.cwiseMax(bend.cwiseAbs());
-    twist_ = twist_.cwiseMax(twist.cwiseAbs());
-    last_ = position;
-    last_step_ = step;
-    last_bend_ = bend;
-    watch_travel(position, line);
+/// What the servo loops make of the points.
+void Recorder::follow() {
+    std::array<ServoLoop, 3> servos = servos_;  // in registers
+    for (SimulatedPoint& point : block_) {
+        for (int i = 0; i < 3; ++i) point.feedback[i] = servos[static_cast<std::size_t>(i)].follow(point.commanded[i]);
+        ++summary_.ruled[static_cast<std::size_t>(point.limit)];
+    }
+    servos_ = servos;
+}
+
+/// Before the first point the axes stand at the start.
+void Recorder::measure() {
+    Vec3 last = last_, last_step = last_step_, last_bend = last_bend_;
+    Vec3 greatest = step_, greatest_bend = bend_, greatest_twist = twist_, low = last_, high = last_;
+    for (const SimulatedPoint& point : block_) {
+        const Vec3 step = point.commanded - last;
+        const Vec3 bend = step - last_step;
+        const Vec3 twist = bend - last_bend;
+        greatest_step_ = std::max(greatest_step_, step.squaredNorm());
+        greatest = greatest.cwiseMax(step.cwiseAbs());
+        greatest_bend = greatest_bend.cwiseMax(bend.cwiseAbs());
+        greatest_twist = greatest_twist.cwiseMax(twist.cwiseAbs());
+        low = low.cwiseMin(point.commanded);
+        high = high.cwiseMax(point.commanded);
+        last = point.commanded;
+        last_step = step;
+        last_bend = bend;
+    }
+    last_ = last;
+    last_step_ = last_step;
+    last_bend_ = last_bend;
+    step_ = greatest;
+    bend_ = greatest_bend;
+    twist_ = greatest_twist;
+    const auto inside = [&](std::size_t k) {
+        const MachineAxis& axis = machine_->axes[k];
+        const auto i = static_cast<int>(k);
+        return !outside_[k] && low[i] >= axis.travel_low && high[i] <= axis.travel_high;
+    };
+    if (inside(0) && inside(1) && inside(2)) return;
+    for (const SimulatedPoint& point : block_) watch_travel(point.commanded, point.line);
 }
 
 void Recorder::watch_travel(const Vec3& position, LineNumber line) {

@@ -1,6 +1,5 @@
 #include "motion/servo.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace clsurf {
@@ -32,24 +31,7 @@ ServoLoop::ServoLoop(const ServoModel& model, double period, double start, std::
       quantum_(model.quantum), noise_(model.noise), period_(period), play_(0.5 * model.backlash), friction_(model.friction),
       commanded_(start), position_(start), table_(start), random_(seed) {}
 
-double ServoLoop::less_friction(double reference) const {
-    const double direction = velocity_ != 0 ? velocity_ : reference;
-    if (velocity_ == 0 && std::abs(reference) <= friction_) return 0;
-    return reference - std::copysign(friction_, direction);
-}
-
-double ServoLoop::follow(double commanded) {
-    const double reference = gain_ * (commanded_ - position_) + feedforward_ * (commanded - commanded_) / period_;
-    const double before = velocity_;
-    velocity_ += velocity_step_ * (less_friction(reference) - velocity_);
-    // Friction stops an axis, it does not drive it back.
-    if (friction_ > 0 && before * velocity_ < 0 && std::abs(reference) <= friction_) velocity_ = 0;
-    position_ += velocity_ * period_;
-    commanded_ = commanded;
-    table_ = std::clamp(table_, position_ - play_, position_ + play_);
-    double read = table_;
-    if (noise_ > 0) read += noise_ * noise_of_one(random_);
-    return quantum_ > 0 ? std::round(read / quantum_) * quantum_ : read;
-}
+/// Of a reading [mm].
+double ServoLoop::noise() { return noise_ * noise_of_one(random_); }
 
 }  // namespace clsurf

@@ -9,6 +9,8 @@
 // the axis stands until the loop has wound up. The loop closes over the drive; the encoder is at the
 // table, which follows with the play of the backlash.
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "machine/machine.h"
@@ -21,10 +23,32 @@ public:
     ServoLoop(const ServoModel& model, double period, double start, std::uint64_t seed);
 
     /// The commanded position of the next period [mm] → the encoder's position at its end [mm].
-    double follow(double commanded);
+    double follow(double commanded) {
+        const double reference = gain_ * (commanded_ - position_) + feedforward_ * (commanded - commanded_) / period_;
+        const double before = velocity_;
+        velocity_ += velocity_step_ * (less_friction(reference) - velocity_);
+        // Friction stops an axis, it does not drive it back.
+        if (friction_ > 0 && before * velocity_ < 0 && std::abs(reference) <= friction_) velocity_ = 0;
+        position_ += velocity_ * period_;
+        commanded_ = commanded;
+        table_ = std::clamp(table_, position_ - play_, position_ + play_);
+        const double read = noise_ > 0 ? table_ + noise() : table_;
+        return quantum_ > 0 ? rounded(read / quantum_) * quantum_ : read;
+    }
 
 private:
-    [[nodiscard]] double less_friction(double reference) const;
+    [[nodiscard]] double less_friction(double reference) const {
+        const double direction = velocity_ != 0 ? velocity_ : reference;
+        if (velocity_ == 0 && std::abs(reference) <= friction_) return 0;
+        return reference - std::copysign(friction_, direction);
+    }
+    /// std::round() without a call: where there is something behind the point, by a whole number.
+    [[nodiscard]] static double rounded(double x) {
+        constexpr double nearly_half = 0x1.fffffffffffffp-2;  // 0.5 would take the number before 0.5 to 1
+        if (!(std::abs(x) < 0x1p52)) return x;
+        return std::copysign(static_cast<double>(static_cast<std::int64_t>(x + std::copysign(nearly_half, x))), x);
+    }
+    [[nodiscard]] double noise();
 
     double gain_, feedforward_, velocity_step_, quantum_, noise_, period_, play_, friction_;
     double commanded_, position_, table_, velocity_ = 0;
