@@ -2,6 +2,7 @@
 // Queue: first in, first out, with its items side by side in memory, so that a look at neighbours costs no more than in a vector.
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace clsurf {
@@ -18,6 +19,8 @@ public:
     [[nodiscard]] const T& front() const { return items_[first_]; }
     [[nodiscard]] T& back() { return items_.back(); }
     [[nodiscard]] const T& back() const { return items_.back(); }
+    /// Until one is added.
+    [[nodiscard]] std::span<const T> items() const { return std::span(items_).subspan(first_); }
 
     T& emplace_back() {
         if (items_.size() == items_.capacity() && first_ >= size()) {

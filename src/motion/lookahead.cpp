@@ -67,9 +67,22 @@ void WindowPlanner::set_limits(Run& run, std::span<const Span> spans) {
     run.checked = false;
 }
 
+/// The greatest part of a limit of an axis at a speed and an acceleration anywhere on a span.
+double WindowPlanner::part_of_axes(const Span& span, double speed, double acceleration, double jerk) const {
+    double worst = 0;
+    for (int k = 0; k < 3; ++k) {
+        const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(k)];
+        worst = std::max(worst, (span.slope[k] * acceleration + span.bend[k] * speed * speed) / axis.max_acceleration);
+        if (axis.max_jerk <= 0) continue;
+        worst = std::max(worst, (span.slope[k] * jerk + 3 * span.bend[k] * speed * acceleration + span.twist[k] * speed * speed * speed) / axis.max_jerk);
+    }
+    return worst;
+}
+
 WindowPlanner::Verdict WindowPlanner::judge(const Run& run, std::span<const Span> spans) const {
     Verdict verdict;
     const SCurve& profile = run.profile;
+    const double steepest = std::max(std::abs(profile.start_of(1).acceleration), std::abs(profile.start_of(5).acceleration));
     double end = 0;
     double from = 0;
     MotionState at_from = profile.at(0);
@@ -78,9 +91,14 @@ WindowPlanner::Verdict WindowPlanner::judge(const Run& run, std::span<const Span
         const Span& s = spans[i];
         const double begin = end;
         end += s.length;
+        const double at_peak = profile.peak_speed() / s.cap;
         if (begin >= profile.start_of(3).way && end <= profile.start_of(4).way) {
-            const double part = profile.peak_speed() / s.cap;
-            if (part > verdict.worst) verdict = {part, true, i};
+            if (at_peak > verdict.worst) verdict = {at_peak, true, i};
+            known = false;
+            continue;
+        }
+        // A span that holds whatever the run does anywhere is not the worst of one that does not hold.
+        if (at_peak <= 1 && part_of_axes(s, profile.peak_speed(), steepest, profile.jerk()) <= 1) {
             known = false;
             continue;
         }
@@ -91,20 +109,10 @@ WindowPlanner::Verdict WindowPlanner::judge(const Run& run, std::span<const Span
         const double to = i + 1 == run.last ? profile.duration() : profile.time_at(end);
         const MotionState at_to = profile.at(to);
         const Extremes e = extremes(profile, from, at_from, to, at_to);
-        const double v = e.speed;
-        double worst = v / s.cap;
-        bool at_cap = true;
-        if (e.ramping) {
-            for (int k = 0; k < 3; ++k) {
-                const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(k)];
-                const double acceleration = (s.slope[k] * e.acceleration + s.bend[k] * v * v) / axis.max_acceleration;
-                if (acceleration > worst) worst = acceleration, at_cap = false;
-                if (axis.max_jerk <= 0) continue;
-                const double jerk = (s.slope[k] * profile.jerk() + 3 * s.bend[k] * v * e.acceleration + s.twist[k] * v * v * v) / axis.max_jerk;
-                if (jerk > worst) worst = jerk, at_cap = false;
-            }
-        }
-        if (worst > verdict.worst) verdict = {worst, at_cap, i};
+        const double of_cap = e.speed / s.cap;
+        const double of_axes = e.ramping ? part_of_axes(s, e.speed, e.acceleration, profile.jerk()) : 0.0;
+        const double worst = std::max(of_cap, of_axes);
+        if (worst > verdict.worst) verdict = {worst, of_axes <= of_cap, i};
         from = to;
         at_from = at_to;
         known = true;

@@ -59,6 +59,7 @@ private:
     [[nodiscard]] bool plan_with(std::size_t easing, std::span<const Span> spans, double start_speed, std::span<const std::size_t> nodes);
     [[nodiscard]] const Easing& eased(std::span<const Span> spans, std::size_t span);
     void set_limits(Run& run, std::span<const Span> spans);
+    [[nodiscard]] double part_of_axes(const Span& span, double speed, double acceleration, double jerk) const;
     [[nodiscard]] Verdict judge(const Run& run, std::span<const Span> spans) const;
     void divide(const Run& run, const Verdict& verdict, std::vector<Run>& into) const;
 

@@ -31,10 +31,9 @@ public:
         double speed = 0;
         bool ended = false;
         while (true) {
-            Span span;
             while (!ended && (window_.empty() || window_.back().base.block - window_.front().base.block < blocks_)) {
-                if (stream_->next(span)) window_.push_back(span);
-                else ended = true;
+                ended = !stream_->next(window_.emplace_back());
+                if (ended) window_.pop_back();
             }
             if (window_.empty()) return;
             // Half of the window is run, the other half is what it looks ahead.
@@ -47,7 +46,7 @@ public:
                 nodes.push_back(half);
             }
             std::size_t done = 0;
-            if (planner_.plan(window_, speed, nodes)) {
+            if (planner_.plan(window_.items(), speed, nodes)) {
                 pending_ = planner_.runs();
                 while (!pending_.empty() && pending_.front().last <= half) run_first(speed, done);
             } else if (pending_.empty()) {
@@ -56,7 +55,7 @@ public:
                 // The plan before goes on: it ends at rest, whatever comes after.
                 run_first(speed, done);
             }
-            window_.erase(window_.begin(), window_.begin() + static_cast<std::ptrdiff_t>(done));
+            for (std::size_t i = 0; i < done; ++i) window_.pop_front();
             for (Run& run : pending_) run.first -= done, run.last -= done;
             report();
         }
@@ -65,7 +64,7 @@ public:
 private:
     void run_first(double& speed, std::size_t& done) {
         const Run& run = pending_.front();
-        refiner_.push(run, std::span(window_).subspan(run.first, run.last - run.first));
+        refiner_.push(run, window_.items().subspan(run.first, run.last - run.first));
         speed = pending_.front().end_speed;
         done = pending_.front().last;
         pending_.erase(pending_.begin());
@@ -75,7 +74,7 @@ private:
     PathStream* stream_;
     WindowPlanner planner_;
     Refiner refiner_;
-    std::vector<Span> window_;
+    Queue<Span> window_;
     std::vector<Run> pending_;
 };
 

@@ -13,6 +13,7 @@ namespace {
 constexpr double least_span = 1e-9;  ///< [mm] nearer cuts are one
 constexpr double most_turn = 0.75;   ///< [rad] of a curve in one span: limits of axes change round it
 constexpr int checked_points = 5;    ///< of a span whose bounds are not at its ends
+constexpr double nearly = 1 - 1e-9;  ///< of a limit, for rounding
 
 /// Adds factor · (a + b τ)(c + e τ)³ to a polynomial in τ.
 void add_product(std::array<Vec3, 5>& sum, const Vec3& factor, double a, double b, double c, double e) {
@@ -220,8 +221,10 @@ void PathStream::set_limits(Span& span) const {
             span.acceleration = std::min(span.acceleration, axis.max_acceleration / span.slope[i]);
             if (axis.max_jerk > 0) span.jerk = std::min(span.jerk, axis.max_jerk / span.slope[i]);
         }
-        if (span.bend[i] > 0) limit(std::sqrt(axis.max_acceleration / span.bend[i]), Ruling::axis_acceleration);
-        if (span.twist[i] > 0 && axis.max_jerk > 0) limit(std::cbrt(axis.max_jerk / span.twist[i]), corner ? Ruling::corner_tolerance : Ruling::jerk);
+        // Roots only of what may be broken.
+        if (span.bend[i] * span.cap * span.cap > nearly * axis.max_acceleration) limit(std::sqrt(axis.max_acceleration / span.bend[i]), Ruling::axis_acceleration);
+        const bool jerks = axis.max_jerk > 0 && span.twist[i] * span.cap * span.cap * span.cap > nearly * axis.max_jerk;
+        if (jerks) limit(std::cbrt(axis.max_jerk / span.twist[i]), corner ? Ruling::corner_tolerance : Ruling::jerk);
     }
     if (span.greatest_bend > 0) {
         const double radius = 1 / span.greatest_bend;

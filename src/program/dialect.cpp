@@ -43,6 +43,17 @@ constexpr auto signs = std::to_array<Sign>({
     {"G43.4", DialectId::fanuc, 6},
 });
 
+/// Whether a sign begins with a character.
+constexpr std::array<bool, 256> begins_sign = [] {
+    std::array<bool, 256> begins{};
+    for (const Sign& sign : signs) {
+        const char first = sign.text.front();
+        begins[static_cast<unsigned char>(first)] = true;
+        if (first >= 'A' && first <= 'Z') begins[static_cast<unsigned char>(first - 'A' + 'a')] = true;
+    }
+    return begins;
+}();
+
 bool folded_at(std::string_view text, std::size_t at, std::string_view word) {
     if (text.size() - at < word.size()) return false;
     for (std::size_t i = 0; i < word.size(); ++i) {
@@ -75,9 +86,9 @@ const Dialect& detect_dialect(std::string_view text) {
             if (last > 0 && text[last - 1] == '*') ++stars;
             continue;
         }
-        for (const Sign& sign : signs) {
-            if (upper(c) == sign.text.front() && folded_at(text, at, sign.text)) {
-                score[static_cast<std::size_t>(sign.dialect)] += sign.weight;
+        if (begins_sign[static_cast<unsigned char>(c)]) {
+            for (const Sign& sign : signs) {
+                if (folded_at(text, at, sign.text)) score[static_cast<std::size_t>(sign.dialect)] += sign.weight;
             }
         }
         // "o100 sub": a control word of LinuxCNC; "O1000" alone is a program number.

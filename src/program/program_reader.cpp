@@ -12,7 +12,9 @@ ProgramReader::ProgramReader(const SourceText& text, const InterpreterOptions& o
     first_is_read_ = interpreter_->ended();
     if (first_is_read_) return;
     while (size_ > 0) read_piece();
-    interpreter_ = std::make_unique<Interpreter>(text, options);
+    InterpreterOptions again = options;
+    again.dialect = program().dialect;
+    interpreter_ = std::make_unique<Interpreter>(text, again);
 }
 
 ProgramReader::~ProgramReader() = default;
