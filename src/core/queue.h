@@ -23,14 +23,14 @@ public:
     [[nodiscard]] std::span<const T> items() const { return std::span(items_).subspan(first_); }
 
     T& emplace_back() {
-        if (items_.size() == items_.capacity() && first_ >= size()) {
-            items_.erase(items_.begin(), items_.begin() + static_cast<std::ptrdiff_t>(first_));
-            first_ = 0;
-        }
+        make_room();
         return items_.emplace_back();
     }
     /// None of these.
-    void push_back(const T& item) { emplace_back() = item; }
+    void push_back(const T& item) {
+        make_room();
+        items_.push_back(item);
+    }
     void pop_front() {
         if (++first_ == items_.size()) clear();
     }
@@ -41,6 +41,13 @@ public:
     }
 
 private:
+    /// Where half of the memory is before the first item, they move there instead of into more of it.
+    void make_room() {
+        if (items_.size() < items_.capacity() || first_ < size()) return;
+        items_.erase(items_.begin(), items_.begin() + static_cast<std::ptrdiff_t>(first_));
+        first_ = 0;
+    }
+
     std::vector<T> items_;
     std::size_t first_ = 0;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace clsurf {
 namespace {
@@ -73,6 +74,7 @@ bool PathStream::begin_section() {
     ends_.clear();
     joints_.clear();
     ready_.clear();
+    front_taken_ = false;
     first_element_ = first_joint_ = element_count_ = 0;
     widths_done_ = deviations_done_ = scales_done_ = spans_done_ = 0;
     closed_ = false;
@@ -179,9 +181,10 @@ void PathStream::settle() {
     while (scales_done_ < known(deviations_done_)) settle_scale(scales_done_++);
 }
 
-bool PathStream::next(Span& span) {
+const Span* PathStream::next() {
+    if (std::exchange(front_taken_, false)) ready_.pop_front();
     while (ready_.empty()) {
-        if (element_count_ == 0) return false;
+        if (element_count_ == 0) return nullptr;
         const std::int64_t joints = element_count_ - 1;
         // An element's spans need the roundings that can reach into it.
         const bool can = closed_ ? spans_done_ < element_count_ : scales_done_ > spans_done_ + reach_of_a_joint + 1;
@@ -199,13 +202,12 @@ bool PathStream::next(Span& span) {
             }
             continue;
         }
-        if (closed_) return false;
+        if (closed_) return nullptr;
         for (std::int64_t i = 0; i < reach_of_a_joint && pull(); ++i) {}
         settle();
     }
-    span = ready_.front();
-    ready_.pop_front();
-    return true;
+    front_taken_ = true;
+    return &ready_.front();
 }
 
 }  // namespace clsurf

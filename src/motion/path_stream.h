@@ -88,8 +88,8 @@ public:
     /// Goes to the next section, the way between two exact stops. False: the program has ended.
     /// Throws InputError (feed 0, rotary axes, splines).
     bool begin_section();
-    /// The next span of the section in order; false: none is left.
-    bool next(Span& span);
+    /// The next span of the section in order, there until the next call; nullptr: none is left.
+    [[nodiscard]] const Span* next();
     /// Where the program stands; what its section ends with is known when next() has returned false.
     [[nodiscard]] const BlockStream& blocks() const { return blocks_; }
 
@@ -139,6 +139,7 @@ private:
     double closed_at_ = 0;
     std::int64_t widths_done_ = 0, deviations_done_ = 0, scales_done_ = 0, spans_done_ = 0;
     Queue<Span> ready_;
+    bool front_taken_ = false;         ///< of ready_
     // Scratch of make_spans(): joints whose roundings reach into a part of the element, the sum of those that cover it as a
     // polynomial from its begin, and where it is cut.
     std::vector<const Joint*> reaching_;

@@ -24,10 +24,9 @@ bool jerks_freely(const Machine& machine) {
 }
 
 bool ScanDriver::take_span() {
-    if (!stream_->next(spans_.emplace_back())) {
-        spans_.pop_back();
-        return false;
-    }
+    const Span* span = stream_->next();
+    if (span == nullptr) return false;
+    spans_.push_back(*span);
     divide(spans_.back());
     return true;
 }

@@ -32,8 +32,8 @@ public:
         bool ended = false;
         while (true) {
             while (!ended && (window_.empty() || window_.back().base.block - window_.front().base.block < blocks_)) {
-                ended = !stream_->next(window_.emplace_back());
-                if (ended) window_.pop_back();
+                if (const Span* span = stream_->next()) window_.push_back(*span);
+                else ended = true;
             }
             if (window_.empty()) return;
             // Half of the window is run, the other half is what it looks ahead.
