@@ -82,24 +82,27 @@ private:
     struct Weights {
         std::array<double, 3> b{}, slope{}, curve{};
     };
+    // speed_problem.cpp: the solution
     [[nodiscard]] bool optimise(const KnotState& start, const KnotState& end);
     void fix_ends(const KnotState& start, const KnotState& end);
-    [[nodiscard]] bool may_break(const Cell& cell, double part, double acceleration, double square, double jerk) const;
     void weigh();
-    void need_likely_rows();
-    [[nodiscard]] bool need_broken_rows(double part);
-    void make_rows();
-    void add_needed_rows();
-    void add_cap(std::uint32_t number, std::size_t cell, const std::array<double, 3>& weights, double cap);
-    void add_row(std::uint32_t number, Row kind, std::size_t cell, const std::array<double, 3>& w, double limit);
-    void add_jerk(std::uint32_t number, Row kind, std::size_t cell, const std::array<double, 3>& w, const std::array<double, 3>& b, double limit);
+    [[nodiscard]] bool iterate();
     void assemble();
     [[nodiscard]] bool step();
     [[nodiscard]] bool factorise();
     void substitute();
     [[nodiscard]] double time() const;
     [[nodiscard]] double time_at_caps() const;
-    [[nodiscard]] bool iterate();
+    void add_needed_rows();
+
+    // needed_rows.cpp: which limits are rows
+    void need_likely_rows();
+    [[nodiscard]] bool need_broken_rows(double part);
+    [[nodiscard]] bool may_break(const Cell& cell, double part, double acceleration, double square, double jerk) const;
+    void make_rows();
+    void add_cap(std::uint32_t number, std::size_t cell, const std::array<double, 3>& weights, double cap);
+    void add_row(std::uint32_t number, Row kind, std::size_t cell, const std::array<double, 3>& w, double limit);
+    void add_jerk(std::uint32_t number, Row kind, std::size_t cell, const std::array<double, 3>& w, const std::array<double, 3>& b, double limit);
     /// At begin, middle and end.
     [[nodiscard]] std::array<Weights, 3> weights_along(std::size_t cell) const;
     [[nodiscard]] Weights weights_at(std::size_t cell, double at) const;
