@@ -29,6 +29,10 @@ double CellMotion::duration() const {
 }
 
 double CellMotion::way_at(double time, double& v) const {
+    if (curve == 0) {  // as ways without a jerk limit are
+        v = speed + time * acceleration;
+        return speed * time + acceleration * (0.5 * time * time);
+    }
     const double omega = std::sqrt(std::abs(curve));
     const double x = omega * time;
     if (x < 0.05) {

@@ -110,6 +110,57 @@ TEST(TransitionArcVectors, BetweenLineAndArcForthAndBack) {
     }
 }
 
+/// Arcs about a centre, clockwise up to the origin or from it, by an angle [rad].
+PathElement clockwise_to_origin(const Vec3& centre, double sweep) { return arc(centre, centre + Eigen::AngleAxisd(sweep, Vec3::UnitZ()) * -centre, -sweep); }
+PathElement clockwise_from_origin(const Vec3& centre, double sweep) { return arc(centre, Vec3::Zero(), -sweep); }
+double direction_to(const Vec3& from, const Vec3& to) { return std::atan2(to.y() - from.y(), to.x() - from.x()); }
+
+// Two circles of R = 5 about (±4, −3) meet in the origin. A circle of radius r above it, between them, is touched from outside:
+// 4² + (r + e + 3)² = (5 + r)², e its distance from the origin, so that r = e (e + 6)/(2 (2 − e)): 13/12 for e = 1/2.
+TEST(TransitionArc, InTheValleyBetweenTwoArcs) {
+    const Vec3 left(-4, -3, 0), right(4, -3, 0), middle(0, 19.0 / 12, 0);
+    const TransitionArc a = transition_arc(clockwise_to_origin(left, 1), clockwise_from_origin(right, 1), 0.5);
+    ASSERT_EQ(a.kind, CornerKind::arc);
+    EXPECT_EQ(a.limited, ArcLimit::error);
+    EXPECT_NEAR(a.deflection, 2 * std::atan2(4, 3), 1e-12);
+    EXPECT_NEAR(a.radius, 13.0 / 12, 1e-8);
+    near(a.centre, middle, 1e-8, 1e-8, "centre");
+    const double way = 5 * (direction_to(left, middle) - direction_to(left, Vec3::Zero()));
+    EXPECT_NEAR(a.way_before, way, 1e-8);
+    EXPECT_NEAR(a.way_after, way, 1e-8);
+    near(a.middle, Vec3(0, 0.5, 0), 1e-8, 1e-8, "the point next to the corner");
+}
+
+// The same circles, along their inner sides: the tip of a lens. A circle below it is touched from inside:
+// 4² + (3 − r − e)² = (5 − r)², so that r = e (6 − e)/(2 (2 + e)): 0.55 for e = 1/2.
+TEST(TransitionArc, InTheTipOfALens) {
+    const Vec3 left(-4, -3, 0), right(4, -3, 0), middle(0, -1.05, 0);
+    const TransitionArc a = transition_arc(clockwise_to_origin(right, 1), clockwise_from_origin(left, 1), 0.5);
+    ASSERT_EQ(a.kind, CornerKind::arc);
+    EXPECT_EQ(a.limited, ArcLimit::error);
+    EXPECT_NEAR(a.radius, 0.55, 1e-8);
+    near(a.centre, middle, 1e-8, 1e-8, "centre");
+    const double way = 5 * (direction_to(left, Vec3::Zero()) - direction_to(left, middle));
+    EXPECT_NEAR(a.way_before, way, 1e-8);
+    EXPECT_NEAR(a.way_after, way, 1e-8);
+}
+
+// Circles of 5 about (−4, −3) and of 13 about (5, −12), half of the first arc ending in (−1, 1), towards u = (3/5, 4/5) from its centre. A circle that
+// touches it there is about (−1, 1) + r u, and touches the second one where |D + r u| = 13 + r, D = (−6, 13): r = (205 − 169)/(2 (13 − 34/5)) = 90/31.
+TEST(TransitionArc, AsLongAsHalfOfAnArcBetweenUnequalOnes) {
+    const Vec3 first(-4, -3, 0), second(5, -12, 0), middle(23.0 / 31, 103.0 / 31, 0);
+    const double half = std::atan2(4, 3) - std::atan2(3, 4);
+    const TransitionArc a = transition_arc(clockwise_to_origin(first, 2 * half), clockwise_from_origin(second, 1), 1);
+    ASSERT_EQ(a.kind, CornerKind::arc);
+    EXPECT_EQ(a.limited, ArcLimit::length);
+    EXPECT_NEAR(a.radius, 90.0 / 31, 1e-8);
+    EXPECT_NEAR(a.error, (std::sqrt(11138.0) - 90) / 31, 1e-8);
+    near(a.begin, Vec3(-1, 1, 0), 1e-8, 1e-8, "begin");
+    near(a.centre, middle, 1e-8, 1e-8, "centre");
+    EXPECT_NEAR(a.way_before, 5 * half, 1e-9);
+    EXPECT_NEAR(a.way_after, 13 * (direction_to(second, Vec3::Zero()) - direction_to(second, middle)), 1e-8);
+}
+
 // The centre of an arc between two arcs lies on the offsets of both: at |ρ ± r| from their centres.
 TEST(TransitionArc, BetweenArcsTouchesBoth) {
     std::mt19937_64 random(7);
