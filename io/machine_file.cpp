@@ -132,7 +132,7 @@ void read_axis(const TomlFile& file, const toml::table& table, std::vector<std::
 }
 
 std::string axis_text(std::string_view name, const MachineAxis& a, double factor) {
-    const auto whole = [&](double value) { return std::round(value / factor * 1e9) / 1e9; };
+    const auto whole = [&](double value) { return std::round(value / factor * 1e9) / 1e9 + 0.0; };  // no −0: TOML has none for whole numbers
     std::string text = fmt::format("\n[[axis]]\nname = \"{}\"\ntravel = [{}, {}]\n", name, whole(a.travel_low), whole(a.travel_high));
     text += fmt::format("max_speed = {}\nmax_acceleration = {}\n", whole(a.max_speed * seconds_per_minute), whole(a.max_acceleration));
     text += fmt::format("max_jerk = {}               # 0: not limited\n[axis.servo]\n", whole(a.max_jerk));
