@@ -179,8 +179,10 @@ private:
         const std::array zones{signals_[suspect.point].zone, signals_[c.beside_left.nearest()].zone, signals_[c.beside_right.nearest()].zone};
         const auto any = [&](Zone zone) { return std::find(zones.begin(), zones.end(), zone) != zones.end(); };
         if (!any(Zone::ramp)) return;
+        suspect.border = any(Zone::inner);
+        if (suspect.border) return;
         const Comparison alike = comparer_.compare_at_end(suspect.point);
-        suspect.border = any(Zone::inner) || std::min(alike.left, alike.right) < fewest_alike;
+        suspect.border = std::min(alike.left, alike.right) < fewest_alike;
         if (suspect.border) return;
         suspect.comparison = alike;
         measure(suspect, thresholds_);

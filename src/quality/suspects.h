@@ -36,7 +36,7 @@ struct FoundSuspects {
 };
 
 /// Sites whose residual passes half a threshold, in the order of their points. A site is a point
-/// every 5 ms that lies a tenth of a step-over or more from the one before. Only sites with a step are
+/// every 5 ms, or every 0.25 mm at the usual speed, that lies a tenth of a step-over or more from the one before. Only sites with a step are
 /// looked at with all passes around, and then what lies beside a suspect: the inner passes of a band
 /// have no step of their own. O(points), parallel; the same for any number of threads.
 [[nodiscard]] FoundSuspects find_suspects(const ClSurface& surface, const Signals& signals, const Thresholds& thresholds, double period);
