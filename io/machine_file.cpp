@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <sstream>
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
@@ -145,6 +147,14 @@ std::string axis_text(std::string_view name, const MachineAxis& a, double factor
     return text + fmt::format("friction = {}                 # speed lost to Coulomb friction, {}/min\n", whole(a.servo.friction * seconds_per_minute), factor == 1 ? "mm" : "deg");
 }
 
+/// A text as TOML writes it: in quotes, with what may not stand there escaped.
+std::string quoted(const std::string& text) {
+    std::ostringstream out;
+    const toml::value<std::string> value(text);
+    out << toml::toml_formatter(value, toml::format_flags::none);
+    return out.str();
+}
+
 }  // namespace
 
 Machine read_machine(const std::string& path) {
@@ -168,7 +178,7 @@ std::string machine_text(const Machine& machine) {
     const ControllerSettings& c = machine.controller;
     const PathLimits& p = machine.path;
     std::string text = "# Speeds mm/min, accelerations mm/s², jerks mm/s³, lengths mm, times s.\n";
-    text += fmt::format("name = \"{}\"\n\n[controller]\n", machine.name);
+    text += fmt::format("name = {}\n\n[controller]\n", quoted(machine.name));
     text += fmt::format("period = {}                # interpolation period\n", c.period);
     text += fmt::format("lookahead_blocks = {}\n", c.lookahead_blocks);
     text += fmt::format("corner = \"{}\"                # rounded inside the tolerance: by arcs, with a jerk limit by a spline; spline: always; stop: exact stop\n", name_of(c.corner));
