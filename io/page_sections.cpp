@@ -116,10 +116,10 @@ std::string numbers_section(const ReportPage& page) {
                         report.thresholds.of[index_of(Quantity::acceleration)]);
     if (report.has_lag) text += fmt::format(", lag {:.1f} µm", report.thresholds.of[index_of(Quantity::lag)] * um_per_mm);
     text += fmt::format(", relief of the passes {:.1f} µm; {}.</p>\n", report.thresholds.of[index_of(Quantity::relief)] * um_per_mm, html(report.note));
-    if (page.quality.formed != nullptr && page.quality.formed->patches > 0) {
+    if (page.quality.formed != nullptr && !page.quality.formed->patches.empty()) {
         const FormedReport& f = *page.quality.formed;
-        text += fmt::format("<p>Formed surface with {}, {} patches: Ra {:.2f}, Rz {:.2f} (at most {:.2f}), Sa {:.2f}, Sz {:.2f} µm, cut-off {:g} mm.</p>\n", html(to_text(page.quality.tool)), f.patches, f.ra * um_per_mm,
-                            f.rz * um_per_mm, f.rz_most * um_per_mm, f.sa * um_per_mm, f.sz * um_per_mm, f.cutoff);
+        text += fmt::format("<p>Formed surface with {}, {} patches: Ra {:.2f}, Rz {:.2f} (at most {:.2f}), Sa {:.2f}, Sz {:.2f} µm, cut-off {:g} mm.</p>\n", html(to_text(page.quality.tool)), f.patches.size(), f.ra * um_per_mm,
+                            f.rz * um_per_mm, f.patches[f.roughest].profile.rz * um_per_mm, f.sa * um_per_mm, f.sz * um_per_mm, f.cutoff);
     } else {
         text += "<p>Roughness is not known without the tool: <code>--tool ball:D</code>.</p>\n";
     }
@@ -187,7 +187,7 @@ std::string page_summary(const ReportPage& page) {
     for (const PagePercentiles& row : page.percentiles) {
         if (row.field == "speed_mismatch" && std::isfinite(row.of_magnitude[2])) text += fact("Speed mismatch", fmt::format("{:.{}f} mm/min", row.of_magnitude[2], row.of_magnitude[2] < 10 ? 2 : 0), "99 %");
     }
-    if (page.quality.formed != nullptr && page.quality.formed->patches > 0) {
+    if (page.quality.formed != nullptr && !page.quality.formed->patches.empty()) {
         text += fact("Roughness", fmt::format("Rz {:.2f} µm", page.quality.formed->rz * um_per_mm), fmt::format("Ra {:.2f} µm, {}", page.quality.formed->ra * um_per_mm, to_text(page.quality.tool)));
     }
     std::size_t warnings = 0;

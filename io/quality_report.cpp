@@ -68,15 +68,30 @@ Json expected_json(const ReportedQuality& q) {
 }
 
 void add_roughness(Json& summary, const FormedReport& f) {
-    const auto known = [&](double mm) { return f.patches > 0 ? number(um(mm)) : Json(nullptr); };
+    const auto known = [&](double mm) { return f.patches.empty() ? Json(nullptr) : number(um(mm)); };
     summary["ra_um"] = known(f.ra);
     summary["rz_um"] = known(f.rz);
-    summary["rz_most_um"] = known(f.rz_most);
+    summary["rz_most_um"] = known(f.patches.empty() ? 0 : f.patches[f.roughest].profile.rz);
     summary["sa_um"] = known(f.sa);
     summary["sq_um"] = known(f.sq);
     summary["sz_um"] = known(f.sz);
     summary["roughness_cutoff_mm"] = number(f.cutoff);
-    summary["roughness_patches"] = f.patches;
+    summary["roughness_patches"] = f.patches.size();
+}
+
+Json patches_json(const FormedReport& f) {
+    Json all = Json::array();
+    for (const RoughPatch& patch : f.patches) {
+        all.push_back({{"point", patch.point},
+                       {"position_mm", vector(patch.contact)},
+                       {"ra_um", number(um(patch.profile.ra))},
+                       {"rq_um", number(um(patch.profile.rq))},
+                       {"rz_um", number(um(patch.profile.rz))},
+                       {"sa_um", number(um(patch.area.sa))},
+                       {"sq_um", number(um(patch.area.sq))},
+                       {"sz_um", number(um(patch.area.sz))}});
+    }
+    return all;
 }
 
 }  // namespace
@@ -109,10 +124,10 @@ std::string quality_json(const ReportedQuality& q) {
                  {"budget", std::move(budget)},
                  {"within_budget", all_held(q.budget)}};
     if (q.formed != nullptr) add_roughness(summary, *q.formed);
-    return dump(Json{{"defects", defects_json(q)},
-                     {"expected", expected_json(q)},
-                     {"summary", std::move(summary)},
-                     {"diagnostics", list(*q.diagnostics)}});
+    Json json{{"defects", defects_json(q)}, {"expected", expected_json(q)}, {"summary", std::move(summary)}};
+    if (q.formed != nullptr) json["roughness"] = patches_json(*q.formed);
+    json["diagnostics"] = list(*q.diagnostics);
+    return dump(json);
 }
 
 std::string quality_csv(const ReportedQuality& q) {
@@ -164,9 +179,11 @@ std::string quality_text(const ReportedQuality& q) {
         if (r.has_lag) text += fmt::format(", lag {:.1f} µm", um(r.thresholds.of[index_of(Quantity::lag)]));
         text += fmt::format(", relief of the passes {:.1f} µm; {}\n", um(r.thresholds.of[index_of(Quantity::relief)]), r.note);
         if (q.scallop > 0) text += fmt::format("scallop between clean passes with {}: {:.2f} µm\n", to_text(q.tool), um(q.scallop));
-        if (q.formed != nullptr && q.formed->patches > 0) {
+        if (q.formed != nullptr && !q.formed->patches.empty()) {
             const FormedReport& f = *q.formed;
-            text += fmt::format("formed surface, {} patches: Ra {:.2f}, Rz {:.2f} (at most {:.2f}), Sa {:.2f}, Sz {:.2f} µm, cut-off {:g} mm\n", f.patches, um(f.ra), um(f.rz), um(f.rz_most), um(f.sa), um(f.sz), f.cutoff);
+            const RoughPatch& roughest = f.patches[f.roughest];
+            text += fmt::format("formed surface, {} patches: Ra {:.2f}, Rz {:.2f} (at most {:.2f}, at {:.2f} {:.2f} {:.2f}), Sa {:.2f}, Sz {:.2f} µm, cut-off {:g} mm\n", f.patches.size(), um(f.ra), um(f.rz),
+                                um(roughest.profile.rz), roughest.contact.x(), roughest.contact.y(), roughest.contact.z(), um(f.sa), um(f.sz), f.cutoff);
         }
         if (!r.has_lag) text += "no measured positions: depths are those of the commanded path alone\n";
         if (!r.expected.empty()) text += fmt::format("{} more at the border of the part, where a pass has one neighbour only: not counted\n", r.expected.size());

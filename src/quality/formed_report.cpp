@@ -141,12 +141,8 @@ FormedReport measure_formed(const FormedSurface& formed, const Signals& signals,
     if (s <= 0) return result;
     result.cutoff = cutoff_for(s);
 
-    struct Patch {
-        Roughness profile;
-        AreaHeights area;
-    };
     const std::vector<PointIndex> points = spread_points(signals);
-    std::vector<Patch> patches(points.size());
+    std::vector<RoughPatch> patches(points.size());
     parallel_for(static_cast<std::int64_t>(points.size() + report.defects.size()), 1, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t k = begin; k < end; ++k) {
             const auto at = static_cast<std::size_t>(k);
@@ -154,6 +150,8 @@ FormedReport measure_formed(const FormedSurface& formed, const Signals& signals,
             const Across across = across_at(formed, signals, is_patch ? points[at] : report.defects[at - points.size()].point);
             if (!across.known) continue;
             if (is_patch) {
+                patches[at].point = points[at];
+                patches[at].contact = formed.contact(points[at]);
                 const Vec2 half = 0.5 * profile_cutoffs * result.cutoff * across.direction;
                 patches[at].profile = measure_profile(formed, across.at - half, across.at + half).roughness;
                 const Vec2 corner = Vec2::Constant(0.5 * patch_cutoffs * result.cutoff);
@@ -171,18 +169,18 @@ FormedReport measure_formed(const FormedSurface& formed, const Signals& signals,
             result.marks[at - points.size()] = mark_depth(row_of(formed, from, across.direction, step, count), step, across.step_over, defect.pit);
         }
     });
-    for (const Patch& patch : patches) {
+    for (const RoughPatch& patch : patches) {
         if (patch.profile.length <= 0 || patch.area.cells == 0) continue;
-        ++result.patches;
+        result.patches.push_back(patch);
+        if (patch.profile.rz > result.patches[result.roughest].profile.rz) result.roughest = result.patches.size() - 1;
         result.ra += patch.profile.ra;
         result.rz += patch.profile.rz;
-        result.rz_most = std::max(result.rz_most, patch.profile.rz);
         result.sa += patch.area.sa;
         result.sq += patch.area.sq;
         result.sz = std::max(result.sz, patch.area.sz);
     }
-    if (result.patches == 0) return result;
-    for (double* mean : {&result.ra, &result.rz, &result.sa, &result.sq}) *mean /= result.patches;
+    if (result.patches.empty()) return result;
+    for (double* mean : {&result.ra, &result.rz, &result.sa, &result.sq}) *mean /= static_cast<double>(result.patches.size());
     return result;
 }
 

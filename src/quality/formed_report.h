@@ -11,10 +11,18 @@
 
 namespace clsurf {
 
+/// Roughness of a region.
+struct RoughPatch {
+    PointIndex point = 0;  ///< in its middle
+    Vec3 contact;          ///< [mm] of the tool with the surface there
+    Roughness profile;     ///< across the feed
+    AreaHeights area;      ///< [mm] of a square of two cut-offs, form taken off
+};
+
 struct FormedReport {
-    int patches = 0;         ///< that could be measured; 0: nothing below is known
+    std::vector<RoughPatch> patches;  ///< that could be measured, in the order of their points; none: nothing below is known
     double ra = 0, rz = 0;   ///< [mm] mean over the patches' profiles across the feed
-    double rz_most = 0;      ///< [mm] of the roughest profile
+    std::size_t roughest = 0;  ///< patch whose profile has the greatest Rz
     double sa = 0, sq = 0;   ///< [mm] mean over the patches, form taken off
     double sz = 0;           ///< [mm] of the roughest patch; cells see the tip of a cusp to a tenth of it
     double cutoff = 0;       ///< [mm] of the profiles' filter

@@ -257,7 +257,7 @@ clsurf_cli_test(NAME check_budget_unknown_key SETUP "echo 'max_dept_um = 5' > pa
 clsurf_cli_test(NAME check_budget_negative SETUP "echo 'max_depth_um = -5' > part.toml" ARGS check ${part} ${run} --budget part.toml
   EXIT 3 STDERR "part.toml:1" "must not be negative")
 clsurf_cli_test(NAME check_budget_missing ARGS check ${part} ${run} --budget nowhere.toml EXIT 3 STDERR "nowhere.toml: error: cannot open")
-clsurf_cli_test(NAME check_roughness ARGS check ${part} ${run} --tool ball:6 --json STDOUT "\"rz_um\": [0-9.]+" "\"ra_um\": [0-9.]+" "\"sa_um\"" "\"sz_um\"" "\"formed_um\"")
+clsurf_cli_test(NAME check_roughness ARGS check ${part} ${run} --tool ball:6 --json STDOUT "\"rz_um\": [0-9.]+" "\"ra_um\": [0-9.]+" "\"sa_um\"" "\"sz_um\"" "\"formed_um\"" "\"roughness\": .[^a-z]*\"point\": [0-9]+")
 clsurf_cli_test(NAME check_without_a_tool_has_no_roughness ARGS check ${part} ${run} --json NO_STDOUT "rz_um" "formed_um")
 clsurf_cli_test(NAME render_formed ARGS render ${part} ${run} --surface formed --tool ball:6 --size 400x300 -o map.png FILE map.png)
 clsurf_cli_test(NAME render_formed_bull_along_the_commanded_path

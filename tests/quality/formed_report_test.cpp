@@ -72,7 +72,15 @@ TEST(FormedReport, RoughnessOfACleanPartIsThatOfItsScallops) {
         recipe.give = 0;
         const Planted clean(recipe);
         const double h = scallop_height(3, 0.3, std::numeric_limits<double>::infinity());
-        EXPECT_GT(clean.result.patches, 15);
+        EXPECT_GT(clean.result.patches.size(), 15U);
+        const std::vector<RoughPatch>& patches = clean.result.patches;
+        double mean = 0;
+        for (const RoughPatch& patch : patches) {
+            mean += patch.profile.rz / static_cast<double>(patches.size());
+            EXPECT_LE(patch.profile.rz, patches[clean.result.roughest].profile.rz);
+            EXPECT_NEAR((patch.contact - clean.formed.contact(patch.point)).norm(), 0, 1e-12);
+        }
+        EXPECT_NEAR(mean, clean.result.rz, 1e-12);
         EXPECT_NEAR(clean.result.rz, h, 0.15 * h);  // the surface's own roundness is 4 %, the log's micrometre the rest
         EXPECT_NEAR(clean.result.ra, scallop_ra(h), 0.1 * scallop_ra(h));
         EXPECT_NEAR(clean.result.sa, scallop_ra(h), 0.1 * scallop_ra(h));
