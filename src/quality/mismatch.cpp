@@ -25,6 +25,8 @@ constexpr float slack_step_overs = 0.5F;     ///< along the feed between the end
 constexpr float shape_left = 0.35F;          ///< of a relief: more is left of it beside it where it is the part's own
 constexpr float shape_beside = 0.6F;         ///< of the largest relief around: a smaller one lies beside an edge
 
+bool runs_against(const Signals& signals, PointIndex point, const Station& at) { return signals.feed(at.nearest()).dot(signals.feed(point)) < 0; }
+
 float larger(float a, float b) { return !(a == a) || b > a ? b : a; }
 
 /// How much a signal changes over two periods at a point: commanded and measured positions of a
@@ -161,7 +163,7 @@ Comparison Comparer::compare_at_end(PointIndex point) const {
     std::array<float, quantities> others{};
     for (const Side side : {Side::left, Side::right}) {
         (void)for_each_beside(point, side, passes_aside, along_or_against, [&](const Station& at, int) {
-            if (signals_.feed(at.nearest()).dot(signals_.feed(point)) < 0) return;
+            if (runs_against(signals_, point, at)) return;
             const std::array<float, quantities> there = change_nearby(at.nearest(), reference);
             for (std::size_t q = 0; q < quantities; ++q) others[q] = std::max(others[q], there[q]);
         });
@@ -185,7 +187,7 @@ Comparison Comparer::compare_with(Peers peers, PointIndex point, int aside) cons
         const auto s = static_cast<std::size_t>(side);
         Station& adjacent_place = side == Side::left ? result.beside_left : result.beside_right;
         adjacent_place = for_each_beside(point, side, aside, along_or_against, [&](const Station& at, int) {
-            if (peers == Peers::same_way && signals_.feed(at.nearest()).dot(signals_.feed(point)) < 0) return;
+            if (peers == Peers::same_way && runs_against(signals_, point, at)) return;
             beside_it[s][static_cast<std::size_t>(count[s]++)] = compared_at(signals_, at, normal);
         });
         if (count[s] == 0) continue;

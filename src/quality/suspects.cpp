@@ -12,7 +12,7 @@ namespace clsurf {
 namespace {
 
 constexpr double site_seconds = 0.005;  ///< between sites at most, and less on fast passes:
-constexpr double sites_way = 0.25;      ///< [mm] marks are seen by their length
+constexpr double site_length = 0.25;    ///< [mm] marks are seen by their length
 constexpr float site_way = 0.1F;        ///< step-overs
 constexpr int fewest_alike = 2;         ///< passes of the same way on each side, where two ways cannot be told from a fault
 constexpr float suspect_share = 0.5F;   ///< of a threshold
@@ -25,8 +25,8 @@ void measure(Suspect& suspect, const Thresholds& thresholds) {
     suspect.score.fill(0);
     for (std::size_t q = 0; q < quantities; ++q) {
         const Comparison& c = suspect.comparison;
-        const float share = std::max(0.0F, std::abs(c.residual[q]) - c.slack[q]) / thresholds.of[q];
-        if (!(c.residual[q] == c.residual[q])) continue;
+        const float share = std::max(std::abs(c.residual[q]) - c.slack[q], 0.0F) / thresholds.of[q];  // NaN stays NaN in this order
+        if (!(share == share)) continue;
         suspect.share[q] = share;
         const float step = (c.step[q] - c.play[q] - c.slack[q]) / thresholds.of[q];
         suspect.score[q] = step == step ? std::min(step, 2 * share) : 0;
@@ -129,7 +129,7 @@ public:
 
 private:
     [[nodiscard]] static PointIndex stride(double usual_speed, double period) {
-        const double seconds = usual_speed > 0 ? std::min(site_seconds, sites_way / usual_speed) : site_seconds;
+        const double seconds = usual_speed > 0 ? std::min(site_seconds, site_length / usual_speed) : site_seconds;
         return std::max<PointIndex>(1, std::lround(std::min(seconds / period, 1e6)));
     }
 
