@@ -15,6 +15,8 @@
 
 namespace clsurf {
 
+class LocalQuadratic;
+
 class Form {
 public:
     /// For places inside `region`. O(contact points near it + knots), parallel.
@@ -35,7 +37,7 @@ private:
     using Knot = std::array<float, 6>;
 
     struct Samples;
-    void fit(std::int64_t column, std::int64_t row, const Samples& samples);
+    void fit(std::int64_t column, std::int64_t row, const Samples& samples, LocalQuadratic& quadratic);
     /// Whether contact points lie on all sides of a place: beyond the outermost pass stands the tool's flank.
     [[nodiscard]] bool is_inside(const Vec2& place, const Samples& samples) const;
 

@@ -9,8 +9,10 @@
 
 #include "core/parallel.h"
 #include "quality/form.h"
+#include "quality/local_quadratic.h"
 #include "quality/roughness.h"
 #include "quality/scallop.h"
+#include "quality/standing_contacts.h"
 #include "support/made_surface.h"
 
 namespace clsurf {
@@ -217,15 +219,48 @@ TEST(FormedSurface, AHighLinkLeavesNothing) {
     EXPECT_LT(cut(without), cut(low.formed(ball(3))));
 }
 
-TEST(Form, WhatTheToolCutsAwayAgainIsNoForm) {
-    // Tips on a tent of 30° flanks: at its ridge each flank's contacts reach R sin 30° beyond it, where the
-    // other flank's passes cut them away. What stays is the tent of both contact planes, R (1 − cos 30°)
-    // below the tips' normal to the flank.
+/// Tips on a tent of 30° flanks: at its ridge each flank's contacts reach R sin 30° beyond it, where the
+/// other flank's passes cut them away. What stays is the tent of both contact planes, R (1 − cos 30°)
+/// below the tips' normal to the flank.
+Made tent() {
     constexpr double apart = 0.3;
     constexpr double middle = 25 * apart;
+    return Made(test::flat_zigzag(51, 12, apart, 50, {}, [](const Vec3& flat) {
+        return Vec3(flat.x(), (flat.y() - middle) * std::cos(M_PI / 6), -std::abs(flat.y() - middle) * 0.5);
+    }));
+}
+
+TEST(StandingContacts, AreThoseOfTheTentOnTheirOwnSideOfTheRidge) {
+    // A contact e beyond the ridge lies 2 e sin 30° = e inside the other flank's tools, and the nearest is 60 µm
+    // beyond; tips are looked at one in 0.25 mm, which misses up to 0.25²/8R = 3 µm. The pass along the ridge leaves nothing.
+    const Made made = tent();
+    const FormedSurface formed = made.formed(ball(3));
+    const Box2 box(Vec2(2, -2.5), Vec2(10, 2.5));
+    std::size_t expected = 0;
+    for (const ContactPoint& contact : formed.contacts(box, 0.05)) expected += contact.at.y() * contact.tip.y() > 1e-9 ? 1U : 0U;
+    const std::vector<Vec3> standing = standing_contacts(formed, box, 0.05);
+    EXPECT_GT(expected, 2000U);
+    EXPECT_EQ(standing.size(), expected);
+    for (const Vec3& at : standing) ASSERT_NEAR(at.z(), -std::abs(at.y()) * std::tan(M_PI / 6) - 3 * (1 / std::cos(M_PI / 6) - 1), 1e-6) << at.transpose();
+}
+
+TEST(LocalQuadratic, IsExactOnQuadraticsAndHardlyBentByOneRaisedPass) {
+    const auto height = [](double x, double y) { return 0.3 - 0.2 * x + 0.1 * y + 0.05 * x * x - 0.02 * x * y + 0.04 * y * y; };
+    const double expected[] = {0.3, -0.2, 0.1, 0.05, -0.02, 0.04};
+    for (const double raised : {0.0, 0.01}) {
+        LocalQuadratic quadratic;
+        for (int row = -3; row <= 3; ++row) {
+            for (int k = -12; k <= 12; ++k) quadratic.add(0.25 * k, row, height(0.25 * k, row) + (row == 1 ? raised : 0), 1);
+        }
+        const LocalQuadratic::Terms a = quadratic.fit(1e-4);
+        for (Eigen::Index k = 0; k < 6; ++k) EXPECT_NEAR(a[k], expected[k], raised > 0 ? 0.1 * raised : 2e-6) << k;
+    }
+}
+
+TEST(Form, WhatTheToolCutsAwayAgainIsNoForm) {
     const double c = std::cos(M_PI / 6);
     const double s = 0.5;
-    const Made made(test::flat_zigzag(51, 12, apart, 50, {}, [&](const Vec3& flat) { return Vec3(flat.x(), (flat.y() - middle) * c, -std::abs(flat.y() - middle) * s); }));
+    const Made made = tent();
     const FormedSurface formed = made.formed(ball(3));
     const Form form(formed, formed.bounds());
     for (const double y : {-3.0, -1.5, -1.2, 1.2, 1.5, 3.0}) {

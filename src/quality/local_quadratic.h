@@ -1,0 +1,35 @@
+#pragma once
+// LocalQuadratic: a quadratic fitted to places about a knot by weighted least squares, robust against some
+// that lie elsewhere (bisquare weights by what the fit before left over: Cleveland's local regression).
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace clsurf {
+
+class LocalQuadratic {
+public:
+    /// z = a0 + a1 x + a2 y + a3 x² + a4 xy + a5 y².
+    using Terms = Eigen::Matrix<double, 6, 1>;
+
+    void clear();
+    void add(double x, double y, double z, double weight);
+    [[nodiscard]] std::size_t size() const { return z_.size(); }
+
+    /// Fits three times: places that the fit before leaves `outlying` robust standard deviations away weigh
+    /// nothing. `least_spread`: of that deviation, in units of z. What the places do not tell (the slope
+    /// across, if they lie on one line) is near zero. At least six places. O(places).
+    [[nodiscard]] Terms fit(double least_spread);
+
+private:
+    [[nodiscard]] Terms solve();
+    void weigh(const Terms& fitted, double least_spread);
+
+    /// Columns, for loops over four places at a time.
+    std::vector<double> x_, y_, z_, weight_, robust_, left_, sorted_;
+};
+
+}  // namespace clsurf
