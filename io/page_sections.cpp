@@ -74,27 +74,34 @@ std::string defects_section(const ReportPage& page) {
     text += fmt::format("<p>{} on {} passes, {:.3g} mm apart. A defect is a place where a pass differs from those beside it enough to leave a mark.</p>\n",
                         report.defects.empty() ? "None" : fmt::format("{} found", report.defects.size()), report.passes, report.step_over);
     if (!report.defects.empty()) {
-        const bool formed = page.quality.formed != nullptr;
-        text += fmt::format(
-            "<div class=\"wide\"><table><thead><tr><th>No</th><th title=\"1 trace, 2 visible on a glossy surface, 3 can be felt, 4 reject\">Severity</th><th>Cause</th><th>Depth [µm]</th>{}<th>Speed [%]</th>"
-            "<th>Length [mm]</th><th>X Y Z [mm]</th><th>Lines</th></tr></thead><tbody>\n",
-            formed ? "<th>Formed [µm]</th>" : "");
-        for (std::size_t i = 0; i < std::min(defects_in_table, report.defects.size()); ++i) {
-            const Defect& d = report.defects[i];
-            text += fmt::format("<tr data-defect=\"{}\"><td>{}</td><td><span class=\"severity s{}\">{}</span></td><td>{}</td><td>{:+.1f}</td>{}<td>{:+.1f}</td><td>{:.1f}</td><td>{:.2f} {:.2f} {:.2f}</td><td>{}</td></tr>\n", i + 1,
-                                i + 1, d.severity, d.severity, html(description_of(d.cause)), (d.pit ? -1 : 1) * d.depth * um_per_mm,
-                                formed ? fmt::format("<td>{}</td>", um_text(page.quality.formed->marks[i])) : "", std::copysign(100 * d.speed_mismatch, d.speed_jump), d.length,
-                                d.position.x(), d.position.y(), d.position.z(), html(defect_lines(d)));
-        }
-        text += "</tbody></table></div>\n";
-        if (report.defects.size() > defects_in_table) text += fmt::format("<p>The table stops at the worst {}; <code>clsurf check</code> lists all.</p>\n", defects_in_table);
-        text += "<div class=\"pictures\">\n";
+        text += "<p><a href=\"#defect-list\">All are listed below</a>, the worst first. Severity: 1 a trace, 2 visible on a glossy surface, 3 can be felt, 4 reject.</p>\n<div class=\"pictures\">\n";
         for (const PageDefect& defect : page.defects) {
             if (defect.picture) text += picture_html(*defect.picture);
         }
         text += "</div>\n";
     }
     if (!report.expected.empty()) text += fmt::format("<p>{} more at the border of the part, where a pass has one neighbour only: not counted.</p>\n", report.expected.size());
+    return text + "</section>\n";
+}
+
+/// Behind all else: it can fill many sheets.
+std::string defect_list_section(const ReportPage& page) {
+    const QualityReport& report = *page.quality.report;
+    if (report.defects.empty()) return "";
+    const bool formed = page.quality.formed != nullptr;
+    std::string text = fmt::format(
+        "<section id=\"defect-list\"><h2>All defects</h2>\n<div class=\"wide\"><table><thead><tr><th>No</th><th>Severity</th><th>Cause</th><th>Depth [µm]</th>{}<th>Speed [%]</th>"
+        "<th>Length [mm]</th><th>X Y Z [mm]</th><th>Lines</th></tr></thead><tbody>\n",
+        formed ? "<th>Formed [µm]</th>" : "");
+    for (std::size_t i = 0; i < std::min(defects_in_table, report.defects.size()); ++i) {
+        const Defect& d = report.defects[i];
+        text += fmt::format("<tr data-defect=\"{}\"><td>{}</td><td><span class=\"severity s{}\">{}</span></td><td>{}</td><td>{:+.1f}</td>{}<td>{:+.1f}</td><td>{:.1f}</td><td>{:.2f} {:.2f} {:.2f}</td><td>{}</td></tr>\n", i + 1,
+                            i + 1, d.severity, d.severity, html(description_of(d.cause)), (d.pit ? -1 : 1) * d.depth * um_per_mm,
+                            formed ? fmt::format("<td>{}</td>", um_text(page.quality.formed->marks[i])) : "", std::copysign(100 * d.speed_mismatch, d.speed_jump), d.length,
+                            d.position.x(), d.position.y(), d.position.z(), html(defect_lines(d)));
+    }
+    text += "</tbody></table></div>\n";
+    if (report.defects.size() > defects_in_table) text += fmt::format("<p>The table stops at the worst {}; <code>clsurf check</code> lists all.</p>\n", defects_in_table);
     return text + "</section>\n";
 }
 
@@ -203,7 +210,7 @@ std::string page_sections(const ReportPage& page) {
         for (const PagePicture& picture : page.pictures) text += picture_html(picture);
         text += "</div></section>\n";
     }
-    text += defects_section(page) + numbers_section(page) + health_section(page) + contents_section(page);
+    text += defects_section(page) + numbers_section(page) + health_section(page) + defect_list_section(page) + contents_section(page);
     return text + "</main>\n";
 }
 

@@ -63,7 +63,7 @@ test('without JavaScript summary, pictures and tables are there', async () => {
     assert.ok(!(await page.locator('#app').isVisible()));
     assert.ok(await page.locator('noscript').count() === 1);
     assert.match(await page.locator('#summary').innerText(), /bottle_uneven\.nc/);
-    assert.ok((await page.locator('#defects tbody tr').count()) > 10);
+    assert.ok((await page.locator('#defect-list tbody tr').count()) > 10);
     assert.ok((await page.locator('figure img').count()) >= 8);
     for (const image of await page.locator('figure img').all()) assert.ok(await image.evaluate((i) => i.naturalWidth > 400));
     await page.screenshot({ path: path.join(folder, 'static.png'), fullPage: true });
