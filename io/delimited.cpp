@@ -1,11 +1,12 @@
 // Text with one record a line. Separator: tab, semicolon, comma or blanks, whichever the first data
-// lines have. With semicolons a decimal comma is understood. Lines that begin with '#' are comments.
+// lines have. With semicolons a decimal comma is understood. Comments: text_table.h.
 // halsampler writes "sample value value …" separated by blanks, and "overrun" where it lost samples.
 #include "io/delimited.h"
 
 #include <algorithm>
 
 #include "core/error.h"
+#include "io/text_head.h"
 #include "io/text_mapping.h"
 #include "log/channel.h"
 
@@ -20,7 +21,7 @@ Log open_text(const Source& source, const LogOptions& options, const char* forma
     plan.overruns = mapping && mapping->halsampler;
     Log log = read_table(source, plan, format);
     settle_period(log, options, map);
-    add_event_lines(log, map);
+    add_event_lines(log, map, plan.day);
     return log;
 }
 
@@ -29,15 +30,10 @@ Log open_text(const Source& source, const LogOptions& options, const char* forma
 int probe_delimited(std::span<const std::byte> head, const LogOptions& options) {
     if (head.empty() || !is_text(head)) return 0;
     if (!options.mapping.empty()) return 60;
-    std::string_view rest = text_of(head);
-    std::string_view line;
-    do {
-        line = first_line(rest);
-    } while (is_comment(line) && !rest.empty());
     // A header that names a position by its role, or all three of them without.
     std::size_t axes = 0;
-    for (const std::string& field : split(line, detect_separator(line))) {
-        const std::string name = settled_name(plan_from_header(field).name);
+    for (const ColumnPlan& column : read_head(text_of(head)).columns) {
+        const std::string name = settled_name(column.name);
         if (is_position(name)) return 80;
         axes += name == "x" || name == "y" || name == "z" ? 1 : 0;
     }

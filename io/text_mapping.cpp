@@ -5,15 +5,19 @@
 #include <cmath>
 #include <filesystem>
 #include <unordered_set>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "core/error.h"
 #include "core/spelling.h"
 #include "io/compressed.h"
+#include "io/clock_time.h"
 #include "io/line_events.h"
 #include "io/owned_columns.h"
+#include "io/text_head.h"
 #include "io/toml_table.h"
+#include "log/channel.h"
 
 namespace clsurf::io {
 namespace {
@@ -124,60 +128,51 @@ std::vector<ColumnPlan> plan_columns(std::span<const SourceColumn> columns, cons
 
 namespace {
 
-/// A line of units below the names, "s;mm;mm" or "[s],[mm],[mm]": one whose fields all are no numbers.
-void take_units(std::string_view rest, TextPlan& plan, std::vector<SourceColumn>& columns, std::string_view text) {
-    const std::vector<std::string> units = split(first_line(rest), plan.separator);
-    const bool numbers = std::any_of(units.begin(), units.end(), [](const std::string& f) { return looks_like_number(f); });
-    const bool words = std::any_of(units.begin(), units.end(), [](const std::string& f) { return !f.empty(); });
-    if (numbers || !words || units.size() != columns.size() || rest.empty()) return;
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-        std::string_view unit = units[i];
-        if (unit.size() >= 2 && (unit.front() == '[' || unit.front() == '(')) unit = unit.substr(1, unit.size() - 2);
-        if (columns[i].known.unit.empty() && unit != "-") columns[i].known.unit = std::string(unit);
+/// Columns that hold times of day, by the first record.
+void find_clocks(const TextHead& head, TextPlan& plan, const Place& place) {
+    for (std::size_t i = 0; i < std::min(head.first.size(), plan.columns.size()); ++i) {
+        ColumnPlan& column = plan.columns[i];
+        const std::optional<ClockTime> time = column.name.empty() ? std::nullopt : parse_clock(head.first[i]);
+        if (!time) continue;
+        if (column.scale != 1) throw InputError(place, fmt::format("the mapping scales column '{}', which holds times of day", column.name));
+        column.clock = true;
+        column.unit = "s";
+        if (time->day) plan.day = *time->day;
     }
-    plan.data_begin = static_cast<std::size_t>(rest.data() - text.data());
-    ++plan.first_data_line;
+}
+
+/// A column beside the known ones that begins with a word: a program's name, a mode, a date.
+void pass_over_words(const TextHead& head, TextPlan& plan) {
+    for (std::size_t i = 0; i < std::min(head.first.size(), plan.columns.size()); ++i) {
+        ColumnPlan& column = plan.columns[i];
+        bool is_word = false;
+        (void)parse_number(head.first[i], true, is_word);
+        if (is_word && !parse_clock(head.first[i]) && !is_known_name(column.name)) plan.words.push_back(std::exchange(column.name, {}));
+    }
 }
 
 }  // namespace
 
 TextPlan plan_text(const Source& source, const Mapping* mapping) {
-    const std::string_view text = source.text();
-    std::string_view rest = text;
-    if (rest.starts_with("\xef\xbb\xbf")) rest.remove_prefix(3);
+    const TextHead head = read_head(source.text(), mapping != nullptr ? mapping->separator : '\0');
+    const Place place = Place::of_line(source.name, head.line);
     TextPlan plan;
-    std::uint64_t line_number = 0;
-    std::string_view line;
-    std::string_view before = rest;
-    do {
-        before = rest;
-        line = first_line(rest);
-        ++line_number;
-    } while (is_comment(line) && !rest.empty());
-    plan.separator = mapping != nullptr && mapping->separator != '\0' ? mapping->separator : detect_separator(line);
+    plan.separator = head.separator;
     plan.decimal_comma = true;  // beside comma separators a comma can only stand in quotes
-    const std::vector<std::string> fields = split(line, plan.separator);
-    const bool header = std::any_of(fields.begin(), fields.end(), [](const std::string& f) { return !f.empty() && !looks_like_number(f); });
-    plan.data_begin = static_cast<std::size_t>((header ? rest.data() : before.data()) - text.data());
-    if (header && rest.empty()) plan.data_begin = text.size();
-    plan.first_data_line = header ? line_number + 1 : line_number;
-    if (mapping == nullptr && !header) {
-        throw InputError(Place::of_line(source.name, line_number), "no header of channel names",
-                         "name the columns with --mapping FILE");
-    }
-    std::vector<SourceColumn> columns;
-    columns.reserve(fields.size());
-    for (const std::string& field : fields) {
-        const ColumnPlan known = header ? plan_from_header(field) : ColumnPlan{};
-        columns.push_back({header ? field : std::string(), known.name, known});
-    }
-    if (header) take_units(rest, plan, columns, text);
+    plan.data_begin = head.data_begin;
+    plan.first_data_line = head.first_data_line;
     if (mapping == nullptr) {
+        if (!head.named) throw InputError(place, "no header of channel names", "name the columns with --mapping FILE");
         // Two columns of one name are an error here, not a guess: read_table() says so.
-        for (const SourceColumn& c : columns) plan.columns.push_back(c.known);
+        plan.columns = head.columns;
+        pass_over_words(head, plan);
     } else {
-        plan.columns = plan_columns(columns, mapping, Place::of_line(source.name, line_number));
+        std::vector<SourceColumn> columns;
+        columns.reserve(head.columns.size());
+        for (std::size_t i = 0; i < head.columns.size(); ++i) columns.push_back({head.titles[i], head.columns[i].name, head.columns[i]});
+        plan.columns = plan_columns(columns, mapping, place);
     }
+    find_clocks(head, plan, place);
     return plan;
 }
 
@@ -186,7 +181,7 @@ void settle_period(Log& log, const LogOptions& options, const Mapping* mapping) 
     else if (mapping != nullptr && mapping->period) log.period = *mapping->period;
 }
 
-void add_event_lines(Log& log, const Mapping* mapping) {
+void add_event_lines(Log& log, const Mapping* mapping, std::optional<std::int64_t> day) {
     if (mapping == nullptr || !mapping->events) return;
     const EventFile& file = *mapping->events;
     if (log.find("line") != nullptr) throw InputError(Place::of_file(log.name), "the mapping names events, and a column 'line' besides");
@@ -200,7 +195,9 @@ void add_event_lines(Log& log, const Mapping* mapping) {
     }
     const Source source = open_source(file.path);
     if (source.bytes.empty()) throw InputError(Place::of_file(source.name), "is empty, expected block events");
-    const Log read = read_table(source, plan_text(source, &columns), "events");
+    TextPlan plan = plan_text(source, &columns);
+    plan.day = day.value_or(plan.day);
+    const Log read = read_table(source, plan, "events");
     log.diagnostics.append(read.diagnostics);
     const Channel* at = read.find("at");
     const Channel* line = read.find("line");

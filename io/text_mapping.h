@@ -3,6 +3,7 @@
 // block events stand when they are in a second file.
 // Used inside io only.
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -55,15 +56,17 @@ struct SourceColumn {
 /// where the mapping names a column that is not there.
 [[nodiscard]] std::vector<ColumnPlan> plan_columns(std::span<const SourceColumn> columns, const Mapping* mapping, const Place& place);
 
-/// A text with or without a header of column names. Throws InputError with the line: no header and no
-/// mapping, a column that is not there.
+/// A text with or without a header of column names. Columns whose first record holds a time of day are
+/// clocks; without a mapping, unknown columns of words are passed over. Throws InputError with the line: no header and no
+/// mapping, a column that is not there, a clock that is to be scaled.
 [[nodiscard]] TextPlan plan_text(const Source& source, const Mapping* mapping);
 
 /// Sets the period: that of the options, else the mapping's, else leaves it.
 void settle_period(Log& log, const LogOptions& options, const Mapping* mapping);
 
-/// Adds the channel `line` from the events that the mapping names, where it names any. Events outside
-/// the log are a note `log.events-outside`. Throws InputError.
-void add_event_lines(Log& log, const Mapping* mapping);
+/// Adds the channel `line` from the events that the mapping names, where it names any. `day`: from whose
+/// midnight the log's clock counts; else that of the first event. Events outside the log are a note `log.events-outside`.
+/// Throws InputError.
+void add_event_lines(Log& log, const Mapping* mapping, std::optional<std::int64_t> day = {});
 
 }  // namespace clsurf::io

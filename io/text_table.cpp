@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "io/clock_time.h"
 #include "io/owned_columns.h"
 
 namespace clsurf::io {
@@ -43,6 +44,28 @@ bool next_field(std::string_view line, std::size_t& at, char separator, std::str
     while (!field.empty() && (field.front() == ' ' || field.front() == '"')) field.remove_prefix(1);
     while (!field.empty() && (field.back() == ' ' || field.back() == '"')) field.remove_suffix(1);
     return true;
+}
+
+/// Seconds since midnight of a day, or NaN.
+double parse_time(std::string_view field, std::int64_t day, bool& bad) {
+    const std::optional<ClockTime> time = parse_clock(field);
+    bad = !time && !field.empty();
+    return time ? time->since(day) : not_a_number;
+}
+
+/// A clock without a date begins anew at midnight.
+void go_on_after_midnight(std::vector<double>& seconds) {
+    constexpr double day = 86400;
+    double days = 0;
+    double before = not_a_number;
+    for (double& second : seconds) {
+        second += days;
+        if (second < before - 0.5 * day) {
+            days += day;
+            second += day;
+        }
+        if (std::isfinite(second)) before = second;
+    }
 }
 
 /// What one stretch of the text holds.
@@ -79,11 +102,11 @@ void read_stretch(const Source& source, const TextPlan& plan, Stretch& stretch) 
             const ColumnPlan& c = plan.columns[column];
             if (!c.name.empty()) {
                 bool bad = false;
-                const double value = parse_number(field, plan.decimal_comma, bad);
+                const double value = c.clock ? parse_time(field, plan.day, bad) : parse_number(field, plan.decimal_comma, bad);
                 if (bad) {
                     stretch.diagnostics.add({Severity::warning, "log.bad-number",
                                              Place::of_line(source.name, number, static_cast<std::uint32_t>(field.data() - line.data() + 1)),
-                                             fmt::format("'{}' of channel '{}' is no number; taken as missing", field.substr(0, 40), c.name), {}});
+                                             fmt::format("'{}' of channel '{}' is no {}; taken as missing", field.substr(0, 40), c.name, c.clock ? "time of day" : "number"), {}});
                 }
                 stretch.columns[column].push_back(value * c.scale + c.bias);
             }
@@ -131,7 +154,8 @@ std::string_view first_line(std::string_view& rest) {
 
 bool is_comment(std::string_view line) {
     const std::size_t at = line.find_first_not_of(" \t");
-    return at == std::string_view::npos || line[at] == '#' || line.starts_with("sep=");  // Excel's separator
+    if (at == std::string_view::npos || line[at] == '#' || line[at] == '%') return true;
+    return line.substr(at).starts_with("//") || line.starts_with("sep=");  // Excel's separator
 }
 
 char detect_separator(std::string_view line) {
@@ -174,6 +198,8 @@ bool looks_like_number(std::string_view field) {
     (void)parse_number(field, true, bad);
     return !bad && !field.empty();
 }
+
+bool is_value(std::string_view field) { return looks_like_number(field) || parse_clock(field); }
 
 /// "cmd.x [mm]", "Time (ms)" → name and unit.
 ColumnPlan plan_from_header(std::string_view field) {
@@ -230,6 +256,10 @@ Log read_table(const Source& source, const TextPlan& plan, const char* format) {
     }
     if (rows == 0) throw InputError(Place::of_file(source.name), "holds no records");
     log.records = static_cast<PointIndex>(rows);
+    if (!plan.words.empty()) {
+        const std::string more = plan.words.size() > 1 ? fmt::format(" (and {} more)", plan.words.size() - 1) : "";
+        log.diagnostics.add({Severity::note, "log.words", Place::of_line(source.name, plan.first_data_line), fmt::format("column '{}'{} begins with a word and is passed over", plan.words.front().substr(0, 40), more), {}});
+    }
     OwnedColumns owned(log);
     for (std::size_t c = 0; c < plan.columns.size(); ++c) {
         if (plan.columns[c].name.empty()) continue;
@@ -242,6 +272,7 @@ Log read_table(const Source& source, const TextPlan& plan, const char* format) {
             column.insert(column.end(), stretch.columns[c].begin(), stretch.columns[c].end());
             stretch.columns[c] = {};
         }
+        if (plan.columns[c].clock) go_on_after_midnight(column);
         owned.add(plan.columns[c].name, plan.columns[c].unit, std::move(column));
     }
     return log;

@@ -113,6 +113,12 @@ void settle_unit(Log& log, Channel& channel) {
     channel.unit = std::string(wanted);
 }
 
+std::string lower_case(std::string_view name) {
+    std::string low(name);
+    for (char& c : low) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    return low;
+}
+
 constexpr std::array<std::string_view, 6> axes{"x", "y", "z", "a", "b", "c"};
 
 /// Clocks that do not begin with the first record: a time of day, a time since 1970.
@@ -129,12 +135,12 @@ void settle_time_origin(Log& log, Channel& time) {
 
 std::span<const ChannelInfo> known_channels() { return table; }
 
-std::string settled_name(std::string_view name) {
-    std::string low(name);
-    for (char& c : low) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    const bool meant = info_of(low) != nullptr || std::find(axes.begin(), axes.end(), low) != axes.end();
-    return meant ? low : std::string(name);
+bool is_known_name(std::string_view name) {
+    const std::string low = lower_case(name);
+    return info_of(low) != nullptr || std::find(axes.begin(), axes.end(), low) != axes.end();
 }
+
+std::string settled_name(std::string_view name) { return is_known_name(name) ? lower_case(name) : std::string(name); }
 
 bool is_position(std::string_view name) {
     // Of the channels only positions are lengths.

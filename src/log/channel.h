@@ -20,6 +20,9 @@ struct ChannelInfo {
 /// Every name that the project knows.
 [[nodiscard]] std::span<const ChannelInfo> known_channels();
 
+/// A name of the table or a bare axis, whatever its case.
+[[nodiscard]] bool is_known_name(std::string_view name);
+
 /// A name as it is known, whatever its case; bare axes likewise. Others as they are.
 [[nodiscard]] std::string settled_name(std::string_view name);
 

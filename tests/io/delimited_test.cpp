@@ -79,6 +79,68 @@ TEST(Delimited, UnderstandsHeadersAsOtherToolsWriteThem) {
     EXPECT_DOUBLE_EQ(log.find("cmd.x")->values.at(0), 1.5);
 }
 
+TEST(Delimited, TakesNamesFromTheCommentAboveTheRecords) {
+    const test::TemporaryFolder folder;
+    Log log = open(folder, "# measured by the loader\n# time cmd.x cmd.y\n0.000 1.5 2\n0.001 1.6 2\n");
+    EXPECT_EQ(log.records, 2);
+    EXPECT_DOUBLE_EQ(log.find("cmd.x")->values.at(1), 1.6);
+    log = open(folder, "% time [ms], x [in], y, z\n0, 1, 2, 3\n2, 1, 2, 3\n");
+    EXPECT_DOUBLE_EQ(log.period, 0.002);
+    EXPECT_DOUBLE_EQ(log.find("cmd.x")->values.at(0), 25.4);
+    // A remark above the names is no name; comments may stand anywhere.
+    log = open(folder, "// machine 7, shift 2\ntime,cmd.x\n// begin\n0,1\n% half\n0.001,2\n");
+    EXPECT_EQ(log.records, 2);
+    EXPECT_TRUE(log.diagnostics.kept().empty());
+    EXPECT_THROW((void)open(folder, "# machine 7, shift 2, run 3\n0,1,2\n0.001,1,2\n"), InputError);
+}
+
+TEST(Delimited, ReadsTimesOfDay) {
+    const test::TemporaryFolder folder;
+    // Differences are exact to the last digit that is written: the date does not cost any.
+    Log log = open(folder, "time,cmd.x\n2024-05-01T12:00:00.000125Z,1\n2024-05-01T12:00:00.001125Z,2\n2024-05-01T12:00:00.002125Z,3\n");
+    EXPECT_NEAR(log.period, 0.001, 1e-10);
+    EXPECT_NEAR(log.time_of(2), 0.002, 1e-10);
+    EXPECT_EQ(log.diagnostics.count("log.bad-number"), 0U);
+    // Over midnight, with a date and without; offsets; decimal commas.
+    log = open(folder, "Time [hh:mm:ss];cmd.x\n31.12.2024 23:59:59,998;1\n01.01.2025 00:00:00,000;2\n01.01.2025 00:00:00,002;2\n");
+    EXPECT_NEAR(log.time_of(2), 0.004, 1e-9);
+    log = open(folder, "time,cmd.x\n23:59:59.998,1\n0:00:00.000,2\n0:00:00.002,2\n");
+    EXPECT_NEAR(log.time_of(2), 0.004, 1e-9);
+    log = open(folder, "time,cmd.x\n2024/05/01 12:00:00.000 +02:00,1\n2024/05/01 10:00:00.004Z,2\n");
+    EXPECT_NEAR(log.period, 0.004, 1e-9);
+    EXPECT_EQ(log.diagnostics.count("log.unit"), 0U);
+    // What is no time among them is missing, with its place.
+    log = open(folder, "time,cmd.x\n12:00:00.000,1\n12:61:00.001,2\n12:00:00.002,3\n12:00:00.003,3\n");
+    EXPECT_EQ(log.diagnostics.count("log.bad-number"), 1U);
+    EXPECT_TRUE(std::isnan(log.time_of(1)));
+}
+
+TEST(Delimited, PassesOverColumnsOfWords) {
+    const test::TemporaryFolder folder;
+    const Log log = open(folder, "Date;time;Mode;cmd.x\n01.05.2024;12:00:00,000;AUTO;1\n01.05.2024;12:00:00,002;AUTO;2\n");
+    EXPECT_NEAR(log.period, 0.002, 1e-9);
+    EXPECT_EQ(log.find("Mode"), nullptr);
+    EXPECT_EQ(log.find("Date"), nullptr);
+    EXPECT_EQ(log.diagnostics.count("log.words"), 1U);
+    EXPECT_EQ(log.diagnostics.count("log.bad-number"), 0U);
+    // A position that begins badly is one all the same.
+    EXPECT_EQ(open(folder, "time,cmd.x\n0,-\n0.001,2\n").find("cmd.x")->values.at(1), 2);
+}
+
+TEST(Delimited, JoinsEventsAndRecordsByTheirClocks) {
+    const test::TemporaryFolder folder;
+    folder.write("events.csv", "when,block\n2024-05-01 23:59:59.999,5\n2024-05-02 00:00:00.001,6\n");
+    LogOptions options;
+    options.mapping = folder.write("m.toml",
+                                   "[[column]]\nfrom = \"t\"\nname = \"time\"\n[[column]]\nfrom = \"x\"\nname = \"cmd.x\"\n"
+                                   "[events]\nfile = \"events.csv\"\nfrom = \"when\"\nline = \"block\"\n");
+    const Log log = open(folder, "t,x\n2024-05-02T00:00:00.000,1\n2024-05-02T00:00:00.001,2\n2024-05-02T00:00:00.002,3\n", options);
+    EXPECT_EQ(log.find("line")->values.at(0), 5);
+    EXPECT_EQ(log.find("line")->values.at(1), 6);
+    options.mapping = folder.write("scaled.toml", "[[column]]\nfrom = \"t\"\nname = \"time\"\nscale = 0.001\n");
+    EXPECT_THROW((void)open(folder, "t,x\n12:00:00,1\n12:00:01,2\n", options), InputError);
+}
+
 TEST(Delimited, SaysThatATextIsUtf16) {
     const test::TemporaryFolder folder;
     try {
