@@ -151,9 +151,11 @@ std::string kept_text(const PageSurface& surface) {
     if (!kept.reduced()) return fmt::format("<li>{}: all {} points are in this page.</li>\n", log, count_text(kept.all));
     return fmt::format(
         "<li>{}: {} of {} points are in this page. Of each {} consecutive points of a pass stay the first and where each field is lowest and highest; besides these "
-        "the ends of passes, {}and every point of a defect and of the passes beside it. At which point each line begins and ends is known of all lines. Numbers, percentiles, "
+        "the ends of passes, {}and {}. At which point each line begins and ends is known of all lines. Numbers, percentiles, "
         "defects and pictures on this page were made from all points.</li>\n",
-        log, count_text(static_cast<std::int64_t>(kept.points.size())), count_text(kept.all), count_text(kept.window), kept.line_starts ? "the first point of each line, " : "");
+        log, count_text(static_cast<std::int64_t>(kept.points.size())), count_text(kept.all), count_text(kept.window), kept.line_starts ? "the first point of each line, " : "",
+        kept.whole_defects == kept.defects ? "every point of a defect and of the passes beside it"
+                                      : fmt::format("every point of {} of {} defects and of the passes beside them, the others being too large", kept.whole_defects, kept.defects));
 }
 
 std::string contents_section(const ReportPage& page) {

@@ -24,7 +24,7 @@ constexpr float widest_end = 1.5F;         ///< of a seam between two ends, in w
 constexpr float leading_away = 0.85F;      ///< growth of the edge with the way, above which the way leads away
 constexpr float corner_play = 1.03F;       ///< growth of an edge that is still at the ends of its passes
 constexpr float closed_seam = 0.5F;        ///< width at which a seam ends, likewise
-constexpr float longest_fan_way = 8.0F;     ///< way of a neighbour that one step may span, in step-overs
+constexpr float longest_fan_way = 8.0F;     ///< way of a neighbour that one step may span beyond its own, in step-overs
 constexpr std::int64_t longest_fan = 256;  ///< vertices of a neighbour that one step may span
 
 class Bander {
@@ -127,8 +127,11 @@ private:
         const std::int32_t now = earlier(vertex, side);
         const std::int32_t before = earlier(vertex - 1, side);
         if (now < 0 || before < 0) return now == before;
-        const float change = std::abs(distance(vertex, now) - distance(vertex - 1, before));
-        return change <= 0.3F * static_cast<float>(s_.step_over) + 0.5F * distance(vertex - 1, vertex);
+        const float play = 0.3F * static_cast<float>(s_.step_over);
+        const float step = distance(vertex - 1, vertex);
+        // Where vertices lie far apart, those across stand before or behind: their distance tells little then.
+        if (way_but_one_chord(before, now) <= play + step) return true;
+        return std::abs(distance(vertex, now) - distance(vertex - 1, before)) <= play + 0.5F * step;
     }
 
     /// A bend sees another bend across itself for a moment, and what follows a turn the pass beyond its
@@ -248,7 +251,7 @@ private:
                 add(triangles, static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b + b_step), static_cast<std::uint32_t>(b));
                 b += b_step;
                 if (has_earlier(b, side)) {
-                    if (fan(b, a, earlier(b, side), triangles)) return true;
+                    if (fan(b, a, earlier(b, side), 0, triangles)) return true;
                     break;
                 }
             }
@@ -298,7 +301,7 @@ private:
 
     /// Triangles between the own vertices b − 1, b and the neighbour's from one vertex to another.
     void band(std::int64_t b, std::int64_t from, std::int64_t to, Column<std::uint32_t>& triangles) const {
-        if (!fan(b - 1, from, to, triangles)) {
+        if (!fan(b - 1, from, to, distance(b - 1, b), triangles)) {
             // A loop that returns to where it began: near, but not along the way.
             if (distance(from, to) > 0.75F * static_cast<float>(s_.step_over) + distance(b - 1, b)) return;
             add(triangles, static_cast<std::uint32_t>(b - 1), static_cast<std::uint32_t>(from), static_cast<std::uint32_t>(to));
@@ -306,16 +309,27 @@ private:
         add(triangles, static_cast<std::uint32_t>(b - 1), static_cast<std::uint32_t>(to), static_cast<std::uint32_t>(b));
     }
 
-    /// Triangles from a vertex to the neighbour's from one vertex to another. False where they are not
-    /// on one piece of the way, or far apart: a jump to another piece is no neighbour.
-    bool fan(std::int64_t own, std::int64_t from, std::int64_t to, Column<std::uint32_t>& triangles) const {
-        if (std::abs(to - from) > longest_fan) return false;
+    /// The way [mm] from a vertex to another but for its longest chord: where vertices lie far apart, one chord can be longer
+    /// than what is far for many. Infinite where they are not on one piece of the way, or many vertices lie between.
+    [[nodiscard]] float way_but_one_chord(std::int64_t from, std::int64_t to) const {
+        if (std::abs(to - from) > longest_fan) return std::numeric_limits<float>::infinity();
         const int direction = to >= from ? 1 : -1;
         float way = 0;
+        float longest = 0;
         for (std::int64_t k = from; k != to; k += direction) {
-            way += distance(k, k + direction);
-            if (!goes_on(k, direction) || way > longest_fan_way * static_cast<float>(s_.step_over)) return false;
+            if (!goes_on(k, direction)) return std::numeric_limits<float>::infinity();
+            const float chord = distance(k, k + direction);
+            way += chord;
+            longest = std::max(longest, chord);
         }
+        return way - longest;
+    }
+
+    /// Triangles from a vertex to the neighbour's from one vertex to another, beside a step [mm] of the own way. False where
+    /// they are not on one piece of the way, or far apart: a jump to another piece is no neighbour.
+    bool fan(std::int64_t own, std::int64_t from, std::int64_t to, float own_step, Column<std::uint32_t>& triangles) const {
+        if (way_but_one_chord(from, to) > longest_fan_way * static_cast<float>(s_.step_over) + own_step) return false;
+        const int direction = to >= from ? 1 : -1;
         for (std::int64_t k = from; k != to; k += direction) {
             add(triangles, static_cast<std::uint32_t>(own), static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(k + direction));
         }

@@ -13,6 +13,7 @@ namespace {
 /// too long to follow the surface. Where there is no room for so many it grows up to the last.
 constexpr std::array<double, 4> longest_chords{3, 6, 12, 24};
 constexpr double most_for_chords = 0.75;  ///< of the points that may stay
+constexpr PointIndex share_of_defects = 4;     ///< one in so many points may belong to defects that are kept whole
 constexpr PointIndex windows_at_once = 64;
 
 using Marks = Column<std::uint8_t>;  ///< per point: 1, it stays
@@ -42,7 +43,34 @@ void mark_extremes(Marks& marks, const Column<float>& values, PointIndex first, 
     if (at.last >= 0) mark(marks, at.last);
 }
 
-/// What stays whatever the windows, but for the starts of lines.
+/// take(range) for the points of a defect and of the passes beside it.
+template <typename Take>
+void for_each_run(const Defect& defect, const Take& take) {
+    for (const std::vector<DefectRun>* runs : {&defect.runs, &defect.neighbours}) {
+        for (const DefectRun& run : *runs) take(run.points);
+    }
+}
+
+/// Marks all points of the defects that fit into `room`; returns how many did. What a larger one leaves, smaller ones use.
+std::size_t mark_whole_defects(Marks& marks, std::span<const Defect> defects, PointIndex room) {
+    std::size_t whole = 0;
+    for (const Defect& defect : defects) {
+        PointIndex needed = 0;
+        for_each_run(defect, [&](PointRange run) {
+            const auto first = marks.begin() + run.first;
+            needed += std::count(first, first + (run.last - run.first + 1), std::uint8_t{0});
+        });
+        if (needed > room) continue;
+        for_each_run(defect, [&](PointRange run) {
+            for (PointIndex i = run.first; i <= run.last; ++i) mark(marks, i);
+        });
+        room -= needed;
+        ++whole;
+    }
+    return whole;
+}
+
+/// What stays whatever the windows, but for whole defects and the starts of lines.
 Marks lasting_marks(const ClSurface& surface, std::span<const Field> fields, std::span<const Defect> defects) {
     const PointIndex count = surface.positions.size();
     Marks marks(static_cast<std::size_t>(count), 0);
@@ -51,11 +79,10 @@ Marks lasting_marks(const ClSurface& surface, std::span<const Field> fields, std
         mark(marks, pass.last);
     }
     for (const Defect& defect : defects) {
-        for (const std::vector<DefectRun>* runs : {&defect.runs, &defect.neighbours}) {
-            for (const DefectRun& run : *runs) {
-                for (PointIndex i = run.points.first; i <= run.points.last; ++i) mark(marks, i);
-            }
-        }
+        for_each_run(defect, [&](PointRange run) {
+            mark(marks, run.first);
+            mark(marks, run.last);
+        });
         mark(marks, defect.point);
     }
     const Positions& p = surface.positions;
@@ -154,9 +181,11 @@ KeptPoints keep_points(const ClSurface& surface, const LineMap& lines, std::span
     const PointIndex count = surface.positions.size();
     KeptPoints kept;
     for (PointIndex i = 0; i < count; ++i) kept.all += has_position(surface.positions, i) ? 1 : 0;
+    kept.defects = kept.whole_defects = defects.size();
     Marks marks(static_cast<std::size_t>(count), 1);
     if (kept.all > most) {
         Marks lasting = lasting_marks(surface, fields, defects);
+        kept.whole_defects = mark_whole_defects(lasting, defects, most / share_of_defects);
         Marks with_lines = lasting;
         mark_line_starts(with_lines, lines);
         kept.line_starts = count_of(with_lines) <= most / 2;

@@ -113,6 +113,26 @@ TEST(KeptPoints, ADefectStaysWhole) {
     for (PointIndex i = 4700; i <= 4800; ++i) EXPECT_TRUE(keeps(kept, i));
 }
 
+TEST(KeptPoints, DefectsTooLargeForAQuarterOfTheRoomAreReducedLikeAllElse) {
+    // 12 passes of 900 points, and behind it one of 100 points.
+    Defect large;
+    large.point = 450;
+    for (PointIndex pass = 0; pass < 12; ++pass) large.runs.push_back({pass, {pass * per_pass + 50, pass * per_pass + 949}, 1, 1});
+    Defect small;
+    small.point = 15'050;
+    small.runs.push_back({15, {15'000, 15'099}, 1, 1});
+    const std::vector<Defect> defects{large, small};
+    const Lines lines;
+    const std::vector<Field> fields{noise()};
+    const KeptPoints kept = keep_points(raster(), lines.map, fields, defects, 4000);
+    EXPECT_EQ(kept.defects, 2U);
+    EXPECT_EQ(kept.whole_defects, 1U);
+    EXPECT_LE(kept.points.size(), 4000U);
+    for (PointIndex i = 15'000; i <= 15'099; ++i) EXPECT_TRUE(keeps(kept, i));
+    for (const DefectRun& run : large.runs) EXPECT_TRUE(keeps(kept, run.points.first) && keeps(kept, run.points.last));
+    EXPECT_TRUE(keeps(kept, 450));
+}
+
 TEST(KeptPoints, ChordsOfACutAreAFewStepOversAtMost) {
     const ClSurface surface = raster();
     const Lines lines;

@@ -1,0 +1,60 @@
+// Bands over few vertices, as a page is sent them: what lies between passes stays closed.
+#include "viz/bands.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+
+#include "path/way.h"
+#include "support/made_path.h"
+
+namespace clsurf::viz {
+namespace {
+
+constexpr int passes = 40;
+constexpr double length = 60;
+constexpr double apart = 0.1;
+constexpr double step = 0.02;
+
+ClSurface raster() {
+    ClSurface surface;
+    Positions positions = test::zigzag(passes, length, apart, step);
+    const Way way(positions);
+    surface.passes = find_passes(positions, way, test::one_run(positions), apart);
+    surface.neighbours = find_neighbours(positions, surface.passes, way, apart);
+    surface.positions = std::move(positions);
+    surface.step_over = apart;
+    return surface;
+}
+
+double area_of(const ClSurface& surface, const WayVertices& vertices, const Bands& bands) {
+    const auto at = [&](std::size_t k) -> Vec3 { return surface.positions[vertices.points[bands.triangles[k]]].cast<double>(); };
+    double area = 0;
+    for (std::size_t k = 0; k < bands.triangles.size(); k += 3) {
+        const Vec3 a = at(k);
+        area += 0.5 * Vec3(at(k + 1) - a).cross(Vec3(at(k + 2) - a)).norm();
+    }
+    return area;
+}
+
+TEST(Bands, FewVerticesFarApartLeaveNothingOpen) {
+    const ClSurface surface = raster();
+    std::mt19937 random(3);
+    for (const double longest : {0.1, 0.6, 1.2, 2.4}) {  // mm between vertices, up to 24 step-overs
+        std::vector<PointIndex> points;
+        for (const Pass& pass : surface.passes) {
+            // Extremes of fields lie anywhere: steps of one point up to the longest, two of which often lie together.
+            std::uniform_int_distribution<PointIndex> stride(1, static_cast<PointIndex>(longest / step));
+            for (PointIndex i = pass.first; i < pass.last; i += random() % 3 == 0 ? 1 : stride(random)) points.push_back(i);
+            points.push_back(pass.last);
+        }
+        const WayVertices vertices = way_vertices(surface, points);
+        const Bands bands = join_passes(surface, vertices, NearnessFrame(), std::numeric_limits<float>::max());
+        const double whole = length * apart * (passes - 1);
+        EXPECT_NEAR(area_of(surface, vertices, bands), whole, 0.005 * whole) << longest;
+    }
+}
+
+}  // namespace
+}  // namespace clsurf::viz
