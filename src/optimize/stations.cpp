@@ -13,6 +13,7 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double steepest = 2.2, flattest = 0.45;  ///< of a phase along a pass, in phases per spacing
 constexpr double jump_play = 0.05;     ///< of a phase that is no jump
 constexpr double fewest_taken = 0.2;  ///< of a pass's points: less in common with the passes before is no hold
+constexpr int parts = 4;              ///< of a phase, that are told apart
 
 class PhaseRunner {
 public:
@@ -133,6 +134,29 @@ Phases run_phases(const ProgrammedSurface& laid, double spacing) {
         if (pass.kind == PassKind::cut) runner.run({pass.first, pass.last});
     }
     return runner.take();
+}
+
+std::vector<StationOfPass> stations_between(const ProgrammedSurface& laid, const Phases& phases, PointIndex first, PointIndex last, double length) {
+    std::vector<StationOfPass> stations;
+    const double margin = nearest_station * phases.spacing;
+    double way = 0;
+    for (PointIndex i = first + 1; i <= last; ++i) {
+        const double step = (laid.surface.positions[i] - laid.surface.positions[i - 1]).norm(), begin = way;
+        way += step;
+        const double a = parts * phases.of_point[static_cast<std::size_t>(i - 1)], b = parts * phases.of_point[static_cast<std::size_t>(i)];
+        if (!(a == a) || !(b == b) || a == b) continue;
+        const double part = step / std::abs(b - a);
+        const std::int64_t every = parts * part > 2.8 * phases.spacing ? 1 : parts * part > 1.4 * phases.spacing ? 2 : 4;
+        const auto low = static_cast<std::int64_t>(std::ceil(std::min(a, b))), high = static_cast<std::int64_t>(std::ceil(std::max(a, b)));
+        for (std::int64_t k = low; k < high; ++k) {
+            const std::int64_t number = a < b ? k : high - 1 - (k - low);
+            if (number % every != 0) continue;
+            const double at = begin + step * (static_cast<double>(number) - a) / (b - a);
+            const double before = stations.empty() ? 0 : stations.back().way;
+            if (at > std::max(margin, before + 0.5 * margin) && at < length - margin) stations.push_back({at, number, part});
+        }
+    }
+    return stations;
 }
 
 }  // namespace clsurf

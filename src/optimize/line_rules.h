@@ -1,0 +1,15 @@
+#pragma once
+// LineRules: how far apart new points may lie, and how far from the programmed lines.
+
+namespace clsurf {
+
+struct LineRules {
+    double spacing = 0;        ///< [mm] between stations
+    double usual = 0;          ///< [mm] spacing of the program's own points, and how long lines get at most
+    double shortest_line = 0;  ///< [mm] that stations are chosen for
+    double chord_error = 0;    ///< [mm] of lines against the curve
+    double most = 0;           ///< [mm] that lines may leave the old ones by, before they are rounded
+    double radius = 0;         ///< [mm] of the tube that the curve lies in: what chords leave of the tolerance
+};
+
+}  // namespace clsurf

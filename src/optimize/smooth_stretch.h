@@ -1,0 +1,23 @@
+#pragma once
+// SmoothStretch: the smoothest curve along a stretch of a pass, at its stations.
+
+#include <vector>
+
+#include "optimize/line_rules.h"
+#include "optimize/old_stretch.h"
+#include "optimize/stations.h"
+
+namespace clsurf {
+
+/// The curve at all stations of a stretch, its ends before and behind them.
+struct SmoothStretch {
+    std::vector<double> way;   ///< [mm] along the old lines
+    std::vector<Vec3> places;  ///< [mm] there on the old lines
+    std::vector<Vec3> points;  ///< [mm] on the curve; the ends are the old ones
+};
+
+/// Akima's curve through the smoothest way in the tube round the old lines; its knots are the stations and the old points, at which the
+/// tube is narrowest. Between them it is held to most of the tolerance. O(points).
+[[nodiscard]] SmoothStretch smooth(const OldStretch& old, const std::vector<StationOfPass>& stations, const LineRules& rules);
+
+}  // namespace clsurf
