@@ -45,7 +45,23 @@ private:
             const bool stump = to_end < std::max(rules_.shortest_line, nearest_station * line);
             kept[k] = !stump && station.number % (std::int64_t{1} << level) == 0 ? 1 : 0;
         }
+        drop_close(kept);
         return kept;
+    }
+
+    /// Of two stations nearer to each other than the shortest line the one with the less round number is left out.
+    void drop_close(std::vector<std::uint8_t>& kept) const {
+        std::size_t before = 0;  // kept
+        for (std::size_t k = 1; k + 1 < kept.size(); ++k) {
+            if (kept[k] == 0) continue;
+            if (before > 0 && curve_.way[k] - curve_.way[before] < rules_.shortest_line) {
+                const std::int64_t mine = stations_[k - 1].number, other = stations_[before - 1].number;
+                const bool drop_other = (mine & -mine) > (other & -other);
+                kept[drop_other ? before : k] = 0;
+                if (!drop_other) continue;
+            }
+            before = k;
+        }
     }
 
     /// How often a part [mm] is doubled to become a line of up to `wanted` [mm], and not too short a one.

@@ -11,7 +11,7 @@ std::size_t OldStretch::line_at(double after) const { return static_cast<std::si
 Vec3 OldStretch::at(double after) const {
     const std::size_t line = line_at(after);
     const double length = way[line + 1] - way[line];
-    return length > 0 ? Vec3(points[line] + (points[line + 1] - points[line]) * ((after - way[line]) / length)) : points[line];
+    return length > 0 ? Vec3(points[line] + (points[line + 1] - points[line]) * std::clamp((after - way[line]) / length, 0.0, 1.0)) : points[line];
 }
 
 Vec3 OldStretch::nearest(const Vec3& p, double after) const {

@@ -12,7 +12,7 @@ struct OldStretch {
     std::vector<double> way;   ///< [mm] to each
 
     [[nodiscard]] double length() const { return way.back(); }
-    /// Where the lines are after some way [mm].
+    /// Where the lines are after some way [mm]; before and behind them, where they begin and end.
     [[nodiscard]] Vec3 at(double after) const;
     /// The nearest place to `p` on the lines about `after` [mm] of way.
     [[nodiscard]] Vec3 nearest(const Vec3& p, double after) const;

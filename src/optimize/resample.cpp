@@ -62,10 +62,11 @@ private:
     }
 
     void run_pass(const ProgrammedPass& pass, std::vector<Stretch>& stretches) const {
+        const std::vector<std::uint8_t> creases = creases_of(pass);
         std::size_t begin = 0;  // the end that the stretch begins at
         for (std::size_t k = 1; k < pass.ends.size(); ++k) {
             const bool may = editable(pass, k);
-            const bool goes_on = k == begin + 1 || (may && motions_.line[motion(pass.ends[k])] == motions_.line[motion(pass.ends[k - 1])] + 1 && !turns(pass, k - 1));
+            const bool goes_on = k == begin + 1 || (may && motions_.line[motion(pass.ends[k])] == motions_.line[motion(pass.ends[k - 1])] + 1 && creases[k - 1] == 0);
             if (may && goes_on) continue;
             add(pass, begin, k - 1, stretches);
             begin = may ? k - 1 : k;
@@ -73,22 +74,34 @@ private:
         add(pass, begin, pass.ends.size() - 1, stretches);
     }
 
-    /// Whether the path has a corner at end k.
-    [[nodiscard]] bool turns(const ProgrammedPass& pass, std::size_t k) const {
-        const Vec3 before = path_.end(motion(pass.ends[k])) - path_.begin(motion(pass.ends[k]));
-        const Vec3 after = path_.end(motion(pass.ends[k + 1])) - path_.begin(motion(pass.ends[k + 1]));
-        return before.dot(after) < std::cos(corner_angle_) * before.norm() * after.norm();
+    /// Which ends of a pass lie where it turns within a spacing by more than the corner angle: at a corner, or in a crease that the program
+    /// follows by lines as short as the crease is narrow. One entry an end.
+    [[nodiscard]] std::vector<std::uint8_t> creases_of(const ProgrammedPass& pass) const {
+        const std::size_t n = pass.ends.size();
+        const double reach = 0.5 * lines_.spacing;
+        const OldStretch way = old_stretch(pass, 0, n - 1);
+        std::vector<std::uint8_t> creases(n, 0);
+        for (std::size_t k = 1; k + 1 < n; ++k) {
+            const Vec3 before = way.points[k] - way.at(way.way[k] - reach), after = way.at(way.way[k] + reach) - way.points[k];
+            creases[k] = before.dot(after) < std::cos(corner_angle_) * before.norm() * after.norm() ? 1 : 0;
+        }
+        return creases;
     }
 
-    /// Ends begin … end of a pass, both of which stay.
-    void add(const ProgrammedPass& pass, std::size_t begin, std::size_t end, std::vector<Stretch>& stretches) const {
-        if (end < begin + shortest_stretch) return;
+    [[nodiscard]] OldStretch old_stretch(const ProgrammedPass& pass, std::size_t begin, std::size_t end) const {
         OldStretch old;
         for (std::size_t k = begin; k <= end; ++k) {
             const Vec3 p = path_.end(motion(pass.ends[k]));
             old.way.push_back(old.points.empty() ? 0 : old.way.back() + (p - old.points.back()).norm());
             old.points.push_back(p);
         }
+        return old;
+    }
+
+    /// Ends begin … end of a pass, both of which stay.
+    void add(const ProgrammedPass& pass, std::size_t begin, std::size_t end, std::vector<Stretch>& stretches) const {
+        if (end < begin + shortest_stretch) return;
+        const OldStretch old = old_stretch(pass, begin, end);
         if (old.length() < lines_.spacing) return;
         const std::vector<StationOfPass> stations = stations_between(laid_, phases_, pass.ends[begin], pass.ends[end], old.length());
         Stretch stretch{motion(pass.ends[begin + 1]), motion(pass.ends[end]), new_lines(old, smooth(old, stations, lines_), stations, lines_)};

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numbers>
 #include <set>
 #include <sstream>
 
@@ -84,6 +85,41 @@ TEST(Resample, PutsPointsSideBySide) {
         for (const int x : of_pass[pass]) shared += before.lower_bound(x - 2) != before.upper_bound(x + 2) ? 1 : 0;
         EXPECT_GE(shared, of_pass[pass].size() * 8 / 10) << "pass " << pass;
         EXPECT_GT(of_pass[pass].size(), 15U);
+    }
+}
+
+// A valley of 60° that the program rounds by lines of 0.02 mm, none of which turns by more than 16°: smoothed on both sides, never in it.
+TEST(Resample, LeavesCreasesAlone) {
+    std::string text = "G21 G90\nG64 P0.005\nG0 X0 Y0 Z10\nG1 Z3 F1000\nG1 F3000\n";
+    std::vector<std::string> crease;
+    for (int pass = 0; pass < 5; ++pass) {
+        const double y = 0.4 * pass, slope = std::tan(30 * std::numbers::pi / 180);
+        const bool back = pass % 2 == 1;
+        std::vector<double> ways;
+        for (double x = 0; x < 4.9; x += 0.31) ways.push_back(x);
+        for (const double x : {4.96, 4.98, 5.0, 5.02, 5.04}) ways.push_back(x);
+        for (double x = 5.2; x < 10.1; x += 0.31) ways.push_back(x);
+        if (back) std::reverse(ways.begin(), ways.end());
+        for (const double x : ways) {
+            const double off = std::abs(x - 5), z = slope * (off < 0.05 ? off * off / 0.1 + 0.025 : off);
+            const std::string line = fmt::format("X{:.4f} Y{:.4f} Z{:.4f}", x, y, z);
+            if (off < 0.03) crease.push_back(line);
+            text += line + "\n";
+        }
+    }
+    const Program program = read_text(text + "G0 Z10\nM2\n");
+    const std::string changed = resampled_text(program, 0.005, 0.25);
+    ASSERT_NE(changed, text);
+    for (const std::string& line : crease) EXPECT_NE(changed.find(line + "\n"), std::string::npos) << line;
+}
+
+// Gentle waves: no line needs to be shorter for the sake of the tolerance. Where it meets a point that stays it may be.
+TEST(Resample, LaysNoLineShorterThanItMay) {
+    const Program program = read_text(wavy_zigzag(7, 12, [](int pass, double x) { return 0.25 + 0.05 * std::sin(pass + x); }, 0.2));
+    LineEditor editor(program);
+    const double shortest = 0.2;
+    for (const Stretch& stretch : resample(program, lay_out(program), editor, {0.01, 0.09, 0.004, shortest, 0.5}, {})) {
+        for (std::size_t k = 1; k < stretch.points.size(); ++k) EXPECT_GE((stretch.points[k] - stretch.points[k - 1]).norm(), 0.99 * shortest);
     }
 }
 
