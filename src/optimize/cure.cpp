@@ -79,7 +79,7 @@ private:
             }
             if (defect.quantity == Quantity::lag) slow_for_lag(defect);
         }
-        level_speeds(run_, rules_.step, speeds_, causes_);
+        level_speeds(run_, {rules_.step, 0}, speeds_, causes_);
     }
 
     /// A stretch and what lies within reach before and behind it.

@@ -7,6 +7,11 @@
 #include "surface/station.h"
 
 namespace clsurf {
+namespace {
+
+constexpr int halvings = 10;  ///< in search of a step
+
+}  // namespace
 
 std::vector<float> compared_speeds(const JudgedRun& run) {
     std::vector<float> speeds(static_cast<std::size_t>(run.surface.positions.size()), std::numeric_limits<float>::quiet_NaN());
@@ -16,8 +21,8 @@ std::vector<float> compared_speeds(const JudgedRun& run) {
     return speeds;
 }
 
-void level_speeds(const JudgedRun& run, double step, std::vector<float>& speeds, std::vector<std::int32_t>& causes) {
-    const auto ratio = static_cast<float>(1 + step);
+void level_speeds(const JudgedRun& run, const LevelStep& step, std::vector<float>& speeds, std::vector<std::int32_t>& causes) {
+    const auto ratio = static_cast<float>(1 + step.share), more = static_cast<float>(step.speed);
     const auto level = [&](PointIndex i) {
         float& mine = speeds[static_cast<std::size_t>(i)];
         std::int32_t& cause = causes[static_cast<std::size_t>(i)];
@@ -29,8 +34,8 @@ void level_speeds(const JudgedRun& run, double step, std::vector<float>& speeds,
             if (cause < 0 && other_cause < 0) continue;
             const auto j = static_cast<std::size_t>(at.point);
             const float other = at.fraction > 0 ? speeds[j] + at.fraction * (speeds[j + 1] - speeds[j]) : speeds[j];
-            if (!(ratio * other < mine)) continue;
-            mine = ratio * other;
+            if (!(ratio * other + more < mine)) continue;
+            mine = ratio * other + more;
             if (cause < 0) cause = other_cause;
         }
     };
@@ -39,11 +44,29 @@ void level_speeds(const JudgedRun& run, double step, std::vector<float>& speeds,
     for (PointIndex i = count; i-- > 0;) level(i);
 }
 
-std::vector<float> levelled_speeds(const JudgedRun& run, double step) {
+std::vector<float> levelled_speeds(const JudgedRun& run, const LevelStep& step) {
     std::vector<float> speeds = compared_speeds(run);
     std::vector<std::int32_t> everywhere(speeds.size(), 0);
     level_speeds(run, step, speeds, everywhere);
     return speeds;
+}
+
+double affordable_step(const JudgedRun& run, double budget) {
+    const std::vector<float> own = compared_speeds(run);
+    const auto lost = [&](double step) {
+        const std::vector<float> speeds = levelled_speeds(run, {0, step});
+        double sum = 0;
+        for (std::size_t i = 0; i < own.size(); ++i) {
+            if (speeds[i] > 0) sum += run.log.period * (own[i] / speeds[i] - 1);
+        }
+        return sum;
+    };
+    double low = 0, high = 2 * run.greatest_mismatch;
+    for (int k = 0; k < halvings; ++k) {
+        const double middle = 0.5 * (low + high);
+        (lost(middle) > budget ? low : high) = middle;
+    }
+    return high;
 }
 
 std::vector<float> means_by_motion(const JudgedRun& run, const Program& program, const std::vector<float>& values) {

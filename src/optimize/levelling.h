@@ -12,13 +12,23 @@ namespace clsurf {
 /// The speed of each point of a run that is compared with the passes beside it [mm/s]; NaN elsewhere.
 [[nodiscard]] std::vector<float> compared_speeds(const JudgedRun& run);
 
-/// Lowers speeds, one a point of the run, until none is more than (1 + step) times that of the points beside it on
+/// How much faster than the pass beside it a place may be: by a share of that one's speed and by a speed.
+struct LevelStep {
+    double share = 0;
+    double speed = 0;  ///< [mm/s]
+};
+
+/// Lowers speeds, one a point of the run, until none is more than a step above that of the points beside it on
 /// both neighbour passes. Only points that have a cause (≥ 0; −1: none), or have one beside them, are lowered, and take over
 /// the cause: where all begin with one, speeds are levelled everywhere. Two sweeps over the passes, forth and back: O(points).
-void level_speeds(const JudgedRun& run, double step, std::vector<float>& speeds, std::vector<std::int32_t>& causes);
+void level_speeds(const JudgedRun& run, const LevelStep& step, std::vector<float>& speeds, std::vector<std::int32_t>& causes);
 
 /// The greatest speeds that are level everywhere.
-[[nodiscard]] std::vector<float> levelled_speeds(const JudgedRun& run, double step);
+[[nodiscard]] std::vector<float> levelled_speeds(const JudgedRun& run, const LevelStep& step);
+
+/// The least step [mm/s] to which all can be levelled so that no more than `budget` [s] is lost, by the points' own times: ramps come on top.
+/// Ten levellings: O(points).
+[[nodiscard]] double affordable_step(const JudgedRun& run, double budget);
 
 /// The means over the points of each motion of the program, of one value per point; NaN: it has no point with one.
 [[nodiscard]] std::vector<float> means_by_motion(const JudgedRun& run, const Program& program, const std::vector<float>& values);

@@ -62,27 +62,30 @@ void spread_along(const JudgedRun& run, double reach, Marks& marks) {
 
 }  // namespace
 
-std::vector<std::uint8_t> motions_in_need(const JudgedRun& run, const Program& program, const NeedRules& rules) {
-    Marks marks = marked_places(run, rules);
-    for (int k = 0; k < rules.passes_aside; ++k) marks = spread_aside(run, marks);
-    spread_along(run, rules.reach, marks);
-    std::vector<std::uint8_t> needed(static_cast<std::size_t>(program.motions.size()), 0);
+std::vector<std::uint8_t> marked_motions(const JudgedRun& run, const Program& program, const std::vector<std::uint8_t>& marks) {
+    std::vector<std::uint8_t> marked_ones(static_cast<std::size_t>(program.motions.size()), 0);
     LineNumber line = 0;
     for (PointIndex i = 0; i < run.surface.positions.size(); ++i) {
         const LineNumber here = run.lines->line_at(i);
         if (here == 0) continue;
-        // What lies between the lines of two marked points was passed within a period.
         const bool marked = marks[static_cast<std::size_t>(i)] != 0, follows = marked && line != 0 && here > line && here - line <= most_lines_a_period && marks[static_cast<std::size_t>(i - 1)] != 0;
         if (marked) {
             for (LineNumber n = follows ? line + 1 : here; n <= here; ++n) {
                 for (const std::uint32_t motion : run.lines->motions_of(n)) {
-                    if (motion < needed.size()) needed[motion] = 1;
+                    if (motion < marked_ones.size()) marked_ones[motion] = 1;
                 }
             }
         }
         line = here;
     }
-    return needed;
+    return marked_ones;
+}
+
+std::vector<std::uint8_t> motions_in_need(const JudgedRun& run, const Program& program, const NeedRules& rules) {
+    Marks marks = marked_places(run, rules);
+    for (int k = 0; k < rules.passes_aside; ++k) marks = spread_aside(run, marks);
+    spread_along(run, rules.reach, marks);
+    return marked_motions(run, program, marks);
 }
 
 }  // namespace clsurf

@@ -12,6 +12,8 @@ namespace clsurf {
 namespace {
 
 constexpr double interval_width = 0.005;  ///< of the speeds in a constant-speed interval: wider, passes side by side differ by as much
+constexpr double most_points = 4e6;       ///< of all runs together; then what there is has to do
+constexpr int most_in_vain = 48;          ///< proposals in a row, none of them better than the best
 constexpr double growth_weight = 0.03;    ///< of a program's growth, against shares of mismatch and defects
 constexpr double goal_of_mismatch = 0.5;  ///< share left, from which on …
 constexpr double beyond_goal = 0.3;       ///< … less mismatch counts less
@@ -23,6 +25,18 @@ Prover::Prover(const Program& program, const ReadProgram& read, const Machine& m
     SimulatedRun simulated = simulate_to_log(program_, machine_, rules_.start, progress_);
     summary_before_ = std::move(simulated.summary);
     before_ = judge_run(std::move(simulated.log), program_, rules_.quality, diagnostics_);
+}
+
+bool Prover::has_time(double share) const { return points_ < share * most_points && in_vain_ < most_in_vain; }
+
+Tried Prover::propose(const std::shared_ptr<const Draft>& draft, std::vector<float> targets) {
+    const auto tried = std::make_shared<Proposal>(prove(draft, std::move(targets)));
+                                            ++in_vain_;
+    if (!best_ || better(*tried, *best_)) {
+        best_ = tried;
+        in_vain_ = 0;
+    }
+    return tried;
 }
 
 Proposal Prover::prove(const std::shared_ptr<const Draft>& draft, std::vector<float> targets) {

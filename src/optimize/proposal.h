@@ -1,12 +1,12 @@
 #pragma once
 // Proposals: changed programs, run and held against the program as it is.
 
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "optimize/deviation.h"
+#include "optimize/draft.h"
 #include "optimize/run.h"
 
 namespace clsurf {
@@ -30,17 +30,6 @@ struct Proof {
     std::size_t defects_before = 0, defects_after = 0;  ///< by the thresholds of the run before
 };
 
-/// Reads a text in the program's dialect, as the program itself was read.
-using ReadProgram = std::function<Program(const std::string& text)>;
-
-/// A program whose points were moved, before feeds are set.
-struct Draft {
-    Program program;
-    std::string text;
-    std::size_t stretches = 0, changed_lines = 0;
-    std::vector<std::uint8_t> may_slow;  ///< per motion, whether it may get a feed; empty: all may
-};
-
 /// A draft with feeds, its run, and how that holds against the program's.
 struct Proposal {
     std::shared_ptr<const Draft> draft;
@@ -51,7 +40,9 @@ struct Proposal {
     SimulationSummary summary;
 };
 
-/// Runs proposals on the machine.
+using Tried = std::shared_ptr<Proposal>;
+
+/// Runs proposals on the machine and keeps the best of them.
 class Prover {
 public:
     /// Runs the program itself. All must outlive it. Throws what simulate() throws.
@@ -60,11 +51,13 @@ public:
     [[nodiscard]] const JudgedRun& before() const { return before_; }
     [[nodiscard]] JudgedRun take_before() { return std::move(before_); }
     [[nodiscard]] const SimulationSummary& summary_before() const { return summary_before_; }
-    /// Of proposals simulated so far.
-    [[nodiscard]] double points() const { return points_; }
+    /// Whether there is time for one more: all runs together have a bound, of which a share may be used, and so have those in a row that
+    /// are no better than the best.
+    [[nodiscard]] bool has_time(double share = 1) const;
 
     /// `targets`: as those of a Proposal, or none at all.
-    [[nodiscard]] Proposal prove(const std::shared_ptr<const Draft>& draft, std::vector<float> targets);
+    Tried propose(const std::shared_ptr<const Draft>& draft, std::vector<float> targets);
+    [[nodiscard]] const Tried& best() const { return best_; }
 
     /// Accepted ones are better than others; then what leaves less mismatch and defects, and of two that are nearly as good the shorter.
     [[nodiscard]] bool better(const Proposal& a, const Proposal& b) const;
@@ -73,6 +66,7 @@ public:
     [[nodiscard]] double score(const Proposal& proposal) const;
 
 private:
+    [[nodiscard]] Proposal prove(const std::shared_ptr<const Draft>& draft, std::vector<float> targets);
     [[nodiscard]] std::string objection(const Proposal& proposal) const;
     const Program& program_;
     const ReadProgram& read_;
@@ -82,7 +76,9 @@ private:
     Diagnostics& diagnostics_;
     JudgedRun before_;
     SimulationSummary summary_before_;
-    double points_ = 0;
+    Tried best_;
+    double points_ = 0;  ///< simulated so far
+    int in_vain_ = 0;    ///< proposals since the best one
 };
 
 }  // namespace clsurf

@@ -37,6 +37,20 @@ double lost(const JudgedRun& run, const std::vector<float>& speeds) {
     return sum;
 }
 
+// The passes beside the slow stretch go at most a step faster, those next to them two steps, and so on: a larger budget buys a smaller step.
+TEST(Levelling, TakesTheLeastStepThatABudgetPaysFor) {
+    const SlowStretch part;
+    double before = 0;
+    for (const double wanted : {30.0, 12.0, 5.0}) {
+        const double budget = lost(part.run, levelled_speeds(part.run, {0, wanted}));
+        EXPECT_GT(budget, before) << wanted;
+        before = budget;
+        const double step = affordable_step(part.run, budget);
+        EXPECT_NEAR(step, wanted, 0.1) << "one part in 1024 of twice the greatest difference";
+        EXPECT_LE(lost(part.run, levelled_speeds(part.run, {0, step})), budget);
+    }
+}
+
 TEST(Cure, LevelsThePassesBesideASlowStretch) {
     const SlowStretch part;
     ASSERT_FALSE(part.run.report.defects.empty());

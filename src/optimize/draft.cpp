@@ -1,0 +1,37 @@
+#include "optimize/draft.h"
+
+#include "optimize/line_edit.h"
+#include "optimize/proposal.h"
+#include "optimize/resample.h"
+
+namespace clsurf {
+
+Drafter::Drafter(const Program& program, const ReadProgram& read, const OptimizeRules& rules, double shortest_line, bool slows_anywhere)
+    : program_(program), read_(read), rules_(rules), shortest_line_(shortest_line), slows_anywhere_(slows_anywhere), laid_(lay_out(program)) {}
+
+Draft Drafter::draft(double chord_error, std::vector<std::uint8_t> needed) const {
+    Draft draft;
+    draft.chord_error = chord_error;
+    LineEditor editor(program_, rules_.least_decimals);
+    const double spacing = 0.5 * fitting_spacing(program_, laid_, chord_error);
+    const std::vector<Stretch> stretches = resample(program_, laid_, editor, {rules_.tolerance, spacing, chord_error, shortest_line_, ResampleRules{}.corner_angle}, needed);
+    std::int64_t old = 0;  // motions so far
+    for (const Stretch& stretch : stretches) {
+        const std::size_t lines = editor.replace(stretch.first, stretch.last, stretch.points);
+        if (slows_anywhere_) continue;
+        draft.may_slow.insert(draft.may_slow.end(), needed.begin() + old, needed.begin() + stretch.first);
+        draft.may_slow.insert(draft.may_slow.end(), lines, 1);
+        old = stretch.last + 1;
+    }
+    if (!slows_anywhere_) draft.may_slow.insert(draft.may_slow.end(), needed.begin() + old, needed.end());
+    draft.text = editor.text(rules_.header);
+    draft.program = read_(draft.text);
+    draft.stretches = stretches.size();
+    draft.changed_lines = editor.changed_lines();
+    draft.needed = std::move(needed);
+    return draft;
+}
+
+Draft Drafter::unchanged() const { return {program_, std::string(program_.main().text()), 0, 0, 0, {}, {}}; }
+
+}  // namespace clsurf

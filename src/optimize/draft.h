@@ -1,0 +1,48 @@
+#pragma once
+// Drafts: the program with new points where it is in need, before feeds are set.
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "optimize/programmed_surface.h"
+#include "program/program.h"
+
+namespace clsurf {
+
+struct OptimizeRules;
+
+/// Reads a text in the program's dialect, as the program itself was read.
+using ReadProgram = std::function<Program(const std::string& text)>;
+
+struct Draft {
+    Program program;
+    std::string text;
+    std::size_t stretches = 0, changed_lines = 0;
+    double chord_error = 0;              ///< [mm] of its lines against the smooth curve
+    std::vector<std::uint8_t> needed{};    ///< per motion of the old program: 0 has kept its points
+    std::vector<std::uint8_t> may_slow{};  ///< per motion of the draft, whether it may get a feed; empty: all may
+};
+
+class Drafter {
+public:
+    /// `shortest_line` [mm]: no new line is shorter but to keep the tolerance. `slows_anywhere`: also what is not in need may get feeds. All must
+    /// outlive it. O(points).
+    Drafter(const Program& program, const ReadProgram& read, const OptimizeRules& rules, double shortest_line, bool slows_anywhere);
+
+    /// New points for the motions in need (one entry a motion).
+    [[nodiscard]] Draft draft(double chord_error, std::vector<std::uint8_t> needed) const;
+    /// The program as it is.
+    [[nodiscard]] Draft unchanged() const;
+
+private:
+    const Program& program_;
+    const ReadProgram& read_;
+    const OptimizeRules& rules_;
+    double shortest_line_;
+    bool slows_anywhere_;
+    ProgrammedSurface laid_;
+};
+
+}  // namespace clsurf
