@@ -105,8 +105,8 @@ void AtomicFile::write_at(std::size_t offset, std::span<const std::byte> bytes) 
     flush();
     std::size_t done = 0;
     while (done < bytes.size()) {
-        const ssize_t wrote = ::pwrite(descriptor_, bytes.data() + done, bytes.size() - done,
-                                       static_cast<off_t>(offset + done));
+        const ssize_t wrote =
+            ::pwrite(descriptor_, bytes.data() + done, bytes.size() - done, static_cast<off_t>(offset + done));
         if (wrote < 0 && errno == EINTR) continue;
         if (wrote < 0) fail(path_, "cannot write");
         done += static_cast<std::size_t>(wrote);

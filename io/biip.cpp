@@ -48,7 +48,8 @@ class Header {
 public:
     explicit Header(const Source& source) : source_(source), bytes_(source.bytes) {
         if (bytes_.size() < fixed_bytes) {
-            fail(0, fmt::format("file of {} bytes is too short for a BIIP header of {} bytes", bytes_.size(), fixed_bytes));
+            fail(0, fmt::format("file of {} bytes is too short for a BIIP header of {} bytes", bytes_.size(),
+                                fixed_bytes));
         }
         major_ = get<std::uint16_t>(bytes_, 8);
         minor_ = get<std::uint16_t>(bytes_, 10);
@@ -61,15 +62,20 @@ public:
         if (major_ != 1) fail(8, fmt::format("BIIP version {}.{}, expected 1.x", major_, minor_));
         const std::uint64_t needed = fixed_bytes + std::uint64_t{channel_count_} * entry_bytes + metadata_bytes_;
         if (header_bytes_ < needed || header_bytes_ % 8 != 0) {
-            fail(12, fmt::format("header of {} bytes, expected a multiple of 8 that holds {} channels and {} bytes of metadata ({} bytes)",
-                                 header_bytes_, channel_count_, metadata_bytes_, needed));
+            fail(
+                12,
+                fmt::format(
+                    "header of {} bytes, expected a multiple of 8 that holds {} channels and {} bytes of metadata ({} bytes)",
+                    header_bytes_, channel_count_, metadata_bytes_, needed));
         }
         if (header_bytes_ > bytes_.size()) {
-            fail(12, fmt::format("header of {} bytes in a file of {} bytes: the file is cut", header_bytes_, bytes_.size()));
+            fail(12, fmt::format("header of {} bytes in a file of {} bytes: the file is cut", header_bytes_,
+                                 bytes_.size()));
         }
         check_crc();
         if (channel_count_ == 0 || record_bytes_ == 0) fail(16, "no channels: nothing was recorded");
-        if (!(period_ > 0) || !std::isfinite(period_)) fail(32, fmt::format("period of {} s, expected more than 0", period_));
+        if (!(period_ > 0) || !std::isfinite(period_))
+            fail(32, fmt::format("period of {} s, expected more than 0", period_));
     }
 
     [[noreturn]] void fail(std::size_t byte, const std::string& what) const {
@@ -84,13 +90,16 @@ public:
         const auto type = get<std::uint8_t>(bytes_, at + 32);
         const auto offset = get<std::uint32_t>(bytes_, at + 36);
         if (channel.name.empty()) fail(at, fmt::format("channel {} has no name", index));
-        if (type < 1 || type > 10) fail(at + 32, fmt::format("channel '{}' has type {}, expected 1 … 10", channel.name, type));
+        if (type < 1 || type > 10)
+            fail(at + 32, fmt::format("channel '{}' has type {}, expected 1 … 10", channel.name, type));
         channel.values.type = static_cast<ScalarType>(type);
         if (std::uint64_t{offset} + size_of(channel.values.type) > record_bytes_) {
-            fail(at + 36, fmt::format("channel '{}' at byte {} of a record of {} bytes", channel.name, offset, record_bytes_));
+            fail(at + 36,
+                 fmt::format("channel '{}' at byte {} of a record of {} bytes", channel.name, offset, record_bytes_));
         }
         channel.values.scale = get<double>(bytes_, at + 40);
-        if (!std::isfinite(channel.values.scale)) fail(at + 40, fmt::format("channel '{}' has scale {}", channel.name, channel.values.scale));
+        if (!std::isfinite(channel.values.scale))
+            fail(at + 40, fmt::format("channel '{}' has scale {}", channel.name, channel.values.scale));
         channel.values.first = bytes_.data() + header_bytes_ + offset;
         channel.values.stride = record_bytes_;
         channel.values.count = records;
@@ -117,7 +126,8 @@ private:
         crc = crc32c(bytes_.subspan(32, 12), crc);
         crc = crc32c(std::span(zeros).first(4), crc);
         crc = crc32c(bytes_.subspan(fixed_bytes, header_bytes_ - fixed_bytes), crc);
-        if (crc != stored) fail(44, fmt::format("header checksum {:08x}, computed {:08x}: the header is damaged", stored, crc));
+        if (crc != stored)
+            fail(44, fmt::format("header checksum {:08x}, computed {:08x}: the header is damaged", stored, crc));
     }
 
     const Source& source_;
@@ -132,7 +142,11 @@ void read_metadata(Log& log, const Source& source) {
     if (log.metadata.empty()) return;
     const nlohmann::json json = parse_bounded<nlohmann::json>(log.metadata);
     if (!json.is_object()) {
-        log.diagnostics.add({Severity::warning, "log.metadata", Place::of_file(source.name), "the metadata is not a JSON object of at most 64 levels and is left out", {}});
+        log.diagnostics.add({Severity::warning,
+                             "log.metadata",
+                             Place::of_file(source.name),
+                             "the metadata is not a JSON object of at most 64 levels and is left out",
+                             {}});
         log.metadata.clear();
         return;
     }
@@ -145,10 +159,12 @@ void read_metadata(Log& log, const Source& source) {
             };
             const auto size = entry.find("size");
             log.programs.push_back({text("name"), text("sha256"), {}});
-            if (size != entry.end() && size->is_number_unsigned()) log.programs.back().size = size->get<std::uint64_t>();
+            if (size != entry.end() && size->is_number_unsigned())
+                log.programs.back().size = size->get<std::uint64_t>();
         }
     }
-    if (const auto offset = json.find("work_offset"); offset != json.end() && offset->is_array() && offset->size() >= 3) {
+    if (const auto offset = json.find("work_offset");
+        offset != json.end() && offset->is_array() && offset->size() >= 3) {
         Vec3 value = Vec3::Zero();
         bool numbers = true;
         for (int axis = 0; axis < 3; ++axis) {
@@ -171,7 +187,8 @@ int probe_biip(std::span<const std::byte> head, const LogOptions&) {
 
 Log open_biip(const Source& source, const LogOptions&) {
     if (source.bytes.size() >= 8 && std::memcmp(source.bytes.data(), magic.data(), magic.size()) != 0) {
-        throw InputError(Place::of_byte(source.name, 5), "the BIIP mark is damaged, as a copy in text mode does", "copy the log in binary mode");
+        throw InputError(Place::of_byte(source.name, 5), "the BIIP mark is damaged, as a copy in text mode does",
+                         "copy the log in binary mode");
     }
     const Header header(source);
     Log log;
@@ -185,20 +202,30 @@ Log open_biip(const Source& source, const LogOptions&) {
     log.closed = whole;
     log.records = static_cast<PointIndex>(there);
     if (!whole) {
-        log.diagnostics.add({Severity::warning, "log.unclosed", Place::of_byte(source.name, 24),
-                             fmt::format("the log was not closed: its header counts {} records, {} whole ones are there, {} bytes are left over",
-                                         said, there, header.bytes_left()),
-                             {}});
+        log.diagnostics.add(
+            {Severity::warning,
+             "log.unclosed",
+             Place::of_byte(source.name, 24),
+             fmt::format(
+                 "the log was not closed: its header counts {} records, {} whole ones are there, {} bytes are left over",
+                 said, there, header.bytes_left()),
+             {}});
     }
     if (header.minor() != 0) {
-        log.diagnostics.add({Severity::note, "log.minor-version", Place::of_byte(source.name, 10),
-                             fmt::format("BIIP 1.{}: what is newer than 1.0 is passed over", header.minor()), {}});
+        log.diagnostics.add({Severity::note,
+                             "log.minor-version",
+                             Place::of_byte(source.name, 10),
+                             fmt::format("BIIP 1.{}: what is newer than 1.0 is passed over", header.minor()),
+                             {}});
     }
     for (std::uint32_t i = 0; i < header.channel_count(); ++i) {
         Channel channel = header.channel(i, log.records);
         if (log.find(channel.name) != nullptr) {
-            log.diagnostics.add({Severity::warning, "log.duplicate-channel", Place::of_byte(source.name, fixed_bytes + i * entry_bytes),
-                                 fmt::format("channel '{}' is there twice; the first one counts", channel.name), {}});
+            log.diagnostics.add({Severity::warning,
+                                 "log.duplicate-channel",
+                                 Place::of_byte(source.name, fixed_bytes + i * entry_bytes),
+                                 fmt::format("channel '{}' is there twice; the first one counts", channel.name),
+                                 {}});
             continue;
         }
         log.channels.push_back(std::move(channel));
@@ -224,8 +251,10 @@ void store(const ChannelView& view, std::size_t offset, PointIndex begin, PointI
         for (std::size_t i = 0; i < n; ++i) {
             const std::byte* from = view.first + (static_cast<std::size_t>(begin) + i) * view.stride;
             std::byte* to = records.data() + i * record_bytes + offset;
-            if (view.big_endian) std::reverse_copy(from, from + size, to);
-            else std::memcpy(to, from, size);
+            if (view.big_endian)
+                std::reverse_copy(from, from + size, to);
+            else
+                std::memcpy(to, from, size);
         }
         return;
     }
@@ -241,8 +270,10 @@ BiipWriter::BiipWriter(const std::string& path, const std::vector<StoredChannel>
     : file_(path) {
     if (channels.empty()) throw UsageError("no channels to write");
     for (const StoredChannel& channel : channels) {
-        if (channel.name.size() >= name_bytes) throw UsageError("channel name '" + channel.name + "' is longer than 23 bytes");
-        if (channel.unit.size() > unit_bytes) throw UsageError("unit '" + channel.unit + "' of channel '" + channel.name + "' is longer than 8 bytes");
+        if (channel.name.size() >= name_bytes)
+            throw UsageError("channel name '" + channel.name + "' is longer than 23 bytes");
+        if (channel.unit.size() > unit_bytes)
+            throw UsageError("unit '" + channel.unit + "' of channel '" + channel.name + "' is longer than 8 bytes");
         offsets_.push_back(record_bytes_);
         record_bytes_ += size_of(channel.type);
     }
@@ -281,10 +312,17 @@ void BiipWriter::close() {
 
 Diagnostics fit_biip(Log& log) {
     Diagnostics notes;
-    const auto taken = [&](const std::string& name) { return std::any_of(log.channels.begin(), log.channels.end(), [&](const Channel& c) { return c.name == name; }); };
+    const auto taken = [&](const std::string& name) {
+        return std::any_of(log.channels.begin(), log.channels.end(), [&](const Channel& c) { return c.name == name; });
+    };
     for (Channel& channel : log.channels) {
         if (channel.unit.size() > unit_bytes) {
-            notes.add({Severity::note, "log.name", Place::of_file(log.name), fmt::format("the unit '{}' of channel '{}' is too long for a BIIP log: left out", channel.unit, channel.name), {}});
+            notes.add({Severity::note,
+                       "log.name",
+                       Place::of_file(log.name),
+                       fmt::format("the unit '{}' of channel '{}' is too long for a BIIP log: left out", channel.unit,
+                                   channel.name),
+                       {}});
             channel.unit.clear();
         }
         if (channel.name.size() < name_bytes) continue;
@@ -293,21 +331,27 @@ Diagnostics fit_biip(Log& log) {
         for (int number = 1; name.empty() || taken(name); ++number) {
             const std::string mark = number == 1 ? "" : fmt::format("~{}", number);
             std::size_t begin = channel.name.size() - (name_bytes - 1 - mark.size());
-            while (begin < channel.name.size() && (static_cast<unsigned char>(channel.name[begin]) & 0xc0) == 0x80) ++begin;  // a whole character
+            while (begin < channel.name.size() && (static_cast<unsigned char>(channel.name[begin]) & 0xc0) == 0x80)
+                ++begin;  // a whole character
             name = channel.name.substr(begin) + mark;
         }
-        notes.add({Severity::note, "log.name", Place::of_file(log.name), fmt::format("the name '{}' is too long for a BIIP log: '{}' there", channel.name, name), {}});
+        notes.add({Severity::note,
+                   "log.name",
+                   Place::of_file(log.name),
+                   fmt::format("the name '{}' is too long for a BIIP log: '{}' there", channel.name, name),
+                   {}});
         channel.name = name;
     }
     return notes;
 }
 
-void write_biip(const std::string& path, const std::vector<Channel>& channels, PointIndex records,
-                double period, const std::string& metadata) {
+void write_biip(const std::string& path, const std::vector<Channel>& channels, PointIndex records, double period,
+                const std::string& metadata) {
     std::vector<StoredChannel> stored;
     for (const Channel& channel : channels) {
         const bool as_it_is = channel.values.bias == 0;
-        stored.push_back({channel.name, channel.unit, as_it_is ? channel.values.type : ScalarType::f64, as_it_is ? channel.values.scale : 1.0});
+        stored.push_back({channel.name, channel.unit, as_it_is ? channel.values.type : ScalarType::f64,
+                          as_it_is ? channel.values.scale : 1.0});
     }
     BiipWriter writer(path, stored, period, metadata);
     std::vector<std::byte> block;

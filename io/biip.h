@@ -54,7 +54,7 @@ private:
 /// Writes channels of a log as BIIP: stored types and scales are kept, big-endian values turned, and
 /// channels with a bias become f64. `metadata` is a JSON object's text. O(records), by blocks.
 /// Throws SystemError (disk full), UsageError (a name or unit too long).
-void write_biip(const std::string& path, const std::vector<Channel>& channels, PointIndex records,
-                double period, const std::string& metadata);
+void write_biip(const std::string& path, const std::vector<Channel>& channels, PointIndex records, double period,
+                const std::string& metadata);
 
 }  // namespace clsurf::io

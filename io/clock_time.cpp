@@ -54,7 +54,8 @@ std::optional<std::int64_t> date(Scanner& scan) {
     const std::optional<int> last = scan.digits(1, 4);
     const bool year_first = separator != '.';
     if (!last || (year_first ? *first : *last) < 1000) return std::nullopt;
-    const std::chrono::year_month_day day{std::chrono::year(year_first ? *first : *last), std::chrono::month(static_cast<unsigned>(*month)),
+    const std::chrono::year_month_day day{std::chrono::year(year_first ? *first : *last),
+                                          std::chrono::month(static_cast<unsigned>(*month)),
                                           std::chrono::day(static_cast<unsigned>(year_first ? *last : *first))};
     if (!day.ok()) return std::nullopt;
     return std::chrono::sys_days(day).time_since_epoch().count();
@@ -79,7 +80,8 @@ std::optional<ClockTime> parse_clock(std::string_view field) {
     ClockTime time;
     if (field.find(':') == std::string_view::npos) return std::nullopt;
     Scanner scan(field);
-    if (const std::size_t colon = field.find(':'); field.substr(0, colon).find_first_of("-/.") != std::string_view::npos) {
+    if (const std::size_t colon = field.find(':');
+        field.substr(0, colon).find_first_of("-/.") != std::string_view::npos) {
         time.day = date(scan);
         if (!time.day || !scan.any_of("Tt ")) return std::nullopt;
     }

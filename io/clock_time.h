@@ -15,7 +15,9 @@ struct ClockTime {
     double second = 0;                ///< of the day; beyond it where an offset takes it there
 
     /// Seconds since midnight before a day; without a date, of the day.
-    [[nodiscard]] double since(std::int64_t first_day) const { return second + 86400.0 * static_cast<double>(day ? *day - first_day : 0); }
+    [[nodiscard]] double since(std::int64_t first_day) const {
+        return second + 86400.0 * static_cast<double>(day ? *day - first_day : 0);
+    }
 };
 
 /// "2024-05-01T12:00:00.125Z", "2024/05/01 12:00:00,125 +02:00", "01.05.2024 12:00:00", "12:00:00.125"; else nothing.

@@ -21,7 +21,7 @@ constexpr std::size_t free_bytes = std::size_t{256} << 20;
 constexpr std::size_t most_ratio = 100;
 constexpr std::size_t first_bytes = std::size_t{1} << 16;
 constexpr std::uint64_t most_decoder_memory = std::uint64_t{256} << 20;  ///< an xz header may ask for 4 GiB
-constexpr int gzip_window = 15 + 16;  ///< 32 KiB, gzip wrapper only
+constexpr int gzip_window = 15 + 16;                                     ///< 32 KiB, gzip wrapper only
 
 /// The unpacked bytes, grown as they come and never beyond the limit of the input.
 class Unpacked {
@@ -32,9 +32,11 @@ public:
     std::span<std::byte> room() {
         if (used_ == bytes_->size()) {
             if (used_ >= most_) {
-                throw InputError(Place::of_file(packed_.name),
-                                 fmt::format("unpacks to more than {} MiB from {} bytes: this looks like a decompression bomb", most_ >> 20, packed_.bytes.size()),
-                                 "where it is none, unpack it and pass the result");
+                throw InputError(
+                    Place::of_file(packed_.name),
+                    fmt::format("unpacks to more than {} MiB from {} bytes: this looks like a decompression bomb",
+                                most_ >> 20, packed_.bytes.size()),
+                    "where it is none, unpack it and pass the result");
             }
             bytes_->resize(std::min(most_, std::max(first_bytes, 2 * used_)));
         }
@@ -105,7 +107,8 @@ Source unpack_zstd(const Source& packed) {
         ZSTD_outBuffer to{room.data(), room.size(), 0};
         const std::size_t before = in.pos;
         wanted = ZSTD_decompressStream(stream.get(), &to, &in);
-        if (ZSTD_isError(wanted) != 0) out.fail(in.pos, fmt::format("damaged Zstandard data: {}", ZSTD_getErrorName(wanted)));
+        if (ZSTD_isError(wanted) != 0)
+            out.fail(in.pos, fmt::format("damaged Zstandard data: {}", ZSTD_getErrorName(wanted)));
         out.grow(to.pos);
         if (wanted != 0 && in.pos == in.size && in.pos == before && to.pos < room.size()) out.fail(in.pos, cut_short);
     }
@@ -131,7 +134,9 @@ Source unpack_xz(const Source& packed) {
             case LZMA_STREAM_END: return out.finish();
             case LZMA_BUF_ERROR: out.fail(at, cut_short);
             case LZMA_MEM_ERROR: throw std::bad_alloc();
-            case LZMA_MEMLIMIT_ERROR: out.fail(at, fmt::format("the xz header asks for more than {} MiB to unpack", most_decoder_memory >> 20));
+            case LZMA_MEMLIMIT_ERROR:
+                out.fail(at,
+                         fmt::format("the xz header asks for more than {} MiB to unpack", most_decoder_memory >> 20));
             default: out.fail(at, "damaged xz data");
         }
     }
@@ -156,7 +161,8 @@ Source unpacked(Source source) {
     for (const Packing& packing : packings) {
         if (source.bytes.size() < packing.magic_bytes) continue;
         const auto same = [](unsigned char magic, std::byte b) { return std::byte{magic} == b; };
-        if (std::equal(packing.magic.begin(), packing.magic.begin() + static_cast<std::ptrdiff_t>(packing.magic_bytes), source.bytes.begin(), same)) {
+        if (std::equal(packing.magic.begin(), packing.magic.begin() + static_cast<std::ptrdiff_t>(packing.magic_bytes),
+                       source.bytes.begin(), same)) {
             return packing.unpack(source);
         }
     }

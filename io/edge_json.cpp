@@ -59,7 +59,8 @@ SourceColumn column_of(const EdgeRecording::Signal& signal) {
     for (const Known& known : known_signals) {
         if (bar == std::string::npos || axis == '\0' || signal.name.compare(0, bar, known.signal) != 0) continue;
         const bool rotary = axis >= 'a' && axis <= 'c';
-        column.known = {.name = std::string(known.channel) + axis, .unit = std::string(rotary ? known.rotary_unit : known.unit)};
+        column.known = {.name = std::string(known.channel) + axis,
+                        .unit = std::string(rotary ? known.rotary_unit : known.unit)};
     }
     return column;
 }
@@ -92,8 +93,13 @@ public:
 
     std::vector<LineEvent> finish() {
         if (incomplete_ > 0) {
-            log_.diagnostics.add({Severity::warning, "log.bad-event", Place::of_file(log_.name),
-                                  fmt::format("{} block or call events lack their cycle, line or level and are passed over", incomplete_), {}});
+            log_.diagnostics.add(
+                {Severity::warning,
+                 "log.bad-event",
+                 Place::of_file(log_.name),
+                 fmt::format("{} block or call events lack their cycle, line or level and are passed over",
+                             incomplete_),
+                 {}});
         }
         return std::move(lines_);
     }
@@ -118,7 +124,8 @@ private:
 
 void add_lines(Log& log, OwnedColumns& owned, std::vector<EdgeEvent>& events, const std::vector<double>& cycles) {
     // Announced twice, and not always in order.
-    std::stable_sort(events.begin(), events.end(), [](const EdgeEvent& a, const EdgeEvent& b) { return a.cycle < b.cycle; });
+    std::stable_sort(events.begin(), events.end(),
+                     [](const EdgeEvent& a, const EdgeEvent& b) { return a.cycle < b.cycle; });
     CallStack stack(log);
     for (const EdgeEvent& event : events) stack.add(event);
     std::vector<LineEvent> lines = stack.finish();
@@ -133,7 +140,12 @@ void add_lines(Log& log, OwnedColumns& owned, std::vector<EdgeEvent>& events, co
             program[static_cast<std::size_t>(i)] = event->program;
         });
     if (outside > 0) {
-        log.diagnostics.add({Severity::note, "log.events-outside", Place::of_file(log.name), fmt::format("{} of {} block and call events lie outside the records", outside, lines.size()), {}});
+        log.diagnostics.add(
+            {Severity::note,
+             "log.events-outside",
+             Place::of_file(log.name),
+             fmt::format("{} of {} block and call events lie outside the records", outside, lines.size()),
+             {}});
     }
     owned.add("line", "", std::move(line));
     owned.add("program", "", std::move(program));
@@ -145,7 +157,10 @@ int probe_edge(std::span<const std::byte> head, const LogOptions&) {
     const std::string_view text = text_of(head);
     const std::size_t first = text.find_first_not_of(" \t\r\n");
     if (first == std::string_view::npos || text[first] != '{') return 0;
-    return text.find("\"SignalListHFData\"") != std::string_view::npos || text.find("\"HFData\"") != std::string_view::npos ? 95 : 0;
+    return text.find("\"SignalListHFData\"") != std::string_view::npos ||
+                   text.find("\"HFData\"") != std::string_view::npos
+               ? 95
+               : 0;
 }
 
 Log open_edge(const Source& source, const LogOptions& options) {
@@ -167,12 +182,15 @@ Log open_edge(const Source& source, const LogOptions& options) {
         if (recording.signals[i].name == "CYCLE") cycle_column = i;
         columns.push_back(column_of(recording.signals[i]));
     }
-    if (cycle_column == recording.signals.size()) throw InputError(Place::of_file(source.name), "no signal 'CYCLE' counts the records", "expected it in Header.SignalListHFData");
+    if (cycle_column == recording.signals.size())
+        throw InputError(Place::of_file(source.name), "no signal 'CYCLE' counts the records",
+                         "expected it in Header.SignalListHFData");
     const std::vector<double> cycles = recording.columns[cycle_column];
     const std::vector<ColumnPlan> plans = plan_columns(columns, map, Place::of_file(source.name));
     for (std::size_t i = 0; i < plans.size(); ++i) {
         if (plans[i].name.empty() || (i == cycle_column && map == nullptr)) continue;
-        if (log.find(plans[i].name) != nullptr) throw InputError(Place::of_file(source.name), "channel '" + plans[i].name + "' is there twice");
+        if (log.find(plans[i].name) != nullptr)
+            throw InputError(Place::of_file(source.name), "channel '" + plans[i].name + "' is there twice");
         for (double& value : recording.columns[i]) value = value * plans[i].scale + plans[i].bias;
         owned.add(plans[i].name, plans[i].unit, std::move(recording.columns[i]));
     }

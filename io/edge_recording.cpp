@@ -21,7 +21,9 @@ Place place_of(const Source& source, std::size_t byte) {
     const std::string_view before = source.text().substr(0, byte);
     const auto line = static_cast<std::uint64_t>(std::count(before.begin(), before.end(), '\n')) + 1;
     const std::size_t begin = before.rfind('\n');
-    return Place::of_line(source.name, line, static_cast<std::uint32_t>(before.size() - (begin == std::string_view::npos ? 0 : begin + 1) + 1));
+    return Place::of_line(
+        source.name, line,
+        static_cast<std::uint32_t>(before.size() - (begin == std::string_view::npos ? 0 : begin + 1) + 1));
 }
 
 /// The parser's events, told apart by the keys above them: "Payload/HFData" is a list of rows.
@@ -31,8 +33,10 @@ public:
 
     EdgeRecording read() {
         Json::sax_parse(source_.bytes.begin(), source_.bytes.end(), this);
-        if (!seen_payload_ && recording.closed) throw InputError(Place::of_file(source_.name), "has no 'Payload', expected a SINUMERIK Edge recording");
-        recording.about = Json({{"machine", machine_}, {"started", started_}}).dump(-1, ' ', false, Json::error_handler_t::replace);
+        if (!seen_payload_ && recording.closed)
+            throw InputError(Place::of_file(source_.name), "has no 'Payload', expected a SINUMERIK Edge recording");
+        recording.about =
+            Json({{"machine", machine_}, {"started", started_}}).dump(-1, ' ', false, Json::error_handler_t::replace);
         return std::move(recording);
     }
 
@@ -47,8 +51,10 @@ public:
         if (in_row_) {
             row_.push_back(not_a_number);
         } else if (in_signal_) {
-            if (key_ == "Name") recording.signals.back().name = std::move(text);
-            else if (key_ == "Axis") recording.signals.back().axis = std::move(text);
+            if (key_ == "Name")
+                recording.signals.back().name = std::move(text);
+            else if (key_ == "Axis")
+                recording.signals.back().axis = std::move(text);
         } else if (event_depth_ != 0) {
             if (key_ == "Path") recording.events.back().path = std::move(text);
         } else if (key_ == "MachineName") {
@@ -62,7 +68,9 @@ public:
     bool start_object(std::size_t) override {
         if (below("SignalListHFData")) {
             in_signal_ = true;
-            if (!recording.columns.empty()) throw InputError(Place::of_file(source_.name), "SignalListHFData goes on behind the first row of HFData");
+            if (!recording.columns.empty())
+                throw InputError(Place::of_file(source_.name),
+                                 "SignalListHFData goes on behind the first row of HFData");
             recording.signals.emplace_back();
         } else if (below("HFBlockEvent") || below("HFCallEvent")) {
             event_depth_ = keys_.size() + 1;
@@ -109,7 +117,12 @@ public:
         const std::size_t at = std::min(position > 0 ? position - 1 : 0, source_.bytes.size());
         if (position > source_.bytes.size() && seen_payload_ && recording.rows > 0) {
             recording.closed = false;
-            recording.diagnostics.add({Severity::warning, "log.unclosed", place_of(source_, at), fmt::format("the recording ends here, in the middle; {} whole records are read", recording.rows), {}});
+            recording.diagnostics.add(
+                {Severity::warning,
+                 "log.unclosed",
+                 place_of(source_, at),
+                 fmt::format("the recording ends here, in the middle; {} whole records are read", recording.rows),
+                 {}});
             return false;
         }
         // "[json.exception.parse_error.101] parse error at line 3, column 5: syntax error while …"
@@ -129,7 +142,8 @@ private:
     [[nodiscard]] bool inside(std::string_view key) const { return keys_.size() > 1 && keys_[keys_.size() - 2] == key; }
 
     bool push() {
-        if (keys_.size() == deepest) throw InputError(Place::of_file(source_.name), fmt::format("JSON nested deeper than {} levels", deepest));
+        if (keys_.size() == deepest)
+            throw InputError(Place::of_file(source_.name), fmt::format("JSON nested deeper than {} levels", deepest));
         keys_.emplace_back();
         return true;
     }
@@ -144,9 +158,12 @@ private:
             row_.push_back(value);
         } else if (event_depth_ != 0 && keys_.size() == event_depth_) {
             EdgeEvent& event = recording.events.back();
-            if (key_ == "HFProbeCounter") event.cycle = whole(value);
-            else if (key_ == "SeekOffset") event.line = whole(value);
-            else if (key_ == "CallStackLevel") event.level = whole(value);
+            if (key_ == "HFProbeCounter")
+                event.cycle = whole(value);
+            else if (key_ == "SeekOffset")
+                event.line = whole(value);
+            else if (key_ == "CallStackLevel")
+                event.level = whole(value);
         } else if (key_ == "CycleTimeMs") {
             recording.cycle_ms = value;
         }
@@ -160,13 +177,18 @@ private:
     }
 
     void add_row() {
-        if (recording.signals.empty()) throw InputError(Place::of_file(source_.name), "HFData stand before the header's SignalListHFData");
+        if (recording.signals.empty())
+            throw InputError(Place::of_file(source_.name), "HFData stand before the header's SignalListHFData");
         recording.columns.resize(recording.signals.size());
         ++rows_seen_;
         if (row_.size() != recording.signals.size()) {
             // Left out: it cannot be told which signals are missing.
-            recording.diagnostics.add({Severity::warning, "log.ragged-row", Place::of_file(source_.name),
-                                       fmt::format("row {} of HFData has {} values, expected {}; it is left out", rows_seen_, row_.size(), recording.signals.size()), {}});
+            recording.diagnostics.add({Severity::warning,
+                                       "log.ragged-row",
+                                       Place::of_file(source_.name),
+                                       fmt::format("row {} of HFData has {} values, expected {}; it is left out",
+                                                   rows_seen_, row_.size(), recording.signals.size()),
+                                       {}});
             return;
         }
         for (std::size_t i = 0; i < row_.size(); ++i) recording.columns[i].push_back(row_[i]);

@@ -13,11 +13,11 @@ namespace clsurf::io {
 
 /// HFBlockEvent or HFCallEvent.
 struct EdgeEvent {
-    bool call = false;            ///< a program is called, or is back; else a block begins
-    std::int64_t cycle = -1;      ///< HFProbeCounter; < 0: missing
-    std::int64_t line = -1;       ///< SeekOffset; < 0: missing
-    std::int64_t level = 0;       ///< CallStackLevel, of calls
-    std::string path;             ///< of calls
+    bool call = false;        ///< a program is called, or is back; else a block begins
+    std::int64_t cycle = -1;  ///< HFProbeCounter; < 0: missing
+    std::int64_t line = -1;   ///< SeekOffset; < 0: missing
+    std::int64_t level = 0;   ///< CallStackLevel, of calls
+    std::string path;         ///< of calls
 };
 
 struct EdgeRecording {

@@ -12,14 +12,15 @@
 namespace clsurf::io {
 namespace {
 
-constexpr PointIndex rows_at_once = 1 << 16;   ///< of one thread
+constexpr PointIndex rows_at_once = 1 << 16;  ///< of one thread
 constexpr PointIndex rows_in_memory = 1 << 20;
 
 void put_value(fmt::memory_buffer& out, const ExportColumn& column, std::size_t row) {
     if (!column.counts.empty()) {
         fmt::format_to(std::back_inserter(out), FMT_COMPILE("{}"), column.counts[row]);
     } else if (!column.exact.empty()) {
-        if (!std::isnan(column.exact[row])) fmt::format_to(std::back_inserter(out), FMT_COMPILE("{}"), column.exact[row]);
+        if (!std::isnan(column.exact[row]))
+            fmt::format_to(std::back_inserter(out), FMT_COMPILE("{}"), column.exact[row]);
     } else if (!std::isnan(column.values[row])) {
         fmt::format_to(std::back_inserter(out), FMT_COMPILE("{}"), column.values[row]);
     }
@@ -34,7 +35,8 @@ PointIndex ExportColumn::size() const {
 void write_csv(const std::string& path, const std::vector<ExportColumn>& columns) {
     AtomicFile file(path);
     std::string header;
-    for (const ExportColumn& c : columns) header += (header.empty() ? "" : ",") + c.name + (c.unit.empty() ? "" : " [" + c.unit + "]");
+    for (const ExportColumn& c : columns)
+        header += (header.empty() ? "" : ",") + c.name + (c.unit.empty() ? "" : " [" + c.unit + "]");
     file.write(header + "\n");
     const PointIndex rows = columns.empty() ? 0 : columns.front().size();
     for (PointIndex begin = 0; begin < rows; begin += rows_in_memory) {
@@ -55,7 +57,8 @@ void write_csv(const std::string& path, const std::vector<ExportColumn>& columns
     file.commit();
 }
 
-void write_biip_table(const std::string& path, const std::vector<ExportColumn>& columns, double period, const std::string& metadata) {
+void write_biip_table(const std::string& path, const std::vector<ExportColumn>& columns, double period,
+                      const std::string& metadata) {
     std::vector<Channel> channels;
     for (const ExportColumn& c : columns) {
         ChannelView view;

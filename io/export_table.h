@@ -25,6 +25,7 @@ struct ExportColumn {
 void write_csv(const std::string& path, const std::vector<ExportColumn>& columns);
 
 /// The columns as channels of a BIIP log.
-void write_biip_table(const std::string& path, const std::vector<ExportColumn>& columns, double period, const std::string& metadata);
+void write_biip_table(const std::string& path, const std::vector<ExportColumn>& columns, double period,
+                      const std::string& metadata);
 
 }  // namespace clsurf::io

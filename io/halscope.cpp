@@ -71,7 +71,8 @@ double period_of(std::string_view line, const Source& source) {
         std::from_chars(number.data(), number.data() + number.size(), nanoseconds);
     }
     if (nanoseconds <= 0) {
-        throw InputError(Place::of_line(source.name, 1), "the sampling period is not a whole number of nanoseconds greater than 0");
+        throw InputError(Place::of_line(source.name, 1),
+                         "the sampling period is not a whole number of nanoseconds greater than 0");
     }
     return static_cast<double>(nanoseconds) * seconds_per_nanosecond;
 }
@@ -92,7 +93,8 @@ TextPlan plan_named_values(const Source& source, std::string_view rest, const Ma
     plan.data_begin = static_cast<std::size_t>(before.data() - source.text().data());
     const Place place = Place::of_line(source.name, plan.first_data_line);
     const std::vector<std::string> fields = split(line, ' ');
-    if (fields.size() < 2 || fields.size() % 2 != 0) throw InputError(place, "expected a name and a value of each channel");
+    if (fields.size() < 2 || fields.size() % 2 != 0)
+        throw InputError(place, "expected a name and a value of each channel");
     std::vector<SourceColumn> columns;
     for (std::size_t i = 0; i < fields.size(); i += 2) columns.push_back(column_of_pin(fields[i]));
     for (ColumnPlan& column : plan_columns(columns, mapping, place)) {

@@ -8,12 +8,16 @@
 namespace clsurf::io {
 
 std::string intervals_text(const ProgramIntervals& all) {
-    std::string text = fmt::format("{:>5} {:>15} {:>9} {:>12} {:>12} {:>8} {:>8} {:>8}\n", "pass", "lines", "mm", "curvature", "greatest", "feed", "own", "planned");
+    std::string text = fmt::format("{:>5} {:>15} {:>9} {:>12} {:>12} {:>8} {:>8} {:>8}\n", "pass", "lines", "mm",
+                                   "curvature", "greatest", "feed", "own", "planned");
     for (const ProgramInterval& i : all.intervals) {
-        text += fmt::format("{:>5} {:>15} {:>9.3f} {:>12.4f} {:>12.4f} {:>8.0f} {:>8.0f} {:>8.0f}\n", i.pass, fmt::format("{}-{}", i.first_line, i.last_line), i.length, i.mean_curvature,
-                            i.greatest_curvature, i.feed * seconds_per_minute, i.own_speed * seconds_per_minute, i.speed * seconds_per_minute);
+        text += fmt::format("{:>5} {:>15} {:>9.3f} {:>12.4f} {:>12.4f} {:>8.0f} {:>8.0f} {:>8.0f}\n", i.pass,
+                            fmt::format("{}-{}", i.first_line, i.last_line), i.length, i.mean_curvature,
+                            i.greatest_curvature, i.feed * seconds_per_minute, i.own_speed * seconds_per_minute,
+                            i.speed * seconds_per_minute);
     }
-    text += fmt::format("\n{} intervals on {} passes; curvatures in 1/mm, speeds in mm/min\n", all.intervals.size(), all.passes);
+    text += fmt::format("\n{} intervals on {} passes; curvatures in 1/mm, speeds in mm/min\n", all.intervals.size(),
+                        all.passes);
     return text;
 }
 
@@ -30,7 +34,8 @@ std::string intervals_json(const ProgramIntervals& all, const Diagnostics& diagn
                              {"speed_mm_min", number(i.speed * seconds_per_minute)}});
     }
     Json summary{{"passes", all.passes}, {"intervals", all.intervals.size()}, {"step_over_mm", number(all.step_over)}};
-    return dump(Json{{"intervals", std::move(intervals)}, {"summary", std::move(summary)}, {"diagnostics", list(diagnostics)}});
+    return dump(
+        Json{{"intervals", std::move(intervals)}, {"summary", std::move(summary)}, {"diagnostics", list(diagnostics)}});
 }
 
 }  // namespace clsurf::io

@@ -6,7 +6,9 @@
 namespace clsurf::io {
 namespace {
 
-Json place_json(const ProgramPlace& place) { return {{"file", place.file}, {"line", place.line}, {"text", place.text}}; }
+Json place_json(const ProgramPlace& place) {
+    return {{"file", place.file}, {"line", place.line}, {"text", place.text}};
+}
 
 }  // namespace
 
@@ -54,8 +56,10 @@ std::string query_json(const std::vector<QueryMatch>& matches, const Diagnostics
                        {"confidence", number(m.confidence)},
                        {"distance_mm", number(m.distance)},
                        {"line_points", Json::array({m.line_points.first, m.line_points.last})}});
-        if (m.speed_uncertainty) all.back()["speed_uncertainty_mm_min"] = number(*m.speed_uncertainty * seconds_per_minute);
-        if (m.acceleration_uncertainty) all.back()["acceleration_uncertainty_mm_s2"] = number(*m.acceleration_uncertainty);
+        if (m.speed_uncertainty)
+            all.back()["speed_uncertainty_mm_min"] = number(*m.speed_uncertainty * seconds_per_minute);
+        if (m.acceleration_uncertainty)
+            all.back()["acceleration_uncertainty_mm_s2"] = number(*m.acceleration_uncertainty);
     }
     return dump(Json{{"matches", std::move(all)}, {"diagnostics", list(diagnostics)}});
 }

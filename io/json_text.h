@@ -19,20 +19,21 @@ namespace clsurf::io {
 /// What `query` found at a point.
 struct QueryMatch {
     PointIndex point = 0;
-    double time = 0;              ///< [s]
+    double time = 0;  ///< [s]
     LineNumber line = 0;
-    std::string text;             ///< of the line
-    Vec3 position = Vec3::Zero(); ///< [mm]
-    double speed = 0;             ///< [mm/s]
-    double acceleration = 0;      ///< [mm/s²]
+    std::string text;                                                   ///< of the line
+    Vec3 position = Vec3::Zero();                                       ///< [mm]
+    double speed = 0;                                                   ///< [mm/s]
+    double acceleration = 0;                                            ///< [mm/s²]
     std::optional<double> speed_uncertainty, acceleration_uncertainty;  ///< standard deviations, where known
-    double confidence = 0;        ///< 0 … 1
-    double distance = 0;          ///< [mm] to the asked position; 0 where none was asked
-    CallChain calls;              ///< of a point in a subprogram
-    PointRange line_points;       ///< the run of points of this line round the point
+    double confidence = 0;                                              ///< 0 … 1
+    double distance = 0;     ///< [mm] to the asked position; 0 where none was asked
+    CallChain calls;         ///< of a point in a subprogram
+    PointRange line_points;  ///< the run of points of this line round the point
 };
 
-[[nodiscard]] std::string program_json(const Program& program, const ToolpathSummary& summary, const Diagnostics& diagnostics);
+[[nodiscard]] std::string program_json(const Program& program, const ToolpathSummary& summary,
+                                       const Diagnostics& diagnostics);
 [[nodiscard]] std::string log_json(const Log& log, const Diagnostics& diagnostics);
 [[nodiscard]] std::string query_json(const std::vector<QueryMatch>& matches, const Diagnostics& diagnostics);
 

@@ -48,7 +48,8 @@ RotaryAxis& axis_of(const TomlFile& file, const toml::node& node, std::string_vi
     for (RotaryAxis* axis : {&kinematics.tilt, &kinematics.rotation}) {
         if (letter.size() == 1 && axis->letter == letter.front()) return *axis;
     }
-    file.fail(node, fmt::format("'{}' is not one of the rotary axes {} and {}", letter, kinematics.tilt.letter, kinematics.rotation.letter));
+    file.fail(node, fmt::format("'{}' is not one of the rotary axes {} and {}", letter, kinematics.tilt.letter,
+                                kinematics.rotation.letter));
 }
 
 void read_pair(const TomlFile& file, const toml::table& table, Kinematics& kinematics) {
@@ -78,7 +79,8 @@ void read_signs(const TomlFile& file, const toml::table& table, Kinematics& kine
     for (const auto& [key, node] : *signs) {
         RotaryAxis& axis = axis_of(file, node, key.str(), kinematics);
         const double sign = *file.number(*signs, key.str());
-        if (sign != 1 && sign != -1) file.fail(node, fmt::format("the sign of '{}' is {}, expected 1 or -1", std::string_view(key.str()), sign));
+        if (sign != 1 && sign != -1)
+            file.fail(node, fmt::format("the sign of '{}' is {}, expected 1 or -1", std::string_view(key.str()), sign));
         axis.sign = sign;
     }
 }
@@ -88,14 +90,17 @@ void read_directions(const TomlFile& file, const toml::table& table, Kinematics&
         for (const auto& [key, node] : *directions) {
             RotaryAxis& axis = axis_of(file, node, key.str(), kinematics);
             const Vec3 direction = vector_of(file, node, key.str());
-            if (!(direction.norm() > 0)) file.fail(node, fmt::format("the direction of '{}' is zero", std::string_view(key.str())));
+            if (!(direction.norm() > 0))
+                file.fail(node, fmt::format("the direction of '{}' is zero", std::string_view(key.str())));
             axis.direction = direction.normalized();
         }
     }
     const Vec3& k = kinematics.tool_axis;
-    if (kinematics.tilt.direction.cross(kinematics.rotation.direction).norm() < least_between) file.fail(table, "the two rotary axes are parallel");
+    if (kinematics.tilt.direction.cross(kinematics.rotation.direction).norm() < least_between)
+        file.fail(table, "the two rotary axes are parallel");
     if (kinematics.tilt.direction.cross(k).norm() < least_between) {
-        file.fail(table, fmt::format("the tilting axis {} is parallel to the tool", kinematics.tilt.letter), "'rotary' names the tilting axis first, then the other");
+        file.fail(table, fmt::format("the tilting axis {} is parallel to the tool", kinematics.tilt.letter),
+                  "'rotary' names the tilting axis first, then the other");
     }
 }
 
@@ -107,7 +112,8 @@ void read_offsets(const TomlFile& file, const toml::table& table, Kinematics& ki
     file.allow(*offsets, known);
     const auto given = [&](std::string_view key, std::string_view symbol) {
         const toml::node* by_symbol = offsets->get(symbol);
-        if (by_symbol != nullptr && offsets->get(key) != nullptr) file.fail(*by_symbol, fmt::format("'{}' is '{}' again", symbol, key));
+        if (by_symbol != nullptr && offsets->get(key) != nullptr)
+            file.fail(*by_symbol, fmt::format("'{}' is '{}' again", symbol, key));
         return by_symbol != nullptr ? symbol : key;
     };
     for (const OffsetKey& offset : offset_keys) {
@@ -136,7 +142,8 @@ Kinematics read_kinematics(const TomlFile& file, const toml::table& table) {
         const auto found = std::find(types.begin(), types.end(), *type);
         if (found == types.end()) {
             const std::string nearest = did_you_mean(*type, types);
-            file.fail(*table.get("type"), fmt::format("'type' is '{}', which is not known", *type), nearest.empty() ? fmt::format("one of: {}", fmt::join(types, ", ")) : nearest);
+            file.fail(*table.get("type"), fmt::format("'type' is '{}', which is not known", *type),
+                      nearest.empty() ? fmt::format("one of: {}", fmt::join(types, ", ")) : nearest);
         }
         kinematics.type = kinematics_types()[static_cast<std::size_t>(found - types.begin())];
     }
@@ -144,26 +151,32 @@ Kinematics read_kinematics(const TomlFile& file, const toml::table& table) {
         file.allow(table, {"type"});
         return kinematics;
     }
-    file.allow(table, {"type", "rotary", "signs", "directions", "offsets", "tool_centre_point", "interpolation", "axis_tolerance"});
+    file.allow(table, {"type", "rotary", "signs", "directions", "offsets", "tool_centre_point", "interpolation",
+                       "axis_tolerance"});
     read_pair(file, table, kinematics);
     read_signs(file, table, kinematics);
     read_directions(file, table, kinematics);
     read_offsets(file, table, kinematics);
     if (const std::optional<std::string> when = file.text(table, "tool_centre_point")) {
-        if (*when != "program" && *when != "always") file.fail(*table.get("tool_centre_point"), "'tool_centre_point' must be \"program\" or \"always\"");
+        if (*when != "program" && *when != "always")
+            file.fail(*table.get("tool_centre_point"), "'tool_centre_point' must be \"program\" or \"always\"");
         kinematics.always_tool_centre_point = *when == "always";
     }
     if (const std::optional<std::string> word = file.text(table, "interpolation")) {
         bool known = false;
-        for (const ToolAxisInterpolation way : {ToolAxisInterpolation::linear, ToolAxisInterpolation::vector, ToolAxisInterpolation::safe}) {
+        for (const ToolAxisInterpolation way :
+             {ToolAxisInterpolation::linear, ToolAxisInterpolation::vector, ToolAxisInterpolation::safe}) {
             if (*word != name_of(way)) continue;
             kinematics.interpolation = way;
             known = true;
         }
-        if (!known) file.fail(*table.get("interpolation"), "'interpolation' must be \"linear\", \"vector\" or \"safe\"");
+        if (!known)
+            file.fail(*table.get("interpolation"), "'interpolation' must be \"linear\", \"vector\" or \"safe\"");
     }
     if (const std::optional<double> tolerance = file.number(table, "axis_tolerance")) {
-        if (!(*tolerance > 0)) file.fail(*table.get("axis_tolerance"), fmt::format("'axis_tolerance' is {}, expected more than 0", *tolerance));
+        if (!(*tolerance > 0))
+            file.fail(*table.get("axis_tolerance"),
+                      fmt::format("'axis_tolerance' is {}, expected more than 0", *tolerance));
         kinematics.axis_tolerance = *tolerance * rad_per_deg;
     }
     return kinematics;
@@ -175,15 +188,19 @@ std::string kinematics_text(const Kinematics& kinematics) {
     const RotaryAxis& t = kinematics.tilt;
     const RotaryAxis& r = kinematics.rotation;
     const auto vector = [](const Vec3& v) { return fmt::format("[{}, {}, {}]", v.x(), v.y(), v.z()); };
-    text += fmt::format("rotary = [\"{}\", \"{}\"]            # the tilting axis, then the other\n", t.letter, r.letter);
+    text +=
+        fmt::format("rotary = [\"{}\", \"{}\"]            # the tilting axis, then the other\n", t.letter, r.letter);
     text += fmt::format("signs = {{ {} = {}, {} = {} }}\n", t.letter, t.sign, r.letter, r.sign);
-    text += fmt::format("tool_centre_point = \"{}\"  # program: as its words say\n", kinematics.always_tool_centre_point ? "always" : "program");
+    text += fmt::format("tool_centre_point = \"{}\"  # program: as its words say\n",
+                        kinematics.always_tool_centre_point ? "always" : "program");
     text += fmt::format("interpolation = \"{}\"       # of the tool axis\n", name_of(kinematics.interpolation));
     text += fmt::format("axis_tolerance = {}\n", std::round(kinematics.axis_tolerance * deg_per_rad * 1e9) / 1e9);
-    text += fmt::format("\n[kinematics.directions]\n{} = {}\n{} = {}\n", t.letter, vector(t.direction), r.letter, vector(r.direction));
+    text += fmt::format("\n[kinematics.directions]\n{} = {}\n{} = {}\n", t.letter, vector(t.direction), r.letter,
+                        vector(r.direction));
     text += "\n[kinematics.offsets]\n";
     for (const OffsetKey& offset : offset_keys) {
-        if (offset.of_type[static_cast<std::size_t>(kinematics.type)]) text += fmt::format("{} = {}\n", offset.key, vector(kinematics.*offset.vector));
+        if (offset.of_type[static_cast<std::size_t>(kinematics.type)])
+            text += fmt::format("{} = {}\n", offset.key, vector(kinematics.*offset.vector));
     }
     return text + fmt::format("tool_length = {}\n", kinematics.tool_length);
 }

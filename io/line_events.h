@@ -11,7 +11,7 @@
 namespace clsurf::io {
 
 struct LineEvent {
-    double at = 0;              ///< record, cycle or time, in the unit of the samples' clock
+    double at = 0;  ///< record, cycle or time, in the unit of the samples' clock
     LineNumber line = 0;
     std::uint32_t program = 0;  ///< index into the log's programs
 };

@@ -29,18 +29,29 @@ std::string message_of(const LintFinding& f) {
     const std::string found = fmt::format("{:.{}f} {}", f.found * shown.factor, shown.digits, shown.unit);
     const std::string expected = fmt::format("{:.{}f} {}", f.expected * shown.factor, shown.digits, shown.unit);
     switch (f.rule) {
-        case LintRule::point_spacing: return fmt::format("points {} apart on pass {}, {} on the passes beside it", found, f.pass, expected);
+        case LintRule::point_spacing:
+            return fmt::format("points {} apart on pass {}, {} on the passes beside it", found, f.pass, expected);
         case LintRule::chord_error:
-            if (f.severity == Severity::note) return fmt::format("chord error of {} (95th percentile) on lines {} to {}: the controller's tolerance blurs more than the points say above {}", found, f.first_line, f.last_line, expected);
-            return fmt::format("lines leave the curve by {} on pass {}; the controller's tolerance hides {}", found, f.pass, expected);
-        case LintRule::reversed_segment: return fmt::format("a line of {} runs back on pass {}; lines are usually {} long", found, f.pass, expected);
-        case LintRule::feed_difference: return fmt::format("feed {} on pass {}, {} on the passes beside it", found, f.pass, expected);
-        case LintRule::start_point: return fmt::format("pass {} ends {} out of line with the passes beside it, more than {}", f.pass, found, expected);
+            if (f.severity == Severity::note)
+                return fmt::format(
+                    "chord error of {} (95th percentile) on lines {} to {}: the controller's tolerance blurs more than the points say above {}",
+                    found, f.first_line, f.last_line, expected);
+            return fmt::format("lines leave the curve by {} on pass {}; the controller's tolerance hides {}", found,
+                               f.pass, expected);
+        case LintRule::reversed_segment:
+            return fmt::format("a line of {} runs back on pass {}; lines are usually {} long", found, f.pass, expected);
+        case LintRule::feed_difference:
+            return fmt::format("feed {} on pass {}, {} on the passes beside it", found, f.pass, expected);
+        case LintRule::start_point:
+            return fmt::format("pass {} ends {} out of line with the passes beside it, more than {}", f.pass, found,
+                               expected);
     }
     return {};
 }
 
-std::string lines_text(LineNumber first, LineNumber last) { return first == last ? fmt::format("{}", first) : fmt::format("{}-{}", first, last); }
+std::string lines_text(LineNumber first, LineNumber last) {
+    return first == last ? fmt::format("{}", first) : fmt::format("{}-{}", first, last);
+}
 
 Json finding_json(const LintFinding& f) {
     const Shown shown = shown_of(f.rule);
@@ -62,14 +73,18 @@ std::string lint_text(const ReportedLint& l) {
     const LintReport& r = *l.report;
     std::string text;
     for (const LintFinding& f : r.findings) {
-        text += fmt::format("{}:{}: {}: {} [{}]", l.program->main().name(), lines_text(f.first_line, f.last_line), name_of(f.severity), message_of(f), name_of(f.rule));
-        text += f.beside_first > 0 ? fmt::format(", beside lines {}\n", lines_text(f.beside_first, f.beside_last)) : "\n";
+        text += fmt::format("{}:{}: {}: {} [{}]", l.program->main().name(), lines_text(f.first_line, f.last_line),
+                            name_of(f.severity), message_of(f), name_of(f.rule));
+        text +=
+            f.beside_first > 0 ? fmt::format(", beside lines {}\n", lines_text(f.beside_first, f.beside_last)) : "\n";
     }
     text += r.findings.empty() ? "nothing found" : fmt::format("\n{} findings", r.findings.size());
     text += fmt::format(" on {} passes", r.passes);
     if (r.step_over > 0) text += fmt::format(", {:.3g} mm apart", r.step_over);
-    text += fmt::format("; lines usually {:.3g} mm long, chord error {:.2f} µm (95th percentile)", r.spacing, r.chord_error * um_per_mm);
-    text += r.tolerance > 0 ? fmt::format(", tolerance of the controller {:.1f} µm\n", r.tolerance * um_per_mm) : ", tolerance of the controller not known\n";
+    text += fmt::format("; lines usually {:.3g} mm long, chord error {:.2f} µm (95th percentile)", r.spacing,
+                        r.chord_error * um_per_mm);
+    text += r.tolerance > 0 ? fmt::format(", tolerance of the controller {:.1f} µm\n", r.tolerance * um_per_mm)
+                            : ", tolerance of the controller not known\n";
     if (r.step_over <= 0) text += "no adjacent passes: nothing to compare\n";
     return text;
 }
@@ -79,7 +94,8 @@ std::string lint_json(const ReportedLint& l) {
     Json findings = Json::array();
     for (const LintFinding& f : r.findings) findings.push_back(finding_json(f));
     Json by_rule;
-    for (std::size_t i = 0; i < lint_rules; ++i) by_rule[std::string(name_of(static_cast<LintRule>(i)))] = r.count(static_cast<LintRule>(i));
+    for (std::size_t i = 0; i < lint_rules; ++i)
+        by_rule[std::string(name_of(static_cast<LintRule>(i)))] = r.count(static_cast<LintRule>(i));
     Json summary{{"passes", r.passes},
                  {"step_over_mm", number(r.step_over)},
                  {"spacing_mm", number(r.spacing)},
@@ -88,7 +104,8 @@ std::string lint_json(const ReportedLint& l) {
                  {"findings", r.findings.size()},
                  {"warnings", r.warnings()},
                  {"by_rule", std::move(by_rule)}};
-    return dump(Json{{"findings", std::move(findings)}, {"summary", std::move(summary)}, {"diagnostics", list(*l.diagnostics)}});
+    return dump(Json{
+        {"findings", std::move(findings)}, {"summary", std::move(summary)}, {"diagnostics", list(*l.diagnostics)}});
 }
 
 std::string lint_sarif(const ReportedLint& l) {
@@ -96,7 +113,8 @@ std::string lint_sarif(const ReportedLint& l) {
     std::set<LintRule> broken;
     for (const LintFinding& f : l.report->findings) broken.insert(f.rule);
     Json rules = Json::array();
-    for (const LintRule rule : broken) rules.push_back({{"id", name_of(rule)}, {"shortDescription", {{"text", description_of(rule)}}}});
+    for (const LintRule rule : broken)
+        rules.push_back({{"id", name_of(rule)}, {"shortDescription", {{"text", description_of(rule)}}}});
     Json results = Json::array();
     for (const LintFinding& f : l.report->findings) {
         Json result{{"ruleId", name_of(f.rule)},

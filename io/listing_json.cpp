@@ -7,8 +7,8 @@
 namespace clsurf::io {
 
 std::string listing_json(std::string_view key, std::span<const ListingRow> rows) {
-    const bool has_units = std::any_of(rows.begin(), rows.end(),
-                                       [](const ListingRow& row) { return !row.unit.empty(); });
+    const bool has_units =
+        std::any_of(rows.begin(), rows.end(), [](const ListingRow& row) { return !row.unit.empty(); });
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const ListingRow& row : rows) {
         nlohmann::ordered_json entry;

@@ -56,7 +56,8 @@ Log open_log(const Source& source, const LogOptions& options) {
     if (format == nullptr) {
         const std::string_view text(reinterpret_cast<const char*>(source.bytes.data()), source.bytes.size());
         if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) {
-            throw InputError(Place::of_file(source.name), "is UTF-16 text, expected ASCII or UTF-8", "convert it first, as with iconv -f UTF-16 -t UTF-8");
+            throw InputError(Place::of_file(source.name), "is UTF-16 text, expected ASCII or UTF-8",
+                             "convert it first, as with iconv -f UTF-16 -t UTF-8");
         }
         std::string names;
         for (const LogFormat& f : table) names += (names.empty() ? "" : ", ") + std::string(f.name);

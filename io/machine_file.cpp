@@ -62,9 +62,11 @@ void take_mode(const TomlFile& file, const toml::table& table, std::string_view 
 }
 
 void read_controller(const TomlFile& file, const toml::table& table, ControllerSettings& c) {
-    file.allow(table, {"period", "lookahead_blocks", "corner", "curve", "tolerance", "chord_tolerance", "block_time", "feed_override"});
+    file.allow(table, {"period", "lookahead_blocks", "corner", "curve", "tolerance", "chord_tolerance", "block_time",
+                       "feed_override"});
     take(file, table, "period", c.period, Low::above_zero, 1.0, 1.0);
-    if (const auto blocks = file.integer(table, "lookahead_blocks", 2, 100000)) c.lookahead_blocks = static_cast<int>(*blocks);
+    if (const auto blocks = file.integer(table, "lookahead_blocks", 2, 100000))
+        c.lookahead_blocks = static_cast<int>(*blocks);
     take_mode<3>(file, table, "corner", c.corner);
     take_mode<3>(file, table, "curve", c.curve);
     take(file, table, "tolerance", c.tolerance, Low::above_zero);
@@ -97,7 +99,8 @@ void read_travel(const TomlFile& file, const toml::table& table, double factor, 
 }
 
 void read_servo(const TomlFile& file, const toml::table& table, double period, double factor, ServoModel& servo) {
-    file.allow(table, {"position_gain", "velocity_feedforward", "velocity_time_constant", "quantum", "noise", "backlash", "friction"});
+    file.allow(table, {"position_gain", "velocity_feedforward", "velocity_time_constant", "quantum", "noise",
+                       "backlash", "friction"});
     // A discrete loop with a gain of more than 1/period per step swings up.
     take(file, table, "position_gain", servo.position_gain, Low::above_zero, 1.0, 1 / period);
     take(file, table, "velocity_feedforward", servo.velocity_feedforward, Low::zero, 1.0, 2.0);
@@ -108,8 +111,10 @@ void read_servo(const TomlFile& file, const toml::table& table, double period, d
     take(file, table, "friction", servo.friction, Low::zero, factor / seconds_per_minute);
     // Kv·T_v of 1 and more: the loop s(1 + s T_v) + Kv rings with hardly any damping.
     if (servo.position_gain * servo.velocity_time_constant >= 1) {
-        file.fail(table, fmt::format("the loop does not settle: position_gain {} · velocity_time_constant {} must be less than 1",
-                                     servo.position_gain, servo.velocity_time_constant));
+        file.fail(
+            table,
+            fmt::format("the loop does not settle: position_gain {} · velocity_time_constant {} must be less than 1",
+                        servo.position_gain, servo.velocity_time_constant));
     }
 }
 
@@ -117,10 +122,12 @@ void read_axis(const TomlFile& file, const toml::table& table, std::vector<std::
     file.allow(table, {"name", "travel", "max_speed", "max_acceleration", "max_jerk", "servo"});
     std::vector<std::string_view> names(axis_names.begin(), axis_names.end());
     const Kinematics& kinematics = machine.kinematics;
-    if (kinematics.has_rotary()) names.insert(names.end(), {{&kinematics.tilt.letter, 1}, {&kinematics.rotation.letter, 1}});
+    if (kinematics.has_rotary())
+        names.insert(names.end(), {{&kinematics.tilt.letter, 1}, {&kinematics.rotation.letter, 1}});
     const std::string_view name = take_word(file, table, "name", names);
     if (name.empty()) file.fail(table, "axis without 'name'");
-    if (std::find(seen.begin(), seen.end(), name) != seen.end()) file.fail(*table.get("name"), fmt::format("axis '{}' is there twice", name));
+    if (std::find(seen.begin(), seen.end(), name) != seen.end())
+        file.fail(*table.get("name"), fmt::format("axis '{}' is there twice", name));
     seen.push_back(name);
     const auto index = static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
     const bool rotary = index >= axis_names.size();
@@ -130,13 +137,18 @@ void read_axis(const TomlFile& file, const toml::table& table, std::vector<std::
     take(file, table, "max_speed", axis.max_speed, Low::above_zero, factor / seconds_per_minute);
     take(file, table, "max_acceleration", axis.max_acceleration, Low::above_zero, factor);
     take(file, table, "max_jerk", axis.max_jerk, Low::zero, factor);
-    if (const toml::table* servo = file.section(table, "servo")) read_servo(file, *servo, machine.controller.period, factor, axis.servo);
+    if (const toml::table* servo = file.section(table, "servo"))
+        read_servo(file, *servo, machine.controller.period, factor, axis.servo);
 }
 
 std::string axis_text(std::string_view name, const MachineAxis& a, double factor) {
-    const auto whole = [&](double value) { return std::round(value / factor * 1e9) / 1e9 + 0.0; };  // no −0: TOML has none for whole numbers
-    std::string text = fmt::format("\n[[axis]]\nname = \"{}\"\ntravel = [{}, {}]\n", name, whole(a.travel_low), whole(a.travel_high));
-    text += fmt::format("max_speed = {}\nmax_acceleration = {}\n", whole(a.max_speed * seconds_per_minute), whole(a.max_acceleration));
+    const auto whole = [&](double value) {
+        return std::round(value / factor * 1e9) / 1e9 + 0.0;
+    };  // no −0: TOML has none for whole numbers
+    std::string text =
+        fmt::format("\n[[axis]]\nname = \"{}\"\ntravel = [{}, {}]\n", name, whole(a.travel_low), whole(a.travel_high));
+    text += fmt::format("max_speed = {}\nmax_acceleration = {}\n", whole(a.max_speed * seconds_per_minute),
+                        whole(a.max_acceleration));
     text += fmt::format("max_jerk = {}               # 0: not limited\n[axis.servo]\n", whole(a.max_jerk));
     text += fmt::format("position_gain = {}            # 1/s\n", a.servo.position_gain);
     text += fmt::format("velocity_feedforward = {}    # 1: no lag at constant speed\n", a.servo.velocity_feedforward);
@@ -144,7 +156,8 @@ std::string axis_text(std::string_view name, const MachineAxis& a, double factor
     text += fmt::format("quantum = {}               # encoder step; 0: none\n", whole(a.servo.quantum));
     text += fmt::format("noise = {}                    # rms\n", whole(a.servo.noise));
     text += fmt::format("backlash = {}                 # play between drive and table\n", whole(a.servo.backlash));
-    return text + fmt::format("friction = {}                 # speed lost to Coulomb friction, {}/min\n", whole(a.servo.friction * seconds_per_minute), factor == 1 ? "mm" : "deg");
+    return text + fmt::format("friction = {}                 # speed lost to Coulomb friction, {}/min\n",
+                              whole(a.servo.friction * seconds_per_minute), factor == 1 ? "mm" : "deg");
 }
 
 /// A text as TOML writes it: in quotes, with what may not stand there escaped.
@@ -181,9 +194,13 @@ std::string machine_text(const Machine& machine) {
     text += fmt::format("name = {}\n\n[controller]\n", quoted(machine.name));
     text += fmt::format("period = {}                # interpolation period\n", c.period);
     text += fmt::format("lookahead_blocks = {}\n", c.lookahead_blocks);
-    text += fmt::format("corner = \"{}\"                # rounded inside the tolerance: by arcs, with a jerk limit by a spline; spline: always; stop: exact stop\n", name_of(c.corner));
-    text += fmt::format("curve = \"{}\"                   # through short lines: akima, least-squares or none\n", name_of(c.curve));
-    text += fmt::format("tolerance = {}              # of corners and path; G64 P in a program replaces it\n", c.tolerance);
+    text += fmt::format(
+        "corner = \"{}\"                # rounded inside the tolerance: by arcs, with a jerk limit by a spline; spline: always; stop: exact stop\n",
+        name_of(c.corner));
+    text += fmt::format("curve = \"{}\"                   # through short lines: akima, least-squares or none\n",
+                        name_of(c.curve));
+    text +=
+        fmt::format("tolerance = {}              # of corners and path; G64 P in a program replaces it\n", c.tolerance);
     text += fmt::format("chord_tolerance = {}       # of the steps of a period against arcs\n", c.chord_tolerance);
     text += fmt::format("block_time = {}                # s, a block takes no less; 0: not limited\n", c.block_time);
     text += fmt::format("feed_override = {}           # %, of programmed feeds\n\n[path]\n", c.feed_override * 100);

@@ -76,7 +76,8 @@ std::array<char, 256> shortened{};
 
 bool is_shorter(const Mapping& mapping) {
     struct stat status {};
-    return mapping.descriptor >= 0 && ::fstat(mapping.descriptor, &status) == 0 && static_cast<std::size_t>(status.st_size) < mapping.size;
+    return mapping.descriptor >= 0 && ::fstat(mapping.descriptor, &status) == 0 &&
+           static_cast<std::size_t>(status.st_size) < mapping.size;
 }
 
 void leave(Mapping* mapping) {
@@ -121,7 +122,8 @@ void guard_mapped_files() {
 
 void check_mapped_files() {
     for (const Mapping& mapping : mappings) {
-        if (mapping.begin != nullptr && is_shorter(mapping)) throw InputError(Place::of_file(mapping.name.data()), shorter);
+        if (mapping.begin != nullptr && is_shorter(mapping))
+            throw InputError(Place::of_file(mapping.name.data()), shorter);
     }
     if (shortened[0] != '\0') throw InputError(Place::of_file(shortened.data()), shorter);
 }
@@ -129,9 +131,7 @@ void check_mapped_files() {
 Source map_file(const std::string& path) {
     if (path == "-") return read_stream("<stdin>", STDIN_FILENO);
     const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-    if (file.get() < 0) {
-        throw InputError(Place::of_file(path), std::string("cannot open: ") + std::strerror(errno));
-    }
+    if (file.get() < 0) { throw InputError(Place::of_file(path), std::string("cannot open: ") + std::strerror(errno)); }
     struct stat status {};
     if (::fstat(file.get(), &status) != 0) {
         throw InputError(Place::of_file(path), std::string("cannot read: ") + std::strerror(errno));

@@ -16,9 +16,7 @@ struct Source {
     std::span<const std::byte> bytes;
     std::shared_ptr<const void> keep_alive;
 
-    [[nodiscard]] std::string_view text() const {
-        return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-    }
+    [[nodiscard]] std::string_view text() const { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
 };
 
 /// Maps a file. Throws InputError (missing, a directory, not readable).

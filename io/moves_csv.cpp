@@ -36,7 +36,8 @@ void put(fmt::memory_buffer& out, double value) {
 
 }  // namespace
 
-void write_moves_csv(const Motions& motions, const Kinematics* kinematics, const std::function<void(std::string_view)>& write) {
+void write_moves_csv(const Motions& motions, const Kinematics* kinematics,
+                     const std::function<void(std::string_view)>& write) {
     fmt::memory_buffer out;
     constexpr std::string_view header = "line,kind,x,y,z,a,b,c,ci,cj,ck,turns,plane,feed";
     out.append(header);
@@ -72,7 +73,8 @@ void write_moves_csv(const Motions& motions, const Kinematics* kinematics, const
         put(out, kind == MotionKind::dwell ? std::numeric_limits<double>::quiet_NaN()
                                            : std::round(feed * seconds_per_minute * 1e3) / 1e3);
         if (kinematics != nullptr) {
-            const Vec3 axis = kinematics->axis_of(kinematics->angles_of(motions.rotary.empty() ? Vec3(0, 0, 0) : motions.rotary[i].vec()));
+            const Vec3 axis = kinematics->axis_of(
+                kinematics->angles_of(motions.rotary.empty() ? Vec3(0, 0, 0) : motions.rotary[i].vec()));
             for (int k = 0; k < 3; ++k) put(out, axis[k]);
         }
         out.push_back('\n');

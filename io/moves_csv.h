@@ -12,6 +12,7 @@ namespace clsurf::io {
 
 /// Hands the text on in pieces of about a megabyte. With `kinematics` (nullptr: none) ti,tj,tk follow:
 /// the tool axis in the workpiece.
-void write_moves_csv(const Motions& motions, const Kinematics* kinematics, const std::function<void(std::string_view)>& write);
+void write_moves_csv(const Motions& motions, const Kinematics* kinematics,
+                     const std::function<void(std::string_view)>& write);
 
 }  // namespace clsurf::io

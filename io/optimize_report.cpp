@@ -11,19 +11,25 @@ std::string optimize_text(const Optimized& r) {
     std::string text;
     const auto row = [&](const char* name, double before, double after, int digits, const char* unit) {
         const double change = before > 0 ? 100 * (after / before - 1) : 0;
-        text += fmt::format("{:<28} {:>12.{}f} {:>12.{}f} {:>+8.1f} % {}\n", name, before, digits, after, digits, change, unit);
+        text += fmt::format("{:<28} {:>12.{}f} {:>12.{}f} {:>+8.1f} % {}\n", name, before, digits, after, digits,
+                            change, unit);
     };
     if (r.measured) {
-        text += fmt::format("log: {:.3f} s, speed mismatch {:.1f} mm/min (p95), {} defects; {} motions are in need of repair, all others stay\n", r.measured->duration,
-                            r.measured->mismatch * seconds_per_minute, r.measured->defects, r.measured->motions_in_need);
+        text += fmt::format(
+            "log: {:.3f} s, speed mismatch {:.1f} mm/min (p95), {} defects; {} motions are in need of repair, all others stay\n",
+            r.measured->duration, r.measured->mismatch * seconds_per_minute, r.measured->defects,
+            r.measured->motions_in_need);
     }
     text += fmt::format("{:<28} {:>12} {:>12} {:>10}\n", "simulated", "before", "after", "change");
     row("time", r.before.duration, r.after.duration, 3, "s");
-    row("speed mismatch, p95", r.before.mismatch * seconds_per_minute, r.after.mismatch * seconds_per_minute, 1, "mm/min");
-    row("speed mismatch, p99.9", r.before.greatest_mismatch * seconds_per_minute, r.after.greatest_mismatch * seconds_per_minute, 1, "mm/min");
+    row("speed mismatch, p95", r.before.mismatch * seconds_per_minute, r.after.mismatch * seconds_per_minute, 1,
+        "mm/min");
+    row("speed mismatch, p99.9", r.before.greatest_mismatch * seconds_per_minute,
+        r.after.greatest_mismatch * seconds_per_minute, 1, "mm/min");
     row("defects", static_cast<double>(r.proof.defects_before), static_cast<double>(r.proof.defects_after), 0, "");
     row("lines", r.proof.lines_before, r.proof.lines_after, 0, "");
-    text += fmt::format("{} stretches, {} lines changed; off the programmed path by at most {:.4f} mm\n", r.proof.intervals, r.proof.changed_lines, r.proof.deviation.greatest);
+    text += fmt::format("{} stretches, {} lines changed; off the programmed path by at most {:.4f} mm\n",
+                        r.proof.intervals, r.proof.changed_lines, r.proof.deviation.greatest);
     text += r.proof.accepted ? "accepted\n" : fmt::format("refused: {}\n", r.proof.reason);
     return text;
 }
@@ -32,7 +38,11 @@ namespace {
 
 Json measured_json(const std::optional<Measured>& measured) {
     if (!measured) return nullptr;
-    return Json{{"points", measured->points}, {"time_s", number(measured->duration)}, {"mismatch", number(measured->mismatch * seconds_per_minute)}, {"defects", measured->defects}, {"motions_in_need", measured->motions_in_need}};
+    return Json{{"points", measured->points},
+                {"time_s", number(measured->duration)},
+                {"mismatch", number(measured->mismatch * seconds_per_minute)},
+                {"defects", measured->defects},
+                {"motions_in_need", measured->motions_in_need}};
 }
 
 }  // namespace

@@ -35,7 +35,8 @@ private:
         std::shared_ptr<const void> before;  ///< what kept the log alive until now
     };
     void add(const std::string& name, const std::string& unit, ScalarType type, const void* data, std::size_t stride) {
-        log_.channels.push_back({name, unit, {static_cast<const std::byte*>(data), stride, log_.records, type, false, 1.0, 0.0}});
+        log_.channels.push_back(
+            {name, unit, {static_cast<const std::byte*>(data), stride, log_.records, type, false, 1.0, 0.0}});
     }
 
     Log& log_;

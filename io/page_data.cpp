@@ -31,7 +31,11 @@ public:
         });
         for (Planned& column : columns_) {
             const PackedColumn& p = column.packed;
-            data.manifest[column.where] = {{"block", data.blocks.size()}, {"count", p.count}, {"order", p.order}, {"stride", p.stride}, {"planes", p.planes}};
+            data.manifest[column.where] = {{"block", data.blocks.size()},
+                                           {"count", p.count},
+                                           {"order", p.order},
+                                           {"stride", p.stride},
+                                           {"planes", p.planes}};
             data.blocks.push_back(std::move(column.packed.base64));
         }
     }
@@ -65,10 +69,12 @@ PackedColumn pack_numbers(std::span<const T> numbers, int stride) {
 
 Json::json_pointer at(const std::string& base, const std::string& name) { return Json::json_pointer(base) / name; }
 
-void add_field(Blocks& blocks, Json& json, const std::string& base, const PageSurface& surface, const Field& field, const ShownRange& range) {
+void add_field(Blocks& blocks, Json& json, const std::string& base, const PageSurface& surface, const Field& field,
+               const ShownRange& range) {
     const double unit = field.info.unit.per_inside;
     double quantum = (range.high - range.low) / field_steps;
-    if (!(quantum > 0)) quantum = std::max({std::abs(range.low), std::abs(range.lowest), std::abs(range.highest), 1e-9}) / field_steps;
+    if (!(quantum > 0))
+        quantum = std::max({std::abs(range.low), std::abs(range.lowest), std::abs(range.highest), 1e-9}) / field_steps;
     const KeptPoints& kept = *surface.kept;
     const float* values = field.values.data();
     const auto value = [values, unit](PointIndex i) { return static_cast<double>(values[i]) * unit; };
@@ -88,7 +94,9 @@ void add_positions(Blocks& blocks, const std::string& base, const PageSurface& s
     const char* names[] = {"x", "y", "z"};
     for (std::size_t k = 0; k < 3; ++k) {
         const float* values = axes[k]->data();
-        blocks.add(at(base + "/columns", names[k]), [&kept, values] { return pack_kept(kept, position_quantum, [values](PointIndex i) { return values[i]; }); });
+        blocks.add(at(base + "/columns", names[k]), [&kept, values] {
+            return pack_kept(kept, position_quantum, [values](PointIndex i) { return values[i]; });
+        });
     }
 }
 
@@ -101,7 +109,8 @@ void add_roles(Blocks& blocks, Json& surface_json, const std::string& base, cons
         roles.push_back({{"name", name_of(other.role)}});
         for (int axis = 0; axis < 3; ++axis) {
             blocks.add(at(here, names[axis]), [&s, &other, axis] {
-                return pack_kept(*s.kept, position_quantum, [&](PointIndex i) { return other.at(i)[axis] - s.path->at(i)[axis]; });
+                return pack_kept(*s.kept, position_quantum,
+                                 [&](PointIndex i) { return other.at(i)[axis] - s.path->at(i)[axis]; });
             });
         }
     }
@@ -132,26 +141,39 @@ std::string kinds_of(const PageSurface& s) {
     std::string kinds(s.kept->points.size(), '\0');
     std::size_t at = 0;
     for (const Pass& pass : s.surface->passes) {
-        for (; at < kinds.size() && s.kept->points[at] <= pass.last; ++at) kinds[at] = static_cast<char>(static_cast<int>(pass.kind) | (s.joined[at] != 0 ? 4 : 0));
+        for (; at < kinds.size() && s.kept->points[at] <= pass.last; ++at)
+            kinds[at] = static_cast<char>(static_cast<int>(pass.kind) | (s.joined[at] != 0 ? 4 : 0));
     }
     return kinds;
 }
 
-Json surface_json(Blocks& blocks, const std::string& base, const ReportPage& page, const PageSurface& s, const std::string& name) {
+Json surface_json(Blocks& blocks, const std::string& base, const ReportPage& page, const PageSurface& s,
+                  const std::string& name) {
     const ClSurface& surface = *s.surface;
-    Json json{{"log", name}, {"role", name_of(s.path->role)}, {"records", s.log->records}, {"period_s", s.log->period}, {"step_over_mm", surface.step_over},
-              {"origin_mm", vector(surface.positions.origin)}, {"position_quantum_mm", position_quantum}, {"time_quantum_s", time_quantum},
-              {"points", s.kept->all}, {"window", s.kept->window}, {"line_starts", s.kept->line_starts}};
+    Json json{{"log", name},
+              {"role", name_of(s.path->role)},
+              {"records", s.log->records},
+              {"period_s", s.log->period},
+              {"step_over_mm", surface.step_over},
+              {"origin_mm", vector(surface.positions.origin)},
+              {"position_quantum_mm", position_quantum},
+              {"time_quantum_s", time_quantum},
+              {"points", s.kept->all},
+              {"window", s.kept->window},
+              {"line_starts", s.kept->line_starts}};
     json["columns"] = Json::object();
-    blocks.add(at(base + "/columns", "point"), [&s] { return pack_numbers(std::span<const PointIndex>(s.kept->points), 1); });
+    blocks.add(at(base + "/columns", "point"),
+               [&s] { return pack_numbers(std::span<const PointIndex>(s.kept->points), 1); });
     LineRuns runs = line_runs(*s.lines);
-    blocks.add(at(base + "/columns", "run_points"), [points = std::move(runs.points)] { return pack_integers(points); });
+    blocks.add(at(base + "/columns", "run_points"),
+               [points = std::move(runs.points)] { return pack_integers(points); });
     blocks.add(at(base + "/columns", "run_lines"), [lines = std::move(runs.lines)] { return pack_integers(lines); });
     blocks.add(at(base + "/columns", "kind"), [&s] { return pack_bytes(kinds_of(s)); });
     blocks.add(at(base + "/columns", "triangles"), [&s] { return pack_numbers(s.triangles, 3); });
     blocks.add(at(base + "/columns", "segments"), [&s] { return pack_numbers(s.segments, 2); });
     if (s.log->find("time") != nullptr) {
-        blocks.add(at(base + "/columns", "time"), [&s] { return pack_kept(*s.kept, time_quantum, [&](PointIndex i) { return s.log->time_of(i); }); });
+        blocks.add(at(base + "/columns", "time"),
+                   [&s] { return pack_kept(*s.kept, time_quantum, [&](PointIndex i) { return s.log->time_of(i); }); });
     }
     add_positions(blocks, base, s);
     std::vector<std::int64_t> passes;
@@ -162,7 +184,8 @@ Json surface_json(Blocks& blocks, const std::string& base, const ReportPage& pag
     blocks.add(at(base + "/columns", "passes"), [passes = std::move(passes)] { return pack_integers(passes, 2); });
     add_roles(blocks, json, base, s);
     json["fields"] = Json::array();
-    for (std::size_t k = 0; k < s.fields.size(); ++k) add_field(blocks, json["fields"], base, s, s.fields[k], page.ranges[k]);
+    for (std::size_t k = 0; k < s.fields.size(); ++k)
+        add_field(blocks, json["fields"], base, s, s.fields[k], page.ranges[k]);
     return json;
 }
 
@@ -171,8 +194,16 @@ Json fields_json(const ReportPage& page) {
     for (std::size_t k = 0; k < page.surfaces.front().fields.size(); ++k) {
         const FieldInfo& info = page.surfaces.front().fields[k].info;
         const ShownRange& range = page.ranges[k];
-        all.push_back({{"name", info.name}, {"label", info.label}, {"unit", info.unit.name}, {"diverging", info.scale == FieldScale::diverging}, {"note", info.note},
-                       {"low", number(range.low)}, {"high", number(range.high)}, {"lowest", number(range.lowest)}, {"highest", number(range.highest)}, {"range_note", range.note}});
+        all.push_back({{"name", info.name},
+                       {"label", info.label},
+                       {"unit", info.unit.name},
+                       {"diverging", info.scale == FieldScale::diverging},
+                       {"note", info.note},
+                       {"low", number(range.low)},
+                       {"high", number(range.high)},
+                       {"lowest", number(range.lowest)},
+                       {"highest", number(range.highest)},
+                       {"range_note", range.note}});
     }
     return all;
 }
@@ -180,7 +211,9 @@ Json fields_json(const ReportPage& page) {
 Json runs_json(const std::vector<DefectRun>& runs) {
     Json all = Json::array();
     for (const DefectRun& run : runs) {
-        all.push_back({{"pass", run.pass}, {"points", {run.points.first, run.points.last}}, {"lines", {run.first_line, run.last_line}}});
+        all.push_back({{"pass", run.pass},
+                       {"points", {run.points.first, run.points.last}},
+                       {"lines", {run.first_line, run.last_line}}});
     }
     return all;
 }
@@ -193,22 +226,39 @@ Json defects_json(const ReportPage& page) {
         for (const std::vector<Vec3>& line : page.defects[i].outlines) {
             Json corners = Json::array();
             for (const Vec3& corner : line) {
-                for (const double c : {corner.x(), corner.y(), corner.z()}) corners.push_back(std::round(c / position_quantum) * position_quantum);
+                for (const double c : {corner.x(), corner.y(), corner.z()})
+                    corners.push_back(std::round(c / position_quantum) * position_quantum);
             }
             outlines.push_back(std::move(corners));
         }
-        all.push_back({{"id", i + 1}, {"severity", d.severity}, {"cause", name_of(d.cause)}, {"text", description_of(d.cause)}, {"position_mm", vector(d.position)},
-                       {"bounds_mm", box(d.bounds)}, {"depth_um", number((d.pit ? -1 : 1) * d.depth * um_per_mm)}, {"point", d.point},
-                       {"runs", runs_json(d.runs)}, {"neighbours", runs_json(d.neighbours)}, {"outlines", std::move(outlines)}});
+        all.push_back({{"id", i + 1},
+                       {"severity", d.severity},
+                       {"cause", name_of(d.cause)},
+                       {"text", description_of(d.cause)},
+                       {"position_mm", vector(d.position)},
+                       {"bounds_mm", box(d.bounds)},
+                       {"depth_um", number((d.pit ? -1 : 1) * d.depth * um_per_mm)},
+                       {"point", d.point},
+                       {"runs", runs_json(d.runs)},
+                       {"neighbours", runs_json(d.neighbours)},
+                       {"outlines", std::move(outlines)}});
     }
     return all;
 }
 
 void add_relief(Blocks& blocks, Json& manifest, const PageRelief& relief) {
     constexpr double quantum_um = 1e-2;
-    manifest["relief"] = {{"origin_mm", vector(relief.origin)}, {"pitch_mm", relief.pitch}, {"columns", relief.columns}, {"rows", relief.rows},
-                          {"z_quantum_mm", position_quantum}, {"deviation_quantum_um", quantum_um}, {"low", number(relief.range.low)}, {"high", number(relief.range.high)},
-                          {"lowest", number(relief.range.lowest)}, {"highest", number(relief.range.highest)}, {"note", relief.note}};
+    manifest["relief"] = {{"origin_mm", vector(relief.origin)},
+                          {"pitch_mm", relief.pitch},
+                          {"columns", relief.columns},
+                          {"rows", relief.rows},
+                          {"z_quantum_mm", position_quantum},
+                          {"deviation_quantum_um", quantum_um},
+                          {"low", number(relief.range.low)},
+                          {"high", number(relief.range.high)},
+                          {"lowest", number(relief.range.lowest)},
+                          {"highest", number(relief.range.highest)},
+                          {"note", relief.note}};
     const auto steps = [](std::span<const float> values, double quantum) {
         std::vector<std::int64_t> out;
         std::int64_t before = 0;
@@ -216,9 +266,11 @@ void add_relief(Blocks& blocks, Json& manifest, const PageRelief& relief) {
         return pack_integers(out);
     };
     std::string missing;
-    for (std::size_t k = 0; k < relief.z.size(); ++k) missing += std::isfinite(relief.z[k]) && std::isfinite(relief.deviation[k]) ? '\0' : '\1';
+    for (std::size_t k = 0; k < relief.z.size(); ++k)
+        missing += std::isfinite(relief.z[k]) && std::isfinite(relief.deviation[k]) ? '\0' : '\1';
     blocks.add(at("/relief", "z"), [&relief, steps] { return steps(relief.z, position_quantum); });
-    blocks.add(at("/relief", "deviation"), [&relief, steps] { return steps(relief.deviation, quantum_um / um_per_mm); });
+    blocks.add(at("/relief", "deviation"),
+               [&relief, steps] { return steps(relief.deviation, quantum_um / um_per_mm); });
     blocks.add(at("/relief", "missing"), [flags = std::move(missing)] { return pack_bytes(flags); });
 }
 
@@ -229,16 +281,26 @@ PageData page_data(const ReportPage& page) {
     Blocks blocks;
     const SourceText& text = page.quality.program->main();
     Json& m = data.manifest;
-    m = {{"version", 1}, {"program", {{"name", text.name()}, {"lines", text.line_count()}}},
-         {"command", {{"program", page.program}, {"log", page.log}, {"before", page.before}, {"options", page.reading_options}, {"formed", page.formed_options}}},
+    m = {{"version", 1},
+         {"program", {{"name", text.name()}, {"lines", text.line_count()}}},
+         {"command",
+          {{"program", page.program},
+           {"log", page.log},
+           {"before", page.before},
+           {"options", page.reading_options},
+           {"formed", page.formed_options}}},
          {"first_field", page.first_field}};
     m["colour_maps"] = Json::array();
-    for (const PageColourMap& map : page.colour_maps) m["colour_maps"].push_back({{"name", map.name}, {"summary", map.summary}, {"centred", map.centred}, {"rgb", to_base64(map.rgb)}});
+    for (const PageColourMap& map : page.colour_maps)
+        m["colour_maps"].push_back(
+            {{"name", map.name}, {"summary", map.summary}, {"centred", map.centred}, {"rgb", to_base64(map.rgb)}});
     m["fields"] = fields_json(page);
     m["defects"] = defects_json(page);
     m["surfaces"] = Json::array();
     const std::string names[] = {page.log, page.before};
-    for (std::size_t k = 0; k < page.surfaces.size(); ++k) m["surfaces"].push_back(surface_json(blocks, "/surfaces/" + std::to_string(k), page, page.surfaces[k], names[k]));
+    for (std::size_t k = 0; k < page.surfaces.size(); ++k)
+        m["surfaces"].push_back(
+            surface_json(blocks, "/surfaces/" + std::to_string(k), page, page.surfaces[k], names[k]));
     if (page.relief) add_relief(blocks, m, *page.relief);
     blocks.add(at("/program", "text"), [&text] { return pack_bytes(text.text()); });
     blocks.pack(data);

@@ -16,7 +16,9 @@ constexpr int level = 6;
 constexpr std::size_t sampled = 20'000;  ///< values by which the order is chosen
 
 /// 0, −1, 1, −2 → 0, 1, 2, 3.
-std::uint64_t fold(std::int64_t value) { return (static_cast<std::uint64_t>(value) << 1) ^ static_cast<std::uint64_t>(value >> 63); }
+std::uint64_t fold(std::int64_t value) {
+    return (static_cast<std::uint64_t>(value) << 1) ^ static_cast<std::uint64_t>(value >> 63);
+}
 
 /// The difference of an order at a value; what lies before the first is zero.
 std::int64_t difference(std::span<const std::int64_t> values, std::size_t i, int order, std::size_t stride) {
@@ -30,14 +32,16 @@ std::int64_t difference(std::span<const std::int64_t> values, std::size_t i, int
 double cost(std::span<const std::int64_t> values, int order, std::size_t stride) {
     const std::size_t step = std::max<std::size_t>(1, values.size() / sampled) | 1;
     double bits = 0;
-    for (std::size_t i = 0; i < values.size(); i += step) bits += std::bit_width(fold(difference(values, i, order, stride)));
+    for (std::size_t i = 0; i < values.size(); i += step)
+        bits += std::bit_width(fold(difference(values, i, order, stride)));
     return bits;
 }
 
 std::string deflated(std::string_view bytes) {
     uLongf size = compressBound(static_cast<uLong>(bytes.size()));
     std::string packed(size, '\0');
-    const int code = compress2(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uLong>(bytes.size()), level);
+    const int code = compress2(reinterpret_cast<Bytef*>(packed.data()), &size,
+                               reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uLong>(bytes.size()), level);
     if (code != Z_OK) throw SystemError("cannot compress: no memory");
     packed.resize(size);
     return packed;
@@ -87,7 +91,9 @@ std::string to_base64(std::string_view bytes) {
     text.reserve((bytes.size() + 2) / 3 * 4);
     for (std::size_t i = 0; i < bytes.size(); i += 3) {
         const std::size_t left = bytes.size() - i;
-        const auto byte = [&](std::size_t k) { return k < left ? static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[i + k])) : 0U; };
+        const auto byte = [&](std::size_t k) {
+            return k < left ? static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[i + k])) : 0U;
+        };
         const std::uint32_t bits = byte(0) << 16 | byte(1) << 8 | byte(2);
         text += digits[bits >> 18];
         text += digits[bits >> 12 & 63];

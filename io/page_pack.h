@@ -18,7 +18,7 @@ struct PackedColumn {
     std::size_t count = 0;  ///< values
     int order = 0;          ///< of the differences
     int stride = 1;
-    int planes = 0;         ///< bytes per value, 0 … 8
+    int planes = 0;  ///< bytes per value, 0 … 8
     std::string base64;
 };
 

@@ -20,7 +20,8 @@ std::string base_name(const std::string& path) { return path.substr(path.rfind('
 /// "12 345 678" with thin spaces.
 std::string count_text(std::int64_t number) {
     std::string digits = std::to_string(number);
-    for (auto at = static_cast<std::ptrdiff_t>(digits.size()) - 3; at > 0; at -= 3) digits.insert(static_cast<std::size_t>(at), "\u202f");
+    for (auto at = static_cast<std::ptrdiff_t>(digits.size()) - 3; at > 0; at -= 3)
+        digits.insert(static_cast<std::size_t>(at), "\u202f");
     return digits;
 }
 
@@ -32,13 +33,18 @@ std::string duration_text(double seconds) {
 }
 
 /// Four digits, without an exponent where it can be avoided.
-std::string number_text(double value) { return std::abs(value) >= 1e3 && std::abs(value) < 1e7 ? fmt::format("{:.0f}", value) : fmt::format("{:.4g}", value); }
+std::string number_text(double value) {
+    return std::abs(value) >= 1e3 && std::abs(value) < 1e7 ? fmt::format("{:.0f}", value)
+                                                           : fmt::format("{:.4g}", value);
+}
 
 std::string um_text(double mm) { return std::isfinite(mm) ? fmt::format("{:.1f}", mm * um_per_mm) : "–"; }
 
 /// One fact of the summary: what it is, and its value.
-std::string fact(std::string_view name, const std::string& value, std::string_view note = {}, std::string_view kind = {}) {
-    return fmt::format("<div{}><dt>{}</dt><dd>{}{}</dd></div>\n", kind.empty() ? "" : fmt::format(" class=\"{}\"", kind), html(name), html(value),
+std::string fact(std::string_view name, const std::string& value, std::string_view note = {},
+                 std::string_view kind = {}) {
+    return fmt::format("<div{}><dt>{}</dt><dd>{}{}</dd></div>\n",
+                       kind.empty() ? "" : fmt::format(" class=\"{}\"", kind), html(name), html(value),
                        note.empty() ? "" : fmt::format(" <small>{}</small>", html(note)));
 }
 
@@ -50,19 +56,22 @@ std::string metadata_text(const Log& log, const char* name) {
 }
 
 std::string picture_html(const PagePicture& picture) {
-    return fmt::format("<figure><img alt=\"{}\" src=\"data:image/png;base64,{}\"><figcaption><b>{}</b> {}</figcaption></figure>\n", html(picture.title), to_base64(picture.png),
-                       html(picture.title), html(picture.text));
+    return fmt::format(
+        "<figure><img alt=\"{}\" src=\"data:image/png;base64,{}\"><figcaption><b>{}</b> {}</figcaption></figure>\n",
+        html(picture.title), to_base64(picture.png), html(picture.title), html(picture.text));
 }
 
 std::string lines_text(const DefectRun& run) {
     if (run.first_line == 0) return "–";
-    return run.first_line == run.last_line ? fmt::format("{}", run.first_line) : fmt::format("{}–{}", run.first_line, run.last_line);
+    return run.first_line == run.last_line ? fmt::format("{}", run.first_line)
+                                           : fmt::format("{}–{}", run.first_line, run.last_line);
 }
 
 std::string defect_lines(const Defect& d) {
     std::string text;
     constexpr std::size_t shown = 4;
-    for (std::size_t k = 0; k < std::min(shown, d.runs.size()); ++k) text += (k > 0 ? ", " : "") + lines_text(d.runs[k]);
+    for (std::size_t k = 0; k < std::min(shown, d.runs.size()); ++k)
+        text += (k > 0 ? ", " : "") + lines_text(d.runs[k]);
     if (d.runs.size() > shown) text += fmt::format(" and {} more", d.runs.size() - shown);
     return text;
 }
@@ -70,17 +79,24 @@ std::string defect_lines(const Defect& d) {
 std::string defects_section(const ReportPage& page) {
     const QualityReport& report = *page.quality.report;
     std::string text = "<section id=\"defects\"><h2>Defects</h2>\n";
-    if (report.step_over <= 0) return text + "<p>No pass has another beside it: there is nothing to compare.</p></section>\n";
-    text += fmt::format("<p>{} on {} passes, {:.3g} mm apart. A defect is a place where a pass differs from those beside it enough to leave a mark.</p>\n",
-                        report.defects.empty() ? "None" : fmt::format("{} found", report.defects.size()), report.passes, report.step_over);
+    if (report.step_over <= 0)
+        return text + "<p>No pass has another beside it: there is nothing to compare.</p></section>\n";
+    text += fmt::format(
+        "<p>{} on {} passes, {:.3g} mm apart. A defect is a place where a pass differs from those beside it enough to leave a mark.</p>\n",
+        report.defects.empty() ? "None" : fmt::format("{} found", report.defects.size()), report.passes,
+        report.step_over);
     if (!report.defects.empty()) {
-        text += "<p><a href=\"#defect-list\">All are listed below</a>, the worst first. Severity: 1 a trace, 2 visible on a glossy surface, 3 can be felt, 4 reject.</p>\n<div class=\"pictures\">\n";
+        text +=
+            "<p><a href=\"#defect-list\">All are listed below</a>, the worst first. Severity: 1 a trace, 2 visible on a glossy surface, 3 can be felt, 4 reject.</p>\n<div class=\"pictures\">\n";
         for (const PageDefect& defect : page.defects) {
             if (defect.picture) text += picture_html(*defect.picture);
         }
         text += "</div>\n";
     }
-    if (!report.expected.empty()) text += fmt::format("<p>{} more at the border of the part, where a pass has one neighbour only: not counted.</p>\n", report.expected.size());
+    if (!report.expected.empty())
+        text +=
+            fmt::format("<p>{} more at the border of the part, where a pass has one neighbour only: not counted.</p>\n",
+                        report.expected.size());
     return text + "</section>\n";
 }
 
@@ -95,19 +111,24 @@ std::string defect_list_section(const ReportPage& page) {
         formed ? "<th>Formed [µm]</th>" : "");
     for (std::size_t i = 0; i < std::min(defects_in_table, report.defects.size()); ++i) {
         const Defect& d = report.defects[i];
-        text += fmt::format("<tr data-defect=\"{}\"><td>{}</td><td><span class=\"severity s{}\">{}</span></td><td>{}</td><td>{:+.1f}</td>{}<td>{:+.1f}</td><td>{:.1f}</td><td>{:.2f} {:.2f} {:.2f}</td><td>{}</td></tr>\n", i + 1,
-                            i + 1, d.severity, d.severity, html(description_of(d.cause)), (d.pit ? -1 : 1) * d.depth * um_per_mm,
-                            formed ? fmt::format("<td>{}</td>", um_text(page.quality.formed->marks[i])) : "", std::copysign(100 * d.speed_mismatch, d.speed_jump), d.length,
-                            d.position.x(), d.position.y(), d.position.z(), html(defect_lines(d)));
+        text += fmt::format(
+            "<tr data-defect=\"{}\"><td>{}</td><td><span class=\"severity s{}\">{}</span></td><td>{}</td><td>{:+.1f}</td>{}<td>{:+.1f}</td><td>{:.1f}</td><td>{:.2f} {:.2f} {:.2f}</td><td>{}</td></tr>\n",
+            i + 1, i + 1, d.severity, d.severity, html(description_of(d.cause)), (d.pit ? -1 : 1) * d.depth * um_per_mm,
+            formed ? fmt::format("<td>{}</td>", um_text(page.quality.formed->marks[i])) : "",
+            std::copysign(100 * d.speed_mismatch, d.speed_jump), d.length, d.position.x(), d.position.y(),
+            d.position.z(), html(defect_lines(d)));
     }
     text += "</tbody></table></div>\n";
-    if (report.defects.size() > defects_in_table) text += fmt::format("<p>The table stops at the worst {}; <code>clsurf check</code> lists all.</p>\n", defects_in_table);
+    if (report.defects.size() > defects_in_table)
+        text += fmt::format("<p>The table stops at the worst {}; <code>clsurf check</code> lists all.</p>\n",
+                            defects_in_table);
     return text + "</section>\n";
 }
 
 std::string numbers_section(const ReportPage& page) {
     const QualityReport& report = *page.quality.report;
-    std::string text = "<section id=\"numbers\"><h2>Adjacent passes in numbers</h2>\n<div class=\"wide\"><table><thead><tr><th>Size of</th><th>50 %</th><th>90 %</th><th>99 %</th><th>most</th><th>unit</th></tr></thead><tbody>\n";
+    std::string text =
+        "<section id=\"numbers\"><h2>Adjacent passes in numbers</h2>\n<div class=\"wide\"><table><thead><tr><th>Size of</th><th>50 %</th><th>90 %</th><th>99 %</th><th>most</th><th>unit</th></tr></thead><tbody>\n";
     for (const PagePercentiles& row : page.percentiles) {
         const FieldInfo* info = nullptr;
         for (const Field& field : page.surfaces.front().fields) {
@@ -115,18 +136,24 @@ std::string numbers_section(const ReportPage& page) {
         }
         if (info == nullptr) continue;
         text += fmt::format("<tr><td>{}</td>", html(info->label));
-        for (const double value : row.of_magnitude) text += std::isfinite(value) ? fmt::format("<td>{}</td>", number_text(value)) : "<td>–</td>";
+        for (const double value : row.of_magnitude)
+            text += std::isfinite(value) ? fmt::format("<td>{}</td>", number_text(value)) : "<td>–</td>";
         text += fmt::format("<td>{}</td></tr>\n", html(info->unit.name));
     }
     text += "</tbody></table></div>\n";
-    text += fmt::format("<p>Thresholds of a defect: speed {:.1f} %, acceleration {:.0f} mm/s²", 100 * report.thresholds.of[index_of(Quantity::speed)],
+    text += fmt::format("<p>Thresholds of a defect: speed {:.1f} %, acceleration {:.0f} mm/s²",
+                        100 * report.thresholds.of[index_of(Quantity::speed)],
                         report.thresholds.of[index_of(Quantity::acceleration)]);
-    if (report.has_lag) text += fmt::format(", lag {:.1f} µm", report.thresholds.of[index_of(Quantity::lag)] * um_per_mm);
-    text += fmt::format(", relief of the passes {:.1f} µm; {}.</p>\n", report.thresholds.of[index_of(Quantity::relief)] * um_per_mm, html(report.note));
+    if (report.has_lag)
+        text += fmt::format(", lag {:.1f} µm", report.thresholds.of[index_of(Quantity::lag)] * um_per_mm);
+    text += fmt::format(", relief of the passes {:.1f} µm; {}.</p>\n",
+                        report.thresholds.of[index_of(Quantity::relief)] * um_per_mm, html(report.note));
     if (page.quality.formed != nullptr && !page.quality.formed->patches.empty()) {
         const FormedReport& f = *page.quality.formed;
-        text += fmt::format("<p>Formed surface with {}, {} patches: Ra {:.2f}, Rz {:.2f} (at most {:.2f}), Sa {:.2f}, Sz {:.2f} µm, cut-off {:g} mm.</p>\n", html(to_text(page.quality.tool)), f.patches.size(), f.ra * um_per_mm,
-                            f.rz * um_per_mm, f.patches[f.roughest].profile.rz * um_per_mm, f.sa * um_per_mm, f.sz * um_per_mm, f.cutoff);
+        text += fmt::format(
+            "<p>Formed surface with {}, {} patches: Ra {:.2f}, Rz {:.2f} (at most {:.2f}), Sa {:.2f}, Sz {:.2f} µm, cut-off {:g} mm.</p>\n",
+            html(to_text(page.quality.tool)), f.patches.size(), f.ra * um_per_mm, f.rz * um_per_mm,
+            f.patches[f.roughest].profile.rz * um_per_mm, f.sa * um_per_mm, f.sz * um_per_mm, f.cutoff);
     } else {
         text += "<p>Roughness is not known without the tool: <code>--tool ball:D</code>.</p>\n";
     }
@@ -139,7 +166,8 @@ std::string health_section(const ReportPage& page) {
     text += "<ul>\n";
     for (const Diagnostic& d : page.health.summary()) {
         const std::string where = d.where.text();
-        text += fmt::format("<li class=\"{}\"><b>{}</b> {}{}{}{}</li>\n", name_of(d.severity), name_of(d.severity), html(where), where.empty() ? "" : ": ", html(d.text),
+        text += fmt::format("<li class=\"{}\"><b>{}</b> {}{}{}{}</li>\n", name_of(d.severity), name_of(d.severity),
+                            html(where), where.empty() ? "" : ": ", html(d.text),
                             d.hint.empty() ? "" : fmt::format(" <small>{}</small>", html(d.hint)));
     }
     return text + "</ul></section>\n";
@@ -148,23 +176,29 @@ std::string health_section(const ReportPage& page) {
 std::string kept_text(const PageSurface& surface) {
     const KeptPoints& kept = *surface.kept;
     const std::string log = html(base_name(surface.log->name));
-    if (!kept.reduced()) return fmt::format("<li>{}: all {} points are in this page.</li>\n", log, count_text(kept.all));
+    if (!kept.reduced())
+        return fmt::format("<li>{}: all {} points are in this page.</li>\n", log, count_text(kept.all));
     return fmt::format(
         "<li>{}: {} of {} points are in this page. Of each {} consecutive points of a pass stay the first and where each field is lowest and highest; besides these "
         "the ends of passes, {}and {}. At which point each line begins and ends is known of all lines. Numbers, percentiles, "
         "defects and pictures on this page were made from all points.</li>\n",
-        log, count_text(static_cast<std::int64_t>(kept.points.size())), count_text(kept.all), count_text(kept.window), kept.line_starts ? "the first point of each line, " : "",
-        kept.whole_defects == kept.defects ? "every point of a defect and of the passes beside it"
-                                      : fmt::format("every point of {} of {} defects and of the passes beside them, the others being too large", kept.whole_defects, kept.defects));
+        log, count_text(static_cast<std::int64_t>(kept.points.size())), count_text(kept.all), count_text(kept.window),
+        kept.line_starts ? "the first point of each line, " : "",
+        kept.whole_defects == kept.defects
+            ? "every point of a defect and of the passes beside it"
+            : fmt::format("every point of {} of {} defects and of the passes beside them, the others being too large",
+                          kept.whole_defects, kept.defects));
 }
 
 std::string contents_section(const ReportPage& page) {
     std::string text = "<section id=\"contents\"><h2>What this page holds</h2>\n<ul>\n";
     for (const PageSurface& surface : page.surfaces) text += kept_text(surface);
-    text += fmt::format("<li>Positions in steps of 0.1 µm, values in steps of 1/32768 of the range that is shown; at most {:.4g} MB were allowed (<code>--max-size</code>).</li>\n",
-                        static_cast<double>(page.most_bytes) / 1e6);
+    text += fmt::format(
+        "<li>Positions in steps of 0.1 µm, values in steps of 1/32768 of the range that is shown; at most {:.4g} MB were allowed (<code>--max-size</code>).</li>\n",
+        static_cast<double>(page.most_bytes) / 1e6);
     for (const Field& field : page.surfaces.front().fields) {
-        if (!field.info.note.empty()) text += fmt::format("<li>{}: {}.</li>\n", html(field.info.label), html(field.info.note));
+        if (!field.info.note.empty())
+            text += fmt::format("<li>{}: {}.</li>\n", html(field.info.label), html(field.info.note));
     }
     return text + "</ul></section>\n";
 }
@@ -177,13 +211,16 @@ std::string page_summary(const ReportPage& page) {
     const PageSurface& s = page.surfaces.front();
     const QualityReport& report = *page.quality.report;
     const Log& log = *s.log;
-    std::string text = fmt::format("<header id=\"summary\">\n<h1>{} <small>{}{}</small></h1>\n<dl>\n", html(base_name(page.program)), html(base_name(page.log)),
-                                   page.before.empty() ? "" : html(" · before: " + base_name(page.before)));
+    std::string text =
+        fmt::format("<header id=\"summary\">\n<h1>{} <small>{}{}</small></h1>\n<dl>\n", html(base_name(page.program)),
+                    html(base_name(page.log)), page.before.empty() ? "" : html(" · before: " + base_name(page.before)));
     const std::string machine = metadata_text(log, "machine");
     if (!machine.empty()) text += fact("Machine", machine);
-    text += fact("Duration", duration_text(log.time_of(log.records - 1)), fmt::format("every {:g} ms", log.period * 1e3));
+    text +=
+        fact("Duration", duration_text(log.time_of(log.records - 1)), fmt::format("every {:g} ms", log.period * 1e3));
     text += fact("Points", count_text(log.records), fmt::format("{} log", log.format));
-    text += fact("Passes", count_text(report.passes), report.step_over > 0 ? fmt::format("{:.3g} mm apart", report.step_over) : "");
+    text += fact("Passes", count_text(report.passes),
+                 report.step_over > 0 ? fmt::format("{:.3g} mm apart", report.step_over) : "");
     int worst = 0;
     double deepest = 0;
     for (const Defect& d : report.defects) {
@@ -191,17 +228,30 @@ std::string page_summary(const ReportPage& page) {
         deepest = std::max(deepest, d.depth);
     }
     constexpr std::string_view severities[] = {"", "traces", "visible on a glossy surface", "can be felt", "reject"};
-    text += fact("Defects", report.step_over > 0 ? fmt::format("{}", report.defects.size()) : "–", severities[worst], worst > 2 ? "bad" : worst > 0 ? "fair" : "good");
+    text += fact("Defects", report.step_over > 0 ? fmt::format("{}", report.defects.size()) : "–", severities[worst],
+                 worst > 2   ? "bad"
+                 : worst > 0 ? "fair"
+                             : "good");
     if (worst > 0) text += fact("Deepest", um_text(deepest) + " µm");
     for (const PagePercentiles& row : page.percentiles) {
-        if (row.field == "speed_mismatch" && std::isfinite(row.of_magnitude[2])) text += fact("Speed mismatch", fmt::format("{:.{}f} mm/min", row.of_magnitude[2], row.of_magnitude[2] < 10 ? 2 : 0), "99 %");
+        if (row.field == "speed_mismatch" && std::isfinite(row.of_magnitude[2]))
+            text += fact("Speed mismatch",
+                         fmt::format("{:.{}f} mm/min", row.of_magnitude[2], row.of_magnitude[2] < 10 ? 2 : 0), "99 %");
     }
     if (page.quality.formed != nullptr && !page.quality.formed->patches.empty()) {
-        text += fact("Roughness", fmt::format("Rz {:.2f} µm", page.quality.formed->rz * um_per_mm), fmt::format("Ra {:.2f} µm, {}", page.quality.formed->ra * um_per_mm, to_text(page.quality.tool)));
+        text += fact("Roughness", fmt::format("Rz {:.2f} µm", page.quality.formed->rz * um_per_mm),
+                     fmt::format("Ra {:.2f} µm, {}", page.quality.formed->ra * um_per_mm, to_text(page.quality.tool)));
     }
     std::size_t warnings = 0;
     for (const Diagnostic& d : page.health.kept()) warnings += d.severity == Severity::note ? 0 : 1;
-    text += fact("Log health", page.health.has_errors() ? "errors" : warnings > 0 ? "warnings" : "sound", warnings > 0 ? fmt::format("{} to look at", warnings) : "", page.health.has_errors() ? "bad" : warnings > 0 ? "fair" : "good");
+    text += fact("Log health",
+                 page.health.has_errors() ? "errors"
+                 : warnings > 0           ? "warnings"
+                                          : "sound",
+                 warnings > 0 ? fmt::format("{} to look at", warnings) : "",
+                 page.health.has_errors() ? "bad"
+                 : warnings > 0           ? "fair"
+                                          : "good");
     return text + "</dl>\n</header>\n";
 }
 
@@ -212,7 +262,8 @@ std::string page_sections(const ReportPage& page) {
         for (const PagePicture& picture : page.pictures) text += picture_html(picture);
         text += "</div></section>\n";
     }
-    text += defects_section(page) + numbers_section(page) + health_section(page) + defect_list_section(page) + contents_section(page);
+    text += defects_section(page) + numbers_section(page) + health_section(page) + defect_list_section(page) +
+            contents_section(page);
     return text + "</main>\n";
 }
 

@@ -18,11 +18,12 @@ SourceText text_of(const Source& source) { return {source.name, source.text(), s
 
 /// Subprograms stand beside the program under their name, as the controls write it.
 std::optional<SourceText> load_beside(const std::filesystem::path& folder, const std::string& name) {
-    static constexpr std::array<std::string_view, 12> endings{
-        "", ".ngc", ".nc", ".NC", ".spf", ".SPF", ".mpf", ".MPF", ".tap", ".i", ".I", ".txt"};
+    static constexpr std::array<std::string_view, 12> endings{"",     ".ngc", ".nc",  ".NC", ".spf", ".SPF",
+                                                              ".mpf", ".MPF", ".tap", ".i",  ".I",   ".txt"};
     // A name with a path would leave the folder.
     if (name.find('/') != std::string::npos) return std::nullopt;
-    for (const std::string& stem : {name, "O" + name, "o" + name, "O" + std::string(name.size() < 4 ? 4 - name.size() : 0, '0') + name}) {
+    for (const std::string& stem :
+         {name, "O" + name, "o" + name, "O" + std::string(name.size() < 4 ? 4 - name.size() : 0, '0') + name}) {
         for (const std::string_view ending : endings) {
             const std::filesystem::path path = folder / (stem + std::string(ending));
             std::error_code error;

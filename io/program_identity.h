@@ -13,8 +13,7 @@ namespace clsurf::io {
 [[nodiscard]] ProgramReference identify(const Source& program);
 
 /// The metadata with `programs` set to these, the rest kept. `metadata`: a JSON object or empty.
-[[nodiscard]] std::string with_programs(const std::string& metadata,
-                                        std::span<const ProgramReference> programs);
+[[nodiscard]] std::string with_programs(const std::string& metadata, std::span<const ProgramReference> programs);
 
 /// Adds the warning `log.program` where the log names its programs by hash and `program` is none of
 /// them: edited after the run where the name is the same, another one otherwise. O(bytes) for logs

@@ -63,7 +63,8 @@ Json defects_json(const ReportedQuality& q) {
 
 Json expected_json(const ReportedQuality& q) {
     Json all = Json::array();
-    for (std::size_t i = 0; i < q.report->expected.size(); ++i) all.push_back(defect_json(q.report->expected[i], i + 1, q.scallop));
+    for (std::size_t i = 0; i < q.report->expected.size(); ++i)
+        all.push_back(defect_json(q.report->expected[i], i + 1, q.scallop));
     return all;
 }
 
@@ -100,9 +101,14 @@ std::string quality_json(const ReportedQuality& q) {
     const QualityReport& r = *q.report;
     Json budget = Json::array();
     for (const BudgetLine& line : q.budget) {
-        budget.push_back({{"name", line.name}, {"limit", number(line.limit)}, {"measured", number(line.measured)}, {"held", line.held}});
+        budget.push_back({{"name", line.name},
+                          {"limit", number(line.limit)},
+                          {"measured", number(line.measured)},
+                          {"held", line.held}});
     }
-    const auto quantity = [&](const std::array<float, quantities>& values, Quantity which) { return static_cast<double>(values[index_of(which)]); };
+    const auto quantity = [&](const std::array<float, quantities>& values, Quantity which) {
+        return static_cast<double>(values[index_of(which)]);
+    };
     Json thresholds{{"speed_percent", number(100 * quantity(r.thresholds.of, Quantity::speed))},
                     {"acceleration_mm_s2", number(quantity(r.thresholds.of, Quantity::acceleration))},
                     {"lag_um", r.has_lag ? number(um(quantity(r.thresholds.of, Quantity::lag))) : Json(nullptr)},
@@ -137,9 +143,11 @@ std::string quality_csv(const ReportedQuality& q) {
     for (std::size_t i = 0; i < q.report->defects.size(); ++i) {
         const Defect& d = q.report->defects[i];
         for (const DefectRun& run : d.runs) {
-            text += fmt::format("{},{},{},{},{},{},{},{},{:.4f},{:.4f},{:.4f},{:.3f},{},{:.1f},{:.1f},{:.3f},{:.4f},{:.2f}\n", i + 1, d.severity, name_of(d.cause),
-                                run.pass, run.first_line, run.last_line, run.points.first, run.points.last, d.position.x(), d.position.y(), d.position.z(),
-                                um(d.depth), d.pit ? "pit" : "bulge", per_minute(d.speed_jump), d.acceleration_jump, d.length, d.area, d.score);
+            text += fmt::format(
+                "{},{},{},{},{},{},{},{},{:.4f},{:.4f},{:.4f},{:.3f},{},{:.1f},{:.1f},{:.3f},{:.4f},{:.2f}\n", i + 1,
+                d.severity, name_of(d.cause), run.pass, run.first_line, run.last_line, run.points.first,
+                run.points.last, d.position.x(), d.position.y(), d.position.z(), um(d.depth), d.pit ? "pit" : "bulge",
+                per_minute(d.speed_jump), d.acceleration_jump, d.length, d.area, d.score);
         }
     }
     return text;
@@ -150,46 +158,60 @@ std::string quality_text(const ReportedQuality& q) {
     std::string text;
     const auto lines_of = [](const DefectRun& run) {
         if (run.first_line == 0) return std::string("-");
-        return run.first_line == run.last_line ? fmt::format("{}", run.first_line) : fmt::format("{}-{}", run.first_line, run.last_line);
+        return run.first_line == run.last_line ? fmt::format("{}", run.first_line)
+                                               : fmt::format("{}-{}", run.first_line, run.last_line);
     };
     if (!r.defects.empty()) {
-        text += fmt::format("{:>3} {:>3} {:<13} {:>9} {:>10} {:>7}{} {:<28} {}\n", "no", "sev", "cause", "depth µm", "speed %", "mm", q.formed != nullptr ? "  formed µm" : "",
-                            "at X Y Z [mm]", "lines");
+        text += fmt::format("{:>3} {:>3} {:<13} {:>9} {:>10} {:>7}{} {:<28} {}\n", "no", "sev", "cause", "depth µm",
+                            "speed %", "mm", q.formed != nullptr ? "  formed µm" : "", "at X Y Z [mm]", "lines");
     }
     for (std::size_t i = 0; i < r.defects.size(); ++i) {
         const Defect& d = r.defects[i];
         std::string lines;
         constexpr std::size_t shown = 4;
-        for (std::size_t k = 0; k < std::min(shown, d.runs.size()); ++k) lines += (k > 0 ? ", " : "") + lines_of(d.runs[k]);
+        for (std::size_t k = 0; k < std::min(shown, d.runs.size()); ++k)
+            lines += (k > 0 ? ", " : "") + lines_of(d.runs[k]);
         if (d.runs.size() > shown) lines += fmt::format(" and {} more", d.runs.size() - shown);
         const double percent = std::copysign(100 * d.speed_mismatch, d.speed_jump);
         const double formed = q.formed != nullptr ? um(q.formed->marks[i]) : 0;
-        const std::string mark = q.formed == nullptr ? "" : fmt::format(" {:>10}", formed == formed ? fmt::format("{:.1f}", formed) : "-");
-        text += fmt::format("{:>3} {:>3} {:<13} {:>8} {:>9} {:>7}{} {:<28} {}\n", i + 1, d.severity, name_of(d.cause), fmt::format("{:+.1f}", d.pit ? -um(d.depth) : um(d.depth)),
-                            fmt::format("{:+.1f}", percent), fmt::format("{:.1f}", d.length), mark,
+        const std::string mark =
+            q.formed == nullptr ? "" : fmt::format(" {:>10}", formed == formed ? fmt::format("{:.1f}", formed) : "-");
+        text += fmt::format("{:>3} {:>3} {:<13} {:>8} {:>9} {:>7}{} {:<28} {}\n", i + 1, d.severity, name_of(d.cause),
+                            fmt::format("{:+.1f}", d.pit ? -um(d.depth) : um(d.depth)), fmt::format("{:+.1f}", percent),
+                            fmt::format("{:.1f}", d.length), mark,
                             fmt::format("{:.2f} {:.2f} {:.2f}", d.position.x(), d.position.y(), d.position.z()), lines);
     }
     if (r.passes < 2 || r.step_over <= 0) {
         text += "no adjacent passes: nothing to compare\n";
     } else {
-        text += fmt::format("{}{} defects on {} passes, {:.3g} mm apart; {:.1f} % of {} cutting points compared with both neighbours\n", r.defects.empty() ? "" : "\n",
-                            r.defects.empty() ? "no" : fmt::format("{}", r.defects.size()), r.passes, r.step_over, 100 * r.coverage(), r.points);
-        text += fmt::format("thresholds: speed {:.1f} %, acceleration {:.0f} mm/s²", 100 * r.thresholds.of[index_of(Quantity::speed)],
+        text += fmt::format(
+            "{}{} defects on {} passes, {:.3g} mm apart; {:.1f} % of {} cutting points compared with both neighbours\n",
+            r.defects.empty() ? "" : "\n", r.defects.empty() ? "no" : fmt::format("{}", r.defects.size()), r.passes,
+            r.step_over, 100 * r.coverage(), r.points);
+        text += fmt::format("thresholds: speed {:.1f} %, acceleration {:.0f} mm/s²",
+                            100 * r.thresholds.of[index_of(Quantity::speed)],
                             r.thresholds.of[index_of(Quantity::acceleration)]);
         if (r.has_lag) text += fmt::format(", lag {:.1f} µm", um(r.thresholds.of[index_of(Quantity::lag)]));
-        text += fmt::format(", relief of the passes {:.1f} µm; {}\n", um(r.thresholds.of[index_of(Quantity::relief)]), r.note);
-        if (q.scallop > 0) text += fmt::format("scallop between clean passes with {}: {:.2f} µm\n", to_text(q.tool), um(q.scallop));
+        text += fmt::format(", relief of the passes {:.1f} µm; {}\n", um(r.thresholds.of[index_of(Quantity::relief)]),
+                            r.note);
+        if (q.scallop > 0)
+            text += fmt::format("scallop between clean passes with {}: {:.2f} µm\n", to_text(q.tool), um(q.scallop));
         if (q.formed != nullptr && !q.formed->patches.empty()) {
             const FormedReport& f = *q.formed;
             const RoughPatch& roughest = f.patches[f.roughest];
-            text += fmt::format("formed surface, {} patches: Ra {:.2f}, Rz {:.2f} (at most {:.2f}, at {:.2f} {:.2f} {:.2f}), Sa {:.2f}, Sz {:.2f} µm, cut-off {:g} mm\n", f.patches.size(), um(f.ra), um(f.rz),
-                                um(roughest.profile.rz), roughest.contact.x(), roughest.contact.y(), roughest.contact.z(), um(f.sa), um(f.sz), f.cutoff);
+            text += fmt::format(
+                "formed surface, {} patches: Ra {:.2f}, Rz {:.2f} (at most {:.2f}, at {:.2f} {:.2f} {:.2f}), Sa {:.2f}, Sz {:.2f} µm, cut-off {:g} mm\n",
+                f.patches.size(), um(f.ra), um(f.rz), um(roughest.profile.rz), roughest.contact.x(),
+                roughest.contact.y(), roughest.contact.z(), um(f.sa), um(f.sz), f.cutoff);
         }
         if (!r.has_lag) text += "no measured positions: depths are those of the commanded path alone\n";
-        if (!r.expected.empty()) text += fmt::format("{} more at the border of the part, where a pass has one neighbour only: not counted\n", r.expected.size());
+        if (!r.expected.empty())
+            text += fmt::format("{} more at the border of the part, where a pass has one neighbour only: not counted\n",
+                                r.expected.size());
     }
     for (const BudgetLine& line : q.budget) {
-        text += fmt::format("budget {:<28} {:>10.4g} of {:<10.4g} {}\n", line.name, line.measured, line.limit, line.held ? "held" : "NOT HELD");
+        text += fmt::format("budget {:<28} {:>10.4g} of {:<10.4g} {}\n", line.name, line.measured, line.limit,
+                            line.held ? "held" : "NOT HELD");
     }
     return text;
 }

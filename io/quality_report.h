@@ -17,11 +17,11 @@ namespace clsurf::io {
 struct ReportedQuality {
     const QualityReport* report = nullptr;
     const Program* program = nullptr;
-    std::string log;       ///< its name
+    std::string log;  ///< its name
     CuttingTool tool;
-    double scallop = 0;    ///< [mm] between clean passes; 0: not known
+    double scallop = 0;                      ///< [mm] between clean passes; 0: not known
     std::vector<double> colour_differences;  ///< ΔE00 of each defect's speed and that beside it, in the map of speeds
-    const FormedReport* formed = nullptr;  ///< nullptr: the tool is not known
+    const FormedReport* formed = nullptr;    ///< nullptr: the tool is not known
     std::vector<BudgetLine> budget;
     const Diagnostics* diagnostics = nullptr;
 };

@@ -11,7 +11,8 @@
 namespace clsurf::io {
 namespace {
 
-constexpr std::array<std::string_view, 10> type_names{"i8", "u8", "i16", "u16", "i32", "u32", "i64", "u64", "f32", "f64"};
+constexpr std::array<std::string_view, 10> type_names{"i8",  "u8",  "i16", "u16", "i32",
+                                                      "u32", "i64", "u64", "f32", "f64"};
 constexpr std::int64_t most_bytes = std::int64_t{1} << 31;
 
 ScalarType type_of(const TomlFile& file, const toml::table& entry) {
@@ -33,7 +34,8 @@ Channel read_channel(const TomlFile& file, const toml::table& entry, std::int64_
     const std::optional<std::int64_t> offset = file.integer(entry, "offset", 0, most_bytes);
     if (!offset) file.fail(entry, "channel without 'offset'");
     if (*offset + static_cast<std::int64_t>(size_of(channel.values.type)) > record_bytes) {
-        file.fail(entry, fmt::format("channel '{}' at byte {} does not fit a record of {} bytes", channel.name, *offset, record_bytes));
+        file.fail(entry, fmt::format("channel '{}' at byte {} does not fit a record of {} bytes", channel.name, *offset,
+                                     record_bytes));
     }
     channel.values.stride = static_cast<std::size_t>(*offset);  // its place in the record, until the data is known
     channel.values.scale = file.number(entry, "scale").value_or(1.0);
@@ -52,7 +54,8 @@ Log open_layout(const Source& source, const LogOptions& options) {
     if (head == nullptr) file.fail("no [log] table");
     file.allow(*head, {"endian", "header_bytes", "record_bytes", "period_s"});
     const std::string endian = file.text(*head, "endian").value_or("little");
-    if (endian != "little" && endian != "big") file.fail(*head->get("endian"), "'endian' is '" + endian + "', expected \"little\" or \"big\"");
+    if (endian != "little" && endian != "big")
+        file.fail(*head->get("endian"), "'endian' is '" + endian + "', expected \"little\" or \"big\"");
     const std::int64_t header_bytes = file.integer(*head, "header_bytes", 0, most_bytes).value_or(0);
     const std::optional<std::int64_t> record_bytes = file.integer(*head, "record_bytes", 1, most_bytes);
     if (!record_bytes) file.fail(*head, "no 'record_bytes'");
@@ -66,15 +69,18 @@ Log open_layout(const Source& source, const LogOptions& options) {
     if (!(log.period > 0)) file.fail(*head->get("period_s"), "'period_s' must be greater than 0");
     log.keep_alive = source.keep_alive;
     if (source.bytes.size() < static_cast<std::size_t>(header_bytes)) {
-        throw InputError(Place::of_file(source.name), fmt::format("file of {} bytes is shorter than the layout's header of {} bytes", source.bytes.size(), header_bytes));
+        throw InputError(Place::of_file(source.name),
+                         fmt::format("file of {} bytes is shorter than the layout's header of {} bytes",
+                                     source.bytes.size(), header_bytes));
     }
     const std::size_t data = source.bytes.size() - static_cast<std::size_t>(header_bytes);
     log.records = static_cast<PointIndex>(data / static_cast<std::size_t>(*record_bytes));
     if (const std::size_t left = data % static_cast<std::size_t>(*record_bytes); left != 0) {
         log.closed = false;
-        log.diagnostics.add({Severity::warning, "log.unclosed", Place::of_byte(source.name, source.bytes.size() - left),
-                             fmt::format("{} bytes are left over after {} whole records of {} bytes", left, log.records, *record_bytes),
-                             "is record_bytes of the layout right?"});
+        log.diagnostics.add(
+            {Severity::warning, "log.unclosed", Place::of_byte(source.name, source.bytes.size() - left),
+             fmt::format("{} bytes are left over after {} whole records of {} bytes", left, log.records, *record_bytes),
+             "is record_bytes of the layout right?"});
     }
     const toml::array* channels = file.tables(file.root(), "channel");
     if (channels == nullptr) file.fail("no [[channel]]");

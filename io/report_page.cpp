@@ -16,14 +16,16 @@ namespace {
 std::string source_hash(std::string_view text) {
     const std::string digits = sha256(std::as_bytes(std::span(text.data(), text.size())));
     std::string bytes;
-    for (std::size_t i = 0; i < digits.size(); i += 2) bytes += static_cast<char>(std::stoi(digits.substr(i, 2), nullptr, 16));
+    for (std::size_t i = 0; i < digits.size(); i += 2)
+        bytes += static_cast<char>(std::stoi(digits.substr(i, 2), nullptr, 16));
     return "'sha256-" + to_base64(bytes) + "'";
 }
 
 /// Nothing is loaded from anywhere; only the page's own script and style work.
 std::string policy() {
-    return fmt::format("default-src 'none'; script-src {}; style-src {}; img-src data: blob:; base-uri 'none'; form-action 'none'", source_hash(page_script()),
-                       source_hash(page_style()));
+    return fmt::format(
+        "default-src 'none'; script-src {}; style-src {}; img-src data: blob:; base-uri 'none'; form-action 'none'",
+        source_hash(page_script()), source_hash(page_style()));
 }
 
 }  // namespace
@@ -42,9 +44,11 @@ std::string write_page(const ReportPage& page) {
     text += page_style();
     text += "</style>\n</head>\n<body>\n";
     text += page_summary(page);
-    text += "<noscript><p class=\"note\">The view that can be turned needs JavaScript; pictures, tables and summary do without.</p></noscript>\n<div id=\"app\" hidden></div>\n";
+    text +=
+        "<noscript><p class=\"note\">The view that can be turned needs JavaScript; pictures, tables and summary do without.</p></noscript>\n<div id=\"app\" hidden></div>\n";
     text += page_sections(page);
-    text += "<script type=\"application/json\" id=\"manifest\">" + json_for_html(data.manifest.dump(-1, ' ', true, Json::error_handler_t::replace)) + "</script>\n";
+    text += "<script type=\"application/json\" id=\"manifest\">" +
+            json_for_html(data.manifest.dump(-1, ' ', true, Json::error_handler_t::replace)) + "</script>\n";
     for (std::size_t i = 0; i < data.blocks.size(); ++i) {
         text += fmt::format("<script type=\"application/octet-stream\" id=\"block-{}\">", i);
         text += data.blocks[i];

@@ -24,12 +24,12 @@ struct PageSurface {
     const Log* log = nullptr;
     const LineMap* lines = nullptr;
     const ClSurface* surface = nullptr;
-    const Trajectory* path = nullptr;         ///< of the role that the surface is of
-    std::vector<Trajectory> other_roles;      ///< positions that can be shown in its place
+    const Trajectory* path = nullptr;     ///< of the role that the surface is of
+    std::vector<Trajectory> other_roles;  ///< positions that can be shown in its place
     const KeptPoints* kept = nullptr;
-    std::span<const Field> fields;            ///< one value per point of the log
-    std::span<const std::uint8_t> joined;     ///< per kept point: goes on from the one before
-    std::span<const std::uint32_t> triangles; ///< numbers of kept points
+    std::span<const Field> fields;             ///< one value per point of the log
+    std::span<const std::uint8_t> joined;      ///< per kept point: goes on from the one before
+    std::span<const std::uint32_t> triangles;  ///< numbers of kept points
     std::span<const std::uint32_t> segments;
 };
 
@@ -74,13 +74,13 @@ struct ReportPage {
     std::vector<ShownRange> ranges;            ///< per field, of all logs
     std::string first_field;                   ///< shown at first
     ReportedQuality quality;
-    std::vector<PageDefect> defects;           ///< one per defect of the report
+    std::vector<PageDefect> defects;  ///< one per defect of the report
     std::vector<PagePercentiles> percentiles;
-    Diagnostics health;                        ///< findings on program and log
+    Diagnostics health;  ///< findings on program and log
     std::vector<PagePicture> pictures;
     std::vector<PageColourMap> colour_maps;
     std::optional<PageRelief> relief;
-    std::uint64_t most_bytes = 0;              ///< the limit that the points were chosen for
+    std::uint64_t most_bytes = 0;  ///< the limit that the points were chosen for
 };
 
 /// Percentiles of PagePercentiles.

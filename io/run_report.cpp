@@ -19,10 +19,18 @@ double percent(double part, double whole) { return whole > 0 ? 100 * part / whol
 Json quantity_json(const RunQuantitySummary& s) {
     const RunQuantityInfo& info = info_of(s.quantity);
     const auto shown = [&](double value) { return number(value * info.unit.per_inside); };
-    Json json{{"name", info.name},         {"unit", info.unit.name},      {"threshold", shown(s.threshold)},
-              {"compared_mm", number(s.way)}, {"mean", shown(s.mean)},       {"rms", shown(s.rms)},
-              {"p95", shown(s.p95)},       {"lowest", shown(s.lowest)},   {"highest", shown(s.highest)},
-              {"begin", shown(s.begin)},   {"end", shown(s.end)},         {"over_percent", number(100 * s.over)},
+    Json json{{"name", info.name},
+              {"unit", info.unit.name},
+              {"threshold", shown(s.threshold)},
+              {"compared_mm", number(s.way)},
+              {"mean", shown(s.mean)},
+              {"rms", shown(s.rms)},
+              {"p95", shown(s.p95)},
+              {"lowest", shown(s.lowest)},
+              {"highest", shown(s.highest)},
+              {"begin", shown(s.begin)},
+              {"end", shown(s.end)},
+              {"over_percent", number(100 * s.over)},
               {"stretches", s.stretches}};
     if (s.quantity == RunQuantity::speed) json["most_percent"] = number(100 * s.relative_most);
     return json;
@@ -59,7 +67,10 @@ Json run_json(const ReportedRun& run) {
     for (std::size_t i = 0; i < r.stretches.size(); ++i) differences.push_back(stretch_json(r.stretches[i], i + 1));
     Json budget = Json::array();
     for (const BudgetLine& line : run.budget) {
-        budget.push_back({{"name", line.name}, {"limit", number(line.limit)}, {"measured", number(line.measured)}, {"held", line.held}});
+        budget.push_back({{"name", line.name},
+                          {"limit", number(line.limit)},
+                          {"measured", number(line.measured)},
+                          {"held", line.held}});
     }
     return Json{{"name", run.name},
                 {"aligned_mm", number(r.aligned)},
@@ -75,34 +86,44 @@ Json run_json(const ReportedRun& run) {
 
 std::string lines_of(const RunDifferenceStretch& d) {
     if (d.first_line == 0 && d.last_line == 0) return "-";
-    return d.first_line == d.last_line ? fmt::format("{}", d.first_line) : fmt::format("{}-{}", d.first_line, d.last_line);
+    return d.first_line == d.last_line ? fmt::format("{}", d.first_line)
+                                       : fmt::format("{}-{}", d.first_line, d.last_line);
 }
 
 std::string run_text(const ReportedRun& run, const std::string& reference) {
     const RunReport& r = run.report;
-    std::string text = fmt::format("{} against {}: {:.1f} % of {:.1f} mm laid onto each other, {:.3f} s and {:.3f} s ({:+.3f} s)\n", run.name, reference,
-                                   percent(r.aligned, r.way), r.way, r.time_of_b, r.time, r.time_of_b - r.time);
-    text += fmt::format("{:<21} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>8} {:>7}\n", "difference", "mean", "95 %", "lowest", "highest", "begin", "end", "over %", "places");
+    std::string text =
+        fmt::format("{} against {}: {:.1f} % of {:.1f} mm laid onto each other, {:.3f} s and {:.3f} s ({:+.3f} s)\n",
+                    run.name, reference, percent(r.aligned, r.way), r.way, r.time_of_b, r.time, r.time_of_b - r.time);
+    text += fmt::format("{:<21} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>8} {:>7}\n", "difference", "mean", "95 %",
+                        "lowest", "highest", "begin", "end", "over %", "places");
     for (const RunQuantitySummary& s : r.quantities) {
         const RunQuantityInfo& info = info_of(s.quantity);
         const double u = info.unit.per_inside;
-        text += fmt::format("{:<21} {:>10.2f} {:>10.2f} {:>10.2f} {:>10.2f} {:>10.2f} {:>10.2f} {:>8.1f} {:>7}\n", fmt::format("{} [{}]", info.name, info.unit.name), s.mean * u,
-                            s.p95 * u, s.lowest * u, s.highest * u, s.begin * u, s.end * u, 100 * s.over, s.stretches);
+        text += fmt::format("{:<21} {:>10.2f} {:>10.2f} {:>10.2f} {:>10.2f} {:>10.2f} {:>10.2f} {:>8.1f} {:>7}\n",
+                            fmt::format("{} [{}]", info.name, info.unit.name), s.mean * u, s.p95 * u, s.lowest * u,
+                            s.highest * u, s.begin * u, s.end * u, 100 * s.over, s.stretches);
     }
-    if (!r.stretches.empty()) text += fmt::format("\n{:>3} {:<13} {:>16} {:>10} {:>8} {:>8} {:<28} {}\n", "no", "quantity", "peak", "mean", "mm", "s", "at X Y Z [mm]", "lines");
+    if (!r.stretches.empty())
+        text += fmt::format("\n{:>3} {:<13} {:>16} {:>10} {:>8} {:>8} {:<28} {}\n", "no", "quantity", "peak", "mean",
+                            "mm", "s", "at X Y Z [mm]", "lines");
     for (std::size_t i = 0; i < std::min(shown_stretches, r.stretches.size()); ++i) {
         const RunDifferenceStretch& d = r.stretches[i];
         const RunQuantityInfo& info = info_of(d.quantity);
         const double u = info.unit.per_inside;
         const bool relative = d.quantity == RunQuantity::speed;
-        text += fmt::format("{:>3} {:<13} {:>16} {:>10} {:>8.2f} {:>+8.3f} {:<28} {}\n", i + 1, info.name,
-                            relative ? fmt::format("{:+.1f} %", 100 * d.relative_peak) : fmt::format("{:+.2f} {}", d.peak * u, info.unit.name),
-                            relative ? fmt::format("{:+.1f} %", 100 * d.relative_mean) : fmt::format("{:+.2f}", d.mean * u), d.length, d.time,
-                            fmt::format("{:.2f} {:.2f} {:.2f}", d.position.x(), d.position.y(), d.position.z()), lines_of(d));
+        text += fmt::format(
+            "{:>3} {:<13} {:>16} {:>10} {:>8.2f} {:>+8.3f} {:<28} {}\n", i + 1, info.name,
+            relative ? fmt::format("{:+.1f} %", 100 * d.relative_peak)
+                     : fmt::format("{:+.2f} {}", d.peak * u, info.unit.name),
+            relative ? fmt::format("{:+.1f} %", 100 * d.relative_mean) : fmt::format("{:+.2f}", d.mean * u), d.length,
+            d.time, fmt::format("{:.2f} {:.2f} {:.2f}", d.position.x(), d.position.y(), d.position.z()), lines_of(d));
     }
-    if (r.stretches.size() > shown_stretches) text += fmt::format("and {} more: --json lists them\n", r.stretches.size() - shown_stretches);
+    if (r.stretches.size() > shown_stretches)
+        text += fmt::format("and {} more: --json lists them\n", r.stretches.size() - shown_stretches);
     for (const BudgetLine& line : run.budget) {
-        text += fmt::format("budget {:<34} {:>10.4g} of {:<10.4g} {}\n", line.name, line.measured, line.limit, line.held ? "held" : "NOT HELD");
+        text += fmt::format("budget {:<34} {:>10.4g} of {:<10.4g} {}\n", line.name, line.measured, line.limit,
+                            line.held ? "held" : "NOT HELD");
     }
     return text;
 }
@@ -123,9 +144,13 @@ std::string runs_json(const ReportedRuns& runs) {
             const RunDeparture& d = runs.departures[i];
             Json rms;
             for (const RunQuantityInfo& info : run_quantity_table()) {
-                rms[std::string(info.name) + "_" + std::string(info.json_suffix)] = number(d.rms[index_of(info.quantity)] * info.unit.per_inside);
+                rms[std::string(info.name) + "_" + std::string(info.json_suffix)] =
+                    number(d.rms[index_of(info.quantity)] * info.unit.per_inside);
             }
-            departures.push_back({{"name", runs.name_of(i)}, {"score", number(d.score)}, {"quantity", info_of(d.quantity).name}, {"rms", std::move(rms)}});
+            departures.push_back({{"name", runs.name_of(i)},
+                                  {"score", number(d.score)},
+                                  {"quantity", info_of(d.quantity).name},
+                                  {"rms", std::move(rms)}});
         }
         json["departures"] = std::move(departures);
         json["drifted"] = runs.drifted ? Json(runs.name_of(*runs.drifted)) : Json(nullptr);
@@ -149,7 +174,9 @@ std::string runs_text(const ReportedRuns& runs) {
         }
         text += "\n";
     }
-    text += runs.drifted ? fmt::format("{} drifted: {}\n", runs.name_of(*runs.drifted), info_of(runs.departures[*runs.drifted].quantity).name) : std::string("no run drifted\n");
+    text += runs.drifted ? fmt::format("{} drifted: {}\n", runs.name_of(*runs.drifted),
+                                       info_of(runs.departures[*runs.drifted].quantity).name)
+                         : std::string("no run drifted\n");
     return text;
 }
 

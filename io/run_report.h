@@ -26,7 +26,9 @@ struct ReportedRuns {
 
     [[nodiscard]] bool within_budget() const;
     /// Name of a run among `departures`.
-    [[nodiscard]] const std::string& name_of(std::size_t departure) const { return departure == 0 ? reference : runs[departure - 1].name; }
+    [[nodiscard]] const std::string& name_of(std::size_t departure) const {
+        return departure == 0 ? reference : runs[departure - 1].name;
+    }
 };
 
 /// Keys: docs/diff.md.

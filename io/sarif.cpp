@@ -12,7 +12,8 @@ std::string sarif_uri(const std::string& path) {
     std::string uri;
     for (const char c : path) {
         const auto byte = static_cast<unsigned char>(c);
-        const bool plain = (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z') || (byte >= '0' && byte <= '9') || std::string_view("-._~/").find(c) != std::string_view::npos;
+        const bool plain = (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z') ||
+                           (byte >= '0' && byte <= '9') || std::string_view("-._~/").find(c) != std::string_view::npos;
         uri += plain ? std::string(1, c) : fmt::format("%{:02X}", byte);
     }
     return path.starts_with('/') ? "file://" + uri : uri;
@@ -28,8 +29,11 @@ Json sarif_location(const std::string& uri, LineNumber first, LineNumber last, c
 
 std::string sarif_text(Json rules, Json results) {
     Json driver{{"name", "clsurf"}, {"version", version}, {"rules", std::move(rules)}};
-    Json run{{"tool", {{"driver", std::move(driver)}}}, {"columnKind", "utf16CodeUnits"}, {"results", std::move(results)}};
-    return dump(Json{{"$schema", "https://json.schemastore.org/sarif-2.1.0.json"}, {"version", "2.1.0"}, {"runs", Json::array({std::move(run)})}});
+    Json run{
+        {"tool", {{"driver", std::move(driver)}}}, {"columnKind", "utf16CodeUnits"}, {"results", std::move(results)}};
+    return dump(Json{{"$schema", "https://json.schemastore.org/sarif-2.1.0.json"},
+                     {"version", "2.1.0"},
+                     {"runs", Json::array({std::move(run)})}});
 }
 
 }  // namespace clsurf::io

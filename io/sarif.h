@@ -13,7 +13,8 @@ namespace clsurf::io {
 [[nodiscard]] std::string sarif_uri(const std::string& path);
 
 /// Lines of a program, with a message where there is one; first 0: the whole file.
-[[nodiscard]] Json sarif_location(const std::string& uri, LineNumber first, LineNumber last, const std::string& message);
+[[nodiscard]] Json sarif_location(const std::string& uri, LineNumber first, LineNumber last,
+                                  const std::string& message);
 
 /// A log of one run with its rules and results.
 [[nodiscard]] std::string sarif_text(Json rules, Json results);

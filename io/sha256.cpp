@@ -46,10 +46,10 @@ void mix_block(State& state, const std::byte* block) {
     }
     auto [a, b, c, d, e, f, g, h] = state;
     for (std::size_t i = 0; i < 64; ++i) {
-        const std::uint32_t t1 = h + (std::rotr(e, 6) ^ std::rotr(e, 11) ^ std::rotr(e, 25)) +
-                                 ((e & f) ^ (~e & g)) + round_constants[i] + w[i];
-        const std::uint32_t t2 = (std::rotr(a, 2) ^ std::rotr(a, 13) ^ std::rotr(a, 22)) +
-                                 ((a & b) ^ (a & c) ^ (b & c));
+        const std::uint32_t t1 = h + (std::rotr(e, 6) ^ std::rotr(e, 11) ^ std::rotr(e, 25)) + ((e & f) ^ (~e & g)) +
+                                 round_constants[i] + w[i];
+        const std::uint32_t t2 =
+            (std::rotr(a, 2) ^ std::rotr(a, 13) ^ std::rotr(a, 22)) + ((a & b) ^ (a & c) ^ (b & c));
         h = g;
         g = f;
         f = e;
@@ -71,7 +71,8 @@ bool has_instructions() {
 }
 
 // Intel SHA extensions: four rounds at a time; the state is kept as (A, B, E, F) and (C, D, G, H).
-__attribute__((target("sha,sse4.1"))) void mix_by_instructions(State& state, const std::byte* data, std::size_t blocks) {
+__attribute__((target("sha,sse4.1"))) void mix_by_instructions(State& state, const std::byte* data,
+                                                               std::size_t blocks) {
     const auto load = [](const void* place) { return _mm_loadu_si128(static_cast<const __m128i*>(place)); };
     const __m128i big_endian = _mm_set_epi64x(0x0c0d0e0f08090a0b, 0x0405060700010203);
     __m128i dcba = load(state.data());
@@ -126,8 +127,7 @@ void mix(State& state, const std::byte* data, std::size_t blocks, bool plain) {
 }  // namespace
 
 std::string sha256(std::span<const std::byte> bytes, bool plain) {
-    State state{0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
-                0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
+    State state{0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a, 0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
     const std::size_t blocks = bytes.size() / block_bytes;
     const std::size_t done = blocks * block_bytes;
     mix(state, bytes.data(), blocks, plain);

@@ -11,9 +11,11 @@ namespace {
 std::vector<StoredChannel> channels(const Kinematics& kinematics) {
     std::vector<StoredChannel> list;
     for (const char* role : {"cmd.", "fb."}) {
-        for (const std::string_view axis : axis_names) list.push_back({role + std::string(axis), "mm", ScalarType::f64, 1.0});
+        for (const std::string_view axis : axis_names)
+            list.push_back({role + std::string(axis), "mm", ScalarType::f64, 1.0});
         if (!kinematics.has_rotary()) continue;
-        for (const char letter : {kinematics.tilt.letter, kinematics.rotation.letter}) list.push_back({role + std::string(1, letter), "deg", ScalarType::f64, 1.0});
+        for (const char letter : {kinematics.tilt.letter, kinematics.rotation.letter})
+            list.push_back({role + std::string(1, letter), "deg", ScalarType::f64, 1.0});
     }
     list.push_back({"speed", "mm/min", ScalarType::f64, 1.0});
     list.push_back({"line", "", ScalarType::u32, 1.0});
@@ -33,22 +35,27 @@ struct FiveAxisRecord {
 
 Json by_axis(const Vec3& v, double factor) {
     Json json;
-    for (std::size_t i = 0; i < axis_names.size(); ++i) json[std::string(axis_names[i])] = number(v[static_cast<int>(i)] * factor);
+    for (std::size_t i = 0; i < axis_names.size(); ++i)
+        json[std::string(axis_names[i])] = number(v[static_cast<int>(i)] * factor);
     return json;
 }
 
 }  // namespace
 
 SimulatedLogWriter::SimulatedLogWriter(const std::string& path, const Machine& machine, const std::string& metadata)
-    : kinematics_(machine.kinematics), writer_(path, channels(machine.kinematics), machine.controller.period, metadata) {}
+    : kinematics_(machine.kinematics),
+      writer_(path, channels(machine.kinematics), machine.controller.period, metadata) {}
 
 void SimulatedLogWriter::append(std::span<const SimulatedPoint> points) {
     static_assert(sizeof(Record) == 7 * 8 + 2 * 4, "packed as the channels are");
     records_.resize(points.size() * sizeof(Record));
     for (std::size_t i = 0; i < points.size(); ++i) {
         const SimulatedPoint& p = points[i];
-        const Record record{{p.commanded.x(), p.commanded.y(), p.commanded.z()}, {p.feedback.x(), p.feedback.y(), p.feedback.z()},
-                            p.speed * seconds_per_minute, p.line, static_cast<std::uint32_t>(p.limit)};
+        const Record record{{p.commanded.x(), p.commanded.y(), p.commanded.z()},
+                            {p.feedback.x(), p.feedback.y(), p.feedback.z()},
+                            p.speed * seconds_per_minute,
+                            p.line,
+                            static_cast<std::uint32_t>(p.limit)};
         std::memcpy(records_.data() + i * sizeof(Record), &record, sizeof(Record));
     }
     writer_.append(std::as_bytes(std::span(records_)));
@@ -57,7 +64,8 @@ void SimulatedLogWriter::append(std::span<const SimulatedPoint> points) {
 void SimulatedLogWriter::append(std::span<const FiveAxisPoint> points) {
     static_assert(sizeof(FiveAxisRecord) == 11 * 8 + 2 * 4, "packed as the channels are");
     records_.resize(points.size() * sizeof(FiveAxisRecord));
-    const std::array<double, 5> factors{1, 1, 1, kinematics_.tilt.sign * deg_per_rad, kinematics_.rotation.sign * deg_per_rad};
+    const std::array<double, 5> factors{1, 1, 1, kinematics_.tilt.sign * deg_per_rad,
+                                        kinematics_.rotation.sign * deg_per_rad};
     for (std::size_t i = 0; i < points.size(); ++i) {
         const FiveAxisPoint& p = points[i];
         FiveAxisRecord record{{}, {}, p.speed * seconds_per_minute, p.line, static_cast<std::uint32_t>(p.limit)};
@@ -81,7 +89,8 @@ Json json_of(const SimulationSummary& summary) {
     json["path_deviation_mm"] = number(summary.path_deviation);
     json["limits_ok"] = summary.limits_ok;
     Json ruled;
-    for (std::size_t i = 0; i < summary.ruled.size(); ++i) ruled[std::string(name_of(static_cast<Ruling>(i)))] = summary.ruled[i];
+    for (std::size_t i = 0; i < summary.ruled.size(); ++i)
+        ruled[std::string(name_of(static_cast<Ruling>(i)))] = summary.ruled[i];
     json["points_ruled_by"] = ruled;
     return json;
 }
@@ -94,9 +103,11 @@ std::string simulation_json(const SimulationSummary& summary, const Diagnostics&
     return dump(json);
 }
 
-std::string simulation_json(const FiveAxisSummary& summary, const Kinematics& kinematics, const Diagnostics& diagnostics) {
+std::string simulation_json(const FiveAxisSummary& summary, const Kinematics& kinematics,
+                            const Diagnostics& diagnostics) {
     Json json = json_of(summary.run);
-    const std::array<std::string, 2> letters{std::string(1, kinematics.tilt.letter), std::string(1, kinematics.rotation.letter)};
+    const std::array<std::string, 2> letters{std::string(1, kinematics.tilt.letter),
+                                             std::string(1, kinematics.rotation.letter)};
     for (std::size_t k = 0; k < 2; ++k) {
         json["max"]["axis_speed_mm_min"][letters[k]] = number(summary.max_speed[k] * seconds_per_minute * deg_per_rad);
         json["max"]["acceleration_mm_s2"][letters[k]] = number(summary.max_acceleration[k] * deg_per_rad);

@@ -28,7 +28,8 @@ private:
 };
 
 /// With rotary axes: theirs beside x, y, z in deg, and orientation_error_deg, rounds.
-[[nodiscard]] std::string simulation_json(const FiveAxisSummary& summary, const Kinematics& kinematics, const Diagnostics& diagnostics);
+[[nodiscard]] std::string simulation_json(const FiveAxisSummary& summary, const Kinematics& kinematics,
+                                          const Diagnostics& diagnostics);
 
 /// The keys: duration_s, points, max, path_deviation_mm, limits_ok, points_ruled_by, diagnostics.
 [[nodiscard]] std::string simulation_json(const SimulationSummary& summary, const Diagnostics& diagnostics);

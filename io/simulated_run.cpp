@@ -31,8 +31,10 @@ Log simulate_run(const Program& program, const Machine& machine, const Vec3& sta
     log.diagnostics = program.diagnostics;
     log.diagnostics.append(summary.diagnostics);
     OwnedColumns columns(log);
-    for (std::size_t axis = 0; axis < 3; ++axis) columns.add("cmd." + std::string(axis_names[axis]), "mm", std::move(commanded[axis]));
-    for (std::size_t axis = 0; axis < 3; ++axis) columns.add("fb." + std::string(axis_names[axis]), "mm", std::move(feedback[axis]));
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        columns.add("cmd." + std::string(axis_names[axis]), "mm", std::move(commanded[axis]));
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        columns.add("fb." + std::string(axis_names[axis]), "mm", std::move(feedback[axis]));
     columns.add("line", "", std::move(lines));
     return log;
 }

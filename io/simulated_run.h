@@ -9,6 +9,7 @@ namespace clsurf::io {
 
 /// Channels as those of `clsurf simulate`: cmd and fb positions, line. The log's diagnostics are the
 /// program's and the run's. 56 bytes a point. Throws InputError as simulate() does.
-[[nodiscard]] Log simulate_run(const Program& program, const Machine& machine, const Vec3& start, const Progress& progress);
+[[nodiscard]] Log simulate_run(const Program& program, const Machine& machine, const Vec3& start,
+                               const Progress& progress);
 
 }  // namespace clsurf::io

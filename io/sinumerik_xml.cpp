@@ -62,8 +62,10 @@ ColumnPlan known_variable(const std::string& name) {
     }
     for (const Variable& variable : variables) {
         if (variable.name != leaf) continue;
-        if (!variable.channel.ends_with('.')) return {.name = std::string(variable.channel), .unit = std::string(variable.unit)};
-        if (axis >= 1 && axis <= 3) return {.name = std::string(variable.channel) + "xyz"[axis - 1], .unit = std::string(variable.unit)};
+        if (!variable.channel.ends_with('.'))
+            return {.name = std::string(variable.channel), .unit = std::string(variable.unit)};
+        if (axis >= 1 && axis <= 3)
+            return {.name = std::string(variable.channel) + "xyz"[axis - 1], .unit = std::string(variable.unit)};
     }
     return {.name = name, .unit = {}};
 }
@@ -82,10 +84,15 @@ public:
         XML_SetElementHandler(
             parser_.get(),
             // Exceptions must not pass through the C library: they are kept and thrown after it.
-            [](void* self, const XML_Char* name, const XML_Char** attributes) { static_cast<Reader*>(self)->guard([&](Reader& r) { r.open(name, attributes); }); },
-            [](void* self, const XML_Char* name) { static_cast<Reader*>(self)->guard([&](Reader& r) { r.close(name); }); });
+            [](void* self, const XML_Char* name, const XML_Char** attributes) {
+                static_cast<Reader*>(self)->guard([&](Reader& r) { r.open(name, attributes); });
+            },
+            [](void* self, const XML_Char* name) {
+                static_cast<Reader*>(self)->guard([&](Reader& r) { r.close(name); });
+            });
         // A trace declares no entities; one that does wants to blow up.
-        XML_SetEntityDeclHandler(parser_.get(), [](void* self, const XML_Char*, int, const XML_Char*, int, const XML_Char*, const XML_Char*, const XML_Char*, const XML_Char*) {
+        XML_SetEntityDeclHandler(parser_.get(), [](void* self, const XML_Char*, int, const XML_Char*, int,
+                                                   const XML_Char*, const XML_Char*, const XML_Char*, const XML_Char*) {
             static_cast<Reader*>(self)->guard([](Reader& r) { r.fail("declares an entity, which no trace does"); });
         });
     }
@@ -100,9 +107,15 @@ public:
             if (status == XML_STATUS_ERROR) {
                 // Cut off: some token is open at the very end, or elements are.
                 const XML_Error error = XML_GetErrorCode(parser_.get());
-                const bool cut = last && (error == XML_ERROR_NO_ELEMENTS || error == XML_ERROR_UNCLOSED_TOKEN || error == XML_ERROR_PARTIAL_CHAR);
+                const bool cut = last && (error == XML_ERROR_NO_ELEMENTS || error == XML_ERROR_UNCLOSED_TOKEN ||
+                                          error == XML_ERROR_PARTIAL_CHAR);
                 if (!cut || time.empty()) fail(fmt::format("no valid XML: {}", XML_ErrorString(error)));
-                diagnostics.add({Severity::warning, "log.unclosed", place(), fmt::format("the trace ends here, in the middle; {} whole records are read", time.size()), {}});
+                diagnostics.add(
+                    {Severity::warning,
+                     "log.unclosed",
+                     place(),
+                     fmt::format("the trace ends here, in the middle; {} whole records are read", time.size()),
+                     {}});
                 closed = false;
                 return;
             }
@@ -131,17 +144,23 @@ private:
     }
 
     [[nodiscard]] Place place() const {
-        return Place::of_line(source_.name, XML_GetCurrentLineNumber(parser_.get()), static_cast<std::uint32_t>(XML_GetCurrentColumnNumber(parser_.get()) + 1));
+        return Place::of_line(source_.name, XML_GetCurrentLineNumber(parser_.get()),
+                              static_cast<std::uint32_t>(XML_GetCurrentColumnNumber(parser_.get()) + 1));
     }
     [[noreturn]] void fail(const std::string& what) const { throw InputError(place(), what); }
 
     void open(std::string_view name, const XML_Char** attributes) {
         if (++depth_ > deepest) fail(fmt::format("elements nested deeper than {}", deepest));
-        if (depth_ == 1 && name != "traceSession") fail(fmt::format("the outermost element is '{}', expected 'traceSession'", name.substr(0, 40)));
-        if (name == "dataFrame") ++frames;
-        else if (name == "frameHeader") add_frame(attributes);
-        else if (name == "dataSignal") add_signal(attributes);
-        else if (name == "rec") add_record(attributes);
+        if (depth_ == 1 && name != "traceSession")
+            fail(fmt::format("the outermost element is '{}', expected 'traceSession'", name.substr(0, 40)));
+        if (name == "dataFrame")
+            ++frames;
+        else if (name == "frameHeader")
+            add_frame(attributes);
+        else if (name == "dataSignal")
+            add_signal(attributes);
+        else if (name == "rec")
+            add_record(attributes);
     }
     void close(std::string_view) { --depth_; }
 
@@ -149,7 +168,12 @@ private:
         for (; *attributes != nullptr; attributes += 2) {
             if (std::string_view(attributes[0]) != "dropOuts") continue;
             const double lost = number(attributes[0], attributes[1]);
-            if (lost > 0) diagnostics.add({Severity::warning, "log.overrun", place(), fmt::format("the trace lost {:g} records (dropOuts)", lost), {}});
+            if (lost > 0)
+                diagnostics.add({Severity::warning,
+                                 "log.overrun",
+                                 place(),
+                                 fmt::format("the trace lost {:g} records (dropOuts)", lost),
+                                 {}});
         }
     }
 
@@ -158,10 +182,14 @@ private:
         double own_interval = 0;
         for (; *attributes != nullptr; attributes += 2) {
             const std::string_view key = attributes[0];
-            if (key == "id") id = attributes[1];
-            else if (key == "name") name = attributes[1];
-            else if (key == "description") description = attributes[1];
-            else if (key == "interval") own_interval = number(key, attributes[1]);
+            if (key == "id")
+                id = attributes[1];
+            else if (key == "name")
+                name = attributes[1];
+            else if (key == "description")
+                description = attributes[1];
+            else if (key == "interval")
+                own_interval = number(key, attributes[1]);
         }
         if (id.empty()) fail("a dataSignal without 'id'");
         if (own_interval > 0 && (interval == 0 || own_interval < interval)) interval = own_interval;
@@ -169,7 +197,8 @@ private:
         const auto [found, is_new] = by_id_.try_emplace(id, signals.size());
         if (!is_new) {
             // A further frame repeats its signals.
-            if (frames < 2 || signals[found->second].column.name != name) fail(fmt::format("signal '{}' is there twice", id));
+            if (frames < 2 || signals[found->second].column.name != name)
+                fail(fmt::format("signal '{}' is there twice", id));
             return;
         }
         if (signals.size() == most_signals) fail(fmt::format("more than {} signals", most_signals));
@@ -186,7 +215,8 @@ private:
                 continue;
             }
             const auto found = by_id_.find(key);
-            if (found == by_id_.end()) fail(fmt::format("a record has a value of '{}', which no dataSignal names", key.substr(0, 40)));
+            if (found == by_id_.end())
+                fail(fmt::format("a record has a value of '{}', which no dataSignal names", key.substr(0, 40)));
             const double value = number(key, attributes[1]);
             signals[found->second].now = std::abs(value) > not_measured ? not_a_number : value;
         }
@@ -200,7 +230,12 @@ private:
         bool bad = false;
         const double value = parse_number(text, false, bad);
         if (bad) {
-            diagnostics.add({Severity::warning, "log.bad-number", place(), fmt::format("'{}' of '{}' is no number; taken as missing", std::string_view(text).substr(0, 40), key.substr(0, 40)), {}});
+            diagnostics.add({Severity::warning,
+                             "log.bad-number",
+                             place(),
+                             fmt::format("'{}' of '{}' is no number; taken as missing",
+                                         std::string_view(text).substr(0, 40), key.substr(0, 40)),
+                             {}});
         }
         return value;
     }
@@ -246,8 +281,14 @@ Log open_sinumerik_xml(const Source& source, const LogOptions& options) {
     log.period = reader.interval;
     settle_period(log, options, map);
     if (reader.frames > 1) {
-        log.diagnostics.add({Severity::note, "log.frames", Place::of_file(source.name),
-                             fmt::format("{} frames of data follow each other; the time between them is not known and taken as one period", reader.frames), {}});
+        log.diagnostics.add(
+            {Severity::note,
+             "log.frames",
+             Place::of_file(source.name),
+             fmt::format(
+                 "{} frames of data follow each other; the time between them is not known and taken as one period",
+                 reader.frames),
+             {}});
         join_frames(reader.time, log.period);
     }
     OwnedColumns owned(log);
@@ -258,13 +299,16 @@ Log open_sinumerik_xml(const Source& source, const LogOptions& options) {
     for (std::size_t i = 0; i < plans.size(); ++i) {
         const ColumnPlan& plan = plans[i];
         if (plan.name.empty()) continue;
-        if (log.find(plan.name) != nullptr) throw InputError(Place::of_file(source.name), "channel '" + plan.name + "' is there twice");
-        axes_taken = axes_taken || (map == nullptr && plan.name.find('.') != std::string::npos && plan.name != columns[i].name);
+        if (log.find(plan.name) != nullptr)
+            throw InputError(Place::of_file(source.name), "channel '" + plan.name + "' is there twice");
+        axes_taken =
+            axes_taken || (map == nullptr && plan.name.find('.') != std::string::npos && plan.name != columns[i].name);
         for (double& value : reader.signals[i].values) value = value * plan.scale + plan.bias;
         owned.add(plan.name, plan.unit, std::move(reader.signals[i].values));
     }
     if (axes_taken) {
-        log.diagnostics.add({Severity::note, "log.axes", Place::of_file(source.name), "machine axes 1, 2 and 3 are taken as X, Y and Z", "name others with --mapping FILE"});
+        log.diagnostics.add({Severity::note, "log.axes", Place::of_file(source.name),
+                             "machine axes 1, 2 and 3 are taken as X, Y and Z", "name others with --mapping FILE"});
     }
     if (log.find("time") == nullptr) owned.add("time", "s", std::move(reader.time));
     add_event_lines(log, map);

@@ -11,8 +11,8 @@
 
 #include "core/error.h"
 #include "core/spelling.h"
-#include "io/compressed.h"
 #include "io/clock_time.h"
+#include "io/compressed.h"
 #include "io/line_events.h"
 #include "io/owned_columns.h"
 #include "io/text_head.h"
@@ -32,7 +32,8 @@ char separator_of(const TomlFile& file, const toml::table& table) {
 /// A column of a text: its name, or its number from 0.
 std::string column_of(const TomlFile& file, const toml::table& table, std::string_view key) {
     const toml::node* node = table.get(key);
-    if (node == nullptr) file.fail(table, fmt::format("no '{}' (a column: its name in the header, or its number from 0)", key));
+    if (node == nullptr)
+        file.fail(table, fmt::format("no '{}' (a column: its name in the header, or its number from 0)", key));
     if (node->is_integer()) return fmt::format("{}", *file.integer(table, key, 0, 1'000'000));
     return *file.text(table, key);
 }
@@ -45,7 +46,8 @@ EventFile read_events(const TomlFile& file, const toml::table& table, const std:
     events.path = (std::filesystem::path(mapping_path).parent_path() / *name).string();
     events.separator = separator_of(file, table);
     const std::string at = file.text(table, "at").value_or("time");
-    if (at != "time" && at != "record") file.fail(*table.get("at"), "'at' is '" + at + "', expected \"time\" or \"record\"");
+    if (at != "time" && at != "record")
+        file.fail(*table.get("at"), "'at' is '" + at + "', expected \"time\" or \"record\"");
     events.at_records = at == "record";
     events.at = column_of(file, table, "from");
     events.line = column_of(file, table, "line");
@@ -64,12 +66,15 @@ Mapping read_mapping(const std::string& path) {
         file.allow(*log, {"format", "separator", "period_s"});
         mapping.separator = separator_of(file, *log);
         mapping.period = file.number(*log, "period_s");
-        if (mapping.period && !(*mapping.period > 0)) file.fail(*log->get("period_s"), "'period_s' must be greater than 0");
+        if (mapping.period && !(*mapping.period > 0))
+            file.fail(*log->get("period_s"), "'period_s' must be greater than 0");
         const std::string format = file.text(*log, "format").value_or("delimited");
-        if (format != "delimited" && format != "halsampler") file.fail(*log->get("format"), "'format' is '" + format + "', expected \"delimited\" or \"halsampler\"");
+        if (format != "delimited" && format != "halsampler")
+            file.fail(*log->get("format"), "'format' is '" + format + "', expected \"delimited\" or \"halsampler\"");
         mapping.halsampler = format == "halsampler";
     }
-    if (const toml::table* events = file.section(file.root(), "events")) mapping.events = read_events(file, *events, path);
+    if (const toml::table* events = file.section(file.root(), "events"))
+        mapping.events = read_events(file, *events, path);
     const toml::array* columns = file.tables(file.root(), "column");
     if (columns == nullptr) file.fail("no [[column]]");
     for (const toml::node& node : *columns) {
@@ -92,7 +97,8 @@ std::optional<Mapping> mapping_of(const LogOptions& options) {
     return read_mapping(options.mapping);
 }
 
-std::vector<ColumnPlan> plan_columns(std::span<const SourceColumn> columns, const Mapping* mapping, const Place& place) {
+std::vector<ColumnPlan> plan_columns(std::span<const SourceColumn> columns, const Mapping* mapping,
+                                     const Place& place) {
     std::vector<ColumnPlan> plans(columns.size());
     if (mapping == nullptr) {
         std::unordered_set<std::string> taken;
@@ -108,18 +114,22 @@ std::vector<ColumnPlan> plan_columns(std::span<const SourceColumn> columns, cons
     for (const Mapping::Entry& entry : mapping->entries) {
         std::size_t found = columns.size();
         for (std::size_t i = 0; i < columns.size(); ++i) {
-            if (!columns[i].name.empty() && (columns[i].name == entry.column || columns[i].other == entry.column)) found = i;
+            if (!columns[i].name.empty() && (columns[i].name == entry.column || columns[i].other == entry.column))
+                found = i;
         }
         if (found == columns.size()) {
             std::size_t number = 0;
-            const auto [end, error] = std::from_chars(entry.column.data(), entry.column.data() + entry.column.size(), number);
+            const auto [end, error] =
+                std::from_chars(entry.column.data(), entry.column.data() + entry.column.size(), number);
             if (error == std::errc() && end == entry.column.data() + entry.column.size()) found = number;
         }
         if (found >= columns.size()) {
             std::vector<std::string_view> names;
             for (const SourceColumn& c : columns) names.push_back(c.name);
-            throw InputError(place, fmt::format("the mapping names column '{}', the log has {} columns", entry.column, columns.size()),
-                             did_you_mean(entry.column, names));
+            throw InputError(
+                place,
+                fmt::format("the mapping names column '{}', the log has {} columns", entry.column, columns.size()),
+                did_you_mean(entry.column, names));
         }
         plans[found] = entry.plan;
     }
@@ -134,7 +144,9 @@ void find_clocks(const TextHead& head, TextPlan& plan, const Place& place) {
         ColumnPlan& column = plan.columns[i];
         const std::optional<ClockTime> time = column.name.empty() ? std::nullopt : parse_clock(head.first[i]);
         if (!time) continue;
-        if (column.scale != 1) throw InputError(place, fmt::format("the mapping scales column '{}', which holds times of day", column.name));
+        if (column.scale != 1)
+            throw InputError(place,
+                             fmt::format("the mapping scales column '{}', which holds times of day", column.name));
         column.clock = true;
         column.unit = "s";
         if (time->day) plan.day = *time->day;
@@ -147,7 +159,8 @@ void pass_over_words(const TextHead& head, TextPlan& plan) {
         ColumnPlan& column = plan.columns[i];
         bool is_word = false;
         (void)parse_number(head.first[i], true, is_word);
-        if (is_word && !parse_clock(head.first[i]) && !is_known_name(column.name)) plan.words.push_back(std::exchange(column.name, {}));
+        if (is_word && !parse_clock(head.first[i]) && !is_known_name(column.name))
+            plan.words.push_back(std::exchange(column.name, {}));
     }
 }
 
@@ -169,7 +182,8 @@ TextPlan plan_text(const Source& source, const Mapping* mapping) {
     } else {
         std::vector<SourceColumn> columns;
         columns.reserve(head.columns.size());
-        for (std::size_t i = 0; i < head.columns.size(); ++i) columns.push_back({head.titles[i], head.columns[i].name, head.columns[i]});
+        for (std::size_t i = 0; i < head.columns.size(); ++i)
+            columns.push_back({head.titles[i], head.columns[i].name, head.columns[i]});
         plan.columns = plan_columns(columns, mapping, place);
     }
     find_clocks(head, plan, place);
@@ -177,17 +191,21 @@ TextPlan plan_text(const Source& source, const Mapping* mapping) {
 }
 
 void settle_period(Log& log, const LogOptions& options, const Mapping* mapping) {
-    if (options.period) log.period = *options.period;
-    else if (mapping != nullptr && mapping->period) log.period = *mapping->period;
+    if (options.period)
+        log.period = *options.period;
+    else if (mapping != nullptr && mapping->period)
+        log.period = *mapping->period;
 }
 
 void add_event_lines(Log& log, const Mapping* mapping, std::optional<std::int64_t> day) {
     if (mapping == nullptr || !mapping->events) return;
     const EventFile& file = *mapping->events;
-    if (log.find("line") != nullptr) throw InputError(Place::of_file(log.name), "the mapping names events, and a column 'line' besides");
+    if (log.find("line") != nullptr)
+        throw InputError(Place::of_file(log.name), "the mapping names events, and a column 'line' besides");
     Mapping columns;
     columns.separator = file.separator;
-    columns.entries = {{file.at, {.name = "at", .unit = {}, .scale = file.scale, .bias = file.bias}}, {file.line, {.name = "line", .unit = {}}}};
+    columns.entries = {{file.at, {.name = "at", .unit = {}, .scale = file.scale, .bias = file.bias}},
+                       {file.line, {.name = "line", .unit = {}}}};
     // A mapping may come from elsewhere: it must not make us read a device or a pipe without end.
     std::error_code error;
     if (std::filesystem::exists(file.path, error) && !std::filesystem::is_regular_file(file.path, error)) {
@@ -201,7 +219,8 @@ void add_event_lines(Log& log, const Mapping* mapping, std::optional<std::int64_
     log.diagnostics.append(read.diagnostics);
     const Channel* at = read.find("at");
     const Channel* line = read.find("line");
-    if (at == nullptr || line == nullptr) throw InputError(Place::of_file(source.name), "'from' and 'line' of the events are the same column");
+    if (at == nullptr || line == nullptr)
+        throw InputError(Place::of_file(source.name), "'from' and 'line' of the events are the same column");
     std::vector<LineNumber> lines(static_cast<std::size_t>(read.records));
     copy_block(line->values, 0, lines, 0);
     std::vector<LineEvent> events;
@@ -211,19 +230,25 @@ void add_event_lines(Log& log, const Mapping* mapping, std::optional<std::int64_
     }
     const Channel* time = log.find("time");
     if (!file.at_records && time == nullptr && !(log.period > 0)) {
-        throw InputError(Place::of_file(log.name), "the events have times, the log has neither a channel 'time' nor a period", "count records with at = \"record\", or give period_s");
+        throw InputError(Place::of_file(log.name),
+                         "the events have times, the log has neither a channel 'time' nor a period",
+                         "count records with at = \"record\", or give period_s");
     }
     const auto moment_of = [&](PointIndex i) {
         if (file.at_records) return static_cast<double>(i);
         return time != nullptr ? time->values.at(i) : static_cast<double>(i) * log.period;
     };
     std::vector<std::uint32_t> line_of(static_cast<std::size_t>(log.records), 0);
-    const std::size_t outside = for_each_event(events, log.records, moment_of, [&](PointIndex i, const LineEvent* event) {
-        if (event != nullptr) line_of[static_cast<std::size_t>(i)] = event->line;
-    });
+    const std::size_t outside =
+        for_each_event(events, log.records, moment_of, [&](PointIndex i, const LineEvent* event) {
+            if (event != nullptr) line_of[static_cast<std::size_t>(i)] = event->line;
+        });
     if (outside > 0) {
-        log.diagnostics.add({Severity::note, "log.events-outside", Place::of_file(source.name),
-                             fmt::format("{} of {} block events lie outside the log", outside, events.size()), {}});
+        log.diagnostics.add({Severity::note,
+                             "log.events-outside",
+                             Place::of_file(source.name),
+                             fmt::format("{} of {} block events lie outside the log", outside, events.size()),
+                             {}});
     }
     OwnedColumns(log).add("line", "", std::move(line_of));
 }

@@ -18,11 +18,11 @@ namespace clsurf::io {
 /// Block events in a text of their own: from `at` on, a line of the program is active.
 struct EventFile {
     std::string path;
-    char separator = '\0';     ///< '\0': detected
-    bool at_records = false;   ///< `at` counts records from 0; else it is a time as the log's own
-    std::string at;            ///< column: its name in the header, or its number from 0
-    std::string line;          ///< column of the line in the program
-    double scale = 1.0;        ///< at · scale + bias is the log's clock
+    char separator = '\0';    ///< '\0': detected
+    bool at_records = false;  ///< `at` counts records from 0; else it is a time as the log's own
+    std::string at;           ///< column: its name in the header, or its number from 0
+    std::string line;         ///< column of the line in the program
+    double scale = 1.0;       ///< at · scale + bias is the log's clock
     double bias = 0.0;
 };
 
@@ -54,7 +54,8 @@ struct SourceColumn {
 /// What the columns become: with a mapping what it says, and only that; without one what is known.
 /// A known name that an earlier column has leaves the column its own. Throws InputError at `place`
 /// where the mapping names a column that is not there.
-[[nodiscard]] std::vector<ColumnPlan> plan_columns(std::span<const SourceColumn> columns, const Mapping* mapping, const Place& place);
+[[nodiscard]] std::vector<ColumnPlan> plan_columns(std::span<const SourceColumn> columns, const Mapping* mapping,
+                                                   const Place& place);
 
 /// A text with or without a header of column names. Columns whose first record holds a time of day are
 /// clocks; without a mapping, unknown columns of words are passed over. Throws InputError with the line: no header and no

@@ -87,8 +87,11 @@ void read_stretch(const Source& source, const TextPlan& plan, Stretch& stretch) 
         ++number;
         if (is_comment(line)) continue;
         if (plan.overruns && line.starts_with("overrun")) {
-            stretch.diagnostics.add({Severity::warning, "log.overrun", Place::of_line(source.name, number),
-                                     "the sampler lost records here (overrun)", {}});
+            stretch.diagnostics.add({Severity::warning,
+                                     "log.overrun",
+                                     Place::of_line(source.name, number),
+                                     "the sampler lost records here (overrun)",
+                                     {}});
             continue;
         }
         std::size_t at = 0;
@@ -102,19 +105,29 @@ void read_stretch(const Source& source, const TextPlan& plan, Stretch& stretch) 
             const ColumnPlan& c = plan.columns[column];
             if (!c.name.empty()) {
                 bool bad = false;
-                const double value = c.clock ? parse_time(field, plan.day, bad) : parse_number(field, plan.decimal_comma, bad);
+                const double value =
+                    c.clock ? parse_time(field, plan.day, bad) : parse_number(field, plan.decimal_comma, bad);
                 if (bad) {
-                    stretch.diagnostics.add({Severity::warning, "log.bad-number",
-                                             Place::of_line(source.name, number, static_cast<std::uint32_t>(field.data() - line.data() + 1)),
-                                             fmt::format("'{}' of channel '{}' is no {}; taken as missing", field.substr(0, 40), c.name, c.clock ? "time of day" : "number"), {}});
+                    stretch.diagnostics.add(
+                        {Severity::warning,
+                         "log.bad-number",
+                         Place::of_line(source.name, number,
+                                        static_cast<std::uint32_t>(field.data() - line.data() + 1)),
+                         fmt::format("'{}' of channel '{}' is no {}; taken as missing", field.substr(0, 40), c.name,
+                                     c.clock ? "time of day" : "number"),
+                         {}});
                 }
                 stretch.columns[column].push_back(value * c.scale + c.bias);
             }
             ++column;
         }
         if (column != plan.columns.size()) {
-            stretch.diagnostics.add({Severity::warning, "log.ragged-row", Place::of_line(source.name, number),
-                                     fmt::format("{} fields, expected {}; missing ones are taken as missing", column, plan.columns.size()), {}});
+            stretch.diagnostics.add(
+                {Severity::warning,
+                 "log.ragged-row",
+                 Place::of_line(source.name, number),
+                 fmt::format("{} fields, expected {}; missing ones are taken as missing", column, plan.columns.size()),
+                 {}});
             for (; column < plan.columns.size(); ++column) {
                 if (plan.columns[column].name.empty()) continue;
                 if (++stretch.missing > most_missing_of_byte * (stretch.end - stretch.begin)) return;
@@ -230,7 +243,8 @@ std::string_view text_of(std::span<const std::byte> bytes) {
 
 Log read_table(const Source& source, const TextPlan& plan, const char* format) {
     if (plan.columns.size() > most_columns) {
-        throw InputError(Place::of_line(source.name, plan.first_data_line), fmt::format("more than {} columns", most_columns));
+        throw InputError(Place::of_line(source.name, plan.first_data_line),
+                         fmt::format("more than {} columns", most_columns));
     }
     std::vector<Stretch> stretches = cut(source.text().substr(0, plan.data_end), plan.data_begin);
     parallel_for(static_cast<std::int64_t>(stretches.size()), 1, [&](std::int64_t first, std::int64_t last) {
@@ -249,7 +263,9 @@ Log read_table(const Source& source, const TextPlan& plan, const char* format) {
             placed.add(std::move(d));
         }
         if (stretch.missing > most_missing_of_byte * (stretch.end - stretch.begin)) {
-            throw InputError(placed.kept().front().where, fmt::format("most rows lack nearly all of the {} columns that the header names", plan.columns.size()));
+            throw InputError(
+                placed.kept().front().where,
+                fmt::format("most rows lack nearly all of the {} columns that the header names", plan.columns.size()));
         }
         log.diagnostics.append(placed);
         line_offset += stretch.lines;
@@ -258,13 +274,19 @@ Log read_table(const Source& source, const TextPlan& plan, const char* format) {
     log.records = static_cast<PointIndex>(rows);
     if (!plan.words.empty()) {
         const std::string more = plan.words.size() > 1 ? fmt::format(" (and {} more)", plan.words.size() - 1) : "";
-        log.diagnostics.add({Severity::note, "log.words", Place::of_line(source.name, plan.first_data_line), fmt::format("column '{}'{} begins with a word and is passed over", plan.words.front().substr(0, 40), more), {}});
+        log.diagnostics.add(
+            {Severity::note,
+             "log.words",
+             Place::of_line(source.name, plan.first_data_line),
+             fmt::format("column '{}'{} begins with a word and is passed over", plan.words.front().substr(0, 40), more),
+             {}});
     }
     OwnedColumns owned(log);
     for (std::size_t c = 0; c < plan.columns.size(); ++c) {
         if (plan.columns[c].name.empty()) continue;
         if (log.find(plan.columns[c].name) != nullptr) {
-            throw InputError(Place::of_line(source.name, plan.first_data_line), "channel '" + plan.columns[c].name + "' is there twice");
+            throw InputError(Place::of_line(source.name, plan.first_data_line),
+                             "channel '" + plan.columns[c].name + "' is there twice");
         }
         std::vector<double> column;
         column.reserve(rows);

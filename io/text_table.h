@@ -29,13 +29,13 @@ struct ColumnPlan {
 struct TextPlan {
     char separator = ',';  ///< ' ': any number of blanks and tabs
     bool decimal_comma = false;
-    bool overruns = false;             ///< "overrun" stands where the sampler lost records
-    std::size_t data_begin = 0;        ///< byte
+    bool overruns = false;       ///< "overrun" stands where the sampler lost records
+    std::size_t data_begin = 0;  ///< byte
     std::size_t data_end = std::string_view::npos;
     std::uint64_t first_data_line = 1;
-    std::int64_t day = 0;              ///< since 1970, from whose midnight clocks with a date count
+    std::int64_t day = 0;  ///< since 1970, from whose midnight clocks with a date count
     std::vector<ColumnPlan> columns;
-    std::vector<std::string> words;    ///< columns that are passed over, since they hold words
+    std::vector<std::string> words;  ///< columns that are passed over, since they hold words
 };
 
 /// The first line of `rest` without its end; `rest` goes on behind it.

@@ -17,7 +17,8 @@ TomlFile::TomlFile(const std::string& path) {
         root_ = toml::parse(source.text(), source.name);
     } catch (const toml::parse_error& error) {  // the library's only way to say so
         const toml::source_position at = error.source().begin;
-        throw InputError(Place::of_line(name_, at.line, static_cast<std::uint32_t>(at.column)), std::string(error.description()));
+        throw InputError(Place::of_line(name_, at.line, static_cast<std::uint32_t>(at.column)),
+                         std::string(error.description()));
     }
 }
 
@@ -32,7 +33,8 @@ void TomlFile::allow(const toml::table& table, const std::vector<std::string_vie
     for (const auto& [key, node] : table) {
         bool found = false;
         for (const std::string_view candidate : known) found = found || candidate == key.str();
-        if (!found) fail(node, fmt::format("unknown key '{}'", std::string_view(key.str())), did_you_mean(key.str(), known));
+        if (!found)
+            fail(node, fmt::format("unknown key '{}'", std::string_view(key.str())), did_you_mean(key.str(), known));
     }
 }
 
@@ -51,8 +53,8 @@ std::optional<std::string> TomlFile::text(const toml::table& table, std::string_
     return node->value<std::string>();
 }
 
-std::optional<std::int64_t> TomlFile::integer(const toml::table& table, std::string_view key,
-                                              std::int64_t low, std::int64_t high) const {
+std::optional<std::int64_t> TomlFile::integer(const toml::table& table, std::string_view key, std::int64_t low,
+                                              std::int64_t high) const {
     const toml::node* node = table.get(key);
     if (node == nullptr) return std::nullopt;
     if (!node->is_integer()) fail(*node, fmt::format("'{}' must be a whole number", key));

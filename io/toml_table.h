@@ -24,13 +24,15 @@ public:
     [[noreturn]] void fail(const toml::node& node, const std::string& what, const std::string& hint = {}) const;
     [[noreturn]] void fail(const std::string& what) const;
     /// Every key of the table is one of these; a suggestion otherwise.
-    void allow(const toml::table& table, std::initializer_list<std::string_view> keys) const { allow(table, std::vector<std::string_view>(keys)); }
+    void allow(const toml::table& table, std::initializer_list<std::string_view> keys) const {
+        allow(table, std::vector<std::string_view>(keys));
+    }
     void allow(const toml::table& table, const std::vector<std::string_view>& keys) const;
     [[nodiscard]] std::optional<double> number(const toml::table& table, std::string_view key) const;
     [[nodiscard]] std::optional<std::string> text(const toml::table& table, std::string_view key) const;
     /// A whole number in [low, high].
-    [[nodiscard]] std::optional<std::int64_t> integer(const toml::table& table, std::string_view key,
-                                                      std::int64_t low, std::int64_t high) const;
+    [[nodiscard]] std::optional<std::int64_t> integer(const toml::table& table, std::string_view key, std::int64_t low,
+                                                      std::int64_t high) const;
     /// A table below `table`; nullptr: not there.
     [[nodiscard]] const toml::table* section(const toml::table& table, std::string_view key) const;
     /// An array of tables, `[[key]]`; nullptr: not there.

@@ -16,7 +16,8 @@ constexpr int most_orientation = 9;
 /// One line of the table, and how it is complained of.
 class ToolLine {
 public:
-    ToolLine(const Source& source, std::string_view text, std::uint32_t number) : source_(source), text_(text), number_(number) {}
+    ToolLine(const Source& source, std::string_view text, std::uint32_t number)
+        : source_(source), text_(text), number_(number) {}
 
     /// False: the line holds no tool.
     bool read(Tool& tool) {
@@ -30,7 +31,8 @@ public:
             double value = 0;
             const std::size_t next = read_decimal(text_, at + 1, value);
             if (next == at + 1) fail(fmt::format("expected a number after {}", letter), at + 1);
-            if (next < text_.size() && !is_blank(text_[next]) && text_[next] != ';' && !is_letter(text_[next])) fail("malformed number", next);
+            if (next < text_.size() && !is_blank(text_[next]) && text_[next] != ';' && !is_letter(text_[next]))
+                fail("malformed number", next);
             if ((seen & Words::bit(letter)) != 0) fail(fmt::format("{} is given twice", letter), at);
             seen |= Words::bit(letter);
             put(tool, letter, value, at);
@@ -53,11 +55,18 @@ private:
             case 'T': tool.number = whole(letter, value, highest_number, at); return;
             case 'P': (void)whole(letter, value, highest_number, at); return;  // its place in the changer cuts nothing
             case 'D': tool.diameter = value; return;
-            case 'X': case 'Y': case 'Z': tool.offset[letter - 'X'] = value; return;
+            case 'X':
+            case 'Y':
+            case 'Z': tool.offset[letter - 'X'] = value; return;
             case 'I': tool.front_angle = value; return;
             case 'J': tool.back_angle = value; return;
             case 'Q': tool.orientation = whole(letter, value, most_orientation, at); return;
-            case 'A': case 'B': case 'C': case 'U': case 'V': case 'W':
+            case 'A':
+            case 'B':
+            case 'C':
+            case 'U':
+            case 'V':
+            case 'W':
                 if (value != 0) fail(fmt::format("an offset of axis {} is not supported", letter), at);
                 return;
             default: fail(fmt::format("word {} is not known", letter), at);
@@ -86,9 +95,11 @@ ToolTable read_tool_table(const Source& source) {
         rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);
         Tool tool;
         if (!line.read(tool)) continue;
-        if (!table.tools.emplace(tool.number, tool).second) line.fail(fmt::format("tool {} is given twice", tool.number), 0);
+        if (!table.tools.emplace(tool.number, tool).second)
+            line.fail(fmt::format("tool {} is given twice", tool.number), 0);
     }
-    if (table.tools.empty()) throw InputError(Place::of_file(source.name), "holds no tools", "a line is like 'T1 P1 D6.0 Z12.3 ; remark'");
+    if (table.tools.empty())
+        throw InputError(Place::of_file(source.name), "holds no tools", "a line is like 'T1 P1 D6.0 Z12.3 ; remark'");
     return table;
 }
 

@@ -61,7 +61,9 @@ Header read_header(const Source& source, const Mapping* mapping) {
         }
         if (name_line > 0 && end > 0) rows.push_back(split(line, header.plan.separator));
     }
-    if (name_line == 0) throw InputError(Place::of_line(source.name, std::min<std::uint64_t>(number, most_header_lines)), "no line of channel names (\"Name\") in the header of a TwinCAT Scope export");
+    if (name_line == 0)
+        throw InputError(Place::of_line(source.name, std::min<std::uint64_t>(number, most_header_lines)),
+                         "no line of channel names (\"Name\") in the header of a TwinCAT Scope export");
     if (!data) throw InputError(Place::of_line(source.name, number), "no records follow the header");
     header.plan.data_begin = static_cast<std::size_t>(before.data() - text.data());
     header.plan.first_data_line = number;
@@ -94,8 +96,10 @@ Header read_header(const Source& source, const Mapping* mapping) {
     for (std::size_t i = 0; i < columns.size(); ++i) {
         ColumnPlan& column = header.plan.columns[i];
         const bool is_time = header.time_column[i] == i;
-        if (is_time) column = {.name = fmt::format("time column {}", i), .unit = "ms"};
-        else if (columns[i].name.empty()) column.name.clear();
+        if (is_time)
+            column = {.name = fmt::format("time column {}", i), .unit = "ms"};
+        else if (columns[i].name.empty())
+            column.name.clear();
     }
     return header;
 }
@@ -163,8 +167,11 @@ Log open_twincat(const Source& source, const LogOptions& options) {
             least_step = step;
         }
     }
-    if (base == nullptr) throw InputError(Place::of_line(source.name, header.plan.first_data_line), "no column of times");
-    const auto base_column = static_cast<std::size_t>(std::distance(header.plan.columns.begin(), std::find_if(header.plan.columns.begin(), header.plan.columns.end(), [&](const ColumnPlan& c) { return c.name == base->name; })));
+    if (base == nullptr)
+        throw InputError(Place::of_line(source.name, header.plan.first_data_line), "no column of times");
+    const auto base_column = static_cast<std::size_t>(std::distance(
+        header.plan.columns.begin(), std::find_if(header.plan.columns.begin(), header.plan.columns.end(),
+                                                  [&](const ColumnPlan& c) { return c.name == base->name; })));
 
     Log log;
     log.name = source.name;
@@ -189,8 +196,14 @@ Log open_twincat(const Source& source, const LogOptions& options) {
         }
     }
     if (held_channels > 0) {
-        log.diagnostics.add({Severity::note, "log.held", Place::of_line(source.name, header.plan.first_data_line),
-                             fmt::format("{} channels have other times than the fastest one; between their samples they keep the last value", held_channels), {}});
+        log.diagnostics.add(
+            {Severity::note,
+             "log.held",
+             Place::of_line(source.name, header.plan.first_data_line),
+             fmt::format(
+                 "{} channels have other times than the fastest one; between their samples they keep the last value",
+                 held_channels),
+             {}});
     }
     if (log.find("time") == nullptr) owned.add("time", "ms", times[base_column]);
     if (header.sample_time > 0) log.period = header.sample_time * seconds_per_millisecond;

@@ -14,17 +14,18 @@ namespace {
 using Vec3f = Eigen::Vector3f;
 
 constexpr std::int64_t longest_gap = 512;  ///< vertices of a pass between two that have a neighbour, and of a seam
-constexpr float longest_seam = 10.0F;       ///< way of both passes along a seam, in widths of the band; of a gap, in step-overs
-constexpr float widest_seam = 2.2F;        ///< of an edge of a seam, in widths of the band that it goes on from
+constexpr float longest_seam =
+    10.0F;  ///< way of both passes along a seam, in widths of the band; of a gap, in step-overs
+constexpr float widest_seam = 2.2F;          ///< of an edge of a seam, in widths of the band that it goes on from
 constexpr double tangent_step_overs = 0.08;  ///< way on either side that gives the direction at a vertex
-constexpr float most_askew = 0.3F;         ///< cosine between the way and what lies across it
-constexpr float missing_width = 1.7F;      ///< of a gap, in widths of those beside it, that a pass is missing from
-constexpr float least_width = 0.6F;        ///< of a band, in step-overs; a narrower one already runs into a corner
-constexpr float widest_end = 1.5F;         ///< of a seam between two ends, in widths
-constexpr float leading_away = 0.85F;      ///< growth of the edge with the way, above which the way leads away
-constexpr float corner_play = 1.03F;       ///< growth of an edge that is still at the ends of its passes
-constexpr float closed_seam = 0.5F;        ///< width at which a seam ends, likewise
-constexpr float longest_fan_way = 8.0F;     ///< way of a neighbour that one step may span beyond its own, in step-overs
+constexpr float most_askew = 0.3F;           ///< cosine between the way and what lies across it
+constexpr float missing_width = 1.7F;        ///< of a gap, in widths of those beside it, that a pass is missing from
+constexpr float least_width = 0.6F;          ///< of a band, in step-overs; a narrower one already runs into a corner
+constexpr float widest_end = 1.5F;           ///< of a seam between two ends, in widths
+constexpr float leading_away = 0.85F;        ///< growth of the edge with the way, above which the way leads away
+constexpr float corner_play = 1.03F;         ///< growth of an edge that is still at the ends of its passes
+constexpr float closed_seam = 0.5F;          ///< width at which a seam ends, likewise
+constexpr float longest_fan_way = 8.0F;    ///< way of a neighbour that one step may span beyond its own, in step-overs
 constexpr std::int64_t longest_fan = 256;  ///< vertices of a neighbour that one step may span
 
 class Bander {
@@ -35,7 +36,8 @@ public:
         for (const Side side : {Side::left, Side::right}) across(side).resize(v_.points.size());
         parallel_for(count, 16384, [&](std::int64_t first, std::int64_t last) {
             for (std::int64_t b = first; b < last; ++b) {
-                for (const Side side : {Side::left, Side::right}) across(side)[static_cast<std::size_t>(b)] = seen_across(b, side);
+                for (const Side side : {Side::left, Side::right})
+                    across(side)[static_cast<std::size_t>(b)] = seen_across(b, side);
             }
         });
         for (const Side side : {Side::left, Side::right}) drop_short(side);
@@ -49,7 +51,8 @@ public:
             bool alone = true;
             for (const Side side : {Side::left, Side::right}) {
                 alone = alone && !(s_.neighbours.has(side, point(b - 1)) && s_.neighbours.has(side, point(b)));
-                if (has_earlier(b - 1, side) && has_earlier(b, side)) band(b, earlier(b - 1, side), earlier(b, side), triangles);
+                if (has_earlier(b - 1, side) && has_earlier(b, side))
+                    band(b, earlier(b - 1, side), earlier(b, side), triangles);
             }
             if (alone) {
                 segments.push_back(static_cast<std::uint32_t>(b - 1));
@@ -210,7 +213,7 @@ private:
         bool through_links = false;
         float most_at_ends = 0;  // width of the edge up to which it stays between the ends
         float now = first;
-        float way = 0;  // of both passes
+        float way = 0;        // of both passes
         bool turned = false;  // both ways lead away from each other
         // Both passes lead into the link of a turn. Of passes that run alike only the end of the earlier leads to
         // the beginning of the later; their other links go to other passes.
@@ -237,7 +240,8 @@ private:
             way += if_a <= if_b ? distance(a, a + a_step) : distance(b, b + b_step);
             if (length > widest_seam * width || way > longest_seam * width) break;
             // Where a turn is not told from its passes its corners are their ends.
-            if (!turned && !through_links && now < widest_end * width && (!a_may || if_a - now > leading_away * distance(a, a + a_step)) &&
+            if (!turned && !through_links && now < widest_end * width &&
+                (!a_may || if_a - now > leading_away * distance(a, a + a_step)) &&
                 (!b_may || if_b - now > leading_away * distance(b, b + b_step))) {
                 at_ends = triangles.size();
                 turned = true;
@@ -245,10 +249,12 @@ private:
             now = length;
             if (narrow < closed_seam * width && length > std::max(1.5F * narrow, closed_seam * width)) break;
             if (if_a <= if_b) {
-                add(triangles, static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(a + a_step), static_cast<std::uint32_t>(b));
+                add(triangles, static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(a + a_step),
+                    static_cast<std::uint32_t>(b));
                 a += a_step;
             } else {
-                add(triangles, static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b + b_step), static_cast<std::uint32_t>(b));
+                add(triangles, static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b + b_step),
+                    static_cast<std::uint32_t>(b));
                 b += b_step;
                 if (has_earlier(b, side)) {
                     if (fan(b, a, earlier(b, side), 0, triangles)) return true;
@@ -256,8 +262,10 @@ private:
                 }
             }
             // A pass ends somewhat before its corner: on to there.
-            if (length <= most_at_ends) at_ends = triangles.size();
-            else if (through_links) most_at_ends = 0;
+            if (length <= most_at_ends)
+                at_ends = triangles.size();
+            else if (through_links)
+                most_at_ends = 0;
             if (length < narrow) {
                 narrow = length;
                 narrowest = triangles.size();
@@ -271,14 +279,14 @@ private:
     /// along the band.
     [[nodiscard]] int step_across(std::int64_t a, std::int64_t b, int b_step) const {
         const auto way = static_cast<float>(s_.step_over);
-        const auto chord = [&](std::int64_t from, int direction) -> Vec3f { return s_.positions[point(moved(from, direction, way))] - s_.positions[point(from)]; };
+        const auto chord = [&](std::int64_t from, int direction) -> Vec3f {
+            return s_.positions[point(moved(from, direction, way))] - s_.positions[point(from)];
+        };
         const Vec3f back = chord(b, -b_step);
         return chord(a, +1).dot(back) > chord(a, -1).dot(back) ? -1 : 1;
     }
 
-    [[nodiscard]] PointIndex point(std::int64_t vertex) const {
-        return v_.points[static_cast<std::size_t>(vertex)];
-    }
+    [[nodiscard]] PointIndex point(std::int64_t vertex) const { return v_.points[static_cast<std::size_t>(vertex)]; }
 
     [[nodiscard]] Vec3f placed(PointIndex i) const { return frame_.linear * s_.positions[i] + frame_.shift; }
 
@@ -289,7 +297,8 @@ private:
         float best_distance = reach_ * reach_;
         const Vec3f at = placed(n);
         const std::int64_t k = found - v_.points.begin();
-        for (std::int64_t c = std::max<std::int64_t>(0, k - 1); c <= k && c < static_cast<std::int64_t>(v_.points.size()); ++c) {
+        for (std::int64_t c = std::max<std::int64_t>(0, k - 1);
+             c <= k && c < static_cast<std::int64_t>(v_.points.size()); ++c) {
             const float distance = (placed(point(c)) - at).squaredNorm();
             if (distance < best_distance) {
                 best_distance = distance;
@@ -304,9 +313,11 @@ private:
         if (!fan(b - 1, from, to, distance(b - 1, b), triangles)) {
             // A loop that returns to where it began: near, but not along the way.
             if (distance(from, to) > 0.75F * static_cast<float>(s_.step_over) + distance(b - 1, b)) return;
-            add(triangles, static_cast<std::uint32_t>(b - 1), static_cast<std::uint32_t>(from), static_cast<std::uint32_t>(to));
+            add(triangles, static_cast<std::uint32_t>(b - 1), static_cast<std::uint32_t>(from),
+                static_cast<std::uint32_t>(to));
         }
-        add(triangles, static_cast<std::uint32_t>(b - 1), static_cast<std::uint32_t>(to), static_cast<std::uint32_t>(b));
+        add(triangles, static_cast<std::uint32_t>(b - 1), static_cast<std::uint32_t>(to),
+            static_cast<std::uint32_t>(b));
     }
 
     /// The way [mm] from a vertex to another but for its longest chord: where vertices lie far apart, one chord can be longer
@@ -327,11 +338,13 @@ private:
 
     /// Triangles from a vertex to the neighbour's from one vertex to another, beside a step [mm] of the own way. False where
     /// they are not on one piece of the way, or far apart: a jump to another piece is no neighbour.
-    bool fan(std::int64_t own, std::int64_t from, std::int64_t to, float own_step, Column<std::uint32_t>& triangles) const {
+    bool fan(std::int64_t own, std::int64_t from, std::int64_t to, float own_step,
+             Column<std::uint32_t>& triangles) const {
         if (way_but_one_chord(from, to) > longest_fan_way * static_cast<float>(s_.step_over) + own_step) return false;
         const int direction = to >= from ? 1 : -1;
         for (std::int64_t k = from; k != to; k += direction) {
-            add(triangles, static_cast<std::uint32_t>(own), static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(k + direction));
+            add(triangles, static_cast<std::uint32_t>(own), static_cast<std::uint32_t>(k),
+                static_cast<std::uint32_t>(k + direction));
         }
         return true;
     }
@@ -355,7 +368,9 @@ Passes pieces_of_way(const ClSurface& surface) {
     Passes pieces;
     JogCutter cutter(surface.jogs);
     for (const Pass& pass : surface.passes) {
-        cutter.cut({pass.first, pass.last}, [&](const PointRange& part, bool jog) { pieces.push_back({part.first, part.last, jog ? PassKind::link : pass.kind}); });
+        cutter.cut({pass.first, pass.last}, [&](const PointRange& part, bool jog) {
+            pieces.push_back({part.first, part.last, jog ? PassKind::link : pass.kind});
+        });
     }
     return pieces;
 }

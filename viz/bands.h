@@ -39,6 +39,7 @@ struct NearnessFrame {
 
 /// A point is stood for by the vertex before or after it, whichever is nearer in `frame`; by none that is farther
 /// than `reach` there. O(vertices), parallel.
-[[nodiscard]] Bands join_passes(const ClSurface& surface, const WayVertices& vertices, const NearnessFrame& frame, float reach);
+[[nodiscard]] Bands join_passes(const ClSurface& surface, const WayVertices& vertices, const NearnessFrame& frame,
+                                float reach);
 
 }  // namespace clsurf::viz

@@ -35,7 +35,7 @@ namespace clsurf::viz {
 namespace {
 
 constexpr int flat_layers = 4;  ///< quads, lines under others, lines, texts
-constexpr int dpi = 72;  // one point of text is one pixel
+constexpr int dpi = 72;         // one point of text is one pixel
 
 /// Our 32-bit vertex numbers as VTK cells of `size` vertices, without a copy. The column must outlive it.
 vtkNew<vtkCellArray> cells(const Column<std::uint32_t>& vertices, int size) {
@@ -73,8 +73,8 @@ struct Cells {
     const Column<std::uint32_t>& points;
 };
 
-void add_cells(vtkRenderer* renderer, const MeshPanel& panel, const Cells& of, vtkPoints* points, vtkPointData* attributes,
-               vtkTexture* texture, int supersample) {
+void add_cells(vtkRenderer* renderer, const MeshPanel& panel, const Cells& of, vtkPoints* points,
+               vtkPointData* attributes, vtkTexture* texture, int supersample) {
     if (of.triangles.empty() && of.segments.empty() && of.points.empty()) return;
     vtkNew<vtkPolyData> data;
     data->SetPoints(points);
@@ -119,7 +119,8 @@ void add_mesh(vtkRenderer* renderer, const MeshPanel& panel, int supersample) {
         texture = texture_of(panel.ramp, panel.stepped);
         bare = texture_of({panel.bare_colour}, true);
     }
-    add_cells(renderer, panel, {g.triangles, g.segments, g.points}, points, attributes->GetPointData(), texture, supersample);
+    add_cells(renderer, panel, {g.triangles, g.segments, g.points}, points, attributes->GetPointData(), texture,
+              supersample);
     add_cells(renderer, panel, {panel.bare_triangles, panel.bare_segments, panel.bare_points}, points,
               attributes->GetPointData(), bare, supersample);
 }
@@ -166,8 +167,10 @@ void add_quads(vtkRenderer* renderer, const std::vector<FlatQuad>& quads, int su
     for (const FlatQuad& quad : quads) {
         const Rect& r = quad.rect;
         vtkIdType ids[4];
-        const double corners[4][2] = {{r.x, r.y}, {r.x + r.width, r.y}, {r.x + r.width, r.y + r.height}, {r.x, r.y + r.height}};
-        for (int k = 0; k < 4; ++k) ids[k] = points->InsertNextPoint(corners[k][0] * supersample, corners[k][1] * supersample, 0);
+        const double corners[4][2] = {
+            {r.x, r.y}, {r.x + r.width, r.y}, {r.x + r.width, r.y + r.height}, {r.x, r.y + r.height}};
+        for (int k = 0; k < 4; ++k)
+            ids[k] = points->InsertNextPoint(corners[k][0] * supersample, corners[k][1] * supersample, 0);
         polygons->InsertNextCell(4, ids);
         colours->InsertNextTypedTuple(quad.rgb.data());
     }
@@ -191,7 +194,8 @@ void add_lines(vtkRenderer* renderer, const std::vector<FlatLine>& lines, bool u
             const Vec2 side(-along.y(), along.x());
             vtkIdType ids[4];
             int k = 0;
-            for (const Vec2& p : {Vec2(a - along * 0.5 + side), Vec2(a - along * 0.5 - side), Vec2(b + along * 0.5 - side), Vec2(b + along * 0.5 + side)}) {
+            for (const Vec2& p : {Vec2(a - along * 0.5 + side), Vec2(a - along * 0.5 - side),
+                                  Vec2(b + along * 0.5 - side), Vec2(b + along * 0.5 + side)}) {
                 ids[k++] = points->InsertNextPoint(p.x(), p.y(), 0);
             }
             polygons->InsertNextCell(4, ids);
@@ -245,7 +249,9 @@ FlatText fitted(FlatText text, double width) {
         std::size_t tail = whole.size() - (keep - head);
         // Not inside a UTF-8 sequence, nor inside a number, which would then be another one.
         const auto inside = [&whole](std::size_t at) {
-            const auto in_number = [&whole](std::size_t k) { return (whole[k] >= '0' && whole[k] <= '9') || whole[k] == '.'; };
+            const auto in_number = [&whole](std::size_t k) {
+                return (whole[k] >= '0' && whole[k] <= '9') || whole[k] == '.';
+            };
             return at > 0 && at < whole.size() &&
                    ((static_cast<unsigned char>(whole[at]) & 0xC0) == 0x80 || (in_number(at - 1) && in_number(at)));
         };
@@ -277,7 +283,8 @@ Image draw(const Sheet& sheet, const std::string& gl, int supersample) {
         auto renderer = vtkSmartPointer<vtkRenderer>::New();
         renderer->SetLayer(1);
         renderer->SetViewport(panel.rect.x / sheet.width, panel.rect.y / sheet.height,
-                              (panel.rect.x + panel.rect.width) / sheet.width, (panel.rect.y + panel.rect.height) / sheet.height);
+                              (panel.rect.x + panel.rect.width) / sheet.width,
+                              (panel.rect.y + panel.rect.height) / sheet.height);
         add_mesh(renderer, panel, supersample);
         window->AddRenderer(renderer);
         place_camera(renderer, panel);

@@ -48,9 +48,9 @@ struct MeshPanel {
     Geometry geometry;  ///< painted; where there is a ramp, its colours are darkened by `rgb`
     /// Colours along a ramp, so that what lies between two vertices is a colour of the ramp too, and
     /// not a mixture of two of its colours.
-    std::vector<Rgb> ramp;    ///< empty: `rgb` alone
-    Column<float> along;      ///< per vertex, 0 … 1; outside, the nearest end
-    bool stepped = false;     ///< the ramp's colours are steps; otherwise they run into each other
+    std::vector<Rgb> ramp;  ///< empty: `rgb` alone
+    Column<float> along;    ///< per vertex, 0 … 1; outside, the nearest end
+    bool stepped = false;   ///< the ramp's colours are steps; otherwise they run into each other
     /// Cells with a corner that has no value, drawn in one colour.
     Column<std::uint32_t> bare_triangles, bare_segments, bare_points;
     Rgb bare_colour{0, 0, 0};

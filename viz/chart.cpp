@@ -39,27 +39,37 @@ void fit(Frame& frame, const Curve& curve) {
 }
 
 void add_grid(Sheet& sheet, const Frame& f, double text, bool x_labels) {
-    const std::vector<double> ys = nice_ticks(f.y_low, f.y_high, std::max(2, static_cast<int>(f.rect.height / (3 * text))));
+    const std::vector<double> ys =
+        nice_ticks(f.y_low, f.y_high, std::max(2, static_cast<int>(f.rect.height / (3 * text))));
     const double y_step = ys.size() > 1 ? ys[1] - ys[0] : 1;
     for (const double y : ys) {
         const Vec2 p = f.at(f.x_low, y);
         sheet.lines.push_back({{p, {f.rect.x + f.rect.width, p.y()}}, 1, grid_colour, true});
-        sheet.texts.push_back({f.rect.x - 0.5 * text, p.y(), tick_text(y, y_step), text, Align::right, false, ink_colour});
+        sheet.texts.push_back(
+            {f.rect.x - 0.5 * text, p.y(), tick_text(y, y_step), text, Align::right, false, ink_colour});
     }
-    const std::vector<double> xs = nice_ticks(f.x_low, f.x_high, std::max(2, static_cast<int>(f.rect.width / (7 * text))));
+    const std::vector<double> xs =
+        nice_ticks(f.x_low, f.x_high, std::max(2, static_cast<int>(f.rect.width / (7 * text))));
     const double x_step = xs.size() > 1 ? xs[1] - xs[0] : 1;
     for (const double x : xs) {
         const Vec2 p = f.at(x, f.y_low);
         sheet.lines.push_back({{p, {p.x(), f.rect.y + f.rect.height}}, 1, grid_colour, true});
-        if (x_labels) sheet.texts.push_back({p.x(), f.rect.y - 0.9 * text, tick_text(x, x_step), text, Align::centre, false, ink_colour});
+        if (x_labels)
+            sheet.texts.push_back(
+                {p.x(), f.rect.y - 0.9 * text, tick_text(x, x_step), text, Align::centre, false, ink_colour});
     }
     const Rect& r = f.rect;
-    sheet.lines.push_back({{{r.x, r.y}, {r.x + r.width, r.y}, {r.x + r.width, r.y + r.height}, {r.x, r.y + r.height}, {r.x, r.y}}, 1, {120, 120, 126}, true});
+    sheet.lines.push_back(
+        {{{r.x, r.y}, {r.x + r.width, r.y}, {r.x + r.width, r.y + r.height}, {r.x, r.y + r.height}, {r.x, r.y}},
+         1,
+         {120, 120, 126},
+         true});
 }
 
 }  // namespace
 
-std::vector<Vec2> thin_curve(std::span<const double> x, std::span<const double> y, double x_low, double x_high, int columns) {
+std::vector<Vec2> thin_curve(std::span<const double> x, std::span<const double> y, double x_low, double x_high,
+                             int columns) {
     std::vector<Vec2> out;
     const double per_x = x_high > x_low ? columns / (x_high - x_low) : 0;
     std::size_t i = 0;
@@ -82,7 +92,8 @@ std::vector<Vec2> thin_curve(std::span<const double> x, std::span<const double> 
     return out;
 }
 
-Image draw_chart(std::span<const double> x, const std::vector<Curve>& curves, const std::vector<ChartCursor>& cursors, const ChartLook& look) {
+Image draw_chart(std::span<const double> x, const std::vector<Curve>& curves, const std::vector<ChartCursor>& cursors,
+                 const ChartLook& look) {
     const double text = std::clamp(std::min(look.width * 0.6, static_cast<double>(look.height)) / 44.0, 8.0, 40.0);
     Sheet sheet;
     sheet.width = look.width;
@@ -101,13 +112,15 @@ Image draw_chart(std::span<const double> x, const std::vector<Curve>& curves, co
     const double each = (look.height - top - bottom - gap * count) / count;
     for (std::size_t k = 0; k < curves.size(); ++k) {
         Frame f{};
-        f.rect = {left, bottom + (count - 1 - static_cast<double>(k)) * (each + gap), look.width - left - right, std::max(1.0, each)};
+        f.rect = {left, bottom + (count - 1 - static_cast<double>(k)) * (each + gap), look.width - left - right,
+                  std::max(1.0, each)};
         f.x_low = x.empty() ? 0 : x.front();
         f.x_high = x.empty() ? 1 : x.back();
         fit(f, curves[k]);
         add_grid(sheet, f, text, k + 1 == curves.size());
         const Rgb colour = curve_colours[k % std::size(curve_colours)];
-        sheet.texts.push_back({f.rect.x, f.rect.y + f.rect.height + 0.9 * text, curves[k].label, text, Align::left, true, colour});
+        sheet.texts.push_back(
+            {f.rect.x, f.rect.y + f.rect.height + 0.9 * text, curves[k].label, text, Align::left, true, colour});
         FlatLine line{{}, 1.4, colour};
         for (const Vec2& p : thin_curve(x, curves[k].values, f.x_low, f.x_high, static_cast<int>(f.rect.width))) {
             if (std::isfinite(p.y())) {
@@ -124,8 +137,13 @@ Image draw_chart(std::span<const double> x, const std::vector<Curve>& curves, co
             sheet.lines.push_back({{p, {p.x(), f.rect.y + f.rect.height}}, 1.4, cursor_colour});
             // Its value stands above the frame, where no curve runs, beside the curve's name.
             const std::string value = tick_text(cursor.values[k], std::max(1e-4, (f.y_high - f.y_low) / 1000));
-            FlatText note{p.x(), f.rect.y + f.rect.height + 0.9 * text, k == 0 ? cursor.label + ": " + value : value,
-                          text, Align::left, true, cursor_colour};
+            FlatText note{p.x(),
+                          f.rect.y + f.rect.height + 0.9 * text,
+                          k == 0 ? cursor.label + ": " + value : value,
+                          text,
+                          Align::left,
+                          true,
+                          cursor_colour};
             const double least = f.rect.x + text_width({0, 0, curves[k].label, text, Align::left, true, colour}) + text;
             note.x = std::max(least, std::min(note.x, f.rect.x + f.rect.width - text_width(note)));
             sheet.texts.push_back(std::move(note));

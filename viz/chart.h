@@ -11,14 +11,14 @@
 namespace clsurf::viz {
 
 struct Curve {
-    std::string label;            ///< "Path speed [mm/min]"
-    std::vector<double> values;   ///< shown units; NaN: a gap
+    std::string label;           ///< "Path speed [mm/min]"
+    std::vector<double> values;  ///< shown units; NaN: a gap
 };
 
 struct ChartCursor {
     double x = 0;
-    std::string label;            ///< "point 812, line 204"
-    std::vector<double> values;   ///< one per curve, shown at the cursor
+    std::string label;           ///< "point 812, line 204"
+    std::vector<double> values;  ///< one per curve, shown at the cursor
 };
 
 struct ChartLook {
@@ -31,9 +31,11 @@ struct ChartLook {
 
 /// The points of a curve that a width of pixels can show: the lowest and highest of each column, in
 /// their order, so that no extreme is lost. O(points).
-[[nodiscard]] std::vector<Vec2> thin_curve(std::span<const double> x, std::span<const double> y, double x_low, double x_high, int columns);
+[[nodiscard]] std::vector<Vec2> thin_curve(std::span<const double> x, std::span<const double> y, double x_low,
+                                           double x_high, int columns);
 
 /// Draws the curves over common x values (rising). Throws SystemError.
-[[nodiscard]] Image draw_chart(std::span<const double> x, const std::vector<Curve>& curves, const std::vector<ChartCursor>& cursors, const ChartLook& look);
+[[nodiscard]] Image draw_chart(std::span<const double> x, const std::vector<Curve>& curves,
+                               const std::vector<ChartCursor>& cursors, const ChartLook& look);
 
 }  // namespace clsurf::viz

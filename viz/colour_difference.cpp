@@ -61,13 +61,15 @@ double delta_e00(const Lab& first, const Lab& second) {
         if (std::abs(h1 - h2) > 180) h += h < 360 ? 360 : -360;
         h *= 0.5;
     }
-    const double t = 1 - 0.17 * std::cos(radians(h - 30)) + 0.24 * std::cos(radians(2 * h)) + 0.32 * std::cos(radians(3 * h + 6)) - 0.20 * std::cos(radians(4 * h - 63));
+    const double t = 1 - 0.17 * std::cos(radians(h - 30)) + 0.24 * std::cos(radians(2 * h)) +
+                     0.32 * std::cos(radians(3 * h + 6)) - 0.20 * std::cos(radians(4 * h - 63));
     const double off = l - 50;
     const double sl = 1 + 0.015 * off * off / std::sqrt(20 + off * off);
     const double sc = 1 + 0.045 * c;
     const double sh = 1 + 0.015 * c * t;
     const double blue = 30 * std::exp(-std::pow((h - 275) / 25, 2));
-    const double rotation = -std::sin(radians(2 * blue)) * 2 * std::sqrt(seventh(c) / (seventh(c) + seventh(far_chroma)));
+    const double rotation =
+        -std::sin(radians(2 * blue)) * 2 * std::sqrt(seventh(c) / (seventh(c) + seventh(far_chroma)));
     const double x = dl / sl;
     const double y = dc / sc;
     const double z = dh / sh;

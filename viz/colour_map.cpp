@@ -23,26 +23,27 @@ constexpr auto infos = std::to_array<ColourMapInfo>({
 
 // Samples of the published maps (viridis: Smith, van der Walt 2015; cividis: Nuñez, Anderton, Renslow
 // 2018; turbo: Mikhailov 2019; coolwarm: Moreland 2009), evenly spaced.
-constexpr auto viridis = std::to_array<std::uint32_t>({
-    0x440154, 0x481467, 0x482576, 0x453781, 0x404688, 0x39558c, 0x33638d, 0x2d718e, 0x287d8e, 0x238a8d, 0x1f968b,
-    0x20a386, 0x29af7f, 0x3dbc74, 0x56c667, 0x75d054, 0x95d840, 0xbade28, 0xdde318, 0xfde725});
-constexpr auto cividis = std::to_array<std::uint32_t>({
-    0x00224e, 0x002c69, 0x1a386f, 0x31446b, 0x434e6c, 0x53596d, 0x616571, 0x6f7073, 0x7d7c78, 0x8c8979, 0x9b9677,
-    0xaba274, 0xbbaf6f, 0xccbe68, 0xddcc5e, 0xefda4f, 0xfee838});
-constexpr auto turbo = std::to_array<std::uint32_t>({
-    0x30123b, 0x4145ab, 0x4675ed, 0x39a2fc, 0x1bcfd4, 0x24eca6, 0x61fc6c, 0xa4fc3b, 0xd1e834, 0xf3c63a, 0xfe9b2d,
-    0xf36315, 0xd93806, 0xb11901, 0x7a0402});
+constexpr auto viridis = std::to_array<std::uint32_t>(
+    {0x440154, 0x481467, 0x482576, 0x453781, 0x404688, 0x39558c, 0x33638d, 0x2d718e, 0x287d8e, 0x238a8d,
+     0x1f968b, 0x20a386, 0x29af7f, 0x3dbc74, 0x56c667, 0x75d054, 0x95d840, 0xbade28, 0xdde318, 0xfde725});
+constexpr auto cividis = std::to_array<std::uint32_t>({0x00224e, 0x002c69, 0x1a386f, 0x31446b, 0x434e6c, 0x53596d,
+                                                       0x616571, 0x6f7073, 0x7d7c78, 0x8c8979, 0x9b9677, 0xaba274,
+                                                       0xbbaf6f, 0xccbe68, 0xddcc5e, 0xefda4f, 0xfee838});
+constexpr auto turbo =
+    std::to_array<std::uint32_t>({0x30123b, 0x4145ab, 0x4675ed, 0x39a2fc, 0x1bcfd4, 0x24eca6, 0x61fc6c, 0xa4fc3b,
+                                  0xd1e834, 0xf3c63a, 0xfe9b2d, 0xf36315, 0xd93806, 0xb11901, 0x7a0402});
 constexpr auto isurface = std::to_array<std::uint32_t>({0x0000ff, 0x00ffff, 0x00ff00, 0xffff00, 0xff0000});
 constexpr auto gray = std::to_array<std::uint32_t>({0x000000, 0xffffff});
-constexpr auto coolwarm = std::to_array<std::uint32_t>({
-    0x3b4cc0, 0x5977e3, 0x7b9ff9, 0x9ebeff, 0xc0d4f5, 0xdddcdc, 0xf2cbb7, 0xf7ac8e, 0xee8468, 0xd65244, 0xb40426});
+constexpr auto coolwarm = std::to_array<std::uint32_t>(
+    {0x3b4cc0, 0x5977e3, 0x7b9ff9, 0x9ebeff, 0xc0d4f5, 0xdddcdc, 0xf2cbb7, 0xf7ac8e, 0xee8468, 0xd65244, 0xb40426});
 
 ColourMap from_table(std::string name, std::span<const std::uint32_t> colours, bool centred = false) {
     std::vector<ColourStop> stops;
     for (std::size_t i = 0; i < colours.size(); ++i) {
         const std::uint32_t c = colours[i];
-        stops.push_back({static_cast<double>(i) / static_cast<double>(colours.size() - 1),
-                         {static_cast<std::uint8_t>(c >> 16), static_cast<std::uint8_t>(c >> 8), static_cast<std::uint8_t>(c)}});
+        stops.push_back(
+            {static_cast<double>(i) / static_cast<double>(colours.size() - 1),
+             {static_cast<std::uint8_t>(c >> 16), static_cast<std::uint8_t>(c >> 8), static_cast<std::uint8_t>(c)}});
     }
     return {std::move(name), std::move(stops), centred};
 }
@@ -79,7 +80,8 @@ Rgb parse_colour(const std::string& text, const std::string& option) {
     if (digits.size() != 6 || error != std::errc() || end != digits.data() + digits.size()) {
         throw UsageError(option + ": '" + text + "' is no colour", "write it as #rrggbb");
     }
-    return {static_cast<std::uint8_t>(value >> 16), static_cast<std::uint8_t>(value >> 8), static_cast<std::uint8_t>(value)};
+    return {static_cast<std::uint8_t>(value >> 16), static_cast<std::uint8_t>(value >> 8),
+            static_cast<std::uint8_t>(value)};
 }
 
 ColourMap make_colour_map(const std::string& text) {
@@ -93,7 +95,9 @@ ColourMap make_colour_map(const std::string& text) {
         std::vector<std::string_view> names;
         for (const ColourMapInfo& info : infos) names.push_back(info.name);
         const std::string nearest = did_you_mean(text, names);
-        throw UsageError("--colormap: unknown map '" + text + "'", nearest.empty() ? "a name of `clsurf help colormaps`, or own stops: #0000ff,#ffff00,#ff0000" : nearest);
+        throw UsageError(
+            "--colormap: unknown map '" + text + "'",
+            nearest.empty() ? "a name of `clsurf help colormaps`, or own stops: #0000ff,#ffff00,#ff0000" : nearest);
     }
     std::vector<ColourStop> stops;
     std::size_t at = 0;
@@ -102,7 +106,8 @@ ColourMap make_colour_map(const std::string& text) {
         stops.push_back({0, parse_colour(text.substr(at, end - at), "--colormap")});
         at = end + 1;
     }
-    for (std::size_t i = 0; i < stops.size(); ++i) stops[i].at = static_cast<double>(i) / static_cast<double>(stops.size() - 1);
+    for (std::size_t i = 0; i < stops.size(); ++i)
+        stops[i].at = static_cast<double>(i) / static_cast<double>(stops.size() - 1);
     return {text, std::move(stops)};
 }
 
@@ -146,7 +151,8 @@ std::vector<double> nice_ticks(double low, double high, int wanted) {
         }
     }
     std::vector<double> ticks;
-    for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k += 1) ticks.push_back(k == 0 ? 0.0 : k * step);
+    for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k += 1)
+        ticks.push_back(k == 0 ? 0.0 : k * step);
     return ticks;
 }
 

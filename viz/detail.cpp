@@ -15,8 +15,8 @@ using Vec2f = Eigen::Vector2f;
 using Vec3f = Eigen::Vector3f;
 
 constexpr PointIndex part_points = 65536;
-constexpr float reach_steps = 6;       ///< from a point to the vertex that stands for it
-constexpr float margin = 4.0F;          ///< [px] round the picture that is kept
+constexpr float reach_steps = 6;  ///< from a point to the vertex that stands for it
+constexpr float margin = 4.0F;    ///< [px] round the picture that is kept
 
 /// Vertices of a part of a pass, and the mean over the points of each.
 struct Vertices : WayVertices {
@@ -26,7 +26,9 @@ struct Vertices : WayVertices {
 class Projector {
 public:
     Projector(const ClSurface& surface, const DetailRequest& request)
-        : p_(surface.positions), width_(static_cast<float>(request.width)), height_(static_cast<float>(request.height)) {
+        : p_(surface.positions),
+          width_(static_cast<float>(request.width)),
+          height_(static_cast<float>(request.height)) {
         linear_ = request.projection.leftCols<3>().cast<float>();
         const Vec2 shift = request.projection.leftCols<3>() * p_.origin + request.projection.col(3);
         shift_ = shift.cast<float>();
@@ -45,8 +47,8 @@ public:
         return frame;
     }
     [[nodiscard]] bool visible(PointIndex i, const Vec2f& at) const {
-        const bool inside = at.x() > -margin && at.x() < width_ + margin && at.y() > -margin &&
-                            at.y() < height_ + margin;
+        const bool inside =
+            at.x() > -margin && at.x() < width_ + margin && at.y() > -margin && at.y() < height_ + margin;
         if (!inside || !boxed_) return inside;
         const Vec3f q = p_[i];
         return (q.array() >= low_.array()).all() && (q.array() <= high_.array()).all();
@@ -76,16 +78,16 @@ std::vector<Part> parts_of(const Passes& passes) {
         // Neighbouring pieces of one run (pass, link, the next turn of a spiral) are drawn on.
         const bool continues = k > 0 && passes[k - 1].kind != PassKind::rapid;
         for (PointIndex first = pass.first; first <= pass.last; first += part_points) {
-            parts.push_back({first, std::min(pass.last, first + part_points - 1),
-                             first == pass.first && !continues, pass.kind == PassKind::link});
+            parts.push_back({first, std::min(pass.last, first + part_points - 1), first == pass.first && !continues,
+                             pass.kind == PassKind::link});
         }
     }
     return parts;
 }
 
 /// Points of a part gathered to vertices.
-void gather_vertices(const Projector& projector, const Part& part, std::span<const float> values,
-                     float step, Vertices& out) {
+void gather_vertices(const Projector& projector, const Part& part, std::span<const float> values, float step,
+                     Vertices& out) {
     const float step_squared = step * step;
     bool joins = !part.starts_pass;
     PointIndex begin = part.first;
@@ -155,8 +157,7 @@ void put_normals(Geometry& geometry) {
 
 }  // namespace
 
-Detail visible_detail(const ClSurface& surface, std::span<const float> values,
-                      const DetailRequest& request) {
+Detail visible_detail(const ClSurface& surface, std::span<const float> values, const DetailRequest& request) {
     const Projector projector(surface, request);
     const auto step = static_cast<float>(request.vertex_step);
     const std::vector<Part> parts = parts_of(pieces_of_way(surface));
@@ -193,7 +194,8 @@ Detail visible_detail(const ClSurface& surface, std::span<const float> values,
         }
     } else {
         geometry.points.resize(static_cast<std::size_t>(count));
-        for (std::int64_t v = 0; v < count; ++v) geometry.points[static_cast<std::size_t>(v)] = static_cast<std::uint32_t>(v);
+        for (std::int64_t v = 0; v < count; ++v)
+            geometry.points[static_cast<std::size_t>(v)] = static_cast<std::uint32_t>(v);
     }
     detail.values = std::move(all.values);
     detail.points = std::move(all.points);

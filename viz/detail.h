@@ -23,13 +23,13 @@ struct DetailRequest {
     int width = 0, height = 0;  ///< [px]; what lies outside is left out
     double vertex_step = 0.7;   ///< [px] from one vertex of a pass to the next
     Style style = Style::surface;
-    Box3 box;                   ///< [mm]; empty: no box, else what lies outside is left out
+    Box3 box;  ///< [mm]; empty: no box, else what lies outside is left out
 };
 
 struct Detail {
-    Geometry geometry;           ///< without colours; paint() them
-    Column<float> values;        ///< per vertex, the mean over its points; NaN: no value
-    Column<PointIndex> points;   ///< per vertex, the point in its middle
+    Geometry geometry;          ///< without colours; paint() them
+    Column<float> values;       ///< per vertex, the mean over its points; NaN: no value
+    Column<PointIndex> points;  ///< per vertex, the point in its middle
 };
 
 /// `values`: one per point of the surface. O(points), parallel.

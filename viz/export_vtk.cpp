@@ -86,20 +86,23 @@ void put(hid_t group, const char* name, hid_t type, std::vector<hsize_t> size, c
     const H5 how(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, name);
     if (H5Pset_obj_track_times(how.id(), false) < 0) throw SystemError(std::string("HDF5 cannot write ") + name);
     const H5 set(H5Dcreate2(group, name, type, space.id(), H5P_DEFAULT, how.id(), H5P_DEFAULT), H5Dclose, name);
-    if (H5Dwrite(set.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0) throw SystemError(std::string("HDF5 cannot write ") + name);
+    if (H5Dwrite(set.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
+        throw SystemError(std::string("HDF5 cannot write ") + name);
 }
 
 void put_header(hid_t group) {
     const hsize_t two = 2;
     const H5 space(H5Screate_simple(1, &two, nullptr), H5Sclose, "Version");
-    const H5 version(H5Acreate2(group, "Version", H5T_NATIVE_INT64, space.id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose, "Version");
+    const H5 version(H5Acreate2(group, "Version", H5T_NATIVE_INT64, space.id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+                     "Version");
     const std::int64_t number[2] = {1, 0};
     const H5 scalar(H5Screate(H5S_SCALAR), H5Sclose, "Type");
     const H5 text(H5Tcopy(H5T_C_S1), H5Tclose, "Type");
     const char type[] = "UnstructuredGrid";
     H5Tset_size(text.id(), sizeof type - 1);
     const H5 kind(H5Acreate2(group, "Type", text.id(), scalar.id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose, "Type");
-    if (H5Awrite(version.id(), H5T_NATIVE_INT64, number) < 0 || H5Awrite(kind.id(), text.id(), type) < 0) throw SystemError("HDF5 cannot write attributes");
+    if (H5Awrite(version.id(), H5T_NATIVE_INT64, number) < 0 || H5Awrite(kind.id(), text.id(), type) < 0)
+        throw SystemError("HDF5 cannot write attributes");
 }
 
 }  // namespace
@@ -134,7 +137,8 @@ void write_vtp(const std::string& path, const ClSurface& surface, const std::vec
     vtkObject::GlobalWarningDisplayOff();
     const bool written = writer->Write() != 0 && writer->GetErrorCode() == vtkErrorCode::NoError;
     vtkObject::SetGlobalWarningDisplay(warnings);
-    if (!written) throw SystemError(path + ": cannot write: " + vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode()));
+    if (!written)
+        throw SystemError(path + ": cannot write: " + vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode()));
 }
 
 void write_vtkhdf(const std::string& path, const ClSurface& surface, const std::vector<PointData>& data) {
@@ -169,7 +173,8 @@ void write_vtkhdf(const std::string& path, const ClSurface& surface, const std::
     put(root.id(), "Connectivity", H5T_NATIVE_INT64, {connectivity.size()}, connectivity.data());
     put(root.id(), "Offsets", H5T_NATIVE_INT64, {offsets.size()}, offsets.data());
     put(root.id(), "Types", H5T_NATIVE_UINT8, {types.size()}, types.data());
-    const H5 point_data(H5Gcreate2(root.id(), "PointData", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, "PointData");
+    const H5 point_data(H5Gcreate2(root.id(), "PointData", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
+                        "PointData");
     for (const PointData& column : data) {
         put(point_data.id(), column.name.c_str(), H5T_NATIVE_FLOAT, {column.values->size()}, column.values->data());
     }

@@ -12,12 +12,18 @@ class OsMesaContext final : public GlContext {
 public:
     OsMesaContext(int width, int height) : width_(width), height_(height) {
         // VTK asks for 3.2 core; its charts need the stencil.
-        const int attributes[] = {OSMESA_FORMAT, OSMESA_RGBA,
-                                  OSMESA_DEPTH_BITS, 24,
-                                  OSMESA_STENCIL_BITS, 8,
-                                  OSMESA_PROFILE, OSMESA_CORE_PROFILE,
-                                  OSMESA_CONTEXT_MAJOR_VERSION, 3,
-                                  OSMESA_CONTEXT_MINOR_VERSION, 2,
+        const int attributes[] = {OSMESA_FORMAT,
+                                  OSMESA_RGBA,
+                                  OSMESA_DEPTH_BITS,
+                                  24,
+                                  OSMESA_STENCIL_BITS,
+                                  8,
+                                  OSMESA_PROFILE,
+                                  OSMESA_CORE_PROFILE,
+                                  OSMESA_CONTEXT_MAJOR_VERSION,
+                                  3,
+                                  OSMESA_CONTEXT_MINOR_VERSION,
+                                  2,
                                   0};
         context_ = OSMesaCreateContextAttribs(attributes, nullptr);
         if (context_ == nullptr) throw SystemError("OSMesa cannot make an OpenGL 3.2 context");

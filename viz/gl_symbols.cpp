@@ -42,7 +42,6 @@ __attribute__((visibility("default"))) void (*glXGetProcAddressARB(const unsigne
 __attribute__((visibility("default"))) void (*glXGetProcAddress(const unsigned char* name))() {
     return glXGetProcAddressARB(name);
 }
-
 }
 
 bool clsurf::viz::gl_symbols_are_ours() {

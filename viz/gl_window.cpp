@@ -19,7 +19,8 @@ void give_resolver(Window* window) {
         window->SetOpenGLSymbolLoader([](void*, const char* name) { return resolve_gl(name); }, nullptr);
     } else {
         (void)window;
-        if (!gl_symbols_are_ours()) throw SystemError("this program was linked without clsurf_link_gl: VTK would call another OpenGL");
+        if (!gl_symbols_are_ours())
+            throw SystemError("this program was linked without clsurf_link_gl: VTK would call another OpenGL");
     }
 }
 
@@ -35,7 +36,7 @@ public:
     }
     vtkTypeMacro(Complaints, vtkOutputWindow)
 
-    void DisplayErrorText(const char* text) override {
+        void DisplayErrorText(const char* text) override {
         const std::string said = text;
         // GLEW 2 in VTK 9.1 looks for a GLX display, finds none, and says "Unknown error", which is
         // harmless here (nigels-com/glew issue 273). Every other complaint ends the drawing.

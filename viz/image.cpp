@@ -93,7 +93,8 @@ Image shrink(const Image& image, int factor) {
 
 Image shrink_from_below(const std::uint8_t* rgb, int width, int height, int factor) {
     const std::size_t row = 3 * static_cast<std::size_t>(width);
-    return mean_of(width / factor, height / factor, factor, [&](int y) { return rgb + static_cast<std::size_t>(height - 1 - y) * row; });
+    return mean_of(width / factor, height / factor, factor,
+                   [&](int y) { return rgb + static_cast<std::size_t>(height - 1 - y) * row; });
 }
 
 }  // namespace clsurf::viz

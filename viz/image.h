@@ -14,7 +14,8 @@ struct Image {
     Column<std::uint8_t> rgb;  ///< 3 · width · height
 
     [[nodiscard]] const std::uint8_t* pixel(int x, int y) const {
-        return rgb.data() + 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
+        return rgb.data() +
+               3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
     }
 };
 

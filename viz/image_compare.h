@@ -15,11 +15,11 @@ struct CompareRule {
 };
 
 struct Comparison {
-    bool equal = false;          ///< within the rule
-    double max_error = 0;        ///< 0 … 1
-    double mean_error = 0;       ///< 0 … 1
-    double psnr = 0;             ///< [dB]; infinite: the same
-    double delta_e = 0;          ///< largest colour difference that an eye sees, CIE76 over 3 × 3 means
+    bool equal = false;            ///< within the rule
+    double max_error = 0;          ///< 0 … 1
+    double mean_error = 0;         ///< 0 … 1
+    double psnr = 0;               ///< [dB]; infinite: the same
+    double delta_e = 0;            ///< largest colour difference that an eye sees, CIE76 over 3 × 3 means
     std::int64_t pixels_over = 0;  ///< pixels with a value over the threshold
 };
 

@@ -11,12 +11,14 @@
 namespace clsurf::viz {
 namespace {
 
-void add_text(Sheet& sheet, double x, double y, std::string text, double size, Align align, Rgb rgb, bool bold = false) {
+void add_text(Sheet& sheet, double x, double y, std::string text, double size, Align align, Rgb rgb,
+              bool bold = false) {
     sheet.texts.push_back({x, y, std::move(text), size, align, bold, rgb});
 }
 
 /// Beyond an end of the bar there are values: a point of the end's colour.
-void add_beyond(Sheet& sheet, const ColourScale& scale, bool above, double x, double width, double y, double height, Rgb frame) {
+void add_beyond(Sheet& sheet, const ColourScale& scale, bool above, double x, double width, double y, double height,
+                Rgb frame) {
     const Rgb rgb = scale.colour(above ? scale.high : scale.low);
     const double sign = above ? 1 : -1;
     constexpr int slices = 24;
@@ -34,7 +36,8 @@ std::vector<double> legend_ticks(const ColourScale& scale, int wanted) {
     if (scale.bins == 0) return nice_ticks(scale.low, scale.high, std::max(2, wanted));
     std::vector<double> edges;
     const int each = (scale.bins - 1) / std::max(2, 2 * wanted) + 1;
-    for (int k = each; k < scale.bins; k += each) edges.push_back(scale.low + (scale.high - scale.low) * k / scale.bins);
+    for (int k = each; k < scale.bins; k += each)
+        edges.push_back(scale.low + (scale.high - scale.low) * k / scale.bins);
     return edges;
 }
 
@@ -43,10 +46,19 @@ std::vector<double> legend_ticks(const ColourScale& scale, int wanted) {
 void add_title(Sheet& sheet, const MapTexts& texts, const Look& look, const MapLayout& layout, Rgb ink) {
     const double width = look.width - 2 * layout.margin;
     const double top = look.height - layout.margin;
-    sheet.texts.push_back(fitted({layout.margin, top - 0.5 * layout.text, texts.title, 1.25 * layout.text, Align::left, true, ink}, width));
-    sheet.texts.push_back(fitted({layout.margin, top - 2.0 * layout.text, texts.subtitle, layout.small_text, Align::left, false, faint(ink, look.background)}, width));
+    sheet.texts.push_back(fitted(
+        {layout.margin, top - 0.5 * layout.text, texts.title, 1.25 * layout.text, Align::left, true, ink}, width));
+    sheet.texts.push_back(fitted({layout.margin, top - 2.0 * layout.text, texts.subtitle, layout.small_text,
+                                  Align::left, false, faint(ink, look.background)},
+                                 width));
     const double note_width = 0.72 * (look.width - layout.legend_width) - layout.margin;
-    FlatText note{layout.margin, layout.margin * 0.5 + 0.5 * layout.small_text, "", layout.small_text, Align::left, false, faint(ink, look.background)};
+    FlatText note{layout.margin,
+                  layout.margin * 0.5 + 0.5 * layout.small_text,
+                  "",
+                  layout.small_text,
+                  Align::left,
+                  false,
+                  faint(ink, look.background)};
     // From the top: a line takes as many notes as fit; there is room for two.
     constexpr std::size_t most_lines = 2;
     std::vector<FlatText> lines;
@@ -66,7 +78,8 @@ void add_title(Sheet& sheet, const MapTexts& texts, const Look& look, const MapL
     }
 }
 
-void add_legend(Sheet& sheet, const ColourScale& scale, const FieldInfo& field, const Beyond& beyond, const Look& look, const MapLayout& layout, Rgb ink) {
+void add_legend(Sheet& sheet, const ColourScale& scale, const FieldInfo& field, const Beyond& beyond, const Look& look,
+                const MapLayout& layout, Rgb ink) {
     const double x = look.width - layout.legend_width + 0.6 * layout.text;
     const double bar_width = 1.3 * layout.text;
     const double bottom = layout.note_height + 7.2 * layout.text;
@@ -79,7 +92,8 @@ void add_legend(Sheet& sheet, const ColourScale& scale, const FieldInfo& field, 
         sheet.quads.push_back({{x, bottom + height * k / cells, bar_width, height / cells + 0.6}, scale.colour(value)});
     }
     const Rgb frame = faint(ink, look.background);
-    sheet.lines.push_back({{{x, bottom}, {x + bar_width, bottom}, {x + bar_width, top}, {x, top}, {x, bottom}}, 1.0, frame});
+    sheet.lines.push_back(
+        {{{x, bottom}, {x + bar_width, bottom}, {x + bar_width, top}, {x, top}, {x, bottom}}, 1.0, frame});
     const std::vector<double> ticks = legend_ticks(scale, static_cast<int>(height / (3 * layout.text)));
     double step = ticks.size() > 1 ? ticks[1] - ticks[0] : 1.0;
     if (scale.bins > 0) step /= 10;  // the edges of steps are not round
@@ -88,14 +102,16 @@ void add_legend(Sheet& sheet, const ColourScale& scale, const FieldInfo& field, 
     for (const double end : {scale.low, scale.high}) {
         if (!(scale.high > scale.low) && end == scale.high) continue;
         const double y = end == scale.low ? bottom : top;
-        add_text(sheet, x + bar_width + 0.5 * layout.text, y, tick_text(end, scale.bins > 0 ? step : step / 10), layout.small_text, Align::left, ink, true);
+        add_text(sheet, x + bar_width + 0.5 * layout.text, y, tick_text(end, scale.bins > 0 ? step : step / 10),
+                 layout.small_text, Align::left, ink, true);
     }
     for (const double tick : ticks) {
         if (tick - scale.low < near || scale.high - tick < near) continue;
         const double t = scale.high > scale.low ? (tick - scale.low) / (scale.high - scale.low) : 0.5;
         const double y = bottom + t * height;
         sheet.lines.push_back({{{x + bar_width, y}, {x + bar_width + 0.3 * layout.text, y}}, 1.0, frame});
-        add_text(sheet, x + bar_width + 0.5 * layout.text, y, tick_text(tick, step), layout.small_text, Align::left, ink);
+        add_text(sheet, x + bar_width + 0.5 * layout.text, y, tick_text(tick, step), layout.small_text, Align::left,
+                 ink);
     }
     const double point = 0.9 * layout.text;
     if (beyond.above) add_beyond(sheet, scale, true, x, bar_width, top, point, frame);
@@ -123,7 +139,8 @@ void add_scale_bar(Sheet& sheet, const MeshPanel& panel, const MapLayout& layout
     sheet.lines.push_back({{{x, y + tick}, {x, y - tick}}, 1.5, ink});
     sheet.lines.push_back({{{x, y}, {x + pixels, y}}, 1.5, ink});
     sheet.lines.push_back({{{x + pixels, y + tick}, {x + pixels, y - tick}}, 1.5, ink});
-    add_text(sheet, x + 0.5 * pixels, y + 0.9 * layout.text, fmt::format("{:g} mm", length), layout.small_text, Align::centre, ink);
+    add_text(sheet, x + 0.5 * pixels, y + 0.9 * layout.text, fmt::format("{:g} mm", length), layout.small_text,
+             Align::centre, ink);
 }
 
 void add_axes(Sheet& sheet, const MeshPanel& panel, const MapLayout& layout, Rgb ink) {

@@ -15,7 +15,8 @@ struct Beyond {
 void add_title(Sheet& sheet, const MapTexts& texts, const Look& look, const MapLayout& layout, Rgb ink);
 
 /// The colours with their numbers; an end beyond which there are values is pointed.
-void add_legend(Sheet& sheet, const ColourScale& scale, const FieldInfo& field, const Beyond& beyond, const Look& look, const MapLayout& layout, Rgb ink);
+void add_legend(Sheet& sheet, const ColourScale& scale, const FieldInfo& field, const Beyond& beyond, const Look& look,
+                const MapLayout& layout, Rgb ink);
 
 /// A bar of a round length, true in the whole picture since the projection is parallel.
 void add_scale_bar(Sheet& sheet, const MeshPanel& panel, const MapLayout& layout, Rgb ink);

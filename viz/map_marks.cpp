@@ -22,7 +22,8 @@ void add_ring(Sheet& sheet, const Vec2& at, double radius, double width, Rgb rgb
 
 /// The parts of a line of `count` positions that are in the picture, in steps of half a pixel or more.
 template <typename At>
-std::vector<std::vector<Vec2>> strokes(PointIndex count, const At& position, const Camera& camera, const Look& look, const Vec2& corner) {
+std::vector<std::vector<Vec2>> strokes(PointIndex count, const At& position, const Camera& camera, const Look& look,
+                                       const Vec2& corner) {
     std::vector<std::vector<Vec2>> all;
     bool goes_on = false;
     for (PointIndex i = 0; i < count; ++i) {
@@ -40,7 +41,8 @@ std::vector<std::vector<Vec2>> strokes(PointIndex count, const At& position, con
 }
 
 /// Outlines with their numbers above them; a number that would lie on another is left out.
-void add_outlines(Sheet& sheet, const MapPanel& map, const MeshPanel& panel, const Look& look, const MapLayout& layout) {
+void add_outlines(Sheet& sheet, const MapPanel& map, const MeshPanel& panel, const Look& look,
+                  const MapLayout& layout) {
     const Vec2 corner(panel.rect.x, panel.rect.y);
     constexpr Rgb white{255, 255, 255};
     constexpr Rgb black{0, 0, 0};
@@ -49,7 +51,8 @@ void add_outlines(Sheet& sheet, const MapPanel& map, const MeshPanel& panel, con
         Vec2 top(0, -1);
         for (const std::vector<Vec3>& corners : mark.lines) {
             const auto position = [&](PointIndex i) -> const Vec3& { return corners[static_cast<std::size_t>(i)]; };
-            for (std::vector<Vec2>& stroke : strokes(static_cast<PointIndex>(corners.size()), position, panel.camera, look, corner)) {
+            for (std::vector<Vec2>& stroke :
+                 strokes(static_cast<PointIndex>(corners.size()), position, panel.camera, look, corner)) {
                 if (stroke.size() < 2) continue;
                 for (const Vec2& p : stroke) {
                     if (p.y() > top.y()) top = p;
@@ -59,12 +62,14 @@ void add_outlines(Sheet& sheet, const MapPanel& map, const MeshPanel& panel, con
             }
         }
         if (top.y() < 0 || mark.label.empty()) continue;
-        FlatText text{top.x(), top.y() + 0.75 * layout.small_text, mark.label, layout.small_text, Align::centre, true, black};
+        FlatText text{top.x(), top.y() + 0.75 * layout.small_text, mark.label, layout.small_text, Align::centre, true,
+                      black};
         const double width = text_width(text) + 6;
         text.x = std::clamp(text.x, corner.x() + 0.5 * width, corner.x() + panel.rect.width - 0.5 * width);
         const Rect box{text.x - 0.5 * width, text.y - 0.62 * layout.small_text, width, 1.24 * layout.small_text};
         const bool overlaps = std::any_of(taken.begin(), taken.end(), [&](const Rect& other) {
-            return box.x < other.x + other.width && other.x < box.x + box.width && box.y < other.y + other.height && other.y < box.y + box.height;
+            return box.x < other.x + other.width && other.x < box.x + box.width && box.y < other.y + other.height &&
+                   other.y < box.y + box.height;
         });
         if (overlaps) continue;
         taken.push_back(box);
@@ -81,11 +86,13 @@ void add_marks(Sheet& sheet, const MapPanel& map, const MeshPanel& panel, const 
     constexpr Rgb black{0, 0, 0};
     const auto label = [&](Vec2 at, const std::string& text) {
         if (text.empty()) return;
-        FlatText flat{at.x() + 0.9 * layout.text, at.y() + 0.9 * layout.text, text, layout.small_text, Align::left, true, black};
+        FlatText flat{
+            at.x() + 0.9 * layout.text, at.y() + 0.9 * layout.text, text, layout.small_text, Align::left, true, black};
         const double width = text_width(flat);
         const double right = corner.x() + panel.rect.width;
         if (flat.x + width > right) flat.x = std::max(corner.x(), at.x() - 0.9 * layout.text - width);
-        sheet.quads.push_back({{flat.x - 2, flat.y - 0.65 * layout.small_text, width + 4, 1.3 * layout.small_text}, white});
+        sheet.quads.push_back(
+            {{flat.x - 2, flat.y - 0.65 * layout.small_text, width + 4, 1.3 * layout.small_text}, white});
         sheet.texts.push_back(std::move(flat));
     };
     for (const LineMark& mark : map.lines) {

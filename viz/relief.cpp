@@ -23,7 +23,8 @@ float slope(const Relief& r, std::int64_t i, std::int64_t at, std::int64_t count
 Box3 extent_of(const Relief& relief, const Eigen::Matrix3d& axes) {
     Box3 box;
     for (std::int64_t i = 0; i < relief.columns * relief.rows; ++i) {
-        if (relief.z[static_cast<std::size_t>(i)] == relief.z[static_cast<std::size_t>(i)]) box.extend(Vec3(axes * relief.at(i)));
+        if (relief.z[static_cast<std::size_t>(i)] == relief.z[static_cast<std::size_t>(i)])
+            box.extend(Vec3(axes * relief.at(i)));
     }
     return box;
 }
@@ -45,7 +46,9 @@ Detail relief_detail(const Relief& relief, std::span<const float> values, const 
         const Vec3 off = p - relief.origin;
         const std::int64_t column = i % relief.columns;
         const std::int64_t row = i / relief.columns;
-        const Eigen::Vector3f normal = Eigen::Vector3f(-slope(relief, i, column, relief.columns, 1), -slope(relief, i, row, relief.rows, relief.columns), 1).normalized();
+        const Eigen::Vector3f normal = Eigen::Vector3f(-slope(relief, i, column, relief.columns, 1),
+                                                       -slope(relief, i, row, relief.rows, relief.columns), 1)
+                                           .normalized();
         for (int axis = 0; axis < 3; ++axis) {
             g.xyz.push_back(static_cast<float>(off[axis]));
             g.normals.push_back(normal[axis]);

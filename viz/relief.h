@@ -13,10 +13,11 @@ struct Relief {
     Vec3 origin = Vec3::Zero();  ///< [mm] of the first vertex's x and y, and of all heights
     double pitch = 0;            ///< [mm] between vertices
     std::int64_t columns = 0, rows = 0;
-    Column<float> z;             ///< [mm] row by row; NaN: no vertex
+    Column<float> z;  ///< [mm] row by row; NaN: no vertex
 
     [[nodiscard]] Vec3 at(std::int64_t i) const {
-        return origin + Vec3(pitch * static_cast<double>(i % columns), pitch * static_cast<double>(i / columns), z[static_cast<std::size_t>(i)]);
+        return origin + Vec3(pitch * static_cast<double>(i % columns), pitch * static_cast<double>(i / columns),
+                             z[static_cast<std::size_t>(i)]);
     }
 };
 

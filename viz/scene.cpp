@@ -12,9 +12,9 @@
 namespace clsurf::viz {
 namespace {
 
-constexpr double caption_lines = 1.6;   ///< height of a panel's caption, in text sizes
-constexpr double shade_dark = 0.80;  ///< of a surface that the light only grazes
-const Vec3 light(-0.45, 0.55, 0.70);  ///< from the upper left, in the camera's frame
+constexpr double caption_lines = 1.6;  ///< height of a panel's caption, in text sizes
+constexpr double shade_dark = 0.80;    ///< of a surface that the light only grazes
+const Vec3 light(-0.45, 0.55, 0.70);   ///< from the upper left, in the camera's frame
 
 /// Vertices get their places on the ramp, and the shade of light that grazes.
 Beyond paint(Detail& detail, const ColourScale& scale, double per_inside, MeshPanel& panel) {
@@ -65,8 +65,10 @@ Column<std::uint32_t> take_bare(Column<std::uint32_t>& cells, std::size_t size, 
         bool known = true;
         for (std::size_t k = 0; k < size; ++k) known = known && values[cells[i + k]] == values[cells[i + k]];
         for (std::size_t k = 0; k < size; ++k) {
-            if (known) cells[kept++] = cells[i + k];
-            else bare.push_back(cells[i + k]);
+            if (known)
+                cells[kept++] = cells[i + k];
+            else
+                bare.push_back(cells[i + k]);
         }
     }
     cells.resize(kept);
@@ -142,7 +144,8 @@ Camera map_camera(const std::vector<MapPanel>& panels, const Look& look) {
     const auto height = static_cast<int>(rect.height);
     const auto extent = [&](const ViewAxes& axes) {
         Box3 all;
-        for (const MapPanel& map : panels) all.extend(map.relief != nullptr ? extent_of(*map.relief, axes) : extent_of(*map.surface, axes));
+        for (const MapPanel& map : panels)
+            all.extend(map.relief != nullptr ? extent_of(*map.relief, axes) : extent_of(*map.surface, axes));
         return all;
     };
     if (look.box.isEmpty()) {
@@ -154,7 +157,8 @@ Camera map_camera(const std::vector<MapPanel>& panels, const Look& look) {
     return camera_for(look.view, filled.isEmpty() ? look.box : filled, width, height, look.zoom);
 }
 
-Sheet map_sheet(const std::vector<MapPanel>& panels, const Camera& camera, const ColourScale& scale, const MapTexts& texts, const Look& look) {
+Sheet map_sheet(const std::vector<MapPanel>& panels, const Camera& camera, const ColourScale& scale,
+                const MapTexts& texts, const Look& look) {
     const MapLayout layout(look);
     const Rgb ink = ink_for(look.background);
     Sheet sheet;
@@ -169,14 +173,16 @@ Sheet map_sheet(const std::vector<MapPanel>& panels, const Camera& camera, const
         panel.camera = camera;  // each panel shows the same part at the same scale
         DetailRequest request;
         // Somewhat more than the panel: a triangle over its edge has corners outside.
-        const double room = std::min(2.0 * map.surface->step_over / camera.mm_per_pixel + 8.0, static_cast<double>(camera.width));
+        const double room =
+            std::min(2.0 * map.surface->step_over / camera.mm_per_pixel + 8.0, static_cast<double>(camera.width));
         request.projection = camera.projection();
         request.projection.col(3).array() += std::ceil(room);
         request.width = camera.width + 2 * static_cast<int>(std::ceil(room));
         request.height = camera.height + 2 * static_cast<int>(std::ceil(room));
         request.style = look.style;
         request.box = look.box;
-        Detail detail = map.relief != nullptr ? relief_detail(*map.relief, map.field->values, request) : visible_detail(*map.surface, map.field->values, request);
+        Detail detail = map.relief != nullptr ? relief_detail(*map.relief, map.field->values, request)
+                                              : visible_detail(*map.surface, map.field->values, request);
         const Beyond here = paint(detail, scale, map.field->info.unit.per_inside, panel);
         beyond = {beyond.below || here.below, beyond.above || here.above, beyond.missing || here.missing};
         panel.geometry = std::move(detail.geometry);
@@ -188,8 +194,9 @@ Sheet map_sheet(const std::vector<MapPanel>& panels, const Camera& camera, const
         add_marks(sheet, map, panel, look, layout);
         if (!map.caption.empty()) {
             const double y = panel.rect.y + panel.rect.height + 0.5 * caption_lines * layout.text;
-            sheet.texts.push_back(fitted({panel.rect.x + layout.margin, y, map.caption, layout.text, Align::left, true, ink},
-                                         panel.rect.width - 2 * layout.margin));
+            sheet.texts.push_back(
+                fitted({panel.rect.x + layout.margin, y, map.caption, layout.text, Align::left, true, ink},
+                       panel.rect.width - 2 * layout.margin));
         }
         if (look.legend && k + 1 == panels.size()) {
             add_axes(sheet, panel, layout, ink);
@@ -204,7 +211,8 @@ Sheet map_sheet(const std::vector<MapPanel>& panels, const Camera& camera, const
     return sheet;
 }
 
-Image draw_map(const std::vector<MapPanel>& panels, const Camera& camera, const ColourScale& scale, const MapTexts& texts, const Look& look) {
+Image draw_map(const std::vector<MapPanel>& panels, const Camera& camera, const ColourScale& scale,
+               const MapTexts& texts, const Look& look) {
     return draw(map_sheet(panels, camera, scale, texts, look), look.gl, look.supersample);
 }
 

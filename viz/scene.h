@@ -56,8 +56,8 @@ struct MapPanel {
 };
 
 struct MapTexts {
-    std::string title;      ///< "Path speed, commanded surface"
-    std::string subtitle;   ///< program · log · counts
+    std::string title;               ///< "Path speed, commanded surface"
+    std::string subtitle;            ///< program · log · counts
     std::vector<std::string> notes;  ///< window, range: one line where they fit, else one each
 };
 

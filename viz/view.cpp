@@ -14,8 +14,13 @@ namespace {
 
 constexpr double margin = 1.03;
 constexpr std::pair<std::string_view, View> named[] = {
-    {"iso", {45, 35.264389682754654}}, {"top", {0, 90}},    {"front", {0, 0}}, {"left", {-90, 0}},
-    {"right", {90, 0}},                {"back", {180, 0}},  {"bottom", {0, -90}},
+    {"iso", {45, 35.264389682754654}},
+    {"top", {0, 90}},
+    {"front", {0, 0}},
+    {"left", {-90, 0}},
+    {"right", {90, 0}},
+    {"back", {180, 0}},
+    {"bottom", {0, -90}},
 };
 
 }  // namespace
@@ -31,9 +36,11 @@ View parse_view(const std::string& text) {
     const auto first = std::from_chars(text.data(), end, view.azimuth);
     const bool comma = first.ec == std::errc() && first.ptr != end && *first.ptr == ',';
     const auto second = comma ? std::from_chars(first.ptr + 1, end, view.elevation) : first;
-    if (!comma || second.ec != std::errc() || second.ptr != end || std::abs(view.elevation) > 90 || !std::isfinite(view.azimuth)) {
+    if (!comma || second.ec != std::errc() || second.ptr != end || std::abs(view.elevation) > 90 ||
+        !std::isfinite(view.azimuth)) {
         const std::string nearest = did_you_mean(text, names);
-        throw UsageError("--view: '" + text + "' is no view", nearest.empty() ? "iso, top, front, left, right, back, bottom or AZ,EL in degrees" : nearest);
+        throw UsageError("--view: '" + text + "' is no view",
+                         nearest.empty() ? "iso, top, front, left, right, back, bottom or AZ,EL in degrees" : nearest);
     }
     return view;
 }

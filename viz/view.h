@@ -23,11 +23,11 @@ struct Zoom {
 };
 
 struct Camera {
-    Vec3 centre = Vec3::Zero();   ///< in the middle of the picture [mm]
-    double depth = 0;             ///< along `towards`, from `centre` to what is nearest or farthest [mm]
-    Vec3 right, up, towards;      ///< unit vectors; `towards` points from the part to the eye
+    Vec3 centre = Vec3::Zero();  ///< in the middle of the picture [mm]
+    double depth = 0;            ///< along `towards`, from `centre` to what is nearest or farthest [mm]
+    Vec3 right, up, towards;     ///< unit vectors; `towards` points from the part to the eye
     double mm_per_pixel = 1;
-    int width = 0, height = 0;    ///< [px]
+    int width = 0, height = 0;  ///< [px]
 
     [[nodiscard]] Projection projection() const;
     /// Whether a position lies in the picture.

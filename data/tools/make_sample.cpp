@@ -20,15 +20,15 @@
 namespace clsurf {
 namespace {
 
-constexpr double period = 0.001;        // [s]
-constexpr double feed = 50;             // [mm/s]
-constexpr double rapid_feed = 250;      // [mm/s]
-constexpr double corner_speed = 5;      // [mm/s] at the ends of passes
-constexpr double acceleration = 500;    // [mm/s²]
-constexpr double step_over = 0.1;       // [mm]
-constexpr double chord = 0.5;           // [mm] of a programmed line
-constexpr double retract = 5;           // [mm] over the surface
-constexpr double raw_unit = 1e-6;       // [mm] of a position in the log
+constexpr double period = 0.001;                           // [s]
+constexpr double feed = 50;                                // [mm/s]
+constexpr double rapid_feed = 250;                         // [mm/s]
+constexpr double corner_speed = 5;                         // [mm/s] at the ends of passes
+constexpr double acceleration = 500;                       // [mm/s²]
+constexpr double step_over = 0.1;                          // [mm]
+constexpr double chord = 0.5;                              // [mm] of a programmed line
+constexpr double retract = 5;                              // [mm] over the surface
+constexpr double raw_unit = 1e-6;                          // [mm] of a position in the log
 constexpr std::array<double, 3> lag{0.003, 0.004, 0.005};  // [s] of the feedback
 
 enum class Pattern { zigzag, one_way, loops };
@@ -112,8 +112,8 @@ void run(Vec3 from, const std::vector<Waypoint>& way, Record&& record) {
             last = way[end].position;
         }
         const double most = way[i].rapid ? rapid_feed : feed;
-        double gone = 0;        // of the stretch
-        double before_line = 0; // way gone when the line began
+        double gone = 0;         // of the stretch
+        double before_line = 0;  // way gone when the line began
         while (gone < length) {
             const double speed_up = std::sqrt(corner_speed * corner_speed + 2 * acceleration * gone);
             const double slow_down = std::sqrt(corner_speed * corner_speed + 2 * acceleration * (length - gone));
@@ -149,7 +149,8 @@ void write_program(const std::string& path, const Part& part, std::string_view n
             if (first || w.rapid != rapid) text.append(std::string_view(w.rapid ? "G0 " : "G1 "));
             first = false;
             rapid = w.rapid;
-            fmt::format_to(std::back_inserter(text), FMT_COMPILE("X{:.3f} Y{:.3f} Z{:.3f}\n"), w.position.x(), w.position.y(), w.position.z());
+            fmt::format_to(std::back_inserter(text), FMT_COMPILE("X{:.3f} Y{:.3f} Z{:.3f}\n"), w.position.x(),
+                           w.position.y(), w.position.z());
         }
         file.write(std::string_view(text.data(), text.size()));
         run(from, way, [&](const Vec3&, std::size_t) { return --left > 0; });
@@ -178,7 +179,8 @@ public:
         for (int axis = 0; axis < 3; ++axis) {
             feedback_[axis] += (commanded[axis] - feedback_[axis]) * approach_[static_cast<std::size_t>(axis)];
             raw[static_cast<std::size_t>(axis)] = static_cast<std::int32_t>(std::lround(commanded[axis] / raw_unit));
-            raw[static_cast<std::size_t>(axis) + 3] = static_cast<std::int32_t>(std::lround(feedback_[axis] / raw_unit));
+            raw[static_cast<std::size_t>(axis) + 3] =
+                static_cast<std::int32_t>(std::lround(feedback_[axis] / raw_unit));
         }
         raw[6] = static_cast<std::int32_t>(line);
         writer_.append(std::as_bytes(std::span(raw)));
@@ -188,7 +190,8 @@ public:
 private:
     io::BiipWriter writer_;
     Vec3 feedback_;
-    std::array<double, 3> approach_{1 - std::exp(-period / lag[0]), 1 - std::exp(-period / lag[1]), 1 - std::exp(-period / lag[2])};
+    std::array<double, 3> approach_{1 - std::exp(-period / lag[0]), 1 - std::exp(-period / lag[1]),
+                                    1 - std::exp(-period / lag[2])};
 };
 
 void write_log(const std::string& path, const std::string& program, const Part& part, std::int64_t points) {
@@ -218,7 +221,8 @@ int make(const std::vector<std::string>& words) {
     constexpr std::array<std::string_view, 3> names{"zigzag", "one-way", "loops"};
     std::int64_t points = 0;
     const auto name = words.size() == 4 ? std::find(names.begin(), names.end(), words[0]) : names.end();
-    if (name == names.end() || std::from_chars(words[1].data(), words[1].data() + words[1].size(), points).ec != std::errc() || points < 1) {
+    if (name == names.end() ||
+        std::from_chars(words[1].data(), words[1].data() + words[1].size(), points).ec != std::errc() || points < 1) {
         std::fputs("usage: clsurf_make_sample zigzag|one-way|loops POINTS PROGRAM.nc LOG.biip\n", stderr);
         return 2;
     }

@@ -12,15 +12,15 @@
 namespace clsurf::planted {
 namespace {
 
-constexpr double grid_step = 0.01;        ///< [mm] at which passes are built before they are sampled
+constexpr double grid_step = 0.01;           ///< [mm] at which passes are built before they are sampled
 constexpr double normal_acceleration = 600;  ///< [mm/s²] that limits the speed in curves …
 constexpr double end_acceleration = 600;     ///< … and at the ends of passes
-constexpr double plan_smoothing = 0.4;    ///< [mm] over which the speed plan is rounded
-constexpr double creep = 1.0;             ///< [mm/s] at the ends
+constexpr double plan_smoothing = 0.4;       ///< [mm] over which the speed plan is rounded
+constexpr double creep = 1.0;                ///< [mm/s] at the ends
 constexpr int link_points = 11;
-constexpr double lift = 2;            ///< [mm] over the passes on the way back
-constexpr double rapid_speed = 200;   ///< [mm/s]
-constexpr double scatter_knots = 6;       ///< intervals of the slow scatter along a pass
+constexpr double lift = 2;           ///< [mm] over the passes on the way back
+constexpr double rapid_speed = 200;  ///< [mm/s]
+constexpr double scatter_knots = 6;  ///< intervals of the slow scatter along a pass
 constexpr int first_line = 10;
 
 using Generator = std::mt19937_64;
@@ -43,10 +43,13 @@ Facet facet_at(const Recipe& r, double x, double y) {
         case Surface::transition: {
             const double y0 = 0.5 * r.passes * r.step_over;
             const double slope = 0.5 * r.height / r.width / (std::cosh(u) * std::cosh(u));
-            return {0.5 * r.height * (1 + std::tanh(u)) - (y - y0) * (y - y0) / (2 * across), slope, -(y - y0) / across};
+            return {0.5 * r.height * (1 + std::tanh(u)) - (y - y0) * (y - y0) / (2 * across), slope,
+                    -(y - y0) / across};
         }
         case Surface::dome: {
-            const double radius = 1.3 * std::hypot(0.5 * r.length, is_round(r.shape) ? 0 : r.passes * r.step_over);  // no steeper than 50°
+            const double radius =
+                1.3 *
+                std::hypot(0.5 * r.length, is_round(r.shape) ? 0 : r.passes * r.step_over);  // no steeper than 50°
             const double d = x - middle;
             const double z = std::sqrt(radius * radius - d * d - y * y);
             return {z - radius, -d / z, -y / z};
@@ -110,11 +113,14 @@ Curve round(const Recipe& r, int first_pass, int last_pass, bool winding) {
 
 /// 1 inside the window, raised-cosine edges, 0 outside.
 double window(const Defect& d, double at) {
-    const double u = std::clamp((at - d.from + d.edge) / d.edge, 0.0, 1.0) * std::clamp((d.to + d.edge - at) / d.edge, 0.0, 1.0);
+    const double u =
+        std::clamp((at - d.from + d.edge) / d.edge, 0.0, 1.0) * std::clamp((d.to + d.edge - at) / d.edge, 0.0, 1.0);
     return 0.5 - 0.5 * std::cos(std::numbers::pi * u);
 }
 
-bool on_pass(const Defect& d, int pass) { return pass >= d.first_pass && pass <= d.last_pass && (pass - d.first_pass) % d.every == 0; }
+bool on_pass(const Defect& d, int pass) {
+    return pass >= d.first_pass && pass <= d.last_pass && (pass - d.first_pass) % d.every == 0;
+}
 
 double interpolate(const std::vector<double>& x, const std::vector<double>& y, double at) {
     const auto after = static_cast<std::size_t>(std::upper_bound(x.begin(), x.end(), at) - x.begin());
@@ -150,8 +156,10 @@ public:
             run(round(r_, 0, r_.passes - 1, true), nullptr);
         } else {
             std::vector<Curve> curves;
-            for (int pass = 0; pass < r_.passes; ++pass) curves.push_back(r_.shape == Shape::loops ? round(r_, pass, pass, false) : straight(r_, pass));
-            for (std::size_t k = 0; k < curves.size(); ++k) run(std::move(curves[k]), k + 1 < curves.size() ? &curves[k + 1].at.front() : nullptr);
+            for (int pass = 0; pass < r_.passes; ++pass)
+                curves.push_back(r_.shape == Shape::loops ? round(r_, pass, pass, false) : straight(r_, pass));
+            for (std::size_t k = 0; k < curves.size(); ++k)
+                run(std::move(curves[k]), k + 1 < curves.size() ? &curves[k + 1].at.front() : nullptr);
         }
         write_program();
         return std::move(log_);
@@ -163,7 +171,8 @@ private:
         close(c);
         const std::vector<double> speed = plan(c);
         std::vector<double> time(c.at.size(), 0);
-        for (std::size_t i = 1; i < time.size(); ++i) time[i] = time[i - 1] + (c.way[i] - c.way[i - 1]) / (0.5 * (speed[i] + speed[i - 1]));
+        for (std::size_t i = 1; i < time.size(); ++i)
+            time[i] = time[i - 1] + (c.way[i] - c.way[i - 1]) / (0.5 * (speed[i] + speed[i - 1]));
         const auto base = static_cast<std::uint32_t>(lines_.size() + 1);
         if (start_.hasNaN()) start_ = c.at.front();
         for (double t = 0; t < time.back(); t += r_.period) {
@@ -235,12 +244,14 @@ private:
             Vec3 curvature;
             bend(c, i, tangent, curvature);
             const double ends = std::min(c.way[i], c.way.back() - c.way[i]);
-            v[i] = std::min({r_.feed, std::sqrt(normal_acceleration / std::max(curvature.norm(), 1e-9)), std::sqrt(2 * end_acceleration * ends + creep * creep)});
+            v[i] = std::min({r_.feed, std::sqrt(normal_acceleration / std::max(curvature.norm(), 1e-9)),
+                             std::sqrt(2 * end_acceleration * ends + creep * creep)});
         }
         const int half = static_cast<int>(0.25 * plan_smoothing / grid_step);
         v = smoothed(smoothed(v, half), half);
         // A slow scatter of its own for every pass; on a spiral it goes on from turn to turn.
-        const double per_pass = c.pass.back() > c.pass.front() ? c.way.back() / (c.pass.back() - c.pass.front() + 1) : c.way.back();
+        const double per_pass =
+            c.pass.back() > c.pass.front() ? c.way.back() / (c.pass.back() - c.pass.front() + 1) : c.way.back();
         std::vector<double> knots;
         std::vector<double> scatter;
         for (double s = 0; s <= c.way.back() + per_pass / scatter_knots; s += per_pass / scatter_knots) {
@@ -251,7 +262,8 @@ private:
             for (const Defect& d : r_.defects) {
                 if (d.kind == Kind::lag || !on_pass(d, c.pass[i])) continue;
                 const double w = window(d, c.coordinate[i]);
-                const double swing = d.kind == Kind::speed ? -1.0 : std::sin(2 * std::numbers::pi * (c.coordinate[i] - d.from) / d.wave);
+                const double swing =
+                    d.kind == Kind::speed ? -1.0 : std::sin(2 * std::numbers::pi * (c.coordinate[i] - d.from) / d.wave);
                 v[i] *= 1 + d.amplitude * w * swing;
             }
             v[i] *= interpolate(knots, scatter, c.way[i]);
@@ -290,11 +302,18 @@ private:
         log_.line.push_back(line);
     }
 
-    void add_line(std::string_view word, const Vec3& p) { lines_.push_back(fmt::format("{} X{:.4f} Y{:.4f} Z{:.4f}", word, p.x(), p.y(), p.z())); }
+    void add_line(std::string_view word, const Vec3& p) {
+        lines_.push_back(fmt::format("{} X{:.4f} Y{:.4f} Z{:.4f}", word, p.x(), p.y(), p.z()));
+    }
 
     void write_program() {
-        std::vector<std::string> head{"%", "O2000", "G90 G17 G21 G54", fmt::format("G1 F{:.0f}", r_.feed * 60),
-                                      fmt::format("G0 X{:.4f} Y{:.4f} Z{:.3f}", start_.x(), start_.y(), start_.z() + 20), fmt::format("G1 Z{:.4f}", start_.z())};
+        std::vector<std::string> head{
+            "%",
+            "O2000",
+            "G90 G17 G21 G54",
+            fmt::format("G1 F{:.0f}", r_.feed * 60),
+            fmt::format("G0 X{:.4f} Y{:.4f} Z{:.3f}", start_.x(), start_.y(), start_.z() + 20),
+            fmt::format("G1 Z{:.4f}", start_.z())};
         for (std::size_t i = 0; i < lines_.size(); ++i) {
             const std::string& line = i < head.size() ? head[i] : lines_[i];
             log_.program += (line.empty() ? fmt::format("(line {})", i + 1) : line) + "\n";
@@ -332,10 +351,12 @@ Recipe random_recipe(std::uint64_t seed, Shape shape, bool clean, bool hard) {
     Recipe r;
     r.seed = seed;
     r.shape = shape;
-    r.surface = is_round(shape) ? pick(Surface::dome, Surface::wave, Surface::transition) : pick(Surface::transition, Surface::transition, Surface::wave, Surface::dome);
+    r.surface = is_round(shape) ? pick(Surface::dome, Surface::wave, Surface::transition)
+                                : pick(Surface::transition, Surface::transition, Surface::wave, Surface::dome);
     r.step_over = pick(0.2, 0.3, 0.4);
     r.passes = std::uniform_int_distribution<int>(24, 40)(g);
-    r.length = is_round(shape) ? uniform(g, 2 * r.passes * r.step_over + 12, 2 * r.passes * r.step_over + 20) : uniform(g, 20, 40);
+    r.length = is_round(shape) ? uniform(g, 2 * r.passes * r.step_over + 12, 2 * r.passes * r.step_over + 20)
+                               : uniform(g, 20, 40);
     r.height = uniform(g, 1.5, 4);
     r.width = uniform(g, 2.5, 5);
     r.feed = pick(33.3, 50.0, 66.7);
@@ -375,8 +396,12 @@ Log as_log(const PlantedLog& planted) {
     const auto view = [&](const void* data, ScalarType type) {
         return ChannelView{static_cast<const std::byte*>(data), size_of(type), log.records, type, false, 1.0, 0.0};
     };
-    for (std::size_t axis = 0; axis < 3; ++axis) log.channels.push_back({fmt::format("cmd.{}", "xyz"[axis]), "mm", view(planted.commanded[axis].data(), ScalarType::f64)});
-    for (std::size_t axis = 0; axis < 3; ++axis) log.channels.push_back({fmt::format("fb.{}", "xyz"[axis]), "mm", view(planted.measured[axis].data(), ScalarType::f64)});
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        log.channels.push_back(
+            {fmt::format("cmd.{}", "xyz"[axis]), "mm", view(planted.commanded[axis].data(), ScalarType::f64)});
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        log.channels.push_back(
+            {fmt::format("fb.{}", "xyz"[axis]), "mm", view(planted.measured[axis].data(), ScalarType::f64)});
     log.channels.push_back({"line", "", view(planted.line.data(), ScalarType::u32)});
     return log;
 }

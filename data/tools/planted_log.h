@@ -26,31 +26,31 @@ enum class Kind : std::uint8_t { speed, oscillation, lag };
 struct Defect {
     Kind kind = Kind::speed;
     int first_pass = 0, last_pass = 0;
-    int every = 1;          ///< 2: on every second of these passes
+    int every = 1;            ///< 2: on every second of these passes
     double from = 0, to = 0;  ///< [mm] along the pass, counted where the passes begin: full amplitude
-    double edge = 0.5;      ///< [mm] raised-cosine edges outside
-    double amplitude = 0;   ///< speed, oscillation: share of the speed; lag: [mm], + above the surface
-    double wave = 1.0;      ///< [mm] of an oscillation
+    double edge = 0.5;        ///< [mm] raised-cosine edges outside
+    double amplitude = 0;     ///< speed, oscillation: share of the speed; lag: [mm], + above the surface
+    double wave = 1.0;        ///< [mm] of an oscillation
 };
 
 struct Recipe {
     std::uint64_t seed = 1;
     Shape shape = Shape::zigzag;
     Surface surface = Surface::transition;
-    double height = 4;        ///< [mm] of the surface's relief
-    double width = 3;         ///< [mm] over which a transition rises; wavelength / 2π of a wave
-    double length = 24;       ///< [mm] of a straight pass; diameter of loops and spirals
+    double height = 4;   ///< [mm] of the surface's relief
+    double width = 3;    ///< [mm] over which a transition rises; wavelength / 2π of a wave
+    double length = 24;  ///< [mm] of a straight pass; diameter of loops and spirals
     int passes = 30;
-    double step_over = 0.3;   ///< [mm]
-    double feed = 50;         ///< [mm/s]
-    double period = 0.001;    ///< [s]
-    double quantum = 0.001;   ///< [mm] positions are rounded to
-    double noise = 0.0002;    ///< [mm] standard deviation of the measured positions
-    double scatter = 0.004;   ///< of the speed, from pass to pass
-    double delay = 0.001;     ///< [s] measured behind commanded
-    double give = 2e-5;       ///< [mm per mm/s²] offset along the normal per normal acceleration
-    double jitter = 0;        ///< of the period, standard deviation
-    double block = 0.6;       ///< [mm] programmed step
+    double step_over = 0.3;  ///< [mm]
+    double feed = 50;        ///< [mm/s]
+    double period = 0.001;   ///< [s]
+    double quantum = 0.001;  ///< [mm] positions are rounded to
+    double noise = 0.0002;   ///< [mm] standard deviation of the measured positions
+    double scatter = 0.004;  ///< of the speed, from pass to pass
+    double delay = 0.001;    ///< [s] measured behind commanded
+    double give = 2e-5;      ///< [mm per mm/s²] offset along the normal per normal acceleration
+    double jitter = 0;       ///< of the period, standard deviation
+    double block = 0.6;      ///< [mm] programmed step
     std::vector<Defect> defects;
 };
 

@@ -31,9 +31,10 @@ double percentile(std::vector<double> values, double share) {
 }
 
 void print(std::string_view name, const Score& s, const Score& clean) {
-    fmt::print("{:<8} recall {:.3f} ({} of {})  precision {:.3f} ({} of {})  clean: {} false in {} points  place {}  lines {}  cause {}  depth error p50 {:.1f} % p95 {:.1f} %\n",
-               name, s.recall(), s.found, s.planted, s.precision(), s.right, s.reported, clean.reported, clean.points, s.placed, s.lined, s.named,
-               100 * percentile(s.depth_errors, 0.5), 100 * percentile(s.depth_errors, 0.95));
+    fmt::print(
+        "{:<8} recall {:.3f} ({} of {})  precision {:.3f} ({} of {})  clean: {} false in {} points  place {}  lines {}  cause {}  depth error p50 {:.1f} % p95 {:.1f} %\n",
+        name, s.recall(), s.found, s.planted, s.precision(), s.right, s.reported, clean.reported, clean.points,
+        s.placed, s.lined, s.named, 100 * percentile(s.depth_errors, 0.5), 100 * percentile(s.depth_errors, 0.95));
 }
 
 int score_shapes(int cases, std::uint64_t seed, bool hard) {
@@ -44,11 +45,14 @@ int score_shapes(int cases, std::uint64_t seed, bool hard) {
         Score clean;
         for (int k = 0; k < cases; ++k) {
             const bool is_clean = k % 4 == 3;
-            const PlantedLog log = make_planted_log(random_recipe(seed + static_cast<std::uint64_t>(k), shape, is_clean, hard));
+            const PlantedLog log =
+                make_planted_log(random_recipe(seed + static_cast<std::uint64_t>(k), shape, is_clean, hard));
             const Score one = score(log, judge(log));
             (is_clean ? clean : planted) += one;
             const bool odd = is_clean ? one.reported > 0 : one.found < one.planted || one.right < one.reported;
-            if (odd) fmt::print("  {} seed {}: found {} of {}, right {} of {}\n", name_of(shape), seed + static_cast<std::uint64_t>(k), one.found, one.planted, one.right, one.reported);
+            if (odd)
+                fmt::print("  {} seed {}: found {} of {}, right {} of {}\n", name_of(shape),
+                           seed + static_cast<std::uint64_t>(k), one.found, one.planted, one.right, one.reported);
         }
         print(name_of(shape), planted, clean);
         all += planted;
@@ -81,15 +85,17 @@ int print_curve(int cases, std::uint64_t seed) {
                 const PlantedLog log = make_planted_log(recipe);
                 sum += score(log, judge(log));
             }
-            fmt::print("{:<12} {:5.2f} {:<2}  recall {:.3f}  precision {:.3f}  depth error p50 {:.1f} %\n", name_of(row.kind), amplitude * row.shown, row.unit,
-                       sum.recall(), sum.precision(), 100 * percentile(sum.depth_errors, 0.5));
+            fmt::print("{:<12} {:5.2f} {:<2}  recall {:.3f}  precision {:.3f}  depth error p50 {:.1f} %\n",
+                       name_of(row.kind), amplitude * row.shown, row.unit, sum.recall(), sum.precision(),
+                       100 * percentile(sum.depth_errors, 0.5));
         }
     }
     return 0;
 }
 
 int write(const std::string& shape, std::uint64_t seed, const std::string& prefix, bool hard) {
-    const auto* found = std::find_if(std::begin(shapes), std::end(shapes), [&](Shape s) { return name_of(s) == shape; });
+    const auto* found =
+        std::find_if(std::begin(shapes), std::end(shapes), [&](Shape s) { return name_of(s) == shape; });
     if (found == std::end(shapes)) throw std::invalid_argument("SHAPE is zigzag, one-way, loops or spiral");
     const PlantedLog log = make_planted_log(random_recipe(seed, *found, false, hard));
     io::AtomicFile program(prefix + ".nc");
@@ -99,7 +105,8 @@ int write(const std::string& shape, std::uint64_t seed, const std::string& prefi
     io::write_biip(prefix + ".biip", view.channels, view.records, view.period, "{}");
     for (std::size_t d = 0; d < log.truth.size(); ++d) {
         const Defect& defect = log.recipe.defects[d];
-        fmt::print("{} {:+g}: passes {} to {} every {}, points", name_of(defect.kind), defect.amplitude, defect.first_pass + 1, defect.last_pass + 1, defect.every);
+        fmt::print("{} {:+g}: passes {} to {} every {}, points", name_of(defect.kind), defect.amplitude,
+                   defect.first_pass + 1, defect.last_pass + 1, defect.every);
         const std::vector<PointIndex>& truth = log.truth[d];
         for (std::size_t k = 0; k < truth.size(); ++k) {
             if (k == 0 || truth[k] != truth[k - 1] + 1) fmt::print(" {}", truth[k]);
@@ -112,11 +119,17 @@ int write(const std::string& shape, std::uint64_t seed, const std::string& prefi
 
 int run(const std::vector<std::string>& words) {
     const auto count = [&](std::size_t k, int otherwise) { return words.size() > k ? std::stoi(words[k]) : otherwise; };
-    if (!words.empty() && words[0] == "score") return score_shapes(count(1, 20), static_cast<std::uint64_t>(count(2, 1)), !words.empty() && words.back() == "hard");
-    if (!words.empty() && words[0] == "curve") return print_curve(count(1, 16), static_cast<std::uint64_t>(count(2, 1)));
+    if (!words.empty() && words[0] == "score")
+        return score_shapes(count(1, 20), static_cast<std::uint64_t>(count(2, 1)),
+                            !words.empty() && words.back() == "hard");
+    if (!words.empty() && words[0] == "curve")
+        return print_curve(count(1, 16), static_cast<std::uint64_t>(count(2, 1)));
     const bool hard = !words.empty() && words.back() == "hard";
-    if (words.size() >= 4 && words[0] == "write") return write(words[1], static_cast<std::uint64_t>(count(2, 1)), words[3], hard);
-    std::fputs("usage: clsurf_planted score [CASES [SEED [hard]]] | curve [CASES [SEED]] | write SHAPE SEED PREFIX [hard]\n", stderr);
+    if (words.size() >= 4 && words[0] == "write")
+        return write(words[1], static_cast<std::uint64_t>(count(2, 1)), words[3], hard);
+    std::fputs(
+        "usage: clsurf_planted score [CASES [SEED [hard]]] | curve [CASES [SEED]] | write SHAPE SEED PREFIX [hard]\n",
+        stderr);
     return 2;
 }
 

@@ -12,8 +12,8 @@
 namespace clsurf::planted {
 namespace {
 
-constexpr double found_within = 0.2;     ///< [mm]
-constexpr double true_within = 0.8;      ///< [mm]
+constexpr double found_within = 0.2;  ///< [mm]
+constexpr double true_within = 0.8;   ///< [mm]
 constexpr double share_enough = 0.3;
 
 /// Points by cell, for a yes or no within a radius.
@@ -47,7 +47,9 @@ public:
 
 private:
     [[nodiscard]] std::int64_t key(const Vec3& p, int dx, int dy, int dz) const {
-        const auto c = [&](double v, int d) { return (static_cast<std::int64_t>(std::floor(v / radius_)) + d) & 0x1fffff; };
+        const auto c = [&](double v, int d) {
+            return (static_cast<std::int64_t>(std::floor(v / radius_)) + d) & 0x1fffff;
+        };
         return c(p.x(), dx) << 42 | c(p.y(), dy) << 21 | c(p.z(), dz);
     }
 
@@ -72,11 +74,14 @@ Cause cause_of(Kind kind) {
 bool lines_match(const PlantedLog& log, const std::vector<PointIndex>& truth, const clsurf::Defect& defect) {
     for (std::size_t k = 0; k < truth.size();) {
         std::size_t end = k;
-        while (end < truth.size() && log.pass[static_cast<std::size_t>(truth[end])] == log.pass[static_cast<std::size_t>(truth[k])]) ++end;
+        while (end < truth.size() &&
+               log.pass[static_cast<std::size_t>(truth[end])] == log.pass[static_cast<std::size_t>(truth[k])])
+            ++end;
         const auto first = static_cast<long long>(log.line[static_cast<std::size_t>(truth[k])]);
         const auto last = static_cast<long long>(log.line[static_cast<std::size_t>(truth[end - 1])]);
         const bool matched = std::any_of(defect.runs.begin(), defect.runs.end(), [&](const DefectRun& run) {
-            return std::abs(static_cast<long long>(run.first_line) - first) <= 1 && std::abs(static_cast<long long>(run.last_line) - last) <= 1;
+            return std::abs(static_cast<long long>(run.first_line) - first) <= 1 &&
+                   std::abs(static_cast<long long>(run.last_line) - last) <= 1;
         });
         if (matched) return true;
         k = end;
@@ -86,7 +91,9 @@ bool lines_match(const PlantedLog& log, const std::vector<PointIndex>& truth, co
 
 }  // namespace
 
-Program program_of(const PlantedLog& planted) { return parse_program(SourceText("planted.nc", planted.program, nullptr), {}); }
+Program program_of(const PlantedLog& planted) {
+    return parse_program(SourceText("planted.nc", planted.program, nullptr), {});
+}
 
 QualityReport judge(const PlantedLog& planted) {
     const Log log = as_log(planted);
@@ -96,7 +103,8 @@ QualityReport judge(const PlantedLog& planted) {
     const Trajectory measured = reconstruct(log, Role::feedback, Vec3::Zero());
     const LineMap lines = map_lines(path, log, program, true, diagnostics);
     const ClSurface surface = stitch(gather(path), lines);
-    const Signals signals = derive_signals(surface, path, &measured, smooth_pieces(log, surface.passes), usual_end_zone(surface.step_over));
+    const Signals signals =
+        derive_signals(surface, path, &measured, smooth_pieces(log, surface.passes), usual_end_zone(surface.step_over));
     return find_defects(surface, signals, lines, program, log.period, {});
 }
 

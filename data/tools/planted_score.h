@@ -15,10 +15,10 @@ namespace clsurf::planted {
 [[nodiscard]] QualityReport judge(const PlantedLog& planted);
 
 struct Score {
-    int planted = 0;    ///< defects
-    int found = 0;      ///< with a flagged point within 0.2 mm of 30 % of their points
-    int reported = 0;   ///< regions
-    int right = 0;      ///< with 30 % of their points within 0.8 mm of a planted one
+    int planted = 0;   ///< defects
+    int found = 0;     ///< with a flagged point within 0.2 mm of 30 % of their points
+    int reported = 0;  ///< regions
+    int right = 0;     ///< with 30 % of their points within 0.8 mm of a planted one
     PointIndex points = 0;
     std::vector<double> depth_errors;  ///< relative, of lag defects found
     int placed = 0;                    ///< found with the position within a step-over of a planted point

@@ -32,7 +32,8 @@ std::vector<double> colour_differences(const QualityReport& report, const Part& 
     const ShownRange range = find_range(speed, surface.passes, {}, {});
     const viz::ColourScale scale{viz::make_colour_map("isurface"), range.low, range.high, 0};
     const auto look = [&](double mm_s) { return viz::lab_of(scale.colour(mm_s * speed.info.unit.per_inside)); };
-    for (const Defect& defect : report.defects) differences.push_back(viz::delta_e00(look(defect.speed), look(defect.speed_beside)));
+    for (const Defect& defect : report.defects)
+        differences.push_back(viz::delta_e00(look(defect.speed), look(defect.speed_beside)));
     return differences;
 }
 
@@ -75,11 +76,12 @@ Subcommand check_subcommand() {
         .name = "check",
         .arguments = "PROGRAM LOG",
         .summary = "adjacent-path discontinuities and predicted marks, with lines, causes and micrometres",
-        .description = "Compares every pass with the passes beside it: speed, acceleration, and where the axes run off\n"
-                       "the commanded path. What differs enough to leave a mark is listed, worst first, with the lines\n"
-                       "at fault and how deep it will be. With a budget, exit code 1 says that it was not held.\n\n"
-                       "  clsurf check part.nc run.biip --tool ball:6\n"
-                       "  clsurf check part.nc run.biip --tool ball:6 --budget part.toml --format sarif -o part.sarif",
+        .description =
+            "Compares every pass with the passes beside it: speed, acceleration, and where the axes run off\n"
+            "the commanded path. What differs enough to leave a mark is listed, worst first, with the lines\n"
+            "at fault and how deep it will be. With a budget, exit code 1 says that it was not held.\n\n"
+            "  clsurf check part.nc run.biip --tool ball:6\n"
+            "  clsurf check part.nc run.biip --tool ball:6 --budget part.toml --format sarif -o part.sarif",
         .declare =
             [](po::options_description& options) {
                 declare_quality(options);

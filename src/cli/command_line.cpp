@@ -21,9 +21,7 @@ std::string without_dashes(std::string name) {
     return name;
 }
 
-std::string quoted(std::string_view text) {
-    return "'" + std::string(text) + "'";
-}
+std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
 
 template <typename Number>
 bool is_number(std::string_view text) {
@@ -47,15 +45,13 @@ void check_number(const std::string& option, const std::type_info& type, const s
     const bool whole = type == typeid(int) || type == typeid(long) || type == typeid(long long) ||
                        type == typeid(std::vector<int>) || type == typeid(std::vector<long>) ||
                        type == typeid(std::vector<long long>);
-    const bool counted = type == typeid(unsigned) || type == typeid(unsigned long) ||
-                         type == typeid(unsigned long long);
-    const bool real =
-        type == typeid(double) || type == typeid(float) || type == typeid(std::vector<double>);
-    const bool good = (!whole || is_number<std::int64_t>(text)) &&
-                      (type != typeid(int) || is_number<std::int32_t>(text)) &&
-                      (!counted || is_number<std::uint64_t>(text)) &&
-                      (type != typeid(unsigned) || is_number<std::uint32_t>(text)) &&
-                      (!real || is_number<double>(text));
+    const bool counted =
+        type == typeid(unsigned) || type == typeid(unsigned long) || type == typeid(unsigned long long);
+    const bool real = type == typeid(double) || type == typeid(float) || type == typeid(std::vector<double>);
+    const bool good =
+        (!whole || is_number<std::int64_t>(text)) && (type != typeid(int) || is_number<std::int32_t>(text)) &&
+        (!counted || is_number<std::uint64_t>(text)) && (type != typeid(unsigned) || is_number<std::uint32_t>(text)) &&
+        (!real || is_number<double>(text));
     if (good) return;
     throw UsageError("--" + option + ": " + quoted(text) +
                      (real      ? " is not a number"
@@ -72,8 +68,7 @@ void check_word(const std::string& option, const std::string& value_name, const 
         list += (list.empty() ? "" : ", ") + word;
     }
     const std::vector<std::string_view> views(words.begin(), words.end());
-    throw UsageError("--" + option + ": " + quoted(text) + " is not one of " + list,
-                     did_you_mean(text, views));
+    throw UsageError("--" + option + ": " + quoted(text) + " is not one of " + list, did_you_mean(text, views));
 }
 
 // "--output --json" is a forgotten file name, not a file called --json. Numbers may be negative.
@@ -97,9 +92,7 @@ public:
         const po::option_description& description = options_.find(name, false);
         const auto* typed = dynamic_cast<const po::typed_value_base*>(description.semantic().get());
         const bool may_repeat = typed != nullptr && is_list(typed->value_type());
-        if (!seen_.insert(name).second && !may_repeat) {
-            throw UsageError("--" + name + " is given more than once");
-        }
+        if (!seen_.insert(name).second && !may_repeat) { throw UsageError("--" + name + " is given more than once"); }
         if (typed == nullptr || option.value.empty()) return;
         check_taken(option);
         for (const std::string& text : option.value) {
@@ -129,9 +122,9 @@ void name_arguments(const Subcommand& subcommand, std::vector<po::option>& words
     for (po::option& word : words) {
         if (word.position_key < 0) continue;
         if (next >= subcommand.positional.size()) {
-            throw UsageError("unexpected argument " + quoted(word.original_tokens.front()),
-                             "usage: clsurf " + std::string(subcommand.name) + " [options] " +
-                                 std::string(subcommand.arguments));
+            throw UsageError(
+                "unexpected argument " + quoted(word.original_tokens.front()),
+                "usage: clsurf " + std::string(subcommand.name) + " [options] " + std::string(subcommand.arguments));
         }
         std::string name = subcommand.positional[next];
         if (name.ends_with(repeats)) {
@@ -169,10 +162,8 @@ po::variables_map parse_words(const Subcommand& subcommand, const std::vector<st
     options.add(shown.own).add(shown.common);
 
     // Guessing from prefixes is off: a later option must not change what a script means.
-    const int style =
-        po::command_line_style::default_style & ~po::command_line_style::allow_guessing;
-    po::parsed_options parsed =
-        po::command_line_parser(words).options(options).style(style).allow_unregistered().run();
+    const int style = po::command_line_style::default_style & ~po::command_line_style::allow_guessing;
+    po::parsed_options parsed = po::command_line_parser(words).options(options).style(style).allow_unregistered().run();
     Checker checker(options);
     for (const po::option& option : parsed.options) {
         if (option.position_key < 0) checker.check(option);
@@ -195,12 +186,9 @@ UsageError to_usage_error(const po::error& error) {
     const std::string option = syntax->get_option_name();
     switch (syntax->kind()) {
         case po::invalid_syntax::missing_parameter:
-        case po::invalid_syntax::empty_adjacent_parameter:
-            return UsageError(option + " needs a value");
-        case po::invalid_syntax::extra_parameter:
-            return UsageError(option + " takes no value");
-        default:
-            return UsageError(error.what());
+        case po::invalid_syntax::empty_adjacent_parameter: return UsageError(option + " needs a value");
+        case po::invalid_syntax::extra_parameter: return UsageError(option + " takes no value");
+        default: return UsageError(error.what());
     }
 }
 

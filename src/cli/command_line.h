@@ -18,8 +18,7 @@ struct ShownOptions {
 
 /// The values of the words after the subcommand's name. Throws UsageError, and po::error where
 /// Boost cannot cut them; to_usage_error() says that in our words.
-[[nodiscard]] po::variables_map parse_words(const Subcommand& subcommand,
-                                            const std::vector<std::string>& words);
+[[nodiscard]] po::variables_map parse_words(const Subcommand& subcommand, const std::vector<std::string>& words);
 
 [[nodiscard]] UsageError to_usage_error(const po::error& error);
 

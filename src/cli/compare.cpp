@@ -43,9 +43,14 @@ ExitCode run(const po::variables_map& values) {
         } else {
             const viz::Comparison c = viz::compare(a, b, rule);
             report = {c.equal, c.max_error, c.mean_error, c.psnr, c.delta_e, rule.threshold, c.pixels_over};
-            verdict = fmt::format("{}: {} pixels over {:.4f}, largest error {:.4f}, mean {:.6f}, PSNR {:.1f} dB, ΔE {:.1f}", c.equal ? "equal" : "different",
-                                  c.pixels_over, rule.threshold, c.max_error, c.mean_error, c.psnr, c.delta_e);
-            if (values.count("diff") > 0) write_file(values["diff"].as<std::string>(), viz::encode_png(viz::difference_picture(a, b), "difference of " + made + " and " + reference));
+            verdict =
+                fmt::format("{}: {} pixels over {:.4f}, largest error {:.4f}, mean {:.6f}, PSNR {:.1f} dB, ΔE {:.1f}",
+                            c.equal ? "equal" : "different", c.pixels_over, rule.threshold, c.max_error, c.mean_error,
+                            c.psnr, c.delta_e);
+            if (values.count("diff") > 0)
+                write_file(
+                    values["diff"].as<std::string>(),
+                    viz::encode_png(viz::difference_picture(a, b), "difference of " + made + " and " + reference));
         }
     }
     if (update && !report.equal) {
@@ -54,8 +59,10 @@ ExitCode run(const po::variables_map& values) {
         verdict += "; reference updated";
         report.equal = true;
     }
-    if (values.count("json") > 0) std::fputs(io::comparison_json(report).c_str(), stdout);
-    else fmt::print("{}\n", verdict);
+    if (values.count("json") > 0)
+        std::fputs(io::comparison_json(report).c_str(), stdout);
+    else
+        fmt::print("{}\n", verdict);
     return report.equal ? ExitCode::done : ExitCode::check_failed;
 }
 
@@ -66,9 +73,10 @@ Subcommand compare_subcommand() {
         .name = "compare",
         .arguments = "A.png B.png",
         .summary = "two pictures compared, for snapshots in CI",
-        .description = "A is the new picture, B the reference. They differ when more than 0.02 % of the values are\n"
-                       "off by more than the threshold, or any by more than three times that: exit code 1.\n\n"
-                       "  clsurf compare map.png snapshots/map.png --diff difference.png",
+        .description =
+            "A is the new picture, B the reference. They differ when more than 0.02 % of the values are\n"
+            "off by more than the threshold, or any by more than three times that: exit code 1.\n\n"
+            "  clsurf compare map.png snapshots/map.png --diff difference.png",
         .declare =
             [](po::options_description& options) {
                 // clang-format off

@@ -14,7 +14,8 @@ ExitCode run(const po::variables_map& values) {
     std::string metadata = log.metadata;
     if (values.count("program") > 0) {
         std::vector<ProgramReference> programs;
-        for (const std::string& path : values["program"].as<std::vector<std::string>>()) programs.push_back(io::identify(io::open_source(path)));
+        for (const std::string& path : values["program"].as<std::vector<std::string>>())
+            programs.push_back(io::identify(io::open_source(path)));
         metadata = io::with_programs(metadata, programs);
     }
     print(io::fit_biip(log), values);
@@ -29,18 +30,20 @@ Subcommand convert_subcommand() {
         .name = "convert",
         .arguments = "LOG -o out.biip",
         .summary = "any readable log into BIIP",
-        .description = "Keeps the stored types and scales of binary logs; text becomes 64-bit floating point.\n"
-                       "With --program the log knows its program: other subcommands then warn of an edited or another one.\n\n"
-                       "  clsurf convert run.raw --layout run.layout.toml -o run.biip\n"
-                       "  clsurf convert run.csv --program part.nc -o run.biip",
-        .declare = [](po::options_description& options) {
-            // clang-format off
+        .description =
+            "Keeps the stored types and scales of binary logs; text becomes 64-bit floating point.\n"
+            "With --program the log knows its program: other subcommands then warn of an edited or another one.\n\n"
+            "  clsurf convert run.raw --layout run.layout.toml -o run.biip\n"
+            "  clsurf convert run.csv --program part.nc -o run.biip",
+        .declare =
+            [](po::options_description& options) {
+                // clang-format off
             options.add_options()
                 ("output,o", po::value<std::string>()->value_name("FILE"), "the BIIP log")
                 ("program", po::value<std::vector<std::string>>()->value_name("FILE"), "the program that ran (again: its subprograms); name, size and SHA-256 go into the log");
-            // clang-format on
-            declare_log_options(options);
-        },
+                // clang-format on
+                declare_log_options(options);
+            },
         .positional = {"LOG"},
         .run = run,
     };

@@ -57,8 +57,9 @@ DiffOptions read_options(const po::variables_map& values) {
 /// Nothing of B lies on A: another part, or another work offset.
 void require_alignment(const RunDifferences& differences, const std::string& a, const std::string& b) {
     if (differences.alignment.aligned > 0) return;
-    throw InputError(Place::of_file(b), "nowhere runs along the path of " + a,
-                     "another part, or another work offset? --work-offset holds for all runs; `clsurf info` tells what a log knows");
+    throw InputError(
+        Place::of_file(b), "nowhere runs along the path of " + a,
+        "another part, or another work offset? --work-offset holds for all runs; `clsurf info` tells what a log knows");
 }
 
 /// The map of one quantity: what is drawn, and what it is called.
@@ -70,39 +71,49 @@ struct DrawnDifference {
 
 DrawnDifference drawn(RunDifferences& differences, RunQuantity quantity, const std::string& run) {
     const RunQuantityInfo& info = run_quantity_table()[index_of(quantity)];
-    if (!differences.has(quantity)) throw UsageError(fmt::format("--color {}: the runs do not have measured positions in common", info.name));
+    if (!differences.has(quantity))
+        throw UsageError(fmt::format("--color {}: the runs do not have measured positions in common", info.name));
     DrawnDifference shown;
     shown.run = run;
-    shown.field.info = {std::string(info.name), fmt::format("{}, difference", info.label), info.unit, FieldScale::diverging, {}};
+    shown.field.info = {
+        std::string(info.name), fmt::format("{}, difference", info.label), info.unit, FieldScale::diverging, {}};
     shown.field.values = std::move(differences.of[index_of(quantity)]);
     return shown;
 }
 
 /// Even about 0, and never narrower than what counts as a difference: equal runs are not to look different.
-ShownRange range_of(const DrawnDifference& shown, const ClSurface& surface, const LookOptions& options, double threshold) {
+ShownRange range_of(const DrawnDifference& shown, const ClSurface& surface, const LookOptions& options,
+                    double threshold) {
     RangeRule rule = options.range;
     const bool automatic = rule.kind == RangeRule::Kind::automatic;
     if (automatic) rule = {RangeRule::Kind::percentiles, 100 - shown_percentile, shown_percentile};
     ShownRange range = find_range(shown.field, surface.passes, rule);
     if (!automatic) return range;
-    const double most = std::max({std::abs(range.low), std::abs(range.high), threshold * shown.field.info.unit.per_inside});
+    const double most =
+        std::max({std::abs(range.low), std::abs(range.high), threshold * shown.field.info.unit.per_inside});
     range.low = -most;
     range.high = most;
     range.note += ", even about 0";
     return range;
 }
 
-void draw(const DiffOptions& options, const Run& a, const ClSurface& surface, const DrawnDifference& shown, double threshold, io::AtomicFile& output) {
+void draw(const DiffOptions& options, const Run& a, const ClSurface& surface, const DrawnDifference& shown,
+          double threshold, io::AtomicFile& output) {
     const viz::MapPanel panel{&surface, &shown.field, "", {}, {}, {}};
     const viz::Camera camera = viz::map_camera({panel}, options.look.look);
     const ShownRange range = range_of(shown, surface, options.look, threshold);
     viz::MapTexts texts;
-    texts.title = fmt::format("{}: {} minus {}", shown.field.info.label, base_name(shown.run), base_name(options.files.front()));
-    texts.subtitle = fmt::format("{} points of {}, {} path", a.path.count, base_name(options.files.front()), name_of(a.path.role));
+    texts.title =
+        fmt::format("{}: {} minus {}", shown.field.info.label, base_name(shown.run), base_name(options.files.front()));
+    texts.subtitle =
+        fmt::format("{} points of {}, {} path", a.path.count, base_name(options.files.front()), name_of(a.path.role));
     texts.notes = notes_of(range);
-    const viz::Image image = viz::draw_map({panel}, camera, scale_of(shown.field.info, range, options.look), texts, options.look.look);
-    output.write(viz::encode_png(image, fmt::format("clsurf difference of {} and {}: {} {:g} to {:g} {}", base_name(shown.run), base_name(options.files.front()),
-                                                    shown.field.info.name, range.low, range.high, shown.field.info.unit.name)));
+    const viz::Image image =
+        viz::draw_map({panel}, camera, scale_of(shown.field.info, range, options.look), texts, options.look.look);
+    output.write(
+        viz::encode_png(image, fmt::format("clsurf difference of {} and {}: {} {:g} to {:g} {}", base_name(shown.run),
+                                           base_name(options.files.front()), shown.field.info.name, range.low,
+                                           range.high, shown.field.info.unit.name)));
     output.commit();
 }
 
@@ -111,7 +122,8 @@ ExitCode run(const po::variables_map& values) {
     std::unique_ptr<io::AtomicFile> output;
     if (!options.output.empty()) {
         viz::preload_image_library();
-        output = std::make_unique<io::AtomicFile>(options.output);  // a name that cannot be written fails before the work
+        output =
+            std::make_unique<io::AtomicFile>(options.output);  // a name that cannot be written fails before the work
     }
     StageClock clock(read_common(values), 3 + 2 * static_cast<int>(options.files.size()));
     Diagnostics diagnostics;
@@ -135,7 +147,9 @@ ExitCode run(const po::variables_map& values) {
         Run of_reference = run_of(reference, loaded, options.runs);
         const Run b = run_of(loaded, reference, options.runs);
         if (!lines || of_reference.path.role != a.path.role) {
-            if (drift) throw InputError(Place::of_file(loaded.name), "has other kinds of positions than the runs before it", "--surface names one that all have");
+            if (drift)
+                throw InputError(Place::of_file(loaded.name), "has other kinds of positions than the runs before it",
+                                 "--surface names one that all have");
             clock.begin("stitch the surface");
             lines = lines_of(reference, of_reference.path, options.runs, diagnostics);
             surface = clsurf::stitch(gather(of_reference.path), *lines);
@@ -145,7 +159,8 @@ ExitCode run(const po::variables_map& values) {
         clock.begin("compare the runs");
         RunDifferences differences = compare_runs(a, surface, b);
         require_alignment(differences, reference.name, loaded.name);
-        const bool lines_known = reference.log.find("line") != nullptr || reference.simulated || !options.runs.program.empty();
+        const bool lines_known =
+            reference.log.find("line") != nullptr || reference.simulated || !options.runs.program.empty();
         RunReport report = report_run(a, surface, lines_known ? lines.get() : nullptr, b, differences);
         std::vector<BudgetLine> budget = hold(report, options.budget);
         reported.runs.push_back({loaded.name, std::move(report), std::move(budget)});
@@ -178,13 +193,14 @@ Subcommand diff_subcommand() {
         .name = "diff",
         .arguments = "A B…",
         .summary = "runs of a part against each other, by path: where speed, acceleration, lag and height differ",
-        .description = "Lays runs onto the first one by path, not by time, so that feed override, pauses, other sampling periods and logs that begin in\n"
-                       "the middle do no harm, and says where speed, acceleration, lag along the feed and height differ: B minus A. Each is a log, or a\n"
-                       "program, which is simulated. With a budget, exit code 1 says that it was not held. Of three runs and more the one that departs\n"
-                       "from the others is named. The map shows the first B.\n\n"
-                       "  clsurf diff monday.biip friday.biip --program part.nc\n"
-                       "  clsurf diff monday.biip friday.biip --budget runs.toml -o difference.png --color height\n"
-                       "  clsurf diff part.nc part_smoothed.nc --machine mill.toml",
+        .description =
+            "Lays runs onto the first one by path, not by time, so that feed override, pauses, other sampling periods and logs that begin in\n"
+            "the middle do no harm, and says where speed, acceleration, lag along the feed and height differ: B minus A. Each is a log, or a\n"
+            "program, which is simulated. With a budget, exit code 1 says that it was not held. Of three runs and more the one that departs\n"
+            "from the others is named. The map shows the first B.\n\n"
+            "  clsurf diff monday.biip friday.biip --program part.nc\n"
+            "  clsurf diff monday.biip friday.biip --budget runs.toml -o difference.png --color height\n"
+            "  clsurf diff part.nc part_smoothed.nc --machine mill.toml",
         .declare =
             [](po::options_description& options) {
                 // clang-format off

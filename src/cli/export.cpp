@@ -45,7 +45,8 @@ io::ExportColumn column_of(const std::string& name, const Part& part, const ClSu
         for (double& v : column.exact) v += part.path.offset[static_cast<Eigen::Index>(axis)];
     } else if (name == "confidence") {
         column.values.resize(count);
-        for (std::size_t i = 0; i < count; ++i) column.values[i] = static_cast<float>(part.lines->confidence_at(static_cast<PointIndex>(i)));
+        for (std::size_t i = 0; i < count; ++i)
+            column.values[i] = static_cast<float>(part.lines->confidence_at(static_cast<PointIndex>(i)));
     } else {
         Field field = fields.get(name);
         column.unit = std::string(field.info.unit.name);
@@ -61,12 +62,15 @@ io::ExportColumn column_of(const std::string& name, const Part& part, const ClSu
 Column<float> as_floats(const io::ExportColumn& column) {
     Column<float> values(static_cast<std::size_t>(column.size()));
     for (std::size_t i = 0; i < values.size(); ++i) {
-        values[i] = !column.counts.empty() ? static_cast<float>(column.counts[i]) : !column.exact.empty() ? static_cast<float>(column.exact[i]) : column.values[i];
+        values[i] = !column.counts.empty()  ? static_cast<float>(column.counts[i])
+                    : !column.exact.empty() ? static_cast<float>(column.exact[i])
+                                            : column.values[i];
     }
     return values;
 }
 
-void write_vtk(const std::string& path, bool hdf, const ClSurface& surface, const std::vector<io::ExportColumn>& columns) {
+void write_vtk(const std::string& path, bool hdf, const ClSurface& surface,
+               const std::vector<io::ExportColumn>& columns) {
     std::vector<Column<float>> values;
     for (const io::ExportColumn& column : columns) values.push_back(as_floats(column));
     std::vector<viz::PointData> data;
@@ -94,9 +98,12 @@ ExitCode run(const po::variables_map& values) {
     std::vector<io::ExportColumn> columns;
     Fields fields(part, surface);
     for (const std::string& name : names) columns.push_back(column_of(name, part, surface, fields));
-    if (ending == ".csv") io::write_csv(output, columns);
-    else if (ending == ".biip") io::write_biip_table(output, columns, part.log.period, "{}");
-    else write_vtk(output, ending == ".vtkhdf", surface, columns);
+    if (ending == ".csv")
+        io::write_csv(output, columns);
+    else if (ending == ".biip")
+        io::write_biip_table(output, columns, part.log.period, "{}");
+    else
+        write_vtk(output, ending == ".vtkhdf", surface, columns);
     return ExitCode::done;
 }
 
@@ -107,9 +114,10 @@ Subcommand export_subcommand() {
         .name = "export",
         .arguments = "PROGRAM LOG -o FILE",
         .summary = "per-point columns as .csv, .biip, .vtp, .vtkhdf",
-        .description = "The file's ending chooses the form. Columns: point, time, line, pass, confidence, x, y, z and every\n"
-                       "field of `clsurf help fields`. VTK files hold the passes as polylines and the stitched surface.\n\n"
-                       "  clsurf export part.nc run.biip -o points.csv --columns line,x,y,z,speed,acceleration",
+        .description =
+            "The file's ending chooses the form. Columns: point, time, line, pass, confidence, x, y, z and every\n"
+            "field of `clsurf help fields`. VTK files hold the passes as polylines and the stitched surface.\n\n"
+            "  clsurf export part.nc run.biip -o points.csv --columns line,x,y,z,speed,acceleration",
         .declare =
             [](po::options_description& options) {
                 // clang-format off

@@ -13,7 +13,8 @@ namespace clsurf::cli {
 namespace {
 
 const FieldInfo& interval_info() {
-    static const FieldInfo info{"interval", "Planned speed of the constant-speed interval", unit::mm_min, FieldScale::sequential, {}};
+    static const FieldInfo info{
+        "interval", "Planned speed of the constant-speed interval", unit::mm_min, FieldScale::sequential, {}};
     return info;
 }
 
@@ -24,8 +25,10 @@ Field Fields::interval_field() const {
     IntervalRules rules;
     rules.reach = 0.5 * laid.surface.step_over;
     const ProgramIntervals planned = plan_intervals(part_.program, laid, rules, Machine{});
-    Field field{interval_info(), Column<float>(static_cast<std::size_t>(part_.log.records), std::numeric_limits<float>::quiet_NaN())};
-    field.info.note = fmt::format("{} intervals on {} passes, on the machine of clsurf machine --defaults", planned.intervals.size(), planned.passes);
+    Field field{interval_info(),
+                Column<float>(static_cast<std::size_t>(part_.log.records), std::numeric_limits<float>::quiet_NaN())};
+    field.info.note = fmt::format("{} intervals on {} passes, on the machine of clsurf machine --defaults",
+                                  planned.intervals.size(), planned.passes);
     for (PointIndex i = 0; i < part_.log.records; ++i) {
         const std::span<const std::uint32_t> motions = part_.lines->motions_of(part_.lines->line_at(i));
         if (!motions.empty()) field.values[static_cast<std::size_t>(i)] = planned.speed_of_motion[motions.front()];
@@ -35,7 +38,8 @@ Field Fields::interval_field() const {
 
 Field Fields::get(std::string_view name) {
     if (is_quality_field(name)) {
-        if (!signals_) signals_ = std::make_unique<Signals>(std::move(signals_of(part_, surface_, std::nullopt).signals));
+        if (!signals_)
+            signals_ = std::make_unique<Signals>(std::move(signals_of(part_, surface_, std::nullopt).signals));
         return quality_field(name, surface_, *signals_);
     }
     if (name == interval_info().name) return interval_field();
@@ -49,7 +53,8 @@ std::vector<FieldInfo> all_fields(const Log* log) {
     fields.push_back(interval_info());
     if (log == nullptr) return fields;
     const std::vector<FieldInfo> with_channels = known_fields(log);
-    fields.insert(fields.end(), with_channels.begin() + static_cast<std::ptrdiff_t>(known_fields(nullptr).size()), with_channels.end());
+    fields.insert(fields.end(), with_channels.begin() + static_cast<std::ptrdiff_t>(known_fields(nullptr).size()),
+                  with_channels.end());
     return fields;
 }
 

@@ -13,7 +13,10 @@ namespace clsurf::cli {
 class Fields {
 public:
     /// Both must outlive it.
-    Fields(const Part& part, const ClSurface& surface) : part_(part), surface_(surface), set_(part.log, part.path, surface.passes, {estimate_motion(part, surface.passes), 0}) {}
+    Fields(const Part& part, const ClSurface& surface)
+        : part_(part),
+          surface_(surface),
+          set_(part.log, part.path, surface.passes, {estimate_motion(part, surface.passes), 0}) {}
 
     /// One value per point. Throws UsageError: unknown (with a suggestion), or the log lacks what it needs.
     [[nodiscard]] Field get(std::string_view name);

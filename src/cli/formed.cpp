@@ -10,8 +10,9 @@
 namespace clsurf::cli {
 namespace {
 
-constexpr double most_cells = 1e8;     ///< of a picture; beyond, cells grow
-constexpr double least_tilt = 0.2;     ///< sine of the view's elevation below which the plan cannot be told from the picture
+constexpr double most_cells = 1e8;  ///< of a picture; beyond, cells grow
+constexpr double least_tilt =
+    0.2;  ///< sine of the view's elevation below which the plan cannot be told from the picture
 
 /// What the picture can show, in plan, of heights between two.
 Box2 shown_plan(const viz::Camera& camera, double low, double high) {
@@ -48,7 +49,13 @@ std::pair<double, double> heights_of(const ClSurface& surface) {
 class Means {
 public:
     Means(viz::Relief& relief, Column<float>& values, std::int64_t per_vertex, std::int64_t columns)
-        : relief_(relief), values_(values), per_vertex_(per_vertex), columns_(columns), z_(size()), d_(size()), n_(size()) {}
+        : relief_(relief),
+          values_(values),
+          per_vertex_(per_vertex),
+          columns_(columns),
+          z_(size()),
+          d_(size()),
+          n_(size()) {}
 
     void add(std::int64_t row, std::span<const float> z, std::span<const float> deviation) {
         for (std::int64_t c = 0; c < columns_; ++c) {
@@ -88,7 +95,8 @@ CuttingTool required_tool(const po::variables_map& values, const std::string& wh
     return parse_tool(values["tool"].as<std::string>());
 }
 
-FormedPart::FormedPart(const Part& part, const ClSurface& surface, std::optional<Role> role, const CuttingTool& tool, StageClock& clock) {
+FormedPart::FormedPart(const Part& part, const ClSurface& surface, std::optional<Role> role, const CuttingTool& tool,
+                       StageClock& clock) {
     clock.begin("sweep the tool");
     upright_ = upright_part(part, role, tool);
     if (!upright_) read_ = signals_of(part, surface, role);
@@ -110,15 +118,18 @@ FormedMap make_formed_map(const FormedPart& part, const Box3& box, const viz::Ca
     const double cell = std::max(formed.usual_cell(), std::sqrt(region.volume() / most_cells));
     const auto per_vertex = std::max<std::int64_t>(1, std::lround(camera.mm_per_pixel / cell));
     // Finer than the cells where the picture is: cusps stay sharp.
-    const double fine = per_vertex == 1 ? std::clamp(camera.mm_per_pixel, cell / 10, cell) : camera.mm_per_pixel / static_cast<double>(per_vertex);
+    const double fine = per_vertex == 1 ? std::clamp(camera.mm_per_pixel, cell / 10, cell)
+                                        : camera.mm_per_pixel / static_cast<double>(per_vertex);
     const MapFrame frame = frame_of(region, fine);
     relief.columns = frame.columns / per_vertex;
     relief.rows = frame.rows / per_vertex;
     relief.pitch = fine * static_cast<double>(per_vertex);
     const Vec2 middle = frame.corner + Vec2::Constant(0.5 * fine * static_cast<double>(per_vertex - 1));
     relief.origin = Vec3(middle.x(), middle.y(), formed.level());
-    relief.z = Column<float>(static_cast<std::size_t>(relief.columns * relief.rows), std::numeric_limits<float>::quiet_NaN());
-    map.field.info = {"formed", "Formed surface over its form", unit::um, FieldScale::diverging, fmt::format("{}, {}", to_text(formed.tool()), formed.note())};
+    relief.z =
+        Column<float>(static_cast<std::size_t>(relief.columns * relief.rows), std::numeric_limits<float>::quiet_NaN());
+    map.field.info = {"formed", "Formed surface over its form", unit::um, FieldScale::diverging,
+                      fmt::format("{}, {}", to_text(formed.tool()), formed.note())};
     map.field.values = relief.z;
     Means means(relief, map.field.values, per_vertex, frame.columns);
     const Form form(formed, region);
@@ -128,7 +139,8 @@ FormedMap make_formed_map(const FormedPart& part, const Box3& box, const viz::Ca
         form.subtract(frame, first_row, z);
         const auto wide = static_cast<std::size_t>(frame.columns);
         for (std::size_t r = 0; r < z.size() / wide; ++r) {
-            means.add(first_row + static_cast<std::int64_t>(r), std::span(heights).subspan(r * wide, wide), z.subspan(r * wide, wide));
+            means.add(first_row + static_cast<std::int64_t>(r), std::span(heights).subspan(r * wide, wide),
+                      z.subspan(r * wide, wide));
         }
     });
     return map;

@@ -13,7 +13,8 @@ class FormedPart {
 public:
     /// Sweeps `tool` along the role's positions (none: the most truthful ones of the log) of the part,
     /// whose path is the commanded one where the log has it. Both must outlive it.
-    FormedPart(const Part& part, const ClSurface& surface, std::optional<Role> role, const CuttingTool& tool, StageClock& clock);
+    FormedPart(const Part& part, const ClSurface& surface, std::optional<Role> role, const CuttingTool& tool,
+               StageClock& clock);
     FormedPart(const FormedPart&) = delete;
     FormedPart& operator=(const FormedPart&) = delete;
 
@@ -21,13 +22,15 @@ public:
     [[nodiscard]] const Signals& signals() const { return upright_ ? upright_->read.signals : read_.signals; }
 
 private:
-    std::unique_ptr<const UprightPart> upright_;  ///< of a tool that is tilted; then nothing was read of the part itself
+    std::unique_ptr<const UprightPart>
+        upright_;  ///< of a tool that is tilted; then nothing was read of the part itself
     PartSignals read_;
     std::optional<FormedSurface> formed_;
 };
 
 /// --tool, or a UsageError that says what needs it, with an example.
-[[nodiscard]] CuttingTool required_tool(const po::variables_map& values, const std::string& what, const std::string& example);
+[[nodiscard]] CuttingTool required_tool(const po::variables_map& values, const std::string& what,
+                                        const std::string& example);
 
 /// What a map of the formed surface is drawn from.
 struct FormedMap {

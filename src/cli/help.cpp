@@ -32,9 +32,8 @@ std::string two_columns(const std::vector<Entry>& entries) {
     std::string text;
     for (const Entry& entry : entries) {
         text += "  " + entry.left;
-        std::string gap = columns_of(entry.left) > left
-                              ? "\n" + indent
-                              : std::string(left + 2 - columns_of(entry.left), ' ');
+        std::string gap =
+            columns_of(entry.left) > left ? "\n" + indent : std::string(left + 2 - columns_of(entry.left), ' ');
         for (const std::string& line : wrap(entry.right, width - indent.size())) {
             text += gap + line;
             gap = "\n" + indent;
@@ -53,9 +52,7 @@ std::string options_text(std::string_view title, const po::options_description& 
 std::string vocabulary_text(const Vocabulary& vocabulary) {
     std::vector<Entry> entries;
     for (const io::ListingRow& row : vocabulary.rows()) {
-        entries.push_back({row.name, row.unit.empty()
-                                         ? row.summary
-                                         : fmt::format("{} [{}]", row.summary, row.unit)});
+        entries.push_back({row.name, row.unit.empty() ? row.summary : fmt::format("{} [{}]", row.summary, row.unit)});
     }
     return two_columns(entries);
 }
@@ -72,8 +69,7 @@ ExitCode run(const po::variables_map& values) {
     for (const Vocabulary& vocabulary : vocabularies()) {
         known.push_back(vocabulary.name);
         if (vocabulary.name != topic) continue;
-        write_to_stdout(json ? io::listing_json(vocabulary.name, vocabulary.rows())
-                             : vocabulary_text(vocabulary));
+        write_to_stdout(json ? io::listing_json(vocabulary.name, vocabulary.rows()) : vocabulary_text(vocabulary));
         return ExitCode::done;
     }
     for (const Subcommand& subcommand : subcommands()) {
@@ -94,8 +90,7 @@ std::string OptionRow::names() const {
 }
 
 std::string OptionRow::text() const {
-    return default_value.empty() ? description
-                                 : fmt::format("{} (default: {})", description, default_value);
+    return default_value.empty() ? description : fmt::format("{} (default: {})", description, default_value);
 }
 
 std::vector<OptionRow> rows_of(const po::options_description& options) {
@@ -103,8 +98,7 @@ std::vector<OptionRow> rows_of(const po::options_description& options) {
     for (const auto& option : options.options()) {
         OptionRow row;
         row.long_name = "--" + option->long_name();
-        const std::string name =
-            option->canonical_display_name(po::command_line_style::allow_dash_for_short);
+        const std::string name = option->canonical_display_name(po::command_line_style::allow_dash_for_short);
         if (name.size() == 2 && name[0] == '-') row.short_name = name;
         // Boost writes the default behind the value's name: "N (=3)".
         row.value_name = option->format_parameter();
@@ -119,8 +113,8 @@ std::vector<OptionRow> rows_of(const po::options_description& options) {
 }
 
 std::string usage_of(const Subcommand& subcommand) {
-    return fmt::format("clsurf {} [options]{}{}", subcommand.name,
-                       subcommand.arguments.empty() ? "" : " ", subcommand.arguments);
+    return fmt::format("clsurf {} [options]{}{}", subcommand.name, subcommand.arguments.empty() ? "" : " ",
+                       subcommand.arguments);
 }
 
 std::span<const ExitCodeRow> exit_codes() {

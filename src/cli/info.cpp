@@ -29,12 +29,14 @@ void print_diagnostics(const Diagnostics& diagnostics) {
 
 void print_program(const Program& program, const ToolpathSummary& s, const Diagnostics& diagnostics) {
     fmt::print("{}: program, dialect {}\n", program.main().name(), program.dialect->name);
-    fmt::print("  {} lines; {} rapids, {} lines at feed, {} arcs, {} dwells\n", program.main().line_count(), s.rapids, s.feeds, s.arcs, s.dwells);
+    fmt::print("  {} lines; {} rapids, {} lines at feed, {} arcs, {} dwells\n", program.main().line_count(), s.rapids,
+               s.feeds, s.arcs, s.dwells);
     fmt::print("  {:.1f} mm at feed", s.cutting_length);
     if (!s.bounds.isEmpty()) {
         const Vec3 a = s.bounds.min();
         const Vec3 b = s.bounds.max();
-        fmt::print(", within X {:.3f} … {:.3f}, Y {:.3f} … {:.3f}, Z {:.3f} … {:.3f} mm", a.x(), b.x(), a.y(), b.y(), a.z(), b.z());
+        fmt::print(", within X {:.3f} … {:.3f}, Y {:.3f} … {:.3f}, Z {:.3f} … {:.3f} mm", a.x(), b.x(), a.y(), b.y(),
+                   a.z(), b.z());
     }
     fmt::print("\n");
     print_diagnostics(diagnostics);
@@ -42,16 +44,22 @@ void print_program(const Program& program, const ToolpathSummary& s, const Diagn
 
 void print_log(const Log& log, const Diagnostics& diagnostics) {
     fmt::print("{}: log, format {}{}\n", log.name, log.format, log.closed ? "" : ", not closed");
-    fmt::print("  {} records every {:g} ms, {:.3f} s\n", log.records, log.period * 1e3, log.records > 0 ? log.time_of(log.records - 1) : 0.0);
+    fmt::print("  {} records every {:g} ms, {:.3f} s\n", log.records, log.period * 1e3,
+               log.records > 0 ? log.time_of(log.records - 1) : 0.0);
     std::string channels;
-    for (const Channel& c : log.channels) channels += fmt::format("{}{}{}", channels.empty() ? "" : ", ", c.name, c.unit.empty() ? "" : " [" + c.unit + "]");
+    for (const Channel& c : log.channels)
+        channels +=
+            fmt::format("{}{}{}", channels.empty() ? "" : ", ", c.name, c.unit.empty() ? "" : " [" + c.unit + "]");
     fmt::print("  channels: {}\n", channels);
     print_diagnostics(diagnostics);
 }
 
 /// Whether the log is one of this program: distances between the points and their lines.
-void judge_together(Program program, const Log& log, const std::optional<Vec3>& given, const std::shared_ptr<const Kinematics>& kinematics, Diagnostics& diagnostics) {
-    const Role role = log.has(Role::commanded) ? Role::commanded : log.has(Role::feedback) ? Role::feedback : Role::actual;
+void judge_together(Program program, const Log& log, const std::optional<Vec3>& given,
+                    const std::shared_ptr<const Kinematics>& kinematics, Diagnostics& diagnostics) {
+    const Role role = log.has(Role::commanded)  ? Role::commanded
+                      : log.has(Role::feedback) ? Role::feedback
+                                                : Role::actual;
     if (!log.has(role) || log.records == 0 || program.motions.size() == 0) return;
     const Vec3 offset = -given.value_or(log.work_offset.value_or(Vec3::Zero()));
     const Trajectory path = reconstruct(log, role, offset, kinematics);
@@ -66,8 +74,13 @@ void judge_together(Program program, const Log& log, const std::optional<Vec3>& 
     const LineMap lines = map_lines(path, log, program, true, diagnostics);
     const LineAgreement a = check_lines(path, program, lines);
     if (a.checked == 0) return;
-    diagnostics.add({Severity::note, "map.distance", Place::of_file(log.name),
-                     fmt::format("positions lie {:.4f} mm (median) and {:.4f} mm (95th percentile) from the lines of {}", a.median_distance, a.p95_distance, program.main().name()), {}});
+    diagnostics.add(
+        {Severity::note,
+         "map.distance",
+         Place::of_file(log.name),
+         fmt::format("positions lie {:.4f} mm (median) and {:.4f} mm (95th percentile) from the lines of {}",
+                     a.median_distance, a.p95_distance, program.main().name()),
+         {}});
 }
 
 ExitCode run(const po::variables_map& values) {
@@ -76,18 +89,22 @@ ExitCode run(const po::variables_map& values) {
     std::vector<std::string> objects;
     std::optional<Program> program;
     io::Source program_source;
-    const std::shared_ptr<const Kinematics> kinematics = load_kinematics(values.count("machine") > 0 ? values["machine"].as<std::string>() : std::string());
+    const std::shared_ptr<const Kinematics> kinematics =
+        load_kinematics(values.count("machine") > 0 ? values["machine"].as<std::string>() : std::string());
     for (const std::string& path : values["FILE"].as<std::vector<std::string>>()) {
         const io::LogOptions log_options = read_log_options(values);
         const io::Source source = io::open_source(path);
-        if (source.bytes.empty()) throw InputError(Place::of_file(source.name), "is empty, expected a program or a log");
+        if (source.bytes.empty())
+            throw InputError(Place::of_file(source.name), "is empty, expected a program or a log");
         const bool is_log = io::recognise_log(source, log_options) != nullptr;
         if (!is_log) {
             program_source = source;
             program = io::read_program(source, read_program_options(values));
             const ToolpathSummary summary = summarise(program->motions);
-            if (json) objects.push_back(io::program_json(*program, summary, program->diagnostics));
-            else print_program(*program, summary, program->diagnostics);
+            if (json)
+                objects.push_back(io::program_json(*program, summary, program->diagnostics));
+            else
+                print_program(*program, summary, program->diagnostics);
             continue;
         }
         const Log log = io::open_log(source, log_options);
@@ -97,8 +114,10 @@ ExitCode run(const po::variables_map& values) {
             io::check_identity(program_source, log, diagnostics);
             judge_together(*program, log, read_work_offset(values), kinematics, diagnostics);
         }
-        if (json) objects.push_back(io::log_json(log, diagnostics));
-        else print_log(log, diagnostics);
+        if (json)
+            objects.push_back(io::log_json(log, diagnostics));
+        else
+            print_log(log, diagnostics);
     }
     if (json) std::fputs((objects.size() == 1 ? objects.front() : io::files_json(objects)).c_str(), stdout);
     return ExitCode::done;
@@ -111,16 +130,18 @@ Subcommand info_subcommand() {
         .name = "info",
         .arguments = "FILE…",
         .summary = "what a program or log holds, and whether it can be trusted",
-        .description = "Programs and logs are told apart by content. A log that follows its program is judged\n"
-                       "against it: wrong program, lines that do not exist, a work offset that is missing.\n\n"
-                       "  clsurf info part.nc run.biip",
-        .declare = [](po::options_description& options) {
-            options.add_options()("json", "one JSON object; of several files {\"files\": […]}");
-            declare_program_options(options);
-            declare_log_options(options);
-            declare_work_offset(options);
-            declare_kinematics(options);
-        },
+        .description =
+            "Programs and logs are told apart by content. A log that follows its program is judged\n"
+            "against it: wrong program, lines that do not exist, a work offset that is missing.\n\n"
+            "  clsurf info part.nc run.biip",
+        .declare =
+            [](po::options_description& options) {
+                options.add_options()("json", "one JSON object; of several files {\"files\": […]}");
+                declare_program_options(options);
+                declare_log_options(options);
+                declare_work_offset(options);
+                declare_kinematics(options);
+            },
         .positional = {"FILE…"},
         .run = run,
     };

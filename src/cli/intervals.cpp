@@ -13,7 +13,8 @@ namespace {
 double read_above(const po::variables_map& values, const char* name, double least, double otherwise) {
     if (values.count(name) == 0) return otherwise;
     const double value = values[name].as<double>();
-    if (!(value > least) || !std::isfinite(value)) throw UsageError(std::string("--") + name + " must be above " + (least > 0 ? "1" : "0"));
+    if (!(value > least) || !std::isfinite(value))
+        throw UsageError(std::string("--") + name + " must be above " + (least > 0 ? "1" : "0"));
     return value;
 }
 
@@ -23,7 +24,8 @@ ExitCode run(const po::variables_map& values) {
     rules.length_ratio = read_above(values, "length-ratio", 1, rules.length_ratio);
     rules.curvature_ratio = read_above(values, "curvature-ratio", 1, rules.curvature_ratio);
     rules.drift_ratio = 2 * rules.curvature_ratio;
-    const Machine machine = values.count("machine") > 0 ? io::read_machine(values["machine"].as<std::string>()) : Machine{};
+    const Machine machine =
+        values.count("machine") > 0 ? io::read_machine(values["machine"].as<std::string>()) : Machine{};
     const Program program = io::read_program(required(values, "PROGRAM"), read_program_options(values));
     const ProgrammedSurface laid = lay_out(program);
     rules.reach = 0.5 * laid.surface.step_over;
@@ -44,11 +46,12 @@ Subcommand intervals_subcommand() {
         .name = "intervals",
         .arguments = "PROGRAM",
         .summary = "constant-speed intervals of the passes, and the speed planned for each",
-        .description = "Cuts each pass where the distance of its points or its curvature changes, after Wu et al. (Machines 10 (2022) 558),\n"
-                       "and plans the speed of each piece from its curvature, the machine and the pieces beside it on the neighbour passes.\n"
-                       "`own` is what feed, curvature and machine allow, `planned` what the neighbours hold as well.\n\n"
-                       "  clsurf intervals part.nc --machine mill.toml\n"
-                       "  clsurf render part.nc run.biip --color interval -o intervals.png",
+        .description =
+            "Cuts each pass where the distance of its points or its curvature changes, after Wu et al. (Machines 10 (2022) 558),\n"
+            "and plans the speed of each piece from its curvature, the machine and the pieces beside it on the neighbour passes.\n"
+            "`own` is what feed, curvature and machine allow, `planned` what the neighbours hold as well.\n\n"
+            "  clsurf intervals part.nc --machine mill.toml\n"
+            "  clsurf render part.nc run.biip --color interval -o intervals.png",
         .declare =
             [](po::options_description& options) {
                 // clang-format off

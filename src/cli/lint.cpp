@@ -14,12 +14,14 @@ namespace {
 using Writer = std::string (*)(const io::ReportedLint&);
 
 ExitCode run(const po::variables_map& values) {
-    static const std::map<std::string, Writer, std::less<>> writers{{"text", io::lint_text}, {"json", io::lint_json}, {"sarif", io::lint_sarif}};
+    static const std::map<std::string, Writer, std::less<>> writers{
+        {"text", io::lint_text}, {"json", io::lint_json}, {"sarif", io::lint_sarif}};
     const Writer write = writers.at(report_format(values));
     LintRules rules;
     if (values.count("tolerance") > 0) {
         rules.tolerance = values["tolerance"].as<double>();
-        if (!(rules.tolerance > 0) || !std::isfinite(rules.tolerance)) throw UsageError("--tolerance must be above 0 mm");
+        if (!(rules.tolerance > 0) || !std::isfinite(rules.tolerance))
+            throw UsageError("--tolerance must be above 0 mm");
     }
     ReportOutput output(values);
     const Program program = io::read_program(required(values, "PROGRAM"), read_program_options(values));
@@ -36,12 +38,13 @@ Subcommand lint_subcommand() {
         .name = "lint",
         .arguments = "PROGRAM",
         .summary = "what hurts in the program itself: uneven points, chords, reversals, feeds, starts",
-        .description = "Puts the programmed passes side by side, without a log, and lists the lines that a controller will run\n"
-                       "otherwise than their neighbours: points closer or farther apart than on both neighbour passes, chord errors\n"
-                       "against the controller's tolerance (good is a tolerance of 110 to 200 % of the chord error), short lines that run back,\n"
-                       "feeds that differ, ends of passes that are out of line. Exit code 1 says that there are warnings.\n\n"
-                       "  clsurf lint part.nc\n"
-                       "  clsurf lint part.nc --tolerance 0.01 --format sarif -o part.sarif",
+        .description =
+            "Puts the programmed passes side by side, without a log, and lists the lines that a controller will run\n"
+            "otherwise than their neighbours: points closer or farther apart than on both neighbour passes, chord errors\n"
+            "against the controller's tolerance (good is a tolerance of 110 to 200 % of the chord error), short lines that run back,\n"
+            "feeds that differ, ends of passes that are out of line. Exit code 1 says that there are warnings.\n\n"
+            "  clsurf lint part.nc\n"
+            "  clsurf lint part.nc --tolerance 0.01 --format sarif -o part.sarif",
         .declare =
             [](po::options_description& options) {
                 // clang-format off

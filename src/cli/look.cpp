@@ -21,7 +21,8 @@ RangeRule parse_range(const std::string& text) {
     rule.low = pair[0];
     rule.high = pair[1];
     if (rule.low > rule.high) throw UsageError("--range: the lower end is above the upper one");
-    if (rule.kind == RangeRule::Kind::percentiles && (rule.low < 0 || rule.high > 100)) throw UsageError("--range: percentiles are 0 … 100");
+    if (rule.kind == RangeRule::Kind::percentiles && (rule.low < 0 || rule.high > 100))
+        throw UsageError("--range: percentiles are 0 … 100");
     return rule;
 }
 
@@ -32,10 +33,14 @@ viz::Look read_look(const po::variables_map& values) {
     look.height = static_cast<int>(size[1]);
     look.view = viz::parse_view(text_of(values, "view", "iso"));
     const std::string style = text_of(values, "style", "surface");
-    if (style == "surface") look.style = viz::Style::surface;
-    else if (style == "lines") look.style = viz::Style::lines;
-    else if (style == "points") look.style = viz::Style::points;
-    else throw UsageError("--style: '" + style + "' is not surface, lines or points");
+    if (style == "surface")
+        look.style = viz::Style::surface;
+    else if (style == "lines")
+        look.style = viz::Style::lines;
+    else if (style == "points")
+        look.style = viz::Style::points;
+    else
+        throw UsageError("--style: '" + style + "' is not surface, lines or points");
     if (values.count("zoom") > 0) {
         const std::vector<double> n = parse_numbers(values["zoom"].as<std::string>(), "--zoom", 4);
         look.zoom = {n[0], n[1], n[2], n[3]};
@@ -89,14 +94,18 @@ LookOptions read_look_options(const po::variables_map& values) {
 
 viz::ColourScale scale_of(const FieldInfo& field, const ShownRange& range, const LookOptions& options) {
     const bool diverging = field.scale == FieldScale::diverging;
-    return {viz::make_colour_map(!options.colour_map.empty() ? options.colour_map : diverging ? "coolwarm" : "isurface"), range.low, range.high, options.bins};
+    return {viz::make_colour_map(!options.colour_map.empty() ? options.colour_map
+                                 : diverging                 ? "coolwarm"
+                                                             : "isurface"),
+            range.low, range.high, options.bins};
 }
 
 std::vector<std::string> notes_of(const ShownRange& range) {
     std::vector<std::string> notes{range.note};
     if (range.lowest < range.low || range.highest > range.high) {
         const double readable = std::max(1e-3 * (range.high - range.low), 1e-6 * std::abs(range.high));
-        notes.push_back(fmt::format("values from {} to {}", viz::tick_text(range.lowest, readable), viz::tick_text(range.highest, readable)));
+        notes.push_back(fmt::format("values from {} to {}", viz::tick_text(range.lowest, readable),
+                                    viz::tick_text(range.highest, readable)));
     }
     return notes;
 }

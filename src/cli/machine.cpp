@@ -28,10 +28,11 @@ Subcommand machine_subcommand() {
         .name = "machine",
         .arguments = "--defaults | --check FILE",
         .summary = "machine files: one with every key, and whether one can be used",
-        .description = "A machine file holds the limits, the controller's settings and the servo loops of a machine,\n"
-                       "for simulate.\n\n"
-                       "  clsurf machine --defaults > mill.toml\n"
-                       "  clsurf machine --check mill.toml",
+        .description =
+            "A machine file holds the limits, the controller's settings and the servo loops of a machine,\n"
+            "for simulate.\n\n"
+            "  clsurf machine --defaults > mill.toml\n"
+            "  clsurf machine --check mill.toml",
         .declare =
             [](po::options_description& options) {
                 // clang-format off

@@ -71,8 +71,7 @@ int main(int argc, char** argv) {
         code = clsurf::cli::run(std::vector<std::string>(argv + 1, argv + argc));
         clsurf::io::check_mapped_files();
         if (std::fflush(stdout) != 0) {
-            throw clsurf::SystemError(std::string("cannot write to standard output: ") +
-                                      std::strerror(errno));
+            throw clsurf::SystemError(std::string("cannot write to standard output: ") + std::strerror(errno));
         }
     } catch (const clsurf::UsageError& error) {
         code = clsurf::cli::report(error);

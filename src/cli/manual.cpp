@@ -58,8 +58,8 @@ std::string troff(std::string_view text) {
 }
 
 std::string man_header(std::string_view page, std::string_view summary) {
-    return fmt::format(".TH \"{}\" 1 \"\" \"clsurf {}\" \"clsurf\"\n.SH NAME\n{} \\- {}\n",
-                       troff(page), version, troff(page), troff(summary));
+    return fmt::format(".TH \"{}\" 1 \"\" \"clsurf {}\" \"clsurf\"\n.SH NAME\n{} \\- {}\n", troff(page), version,
+                       troff(page), troff(summary));
 }
 
 std::string man_tagged(std::string_view tag, std::string_view text) {
@@ -118,8 +118,7 @@ std::string joined(const std::vector<std::string>& words) {
 
 bool names_a_file(std::string_view value_name) {
     return value_name.ends_with("FILE") || value_name.ends_with("FOLDER") ||
-           value_name.find('.') != std::string_view::npos || value_name == "LOG" ||
-           value_name == "PROGRAM";
+           value_name.find('.') != std::string_view::npos || value_name == "LOG" || value_name == "PROGRAM";
 }
 
 /// What may follow an option: words, file names, or nothing that the shell could know.
@@ -127,10 +126,8 @@ std::string bash_value_case(const std::string& subcommand, const OptionRow& row)
     std::string patterns = fmt::format("{}:{}", subcommand, row.long_name);
     if (!row.short_name.empty()) patterns += fmt::format("|{}:{}", subcommand, row.short_name);
     const std::vector<std::string> words = words_of(row.value_name);
-    if (!words.empty())
-        return fmt::format("        {}) words=\"{}\" ;;\n", patterns, joined(words));
-    return fmt::format("        {}) {} ;;\n", patterns,
-                       names_a_file(row.value_name) ? "files=1" : "return");
+    if (!words.empty()) return fmt::format("        {}) words=\"{}\" ;;\n", patterns, joined(words));
+    return fmt::format("        {}) {} ;;\n", patterns, names_a_file(row.value_name) ? "files=1" : "return");
 }
 
 std::string bash_completion() {
@@ -148,8 +145,7 @@ std::string bash_completion() {
         options += fmt::format("        {}) words=\"{}\" ;;\n", name, all);
     }
     std::string topics = names;
-    for (const Vocabulary& vocabulary : vocabularies())
-        topics += fmt::format(" {}", vocabulary.name);
+    for (const Vocabulary& vocabulary : vocabularies()) topics += fmt::format(" {}", vocabulary.name);
     return fmt::format(R"(# bash completion for clsurf {version}; written by `clsurf manual bash`
 _clsurf() {{
     local current=${{COMP_WORDS[COMP_CWORD]}} previous=${{COMP_WORDS[COMP_CWORD-1]}}
@@ -183,9 +179,8 @@ _clsurf() {{
 }}
 complete -F _clsurf clsurf
 )",
-                       fmt::arg("version", version), fmt::arg("names", names),
-                       fmt::arg("values", values), fmt::arg("options", options),
-                       fmt::arg("topics", topics));
+                       fmt::arg("version", version), fmt::arg("names", names), fmt::arg("values", values),
+                       fmt::arg("options", options), fmt::arg("topics", topics));
 }
 
 // ---- docs/reference ----
@@ -212,26 +207,22 @@ std::string markdown_options(const po::options_description& options) {
 }
 
 std::string markdown_page(const Subcommand& subcommand) {
-    std::string text = fmt::format("# clsurf {}\n\n{}{}.\n\n```\n{}\n```\n", subcommand.name,
-                                   written_by, subcommand.summary, usage_of(subcommand));
+    std::string text = fmt::format("# clsurf {}\n\n{}{}.\n\n```\n{}\n```\n", subcommand.name, written_by,
+                                   subcommand.summary, usage_of(subcommand));
     for (const Paragraph& paragraph : paragraphs_of(subcommand.description)) {
-        text += paragraph.literal ? fmt::format("\n```\n{}```\n", paragraph.text)
-                                  : fmt::format("\n{}\n", paragraph.text);
+        text +=
+            paragraph.literal ? fmt::format("\n```\n{}```\n", paragraph.text) : fmt::format("\n{}\n", paragraph.text);
     }
     const ShownOptions shown = shown_options(subcommand);
-    if (!shown.own.options().empty()) {
-        text += fmt::format("\n## Options\n\n{}", markdown_options(shown.own));
-    }
+    if (!shown.own.options().empty()) { text += fmt::format("\n## Options\n\n{}", markdown_options(shown.own)); }
     return text + fmt::format("\n## Everywhere\n\n{}", markdown_options(shown.common));
 }
 
 std::string markdown_vocabulary(const Vocabulary& vocabulary) {
-    std::string text =
-        fmt::format("# clsurf help {}\n\n{}The {}.\n\n| name | unit | |\n|---|---|---|\n",
-                    vocabulary.name, written_by, vocabulary.summary);
+    std::string text = fmt::format("# clsurf help {}\n\n{}The {}.\n\n| name | unit | |\n|---|---|---|\n",
+                                   vocabulary.name, written_by, vocabulary.summary);
     for (const io::ListingRow& row : vocabulary.rows()) {
-        text +=
-            fmt::format("| `{}` | {} | {} |\n", cell(row.name), cell(row.unit), cell(row.summary));
+        text += fmt::format("| `{}` | {} | {} |\n", cell(row.name), cell(row.unit), cell(row.summary));
     }
     return text;
 }
@@ -240,8 +231,7 @@ std::string markdown_overview() {
     std::string text = fmt::format("# The command line\n\n{}", written_by);
     text += "| subcommand | |\n|---|---|\n";
     for (const Subcommand* subcommand : shown_subcommands()) {
-        text +=
-            fmt::format("| [{0}]({0}.md) | {1} |\n", subcommand->name, cell(subcommand->summary));
+        text += fmt::format("| [{0}]({0}.md) | {1} |\n", subcommand->name, cell(subcommand->summary));
     }
     text += "\n| words that options take | |\n|---|---|\n";
     for (const Vocabulary& vocabulary : vocabularies()) {
@@ -272,8 +262,7 @@ ExitCode run(const po::variables_map& values) {
     }
     std::error_code error;
     std::filesystem::create_directories(folder, error);
-    if (error)
-        throw SystemError("cannot make folder '" + folder.string() + "': " + error.message());
+    if (error) throw SystemError("cannot make folder '" + folder.string() + "': " + error.message());
     if (form == "man") write_man(folder);
     if (form == "bash") write_file(folder / "clsurf", bash_completion());
     if (form == "markdown") write_markdown(folder);

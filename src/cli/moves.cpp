@@ -38,7 +38,8 @@ Subcommand moves_subcommand() {
         .declare =
             [](po::options_description& options) {
                 declare_program_options(options);
-                options.add_options()("machine", po::value<std::string>()->value_name("FILE"), "machine file with rotary axes: adds the tool axis in the workpiece");
+                options.add_options()("machine", po::value<std::string>()->value_name("FILE"),
+                                      "machine file with rotary axes: adds the tool axis in the workpiece");
             },
         .positional = {"PROGRAM"},
         .run = run,

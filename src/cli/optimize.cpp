@@ -26,7 +26,8 @@ namespace clsurf::cli {
 namespace {
 
 /// A program's new text, read as the old one was: the same name, dialect, options and subprograms.
-Program read_text(const io::Source& source, const std::string& text, const io::ProgramOptions& options, std::string_view dialect) {
+Program read_text(const io::Source& source, const std::string& text, const io::ProgramOptions& options,
+                  std::string_view dialect) {
     auto bytes = std::make_shared<std::string>(text);
     io::Source changed = source;
     changed.bytes = std::as_bytes(std::span(bytes->data(), bytes->size()));
@@ -51,22 +52,28 @@ std::optional<Log> read_measured(const po::variables_map& values) {
 
 /// Both runs side by side, speeds on one scale.
 viz::Image draw_before_and_after(const Optimized& result, const std::string& program) {
-    const auto speed = [](const JudgedRun& run) { return FieldSet(run.log, run.path, run.surface.passes).get("speed"); };
+    const auto speed = [](const JudgedRun& run) {
+        return FieldSet(run.log, run.path, run.surface.passes).get("speed");
+    };
     const Field before = speed(result.before), after = speed(result.after);
-    viz::MapPanel left{&result.before.surface, &before, "before", {}, {}, {}}, right{&result.after.surface, &after, "after", {}, {}, {}};
+    viz::MapPanel left{&result.before.surface, &before, "before", {}, {}, {}},
+        right{&result.after.surface, &after, "after", {}, {}, {}};
     const std::vector<viz::MapPanel> panels{left, right};
     viz::Look look;
     look.view = viz::parse_view("top");
     look.height = 900;
-    const ShownRange a = find_range(before, result.before.surface.passes, {}, {}), b = find_range(after, result.after.surface.passes, {}, {});
+    const ShownRange a = find_range(before, result.before.surface.passes, {}, {}),
+                     b = find_range(after, result.after.surface.passes, {}, {});
     const viz::ColourScale scale{viz::make_colour_map("isurface"), std::min(a.low, b.low), std::max(a.high, b.high), 0};
     viz::MapTexts texts;
     texts.title = "Path speed before and after, simulated";
     const auto summary = [](const JudgedRun& run, std::size_t defects) {
-        return fmt::format("{:.1f} s, {:.0f} mm/min between neighbour passes (95th percentile), {} defects", run.duration, run.mismatch * seconds_per_minute, defects);
+        return fmt::format("{:.1f} s, {:.0f} mm/min between neighbour passes (95th percentile), {} defects",
+                           run.duration, run.mismatch * seconds_per_minute, defects);
     };
     texts.subtitle = program.substr(program.rfind('/') + 1);
-    texts.notes = {"before: " + summary(result.before, result.proof.defects_before), "after: " + summary(result.after, result.proof.defects_after)};
+    texts.notes = {"before: " + summary(result.before, result.proof.defects_before),
+                   "after: " + summary(result.after, result.proof.defects_after)};
     return viz::draw_map(panels, viz::map_camera(panels, look), scale, texts, look);
 }
 
@@ -79,7 +86,8 @@ ExitCode run(const po::variables_map& values) {
     if (rules.least_decimals < 0 || rules.least_decimals > 9) throw UsageError("--decimals must be 0 to 9");
     rules.start = read_start(values);
     rules.header = fmt::format("clsurf {} optimize, tolerance {} mm", version, rules.tolerance);
-    const Machine machine = values.count("machine") > 0 ? io::read_machine(values["machine"].as<std::string>()) : Machine{};
+    const Machine machine =
+        values.count("machine") > 0 ? io::read_machine(values["machine"].as<std::string>()) : Machine{};
     const io::ProgramOptions options = read_program_options(values);
     const io::Source source = io::open_source(required(values, "PROGRAM"));
     const Program program = io::read_program(source, options);
@@ -90,7 +98,8 @@ ExitCode run(const po::variables_map& values) {
     ProgressBar bar(read_common(values));
     Diagnostics diagnostics = program.diagnostics;
     const Optimized result = optimize(
-        program, [&](const std::string& text) { return read_text(source, text, options, program.dialect->name); }, machine, rules, std::move(measured), bar.callback(), diagnostics);
+        program, [&](const std::string& text) { return read_text(source, text, options, program.dialect->name); },
+        machine, rules, std::move(measured), bar.callback(), diagnostics);
     bar.clear();
     if (read_json(values)) {
         write_to_stdout(io::optimize_json(result, diagnostics));
@@ -99,7 +108,9 @@ ExitCode run(const po::variables_map& values) {
         write_to_stdout(io::optimize_text(result));
     }
     if (picture) {
-        picture->write(viz::encode_png(draw_before_and_after(result, program.main().name()), fmt::format("clsurf optimize of {}: speeds before and after", program.main().name())));
+        picture->write(
+            viz::encode_png(draw_before_and_after(result, program.main().name()),
+                            fmt::format("clsurf optimize of {}: speeds before and after", program.main().name())));
         picture->commit();
     }
     if (!result.proof.accepted) return ExitCode::check_failed;
@@ -115,11 +126,12 @@ Subcommand optimize_subcommand() {
         .name = "optimize",
         .arguments = "PROGRAM -o better.nc",
         .summary = "a smoother program inside a tolerance, with proof",
-        .description = "Runs the program on the machine, puts the points of its finishing passes in step with those of the passes beside\n"
-                       "them, on the smoothest curve that is never farther from the programmed path than the tolerance, and\n"
-                       "runs it again. Written is only what is better: speeds of neighbour passes differ less, no more defects, not longer, inside\n"
-                       "the tolerance. Otherwise exit code 1, with the reason. Lines with anything but line number, G1, X, Y, Z stay byte for byte.\n\n"
-                       "  clsurf optimize part.nc --machine mill.toml --tolerance 0.005 -o better.nc --picture better.png",
+        .description =
+            "Runs the program on the machine, puts the points of its finishing passes in step with those of the passes beside\n"
+            "them, on the smoothest curve that is never farther from the programmed path than the tolerance, and\n"
+            "runs it again. Written is only what is better: speeds of neighbour passes differ less, no more defects, not longer, inside\n"
+            "the tolerance. Otherwise exit code 1, with the reason. Lines with anything but line number, G1, X, Y, Z stay byte for byte.\n\n"
+            "  clsurf optimize part.nc --machine mill.toml --tolerance 0.005 -o better.nc --picture better.png",
         .declare =
             [](po::options_description& options) {
                 // clang-format off
@@ -129,7 +141,9 @@ Subcommand optimize_subcommand() {
                     ("tolerance", po::value<double>()->value_name("MM"), "how far the new path may leave the programmed one (default: 0.005)")
                     ("decimals", po::value<int>()->value_name("N"), "new coordinates have at least so many, if the controller reads them (default: as many as the program's)");
                 // clang-format on
-                options.add_options()("log", po::value<std::string>()->value_name("LOG"), "a recorded run of the program: only what differs there from the passes beside it is repaired; the proof is by simulation all the same");
+                options.add_options()(
+                    "log", po::value<std::string>()->value_name("LOG"),
+                    "a recorded run of the program: only what differs there from the passes beside it is repaired; the proof is by simulation all the same");
                 declare_log_options(options);
                 declare_work_offset(options);
                 declare_simulation(options);

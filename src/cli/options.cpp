@@ -1,7 +1,7 @@
 #include "cli/options.h"
 
-#include <cerrno>
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -72,7 +72,8 @@ io::LogOptions read_log_options(const po::variables_map& values) {
 }
 
 void declare_work_offset(po::options_description& options) {
-    options.add_options()("work-offset", po::value<std::string>()->value_name("X,Y,Z"), "machine position of the program's zero [mm] (default: what the log tells, else 0,0,0)");
+    options.add_options()("work-offset", po::value<std::string>()->value_name("X,Y,Z"),
+                          "machine position of the program's zero [mm] (default: what the log tells, else 0,0,0)");
 }
 
 std::optional<Vec3> read_work_offset(const po::variables_map& values) {
@@ -82,7 +83,9 @@ std::optional<Vec3> read_work_offset(const po::variables_map& values) {
 }
 
 void declare_kinematics(po::options_description& options) {
-    options.add_options()("machine", po::value<std::string>()->value_name("FILE"), "machine file: by its kinematics positions of five axes become those of the tool's tip in the workpiece");
+    options.add_options()(
+        "machine", po::value<std::string>()->value_name("FILE"),
+        "machine file: by its kinematics positions of five axes become those of the tool's tip in the workpiece");
 }
 
 std::shared_ptr<const Kinematics> load_kinematics(const std::string& path) {
@@ -109,9 +112,7 @@ void declare_json(po::options_description& options) {
     options.add_options()("json", "one JSON object instead of text");
 }
 
-bool read_json(const po::variables_map& values) {
-    return values.count("json") > 0;
-}
+bool read_json(const po::variables_map& values) { return values.count("json") > 0; }
 
 std::string required(const po::variables_map& values, const char* name) {
     if (values.count(name) == 0 || values[name].as<std::string>().empty()) {
@@ -141,7 +142,9 @@ std::vector<double> parse_numbers(const std::string& text, const std::string& op
         ++at;
     }
     if (at != end || numbers.empty() || (count != 0 && numbers.size() != count)) {
-        throw UsageError(option + ": '" + text + "' is not " + (count == 0 ? std::string("a list of numbers") : std::to_string(count) + " numbers") + " separated by commas");
+        throw UsageError(option + ": '" + text + "' is not " +
+                         (count == 0 ? std::string("a list of numbers") : std::to_string(count) + " numbers") +
+                         " separated by commas");
     }
     return numbers;
 }

@@ -58,7 +58,8 @@ PartOptions read_part_options(const po::variables_map& values) {
     options.offset = read_work_offset(values);
     if (values.count("derivative") > 0) {
         const std::string method = values["derivative"].as<std::string>();
-        if (method != "savgol" && method != "kalman") throw UsageError("--derivative: '" + method + "' is not savgol or kalman");
+        if (method != "savgol" && method != "kalman")
+            throw UsageError("--derivative: '" + method + "' is not savgol or kalman");
         options.derivative = method == "kalman" ? DerivativeMethod::kalman : DerivativeMethod::savgol;
     }
     if (values.count("machine") > 0) options.machine = values["machine"].as<std::string>();
@@ -93,7 +94,8 @@ Part load_part(const PartOptions& options, StageClock& clock) {
         note_rotary(part.log, role, part.diagnostics);
     }
     const Trajectory mapped = reconstruct_like(part.log, mapping_role(part.log, role), part.path);
-    part.lines = std::make_unique<LineMap>(map_lines(mapped, part.log, part.program, options.use_line_channel, part.diagnostics));
+    part.lines = std::make_unique<LineMap>(
+        map_lines(mapped, part.log, part.program, options.use_line_channel, part.diagnostics));
     clock.end();
     return part;
 }

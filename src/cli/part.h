@@ -22,10 +22,10 @@ struct PartOptions {
     io::ProgramOptions program_options;
     io::LogOptions log_options;
     Role role = Role::commanded;
-    bool role_given = true;         ///< false: commanded where the log has it
-    bool formed = false;            ///< --surface formed
-    std::optional<Vec3> offset;     ///< [mm], workpiece = machine − offset
-    std::string machine;            ///< machine file with the kinematics; empty: three axes
+    bool role_given = true;      ///< false: commanded where the log has it
+    bool formed = false;         ///< --surface formed
+    std::optional<Vec3> offset;  ///< [mm], workpiece = machine − offset
+    std::string machine;         ///< machine file with the kinematics; empty: three axes
     bool use_line_channel = true;
     DerivativeMethod derivative = DerivativeMethod::savgol;
 };
@@ -43,10 +43,10 @@ void declare_derivative(po::options_description& options);
 struct Part {
     Program program;
     Log log;
-    Trajectory path;               ///< of the role that is shown
+    Trajectory path;  ///< of the role that is shown
     std::unique_ptr<LineMap> lines;
     DerivativeMethod derivative = DerivativeMethod::savgol;  ///< of fields
-    Diagnostics diagnostics;       ///< of program, log and map together
+    Diagnostics diagnostics;                                 ///< of program, log and map together
 };
 
 /// Reads and maps. Throws InputError, UsageError.

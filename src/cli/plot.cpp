@@ -30,7 +30,8 @@ PlotOptions read_options(const po::variables_map& values) {
     options.part = read_part_options(values);
     options.output = required(values, "output");
     options.fields = split_names(values.count("fields") > 0 ? values["fields"].as<std::string>() : "speed");
-    if (options.fields.empty() || options.fields.size() > 8) throw UsageError("--fields: 1 to 8 names separated by commas");
+    if (options.fields.empty() || options.fields.size() > 8)
+        throw UsageError("--fields: 1 to 8 names separated by commas");
     const std::string over = values.count("over") > 0 ? values["over"].as<std::string>() : "time";
     if (over != "time" && over != "length") throw UsageError("--over: '" + over + "' is not time or length");
     options.over_length = over == "length";
@@ -80,8 +81,12 @@ PointRange shown_range(const PlotOptions& options, const Part& part, const std::
         const PointIndex room = std::max<PointIndex>(50, runs.back().last - runs.front().first + 1);
         range = {std::max<PointIndex>(0, runs.front().first - room), std::min(last, runs.back().last + room)};
     }
-    if (options.from) range.first = std::max(range.first, static_cast<PointIndex>(std::lower_bound(x.begin(), x.end(), *options.from) - x.begin()));
-    if (options.to) range.last = std::min(range.last, static_cast<PointIndex>(std::upper_bound(x.begin(), x.end(), *options.to) - x.begin()) - 1);
+    if (options.from)
+        range.first = std::max(
+            range.first, static_cast<PointIndex>(std::lower_bound(x.begin(), x.end(), *options.from) - x.begin()));
+    if (options.to)
+        range.last = std::min(
+            range.last, static_cast<PointIndex>(std::upper_bound(x.begin(), x.end(), *options.to) - x.begin()) - 1);
     if (range.size() < 2) throw UsageError("--from and --to leave no points to draw");
     return range;
 }
@@ -103,23 +108,31 @@ ExitCode run(const po::variables_map& values) {
     std::vector<viz::Curve> curves;
     std::vector<viz::ChartCursor> cursors;
     for (const PointIndex point : options.points) {
-        if (point < 0 || point >= part.log.records) throw UsageError(fmt::format("point {}: the log has points 0 … {}", point, part.log.records - 1));
-        cursors.push_back({x[static_cast<std::size_t>(point)], fmt::format("point {}, line {}", point, part.lines->line_at(point)), {}});
+        if (point < 0 || point >= part.log.records)
+            throw UsageError(fmt::format("point {}: the log has points 0 … {}", point, part.log.records - 1));
+        cursors.push_back({x[static_cast<std::size_t>(point)],
+                           fmt::format("point {}, line {}", point, part.lines->line_at(point)),
+                           {}});
     }
     std::string note;
     for (const std::string& name : options.fields) {
         const Field field = fields.get(name);
         viz::Curve curve;
-        curve.label = field.info.label + (field.info.unit.name.empty() ? "" : fmt::format(" ({})", field.info.unit.name));
-        for (PointIndex i = range.first; i <= range.last; ++i) curve.values.push_back(field.values[static_cast<std::size_t>(i)] * field.info.unit.per_inside);
+        curve.label =
+            field.info.label + (field.info.unit.name.empty() ? "" : fmt::format(" ({})", field.info.unit.name));
+        for (PointIndex i = range.first; i <= range.last; ++i)
+            curve.values.push_back(field.values[static_cast<std::size_t>(i)] * field.info.unit.per_inside);
         for (std::size_t k = 0; k < cursors.size(); ++k) {
-            cursors[k].values.push_back(field.values[static_cast<std::size_t>(options.points[k])] * field.info.unit.per_inside);
+            cursors[k].values.push_back(field.values[static_cast<std::size_t>(options.points[k])] *
+                                        field.info.unit.per_inside);
         }
         if (!field.info.note.empty()) note += (note.empty() ? "" : "; ") + name + ": " + field.info.note;
         curves.push_back(std::move(curve));
     }
     options.look.title = "Signals along " + options.part.log.substr(options.part.log.rfind('/') + 1);
-    options.look.subtitle = fmt::format("{} · points {} to {}, {} positions", options.part.program.substr(options.part.program.rfind('/') + 1), range.first, range.last, name_of(part.path.role));
+    options.look.subtitle = fmt::format("{} · points {} to {}, {} positions",
+                                        options.part.program.substr(options.part.program.rfind('/') + 1), range.first,
+                                        range.last, name_of(part.path.role));
     options.look.x_label = options.over_length ? "path length (mm)" : "time (s)";
     options.look.footnote = note;
     clock.begin("draw");
@@ -136,9 +149,10 @@ Subcommand plot_subcommand() {
         .name = "plot",
         .arguments = "PROGRAM LOG -o curve.png",
         .summary = "signal curves over time or path length",
-        .description = "One chart a field, stacked, every extreme kept however long the log is.\n\n"
-                       "  clsurf plot part.nc run.biip -o curve.png --fields speed,acceleration --line 1204\n"
-                       "  clsurf plot part.nc run.biip -o cut.png --profile 10,0,10,5 --tool ball:6",
+        .description =
+            "One chart a field, stacked, every extreme kept however long the log is.\n\n"
+            "  clsurf plot part.nc run.biip -o curve.png --fields speed,acceleration --line 1204\n"
+            "  clsurf plot part.nc run.biip -o cut.png --profile 10,0,10,5 --tool ball:6",
         .declare =
             [](po::options_description& options) {
                 // clang-format off

@@ -20,7 +20,8 @@ void declare_profile(po::options_description& options) {
 
 bool asks_for_profile(const po::variables_map& values) {
     const bool asked = values.count("profile") > 0;
-    if (!asked && values.count("tool") > 0) throw UsageError("--tool is of --profile only", "--profile 10,0,10,5 --tool ball:6");
+    if (!asked && values.count("tool") > 0)
+        throw UsageError("--tool is of --profile only", "--profile 10,0,10,5 --tool ball:6");
     if (!asked) return false;
     for (const char* name : {"fields", "over", "from", "to", "line", "mark-point"}) {
         if (values.count(name) > 0) throw UsageError(fmt::format("--{} is of curves, not of --profile", name));
@@ -28,13 +29,15 @@ bool asks_for_profile(const po::variables_map& values) {
     return true;
 }
 
-ExitCode plot_profile(const po::variables_map& values, PartOptions options, viz::ChartLook look, const std::string& output_name) {
+ExitCode plot_profile(const po::variables_map& values, PartOptions options, viz::ChartLook look,
+                      const std::string& output_name) {
     const CuttingTool tool = required_tool(values, "--profile", "--profile 10,0,10,5 --tool ball:6");
     const std::vector<double> ends = parse_numbers(values["profile"].as<std::string>(), "--profile", 4);
     const Vec2 from(ends[0], ends[1]);
     const Vec2 to(ends[2], ends[3]);
     constexpr double longest = 1000;  // mm: some 10^7 values
-    if (!((to - from).norm() > 0 && (to - from).norm() <= longest)) throw UsageError(fmt::format("--profile: from one place to another, at most {:g} mm apart", longest));
+    if (!((to - from).norm() > 0 && (to - from).norm() <= longest))
+        throw UsageError(fmt::format("--profile: from one place to another, at most {:g} mm apart", longest));
     const std::optional<Role> role = take_measured_role(options);
     viz::preload_image_library();
     io::AtomicFile output(output_name);
@@ -57,14 +60,20 @@ ExitCode plot_profile(const po::variables_map& values, PartOptions options, viz:
     }
     const std::span<const double> known = std::span(profile.deviation).subspan(profile.first, profile.count);
     const std::vector<double> waviness = gaussian_mean_line(known, profile.step, profile.roughness.cutoff);
-    for (std::size_t k = 0; k < known.size(); ++k) rough.values[profile.first + k] = (known[k] - waviness[k]) * um_per_mm;
+    for (std::size_t k = 0; k < known.size(); ++k)
+        rough.values[profile.first + k] = (known[k] - waviness[k]) * um_per_mm;
 
     const Roughness& r = profile.roughness;
-    look.title = fmt::format("Profile of the formed surface: Ra {:.2f} µm, Rz {:.2f} µm", r.ra * um_per_mm, r.rz * um_per_mm);
-    look.subtitle = fmt::format("{} · {} · X {:g} Y {:g} to X {:g} Y {:g}", options.program.substr(options.program.rfind('/') + 1), options.log.substr(options.log.rfind('/') + 1), ends[0], ends[1], ends[2], ends[3]);
+    look.title =
+        fmt::format("Profile of the formed surface: Ra {:.2f} µm, Rz {:.2f} µm", r.ra * um_per_mm, r.rz * um_per_mm);
+    look.subtitle =
+        fmt::format("{} · {} · X {:g} Y {:g} to X {:g} Y {:g}", options.program.substr(options.program.rfind('/') + 1),
+                    options.log.substr(options.log.rfind('/') + 1), ends[0], ends[1], ends[2], ends[3]);
     look.x_label = "along the profile (mm)";
-    look.footnote = fmt::format("{}, {}; {} of {:.3g} mm evaluated", to_text(tool), formed.surface().note(),
-                                r.sampling_lengths == 1 ? "one sampling length" : fmt::format("{} sampling lengths", r.sampling_lengths), r.length / r.sampling_lengths);
+    look.footnote = fmt::format(
+        "{}, {}; {} of {:.3g} mm evaluated", to_text(tool), formed.surface().note(),
+        r.sampling_lengths == 1 ? "one sampling length" : fmt::format("{} sampling lengths", r.sampling_lengths),
+        r.length / r.sampling_lengths);
     clock.begin("draw");
     output.write(viz::encode_png(viz::draw_chart(x, {whole, rough}, {}, look), look.title));
     output.commit();

@@ -12,6 +12,7 @@ namespace clsurf::cli {
 void declare_profile(po::options_description& options);
 /// Throws UsageError where options of profiles and of curves are mixed.
 [[nodiscard]] bool asks_for_profile(const po::variables_map& values);
-[[nodiscard]] ExitCode plot_profile(const po::variables_map& values, PartOptions options, viz::ChartLook look, const std::string& output_name);
+[[nodiscard]] ExitCode plot_profile(const po::variables_map& values, PartOptions options, viz::ChartLook look,
+                                    const std::string& output_name);
 
 }  // namespace clsurf::cli

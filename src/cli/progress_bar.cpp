@@ -29,9 +29,8 @@ std::size_t terminal_width() {
 std::string progress_line(std::string_view stage, double fraction, std::size_t width) {
     const double done = std::isfinite(fraction) ? std::clamp(fraction, 0.0, 1.0) : 0.0;
     const auto filled = static_cast<std::size_t>(done * static_cast<double>(bar_columns));
-    std::string line =
-        fmt::format("[{}{}] {:3} % {}", std::string(filled, '#'),
-                    std::string(bar_columns - filled, ' '), static_cast<int>(done * 100.0), stage);
+    std::string line = fmt::format("[{}{}] {:3} % {}", std::string(filled, '#'), std::string(bar_columns - filled, ' '),
+                                   static_cast<int>(done * 100.0), stage);
     while (columns_of(line) > width) {
         // One code point less: its continuation bytes, then its first.
         while ((static_cast<unsigned char>(line.back()) & 0xC0) == 0x80) line.pop_back();
@@ -72,8 +71,7 @@ void ProgressBar::report(std::string_view stage, double fraction) {
     if (!new_stage && now < next_) return;
     next_ = now + redraw_period;
     // The last column stays free: some terminals wrap when it is written.
-    std::fprintf(stderr, "\r\033[K%s",
-                 progress_line(stage, fraction, terminal_width() - 1).c_str());
+    std::fprintf(stderr, "\r\033[K%s", progress_line(stage, fraction, terminal_width() - 1).c_str());
     drawn_ = true;
 }
 

@@ -18,9 +18,11 @@ std::optional<Trajectory> measured_of(const Log& log, const Trajectory& path, st
     return std::nullopt;
 }
 
-PartSignals signals_along(const Log& log, const Trajectory& path, const ClSurface& surface, std::optional<Role> wanted) {
+PartSignals signals_along(const Log& log, const Trajectory& path, const ClSurface& surface,
+                          std::optional<Role> wanted) {
     PartSignals result{measured_of(log, path, wanted), smooth_pieces(log, surface.passes), {}};
-    result.signals = derive_signals(surface, path, result.measured ? &*result.measured : nullptr, result.pieces, usual_end_zone(surface.step_over));
+    result.signals = derive_signals(surface, path, result.measured ? &*result.measured : nullptr, result.pieces,
+                                    usual_end_zone(surface.step_over));
     return result;
 }
 
@@ -48,14 +50,21 @@ std::optional<Role> take_measured_role(PartOptions& options) {
     return role;
 }
 
-PartSignals signals_of(const Part& part, const ClSurface& surface, std::optional<Role> wanted) { return signals_along(part.log, part.path, surface, wanted); }
+PartSignals signals_of(const Part& part, const ClSurface& surface, std::optional<Role> wanted) {
+    return signals_along(part.log, part.path, surface, wanted);
+}
 
-FormedSurface ToolRun::formed(const CuttingTool& tool) const { return {surface, read.signals, path.role, read.swept(path), read.pieces, tool}; }
+FormedSurface ToolRun::formed(const CuttingTool& tool) const {
+    return {surface, read.signals, path.role, read.swept(path), read.pieces, tool};
+}
 
 std::unique_ptr<const UprightPart> upright_part(const Part& part, std::optional<Role> wanted, const CuttingTool& tool) {
     if (!tilts(part.log, part.path)) return nullptr;
     if (tool.kind != ToolKind::ball) {
-        throw UsageError(to_text(tool) + " is tilted: where a tool that is no ball touches, its axis decides, and only tools along z are known", "a ball-end tool may be tilted: --tool ball:D");
+        throw UsageError(
+            to_text(tool) +
+                " is tilted: where a tool that is no ball touches, its axis decides, and only tools along z are known",
+            "a ball-end tool may be tilted: --tool ball:D");
     }
     auto upright = std::make_unique<UprightPart>();
     upright->path = upright_ball(part.log, part.path, tool.radius);
@@ -64,14 +73,19 @@ std::unique_ptr<const UprightPart> upright_part(const Part& part, std::optional<
     return upright;
 }
 
-Quality judge(Part& part, const ClSurface& surface, std::optional<Role> wanted, const QualityOptions& options, StageClock& clock) {
+Quality judge(Part& part, const ClSurface& surface, std::optional<Role> wanted, const QualityOptions& options,
+              StageClock& clock) {
     Quality quality;
     clock.begin("derive the signals");
     const PartSignals read = signals_of(part, surface, wanted);
     clock.begin("find the defects");
     quality.report = find_defects(surface, read.signals, *part.lines, part.program, part.log.period, options.rules);
     if (surface.step_over <= 0) {
-        part.diagnostics.add({Severity::note, "quality.single-pass", Place::of_file(part.log.name), "no pass has another beside it: there is nothing to compare", {}});
+        part.diagnostics.add({Severity::note,
+                              "quality.single-pass",
+                              Place::of_file(part.log.name),
+                              "no pass has another beside it: there is nothing to compare",
+                              {}});
     }
     if (!options.tool_given || surface.step_over <= 0) return quality;
     clock.begin("measure the formed surface");

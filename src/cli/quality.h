@@ -56,11 +56,12 @@ struct UprightPart {
 
 /// nullptr: the tool stands along z all the time. Else it must be a ball, whose centre is what counts; throws
 /// UsageError for other tools.
-[[nodiscard]] std::unique_ptr<const UprightPart> upright_part(const Part& part, std::optional<Role> wanted, const CuttingTool& tool);
+[[nodiscard]] std::unique_ptr<const UprightPart> upright_part(const Part& part, std::optional<Role> wanted,
+                                                              const CuttingTool& tool);
 
 struct Quality {
     QualityReport report;
-    double scallop = 0;  ///< [mm] 0: not known
+    double scallop = 0;                  ///< [mm] 0: not known
     std::optional<FormedReport> formed;  ///< where the tool is known
 };
 
@@ -69,6 +70,7 @@ struct Quality {
 [[nodiscard]] std::optional<Role> take_measured_role(PartOptions& options);
 
 /// The whole of it. Adds diagnostics `quality.…` to the part's.
-[[nodiscard]] Quality judge(Part& part, const ClSurface& surface, std::optional<Role> measured, const QualityOptions& options, StageClock& clock);
+[[nodiscard]] Quality judge(Part& part, const ClSurface& surface, std::optional<Role> measured,
+                            const QualityOptions& options, StageClock& clock);
 
 }  // namespace clsurf::cli

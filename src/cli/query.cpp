@@ -79,7 +79,8 @@ PointRange spread(PointIndex point, PointIndex count, PointIndex reach, Same&& s
     return range;
 }
 
-io::QueryMatch match_of(const Part& part, const CallChains& chains, const std::shared_ptr<const MotionEstimate>& estimate, PointIndex point, double distance) {
+io::QueryMatch match_of(const Part& part, const CallChains& chains,
+                        const std::shared_ptr<const MotionEstimate>& estimate, PointIndex point, double distance) {
     io::QueryMatch match;
     const LineMap& lines = *part.lines;
     match.point = point;
@@ -91,7 +92,8 @@ io::QueryMatch match_of(const Part& part, const CallChains& chains, const std::s
     match.text = own ? match.calls.subprogram->text : std::string(part.program.main().line(match.line));
     match.position = part.path.at(point);
     match.distance = distance;
-    match.line_points = spread(point, part.log.records, part.log.records, [&](PointIndex i) { return lines.line_at(i) == match.line; });
+    match.line_points =
+        spread(point, part.log.records, part.log.records, [&](PointIndex i) { return lines.line_at(i) == match.line; });
     const double off = lines.from_log() ? check_line_at(part.path, part.program, lines, point) : 0.0;
     match.confidence = lines.confidence_at(point) * off_confidence(off);
     // Derivatives look no farther than this kind of motion lasts.
@@ -116,14 +118,16 @@ io::QueryMatch match_of(const Part& part, const CallChains& chains, const std::s
 }
 
 void check_point(const Log& log, PointIndex point) {
-    if (point < 0 || point >= log.records) throw UsageError(fmt::format("point {}: the log has points 0 … {}", point, log.records - 1));
+    if (point < 0 || point >= log.records)
+        throw UsageError(fmt::format("point {}: the log has points 0 … {}", point, log.records - 1));
 }
 
 std::vector<io::QueryMatch> find_matches(const Part& part, const po::variables_map& values) {
     std::vector<io::QueryMatch> matches;
     const CallChains chains(part.path, part.log, part.program, *part.lines);
     std::shared_ptr<const MotionEstimate> estimate;
-    if (part.derivative == DerivativeMethod::kalman) estimate = estimate_motion(part, find_runs(gather(part.path), *part.lines));
+    if (part.derivative == DerivativeMethod::kalman)
+        estimate = estimate_motion(part, find_runs(gather(part.path), *part.lines));
     std::size_t nearest = 1;
     if (values.count("nearest") > 0) {
         const int k = values["nearest"].as<int>();
@@ -146,31 +150,43 @@ std::vector<io::QueryMatch> find_matches(const Part& part, const po::variables_m
         const double time = values["time"].as<double>();
         const PointIndex point = point_at_time(part.log, time);
         if (point < 0 || point >= part.log.records || !std::isfinite(time)) {
-            throw UsageError(fmt::format("--time {:g}: the log lasts from 0 to {:.6f} s", time, part.log.time_of(part.log.records - 1)));
+            throw UsageError(fmt::format("--time {:g}: the log lasts from 0 to {:.6f} s", time,
+                                         part.log.time_of(part.log.records - 1)));
         }
         matches.push_back(match_of(part, chains, estimate, point, 0));
     }
     if (values.count("line") > 0) {
         const long long line = values["line"].as<long long>();
         if (line < 1 || line > part.program.main().line_count()) {
-            throw UsageError(fmt::format("--line {}: the program has lines 1 … {}", line, part.program.main().line_count()));
+            throw UsageError(
+                fmt::format("--line {}: the program has lines 1 … {}", line, part.program.main().line_count()));
         }
-        for (const PointRange& range : part.lines->points_of(static_cast<LineNumber>(line))) matches.push_back(match_of(part, chains, estimate, range.first, 0));
+        for (const PointRange& range : part.lines->points_of(static_cast<LineNumber>(line)))
+            matches.push_back(match_of(part, chains, estimate, range.first, 0));
     }
     return matches;
 }
 
 void print_matches(const std::vector<io::QueryMatch>& matches) {
-    if (matches.empty()) std::puts("no point: a comment, a setting, or a line that the controller merged with the next one");
+    if (matches.empty())
+        std::puts("no point: a comment, a setting, or a line that the controller merged with the next one");
     for (const io::QueryMatch& m : matches) {
         fmt::print("line {}: {}\n", m.line, m.text);
-        if (m.calls.subprogram) fmt::print("  in {} line {}: {}\n", m.calls.subprogram->file, m.calls.subprogram->line, m.calls.subprogram->text);
-        for (auto call = m.calls.calls.rbegin(); call != m.calls.calls.rend(); ++call) fmt::print("    called by {} line {}: {}\n", call->file, call->line, call->text);
-        fmt::print("  point {} at {:.3f} s, X {:.4f} Y {:.4f} Z {:.4f} mm", m.point, m.time, m.position.x(), m.position.y(), m.position.z());
+        if (m.calls.subprogram)
+            fmt::print("  in {} line {}: {}\n", m.calls.subprogram->file, m.calls.subprogram->line,
+                       m.calls.subprogram->text);
+        for (auto call = m.calls.calls.rbegin(); call != m.calls.calls.rend(); ++call)
+            fmt::print("    called by {} line {}: {}\n", call->file, call->line, call->text);
+        fmt::print("  point {} at {:.3f} s, X {:.4f} Y {:.4f} Z {:.4f} mm", m.point, m.time, m.position.x(),
+                   m.position.y(), m.position.z());
         if (m.distance > 0) fmt::print(", {:.4f} mm away", m.distance);
-        const auto known = [](const std::optional<double>& sigma, double factor) { return sigma ? fmt::format(" ±{:.2g}", *sigma * factor) : std::string(); };
-        fmt::print("\n  speed {:.1f}{} mm/min, acceleration {:.1f}{} mm/s²; points {} … {} belong to the line (confidence {:.2f})\n",
-                   m.speed * seconds_per_minute, known(m.speed_uncertainty, seconds_per_minute), m.acceleration, known(m.acceleration_uncertainty, 1), m.line_points.first, m.line_points.last, m.confidence);
+        const auto known = [](const std::optional<double>& sigma, double factor) {
+            return sigma ? fmt::format(" ±{:.2g}", *sigma * factor) : std::string();
+        };
+        fmt::print(
+            "\n  speed {:.1f}{} mm/min, acceleration {:.1f}{} mm/s²; points {} … {} belong to the line (confidence {:.2f})\n",
+            m.speed * seconds_per_minute, known(m.speed_uncertainty, seconds_per_minute), m.acceleration,
+            known(m.acceleration_uncertainty, 1), m.line_points.first, m.line_points.last, m.confidence);
     }
 }
 
@@ -197,10 +213,11 @@ Subcommand query_subcommand() {
         .name = "query",
         .arguments = "PROGRAM LOG",
         .summary = "which line, which point, what happened there",
-        .description = "Finds points by number, place, line or time and says which line of the program made them;\n"
-                       "inside a subprogram also its own line, and the calls that led there.\n\n"
-                       "  clsurf query part.nc run.biip --at 12.5,-3.0,1.2\n"
-                       "  clsurf query part.nc run.biip --line 1204 --json",
+        .description =
+            "Finds points by number, place, line or time and says which line of the program made them;\n"
+            "inside a subprogram also its own line, and the calls that led there.\n\n"
+            "  clsurf query part.nc run.biip --at 12.5,-3.0,1.2\n"
+            "  clsurf query part.nc run.biip --line 1204 --json",
         .declare =
             [](po::options_description& options) {
                 // clang-format off

@@ -28,7 +28,7 @@ struct RenderOptions {
     std::vector<PointIndex> points;
     std::vector<LineNumber> lines;
     bool defects = false;
-    CuttingTool tool;                  ///< of the formed surface
+    CuttingTool tool;           ///< of the formed surface
     std::optional<Role> swept;  ///< its positions; none: the most truthful
 };
 
@@ -52,14 +52,18 @@ void declare(po::options_description& options) {
 void read_formed(const po::variables_map& values, RenderOptions& options) {
     if (!options.part.formed) {
         for (const char* name : {"tool", "swept"}) {
-            if (values.count(name) > 0) throw UsageError(fmt::format("--{} is of the formed surface only", name), "--surface formed --tool ball:6");
+            if (values.count(name) > 0)
+                throw UsageError(fmt::format("--{} is of the formed surface only", name),
+                                 "--surface formed --tool ball:6");
         }
         return;
     }
     options.tool = required_tool(values, "--surface formed", "--surface formed --tool ball:6");
     if (values.count("swept") > 0) options.swept = parse_role(values["swept"].as<std::string>());
-    if (values.count("color") > 0) throw UsageError("--color is not of the formed surface: it shows micrometres over its form");
-    if (options.shown.look.style != viz::Style::surface) throw UsageError("--style is not of the formed surface: it is drawn as one");
+    if (values.count("color") > 0)
+        throw UsageError("--color is not of the formed surface: it shows micrometres over its form");
+    if (options.shown.look.style != viz::Style::surface)
+        throw UsageError("--style is not of the formed surface: it is drawn as one");
 }
 
 RenderOptions read_options(const po::variables_map& values) {
@@ -142,7 +146,8 @@ viz::MapPanel panel_of(const Shown& shown, const RenderOptions& options, std::st
     if (shown.relief) panel.relief = &*shown.relief;
     for (const PointIndex point : options.points) {
         if (point < 0 || point >= shown.part.log.records) {
-            throw UsageError(fmt::format("--mark-point {}: the log has points 0 … {}", point, shown.part.log.records - 1));
+            throw UsageError(
+                fmt::format("--mark-point {}: the log has points 0 … {}", point, shown.part.log.records - 1));
         }
         panel.points.push_back({point, fmt::format("point {}, line {}", point, shown.part.lines->line_at(point))});
     }
@@ -161,16 +166,20 @@ std::string counts_of(const Shown& shown) {
                        shown.surface.step_over > 0 ? fmt::format(", {:.3g} mm apart", shown.surface.step_over) : "");
 }
 
-viz::MapTexts texts_of(const Shown& shown, const std::optional<Shown>& before, const RenderOptions& options, const std::vector<std::string>& range_notes) {
+viz::MapTexts texts_of(const Shown& shown, const std::optional<Shown>& before, const RenderOptions& options,
+                       const std::vector<std::string>& range_notes) {
     viz::MapTexts texts;
-    texts.title = fmt::format("{}, {} {}", shown.field.info.label, name_of(shown.part.path.role), options.shown.look.style == viz::Style::surface ? "surface" : "path");
+    texts.title = fmt::format("{}, {} {}", shown.field.info.label, name_of(shown.part.path.role),
+                              options.shown.look.style == viz::Style::surface ? "surface" : "path");
     if (shown.relief) texts.title = fmt::format("{}, {}", shown.field.info.label, to_text(options.tool));
     const std::string program = base_name(options.part.program);
     // The captions of two panels name the logs.
     texts.subtitle = before ? fmt::format("{} · before: {} · after: {}", program, counts_of(*before), counts_of(shown))
                             : fmt::format("{} · {} · {}", program, base_name(options.part.log), counts_of(shown));
     if (!shown.field.info.note.empty()) texts.notes.push_back(shown.field.info.note);
-    if (options.defects) texts.notes.push_back(shown.defects.empty() ? "no defects" : fmt::format("{} defects, 1 the worst", shown.defects.size()));
+    if (options.defects)
+        texts.notes.push_back(shown.defects.empty() ? "no defects"
+                                                    : fmt::format("{} defects, 1 the worst", shown.defects.size()));
     texts.notes.insert(texts.notes.end(), range_notes.begin(), range_notes.end());
     return texts;
 }
@@ -179,18 +188,26 @@ viz::MapTexts texts_of(const Shown& shown, const std::optional<Shown>& before, c
 ShownRange range_of(const Shown& shown, const RenderOptions& options, const viz::Camera& camera) {
     const viz::Zoom& zoom = options.shown.look.zoom;
     const bool whole = zoom.x0 <= 0 && zoom.y0 <= 0 && zoom.x1 >= 1 && zoom.y1 >= 1 && options.shown.look.box.isEmpty();
-    const auto in_picture = [&](PointIndex i) { return viz::shows(camera, options.shown.look, shown.relief ? shown.relief->at(i) : shown.surface.positions.absolute(i)); };
+    const auto in_picture = [&](PointIndex i) {
+        return viz::shows(camera, options.shown.look,
+                          shown.relief ? shown.relief->at(i) : shown.surface.positions.absolute(i));
+    };
     const ShownPoints points = whole ? ShownPoints() : ShownPoints(in_picture);
     if (!shown.relief) return find_range(shown.field, shown.surface.passes, options.shown.range, points);
-    return find_range(shown.field, all_as_one_cut(static_cast<PointIndex>(shown.field.values.size())), options.shown.range, points);
+    return find_range(shown.field, all_as_one_cut(static_cast<PointIndex>(shown.field.values.size())),
+                      options.shown.range, points);
 }
 
 /// A mark that the picture cannot show is said on stderr, since its lack may not be noticed.
-void warn_of_marks_outside(const Shown& shown, const RenderOptions& options, const viz::Camera& camera, const po::variables_map& values) {
+void warn_of_marks_outside(const Shown& shown, const RenderOptions& options, const viz::Camera& camera,
+                           const po::variables_map& values) {
     Diagnostics diagnostics;
-    const auto outside = [&](PointIndex i) { return !viz::shows(camera, options.shown.look, shown.surface.positions.absolute(i)); };
+    const auto outside = [&](PointIndex i) {
+        return !viz::shows(camera, options.shown.look, shown.surface.positions.absolute(i));
+    };
     const auto warn = [&](const std::string& what) {
-        diagnostics.add({Severity::warning, "render.mark-outside", Place(), what + " lies outside the part that is shown", {}});
+        diagnostics.add(
+            {Severity::warning, "render.mark-outside", Place(), what + " lies outside the part that is shown", {}});
     };
     for (const PointIndex point : options.points) {
         if (outside(point)) warn(fmt::format("point {}", point));
@@ -238,10 +255,13 @@ ExitCode run(const po::variables_map& values) {
     const std::vector<std::string> range_notes = notes_of(range);
     const viz::ColourScale scale = scale_of(after.field.info, range, options.shown);
     clock.begin("draw");
-    const viz::Image image = viz::draw_map(panels, camera, scale, texts_of(after, before, options, range_notes), options.shown.look);
+    const viz::Image image =
+        viz::draw_map(panels, camera, scale, texts_of(after, before, options, range_notes), options.shown.look);
     clock.begin("write the picture");
-    output.write(viz::encode_png(image, fmt::format("clsurf map of {} from {}: {} {:g} to {:g} {}", base_name(options.part.program),
-                                                    base_name(options.part.log), after.field.info.name, range.low, range.high, after.field.info.unit.name)));
+    output.write(
+        viz::encode_png(image, fmt::format("clsurf map of {} from {}: {} {:g} to {:g} {}",
+                                           base_name(options.part.program), base_name(options.part.log),
+                                           after.field.info.name, range.low, range.high, after.field.info.unit.name)));
     output.commit();
     return ExitCode::done;
 }
@@ -253,11 +273,12 @@ Subcommand render_subcommand() {
         .name = "render",
         .arguments = "PROGRAM LOG -o map.png",
         .summary = "the quality map: the CL surface coloured by speed, acceleration and more",
-        .description = "Maps each logged point to its line, puts the cutter-location surface back together from\n"
-                       "neighbouring passes, colours it by a field and draws it without a display.\n\n"
-                       "  clsurf render part.nc run.biip -o map.png\n"
-                       "  clsurf render part.nc run.biip -o map.png --color acceleration --view top --range 0,800\n"
-                       "  clsurf render part.nc run.biip -o map.png --surface formed --tool ball:6",
+        .description =
+            "Maps each logged point to its line, puts the cutter-location surface back together from\n"
+            "neighbouring passes, colours it by a field and draws it without a display.\n\n"
+            "  clsurf render part.nc run.biip -o map.png\n"
+            "  clsurf render part.nc run.biip -o map.png --color acceleration --view top --range 0,800\n"
+            "  clsurf render part.nc run.biip -o map.png --surface formed --tool ball:6",
         .declare = declare,
         .positional = {"PROGRAM", "LOG"},
         .run = run,

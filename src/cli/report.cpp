@@ -18,7 +18,7 @@ namespace clsurf::cli {
 namespace {
 
 constexpr std::size_t pictured_defects = 6;
-constexpr int relief_pixels = 700;         ///< of the formed surface across the page
+constexpr int relief_pixels = 700;  ///< of the formed surface across the page
 
 struct ReportOptions {
     PartOptions part;
@@ -49,7 +49,8 @@ void declare(po::options_description& options) {
 std::vector<std::string> reading_options_of(const po::variables_map& values) {
     std::vector<std::string> words;
     for (const char* name : {"dialect", "tools", "layout", "mapping", "work-offset", "machine"}) {
-        if (values.count(name) > 0) words.insert(words.end(), {fmt::format("--{}", name), values[name].as<std::string>()});
+        if (values.count(name) > 0)
+            words.insert(words.end(), {fmt::format("--{}", name), values[name].as<std::string>()});
     }
     for (const char* name : {"block-delete", "ignore-lines"}) {
         if (values.count(name) > 0 && !values[name].defaulted()) words.push_back(fmt::format("--{}", name));
@@ -67,7 +68,8 @@ ReportOptions read_options(const po::variables_map& values) {
     options.gl = values.count("gl") > 0 ? values["gl"].as<std::string>() : "osmesa";
     if (values.count("fields") > 0) {
         options.fields = split_names(values["fields"].as<std::string>());
-        if (options.fields.empty() || options.fields.size() > 32) throw UsageError("--fields: 1 to 32 names separated by commas");
+        if (options.fields.empty() || options.fields.size() > 32)
+            throw UsageError("--fields: 1 to 32 names separated by commas");
     }
     if (values.count("color") > 0) options.first_field = values["color"].as<std::string>();
     const double megabytes = values.count("max-size") > 0 ? values["max-size"].as<double>() : 30.0;
@@ -80,13 +82,17 @@ ReportOptions read_options(const po::variables_map& values) {
 /// The fields that a log has values for.
 std::vector<std::string> usual_fields(const Log& log) {
     std::vector<std::string> names{"speed", "acceleration", "tangential_acceleration", "jerk"};
-    if (log.has(Role::commanded) && (log.has(Role::feedback) || log.has(Role::actual))) names.insert(names.end(), {"following_error", "contour_error"});
+    if (log.has(Role::commanded) && (log.has(Role::feedback) || log.has(Role::actual)))
+        names.insert(names.end(), {"following_error", "contour_error"});
     names.insert(names.end(), {"speed_mismatch", "acceleration_mismatch", "height"});
     constexpr std::size_t most = 16;
     for (const Channel& channel : log.channels) {
-        const bool position = channel.name.starts_with("cmd.") || channel.name.starts_with("fb.") || channel.name.starts_with("act.");
+        const bool position =
+            channel.name.starts_with("cmd.") || channel.name.starts_with("fb.") || channel.name.starts_with("act.");
         const bool known = std::find(names.begin(), names.end(), channel.name) != names.end();
-        if (!position && !known && channel.name != "time" && channel.name != "line" && channel.name != "program" && names.size() < most) names.push_back(channel.name);
+        if (!position && !known && channel.name != "time" && channel.name != "line" && channel.name != "program" &&
+            names.size() < most)
+            names.push_back(channel.name);
     }
     return names;
 }
@@ -116,7 +122,8 @@ ReportLog prepare(const PartOptions& part_options, const ReportOptions& options,
         if (!usual || has_values(field, shown.surface.passes)) shown.fields.push_back(std::move(field));
     }
     for (const Role role : {Role::commanded, Role::feedback, Role::actual}) {
-        if (role != shown.part.path.role && shown.part.log.has(role)) shown.other_roles.push_back(reconstruct(shown.part.log, role, shown.part.path.offset));
+        if (role != shown.part.path.role && shown.part.log.has(role))
+            shown.other_roles.push_back(reconstruct(shown.part.log, role, shown.part.path.offset));
     }
     clock.end();
     return shown;
@@ -162,20 +169,25 @@ Formed form(const ReportLog& shown, const ReportOptions& options, StageClock& cl
     return made;
 }
 
-void add_pictures(io::ReportPage& page, const ReportLog& shown, const ReportOptions& options, const std::optional<Formed>& formed) {
-    PicturedPart pictured{&shown.part, &shown.surface, shown.fields, page.ranges, &shown.quality.report, {}, options.gl};
+void add_pictures(io::ReportPage& page, const ReportLog& shown, const ReportOptions& options,
+                  const std::optional<Formed>& formed) {
+    PicturedPart pictured{&shown.part, &shown.surface, shown.fields, page.ranges, &shown.quality.report,
+                          {},          options.gl};
     for (std::size_t i = 0; i < shown.quality.report.defects.size(); ++i) {
         page.defects.push_back({outlines_of(shown.quality.report.defects[i], shown.surface), {}});
         pictured.outlines.push_back({page.defects.back().outlines, fmt::format("{}", i + 1)});
     }
     page.pictures.push_back(picture_of_part(pictured, page.first_field));
-    if (formed) page.pictures.push_back(picture_of_relief(pictured, formed->map.relief, formed->map.field, formed->range));
-    for (std::size_t i = 0; i < std::min(pictured_defects, page.defects.size()); ++i) page.defects[i].picture = picture_of_defect(pictured, i);
+    if (formed)
+        page.pictures.push_back(picture_of_relief(pictured, formed->map.relief, formed->map.field, formed->range));
+    for (std::size_t i = 0; i < std::min(pictured_defects, page.defects.size()); ++i)
+        page.defects[i].picture = picture_of_defect(pictured, i);
 }
 
 io::PageRelief page_relief(const Formed& formed) {
     const viz::Relief& r = formed.map.relief;
-    return {r.origin, r.pitch, r.columns, r.rows, r.z, formed.map.field.values, formed.range, formed.map.field.info.note};
+    return {
+        r.origin, r.pitch, r.columns, r.rows, r.z, formed.map.field.values, formed.range, formed.map.field.info.note};
 }
 
 ExitCode run(const po::variables_map& values) {
@@ -195,7 +207,9 @@ ExitCode run(const po::variables_map& values) {
         keep_common_fields(logs.back().fields, logs.front().fields);
     }
     const ReportLog& shown = logs.front();
-    if (shown.fields.empty()) throw InputError(Place::of_file(shown.part.log.name), "no cutting point has a value to show", "too few points, or the program and the log do not belong together?");
+    if (shown.fields.empty())
+        throw InputError(Place::of_file(shown.part.log.name), "no cutting point has a value to show",
+                         "too few points, or the program and the log do not belong together?");
 
     clock.begin("measure");
     io::ReportPage page;
@@ -206,7 +220,8 @@ ExitCode run(const po::variables_map& values) {
     page.most_bytes = options.most_bytes;
     page.ranges = ranges_of(logs);
     page.first_field = options.first_field.empty() ? shown.fields.front().info.name : options.first_field;
-    if (std::none_of(shown.fields.begin(), shown.fields.end(), [&](const Field& f) { return f.info.name == page.first_field; })) {
+    if (std::none_of(shown.fields.begin(), shown.fields.end(),
+                     [&](const Field& f) { return f.info.name == page.first_field; })) {
         std::vector<FieldInfo> infos;
         for (const Field& field : shown.fields) infos.push_back(field.info);
         unknown_field(page.first_field, infos);
@@ -220,8 +235,11 @@ ExitCode run(const po::variables_map& values) {
     page.health = shown.part.diagnostics;
     page.health.append(check_health(shown.part.log, shown.part.program.main().line_count()));
     for (const Field& field : shown.fields) {
-        if (field.info.name.find("mismatch") == std::string::npos && field.info.name != "height" && field.info.name != "contour_error") continue;
-        page.percentiles.push_back({field.info.name, percentiles_of_size(field, shown.surface.passes, io::page_percentiles)});
+        if (field.info.name.find("mismatch") == std::string::npos && field.info.name != "height" &&
+            field.info.name != "contour_error")
+            continue;
+        page.percentiles.push_back(
+            {field.info.name, percentiles_of_size(field, shown.surface.passes, io::page_percentiles)});
     }
     page.colour_maps = page_colour_maps();
     std::optional<Formed> formed;
@@ -229,7 +247,8 @@ ExitCode run(const po::variables_map& values) {
         formed = form(shown, options, clock);
         page.relief = page_relief(*formed);
         page.formed_options = {"--surface", "formed", "--tool", to_text(options.quality.tool)};
-        if (options.measured) page.formed_options.insert(page.formed_options.end(), {"--swept", std::string(name_of(*options.measured))});
+        if (options.measured)
+            page.formed_options.insert(page.formed_options.end(), {"--swept", std::string(name_of(*options.measured))});
     }
     clock.begin("draw");
     add_pictures(page, shown, options, formed);
@@ -246,11 +265,12 @@ Subcommand report_subcommand() {
         .name = "report",
         .arguments = "PROGRAM LOG -o report.html",
         .summary = "the linked page: surface, program, curves and defects in one HTML file",
-        .description = "Writes one file that any browser opens offline: the surface to turn, each place linked with its\n"
-                       "line and its point on the curves, the defects with pictures, the health of the log. Nothing in it\n"
-                       "asks a server for anything. Pictures, tables and summary can be read without JavaScript.\n\n"
-                       "  clsurf report part.nc run.biip -o report.html\n"
-                       "  clsurf report part.nc run.biip -o report.html --tool ball:6 --before old.biip",
+        .description =
+            "Writes one file that any browser opens offline: the surface to turn, each place linked with its\n"
+            "line and its point on the curves, the defects with pictures, the health of the log. Nothing in it\n"
+            "asks a server for anything. Pictures, tables and summary can be read without JavaScript.\n\n"
+            "  clsurf report part.nc run.biip -o report.html\n"
+            "  clsurf report part.nc run.biip -o report.html --tool ball:6 --before old.biip",
         .declare = declare,
         .positional = {"PROGRAM", "LOG"},
         .run = run,

@@ -11,7 +11,7 @@
 namespace clsurf::cli {
 namespace {
 
-constexpr double usual_bytes = 24;         ///< of a point in the page, before it is known
+constexpr double usual_bytes = 24;               ///< of a point in the page, before it is known
 constexpr std::uint64_t usual_rest = 3'000'000;  ///< [bytes] of pictures, text and the page's own program
 
 /// Chooses the points of a log's share of the page.
@@ -19,7 +19,8 @@ void choose_points(ReportLog& shown, PointIndex most) {
     shown.kept = keep_points(shown.surface, *shown.part.lines, shown.fields, shown.quality.report.defects, most);
     shown.vertices = viz::way_vertices(shown.surface, shown.kept.points);
     // The ends of passes are among the points, so the nearer one stands for those between, however far.
-    shown.bands = viz::join_passes(shown.surface, shown.vertices, viz::NearnessFrame(), std::numeric_limits<float>::max());
+    shown.bands =
+        viz::join_passes(shown.surface, shown.vertices, viz::NearnessFrame(), std::numeric_limits<float>::max());
 }
 
 io::PageSurface page_surface(const ReportLog& shown) {
@@ -60,12 +61,14 @@ std::string fit_page(io::ReportPage& page, std::vector<ReportLog>& logs) {
         // Enough room left for a tenth more points is used.
         if (filled <= 1 && (whole || filled > 0.9 || k > tries / 2)) return text;
         const double rest = std::min(static_cast<double>(text.size()), static_cast<double>(usual_rest));
-        const double each = (static_cast<double>(text.size()) - rest) / static_cast<double>(std::max<PointIndex>(1, kept));
+        const double each =
+            (static_cast<double>(text.size()) - rest) / static_cast<double>(std::max<PointIndex>(1, kept));
         const double next = 0.96 * (static_cast<double>(page.most_bytes) - rest) / std::max(each, 1.0);
         most = std::max(1000.0, filled > 1 ? std::min(next, 0.9 * static_cast<double>(kept)) : next);
     }
     if (text.size() <= page.most_bytes) return text;
-    throw UsageError(fmt::format("--max-size {:g}: the page has {:.1f} MB with as few points as can be", static_cast<double>(page.most_bytes) / 1e6, static_cast<double>(text.size()) / 1e6),
+    throw UsageError(fmt::format("--max-size {:g}: the page has {:.1f} MB with as few points as can be",
+                                 static_cast<double>(page.most_bytes) / 1e6, static_cast<double>(text.size()) / 1e6),
                      "its program's text and the passes' ends alone need that; fewer --fields, or a larger --max-size");
 }
 
@@ -76,7 +79,8 @@ std::vector<io::PageColourMap> page_colour_maps() {
         io::PageColourMap page{std::string(info.name), std::string(info.summary), map.centred(), {}};
         constexpr int colours = 256;
         for (int i = 0; i < colours; ++i) {
-            for (const std::uint8_t c : map.at(static_cast<double>(i) / (colours - 1))) page.rgb += static_cast<char>(c);
+            for (const std::uint8_t c : map.at(static_cast<double>(i) / (colours - 1)))
+                page.rgb += static_cast<char>(c);
         }
         maps.push_back(std::move(page));
     }

@@ -9,15 +9,17 @@
 namespace clsurf::cli {
 namespace {
 
-constexpr double least_surroundings = 6;   ///< step-overs round a defect
-constexpr double surroundings = 0.35;      ///< of the defect's size, likewise
+constexpr double least_surroundings = 6;  ///< step-overs round a defect
+constexpr double surroundings = 0.35;     ///< of the defect's size, likewise
 
 std::size_t index_of_field(const PicturedPart& shown, const std::string& name) {
-    const auto found = std::find_if(shown.fields.begin(), shown.fields.end(), [&](const Field& f) { return f.info.name == name; });
+    const auto found =
+        std::find_if(shown.fields.begin(), shown.fields.end(), [&](const Field& f) { return f.info.name == name; });
     return found == shown.fields.end() ? 0 : static_cast<std::size_t>(found - shown.fields.begin());
 }
 
-std::string draw(const viz::MapPanel& panel, const ShownRange& range, const viz::MapTexts& texts, const viz::Look& look) {
+std::string draw(const viz::MapPanel& panel, const ShownRange& range, const viz::MapTexts& texts,
+                 const viz::Look& look) {
     const viz::ColourScale scale{default_colour_map(panel.field->info), range.low, range.high, 0};
     const viz::Image image = viz::draw_map({panel}, viz::map_camera({panel}, look), scale, texts, look);
     return viz::encode_png(image, texts.title);
@@ -46,7 +48,9 @@ std::string field_of(Quantity quantity) {
 
 }  // namespace
 
-viz::ColourMap default_colour_map(const FieldInfo& info) { return viz::make_colour_map(info.scale == FieldScale::diverging ? "coolwarm" : "isurface"); }
+viz::ColourMap default_colour_map(const FieldInfo& info) {
+    return viz::make_colour_map(info.scale == FieldScale::diverging ? "coolwarm" : "isurface");
+}
 
 io::PagePicture picture_of_part(const PicturedPart& shown, const std::string& name) {
     const std::size_t k = index_of_field(shown, name);
@@ -56,7 +60,8 @@ io::PagePicture picture_of_part(const PicturedPart& shown, const std::string& na
     look.gl = shown.gl;
     const viz::MapPanel panel{shown.surface, &shown.fields[k], "", {}, {}, shown.outlines, nullptr};
     const FieldInfo& info = shown.fields[k].info;
-    return {info.label, shown.outlines.empty() ? "" : "Defects are outlined, 1 the worst.", draw(panel, shown.ranges[k], texts_of(shown, info, shown.ranges[k]), look)};
+    return {info.label, shown.outlines.empty() ? "" : "Defects are outlined, 1 the worst.",
+            draw(panel, shown.ranges[k], texts_of(shown, info, shown.ranges[k]), look)};
 }
 
 io::PagePicture picture_of_defect(const PicturedPart& shown, std::size_t defect) {
@@ -67,7 +72,8 @@ io::PagePicture picture_of_defect(const PicturedPart& shown, std::size_t defect)
     look.height = 480;
     look.gl = shown.gl;
     look.view = viz::parse_view("top");
-    const double room = std::max(least_surroundings * shown.surface->step_over, surroundings * d.bounds.sizes().head<2>().maxCoeff());
+    const double room =
+        std::max(least_surroundings * shown.surface->step_over, surroundings * d.bounds.sizes().head<2>().maxCoeff());
     look.box = d.bounds;
     look.box.extend(Vec3(d.bounds.min() - Vec3::Constant(room)));
     look.box.extend(Vec3(d.bounds.max() + Vec3::Constant(room)));
@@ -78,11 +84,14 @@ io::PagePicture picture_of_defect(const PicturedPart& shown, std::size_t defect)
     texts.title = fmt::format("Defect {}: {}", defect + 1, info.label);
     texts.notes.clear();
     const LineNumber first = d.runs.empty() ? 0 : d.runs.front().first_line;
-    return {fmt::format("Defect {}", defect + 1), fmt::format("{}, {:+.1f} µm{}", description_of(d.cause), (d.pit ? -1 : 1) * d.depth * um_per_mm, first > 0 ? fmt::format(", from line {}", first) : ""),
+    return {fmt::format("Defect {}", defect + 1),
+            fmt::format("{}, {:+.1f} µm{}", description_of(d.cause), (d.pit ? -1 : 1) * d.depth * um_per_mm,
+                        first > 0 ? fmt::format(", from line {}", first) : ""),
             draw(panel, shown.ranges[k], texts, look)};
 }
 
-io::PagePicture picture_of_relief(const PicturedPart& shown, const viz::Relief& relief, const Field& field, const ShownRange& range) {
+io::PagePicture picture_of_relief(const PicturedPart& shown, const viz::Relief& relief, const Field& field,
+                                  const ShownRange& range) {
     viz::Look look;
     look.width = 1200;
     look.height = 840;

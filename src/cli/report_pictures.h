@@ -29,7 +29,8 @@ struct PicturedPart {
 [[nodiscard]] io::PagePicture picture_of_defect(const PicturedPart& shown, std::size_t defect);
 
 /// A height map as the whole picture.
-[[nodiscard]] io::PagePicture picture_of_relief(const PicturedPart& shown, const viz::Relief& relief, const Field& field, const ShownRange& range);
+[[nodiscard]] io::PagePicture picture_of_relief(const PicturedPart& shown, const viz::Relief& relief,
+                                                const Field& field, const ShownRange& range);
 
 /// The colour map of a field where none is named.
 [[nodiscard]] viz::ColourMap default_colour_map(const FieldInfo& info);

@@ -20,7 +20,8 @@ Role common_role(const LoadedRun& a, const LoadedRun& b, std::optional<Role> wan
     for (const Role role : {Role::commanded, Role::feedback, Role::actual}) {
         if (a.log.has(role) && b.log.has(role)) return role;
     }
-    throw InputError(Place::of_file(b.name), "has no positions of a kind that " + a.name + " has too: commanded, feedback or actual");
+    throw InputError(Place::of_file(b.name),
+                     "has no positions of a kind that " + a.name + " has too: commanded, feedback or actual");
 }
 
 /// A line number that no program has.
@@ -89,7 +90,8 @@ Run run_of(const LoadedRun& run, const LoadedRun& other, const RunOptions& optio
     return made;
 }
 
-std::unique_ptr<LineMap> lines_of(const LoadedRun& run, const Trajectory& path, const RunOptions& options, Diagnostics& diagnostics) {
+std::unique_ptr<LineMap> lines_of(const LoadedRun& run, const Trajectory& path, const RunOptions& options,
+                                  Diagnostics& diagnostics) {
     if (run.simulated) return std::make_unique<LineMap>(map_lines(path, run.log, *run.program, true, diagnostics));
     if (!options.program.empty()) {
         const io::Source source = io::open_source(options.program);
@@ -100,7 +102,8 @@ std::unique_ptr<LineMap> lines_of(const LoadedRun& run, const Trajectory& path, 
     }
     Program none;
     none.files.emplace_back();
-    if (const Channel* channel = run.log.find("line")) return std::make_unique<LineMap>(channel->values, none, run.log.keep_alive);
+    if (const Channel* channel = run.log.find("line"))
+        return std::make_unique<LineMap>(channel->values, none, run.log.keep_alive);
     ChannelView everywhere;
     everywhere.first = reinterpret_cast<const std::byte*>(&no_line);
     everywhere.count = path.count;

@@ -16,8 +16,8 @@ namespace clsurf::cli {
 struct RunOptions {
     io::ProgramOptions program_options;
     io::LogOptions log_options;
-    std::string program;   ///< of logs; empty: their line channel is taken as it is
-    std::string machine;   ///< file; empty: the default one
+    std::string program;  ///< of logs; empty: their line channel is taken as it is
+    std::string machine;  ///< file; empty: the default one
     Vec3 start = Vec3::Zero();
     std::optional<Vec3> offset;  ///< [mm], workpiece = machine − offset
     std::optional<Role> role;    ///< none: commanded where all runs have it
@@ -42,6 +42,7 @@ struct LoadedRun {
 [[nodiscard]] Run run_of(const LoadedRun& run, const LoadedRun& other, const RunOptions& options);
 
 /// What the points of a run belong to; without a program all that the line channel does not call idle cuts.
-[[nodiscard]] std::unique_ptr<LineMap> lines_of(const LoadedRun& run, const Trajectory& path, const RunOptions& options, Diagnostics& diagnostics);
+[[nodiscard]] std::unique_ptr<LineMap> lines_of(const LoadedRun& run, const Trajectory& path, const RunOptions& options,
+                                                Diagnostics& diagnostics);
 
 }  // namespace clsurf::cli

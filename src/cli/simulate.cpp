@@ -26,7 +26,8 @@ std::string summary_text(const SimulationSummary& s) {
     text += fmt::format("{:<24} {:.4f} mm\n", "off the path", s.path_deviation);
     for (std::size_t i = 0; i < s.ruled.size(); ++i) {
         if (s.ruled[i] == 0) continue;
-        text += fmt::format("{:<24} {:5.1f} % of the points\n", name_of(static_cast<Ruling>(i)), 100.0 * static_cast<double>(s.ruled[i]) / static_cast<double>(s.points));
+        text += fmt::format("{:<24} {:5.1f} % of the points\n", name_of(static_cast<Ruling>(i)),
+                            100.0 * static_cast<double>(s.ruled[i]) / static_cast<double>(s.points));
     }
     return text;
 }
@@ -35,21 +36,25 @@ std::string summary_text(const SimulationSummary& s) {
 std::string rotary_text(const FiveAxisSummary& s, const Kinematics& k) {
     std::string text;
     const auto row = [&](const char* name, const std::array<double, 2>& v, double factor, const char* unit) {
-        text += fmt::format("{:<24} {} {:.0f}, {} {:.0f} {}\n", name, k.tilt.letter, v[0] * factor, k.rotation.letter, v[1] * factor, unit);
+        text += fmt::format("{:<24} {} {:.0f}, {} {:.0f} {}\n", name, k.tilt.letter, v[0] * factor, k.rotation.letter,
+                            v[1] * factor, unit);
     };
     row("greatest axis speed", s.max_speed, deg_per_rad * seconds_per_minute, "deg/min");
     row("greatest acceleration", s.max_acceleration, deg_per_rad, "deg/s²");
     row("greatest jerk", s.max_jerk, deg_per_rad, "deg/s³");
-    return text + fmt::format("{:<24} {:.4f} deg off the great circles\n", "tool axis", s.orientation_error * deg_per_rad);
+    return text +
+           fmt::format("{:<24} {:.4f} deg off the great circles\n", "tool axis", s.orientation_error * deg_per_rad);
 }
 
 /// The program is gone through many times, and stands in memory.
-ExitCode run_five_axis(Program program, const Machine& machine, const Vec3& zero, const Vec3& start, io::SimulatedLogWriter& log, const po::variables_map& values) {
+ExitCode run_five_axis(Program program, const Machine& machine, const Vec3& zero, const Vec3& start,
+                       io::SimulatedLogWriter& log, const po::variables_map& values) {
     solve_tool_axes(program, machine);
     make_tip_motions(program, machine.kinematics, -zero);
     ProgressBar bar(read_common(values));
     const FiveAxisSummary summary = simulate_five_axis(
-        program, machine, zero, start, [&](std::span<const FiveAxisPoint> points) { log.append(points); }, bar.callback());
+        program, machine, zero, start, [&](std::span<const FiveAxisPoint> points) { log.append(points); },
+        bar.callback());
     log.close();
     bar.clear();
     Diagnostics diagnostics = program.diagnostics;
@@ -65,16 +70,20 @@ ExitCode run_five_axis(Program program, const Machine& machine, const Vec3& zero
 
 ExitCode run(const po::variables_map& values) {
     const std::string output = required(values, "output");
-    const Machine machine = values.count("machine") > 0 ? io::read_machine(values["machine"].as<std::string>()) : Machine{};
+    const Machine machine =
+        values.count("machine") > 0 ? io::read_machine(values["machine"].as<std::string>()) : Machine{};
     const Vec3 start = read_start(values);
     const std::string path = required(values, "PROGRAM");
     const io::Source source = io::open_source(path);
     const bool five_axes = machine.kinematics.has_rotary();
     const std::optional<Vec3> zero = read_work_offset(values);
-    if (zero && !five_axes) throw UsageError("--work-offset is for machines with rotary axes; positions of three are the program's");
+    if (zero && !five_axes)
+        throw UsageError("--work-offset is for machines with rotary axes; positions of three are the program's");
     const auto open_log = [&] {
-        const std::string metadata = zero ? fmt::format("{{\"work_offset\": [{}, {}, {}]}}", zero->x(), zero->y(), zero->z()) : "{}";
-        return io::SimulatedLogWriter(output, machine, io::with_programs(metadata, std::vector<ProgramReference>{io::identify(source)}));
+        const std::string metadata =
+            zero ? fmt::format("{{\"work_offset\": [{}, {}, {}]}}", zero->x(), zero->y(), zero->z()) : "{}";
+        return io::SimulatedLogWriter(output, machine,
+                                      io::with_programs(metadata, std::vector<ProgramReference>{io::identify(source)}));
     };
     if (five_axes) {
         Program program = io::read_program(source, read_program_options(values));
@@ -106,14 +115,15 @@ Subcommand simulate_subcommand() {
         .name = "simulate",
         .arguments = "PROGRAM -o run.biip",
         .summary = "the controller stood in for: the log that a machine would write",
-        .description = "Plans and interpolates a program as a controller does, with limits of speed, acceleration and jerk, corners rounded inside the tolerance\n"
-                       "and a look-ahead, follows it with a servo loop an axis, and writes commanded and feedback positions, line, speed,\n"
-                       "and in the channel limit what ruled each point: 0 at rest, 1 feed, 2 axis or path speed, 3 acceleration, 4 jerk,\n"
-                       "5 corner tolerance, 6 chord error, 7 the end of the look-ahead, 8 feed override, 9 block time.\n\n"
-                       "With a machine file that has rotary axes the positions are those of all five, --work-offset is where the program's zero lies\n"
-                       "with both angles zero, and blocks that an axis cannot follow are run slower.\n\n"
-                       "  clsurf simulate part.nc --machine mill.toml -o run.biip\n"
-                       "  clsurf render part.nc run.biip --color limit -o why_slow.png",
+        .description =
+            "Plans and interpolates a program as a controller does, with limits of speed, acceleration and jerk, corners rounded inside the tolerance\n"
+            "and a look-ahead, follows it with a servo loop an axis, and writes commanded and feedback positions, line, speed,\n"
+            "and in the channel limit what ruled each point: 0 at rest, 1 feed, 2 axis or path speed, 3 acceleration, 4 jerk,\n"
+            "5 corner tolerance, 6 chord error, 7 the end of the look-ahead, 8 feed override, 9 block time.\n\n"
+            "With a machine file that has rotary axes the positions are those of all five, --work-offset is where the program's zero lies\n"
+            "with both angles zero, and blocks that an axis cannot follow are run slower.\n\n"
+            "  clsurf simulate part.nc --machine mill.toml -o run.biip\n"
+            "  clsurf render part.nc run.biip --color limit -o why_slow.png",
         .declare =
             [](po::options_description& options) {
                 // clang-format off

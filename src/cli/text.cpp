@@ -6,9 +6,8 @@ namespace clsurf::cli {
 
 std::size_t columns_of(std::string_view text) {
     // Continuation bytes of UTF-8 are 10xxxxxx.
-    return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
-        return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
-    }));
+    return static_cast<std::size_t>(
+        std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
 }
 
 std::vector<std::string> wrap(std::string_view text, std::size_t width) {

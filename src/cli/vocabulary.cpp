@@ -22,7 +22,8 @@ std::vector<io::ListingRow> dialect_rows() {
 
 std::vector<io::ListingRow> field_rows() {
     std::vector<io::ListingRow> rows;
-    for (const FieldInfo& field : all_fields(nullptr)) rows.push_back({field.name, std::string(field.unit.name), field.label});
+    for (const FieldInfo& field : all_fields(nullptr))
+        rows.push_back({field.name, std::string(field.unit.name), field.label});
     return rows;
 }
 
@@ -40,7 +41,8 @@ std::vector<io::ListingRow> channel_rows() {
         const bool of_axis = channel.name.ends_with('.');
         std::string unit(channel.unit);
         if (!channel.rotary_unit.empty()) unit += ", " + std::string(channel.rotary_unit);
-        rows.push_back({std::string(channel.name) + (of_axis ? "x" : ""), unit, std::string(channel.meaning) + (of_axis ? "; likewise y, z, u, v, w, a, b, c" : "")});
+        rows.push_back({std::string(channel.name) + (of_axis ? "x" : ""), unit,
+                        std::string(channel.meaning) + (of_axis ? "; likewise y, z, u, v, w, a, b, c" : "")});
     }
     return rows;
 }
@@ -54,8 +56,8 @@ std::vector<io::ListingRow> colour_map_rows() {
 }
 
 bool is_word(std::string_view text) {
-    return !text.empty() && std::none_of(text.begin(), text.end(),
-                                         [](char c) { return (c >= 'A' && c <= 'Z') || c == ','; });
+    return !text.empty() &&
+           std::none_of(text.begin(), text.end(), [](char c) { return (c >= 'A' && c <= 'Z') || c == ','; });
 }
 
 std::vector<std::string_view> alternatives_of(std::string_view value_name) {
@@ -72,10 +74,10 @@ std::vector<std::string_view> alternatives_of(std::string_view value_name) {
 
 std::span<const Vocabulary> vocabularies() {
     static constexpr std::array table{
-        Vocabulary{"fields", "FIELD",
-                   "what can be coloured, plotted and exported; every channel of a log besides",
+        Vocabulary{"fields", "FIELD", "what can be coloured, plotted and exported; every channel of a log besides",
                    field_rows},
-        Vocabulary{"channels", "CHANNEL", "names of a log's channels that have a meaning; any other is kept too", channel_rows},
+        Vocabulary{"channels", "CHANNEL", "names of a log's channels that have a meaning; any other is kept too",
+                   channel_rows},
         Vocabulary{"formats", "FORMAT", "log formats that are recognised", format_rows},
         Vocabulary{"dialects", "DIALECT", "languages of NC programs", dialect_rows},
         Vocabulary{"colormaps", "COLORMAP", "named colour maps", colour_map_rows},
@@ -86,9 +88,7 @@ std::span<const Vocabulary> vocabularies() {
 std::vector<std::string> words_of(std::string_view value_name) {
     std::vector<std::string> words;
     for (const std::string_view alternative : alternatives_of(value_name)) {
-        if (value_name.find('|') != std::string_view::npos && is_word(alternative)) {
-            words.emplace_back(alternative);
-        }
+        if (value_name.find('|') != std::string_view::npos && is_word(alternative)) { words.emplace_back(alternative); }
         for (const Vocabulary& vocabulary : vocabularies()) {
             // "FIELD,…" is a list of them.
             const std::string_view first = alternative.substr(0, alternative.find(','));
@@ -101,8 +101,7 @@ std::vector<std::string> words_of(std::string_view value_name) {
 
 bool lists_all_words(std::string_view value_name) {
     const std::vector<std::string_view> alternatives = alternatives_of(value_name);
-    return alternatives.size() > 1 &&
-           std::all_of(alternatives.begin(), alternatives.end(), is_word);
+    return alternatives.size() > 1 && std::all_of(alternatives.begin(), alternatives.end(), is_word);
 }
 
 }  // namespace clsurf::cli

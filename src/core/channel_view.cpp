@@ -46,8 +46,7 @@ void gather(const ChannelView& view, PointIndex begin, std::span<double> out) {
 }
 
 template <typename T, bool swapped>
-void gather_unsigned(const ChannelView& view, PointIndex begin, std::span<std::uint32_t> out,
-                     std::uint32_t bad) {
+void gather_unsigned(const ChannelView& view, PointIndex begin, std::span<std::uint32_t> out, std::uint32_t bad) {
     const std::byte* place = view.first + static_cast<std::size_t>(begin) * view.stride;
     const bool plain = view.scale == 1.0 && view.bias == 0.0;
     for (std::uint32_t& value : out) {
@@ -100,8 +99,7 @@ void copy_block(const ChannelView& view, PointIndex begin, std::span<double> out
     });
 }
 
-void copy_block(const ChannelView& view, PointIndex begin, std::span<std::uint32_t> out,
-                std::uint32_t bad) {
+void copy_block(const ChannelView& view, PointIndex begin, std::span<std::uint32_t> out, std::uint32_t bad) {
     with_type(view.type, [&]<typename T>() {
         view.big_endian ? gather_unsigned<T, true>(view, begin, out, bad)
                         : gather_unsigned<T, false>(view, begin, out, bad);

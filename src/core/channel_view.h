@@ -36,7 +36,6 @@ void copy_block(const ChannelView& view, PointIndex begin, std::span<double> out
 
 /// Gathers an integral channel (a line number) without the way through double.
 /// Values that are not in 0 … 2^32−1, or not finite, become `bad`.
-void copy_block(const ChannelView& view, PointIndex begin, std::span<std::uint32_t> out,
-                std::uint32_t bad);
+void copy_block(const ChannelView& view, PointIndex begin, std::span<std::uint32_t> out, std::uint32_t bad);
 
 }  // namespace clsurf

@@ -14,8 +14,7 @@ std::string source_and_caret(const Place& where) {
     std::string line;
     const std::size_t column = where.column > 0 ? where.column - 1 : 0;
     // A long line is shown around the place.
-    const std::size_t from =
-        column >= shown_source_bytes - 10 ? column - shown_source_bytes / 2 : std::size_t{0};
+    const std::size_t from = column >= shown_source_bytes - 10 ? column - shown_source_bytes / 2 : std::size_t{0};
     std::size_t caret = 0;
     for (std::size_t i = from; i < where.source.size() && i < from + shown_source_bytes; ++i) {
         const auto byte = static_cast<unsigned char>(where.source[i]);
@@ -40,8 +39,8 @@ std::string_view name_of(Severity severity) {
 }
 
 Diagnostics::CodeCount& Diagnostics::entry(const Diagnostic& diagnostic) {
-    const auto found = std::find_if(counts_.begin(), counts_.end(),
-                                    [&](const CodeCount& c) { return c.code == diagnostic.code; });
+    const auto found =
+        std::find_if(counts_.begin(), counts_.end(), [&](const CodeCount& c) { return c.code == diagnostic.code; });
     if (found != counts_.end()) return *found;
     counts_.push_back({diagnostic.code, diagnostic.severity, 0, 0});
     return counts_.back();
@@ -82,10 +81,12 @@ std::vector<Diagnostic> Diagnostics::summary() const {
     std::vector<Diagnostic> all = kept_;
     for (const CodeCount& c : counts_) {
         if (c.count == c.kept) continue;
-        all.push_back({c.severity, c.code, {},
-                       std::to_string(c.count - c.kept) + " more of '" + c.code + "', " +
-                           std::to_string(c.count) + " in all",
-                       {}});
+        all.push_back(
+            {c.severity,
+             c.code,
+             {},
+             std::to_string(c.count - c.kept) + " more of '" + c.code + "', " + std::to_string(c.count) + " in all",
+             {}});
     }
     return all;
 }

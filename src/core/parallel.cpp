@@ -21,9 +21,8 @@ std::unique_ptr<tbb::global_control> control;
 
 void set_thread_count(int threads) {
     wanted_threads = threads;
-    control = threads > 0 ? std::make_unique<tbb::global_control>(
-                                tbb::global_control::max_allowed_parallelism,
-                                static_cast<std::size_t>(threads))
+    control = threads > 0 ? std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                                  static_cast<std::size_t>(threads))
                           : nullptr;
 }
 
@@ -32,8 +31,7 @@ int thread_count() {
     return wanted_threads > 0 ? wanted_threads : cores;
 }
 
-void parallel_for(std::int64_t count, std::int64_t grain,
-                  const std::function<void(std::int64_t, std::int64_t)>& body) {
+void parallel_for(std::int64_t count, std::int64_t grain, const std::function<void(std::int64_t, std::int64_t)>& body) {
     if (count <= 0) return;
     const std::int64_t pieces = (count + grain - 1) / grain;
     const auto piece = [&](std::int64_t i) { body(i * grain, std::min(count, (i + 1) * grain)); };

@@ -13,9 +13,9 @@ struct Place {
 
     std::string file;  ///< as the user named it; empty: no file
     Kind kind = Kind::none;
-    std::uint64_t number = 0;   ///< line from 1, point from 0, byte from 0
-    std::uint32_t column = 0;   ///< of a line, in bytes from 1; 0: the whole line
-    std::string source;         ///< the source line, for the caret message; empty: none
+    std::uint64_t number = 0;  ///< line from 1, point from 0, byte from 0
+    std::uint32_t column = 0;  ///< of a line, in bytes from 1; 0: the whole line
+    std::string source;        ///< the source line, for the caret message; empty: none
 
     static Place of_file(std::string file);
     static Place of_line(std::string file, std::uint64_t line, std::uint32_t column = 0);

@@ -32,7 +32,8 @@ template <typename Values>
 /// The same, the nearest one.
 template <typename Values>
 [[nodiscard]] auto nearest_quantile(Values& values, double share) {
-    return kth_smallest(values, static_cast<std::size_t>(std::lround(share * static_cast<double>(std::size(values) - 1))));
+    return kth_smallest(values,
+                        static_cast<std::size_t>(std::lround(share * static_cast<double>(std::size(values) - 1))));
 }
 
 }  // namespace clsurf

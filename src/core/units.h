@@ -15,8 +15,8 @@ inline constexpr double deg_per_rad = 180.0 / std::numbers::pi;
 
 /// A unit as shown to people: its name and how many of it one inside unit is.
 struct Unit {
-    std::string_view name;   ///< "mm/min"
-    double per_inside = 1;   ///< shown = inside · per_inside
+    std::string_view name;  ///< "mm/min"
+    double per_inside = 1;  ///< shown = inside · per_inside
     friend bool operator==(const Unit&, const Unit&) = default;
 };
 

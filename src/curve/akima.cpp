@@ -6,7 +6,7 @@
 namespace clsurf {
 namespace {
 
-constexpr double even_weights = 1e-12;   ///< below it the slopes on both sides do not change: their mean
+constexpr double even_weights = 1e-12;  ///< below it the slopes on both sides do not change: their mean
 
 }  // namespace
 

@@ -29,11 +29,13 @@ enum class AkimaTangents : unsigned char {
 };
 
 /// The tangent (not made unit) at a point between four slopes before and behind it, in their order.
-[[nodiscard]] Vec3 akima_tangent(const Vec3& before_2, const Vec3& before_1, const Vec3& behind_1, const Vec3& behind_2);
+[[nodiscard]] Vec3 akima_tangent(const Vec3& before_2, const Vec3& before_1, const Vec3& behind_1,
+                                 const Vec3& behind_2);
 
 /// All spans through points of which no two neighbours are the same [mm]; two points: a straight line,
 /// fewer: none. Symmetric: the points in reverse give the same curve. O(points).
-[[nodiscard]] std::vector<CubicSpan> akima_spans(std::span<const Vec3> points, AkimaTangents tangents = AkimaTangents::plain);
+[[nodiscard]] std::vector<CubicSpan> akima_spans(std::span<const Vec3> points,
+                                                 AkimaTangents tangents = AkimaTangents::plain);
 
 /// The same span by span while points come, two points behind them: a controller's form. What comes out
 /// is what akima_spans() makes of all points at once.
@@ -41,7 +43,8 @@ class AkimaStream {
 public:
     using Sink = std::function<void(const CubicSpan&)>;
 
-    explicit AkimaStream(Sink sink, AkimaTangents tangents = AkimaTangents::plain) : sink_(std::move(sink)), tangents_(tangents) {}
+    explicit AkimaStream(Sink sink, AkimaTangents tangents = AkimaTangents::plain)
+        : sink_(std::move(sink)), tangents_(tangents) {}
 
     /// `point` differs from the one before.
     void add(const Vec3& point);
@@ -60,11 +63,11 @@ private:
 
     Sink sink_;
     AkimaTangents tangents_;
-    Vec3 last_ = Vec3::Zero();           ///< the last point
+    Vec3 last_ = Vec3::Zero();  ///< the last point
     std::size_t points_ = 0;
-    std::array<Segment, 4> segments_;    ///< the last four: the tangent between the middle two is known
-    std::size_t known_ = 0;              ///< tangents so far
-    Vec3 tangent_ = Vec3::Zero();        ///< the last of them
+    std::array<Segment, 4> segments_;  ///< the last four: the tangent between the middle two is known
+    std::size_t known_ = 0;            ///< tangents so far
+    Vec3 tangent_ = Vec3::Zero();      ///< the last of them
 };
 
 }  // namespace clsurf

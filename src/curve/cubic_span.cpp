@@ -21,8 +21,10 @@ Vec3 CubicSpan::derivative(double u) const {
 Vec3 CubicSpan::second_derivative(double u) const { return 2 * coefficients[2] + 6 * u * coefficients[3]; }
 
 double CubicSpan::way_to(double u) const {
-    static constexpr std::array<double, 5> node{0, -0.5384693101056831, 0.5384693101056831, -0.9061798459386640, 0.9061798459386640};
-    static constexpr std::array<double, 5> weight{0.5688888888888889, 0.4786286704993665, 0.4786286704993665, 0.2369268850561891, 0.2369268850561891};
+    static constexpr std::array<double, 5> node{0, -0.5384693101056831, 0.5384693101056831, -0.9061798459386640,
+                                                0.9061798459386640};
+    static constexpr std::array<double, 5> weight{0.5688888888888889, 0.4786286704993665, 0.4786286704993665,
+                                                  0.2369268850561891, 0.2369268850561891};
     double sum = 0;
     for (std::size_t k = 0; k < node.size(); ++k) sum += weight[k] * derivative(0.5 * u * (1 + node[k])).norm();
     return 0.5 * u * sum;
@@ -44,7 +46,8 @@ double CubicSpan::at_way(double way, double length) const {
     return u;
 }
 
-CubicSpan hermite(const Vec3& begin, const Vec3& end, const Vec3& derivative_at_begin, const Vec3& derivative_at_end, double chord) {
+CubicSpan hermite(const Vec3& begin, const Vec3& end, const Vec3& derivative_at_begin, const Vec3& derivative_at_end,
+                  double chord) {
     const Vec3 slope = (end - begin) / chord;
     return {{begin, derivative_at_begin, (3 * slope - 2 * derivative_at_begin - derivative_at_end) / chord,
              (derivative_at_begin + derivative_at_end - 2 * slope) / (chord * chord)},

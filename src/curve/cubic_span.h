@@ -23,6 +23,7 @@ struct CubicSpan {
 };
 
 /// The cubic from `begin` to `end` with these derivatives there, over u ∈ [0, chord].
-[[nodiscard]] CubicSpan hermite(const Vec3& begin, const Vec3& end, const Vec3& derivative_at_begin, const Vec3& derivative_at_end, double chord);
+[[nodiscard]] CubicSpan hermite(const Vec3& begin, const Vec3& end, const Vec3& derivative_at_begin,
+                                const Vec3& derivative_at_end, double chord);
 
 }  // namespace clsurf

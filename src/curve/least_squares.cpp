@@ -23,11 +23,14 @@ CubicSpan part(const CubicSpan& curve, double from, double length) {
 
 }  // namespace
 
-HermiteFit fit_hermite(std::span<const double> at, std::span<const Vec3> points, std::span<const double> breaks, FitEnds ends) {
+HermiteFit fit_hermite(std::span<const double> at, std::span<const Vec3> points, std::span<const double> breaks,
+                       FitEnds ends) {
     // Unknowns: value and derivative (times the length of the piece behind it, to be of one size) at each break.
     const std::size_t knots = breaks.size();
     const auto unknowns = static_cast<Eigen::Index>(2 * knots);
-    const auto scale = [&](std::size_t k) { return k + 1 < knots ? breaks[k + 1] - breaks[k] : breaks[k] - breaks[k - 1]; };
+    const auto scale = [&](std::size_t k) {
+        return k + 1 < knots ? breaks[k + 1] - breaks[k] : breaks[k] - breaks[k - 1];
+    };
     const auto pinned = [&](Eigen::Index i) { return ends == FitEnds::pinned && (i == 0 || i == unknowns - 2); };
     const auto pin = [&](Eigen::Index i) -> const Vec3& { return i == 0 ? points.front() : points.back(); };
     std::vector<Eigen::Triplet<double>> entries;
@@ -48,7 +51,9 @@ HermiteFit fit_hermite(std::span<const double> at, std::span<const Vec3> points,
             if (pinned(first + a)) continue;
             right.row(first + a) += w[static_cast<std::size_t>(a)] * target.transpose();
             for (Eigen::Index b = 0; b <= a; ++b) {
-                if (!pinned(first + b)) entries.emplace_back(first + a, first + b, w[static_cast<std::size_t>(a)] * w[static_cast<std::size_t>(b)]);
+                if (!pinned(first + b))
+                    entries.emplace_back(first + a, first + b,
+                                         w[static_cast<std::size_t>(a)] * w[static_cast<std::size_t>(b)]);
             }
         }
     }
@@ -89,7 +94,8 @@ std::vector<CubicSpan> least_squares_spans(std::span<const Vec3> points, std::si
     std::vector<CubicSpan> spans;
     for (std::size_t k = 0; k < pieces; ++k) {
         const CubicSpan piece = fit.piece(k);
-        for (std::size_t i = knots[k]; i < knots[k + 1]; ++i) spans.push_back(part(piece, at[i] - breaks[k], at[i + 1] - at[i]));
+        for (std::size_t i = knots[k]; i < knots[k + 1]; ++i)
+            spans.push_back(part(piece, at[i] - breaks[k], at[i + 1] - at[i]));
     }
     return spans;
 }

@@ -23,12 +23,15 @@ struct HermiteFit {
     std::vector<Vec3> values, slopes;
 
     /// The cubic from break k to the next, its variable 0 at break k.
-    [[nodiscard]] CubicSpan piece(std::size_t k) const { return hermite(values[k], values[k + 1], slopes[k], slopes[k + 1], breaks[k + 1] - breaks[k]); }
+    [[nodiscard]] CubicSpan piece(std::size_t k) const {
+        return hermite(values[k], values[k + 1], slopes[k], slopes[k + 1], breaks[k + 1] - breaks[k]);
+    }
 };
 
 /// The curve that is nearest to points at rising places `at`. Breaks rise from the first place to the last; a
 /// piece needs as many points as it has unknowns of its own. O(points + breaks).
-[[nodiscard]] HermiteFit fit_hermite(std::span<const double> at, std::span<const Vec3> points, std::span<const double> breaks, FitEnds ends);
+[[nodiscard]] HermiteFit fit_hermite(std::span<const double> at, std::span<const Vec3> points,
+                                     std::span<const double> breaks, FitEnds ends);
 
 /// A curve beside points of which no two neighbours are the same [mm], by the way along their chords, ends pinned,
 /// one cubic to about `window` chords: a span for each chord. Points in reverse give the same curve.

@@ -13,7 +13,9 @@ double three_point_curvature(const Vec3& before, const Vec3& here, const Vec3& a
     return sides > 0 ? 2 * cross / sides : 0;
 }
 
-double chord_error_of(double length, double curvature_before, double curvature_after) { return length * length * 0.5 * (curvature_before + curvature_after) / 8; }
+double chord_error_of(double length, double curvature_before, double curvature_after) {
+    return length * length * 0.5 * (curvature_before + curvature_after) / 8;
+}
 
 Vec3 nearest_on_line(const Vec3& p, const Vec3& a, const Vec3& b) {
     const Vec3 chord = b - a;

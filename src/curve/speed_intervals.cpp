@@ -13,7 +13,8 @@ constexpr double just_a_boundary = 1 - 1e-9;
 constexpr double same_score = 1e-9;
 constexpr double closed_share = 1e-6;  ///< of the pass's extent: ends this near make it closed
 
-void reduce(std::span<const Vec3> points, std::size_t first, std::size_t last, double error, std::vector<std::size_t>& kept) {
+void reduce(std::span<const Vec3> points, std::size_t first, std::size_t last, double error,
+            std::vector<std::size_t>& kept) {
     std::vector<std::pair<std::size_t, std::size_t>> open{{first, last}};
     while (!open.empty()) {
         const auto [from, to] = open.back();
@@ -47,7 +48,8 @@ public:
         const double change = std::isinf(before) || std::isinf(after) ? 0 : std::log(after / before);
         const double spike = std::log(here / std::max(before, after));
         const double by_curvature = std::log(rules_.curvature_ratio);
-        return rounded(std::max({std::abs(length) / std::log(rules_.length_ratio), std::abs(change) / by_curvature, spike / by_curvature}));
+        return rounded(std::max(
+            {std::abs(length) / std::log(rules_.length_ratio), std::abs(change) / by_curvature, spike / by_curvature}));
     }
 
 private:
@@ -122,7 +124,8 @@ std::vector<std::size_t> characteristic_points(std::span<const Vec3> points, dou
     return kept;
 }
 
-std::vector<std::size_t> interval_boundaries(std::span<const Vec3> points, std::span<const double> curvature, const IntervalRules& rules) {
+std::vector<std::size_t> interval_boundaries(std::span<const Vec3> points, std::span<const double> curvature,
+                                             const IntervalRules& rules) {
     const std::vector<std::size_t> corners = characteristic_points(points, rules.error);
     if (corners.size() < 2) return corners;
     const Scores scores(points, curvature, rules);
@@ -137,14 +140,17 @@ std::vector<std::size_t> interval_boundaries(std::span<const Vec3> points, std::
         const double score = scores.at(corners[k]);
         if (score < just_a_boundary) continue;
         const bool same_run = !chosen.empty() && corners[k] == run_end + 1;
-        if (!same_run) chosen.push_back({k, score});
-        else if (score > chosen.back().score) chosen.back() = {k, score};
+        if (!same_run)
+            chosen.push_back({k, score});
+        else if (score > chosen.back().score)
+            chosen.back() = {k, score};
         run_end = corners[k];
     }
     std::vector<std::size_t> boundaries{corners.front()};
     for (const Choice& choice : chosen) {
         const std::size_t at = corners[choice.corner];
-        const std::size_t first = at - (at - corners[choice.corner - 1]) / 2, last = at + (corners[choice.corner + 1] - at) / 2;
+        const std::size_t first = at - (at - corners[choice.corner - 1]) / 2,
+                          last = at + (corners[choice.corner + 1] - at) / 2;
         std::size_t best = at;
         double most = choice.score;
         for (std::size_t i = std::max<std::size_t>(first, 1); i <= last && i + 1 < points.size(); ++i) {

@@ -17,12 +17,12 @@
 namespace clsurf {
 
 struct IntervalRules {
-    double error = 0.01;          ///< [mm] how far characteristic points may leave the pass
-    double length_ratio = 5;      ///< of neighbour lines, from which a point bounds an interval
-    double curvature_ratio = 2;   ///< of the curvatures before and behind, likewise
-    double flat_curvature = 1e-3; ///< [1/mm] less counts as this much
-    double drift_ratio = 4;       ///< greatest over least curvature inside; 0: not looked at
-    double reach = 0;             ///< [mm] of way to each side that a curvature is measured over, at least
+    double error = 0.01;           ///< [mm] how far characteristic points may leave the pass
+    double length_ratio = 5;       ///< of neighbour lines, from which a point bounds an interval
+    double curvature_ratio = 2;    ///< of the curvatures before and behind, likewise
+    double flat_curvature = 1e-3;  ///< [1/mm] less counts as this much
+    double drift_ratio = 4;        ///< greatest over least curvature inside; 0: not looked at
+    double reach = 0;              ///< [mm] of way to each side that a curvature is measured over, at least
 };
 
 /// Points first … last of a pass; neighbours share the point between them.
@@ -40,7 +40,9 @@ struct SpeedInterval {
 [[nodiscard]] std::vector<std::size_t> characteristic_points(std::span<const Vec3> points, double error);
 
 /// Where the intervals of a pass meet, both ends included. No two neighbour points are the same.
-[[nodiscard]] std::vector<std::size_t> interval_boundaries(std::span<const Vec3> points, std::span<const double> curvature, const IntervalRules& rules);
+[[nodiscard]] std::vector<std::size_t> interval_boundaries(std::span<const Vec3> points,
+                                                           std::span<const double> curvature,
+                                                           const IntervalRules& rules);
 
 /// The intervals of a pass; a single point: none. O(points log points).
 [[nodiscard]] std::vector<SpeedInterval> divide(std::span<const Vec3> points, const IntervalRules& rules);

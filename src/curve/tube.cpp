@@ -5,8 +5,8 @@
 namespace clsurf {
 namespace {
 
-constexpr std::size_t width = 3;          ///< diagonals to each side
-constexpr double penalty = 0.1;           ///< of leaving the tube, against squared third differences
+constexpr std::size_t width = 3;  ///< diagonals to each side
+constexpr double penalty = 0.1;   ///< of leaving the tube, against squared third differences
 constexpr double over_relaxation = 1.6;
 constexpr int rounds = 60;
 
@@ -42,7 +42,8 @@ void factorise(Banded& m) {
             }
             m[i][back] = value / m[j][0];
         }
-        for (std::size_t back = 1; back <= std::min(i, width); ++back) m[i][0] -= m[i][back] * m[i][back] * m[i - back][0];
+        for (std::size_t back = 1; back <= std::min(i, width); ++back)
+            m[i][0] -= m[i][back] * m[i][back] * m[i - back][0];
     }
 }
 
@@ -64,7 +65,8 @@ Vec3 held(const Vec3& p, const Vec3& place, double radius) {
 
 }  // namespace
 
-std::vector<Vec3> smoothest_in_tube(std::span<const Vec3> places, std::span<const double> ways, std::span<const double> radii, std::span<const Vec3> start) {
+std::vector<Vec3> smoothest_in_tube(std::span<const Vec3> places, std::span<const double> ways,
+                                    std::span<const double> radii, std::span<const Vec3> start) {
     const std::span<const Vec3> from = start.empty() ? places : start;
     std::vector<Vec3> inside(from.begin(), from.end());
     const std::size_t n = places.size();

@@ -19,7 +19,7 @@ struct FieldInfo {
     std::string label;  ///< "Path speed"
     Unit unit;          ///< as shown; values are stored in inside units
     FieldScale scale = FieldScale::sequential;
-    std::string note;   ///< how it was computed, "21-point window (20 ms)"; may be empty
+    std::string note;  ///< how it was computed, "21-point window (20 ms)"; may be empty
 };
 
 struct Field {

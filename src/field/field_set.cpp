@@ -23,7 +23,8 @@ constexpr PointIndex error_halo = 256;       ///< commanded points that the cont
 
 Unit unit_of_channel(const std::string& text) {
     // Channels stay in the unit in which they were recorded: shown as they are.
-    static constexpr std::array<std::string_view, 12> known{"mm", "deg", "mm/min", "mm/s", "%", "A", "N·m", "1/min", "s", "°", "W", "V"};
+    static constexpr std::array<std::string_view, 12> known{"mm",  "deg",   "mm/min", "mm/s", "%", "A",
+                                                            "N·m", "1/min", "s",      "°",    "W", "V"};
     for (const std::string_view name : known) {
         if (text == name) return {name, 1.0};
     }
@@ -56,9 +57,9 @@ namespace {
 struct Plan {
     std::array<std::optional<Differentiator>, 3> derivatives;
     std::optional<Trajectory> commanded, measured;
-    std::optional<Trajectory> other;  ///< what is derived in place of the path's positions
+    std::optional<Trajectory> other;           ///< what is derived in place of the path's positions
     const MotionEstimate* estimate = nullptr;  ///< what derives the path's positions; nullptr: the filters above
-    int derivative = 0;               ///< the highest that is needed
+    int derivative = 0;                        ///< the highest that is needed
     PointIndex reach = 0;
 };
 
@@ -68,28 +69,35 @@ Plan plan_for(const FieldRow& row, const Log& log, const Trajectory& path, const
     const MotionEstimate* estimate = derivation.estimate.get();
     Plan plan;
     if ((row.needs & needs::uncertainty) != 0 && estimate == nullptr) {
-        throw UsageError(fmt::format("field '{}' is what a Kalman smoother leaves open", row.name), "--derivative kalman");
+        throw UsageError(fmt::format("field '{}' is what a Kalman smoother leaves open", row.name),
+                         "--derivative kalman");
     }
     // Angles and tool axes have no measured speeds.
-    if ((row.needs & all_derivatives) != 0 && (row.needs & (needs::angle | needs::tool_axis)) == 0) plan.estimate = estimate;
+    if ((row.needs & all_derivatives) != 0 && (row.needs & (needs::angle | needs::tool_axis)) == 0)
+        plan.estimate = estimate;
     const bool of_axis = (row.needs & needs::tool_axis) != 0;
     if (of_axis && path.kinematics == nullptr) {
-        throw UsageError(fmt::format("field '{}' needs the kinematics of a machine with rotary axes", row.name), "--machine FILE says them");
+        throw UsageError(fmt::format("field '{}' needs the kinematics of a machine with rotary axes", row.name),
+                         "--machine FILE says them");
     }
     for (int d = 1; d <= 3; ++d) {
         if ((row.needs & (needs::velocity << (d - 1))) == 0) continue;
         plan.derivative = d;
         if (plan.estimate != nullptr) continue;
-        plan.derivatives[static_cast<std::size_t>(d - 1)].emplace(derivative_filter(d, log.period, derivation.coarsest_period));
+        plan.derivatives[static_cast<std::size_t>(d - 1)].emplace(
+            derivative_filter(d, log.period, derivation.coarsest_period));
         plan.reach = std::max(plan.reach, plan.derivatives[static_cast<std::size_t>(d - 1)]->reach());
     }
     if ((row.needs & needs::error) != 0) {
         const Role measured = path.role == Role::commanded ? Role::feedback : path.role;
         for (const Role role : {Role::commanded, measured}) {
             if (log.has(role)) continue;
-            throw UsageError(fmt::format("field '{}' needs {} positions, which the log does not have", row.name, name_of(role)));
+            throw UsageError(
+                fmt::format("field '{}' needs {} positions, which the log does not have", row.name, name_of(role)));
         }
-        const auto positions = [&](Role role) { return of_axis ? tool_axes(log, role, path.kinematics) : reconstruct_like(log, role, path); };
+        const auto positions = [&](Role role) {
+            return of_axis ? tool_axes(log, role, path.kinematics) : reconstruct_like(log, role, path);
+        };
         plan.commanded = positions(Role::commanded);
         plan.measured = positions(measured);
     } else if (of_axis) {
@@ -97,7 +105,8 @@ Plan plan_for(const FieldRow& row, const Log& log, const Trajectory& path, const
     } else if ((row.needs & needs::angle) != 0) {
         const char letter = row.name.back();
         if (log.find(fmt::format("{}.{}", prefix_of(path.role), letter)) == nullptr) {
-            throw UsageError(fmt::format("field '{}' needs {} positions of axis {}, which the log does not have", row.name, name_of(path.role), letter));
+            throw UsageError(fmt::format("field '{}' needs {} positions of axis {}, which the log does not have",
+                                         row.name, name_of(path.role), letter));
         }
         plan.other = axis_angle(log, path.role, letter);
     }
@@ -105,8 +114,8 @@ Plan plan_for(const FieldRow& row, const Log& log, const Trajectory& path, const
 }
 
 /// Values of points [first, last] of a piece.
-void compute_stretch(const FieldRow& row, const Plan& plan, const Trajectory& path, PointRange piece,
-                     PointIndex first, PointIndex last, Scratch& scratch, float* out) {
+void compute_stretch(const FieldRow& row, const Plan& plan, const Trajectory& path, PointRange piece, PointIndex first,
+                     PointIndex last, Scratch& scratch, float* out) {
     FieldBlock block{};
     block.first = first;
     block.count = static_cast<std::size_t>(last - first + 1);
@@ -165,8 +174,8 @@ void compute_stretch(const FieldRow& row, const Plan& plan, const Trajectory& pa
     row.compute(block, out);
 }
 
-void compute_range(const FieldRow& row, const Plan& plan, const Trajectory& path,
-                   const std::vector<PointRange>& pieces, PointRange points, float* out) {
+void compute_range(const FieldRow& row, const Plan& plan, const Trajectory& path, const std::vector<PointRange>& pieces,
+                   PointRange points, float* out) {
     Scratch scratch;
     auto piece = std::upper_bound(pieces.begin(), pieces.end(), points.first,
                                   [](PointIndex p, const PointRange& r) { return p < r.first; });
@@ -211,10 +220,13 @@ void unknown_field(std::string_view name, const std::vector<FieldInfo>& fields) 
     std::vector<std::string_view> names;
     for (const FieldInfo& f : fields) names.push_back(f.name);
     const std::string nearest = did_you_mean(name, names);
-    throw UsageError("unknown field '" + std::string(name) + "'", nearest.empty() ? "`clsurf help fields` lists them" : nearest);
+    throw UsageError("unknown field '" + std::string(name) + "'",
+                     nearest.empty() ? "`clsurf help fields` lists them" : nearest);
 }
 
-bool FieldSet::has(std::string_view name) const { return find_field_row(name) != nullptr || name == "time" || channel_of(log_, name) != nullptr; }
+bool FieldSet::has(std::string_view name) const {
+    return find_field_row(name) != nullptr || name == "time" || channel_of(log_, name) != nullptr;
+}
 
 Field FieldSet::get(std::string_view name) const {
     Field field;
@@ -236,7 +248,8 @@ Field FieldSet::get(std::string_view name) const {
     if (name == "time") {
         field.info = {"time", "Time", unit::s, FieldScale::sequential, {}};
         for_each_block(log_.records, [&](PointIndex first, PointIndex last) {
-            for (PointIndex i = first; i < last; ++i) field.values[static_cast<std::size_t>(i)] = static_cast<float>(log_.time_of(i));
+            for (PointIndex i = first; i < last; ++i)
+                field.values[static_cast<std::size_t>(i)] = static_cast<float>(log_.time_of(i));
         });
         return field;
     }
@@ -248,7 +261,8 @@ Field FieldSet::get(std::string_view name) const {
         for (PointIndex begin = first; begin < last; begin += 2048) {
             const auto n = static_cast<std::size_t>(std::min<PointIndex>(2048, last - begin));
             copy_block(channel->values, begin, {scratch.data(), n});
-            for (std::size_t i = 0; i < n; ++i) field.values[static_cast<std::size_t>(begin) + i] = static_cast<float>(scratch[i]);
+            for (std::size_t i = 0; i < n; ++i)
+                field.values[static_cast<std::size_t>(begin) + i] = static_cast<float>(scratch[i]);
         }
     });
     return field;
@@ -268,7 +282,8 @@ std::vector<FieldInfo> known_fields(const Log* log) {
     fields.push_back({"time", "Time", unit::s, FieldScale::sequential, {}});
     if (log == nullptr) return fields;
     for (const Channel& channel : log->channels) {
-        const bool taken = std::any_of(fields.begin(), fields.end(), [&](const FieldInfo& f) { return f.name == channel.name; });
+        const bool taken =
+            std::any_of(fields.begin(), fields.end(), [&](const FieldInfo& f) { return f.name == channel.name; });
         fields.push_back(info_of(channel, taken ? "log." + channel.name : channel.name));
     }
     return fields;

@@ -29,7 +29,8 @@ double tangential(const FieldBlock& b, std::size_t i) {
     const double v = norm(b.velocity, i);
     if (!(v > slowest_for_direction)) return std::numeric_limits<double>::quiet_NaN();
     return (b.acceleration[0][i] * b.velocity[0][i] + b.acceleration[1][i] * b.velocity[1][i] +
-            b.acceleration[2][i] * b.velocity[2][i]) / v;
+            b.acceleration[2][i] * b.velocity[2][i]) /
+           v;
 }
 
 /// |v × a|.
@@ -63,15 +64,25 @@ double following_error(const FieldBlock& b, std::size_t i) {
 double uncertainty_of(const FieldBlock& b, std::size_t i) { return b.uncertainty[i]; }
 
 template <int axis>
-double position_of(const FieldBlock& b, std::size_t i) { return b.position[axis][i]; }
+double position_of(const FieldBlock& b, std::size_t i) {
+    return b.position[axis][i];
+}
 template <int axis>
-double velocity_of(const FieldBlock& b, std::size_t i) { return b.velocity[axis][i]; }
+double velocity_of(const FieldBlock& b, std::size_t i) {
+    return b.velocity[axis][i];
+}
 template <int axis>
-double acceleration_of(const FieldBlock& b, std::size_t i) { return b.acceleration[axis][i]; }
+double acceleration_of(const FieldBlock& b, std::size_t i) {
+    return b.acceleration[axis][i];
+}
 template <int axis>
-double jerk_of(const FieldBlock& b, std::size_t i) { return b.jerk[axis][i]; }
+double jerk_of(const FieldBlock& b, std::size_t i) {
+    return b.jerk[axis][i];
+}
 template <int axis>
-double error_of(const FieldBlock& b, std::size_t i) { return b.measured[axis][i] - b.commanded[axis][i]; }
+double error_of(const FieldBlock& b, std::size_t i) {
+    return b.measured[axis][i] - b.commanded[axis][i];
+}
 
 /// Angle between commanded and measured tool axis, by atan2: good near 0.
 double orientation_error(const FieldBlock& b, std::size_t i) {
@@ -116,7 +127,7 @@ void contour_error(const FieldBlock& b, float* out) {
     }
 }
 
-constexpr Unit deg_min{"deg/min", deg_per_rad * seconds_per_minute};
+constexpr Unit deg_min{"deg/min", (deg_per_rad * seconds_per_minute)};
 constexpr Unit deg_s2{"deg/s²", deg_per_rad};
 constexpr FieldScale up = FieldScale::sequential;
 constexpr FieldScale both = FieldScale::diverging;
@@ -125,8 +136,10 @@ constexpr auto table = std::to_array<FieldRow>({
     {"speed", "Path speed", unit::mm_min, up, needs::velocity, each<speed>},
     {"acceleration", "Acceleration", unit::mm_s2, up, needs::acceleration, each<acceleration>},
     {"jerk", "Jerk", unit::mm_s3, up, needs::jerk, each<jerk>},
-    {"tangential_acceleration", "Acceleration along the path", unit::mm_s2, both, needs::velocity | needs::acceleration, each<tangential>},
-    {"normal_acceleration", "Acceleration across the path", unit::mm_s2, up, needs::velocity | needs::acceleration, each<normal>},
+    {"tangential_acceleration", "Acceleration along the path", unit::mm_s2, both, needs::velocity | needs::acceleration,
+     each<tangential>},
+    {"normal_acceleration", "Acceleration across the path", unit::mm_s2, up, needs::velocity | needs::acceleration,
+     each<normal>},
     {"curvature", "Curvature of the path", unit::per_mm, up, needs::velocity | needs::acceleration, each<curvature>},
     {"following_error", "Following error", unit::um, up, needs::error, each<following_error>},
     {"contour_error", "Contour error", unit::um, up, needs::error, contour_error},
@@ -145,10 +158,14 @@ constexpr auto table = std::to_array<FieldRow>({
     {"position.x", "Position X", unit::mm, up, needs::position, each<position_of<0>>},
     {"position.y", "Position Y", unit::mm, up, needs::position, each<position_of<1>>},
     {"position.z", "Position Z", unit::mm, up, needs::position, each<position_of<2>>},
-    {"speed_uncertainty", "Standard deviation of the path speed", unit::mm_min, up, needs::velocity | needs::uncertainty, each<uncertainty_of>},
-    {"acceleration_uncertainty", "Standard deviation of the acceleration", unit::mm_s2, up, needs::acceleration | needs::uncertainty, each<uncertainty_of>},
-    {"jerk_uncertainty", "Standard deviation of the jerk", unit::mm_s3, up, needs::jerk | needs::uncertainty, each<uncertainty_of>},
-    {"orientation_error", "Error of the tool axis", unit::deg, up, needs::error | needs::tool_axis, each<orientation_error>},
+    {"speed_uncertainty", "Standard deviation of the path speed", unit::mm_min, up,
+     needs::velocity | needs::uncertainty, each<uncertainty_of>},
+    {"acceleration_uncertainty", "Standard deviation of the acceleration", unit::mm_s2, up,
+     needs::acceleration | needs::uncertainty, each<uncertainty_of>},
+    {"jerk_uncertainty", "Standard deviation of the jerk", unit::mm_s3, up, needs::jerk | needs::uncertainty,
+     each<uncertainty_of>},
+    {"orientation_error", "Error of the tool axis", unit::deg, up, needs::error | needs::tool_axis,
+     each<orientation_error>},
     {"tool_axis_speed", "Speed of the tool axis", deg_min, up, needs::velocity | needs::tool_axis, each<speed>},
     {"tool_axis.x", "Tool axis X", unit::none, both, needs::position | needs::tool_axis, each<position_of<0>>},
     {"tool_axis.y", "Tool axis Y", unit::none, both, needs::position | needs::tool_axis, each<position_of<1>>},

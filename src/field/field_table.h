@@ -19,7 +19,7 @@ struct FieldBlock {
     const double* commanded[3];
     const double* measured[3];
     const double* uncertainty;
-    PointIndex first = 0;   ///< of the block
+    PointIndex first = 0;  ///< of the block
     std::size_t count = 0;
     double period = 0;
 };
@@ -31,7 +31,7 @@ inline constexpr unsigned position = 1, velocity = 2, acceleration = 4, jerk = 8
 inline constexpr unsigned angle = 32, tool_axis = 64;
 /// Standard deviation that the Kalman smoother leaves of the derivative that the row needs.
 inline constexpr unsigned uncertainty = 128;
-}
+}  // namespace needs
 
 struct FieldRow {
     std::string_view name, label;

@@ -74,8 +74,12 @@ ShownRange find_range(const Field& field, const Passes& passes, const RangeRule&
     const double unit = field.info.unit.per_inside;
     ShownRange range{rule.low, rule.high, values.lowest * unit, values.highest * unit, "range as given"};
     if (fixed) return range;
-    if (shown && values.cutting == 0) throw UsageError("no cutting point lies in the part that is shown", "another --box or --zoom, or a fixed --range MIN,MAX");
-    if (values.sampled.empty()) throw InputError({}, "field '" + field.info.name + "' has no value on any cutting point", "too few points, or the program and the log do not belong together?");
+    if (shown && values.cutting == 0)
+        throw UsageError("no cutting point lies in the part that is shown",
+                         "another --box or --zoom, or a fixed --range MIN,MAX");
+    if (values.sampled.empty())
+        throw InputError({}, "field '" + field.info.name + "' has no value on any cutting point",
+                         "too few points, or the program and the log do not belong together?");
     const bool automatic = rule.kind == RangeRule::Kind::automatic;
     const double p_low = automatic ? automatic_low : rule.low;
     const double p_high = automatic ? automatic_high : rule.high;
@@ -93,7 +97,8 @@ ShownRange find_range(const Field& field, const Passes& passes, const RangeRule&
 }
 
 ShownRange wider(const ShownRange& a, const ShownRange& b) {
-    return {std::min(a.low, b.low), std::max(a.high, b.high), std::min(a.lowest, b.lowest), std::max(a.highest, b.highest), a.note + ", the wider of both logs"};
+    return {std::min(a.low, b.low), std::max(a.high, b.high), std::min(a.lowest, b.lowest),
+            std::max(a.highest, b.highest), a.note + ", the wider of both logs"};
 }
 
 std::vector<double> percentiles_of_size(const Field& field, const Passes& passes, std::span<const double> percentiles) {
@@ -102,7 +107,9 @@ std::vector<double> percentiles_of_size(const Field& field, const Passes& passes
     const double largest = std::max(std::abs(values.lowest), std::abs(values.highest));
     std::vector<double> found;
     for (const double p : percentiles) {
-        const double value = values.sampled.empty() ? std::numeric_limits<double>::quiet_NaN() : p >= 100 ? largest : nearest_quantile(values.sampled, p / 100);
+        const double value = values.sampled.empty() ? std::numeric_limits<double>::quiet_NaN()
+                             : p >= 100             ? largest
+                                                    : nearest_quantile(values.sampled, p / 100);
         found.push_back(value * field.info.unit.per_inside);
     }
     return found;

@@ -20,7 +20,7 @@ struct RangeRule {
 struct ShownRange {
     double low = 0, high = 0;        ///< in shown units
     double lowest = 0, highest = 0;  ///< of all cutting points that are shown
-    std::string note;          ///< what the rule did, for the picture's footnote
+    std::string note;                ///< what the rule did, for the picture's footnote
 };
 
 /// Which points the picture shows; empty: all.
@@ -37,6 +37,7 @@ using ShownPoints = std::function<bool(PointIndex)>;
 
 /// Percentiles (0 … 100) of |value| in shown units, over some 10^6 evenly spaced cutting points; the 100th is the
 /// largest of all. NaN where no cutting point has a value. O(points).
-[[nodiscard]] std::vector<double> percentiles_of_size(const Field& field, const Passes& passes, std::span<const double> percentiles);
+[[nodiscard]] std::vector<double> percentiles_of_size(const Field& field, const Passes& passes,
+                                                      std::span<const double> percentiles);
 
 }  // namespace clsurf

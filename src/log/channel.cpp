@@ -43,8 +43,8 @@ constexpr auto conversions = std::to_array<Conversion>({
     {"cm", "mm", 10.0},
     {"m", "mm", 1e3},
     {"um", "mm", 1e-3},
-    {"µm", "mm", 1e-3},  // U+00B5, micro sign
-    {"μm", "mm", 1e-3},  // U+03BC, Greek mu
+    {"µm", "mm", 1e-3},     // U+00B5, micro sign
+    {"μm", "mm", 1e-3},     // U+03BC, Greek mu
     {"\xb5m", "mm", 1e-3},  // micro sign of ISO 8859-1
     {"nm", "mm", 1e-6},
     {"deg", "deg", 1.0},
@@ -65,7 +65,7 @@ constexpr auto conversions = std::to_array<Conversion>({
     {"in/min", "mm/min", mm_per_inch},
     {"deg/min", "deg/min", 1.0},
     {"deg/s", "deg/min", seconds_per_minute},
-    {"rad/s", "deg/min", deg_per_rad * seconds_per_minute},
+    {"rad/s", "deg/min", (deg_per_rad * seconds_per_minute)},
     {"mm/s²", "mm/s²", 1.0},
     {"mm/s^2", "mm/s²", 1.0},
     {"m/s²", "mm/s²", 1e3},
@@ -77,7 +77,8 @@ constexpr auto conversions = std::to_array<Conversion>({
 /// nullptr: no name that the project knows.
 const ChannelInfo* info_of(std::string_view name) {
     const auto found = std::find_if(table.begin(), table.end(), [&](const ChannelInfo& info) {
-        return info.name.ends_with('.') ? name.size() == info.name.size() + 1 && name.starts_with(info.name) : name == info.name;
+        return info.name.ends_with('.') ? name.size() == info.name.size() + 1 && name.starts_with(info.name)
+                                        : name == info.name;
     });
     return found == table.end() ? nullptr : &*found;
 }
@@ -86,7 +87,8 @@ const ChannelInfo* info_of(std::string_view name) {
 std::string_view unit_of(std::string_view name) {
     const ChannelInfo* info = info_of(name);
     if (info == nullptr) return {};
-    const bool rotary = name.back() >= 'a' && name.back() <= 'c' && info->name.ends_with('.') && !info->rotary_unit.empty();
+    const bool rotary =
+        name.back() >= 'a' && name.back() <= 'c' && info->name.ends_with('.') && !info->rotary_unit.empty();
     return rotary ? info->rotary_unit : info->unit;
 }
 
@@ -102,12 +104,21 @@ void settle_unit(Log& log, Channel& channel) {
     const auto found = std::find_if(conversions.begin(), conversions.end(),
                                     [&](const Conversion& c) { return leads_to(c) && c.unit == channel.unit; });
     if (found == conversions.end()) {
-        log.diagnostics.add({Severity::warning, "log.unit", Place::of_file(log.name),
-                             fmt::format("channel '{}' has the unit '{}', which is not understood: its values are taken as {}", channel.name, channel.unit, wanted), {}});
+        log.diagnostics.add(
+            {Severity::warning,
+             "log.unit",
+             Place::of_file(log.name),
+             fmt::format("channel '{}' has the unit '{}', which is not understood: its values are taken as {}",
+                         channel.name, channel.unit, wanted),
+             {}});
         return;
     }
-    log.diagnostics.add({Severity::note, "log.unit", Place::of_file(log.name),
-                         fmt::format("channel '{}' is recorded in {} and read in {}", channel.name, channel.unit, wanted), {}});
+    log.diagnostics.add(
+        {Severity::note,
+         "log.unit",
+         Place::of_file(log.name),
+         fmt::format("channel '{}' is recorded in {} and read in {}", channel.name, channel.unit, wanted),
+         {}});
     channel.values.scale *= found->factor;
     channel.values.bias *= found->factor;
     channel.unit = std::string(wanted);
@@ -126,8 +137,11 @@ void settle_time_origin(Log& log, Channel& time) {
     if (log.records == 0) return;
     const double origin = time.values.at(0);
     if (!std::isfinite(origin) || origin == 0) return;
-    log.diagnostics.add({Severity::note, "log.time-origin", Place::of_point(log.name, 0),
-                         fmt::format("the clock begins at {:.6f} s; time is counted from the first record", origin), {}});
+    log.diagnostics.add({Severity::note,
+                         "log.time-origin",
+                         Place::of_point(log.name, 0),
+                         fmt::format("the clock begins at {:.6f} s; time is counted from the first record", origin),
+                         {}});
     time.values.bias -= origin;
 }
 
@@ -153,16 +167,19 @@ void settle_names(Log& log) {
         const std::string name = settled_name(channel.name);
         if (log.find(name) == nullptr) channel.name = name;
     }
-    if (std::any_of(log.channels.begin(), log.channels.end(), [](const Channel& c) { return is_position(c.name); })) return;
+    if (std::any_of(log.channels.begin(), log.channels.end(), [](const Channel& c) { return is_position(c.name); }))
+        return;
     std::string taken;
     for (const std::string_view axis : axes) {
-        const auto found = std::find_if(log.channels.begin(), log.channels.end(), [&](const Channel& c) { return c.name == axis; });
+        const auto found =
+            std::find_if(log.channels.begin(), log.channels.end(), [&](const Channel& c) { return c.name == axis; });
         if (found == log.channels.end()) continue;
         taken += (taken.empty() ? "" : ", ") + found->name;
         found->name = "cmd." + std::string(axis);
     }
     if (taken.empty()) return;
-    log.diagnostics.add({Severity::note, "log.roles", Place::of_file(log.name), fmt::format("whose positions {} are is not said: they are taken as the commanded ones", taken),
+    log.diagnostics.add({Severity::note, "log.roles", Place::of_file(log.name),
+                         fmt::format("whose positions {} are is not said: they are taken as the commanded ones", taken),
                          "`--mapping` names them: cmd.x, fb.x, act.x"});
 }
 

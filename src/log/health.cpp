@@ -19,7 +19,8 @@ void check_channels(const Log& log, Diagnostics& found) {
     };
     const bool measured = log.has(Role::feedback) || log.has(Role::actual);
     if (!log.has(Role::commanded) && !measured) {
-        add(Severity::error, "no role has x, y and z: nothing can be drawn", "name the channels with --mapping or --layout");
+        add(Severity::error, "no role has x, y and z: nothing can be drawn",
+            "name the channels with --mapping or --layout");
         return;
     }
     if (!log.has(Role::commanded)) add(Severity::note, "no commanded positions (cmd.x, cmd.y, cmd.z)", "");
@@ -31,8 +32,14 @@ void check_channels(const Log& log, Diagnostics& found) {
 double check_period(const Log& log, Diagnostics& found) {
     const double measured = log.measured_period();
     if (measured == 0 || std::abs(measured - log.period) < period_share * log.period) return log.period;
-    found.add({Severity::warning, "log.period", Place::of_file(log.name),
-               fmt::format("the clock steps by {:.6f} s, the log states a period of {:.6f} s: speeds are wrong by a factor of {:.4g}", measured, log.period, measured / log.period), {}});
+    found.add(
+        {Severity::warning,
+         "log.period",
+         Place::of_file(log.name),
+         fmt::format(
+             "the clock steps by {:.6f} s, the log states a period of {:.6f} s: speeds are wrong by a factor of {:.4g}",
+             measured, log.period, measured / log.period),
+         {}});
     return measured;
 }
 
@@ -41,20 +48,36 @@ void check_ranges(const Log& log, const std::vector<ChannelRange>& ranges, Diagn
         const Channel& channel = log.channels[c];
         const ChannelRange& range = ranges[c];
         if (range.missing > 0) {
-            found.add({Severity::warning, "log.missing-value", Place::of_point(log.name, range.first_missing),
-                       fmt::format("channel '{}' has no value at {} of {} points, here for the first time", channel.name, range.missing, log.records), {}});
+            found.add({Severity::warning,
+                       "log.missing-value",
+                       Place::of_point(log.name, range.first_missing),
+                       fmt::format("channel '{}' has no value at {} of {} points, here for the first time",
+                                   channel.name, range.missing, log.records),
+                       {}});
         }
         if (range.low != range.high || log.records < 2) continue;
         for (const Role role : {Role::commanded, Role::feedback, Role::actual}) {
             const std::string_view prefix = prefix_of(role);
             if (!channel.name.starts_with(std::string(prefix) + ".")) continue;
-            const Channel* commanded = log.find(std::string(prefix_of(Role::commanded)) + channel.name.substr(prefix.size()));
-            const ChannelRange* given = commanded == nullptr ? nullptr : &ranges[static_cast<std::size_t>(commanded - log.channels.data())];
+            const Channel* commanded =
+                log.find(std::string(prefix_of(Role::commanded)) + channel.name.substr(prefix.size()));
+            const ChannelRange* given =
+                commanded == nullptr ? nullptr : &ranges[static_cast<std::size_t>(commanded - log.channels.data())];
             if (given != nullptr && given->high - given->low > moving) {
-                found.add({Severity::warning, "log.still", Place::of_file(log.name),
-                           fmt::format("{} stays at {:g} {} while {} moves over {:.3f} {}: the channel is dead", channel.name, range.low, channel.unit, commanded->name, given->high - given->low, commanded->unit), {}});
+                found.add(
+                    {Severity::warning,
+                     "log.still",
+                     Place::of_file(log.name),
+                     fmt::format("{} stays at {:g} {} while {} moves over {:.3f} {}: the channel is dead", channel.name,
+                                 range.low, channel.unit, commanded->name, given->high - given->low, commanded->unit),
+                     {}});
             } else {
-                found.add({Severity::note, "log.still", Place::of_file(log.name), fmt::format("axis '{}' does not move: {:g} {} all the time", channel.name, range.low, channel.unit), {}});
+                found.add({Severity::note,
+                           "log.still",
+                           Place::of_file(log.name),
+                           fmt::format("axis '{}' does not move: {:g} {} all the time", channel.name, range.low,
+                                       channel.unit),
+                           {}});
             }
         }
     }

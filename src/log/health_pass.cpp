@@ -14,14 +14,14 @@
 namespace clsurf {
 namespace {
 
-constexpr double gap_periods = 1.5;      ///< a longer step in time lost records
-constexpr double jitter_share = 0.05;    ///< of a period, rms; less is not worth a word
-constexpr double impossible = 1e5;       ///< [mm/s²] 10 g: what no feed axis does
-constexpr double least_jump = 0.05;      ///< [mm]
-constexpr double jump_factor = 3.0;      ///< times longer than the steps beside it
-constexpr double heading_chord = 0.5;    ///< [mm] over which the heading is taken
-constexpr double least_turn = 0.05;      ///< [rad] less is noise and fine chords of a curve
-constexpr double stuck_way = 50.0;       ///< [mm] at least, on one line
+constexpr double gap_periods = 1.5;                  ///< a longer step in time lost records
+constexpr double jitter_share = 0.05;                ///< of a period, rms; less is not worth a word
+constexpr double impossible = 1e5;                   ///< [mm/s²] 10 g: what no feed axis does
+constexpr double least_jump = 0.05;                  ///< [mm]
+constexpr double jump_factor = 3.0;                  ///< times longer than the steps beside it
+constexpr double heading_chord = 0.5;                ///< [mm] over which the heading is taken
+constexpr double least_turn = 0.05;                  ///< [rad] less is noise and fine chords of a curve
+constexpr double stuck_way = 50.0;                   ///< [mm] at least, on one line
 constexpr double stuck_turn = 3 * std::numbers::pi;  ///< [rad] to the left, and as much to the right
 
 constexpr PointIndex before = 2;      ///< records that a stretch looks back
@@ -43,8 +43,8 @@ bool is_real(const Channel& channel) {
 struct LineRun {
     double line = 0;
     PointIndex first = 0, end = 0;  ///< end exclusive
-    double way = 0;              ///< [mm]
-    double left = 0, right = 0;  ///< [rad] turned, seen along Z
+    double way = 0;                 ///< [mm]
+    double left = 0, right = 0;     ///< [rad] turned, seen along Z
 
     [[nodiscard]] bool stuck() const { return line > 0 && way > stuck_way && std::min(left, right) > stuck_turn; }
     void append(const LineRun& next) {
@@ -81,9 +81,9 @@ private:
 };
 
 struct Limits {
-    double period = 0;      ///< [s]
-    double jump = 0;        ///< [mm]
-    double last_line = 0;   ///< of the program; infinite: not known
+    double period = 0;     ///< [s]
+    double jump = 0;       ///< [mm]
+    double last_line = 0;  ///< of the program; infinite: not known
 };
 
 struct BlockSummary {
@@ -92,7 +92,7 @@ struct BlockSummary {
     double squares = 0, worst = 0;  ///< of the clock's differences from the period
     PointIndex steps = 0;
     double highest_line = 0;
-    std::vector<LineRun> runs;      ///< the first and the last, and stuck ones between
+    std::vector<LineRun> runs;  ///< the first and the last, and stuck ones between
 };
 
 /// Which channels of a log mean what.
@@ -124,7 +124,8 @@ class BlockPass {
 public:
     BlockPass(const Log& log, const Meanings& meanings, const Limits& limits)
         : log_(log), meanings_(meanings), limits_(limits), values_(log.channels.size()) {
-        summary_.ranges.resize(log.channels.size(), {0, -1, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()});
+        summary_.ranges.resize(log.channels.size(), {0, -1, std::numeric_limits<double>::infinity(),
+                                                     -std::numeric_limits<double>::infinity()});
     }
 
     BlockSummary run(PointIndex first, PointIndex last) {
@@ -150,11 +151,14 @@ public:
     }
 
 private:
-    [[nodiscard]] double value(std::size_t channel, PointIndex i) const { return values_[channel][static_cast<std::size_t>(i - window_)]; }
+    [[nodiscard]] double value(std::size_t channel, PointIndex i) const {
+        return values_[channel][static_cast<std::size_t>(i - window_)];
+    }
     /// From the record before to i [mm]; 0 before the first record, NaN where a value is missing.
     [[nodiscard]] Vec3 step(const std::array<std::size_t, 3>& axes, PointIndex i) const {
         if (i < 1 || i >= log_.records) return Vec3::Zero();
-        return {value(axes[0], i) - value(axes[0], i - 1), value(axes[1], i) - value(axes[1], i - 1), value(axes[2], i) - value(axes[2], i - 1)};
+        return {value(axes[0], i) - value(axes[0], i - 1), value(axes[1], i) - value(axes[1], i - 1),
+                value(axes[2], i) - value(axes[2], i - 1)};
     }
     void warn(const char* code, PointIndex point, std::string text) {
         summary_.diagnostics.add({Severity::warning, code, Place::of_point(log_.name, point), std::move(text), {}});
@@ -178,10 +182,13 @@ private:
             const double t = value(*meanings_.time, i);
             const double dt = t - value(*meanings_.time, i - 1);
             if (dt <= 0) {
-                warn("log.time-back", i, fmt::format("time {}: {:.6f} s after {:.6f} s", dt < 0 ? "goes back" : "stands still", t, t - dt));
+                warn("log.time-back", i,
+                     fmt::format("time {}: {:.6f} s after {:.6f} s", dt < 0 ? "goes back" : "stands still", t, t - dt));
             } else if (dt > gap_periods * limits_.period) {
                 gap_[static_cast<std::size_t>(i - begin_)] = true;
-                warn("log.time-gap", i, fmt::format("{:.0f} records are missing: a step of {:.6f} s, the period is {:.6f} s", std::max(1.0, std::round(dt / limits_.period) - 1), dt, limits_.period));
+                warn("log.time-gap", i,
+                     fmt::format("{:.0f} records are missing: a step of {:.6f} s, the period is {:.6f} s",
+                                 std::max(1.0, std::round(dt / limits_.period) - 1), dt, limits_.period));
             } else if (dt > 0) {
                 const double off = std::abs(dt - limits_.period);
                 summary_.squares += off * off;
@@ -205,7 +212,9 @@ private:
             if (!(length > jump_factor * last_length) || !(length > jump_factor * next.norm() || comes_back)) continue;
             std::string role = log_.channels[axes[0]].name;
             role.resize(role.find('.'));
-            warn("log.jump", i, fmt::format("the position {} jumps by {:.3f} mm in one period; the step before it is {:.3f} mm{}", role, length, last_length, comes_back ? ", the next one comes back" : ""));
+            warn("log.jump", i,
+                 fmt::format("the position {} jumps by {:.3f} mm in one period; the step before it is {:.3f} mm{}",
+                             role, length, last_length, comes_back ? ", the next one comes back" : ""));
         }
     }
 
@@ -217,12 +226,16 @@ private:
             const double next = i + 1 < log_.records ? value(line, i + 1) : now;
             const bool known = now >= 0 && now <= limits_.last_line && now == std::floor(now);
             if (!known) {
-                warn("log.line-range", i, std::isfinite(limits_.last_line) ? fmt::format("line {} is none of the program's {:.0f} lines", now, limits_.last_line) : fmt::format("{} is no line number", now));
+                warn("log.line-range", i,
+                     std::isfinite(limits_.last_line)
+                         ? fmt::format("line {} is none of the program's {:.0f} lines", now, limits_.last_line)
+                         : fmt::format("{} is no line number", now));
             } else {
                 summary_.highest_line = std::max(summary_.highest_line, now);
                 // To 0 and back is a pause between blocks; to the next line and back a blend.
                 if (now > 0 && last > 0 && last == next && std::abs(now - last) > 1) {
-                    warn("log.line-wild", i, fmt::format("line {:.0f} for one record, between records of line {:.0f}", now, last));
+                    warn("log.line-wild", i,
+                         fmt::format("line {:.0f} for one record, between records of line {:.0f}", now, last));
                 }
             }
             follow_run(now, i);
@@ -270,7 +283,8 @@ private:
 class Join {
 public:
     Join(const Log& log, const Limits& limits) : log_(log), limits_(limits) {
-        found_.ranges.resize(log.channels.size(), {0, -1, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()});
+        found_.ranges.resize(log.channels.size(), {0, -1, std::numeric_limits<double>::infinity(),
+                                                   -std::numeric_limits<double>::infinity()});
     }
 
     void add(const BlockSummary& block) {
@@ -302,10 +316,16 @@ public:
         close_run();
         const double rms = steps_ > 0 ? std::sqrt(squares_ / static_cast<double>(steps_)) : 0.0;
         if (rms > jitter_share * limits_.period) {
-            found_.diagnostics.add({Severity::warning, "log.jitter", Place::of_file(log_.name), fmt::format("the period of {:.6f} s jitters by {:.3g} ms rms, {:.3g} ms at most", limits_.period, rms * 1e3, worst_ * 1e3), {}});
+            found_.diagnostics.add({Severity::warning,
+                                    "log.jitter",
+                                    Place::of_file(log_.name),
+                                    fmt::format("the period of {:.6f} s jitters by {:.3g} ms rms, {:.3g} ms at most",
+                                                limits_.period, rms * 1e3, worst_ * 1e3),
+                                    {}});
         }
         if (has_line && highest_line_ == 0) {
-            found_.diagnostics.add({Severity::warning, "log.line-stuck", Place::of_file(log_.name), "the line number is 0 all the time", "--ignore-lines finds the lines by geometry"});
+            found_.diagnostics.add({Severity::warning, "log.line-stuck", Place::of_file(log_.name),
+                                    "the line number is 0 all the time", "--ignore-lines finds the lines by geometry"});
         }
         return std::move(found_);
     }
@@ -313,10 +333,12 @@ public:
 private:
     void close_run() {
         if (!have_run_ || !run_.stuck()) return;
-        found_.diagnostics.add({Severity::warning, "log.line-stuck", Place::of_point(log_.name, run_.first),
-                                fmt::format("the line number stays {:.0f} for {:.1f} mm, while the tool turns left by {:.0f}° and right by {:.0f}°: more than one motion",
-                                            run_.line, run_.way, run_.left * 180 / std::numbers::pi, run_.right * 180 / std::numbers::pi),
-                                "--ignore-lines finds the lines by geometry"});
+        found_.diagnostics.add(
+            {Severity::warning, "log.line-stuck", Place::of_point(log_.name, run_.first),
+             fmt::format(
+                 "the line number stays {:.0f} for {:.1f} mm, while the tool turns left by {:.0f}° and right by {:.0f}°: more than one motion",
+                 run_.line, run_.way, run_.left * 180 / std::numbers::pi, run_.right * 180 / std::numbers::pi),
+             "--ignore-lines finds the lines by geometry"});
     }
 
     const Log& log_;
@@ -332,8 +354,9 @@ private:
 }  // namespace
 
 RecordFindings check_records(const Log& log, double period, LineNumber program_lines) {
-    const Limits limits{period, std::max(least_jump, impossible * period * period),
-                        program_lines > 0 ? static_cast<double>(program_lines) : std::numeric_limits<double>::infinity()};
+    const Limits limits{
+        period, std::max(least_jump, impossible * period * period),
+        program_lines > 0 ? static_cast<double>(program_lines) : std::numeric_limits<double>::infinity()};
     const Meanings meanings(log);
     std::vector<BlockSummary> summaries(static_cast<std::size_t>((log.records + block_points - 1) / block_points));
     for_each_block(log.records, [&](PointIndex first, PointIndex last) {

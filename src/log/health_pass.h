@@ -10,9 +10,9 @@ namespace clsurf {
 
 /// What a channel does over the whole log.
 struct ChannelRange {
-    PointIndex missing = 0;        ///< NaN and infinite values
+    PointIndex missing = 0;  ///< NaN and infinite values
     PointIndex first_missing = -1;
-    double low = 0, high = 0;      ///< of the others; low > high: there is none
+    double low = 0, high = 0;  ///< of the others; low > high: there is none
 };
 
 struct RecordFindings {

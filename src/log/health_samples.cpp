@@ -19,7 +19,7 @@ constexpr double resting_step = 1e-4;    ///< [mm] per record that feedback may 
 constexpr std::size_t least_resting = 50;
 constexpr std::size_t least_moving = 1000;  ///< records each way
 constexpr double sure_sigmas = 5;
-constexpr double correlated = 100;       ///< records that are one measurement: errors change slowly
+constexpr double correlated = 100;  ///< records that are one measurement: errors change slowly
 
 /// Commanded against measured along one axis.
 class AxisOffset {
@@ -77,10 +77,13 @@ void check_offset_of_axis(const Log& log, const Channel& commanded, const Channe
     bool resting = false;
     const double offset = axis.offset(resting);
     if (std::abs(offset) < worth_offset) return;
-    found.add({Severity::warning, "log.offset", Place::of_file(log.name),
-               fmt::format("{} differs from {} by {:.4f} {} {}: a constant offset, not a lag", measured.name, commanded.name, offset, commanded.unit,
-                           resting ? "while the axis rests" : "whichever way the axis moves"),
-               {}});
+    found.add(
+        {Severity::warning,
+         "log.offset",
+         Place::of_file(log.name),
+         fmt::format("{} differs from {} by {:.4f} {} {}: a constant offset, not a lag", measured.name, commanded.name,
+                     offset, commanded.unit, resting ? "while the axis rests" : "whichever way the axis moves"),
+         {}});
 }
 
 }  // namespace
@@ -101,10 +104,15 @@ void check_quantum(const Log& log, Diagnostics& found) {
         for (const Channel& channel : log.channels) {
             if (!channel.name.starts_with(std::string(prefix_of(role)) + ".")) continue;
             const double quantum = quantum_of(channel.values);
-            if (quantum > 0) text += fmt::format("{}{} {:.3g} {}", text.empty() ? "" : ", ", channel.name, quantum, channel.unit);
+            if (quantum > 0)
+                text += fmt::format("{}{} {:.3g} {}", text.empty() ? "" : ", ", channel.name, quantum, channel.unit);
         }
         if (text.empty()) continue;
-        found.add({Severity::note, "log.quantum", Place::of_file(log.name), fmt::format("{} positions come in steps: {}", name_of(role), text), {}});
+        found.add({Severity::note,
+                   "log.quantum",
+                   Place::of_file(log.name),
+                   fmt::format("{} positions come in steps: {}", name_of(role), text),
+                   {}});
     }
 }
 

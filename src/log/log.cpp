@@ -33,8 +33,7 @@ const Channel* Log::find(std::string_view channel) const {
 
 bool Log::has(Role role) const {
     const std::string prefix(prefix_of(role));
-    return find(prefix + ".x") != nullptr && find(prefix + ".y") != nullptr &&
-           find(prefix + ".z") != nullptr;
+    return find(prefix + ".x") != nullptr && find(prefix + ".y") != nullptr && find(prefix + ".z") != nullptr;
 }
 
 double Log::time_of(PointIndex point) const {

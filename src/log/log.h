@@ -19,8 +19,8 @@ namespace clsurf {
 /// fed back, what the linear or ring scale measured.
 enum class Role : std::uint8_t { commanded, feedback, actual };
 
-[[nodiscard]] std::string_view name_of(Role role);      ///< "commanded", …
-[[nodiscard]] std::string_view prefix_of(Role role);    ///< "cmd", "fb", "act"
+[[nodiscard]] std::string_view name_of(Role role);    ///< "commanded", …
+[[nodiscard]] std::string_view prefix_of(Role role);  ///< "cmd", "fb", "act"
 
 struct Channel {
     std::string name;  ///< "cmd.x", "line", …: docs/formats/biip.md
@@ -30,7 +30,7 @@ struct Channel {
 
 struct ProgramReference {
     std::string name;
-    std::string sha256;  ///< 64 hexadecimal digits; empty: not recorded
+    std::string sha256;                 ///< 64 hexadecimal digits; empty: not recorded
     std::optional<std::uint64_t> size;  ///< [bytes]
 };
 
@@ -42,7 +42,7 @@ struct Log {
     bool closed = true;  ///< false: the writer was stopped before it finished
     std::vector<Channel> channels;
     std::vector<ProgramReference> programs;
-    std::string metadata;  ///< the JSON text that came with it; empty: none
+    std::string metadata;             ///< the JSON text that came with it; empty: none
     std::optional<Vec3> work_offset;  ///< [mm], machine = workpiece + offset, where the log tells
     Diagnostics diagnostics;
     std::shared_ptr<const void> keep_alive;

@@ -78,7 +78,9 @@ ToolPose Kinematics::to_workpiece(const Vec3& linear, const RotaryAngles& angles
             return {turned_by(from_centre, rotation, angles.rotation) + rotation_centre, axis_of(angles)};
         }
         case KinematicsType::head_head:
-            return {linear - turned_by(tilt_from_rotation + turned_by(tool, tilt, angles.tilt), rotation, angles.rotation), axis_of(angles)};
+            return {
+                linear - turned_by(tilt_from_rotation + turned_by(tool, tilt, angles.tilt), rotation, angles.rotation),
+                axis_of(angles)};
         case KinematicsType::table_head: {
             const Vec3 from_centre = linear - turned_by(tool, tilt, angles.tilt) - rotation_centre;
             return {turned_by(from_centre, rotation, angles.rotation) + rotation_centre, axis_of(angles)};
@@ -98,7 +100,8 @@ Vec3 Kinematics::to_axes(const Vec3& tip, const RotaryAngles& angles) const {
         case KinematicsType::head_head:
             return tip + turned_by(tilt_from_rotation + turned_by(tool, tilt, angles.tilt), rotation, angles.rotation);
         case KinematicsType::table_head:
-            return rotation_centre + turned_by(tip - rotation_centre, rotation, -angles.rotation) + turned_by(tool, tilt, angles.tilt);
+            return rotation_centre + turned_by(tip - rotation_centre, rotation, -angles.rotation) +
+                   turned_by(tool, tilt, angles.tilt);
     }
     return tip;
 }
@@ -129,17 +132,19 @@ RotarySolutions solve_rotary(const Kinematics& kinematics, const Vec3& axis, con
         found.tilt = angle_about(e1, k, z);
         found.rotation = solutions.pole ? before.rotation : angle_about(e2, z, axis);
     }
-    if (!one && solutions.angles[0].tilt < solutions.angles[1].tilt) std::swap(solutions.angles[0], solutions.angles[1]);
+    if (!one && solutions.angles[0].tilt < solutions.angles[1].tilt)
+        std::swap(solutions.angles[0], solutions.angles[1]);
     return solutions;
 }
 
-bool nearest_rotary(const Kinematics& kinematics, const Vec3& axis, const RotaryAngles& before,
-                    const AngleRange& tilt, const AngleRange& rotation, RotaryAngles& found) {
+bool nearest_rotary(const Kinematics& kinematics, const Vec3& axis, const RotaryAngles& before, const AngleRange& tilt,
+                    const AngleRange& rotation, RotaryAngles& found) {
     const RotarySolutions solutions = solve_rotary(kinematics, axis, before);
     double least = std::numeric_limits<double>::infinity();
     for (int i = 0; i < solutions.count; ++i) {
         RotaryAngles angles = solutions.angles[static_cast<std::size_t>(i)];
-        if (!wrap_near(angles.tilt, before.tilt, tilt) || !wrap_near(angles.rotation, before.rotation, rotation)) continue;
+        if (!wrap_near(angles.tilt, before.tilt, tilt) || !wrap_near(angles.rotation, before.rotation, rotation))
+            continue;
         const double way = way_between(angles, before);
         if (!(way < least)) continue;
         least = way;
@@ -149,7 +154,8 @@ bool nearest_rotary(const Kinematics& kinematics, const Vec3& axis, const Rotary
 }
 
 std::vector<RotaryAngles> follow_rotary(const Kinematics& kinematics, std::span<const Vec3> axes,
-                                        const RotaryAngles& before, const AngleRange& tilt, const AngleRange& rotation) {
+                                        const RotaryAngles& before, const AngleRange& tilt,
+                                        const AngleRange& rotation) {
     struct State {
         RotaryAngles angles;
         double way = std::numeric_limits<double>::infinity();
@@ -164,7 +170,9 @@ std::vector<RotaryAngles> follow_rotary(const Kinematics& kinematics, std::span<
             const RotarySolutions solutions = solve_rotary(kinematics, axes[i], origin.angles);
             for (int s = 0; s < solutions.count; ++s) {
                 RotaryAngles angles = solutions.angles[static_cast<std::size_t>(s)];
-                if (!wrap_near(angles.tilt, origin.angles.tilt, tilt) || !wrap_near(angles.rotation, origin.angles.rotation, rotation)) continue;
+                if (!wrap_near(angles.tilt, origin.angles.tilt, tilt) ||
+                    !wrap_near(angles.rotation, origin.angles.rotation, rotation))
+                    continue;
                 const double way = origin.way + way_between(angles, origin.angles);
                 // At the pole both branches go on: each keeps its own rotation.
                 State& state = states[i][static_cast<std::size_t>(solutions.count == 1 ? from : s)];

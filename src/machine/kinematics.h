@@ -54,21 +54,21 @@ struct RotaryAngles {
 };
 
 struct ToolPose {
-    Vec3 tip = Vec3::Zero();        ///< [mm]
-    Vec3 axis = Vec3::UnitZ();      ///< unit, from the tip to the spindle
+    Vec3 tip = Vec3::Zero();    ///< [mm]
+    Vec3 axis = Vec3::UnitZ();  ///< unit, from the tip to the spindle
 };
 
 struct Kinematics {
     KinematicsType type = KinematicsType::xyz;
     RotaryAxis tilt{'a', Vec3::UnitX(), 1};
     RotaryAxis rotation{'c', Vec3::UnitZ(), 1};
-    Vec3 tool_axis = Vec3::UnitZ();            ///< k
-    Vec3 rotation_centre = Vec3::Zero();       ///< o [mm]
-    Vec3 centre_from_tilt = Vec3::Zero();      ///< d [mm]
-    Vec3 tilt_point = Vec3::Zero();            ///< m [mm]
-    Vec3 tilt_from_rotation = Vec3::Zero();    ///< b [mm]
-    double tool_length = 0;                    ///< L, tip to the point whose position q is [mm]
-    bool always_tool_centre_point = false;     ///< programs have no word for it: positions are always tips
+    Vec3 tool_axis = Vec3::UnitZ();          ///< k
+    Vec3 rotation_centre = Vec3::Zero();     ///< o [mm]
+    Vec3 centre_from_tilt = Vec3::Zero();    ///< d [mm]
+    Vec3 tilt_point = Vec3::Zero();          ///< m [mm]
+    Vec3 tilt_from_rotation = Vec3::Zero();  ///< b [mm]
+    double tool_length = 0;                  ///< L, tip to the point whose position q is [mm]
+    bool always_tool_centre_point = false;   ///< programs have no word for it: positions are always tips
 
     ToolAxisInterpolation interpolation = ToolAxisInterpolation::linear;
     double axis_tolerance = 0.1 * rad_per_deg;  ///< that `safe` may leave the great circle [rad]
@@ -119,7 +119,8 @@ struct AngleRange {
 /// solutions at each (dynamic programming), so that a cut need not change over. From `before` on.
 /// Shorter than `axes`: the next one is out of reach. O(axes).
 [[nodiscard]] std::vector<RotaryAngles> follow_rotary(const Kinematics& kinematics, std::span<const Vec3> axes,
-                                                      const RotaryAngles& before, const AngleRange& tilt, const AngleRange& rotation);
+                                                      const RotaryAngles& before, const AngleRange& tilt,
+                                                      const AngleRange& rotation);
 
 /// The angle between two tool axes [rad], good near 0 (by atan2).
 [[nodiscard]] double angle_between(const Vec3& a, const Vec3& b);

@@ -13,21 +13,21 @@ namespace clsurf {
 
 /// Position loop of one axis with a first-order velocity loop in it.
 struct ServoModel {
-    double position_gain = 100;           ///< Kv [1/s]
-    double velocity_feedforward = 0.96;   ///< 1: no lag at constant speed
+    double position_gain = 100;             ///< Kv [1/s]
+    double velocity_feedforward = 0.96;     ///< 1: no lag at constant speed
     double velocity_time_constant = 0.002;  ///< [s]; 0: the velocity loop is ideal
-    double quantum = 0.0001;              ///< encoder step [mm]; 0: none
-    double noise = 0;                     ///< rms [mm]
-    double backlash = 0;                  ///< play between drive and table [mm]
-    double friction = 0;                  ///< Coulomb, as the speed that the velocity loop loses to it [mm/s]
+    double quantum = 0.0001;                ///< encoder step [mm]; 0: none
+    double noise = 0;                       ///< rms [mm]
+    double backlash = 0;                    ///< play between drive and table [mm]
+    double friction = 0;                    ///< Coulomb, as the speed that the velocity loop loses to it [mm/s]
 };
 
 /// A linear axis in mm; a rotary one in rad.
 struct MachineAxis {
     double travel_low = -400, travel_high = 400;  ///< [mm], in the machine's coordinates
-    double max_speed = 250;         ///< [mm/s]
-    double max_acceleration = 2000; ///< [mm/s²]
-    double max_jerk = 80000;        ///< [mm/s³]; 0: not limited
+    double max_speed = 250;                       ///< [mm/s]
+    double max_acceleration = 2000;               ///< [mm/s²]
+    double max_jerk = 80000;                      ///< [mm/s³]; 0: not limited
     ServoModel servo;
 };
 
@@ -49,14 +49,14 @@ enum class CurveMode : unsigned char {
 [[nodiscard]] std::string_view name_of(CurveMode mode);
 
 struct ControllerSettings {
-    double period = 0.001;          ///< interpolation period [s]
+    double period = 0.001;  ///< interpolation period [s]
     int lookahead_blocks = 500;
     CornerMode corner = CornerMode::arc;
     CurveMode curve = CurveMode::none;
-    double tolerance = 0.01;        ///< of corners and path [mm]; G64 P replaces it
-    double chord_tolerance = 0.002; ///< of the steps of a period against arcs [mm]
-    double block_time = 0;          ///< a block takes no less [s]: what the controller needs to prepare one
-    double feed_override = 1;       ///< of programmed feeds, not of rapids
+    double tolerance = 0.01;         ///< of corners and path [mm]; G64 P replaces it
+    double chord_tolerance = 0.002;  ///< of the steps of a period against arcs [mm]
+    double block_time = 0;           ///< a block takes no less [s]: what the controller needs to prepare one
+    double feed_override = 1;        ///< of programmed feeds, not of rapids
 };
 
 struct PathLimits {

@@ -42,7 +42,8 @@ bool stops_between(const PathElement& before, const PathElement& after) {
 
 }  // namespace
 
-BlockStream::BlockStream(MotionSource& source, const Machine& machine, const Vec3& start) : source_(&source), machine_(&machine), at_(start) {
+BlockStream::BlockStream(MotionSource& source, const Machine& machine, const Vec3& start)
+    : source_(&source), machine_(&machine), at_(start) {
     tolerance_ = machine.controller.corner == CornerMode::stop ? 0 : machine.controller.tolerance;
     // Where the program itself says where it begins, the axes stand there.
     const Xyz& known = source.program().motions.start;
@@ -59,7 +60,8 @@ void BlockStream::follow_events(std::int64_t motion) {
 }
 
 double BlockStream::done() const {
-    return static_cast<double>(taken_before_ + next_motion_) / static_cast<double>(std::max<std::int64_t>(1, source_->outline().motions));
+    return static_cast<double>(taken_before_ + next_motion_) /
+           static_cast<double>(std::max<std::int64_t>(1, source_->outline().motions));
 }
 
 /// False: the program has no more.
@@ -113,7 +115,8 @@ bool BlockStream::read(PathElement& element) {
         element.feed = infinite;
         if (kind != MotionKind::rapid) {
             element.feed = motions.feed[i];
-            if (!(element.feed > 0) || !std::isfinite(element.feed)) fail(m, "a feed motion without a feed greater than 0");
+            if (!(element.feed > 0) || !std::isfinite(element.feed))
+                fail(m, "a feed motion without a feed greater than 0");
         }
         at_ = end;
         return true;

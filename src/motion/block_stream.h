@@ -51,15 +51,15 @@ private:
 
     MotionSource* source_;
     const Machine* machine_;
-    Vec3 at_;                   ///< end of the last element read
+    Vec3 at_;                                          ///< end of the last element read
     std::int64_t next_motion_ = 0, taken_before_ = 0;  ///< in the piece at hand, and in those before
     std::size_t next_event_ = 0;                       ///< in the piece
     std::int64_t blocks_ = 0;
-    Xyz rotary_;                ///< of the last motion [rad]
-    double tolerance_ = 0;      ///< in force; 0: exact path
-    bool waiting_ = false;      ///< an element is read that begins the next section
+    Xyz rotary_;            ///< of the last motion [rad]
+    double tolerance_ = 0;  ///< in force; 0: exact path
+    bool waiting_ = false;  ///< an element is read that begins the next section
     PathElement waiting_element_, last_;
-    bool begun_ = false;        ///< last_ is of this section
+    bool begun_ = false;  ///< last_ is of this section
     bool closed_ = true;
     Vec3 section_end_;
     double dwell_ = 0, pending_dwell_ = 0;  ///< the second: met before the next element

@@ -38,8 +38,10 @@ bool CornerArcs::next(PathElement& element) {
         if (holds_ && more) add_corner(after);
         if (holds_ && !more) ready_.push_back(used_ > 0 ? held_.part(used_, held_.length) : held_);
         holds_ = more;
-        if (more) held_ = after;
-        else used_ = 0;
+        if (more)
+            held_ = after;
+        else
+            used_ = 0;
     }
     element = ready_.front();
     ready_.pop_front();

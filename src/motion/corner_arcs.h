@@ -21,8 +21,8 @@ private:
     ElementSource* source_;
     double period_;
     bool holds_ = false;
-    PathElement held_;       ///< the last block
-    double used_ = 0;        ///< of its way by the arc at its begin [mm]
+    PathElement held_;  ///< the last block
+    double used_ = 0;   ///< of its way by the arc at its begin [mm]
     std::deque<PathElement> ready_;
 };
 

@@ -13,7 +13,7 @@
 namespace clsurf {
 namespace {
 
-constexpr double curve_share = 0.5;  ///< of the tolerance, for curves
+constexpr double curve_share = 0.5;             ///< of the tolerance, for curves
 constexpr double sharp = std::numbers::pi / 4;  ///< [rad] a corner that no curve goes through
 constexpr std::size_t most_blocks = 1000;       ///< of a run: bounds the blocks that must be known
 constexpr std::size_t windows[] = {10, 5};      ///< blocks to a cubic of least squares, tried in turn
@@ -24,7 +24,8 @@ double deviation_from(const CubicSpan& curve, const Vec3& begin, const Vec3& end
     const Vec3 along = (end - begin).normalized();
     const Vec3 at_begin = curve.derivative(0), at_end = curve.derivative(curve.chord);
     const double ends = std::max((curve.at(0) - begin).norm(), (curve.at(curve.chord) - end).norm());
-    if (std::min(at_begin.normalized().dot(along), at_end.normalized().dot(along)) < 0.5) return std::numeric_limits<double>::infinity();
+    if (std::min(at_begin.normalized().dot(along), at_end.normalized().dot(along)) < 0.5)
+        return std::numeric_limits<double>::infinity();
     const auto aside = [&](const Vec3& slope) { return (slope - slope.dot(along) * along).norm(); };
     return ends + 0.25 * curve.chord * std::max(aside(at_begin), aside(at_end));
 }
@@ -62,7 +63,8 @@ void CurveBlocks::add_fit(std::size_t first, std::size_t last, double allowed) {
 }
 
 void CurveBlocks::add_akima(std::size_t first, std::size_t last) {
-    const std::vector<CubicSpan> spans = akima_spans(std::span(points_).subspan(first, last - first + 1), AkimaTangents::unit);
+    const std::vector<CubicSpan> spans =
+        akima_spans(std::span(points_).subspan(first, last - first + 1), AkimaTangents::unit);
     spans_.insert(spans_.end(), spans.begin(), spans.end());
 }
 
@@ -84,11 +86,14 @@ std::size_t CurveBlocks::make_spans(bool goes_on) {
         rules.error = run_.front().tolerance;
         const std::vector<SpeedInterval> intervals = divide(points_, rules);
         for (const SpeedInterval& interval : intervals) add_akima(interval.first, interval.last);
-        if (goes_on && intervals.size() > 1) done = back ? run_.size() - intervals.front().last : intervals.back().first;
+        if (goes_on && intervals.size() > 1)
+            done = back ? run_.size() - intervals.front().last : intervals.back().first;
     }
     if (back) {
         std::reverse(spans_.begin(), spans_.end());
-        for (CubicSpan& span : spans_) span = hermite(span.at(span.chord), span.at(0), -span.derivative(span.chord), -span.derivative(0), span.chord);
+        for (CubicSpan& span : spans_)
+            span =
+                hermite(span.at(span.chord), span.at(0), -span.derivative(span.chord), -span.derivative(0), span.chord);
     }
     return done;
 }

@@ -37,7 +37,7 @@ private:
     std::vector<Vec3> points_;      ///< their ends, scratch of make_spans()
     std::vector<CubicSpan> spans_;
     bool waiting_ = false;
-    PathElement waiting_element_;   ///< the element after the run
+    PathElement waiting_element_;  ///< the element after the run
     std::deque<PathElement> ready_;
 };
 

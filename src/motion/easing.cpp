@@ -19,7 +19,9 @@ Easing left_at(double speed, const Span& span, const Machine& machine) {
     Easing left{speed, span.acceleration, span.jerk};
     for (int i = 0; i < 3; ++i) {
         const MachineAxis& axis = machine.axes[static_cast<std::size_t>(i)];
-        if (span.slope[i] > 0) left.acceleration = std::min(left.acceleration, (axis.max_acceleration - span.bend[i] * speed * speed) / span.slope[i]);
+        if (span.slope[i] > 0)
+            left.acceleration =
+                std::min(left.acceleration, (axis.max_acceleration - span.bend[i] * speed * speed) / span.slope[i]);
         if (axis.max_jerk <= 0 || span.bend[i] <= 0) continue;
         const double room = axis.max_jerk - span.twist[i] * speed * speed * speed;
         left.acceleration = std::min(left.acceleration, share_of_bend * room / (3 * span.bend[i] * speed));
@@ -38,7 +40,9 @@ Easing left_at(double speed, const Span& span, const Machine& machine) {
 
 Easing ease(const Span& span, const Machine& machine, std::size_t which) {
     const LeastLeft& least = least_left[which];
-    const auto enough = [&](const Easing& left) { return left.acceleration >= least.acceleration * span.acceleration && left.jerk >= least.jerk * span.jerk; };
+    const auto enough = [&](const Easing& left) {
+        return left.acceleration >= least.acceleration * span.acceleration && left.jerk >= least.jerk * span.jerk;
+    };
     const Easing at_cap = left_at(span.cap, span, machine);
     if (enough(at_cap)) return at_cap;
     double low = 0;

@@ -11,16 +11,17 @@
 namespace clsurf {
 namespace {
 
-constexpr double easing = 0.97;        ///< of the speed that would just hold
-constexpr double turning = 1e-9;       ///< [rad] a block that turns less does not turn
-constexpr int judged_places = 4;       ///< of a block, for a first guess of its speed
+constexpr double easing = 0.97;   ///< of the speed that would just hold
+constexpr double turning = 1e-9;  ///< [rad] a block that turns less does not turn
+constexpr int judged_places = 4;  ///< of a block, for a first guess of its speed
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 std::array<AxisLimits, 5> limits_of(const Machine& machine) {
     std::array<AxisLimits, 5> limits{};
     for (std::size_t k = 0; k < 5; ++k) {
         const MachineAxis& a = k < 3 ? machine.axes[k] : machine.rotary[k - 3];
-        limits[k] = {a.travel_low, a.travel_high, a.max_speed, a.max_acceleration, a.max_jerk > 0 ? a.max_jerk : infinite};
+        limits[k] = {a.travel_low, a.travel_high, a.max_speed, a.max_acceleration,
+                     a.max_jerk > 0 ? a.max_jerk : infinite};
     }
     // Travel is what the axis shows.
     const std::array<double, 2> signs{machine.kinematics.tilt.sign, machine.kinematics.rotation.sign};
@@ -52,11 +53,16 @@ FiveAxisBlocks::FiveAxisBlocks(const Program& program, const Machine& machine, c
         const Vec3 end = word.array().isNaN().select(at, word);
         MotionKind& kind = motions.kind[i];
         if (kind == MotionKind::spline) kind = MotionKind::feed;  // its points are its lines
-        if (kind != MotionKind::dwell) elements_[i] = element_of(kind, is_arc(kind) ? motions.arc_of(motion) : nullptr, at, end);
+        if (kind != MotionKind::dwell)
+            elements_[i] = element_of(kind, is_arc(kind) ? motions.arc_of(motion) : nullptr, at, end);
         const RotaryAngles to = motions.rotary.empty() ? angles : machine.kinematics.angles_of(motions.rotary[i].vec());
         const bool cuts = kind != MotionKind::rapid && kind != MotionKind::dwell;
-        if (cuts && !(motions.feed[i] > 0)) throw InputError(Place::of_line(program.main().name(), motions.line[i]), "a feed motion without a feed greater than 0");
-        const double feed = kind == MotionKind::rapid || kind == MotionKind::dwell ? machine.path.max_speed : static_cast<double>(motions.feed[i]);
+        if (cuts && !(motions.feed[i] > 0))
+            throw InputError(Place::of_line(program.main().name(), motions.line[i]),
+                             "a feed motion without a feed greater than 0");
+        const double feed = kind == MotionKind::rapid || kind == MotionKind::dwell
+                                ? machine.path.max_speed
+                                : static_cast<double>(motions.feed[i]);
         ways_[i] = make_way(i, angles, to, feed);
         angles = ways_[i].at(1);
         // A block that only turns is a wait for the tip.
@@ -71,7 +77,8 @@ FiveAxisBlocks::FiveAxisBlocks(const Program& program, const Machine& machine, c
     feeds_ = motions.feed;
     kinds_ = motions.kind;
     lines_ = motions.line;
-    for (std::size_t i = 0; i < n; ++i) motions.line[i] = static_cast<LineNumber>(i + 1);  // the samples tell their block
+    for (std::size_t i = 0; i < n; ++i)
+        motions.line[i] = static_cast<LineNumber>(i + 1);  // the samples tell their block
     motions.rotary = {};
     motions.tool_axis = {};
     motions.file = {};
@@ -85,8 +92,10 @@ bool FiveAxisBlocks::ease(const std::vector<BlockExcess>& excesses) {
         if (!(excesses[i].scale < 1)) continue;
         eased = true;
         const double scale = easing * excesses[i].scale;
-        if (kinds_[i] == MotionKind::dwell) feeds_[i] = static_cast<float>(feeds_[i] / scale);
-        else caps_[i] = std::min(caps_[i], std::max<double>(excesses[i].peak, 1e-3) * scale);
+        if (kinds_[i] == MotionKind::dwell)
+            feeds_[i] = static_cast<float>(feeds_[i] / scale);
+        else
+            caps_[i] = std::min(caps_[i], std::max<double>(excesses[i].peak, 1e-3) * scale);
     }
     apply_caps();
     return eased;
@@ -113,7 +122,8 @@ double FiveAxisBlocks::turn_of(std::size_t i) const {
     return std::max(std::abs(b.tilt - a.tilt), std::abs(b.rotation - a.rotation));
 }
 
-ToolAxisPath FiveAxisBlocks::make_way(std::size_t i, const RotaryAngles& from, const RotaryAngles& to, double feed) const {
+ToolAxisPath FiveAxisBlocks::make_way(std::size_t i, const RotaryAngles& from, const RotaryAngles& to,
+                                      double feed) const {
     const Kinematics& k = machine_->kinematics;
     const double angle = angle_between(k.axis_of(from), k.axis_of(to));
     const double time = elements_[i].length / std::max(feed, 1e-3);
@@ -131,7 +141,8 @@ double FiveAxisBlocks::turning_time(std::size_t i) const {
         if (!(turns[k] > turning)) continue;
         const AxisLimits& l = limits_[3 + k];
         // s(u) = u³ (10 − 15 u + 6 u²): greatest s′ 15/8, s″ 10/√3, s‴ 60.
-        time = std::max({time, 1.875 * turns[k] / l.speed, std::sqrt(5.7735026918962576 * turns[k] / l.acceleration), std::cbrt(60 * turns[k] / l.jerk)});
+        time = std::max({time, 1.875 * turns[k] / l.speed, std::sqrt(5.7735026918962576 * turns[k] / l.acceleration),
+                         std::cbrt(60 * turns[k] / l.jerk)});
     }
     return time;
 }

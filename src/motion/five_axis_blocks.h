@@ -44,14 +44,17 @@ public:
     [[nodiscard]] double waiting(std::size_t block) const { return feeds_[block]; }  ///< [s]
     [[nodiscard]] bool stands(std::size_t block) const { return waits(block) || !(elements_[block].length > 0); }
     /// Slower than it was programmed to be.
-    [[nodiscard]] bool capped(std::size_t block) const { return caps_[block] < std::numeric_limits<double>::infinity(); }
+    [[nodiscard]] bool capped(std::size_t block) const {
+        return caps_[block] < std::numeric_limits<double>::infinity();
+    }
     [[nodiscard]] const std::array<AxisLimits, 5>& limits() const { return limits_; }
     /// Which part of a block's way lies behind a point, not before `from`.
     [[nodiscard]] double part_at(std::size_t block, const Vec3& p, double from) const;
 
 private:
     [[nodiscard]] double turn_of(std::size_t i) const;
-    [[nodiscard]] ToolAxisPath make_way(std::size_t i, const RotaryAngles& from, const RotaryAngles& to, double feed) const;
+    [[nodiscard]] ToolAxisPath make_way(std::size_t i, const RotaryAngles& from, const RotaryAngles& to,
+                                        double feed) const;
     [[nodiscard]] double turning_time(std::size_t i) const;
     void guess_cap(std::size_t i);
     void apply_caps();
@@ -60,10 +63,10 @@ private:
     Vec3 zero_;
     std::array<AxisLimits, 5> limits_;
     Program planned_;
-    std::vector<PathElement> elements_;   ///< length 0: the tip stands
+    std::vector<PathElement> elements_;  ///< length 0: the tip stands
     std::vector<ToolAxisPath> ways_;
-    std::vector<double> caps_;            ///< [mm/s]
-    Column<float> feeds_;                 ///< as programmed; of turns their time [s]
+    std::vector<double> caps_;  ///< [mm/s]
+    Column<float> feeds_;       ///< as programmed; of turns their time [s]
     Column<MotionKind> kinds_;
     Column<LineNumber> lines_;
 };

@@ -16,19 +16,24 @@ namespace clsurf {
 namespace {
 
 constexpr int most_rounds = 32;
-constexpr double limit_play = 1.001;   ///< what counts as held, differentiated
-constexpr int half_width = 8;          ///< of the smoothing of angles [periods]
-constexpr int carry_periods = 16;      ///< over which angles make up for what a rounded corner skips
-constexpr int patient_rounds = 8;      ///< before the tip's own jerk is lowered
-constexpr double most_lowering = 0.97; ///< of that, in a round
+constexpr double limit_play = 1.001;      ///< what counts as held, differentiated
+constexpr int half_width = 8;             ///< of the smoothing of angles [periods]
+constexpr int carry_periods = 16;         ///< over which angles make up for what a rounded corner skips
+constexpr int patient_rounds = 8;         ///< before the tip's own jerk is lowered
+constexpr double most_lowering = 0.97;    ///< of that, in a round
 constexpr double nearly_greatest = 0.95;  ///< a rate that counts as the greatest
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// Takes the samples of the tip, and makes those of the axes.
 class FiveAxisRecorder {
 public:
-    FiveAxisRecorder(const FiveAxisBlocks& blocks, const Program& program, const Machine& machine, const FiveAxisSink& sink)
-        : blocks_(&blocks), program_(&program), machine_(&machine), sink_(&sink), period_(machine.controller.period),
+    FiveAxisRecorder(const FiveAxisBlocks& blocks, const Program& program, const Machine& machine,
+                     const FiveAxisSink& sink)
+        : blocks_(&blocks),
+          program_(&program),
+          machine_(&machine),
+          sink_(&sink),
+          period_(machine.controller.period),
           excesses_(blocks.count()) {}
 
     void add(std::span<const SimulatedPoint> points) {
@@ -91,12 +96,14 @@ private:
                 // From where the angles would be had they gone on.
                 const RotaryAngles& a = waiting_[waiting_.size() - 2].angles;
                 const RotaryAngles& b = waiting_.back().angles;
-                carry_ = {2 * b.tilt - a.tilt - sample.angles.tilt, 2 * b.rotation - a.rotation - sample.angles.rotation};
+                carry_ = {2 * b.tilt - a.tilt - sample.angles.tilt,
+                          2 * b.rotation - a.rotation - sample.angles.rotation};
                 carry_left_ = carry_periods;
             }
             sample.angles = {sample.angles.tilt + carried().tilt, sample.angles.rotation + carried().rotation};
             if (carry_left_ > 0) --carry_left_;
-            sample.ideal = great_circle(machine_->kinematics.axis_of(way->at(0)), machine_->kinematics.axis_of(way->at(1)), part);
+            sample.ideal =
+                great_circle(machine_->kinematics.axis_of(way->at(0)), machine_->kinematics.axis_of(way->at(1)), part);
         }
         float& peak = excesses_[sample.block].peak;
         peak = std::max(peak, static_cast<float>(point.speed));
@@ -114,7 +121,8 @@ private:
     /// at which the wait now is.
     std::pair<const ToolAxisPath*, double> turn_now() {
         elapsed_ += period_;
-        while (waiting_block_ < block_ && (!blocks_->waits(waiting_block_) || elapsed_ >= blocks_->waiting(waiting_block_))) {
+        while (waiting_block_ < block_ &&
+               (!blocks_->waits(waiting_block_) || elapsed_ >= blocks_->waiting(waiting_block_))) {
             if (blocks_->waits(waiting_block_)) elapsed_ -= blocks_->waiting(waiting_block_);
             ++waiting_block_;
         }
@@ -158,7 +166,8 @@ private:
         }
         for (std::size_t k = 0; k < 5; ++k) point.feedback[k] = servos_[k].follow(point.commanded[k]);
         if (begun_ && blocks_->cuts(sample.block)) {
-            summary_.orientation_error = std::max(summary_.orientation_error, angle_between(kinematics.axis_of(angles), sample.ideal));
+            summary_.orientation_error =
+                std::max(summary_.orientation_error, angle_between(kinematics.axis_of(angles), sample.ideal));
         }
         ++summary_.run.ruled[static_cast<std::size_t>(point.limit)];
         measure(point);
@@ -173,7 +182,8 @@ private:
             const double p = point.commanded[k];
             const double speed = std::abs(p - last_[0][k]) / period_;
             const double acceleration = std::abs(p - 2 * last_[0][k] + last_[1][k]) / (period_ * period_);
-            const double jerk = std::abs(p - 3 * last_[0][k] + 3 * last_[1][k] - last_[2][k]) / (period_ * period_ * period_);
+            const double jerk =
+                std::abs(p - 3 * last_[0][k] + 3 * last_[1][k] - last_[2][k]) / (period_ * period_ * period_);
             hold(k, speed, limits[k].speed, 1);
             hold(k, acceleration, limits[k].acceleration, 2);
             hold(k, jerk, limits[k].jerk, 3);
@@ -227,16 +237,24 @@ private:
             if (std::abs(rate(j)) >= nearly_greatest * greatest) ease(waiting_[j].block, std::min(scale, jump));
         }
     }
-    void ease(std::size_t block, double scale) { excesses_[block].scale = std::min(excesses_[block].scale, static_cast<float>(scale)); }
+    void ease(std::size_t block, double scale) {
+        excesses_[block].scale = std::min(excesses_[block].scale, static_cast<float>(scale));
+    }
 
     void note_travel(std::size_t axis, double position, LineNumber line) {
         const AxisLimits& limits = blocks_->limits()[axis];
         const bool outside = position < limits.low || position > limits.high;
         if (outside && !outside_[axis]) {
             const double shown = axis < 3 ? 1.0 : deg_per_rad;
-            const char letter = axis < 3 ? "xyz"[axis] : axis == 3 ? machine_->kinematics.tilt.letter : machine_->kinematics.rotation.letter;
-            summary_.run.diagnostics.add({Severity::warning, "motion.travel", Place::of_line(program_->main().name(), line),
-                                          fmt::format("{} leaves its travel of {:g} … {:g} {}", letter, limits.low * shown, limits.high * shown, axis < 3 ? "mm" : "deg"), {}});
+            const char letter = axis < 3    ? "xyz"[axis]
+                                : axis == 3 ? machine_->kinematics.tilt.letter
+                                            : machine_->kinematics.rotation.letter;
+            summary_.run.diagnostics.add({Severity::warning,
+                                          "motion.travel",
+                                          Place::of_line(program_->main().name(), line),
+                                          fmt::format("{} leaves its travel of {:g} … {:g} {}", letter,
+                                                      limits.low * shown, limits.high * shown, axis < 3 ? "mm" : "deg"),
+                                          {}});
         }
         outside_[axis] = outside;
     }
@@ -257,9 +275,9 @@ private:
     std::size_t waiting_block_ = 0;
     double elapsed_ = 0;  ///< of its wait [s]
     bool begun_ = false;
-    RotaryAngles of_block_; ///< of the last sample, without what is carried
-    RotaryAngles carry_;    ///< what the angles had to make up for at the last change of blocks
-    int carry_left_ = 0;    ///< [periods]
+    RotaryAngles of_block_;  ///< of the last sample, without what is carried
+    RotaryAngles carry_;     ///< what the angles had to make up for at the last change of blocks
+    int carry_left_ = 0;     ///< [periods]
     std::vector<Sample> waiting_;
     std::vector<ServoLoop> servos_;
     std::array<std::array<double, 5>, 3> last_{};
@@ -289,13 +307,16 @@ Machine machine_of_tip(const Machine& machine) {
 
 }  // namespace
 
-FiveAxisSummary simulate_five_axis(const Program& program, const Machine& machine, const Vec3& zero, const Vec3& start, const FiveAxisSink& sink, const Progress& progress) {
+FiveAxisSummary simulate_five_axis(const Program& program, const Machine& machine, const Vec3& zero, const Vec3& start,
+                                   const FiveAxisSink& sink, const Progress& progress) {
     FiveAxisBlocks blocks(program, machine, zero, start);
     Machine tip = machine_of_tip(machine);
     double share = 1;
     const auto run = [&](const FiveAxisSink& to, std::vector<BlockExcess>* excesses) {
         FiveAxisRecorder recorder(blocks, program, machine, to);
-        const SimulationSummary of_tip = simulate(blocks.planned(), tip, start, [&](std::span<const SimulatedPoint> points) { recorder.add(points); }, progress, Planning::by_nodes);
+        const SimulationSummary of_tip = simulate(
+            blocks.planned(), tip, start, [&](std::span<const SimulatedPoint> points) { recorder.add(points); },
+            progress, Planning::by_nodes);
         FiveAxisSummary summary = recorder.finish();
         summary.run.path_deviation = of_tip.path_deviation;
         if (excesses != nullptr) *excesses = recorder.excesses();
@@ -313,8 +334,10 @@ FiveAxisSummary simulate_five_axis(const Program& program, const Machine& machin
     FiveAxisSummary summary = run(sink, nullptr);
     summary.rounds = rounds;
     if (!summary.run.limits_ok) {
-        summary.run.diagnostics.add({Severity::warning, "motion.limits", Place::of_file(program.main().name()),
-                                     fmt::format("after {} rounds an axis still exceeds a limit by more than 0.1 %", rounds), "a lower path jerk or feed helps"});
+        summary.run.diagnostics.add(
+            {Severity::warning, "motion.limits", Place::of_file(program.main().name()),
+             fmt::format("after {} rounds an axis still exceeds a limit by more than 0.1 %", rounds),
+             "a lower path jerk or feed helps"});
     }
     return summary;
 }

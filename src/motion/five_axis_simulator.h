@@ -30,7 +30,8 @@ struct FiveAxisPoint {
 struct FiveAxisSummary {
     SimulationSummary run;  ///< speeds, accelerations and jerks of the linear axes, the path's speed that of the tip
     std::array<double, 2> max_speed{}, max_acceleration{}, max_jerk{};  ///< of tilt and rotation [rad/s^d]
-    double orientation_error = 0;  ///< greatest angle between a set point at feed and the great circle of its block [rad]
+    double orientation_error =
+        0;  ///< greatest angle between a set point at feed and the great circle of its block [rad]
     int rounds = 0;
 };
 
@@ -38,7 +39,7 @@ using FiveAxisSink = std::function<void(std::span<const FiveAxisPoint>)>;
 
 /// `program`: motions of the tip with their angles (path/tip_motions.h has both). `start`: where the tip
 /// stands, angles at 0; `zero`: the machine position of the program's zero [mm]. Throws InputError as simulate().
-[[nodiscard]] FiveAxisSummary simulate_five_axis(const Program& program, const Machine& machine, const Vec3& zero, const Vec3& start,
-                                                 const FiveAxisSink& sink, const Progress& progress);
+[[nodiscard]] FiveAxisSummary simulate_five_axis(const Program& program, const Machine& machine, const Vec3& zero,
+                                                 const Vec3& start, const FiveAxisSink& sink, const Progress& progress);
 
 }  // namespace clsurf

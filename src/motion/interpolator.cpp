@@ -62,7 +62,8 @@ void Interpolator::run(const ProfileStretch& stretch) {
         const double on_profile = t - begin;
         while (phase < 6 && on_profile >= profile.end_of(phase)) ++phase;
         const MotionState state = profile.in_phase(phase, on_profile);
-        while (at + 1 < stretch.spans.size() && state.way - before > stretch.spans[at].length) before += stretch.spans[at++].length;
+        while (at + 1 < stretch.spans.size() && state.way - before > stretch.spans[at].length)
+            before += stretch.spans[at++].length;
         const Span& span = stretch.spans[at];
         const double tau = std::clamp(state.way - before, 0.0, span.length);
         double deviation = 0;

@@ -13,10 +13,10 @@ namespace clsurf {
 /// A part of a jerk-limited profile over spans that follow each other.
 struct ProfileStretch {
     const SCurve* profile = nullptr;
-    double from = 0, to = 0;     ///< time on the profile [s]
-    std::span<const Span> spans; ///< from that on which the profile begins
-    bool to_rest = false;        ///< the profile brakes to a stop
-    bool eased = false;          ///< ramps are kept low for the jerk that they cost in bends
+    double from = 0, to = 0;      ///< time on the profile [s]
+    std::span<const Span> spans;  ///< from that on which the profile begins
+    bool to_rest = false;         ///< the profile brakes to a stop
+    bool eased = false;           ///< ramps are kept low for the jerk that they cost in bends
 };
 
 /// Constant change of v² over the way: v² = speed² + 2 acceleration u + curve u².

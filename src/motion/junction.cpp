@@ -13,6 +13,8 @@ double chord_speed(double radius, double error, double period) {
 
 double arc_speed(double radius, double normal_acceleration) { return std::sqrt(normal_acceleration * radius); }
 
-double period_speed(double radius, double turning, double period) { return 2 * radius * std::sin(0.5 * turning) / period; }
+double period_speed(double radius, double turning, double period) {
+    return 2 * radius * std::sin(0.5 * turning) / period;
+}
 
 }  // namespace clsurf

@@ -17,7 +17,8 @@ double sum_of(const double* lanes) { return lanes[0] + lanes[1] + lanes[2] + lan
 struct LimitRows::Kernels {
     /// What belongs to the three coefficients about the cells of a group.
     static void gather(Group& g, const double* of) {
-        for (std::size_t q = 0; q < 3; ++q) g.about[q] = Four{of[g.cell[0] + q], of[g.cell[1] + q], of[g.cell[2] + q], of[g.cell[3] + q]};
+        for (std::size_t q = 0; q < 3; ++q)
+            g.about[q] = Four{of[g.cell[0] + q], of[g.cell[1] + q], of[g.cell[2] + q], of[g.cell[3] + q]};
     }
 
     /// Value of the rows, and their bounds by m.
@@ -30,9 +31,11 @@ struct LimitRows::Kernels {
         g.fall = -0.5 * g.bound * g.bound * g.bound;
     }
 
-    CLSURF_VECTORISED static void assemble(Group* groups, std::size_t count, const double* value, NewtonSystem& newton, double* gap, double* broken) {
+    CLSURF_VECTORISED static void assemble(Group* groups, std::size_t count, const double* value, NewtonSystem& newton,
+                                           double* gap, double* broken) {
         Four sum{}, most{};
-        double *const d0 = newton.d0.data(), *const d1 = newton.d1.data(), *const d2 = newton.d2.data(), *const pull = newton.pull.data();
+        double *const d0 = newton.d0.data(), *const d1 = newton.d1.data(), *const d2 = newton.d2.data(),
+                      *const pull = newton.pull.data();
         for (std::size_t k = 0; k < count; ++k) {
             Group& g = groups[k];
             Four at;
@@ -50,15 +53,18 @@ struct LimitRows::Kernels {
                 force[side] = weight[side] * g.missing[side];
             }
             const Four of_w = force[1] - force[0], both = weight[0] + weight[1];
-            const Four of_b = g.fall * (force[0] + force[1]), mixed = g.fall * (weight[1] - weight[0]), square = g.fall * g.fall * both;
+            const Four of_b = g.fall * (force[0] + force[1]), mixed = g.fall * (weight[1] - weight[0]),
+                       square = g.fall * g.fall * both;
             Four u[3], t[3], p[3];
             for (std::size_t q = 0; q < 3; ++q) {
                 u[q] = both * g.w[q] + mixed * g.v[q];
                 t[q] = mixed * g.w[q] + square * g.v[q];
                 p[q] = of_w * g.w[q] + of_b * g.v[q];
             }
-            const Four d00 = u[0] * g.w[0] + t[0] * g.v[0], d11 = u[1] * g.w[1] + t[1] * g.v[1], d22 = u[2] * g.w[2] + t[2] * g.v[2];
-            const Four d01 = u[0] * g.w[1] + t[0] * g.v[1], d12 = u[1] * g.w[2] + t[1] * g.v[2], d02 = u[0] * g.w[2] + t[0] * g.v[2];
+            const Four d00 = u[0] * g.w[0] + t[0] * g.v[0], d11 = u[1] * g.w[1] + t[1] * g.v[1],
+                       d22 = u[2] * g.w[2] + t[2] * g.v[2];
+            const Four d01 = u[0] * g.w[1] + t[0] * g.v[1], d12 = u[1] * g.w[2] + t[1] * g.v[2],
+                       d02 = u[0] * g.w[2] + t[0] * g.v[2];
             for (std::size_t l = 0; l < width; ++l) {
                 const std::size_t c = g.cell[l];
                 d0[c] += d00[l];
@@ -73,7 +79,8 @@ struct LimitRows::Kernels {
         for (std::size_t l = 0; l < width; ++l) gap[l] = sum[l], broken[l] = most[l];
     }
 
-    CLSURF_VECTORISED static void predict(Group* groups, std::size_t count, const double* step, NewtonSystem& newton, double* sums) {
+    CLSURF_VECTORISED static void predict(Group* groups, std::size_t count, const double* step, NewtonSystem& newton,
+                                          double* sums) {
         Four primal{}, dual{}, by_primal{}, by_dual{}, by_both{};
         double *const centring = newton.centring.data(), *const products = newton.products.data();
         for (std::size_t k = 0; k < count; ++k) {
@@ -116,7 +123,8 @@ struct LimitRows::Kernels {
         }
     }
 
-    CLSURF_VECTORISED static void correct(Group* groups, std::size_t count, const double* step, double centre, double* sums) {
+    CLSURF_VECTORISED static void correct(Group* groups, std::size_t count, const double* step, double centre,
+                                          double* sums) {
         Four primal{}, dual{};
         for (std::size_t k = 0; k < count; ++k) {
             Group& g = groups[k];
@@ -126,7 +134,8 @@ struct LimitRows::Kernels {
             for (std::size_t side = 0; side < 2; ++side) {
                 const Four product = g.slack_step[side] * g.multiplier_step[side];
                 const Four slack_step = (side == 0 ? along - across : along + across) - g.missing[side];
-                const Four multiplier_step = (centre - product - g.multiplier[side] * slack_step) * g.inverse[side] - g.multiplier[side];
+                const Four multiplier_step =
+                    (centre - product - g.multiplier[side] * slack_step) * g.inverse[side] - g.multiplier[side];
                 const Four shrinking = -slack_step * g.inverse[side], falling = -multiplier_step / g.multiplier[side];
                 primal = primal > shrinking ? primal : shrinking;
                 dual = dual > falling ? dual : falling;
@@ -208,7 +217,8 @@ LimitRows::Gap LimitRows::assemble(const double* value, NewtonSystem& newton) {
 LimitRows::Steps LimitRows::predict(const double* step, NewtonSystem& newton) {
     double sums[5 * width];
     Kernels::predict(groups_.data(), groups_.size(), step, newton, sums);
-    return {greatest_of(sums), greatest_of(sums + width), sum_of(sums + 2 * width), sum_of(sums + 3 * width), sum_of(sums + 4 * width)};
+    return {greatest_of(sums), greatest_of(sums + width), sum_of(sums + 2 * width), sum_of(sums + 3 * width),
+            sum_of(sums + 4 * width)};
 }
 
 LimitRows::Steps LimitRows::correct(const double* step, double centre) {

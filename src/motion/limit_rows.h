@@ -12,7 +12,14 @@
 namespace clsurf {
 
 /// What may rule in a cell.
-enum class Row : std::uint8_t { cap, tangential_acceleration, axis_acceleration, tangential_jerk, axis_jerk, corner_jerk };
+enum class Row : std::uint8_t {
+    cap,
+    tangential_acceleration,
+    axis_acceleration,
+    tangential_jerk,
+    axis_jerk,
+    corner_jerk
+};
 
 struct LimitRow {
     std::array<double, 3> w{}, v{};  ///< m = unit + v · c
@@ -68,7 +75,7 @@ private:
     struct alignas(sizeof(Four)) Group {
         std::array<Four, 3> w{}, v{};
         Four unit{}, low{};
-        std::array<Four, 3> about{};  ///< coefficients, or their steps
+        std::array<Four, 3> about{};   ///< coefficients, or their steps
         Four root{}, bound{}, fall{};  ///< √m, 1/√m, and its derivative by m
         // Of the side above, then of that below.
         std::array<Four, 2> slack{}, multiplier{}, inverse{}, missing{}, slack_step{}, multiplier_step{};

@@ -24,7 +24,8 @@ Extremes extremes(const SCurve& profile, double from, const MotionState& at_from
     e.acceleration = std::max(std::abs(at_from.acceleration), std::abs(at_to.acceleration));
     for (const int peak : {1, 5}) {  // the acceleration is greatest where its jerk part ends
         const double begins = profile.end_of(peak - 1);
-        if (from <= profile.end_of(peak) && to >= begins) e.acceleration = std::max(e.acceleration, std::abs(profile.start_of(peak).acceleration));
+        if (from <= profile.end_of(peak) && to >= begins)
+            e.acceleration = std::max(e.acceleration, std::abs(profile.start_of(peak).acceleration));
     }
     return e;
 }
@@ -35,13 +36,15 @@ bool scan_speeds(std::span<const Stretch> stretches, std::span<double> speeds) {
     const double present = speeds.front();
     for (std::size_t i = stretches.size(); i-- > 0;) {
         const Stretch& s = stretches[i];
-        if (speeds[i] > speeds[i + 1]) speeds[i] = std::min(speeds[i], reach(speeds[i + 1], s.length, s.acceleration, s.jerk));
+        if (speeds[i] > speeds[i + 1])
+            speeds[i] = std::min(speeds[i], reach(speeds[i + 1], s.length, s.acceleration, s.jerk));
     }
     if (speeds.front() < present * (1 - braking_play)) return false;
     speeds.front() = present;
     for (std::size_t i = 0; i < stretches.size(); ++i) {
         const Stretch& s = stretches[i];
-        if (speeds[i + 1] > speeds[i]) speeds[i + 1] = std::min(speeds[i + 1], reach(speeds[i], s.length, s.acceleration, s.jerk));
+        if (speeds[i + 1] > speeds[i])
+            speeds[i + 1] = std::min(speeds[i + 1], reach(speeds[i], s.length, s.acceleration, s.jerk));
     }
     return true;
 }
@@ -74,7 +77,9 @@ double WindowPlanner::part_of_axes(const Span& span, double speed, double accele
         const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(k)];
         worst = std::max(worst, (span.slope[k] * acceleration + span.bend[k] * speed * speed) / axis.max_acceleration);
         if (axis.max_jerk <= 0) continue;
-        worst = std::max(worst, (span.slope[k] * jerk + 3 * span.bend[k] * speed * acceleration + span.twist[k] * speed * speed * speed) / axis.max_jerk);
+        worst = std::max(worst, (span.slope[k] * jerk + 3 * span.bend[k] * speed * acceleration +
+                                 span.twist[k] * speed * speed * speed) /
+                                    axis.max_jerk);
     }
     return worst;
 }
@@ -82,7 +87,8 @@ double WindowPlanner::part_of_axes(const Span& span, double speed, double accele
 WindowPlanner::Verdict WindowPlanner::judge(const Run& run, std::span<const Span> spans) const {
     Verdict verdict;
     const SCurve& profile = run.profile;
-    const double steepest = std::max(std::abs(profile.start_of(1).acceleration), std::abs(profile.start_of(5).acceleration));
+    const double steepest =
+        std::max(std::abs(profile.start_of(1).acceleration), std::abs(profile.start_of(5).acceleration));
     double end = 0;
     double from = 0;
     MotionState at_from = profile.at(0);
@@ -157,7 +163,8 @@ bool WindowPlanner::plan(std::span<const Span> spans, double start_speed, std::s
     return std::isfinite(shortest);
 }
 
-bool WindowPlanner::plan_with(std::size_t easing, std::span<const Span> spans, double start_speed, std::span<const std::size_t> nodes) {
+bool WindowPlanner::plan_with(std::size_t easing, std::span<const Span> spans, double start_speed,
+                              std::span<const std::size_t> nodes) {
     easing_ = easing;
     eased_.assign(spans.size(), Easing{-1, 0, 0});
     runs_.clear();
@@ -172,13 +179,17 @@ bool WindowPlanner::plan_with(std::size_t easing, std::span<const Span> spans, d
         runs_.push_back(run);
         begin = end;
     }
-    const auto end_cap = [&](const Run& run, std::size_t span) { return run.eased ? eased(spans, span).cap : spans[span].cap; };
+    const auto end_cap = [&](const Run& run, std::size_t span) {
+        return run.eased ? eased(spans, span).cap : spans[span].cap;
+    };
     while (true) {
         stretches_.clear();
         speeds_.clear();
         for (const Run& run : runs_) {
             stretches_.push_back({run.length, run.acceleration, run.jerk});
-            const double before = speeds_.empty() ? start_speed : std::min(end_cap(runs_[speeds_.size() - 1], run.first - 1), end_cap(run, run.first));
+            const double before =
+                speeds_.empty() ? start_speed
+                                : std::min(end_cap(runs_[speeds_.size() - 1], run.first - 1), end_cap(run, run.first));
             speeds_.push_back(before);
         }
         speeds_.push_back(0);
@@ -192,7 +203,9 @@ bool WindowPlanner::plan_with(std::size_t easing, std::span<const Span> spans, d
                 run.end_speed = speeds_[r + 1];
                 // A start speed that was planned with other limits may be above these by rounding.
                 run.speed = std::max({run.speed, run.start_speed, run.end_speed});
-                run.profile = plan_scurve(run.length, run.start_speed, run.end_speed, {run.speed, run.acceleration, run.acceleration, run.jerk}).profile;
+                run.profile = plan_scurve(run.length, run.start_speed, run.end_speed,
+                                          {run.speed, run.acceleration, run.acceleration, run.jerk})
+                                  .profile;
                 if (!(run.profile.length() > 0)) return false;
                 const Verdict verdict = judge(run, spans);
                 run.checked = verdict.worst <= holds;

@@ -56,7 +56,8 @@ private:
         bool at_cap = false;   ///< it is the speed itself, with no acceleration
         std::size_t span = 0;  ///< where
     };
-    [[nodiscard]] bool plan_with(std::size_t easing, std::span<const Span> spans, double start_speed, std::span<const std::size_t> nodes);
+    [[nodiscard]] bool plan_with(std::size_t easing, std::span<const Span> spans, double start_speed,
+                                 std::span<const std::size_t> nodes);
     [[nodiscard]] const Easing& eased(std::span<const Span> spans, std::size_t span);
     void set_limits(Run& run, std::span<const Span> spans);
     [[nodiscard]] double part_of_axes(const Span& span, double speed, double acceleration, double jerk) const;
@@ -65,7 +66,7 @@ private:
 
     const Machine* machine_;
     bool refined_;
-    std::size_t easing_ = 0;  ///< in force in plan_with()
+    std::size_t easing_ = 0;     ///< in force in plan_with()
     std::vector<Easing> eased_;  ///< of the spans by that, as far as it was asked for; otherwise its cap is less than 0
     std::vector<Run> runs_, next_, best_;
     std::vector<Stretch> stretches_;

@@ -9,7 +9,7 @@ namespace clsurf {
 namespace {
 
 // Where a limit is broken, standing still mends it too, as J/√b grows: b may not fall to that.
-constexpr double least_share = 0.2;      ///< of a coefficient, of what it began with
+constexpr double least_share = 0.2;  ///< of a coefficient, of what it began with
 // The spline holds the limits at stations; a little is left for what lies between them.
 constexpr double acceleration_share = 0.9995, jerk_share = 0.997;
 constexpr double lowering = 0.998;  ///< of a limit that is broken between its rows, besides
@@ -21,9 +21,13 @@ using Three = std::array<double, 3>;
 
 double dot(const Three& w, const double* c) { return w[0] * c[0] + w[1] * c[1] + w[2] * c[2]; }
 
-Three sum(double a, const Three& u, double b, const Three& v) { return {a * u[0] + b * v[0], a * u[1] + b * v[1], a * u[2] + b * v[2]}; }
+Three sum(double a, const Three& u, double b, const Three& v) {
+    return {a * u[0] + b * v[0], a * u[1] + b * v[1], a * u[2] + b * v[2]};
+}
 
-constexpr std::uint8_t acceleration_bit(int axis) { return static_cast<std::uint8_t>(1U << static_cast<unsigned>(axis)); }
+constexpr std::uint8_t acceleration_bit(int axis) {
+    return static_cast<std::uint8_t>(1U << static_cast<unsigned>(axis));
+}
 constexpr std::uint8_t jerk_bit(int axis) { return static_cast<std::uint8_t>(8U << static_cast<unsigned>(axis)); }
 
 }  // namespace
@@ -34,7 +38,10 @@ bool SpeedProblem::may_break(const Cell& cell, double part, double acceleration,
     for (int x = 0; x < 3; ++x) {
         const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(x)];
         if (cell.slope[x] * acceleration + cell.bend[x] * square > part * axis.max_acceleration) return true;
-        if (axis.max_jerk > 0 && cell.slope[x] * jerk + speed * (3 * cell.bend[x] * acceleration + cell.twist[x] * square) > part * axis.max_jerk) return true;
+        if (axis.max_jerk > 0 &&
+            cell.slope[x] * jerk + speed * (3 * cell.bend[x] * acceleration + cell.twist[x] * square) >
+                part * axis.max_jerk)
+            return true;
     }
     return false;
 }
@@ -61,10 +68,13 @@ void SpeedProblem::need_likely_rows() {
             const Station& station = held_station.station;
             for (int x = 0; x < 3; ++x) {
                 const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(x)];
-                const double slope = std::abs(station.slope[x]), bend = std::abs(station.bend[x]), twist = std::abs(station.twist[x]);
-                if (slope * steep + bend * speed * speed > axis.max_acceleration) held_station.needed |= acceleration_bit(x);
+                const double slope = std::abs(station.slope[x]), bend = std::abs(station.bend[x]),
+                             twist = std::abs(station.twist[x]);
+                if (slope * steep + bend * speed * speed > axis.max_acceleration)
+                    held_station.needed |= acceleration_bit(x);
                 if (axis.max_jerk <= 0) continue;
-                if (slope * cell.limits.jerk + speed * (3 * bend * steep + twist * speed * speed) > axis.max_jerk) held_station.needed |= jerk_bit(x);
+                if (slope * cell.limits.jerk + speed * (3 * bend * steep + twist * speed * speed) > axis.max_jerk)
+                    held_station.needed |= jerk_bit(x);
             }
         }
     }
@@ -95,7 +105,8 @@ bool SpeedProblem::need_broken_rows(double part) {
                 any = true;
             }
         }
-        if (!may_break(cell, part, 0.5 * std::max(std::abs(slope), std::abs(last_slope)), greatest, along_path)) continue;
+        if (!may_break(cell, part, 0.5 * std::max(std::abs(slope), std::abs(last_slope)), greatest, along_path))
+            continue;
         for (std::uint32_t s = cell.first_station; s < cell.end_station; ++s) {
             HeldStation& held_station = stations_[s];
             const Station& station = held_station.station;
@@ -108,7 +119,9 @@ bool SpeedProblem::need_broken_rows(double part) {
                 const double acceleration = std::abs(0.5 * station.slope[x] * slope_here + station.bend[x] * b_here);
                 if (acceleration > part * axis.max_acceleration) broken |= acceleration_bit(x);
                 if (axis.max_jerk <= 0) continue;
-                const double jerk = std::abs(0.5 * station.slope[x] * curve + 1.5 * station.bend[x] * slope_here + station.twist[x] * b_here) * root;
+                const double jerk = std::abs(0.5 * station.slope[x] * curve + 1.5 * station.bend[x] * slope_here +
+                                             station.twist[x] * b_here) *
+                                    root;
                 if (jerk > part * axis.max_jerk) broken |= jerk_bit(x);
             }
             any = any || (broken & ~held_station.needed) != 0;
@@ -132,7 +145,8 @@ void SpeedProblem::add_row(std::uint32_t number, Row kind, std::size_t cell, con
     rows_.add({{w[0] / limit, w[1] / limit, w[2] / limit}, {}, 1, 1, static_cast<std::uint32_t>(cell), number, kind});
 }
 
-void SpeedProblem::add_jerk(std::uint32_t number, Row kind, std::size_t cell, const Three& w, const Three& b, double limit) {
+void SpeedProblem::add_jerk(std::uint32_t number, Row kind, std::size_t cell, const Three& w, const Three& b,
+                            double limit) {
     rows_.add({{w[0] / limit, w[1] / limit, w[2] / limit}, b, 0, 1, static_cast<std::uint32_t>(cell), number, kind});
 }
 
@@ -148,11 +162,14 @@ void SpeedProblem::make_rows() {
         if (!last_cell) {
             const CellLimits& next = cells_[i + 1].limits;
             add_cap(1, i, last.b, std::min(cell.limits.cap, next.cap));
-            if (cell.acceleration) add_row(2, Row::tangential_acceleration, i, sum(0.5, last.slope, 0, last.slope), acceleration_share * std::min(cell.limits.acceleration, next.acceleration));
+            if (cell.acceleration)
+                add_row(2, Row::tangential_acceleration, i, sum(0.5, last.slope, 0, last.slope),
+                        acceleration_share * std::min(cell.limits.acceleration, next.acceleration));
         }
         const double jerk = jerk_share * cell.jerk_share * cell.limits.jerk;
         for (std::uint32_t k = 0; k < 3; ++k) {
-            if (cell.jerk[k]) add_jerk(3 + k, Row::tangential_jerk, i, sum(0.5, along[k].curve, 0, along[k].curve), along[k].b, jerk);
+            if (cell.jerk[k])
+                add_jerk(3 + k, Row::tangential_jerk, i, sum(0.5, along[k].curve, 0, along[k].curve), along[k].b, jerk);
         }
         for (std::uint32_t s = cell.first_station; s < cell.end_station; ++s) {
             if (stations_[s].needed == 0) continue;
@@ -162,13 +179,17 @@ void SpeedProblem::make_rows() {
                 const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(x)];
                 const std::uint32_t number = 6 + 6 * (s - cell.first_station) + 2 * static_cast<std::uint32_t>(x);
                 if ((stations_[s].needed & acceleration_bit(x)) != 0) {
-                    add_row(number, Row::axis_acceleration, i, sum(0.5 * station.slope[x], w.slope, station.bend[x], w.b), acceleration_share * axis.max_acceleration);
+                    add_row(number, Row::axis_acceleration, i,
+                            sum(0.5 * station.slope[x], w.slope, station.bend[x], w.b),
+                            acceleration_share * axis.max_acceleration);
                 }
                 if ((stations_[s].needed & jerk_bit(x)) != 0) {
                     const double limit = jerk_share * axis.max_jerk;
-                    const double steady = std::abs(station.twist[x]) * cell.limits.cap * cell.limits.cap * cell.limits.cap;
+                    const double steady =
+                        std::abs(station.twist[x]) * cell.limits.cap * cell.limits.cap * cell.limits.cap;
                     const Three moving = sum(1.5 * station.bend[x], w.slope, station.twist[x], w.b);
-                    add_jerk(number + 1, steady > 0.5 * limit ? Row::corner_jerk : Row::axis_jerk, i, sum(0.5 * station.slope[x], w.curve, 1, moving), w.b, limit);
+                    add_jerk(number + 1, steady > 0.5 * limit ? Row::corner_jerk : Row::axis_jerk, i,
+                             sum(0.5 * station.slope[x], w.curve, 1, moving), w.b, limit);
                 }
             }
         }

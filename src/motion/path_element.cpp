@@ -65,7 +65,8 @@ PathDerivatives PathElement::derivatives(double way) const {
     const Vec3 outward = first * std::cos(angle) + second * std::sin(angle);
     const Vec3 along = second * std::cos(angle) - first * std::sin(angle);
     const double distance = radius + growth * angle;
-    return {rate * (growth * outward + distance * along + rise), rate * rate * (2 * growth * along - distance * outward),
+    return {rate * (growth * outward + distance * along + rise),
+            rate * rate * (2 * growth * along - distance * outward),
             -rate * rate * rate * (3 * growth * outward + distance * along)};
 }
 

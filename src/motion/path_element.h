@@ -22,21 +22,21 @@ struct PathDerivatives {
 struct PathElement {
     bool arc = false, cubic = false;
     Vec3 begin = Vec3::Zero(), end = Vec3::Zero();  ///< [mm]
-    Vec3 direction = Vec3::Zero();  ///< of a line, unit
+    Vec3 direction = Vec3::Zero();                  ///< of a line, unit
     // p(θ) = centre + (radius + growth θ)(first cos θ + second sin θ) + rise θ, θ = rate · way
     Vec3 centre = Vec3::Zero(), first = Vec3::Zero(), second = Vec3::Zero(), rise = Vec3::Zero();
     double radius = 0, growth = 0, rate = 0;
     CubicSpan curve;
     double curve_from = 0, curve_length = 0;  ///< where the element begins on the curve; of the whole curve [mm]
-    double length = 0;     ///< [mm]
+    double length = 0;                        ///< [mm]
 
     // Of the block that the element stands for.
-    double feed = 0;          ///< asked speed [mm/s]; infinite for a rapid
-    double tolerance = 0;     ///< of what rounds its ends [mm]; 0: exact path
+    double feed = 0;       ///< asked speed [mm/s]; infinite for a rapid
+    double tolerance = 0;  ///< of what rounds its ends [mm]; 0: exact path
     LineNumber line = 0;
-    std::int64_t block = 0;   ///< number of the block, of those with a way
-    double block_length = 0;  ///< [mm]
-    double deviation = 0;     ///< of the element from the block, at most [mm]
+    std::int64_t block = 0;                                           ///< number of the block, of those with a way
+    double block_length = 0;                                          ///< [mm]
+    double deviation = 0;                                             ///< of the element from the block, at most [mm]
     double greatest_speed = std::numeric_limits<double>::infinity();  ///< that its shape is good for [mm/s]
 
     [[nodiscard]] bool straight() const { return !arc && !cubic; }

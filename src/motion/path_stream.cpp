@@ -13,7 +13,9 @@ constexpr double share_of_bends = 0.25;  ///< of the tolerance, for jumps of cur
 }  // namespace
 
 std::string_view name_of(Ruling ruling) {
-    constexpr std::array<std::string_view, 10> names{"at rest", "feed", "axis speed", "axis acceleration", "jerk", "corner tolerance", "chord error", "look-ahead end", "override", "block time"};
+    constexpr std::array<std::string_view, 10> names{
+        "at rest",          "feed",        "axis speed",     "axis acceleration", "jerk",
+        "corner tolerance", "chord error", "look-ahead end", "override",          "block time"};
     return names[static_cast<std::size_t>(ruling)];
 }
 
@@ -34,7 +36,8 @@ PathStream::PathStream(MotionSource& source, const Machine& machine, const Vec3&
     : machine_(&machine), blocks_(source, machine, start), source_(&blocks_) {
     // Only drives that bear any jerk bear the jumps of curvature at the ends of arcs.
     const bool arcs = machine.controller.corner == CornerMode::arc &&
-                      std::none_of(machine.axes.begin(), machine.axes.end(), [](const MachineAxis& axis) { return axis.max_jerk > 0; });
+                      std::none_of(machine.axes.begin(), machine.axes.end(),
+                                   [](const MachineAxis& axis) { return axis.max_jerk > 0; });
     const bool curves = machine.controller.curve != CurveMode::none;
     if (!arcs && (curves || source.outline().arcs)) bend_share_ = share_of_bends;
     if (curves) {
@@ -164,7 +167,8 @@ void PathStream::settle_scale(std::int64_t i) {
     for (std::int64_t k = std::max(first_joint_, i - reach_of_a_joint); k <= high; ++k) {
         const Joint& other = joint(k);
         const double allowed = (1 - bend_share_) * other.tolerance;
-        if (other.deviation > allowed && std::abs(other.at - j.at) < j.width) scale = std::min(scale, allowed / other.deviation);
+        if (other.deviation > allowed && std::abs(other.at - j.at) < j.width)
+            scale = std::min(scale, allowed / other.deviation);
     }
     j.width *= scale;
     if (j.width > 0) j.turn_share = j.turn / (6 * j.width * j.width);
@@ -175,7 +179,9 @@ void PathStream::settle_scale(std::int64_t i) {
 /// Takes every stage as far as the elements known allow.
 void PathStream::settle() {
     const std::int64_t joints = element_count_ - 1;
-    const auto known = [&](std::int64_t done_before) { return closed_ ? joints : std::max<std::int64_t>(0, done_before - reach_of_a_joint); };
+    const auto known = [&](std::int64_t done_before) {
+        return closed_ ? joints : std::max<std::int64_t>(0, done_before - reach_of_a_joint);
+    };
     while (widths_done_ < known(joints)) settle_width(widths_done_++);
     while (deviations_done_ < known(widths_done_)) settle_deviation(deviations_done_++);
     while (scales_done_ < known(deviations_done_)) settle_scale(scales_done_++);

@@ -38,11 +38,11 @@ enum class Ruling : std::uint8_t {
     axis_speed = 2,         ///< speed of an axis, or of the path
     axis_acceleration = 3,  ///< acceleration of an axis, of the path, or normal to it
     jerk = 4,
-    corner_tolerance = 5,   ///< jerk in a corner as round as the tolerance lets it be
+    corner_tolerance = 5,  ///< jerk in a corner as round as the tolerance lets it be
     chord_error = 6,
-    lookahead_end = 7,      ///< braking to a stop, or to the end of the known blocks
+    lookahead_end = 7,  ///< braking to a stop, or to the end of the known blocks
     feed_override = 8,
-    block_time = 9,         ///< the block is shorter than what is driven in the controller's block time
+    block_time = 9,  ///< the block is shorter than what is driven in the controller's block time
 };
 
 /// "feed", "axis speed", …
@@ -51,8 +51,8 @@ enum class Ruling : std::uint8_t {
 /// Where the position on a span comes from, and how fast it may be passed.
 struct Span {
     PathElement base;
-    double from = 0;    ///< way on the element where the span begins [mm]
-    double length = 0;  ///< [mm]
+    double from = 0;                 ///< way on the element where the span begins [mm]
+    double length = 0;               ///< [mm]
     std::array<Vec3, 5> rounding{};  ///< Σ rounding[k] τᵏ, τ from the span's begin
     bool rounded = false;
 
@@ -95,11 +95,11 @@ public:
 
 private:
     struct Joint {
-        double at = 0;  ///< way from the section's begin [mm]
+        double at = 0;                                  ///< way from the section's begin [mm]
         Vec3 turn = Vec3::Zero(), bend = Vec3::Zero();  ///< Δt; Δk [1/mm]
-        double turning = 0;    ///< |Δt|
+        double turning = 0;                             ///< |Δt|
         double tolerance = 0;
-        double widest = 0;     ///< that its rounding may be
+        double widest = 0;  ///< that its rounding may be
         double width = 0, bend_width = 0;
         double share = 0;      ///< of (w − |d|)³ in its rounding, as wide as it may be [1/mm²]
         double deviation = 0;  ///< of the overlapping roundings, before they are scaled
@@ -120,18 +120,20 @@ private:
     void set_limits(Span& span) const;
 
     Joint& joint(std::int64_t i) { return joints_[static_cast<std::size_t>(i - first_joint_)]; }
-    [[nodiscard]] const Joint& joint(std::int64_t i) const { return joints_[static_cast<std::size_t>(i - first_joint_)]; }
+    [[nodiscard]] const Joint& joint(std::int64_t i) const {
+        return joints_[static_cast<std::size_t>(i - first_joint_)];
+    }
 
     const Machine* machine_;
-    double bend_share_ = 0;            ///< of the tolerance, for jumps of curvature
+    double bend_share_ = 0;  ///< of the tolerance, for jumps of curvature
     BlockStream blocks_;
     std::unique_ptr<CurveBlocks> curves_;
     std::unique_ptr<CornerArcs> arcs_;
-    ElementSource* source_;            ///< the last of what shapes the path
+    ElementSource* source_;  ///< the last of what shapes the path
 
     // The section: elements from first_element_ on; joint i lies between elements i and i + 1.
     Queue<PathElement> elements_;
-    Queue<double> ends_;               ///< way to each element's end [mm]
+    Queue<double> ends_;  ///< way to each element's end [mm]
     Queue<Joint> joints_;
     std::int64_t first_element_ = 0, first_joint_ = 0;
     std::int64_t element_count_ = 0;
@@ -139,7 +141,7 @@ private:
     double closed_at_ = 0;
     std::int64_t widths_done_ = 0, deviations_done_ = 0, scales_done_ = 0, spans_done_ = 0;
     Queue<Span> ready_;
-    bool front_taken_ = false;         ///< of ready_
+    bool front_taken_ = false;  ///< of ready_
     // Scratch of make_spans(): joints whose roundings reach into a part of the element, the sum of those that cover it as a
     // polynomial from its begin, and where it is cut.
     std::vector<const Joint*> reaching_;

@@ -13,8 +13,12 @@ constexpr double limit_play = 1.001;  ///< what counts as held, differentiated
 }  // namespace
 
 Recorder::Recorder(const Program& program, const Machine& machine, const Vec3& start, const PointSink& sink)
-    : program_(&program), machine_(&machine), sink_(&sink), rate_(1 / machine.controller.period),
-      servos_{ServoLoop(machine.axes[0].servo, machine.controller.period, start.x(), 1), ServoLoop(machine.axes[1].servo, machine.controller.period, start.y(), 2),
+    : program_(&program),
+      machine_(&machine),
+      sink_(&sink),
+      rate_(1 / machine.controller.period),
+      servos_{ServoLoop(machine.axes[0].servo, machine.controller.period, start.x(), 1),
+              ServoLoop(machine.axes[1].servo, machine.controller.period, start.y(), 2),
               ServoLoop(machine.axes[2].servo, machine.controller.period, start.z(), 3)},
       last_(start) {
     block_.reserve(points_at_once);
@@ -76,9 +80,10 @@ void Recorder::watch_travel(const Vec3& position, LineNumber line) {
         const MachineAxis& axis = machine_->axes[k];
         const bool outside = position[i] < axis.travel_low || position[i] > axis.travel_high;
         if (outside && !outside_[k]) {
-            summary_.diagnostics.add({Severity::warning, "motion.travel", Place::of_line(program_->main().name(), line),
-                                      fmt::format("{} leaves its travel of {} … {} mm", axis_names[k], axis.travel_low, axis.travel_high),
-                                      "positions are those of the program: is the work offset not zero?"});
+            summary_.diagnostics.add(
+                {Severity::warning, "motion.travel", Place::of_line(program_->main().name(), line),
+                 fmt::format("{} leaves its travel of {} … {} mm", axis_names[k], axis.travel_low, axis.travel_high),
+                 "positions are those of the program: is the work offset not zero?"});
         }
         outside_[k] = outside;
     }

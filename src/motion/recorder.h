@@ -41,8 +41,8 @@ private:
     double rate_;  ///< periods a second
     std::array<ServoLoop, 3> servos_;
     std::vector<SimulatedPoint> block_;
-    Vec3 last_, last_step_ = Vec3::Zero(), last_bend_ = Vec3::Zero();  ///< position and its differences
-    double greatest_step_ = 0;  ///< squared [mm²]
+    Vec3 last_, last_step_ = Vec3::Zero(), last_bend_ = Vec3::Zero();        ///< position and its differences
+    double greatest_step_ = 0;                                               ///< squared [mm²]
     Vec3 step_ = Vec3::Zero(), bend_ = Vec3::Zero(), twist_ = Vec3::Zero();  ///< greatest differences [mm]
     std::array<bool, 3> outside_{};
     SimulationSummary summary_;

@@ -11,10 +11,10 @@ namespace {
 
 constexpr std::size_t most_cells = 250;  ///< of a window
 constexpr double run_share = 0.85;       ///< of a window, before it is planned again
-constexpr double rest_share = 0.25;      ///< of the jerk phase next to a rest: run as planned, as v² is no quadratic there
-constexpr double growth = 0.15;          ///< of the time from or to a rest: longest cell
-constexpr double cells_a_ramp = 5;       ///< over the time in which the jerk reaches the greatest acceleration
-constexpr double most_change = 0.05;     ///< of the speed in a cell, by the jerk
+constexpr double rest_share = 0.25;  ///< of the jerk phase next to a rest: run as planned, as v² is no quadratic there
+constexpr double growth = 0.15;      ///< of the time from or to a rest: longest cell
+constexpr double cells_a_ramp = 5;   ///< over the time in which the jerk reaches the greatest acceleration
+constexpr double most_change = 0.05;  ///< of the speed in a cell, by the jerk
 // Spans share a cell until it lasts as long as that, and their stations hold the limits of each: a part of the
 // same time, as in less of it a speed hardly changes.
 constexpr double least_cells_a_ramp = 13, least_periods = 0.4, most_periods = 3;
@@ -62,7 +62,8 @@ bool Refiner::cruises_at_the_cap(const KeptRun& run) const {
 }
 
 void Refiner::push(const Run& run, std::span<const Span> spans) {
-    runs_.push_back({run.profile, {spans.begin(), spans.end()}, run.eased, true, run.start_speed == 0, run.end_speed == 0});
+    runs_.push_back(
+        {run.profile, {spans.begin(), spans.end()}, run.eased, true, run.start_speed == 0, run.end_speed == 0});
     KeptRun& kept_run = runs_.back();
     for (const Span& span : spans) kept_run.plain = kept_run.plain && span.straight();
     const std::int64_t number = first_run_ + static_cast<std::int64_t>(runs_.size()) - 1;
@@ -100,7 +101,8 @@ void Refiner::add(const Stretch& stretch) {
     if (!divided_ && waiting_.size() == 2 && cells_.empty()) divide(waiting_.front());
     divided_ = true;
     divide(waiting_.back());
-    const bool full = cells_.size() >= most_cells || (!cells_.empty() && kept(stretch.run).spans.back().base.block - cells_.front().block >= blocks_);
+    const bool full = cells_.size() >= most_cells ||
+                      (!cells_.empty() && kept(stretch.run).spans.back().base.block - cells_.front().block >= blocks_);
     if (full && !ends_at_rest_) solve(false);
 }
 
@@ -138,7 +140,8 @@ void Refiner::add_cells(const Stretch& stretch) {
         const double last_time = last == way_to ? stretch.to : profile.time_at(last);
         while (way < last) {
             const double speed = std::max(profile.at(time).speed, 0.0);
-            double step = std::clamp(std::sqrt(2 * most_change * speed / machine_->path.max_jerk), machine_->controller.period, knot_time_);
+            double step = std::clamp(std::sqrt(2 * most_change * speed / machine_->path.max_jerk),
+                                     machine_->controller.period, knot_time_);
             if (run.from_rest) step = std::min(step, growth * time);
             if (run.to_rest) step = std::min(step, growth * (profile.duration() - time));
             const bool ends = last_time - time < 1.5 * step;
@@ -165,7 +168,8 @@ void Refiner::add_cells(const Stretch& stretch) {
 void Refiner::close_cell() {
     if (open_.length == 0) return;
     open_.at_cap = Ruling::none;
-    CellLimits limits{std::numeric_limits<double>::infinity(), machine_->path.max_acceleration, machine_->path.max_jerk};
+    CellLimits limits{std::numeric_limits<double>::infinity(), machine_->path.max_acceleration,
+                      machine_->path.max_jerk};
     stations_.clear();
     double begin = 0;
     for (std::size_t k = parts_.size() - open_.parts; k < parts_.size(); ++k) {
@@ -209,7 +213,8 @@ void Refiner::add_part(const CellPart& part, double begin, CellLimits& limits) {
     if (curvature > 0) {
         const double radius = 1 / std::sqrt(curvature);
         cap(arc_speed(radius, machine_->path.max_normal_acceleration), Ruling::axis_acceleration);
-        cap(chord_speed(radius, machine_->controller.chord_tolerance, machine_->controller.period), Ruling::chord_error);
+        cap(chord_speed(radius, machine_->controller.chord_tolerance, machine_->controller.period),
+            Ruling::chord_error);
     }
 }
 
@@ -272,8 +277,10 @@ void Refiner::close() {
         return;
     }
     if (alone) divide(waiting_.front());
-    if (!waiting_.empty()) solve(true);
-    else run_cells(cells_.size(), ends_at_rest_);
+    if (!waiting_.empty())
+        solve(true);
+    else
+        run_cells(cells_.size(), ends_at_rest_);
     if (ends_at_rest_ && tail_.to > tail_.from) run_as_planned(tail_);
     tail_ = {};
     ends_at_rest_ = false;

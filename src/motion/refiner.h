@@ -45,7 +45,9 @@ private:
         Ruling at_cap = Ruling::feed;
     };
 
-    [[nodiscard]] const KeptRun& kept(std::int64_t run) const { return runs_[static_cast<std::size_t>(run - first_run_)]; }
+    [[nodiscard]] const KeptRun& kept(std::int64_t run) const {
+        return runs_[static_cast<std::size_t>(run - first_run_)];
+    }
     [[nodiscard]] bool cruises_at_the_cap(const KeptRun& run) const;
     void run_as_planned(const Stretch& stretch);
     void add(const Stretch& stretch);
@@ -68,14 +70,14 @@ private:
     std::vector<Stretch> waiting_;  ///< since the window was last solved
     bool divided_ = false;          ///< the waiting stretches are in cells
     bool ends_at_rest_ = false;
-    Stretch tail_;                  ///< the last way to rest
+    Stretch tail_;  ///< the last way to rest
 
     std::vector<Cell> cells_;
-    std::vector<CellPart> parts_;   ///< of the cells in turn, then of the one being made
-    std::size_t solved_ = 0;        ///< first cells, whose values hold the limits
+    std::vector<CellPart> parts_;  ///< of the cells in turn, then of the one being made
+    std::size_t solved_ = 0;       ///< first cells, whose values hold the limits
     SpeedProblem problem_;
-    KnotState start_, end_;         ///< of the cells
-    Cell open_;                     ///< the cell being made
+    KnotState start_, end_;  ///< of the cells
+    Cell open_;              ///< the cell being made
     KnotState open_end_;
     std::vector<Station> stations_;  ///< of the cell being made
 };

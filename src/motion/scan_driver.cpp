@@ -12,14 +12,15 @@ constexpr double periods_a_cell = 0.5;  ///< of a bent span, at the speed that i
 constexpr int most_cells = 16;          ///< of a span
 // An acceleration x′ a + x″ v² differs between two places, Δ apart, from the line through it there by at most Δ²/8 of its
 // second derivative, 5 x‴ a + x⁗ v². So much is left at the places, and they are that near to each other:
-constexpr double left_over = 0.005;     ///< of an acceleration
-constexpr double least_share = 0.5;     ///< of an acceleration, whatever is left of it
-constexpr int most_parts = 8;           ///< of a cell, between its places
+constexpr double left_over = 0.005;  ///< of an acceleration
+constexpr double least_share = 0.5;  ///< of an acceleration, whatever is left of it
+constexpr int most_parts = 8;        ///< of a cell, between its places
 
 }  // namespace
 
 bool jerks_freely(const Machine& machine) {
-    const bool axes = std::any_of(machine.axes.begin(), machine.axes.end(), [](const MachineAxis& axis) { return axis.max_jerk > 0; });
+    const bool axes = std::any_of(machine.axes.begin(), machine.axes.end(),
+                                  [](const MachineAxis& axis) { return axis.max_jerk > 0; });
     return !axes && machine.path.max_jerk * machine.controller.period >= 2 * machine.path.max_acceleration;
 }
 
@@ -33,7 +34,8 @@ bool ScanDriver::take_span() {
 
 /// How much an axis' acceleration may bend over the way, x‴ and x⁗ at their greatest [1/s²].
 Vec3 ScanDriver::curving(const Span& span) const {
-    const double fastest = std::min(span.free_cap, arc_speed(1 / span.greatest_bend, machine_->path.max_normal_acceleration));
+    const double fastest =
+        std::min(span.free_cap, arc_speed(1 / span.greatest_bend, machine_->path.max_normal_acceleration));
     return (5 * machine_->path.max_acceleration * span.twist).array() + fastest * fastest * span.fourth;
 }
 
@@ -43,7 +45,8 @@ bool ScanDriver::gentle(const Span& span) const {
     if (span.cap < span.free_cap) return false;
     for (int x = 0; x < 3; ++x) {
         const double bending = span.bend[x] * span.cap * span.cap;
-        if (span.slope[x] * span.acceleration + bending > machine_->axes[static_cast<std::size_t>(x)].max_acceleration) return false;
+        if (span.slope[x] * span.acceleration + bending > machine_->axes[static_cast<std::size_t>(x)].max_acceleration)
+            return false;
     }
     return true;
 }
@@ -56,12 +59,16 @@ void ScanDriver::divide(const Span& span) {
     }
     // From rest to rest there is no way in a single cell.
     const double fewest = cells_.empty() ? 2 : 1;
-    const int count = static_cast<int>(std::clamp(std::ceil(span.length / (span.cap * machine_->controller.period * periods_a_cell)), fewest, double{most_cells}));
+    const int count =
+        static_cast<int>(std::clamp(std::ceil(span.length / (span.cap * machine_->controller.period * periods_a_cell)),
+                                    fewest, double{most_cells}));
     const double length = span.length / count;
     const Vec3 curving = this->curving(span);
     double steepest = 0;
-    for (int x = 0; x < 3; ++x) steepest = std::max(steepest, curving[x] / machine_->axes[static_cast<std::size_t>(x)].max_acceleration);
-    const auto parts = static_cast<std::size_t>(std::clamp(std::ceil(length * std::sqrt(steepest / (8 * left_over))), 1.0, double{most_parts}));
+    for (int x = 0; x < 3; ++x)
+        steepest = std::max(steepest, curving[x] / machine_->axes[static_cast<std::size_t>(x)].max_acceleration);
+    const auto parts = static_cast<std::size_t>(
+        std::clamp(std::ceil(length * std::sqrt(steepest / (8 * left_over))), 1.0, double{most_parts}));
     const double part = length / static_cast<double>(parts);
     Vec3 limits;
     for (int x = 0; x < 3; ++x) {
@@ -72,7 +79,8 @@ void ScanDriver::divide(const Span& span) {
     places_[parts] = span.derivatives(0);
     for (int k = 0; k < count; ++k) {
         places_[0] = places_[parts];
-        for (std::size_t p = 1; p <= parts; ++p) places_[p] = span.derivatives(length * k + part * static_cast<double>(p));
+        for (std::size_t p = 1; p <= parts; ++p)
+            places_[p] = span.derivatives(length * k + part * static_cast<double>(p));
         add_cell({&span, length * k, span.free_ruling}, length, limits);
     }
 }
@@ -89,13 +97,15 @@ void ScanDriver::add_cell(Cell cell, double length, const Vec3& accelerations) {
     if (bend > 0) {
         const double radius = 1 / std::sqrt(bend);
         limit(arc_speed(radius, path.max_normal_acceleration), Ruling::axis_acceleration);
-        limit(chord_speed(radius, machine_->controller.chord_tolerance, machine_->controller.period), Ruling::chord_error);
+        limit(chord_speed(radius, machine_->controller.chord_tolerance, machine_->controller.period),
+              Ruling::chord_error);
     }
     cells_.push_back(cell);
     scan_.add_cell(length, cap, path.max_acceleration);
     const double part = length / static_cast<double>(places_.size() - 1);
     for (std::size_t p = 0; p < places_.size(); ++p) {
-        for (int x = 0; x < 3; ++x) scan_.add_limit(part * static_cast<double>(p), places_[p].first[x], places_[p].second[x], accelerations[x]);
+        for (int x = 0; x < 3; ++x)
+            scan_.add_limit(part * static_cast<double>(p), places_[p].first[x], places_[p].second[x], accelerations[x]);
     }
 }
 
@@ -107,7 +117,8 @@ void ScanDriver::run_section(const std::function<void()>& report) {
     double speed = 0;
     bool ended = false;
     while (!ended || !cells_.empty()) {
-        while (!ended && (spans_.empty() || spans_.back().base.block - spans_.front().base.block < blocks)) ended = !take_span();
+        while (!ended && (spans_.empty() || spans_.back().base.block - spans_.front().base.block < blocks))
+            ended = !take_span();
         if (cells_.empty()) return;
         std::size_t count = cells_.size();
         if (!ended) {
@@ -133,7 +144,9 @@ void ScanDriver::run(std::size_t count) {
         double from = cell.from;
         for (const CellMotion& motion : motions_) {
             const bool last_way = i >= braking || (i + 1 == braking && motion.acceleration < 0);
-            const Ruling ruling = scan_.at_cap(i, motion) ? cell.at_cap : last_way && motion.acceleration < 0 ? Ruling::lookahead_end : Ruling::axis_acceleration;
+            const Ruling ruling = scan_.at_cap(i, motion)               ? cell.at_cap
+                                  : last_way && motion.acceleration < 0 ? Ruling::lookahead_end
+                                                                        : Ruling::axis_acceleration;
             const CellPart part{cell.span, from, motion.length};
             interpolator_->run(motion, {&part, 1}, ruling);
             from += motion.length;

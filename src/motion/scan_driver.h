@@ -21,7 +21,8 @@ namespace clsurf {
 class ScanDriver {
 public:
     /// All must outlive it.
-    ScanDriver(const Machine& machine, PathStream& stream, Interpolator& interpolator) : machine_(&machine), stream_(&stream), interpolator_(&interpolator) {}
+    ScanDriver(const Machine& machine, PathStream& stream, Interpolator& interpolator)
+        : machine_(&machine), stream_(&stream), interpolator_(&interpolator) {}
 
     /// Runs a section, from rest to rest; `report` is called after each part of it.
     void run_section(const std::function<void()>& report);

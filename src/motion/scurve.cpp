@@ -35,7 +35,8 @@ MotionState advance(const MotionState& from, double t, double jerk) {
 /// The peak speed v ≥ both ends for which the two ramps take the whole way: rises strictly there.
 double peak_speed(double way, double vs, double ve, const RampLimits& limits) {
     const auto excess = [&](double v) {
-        return ramp_distance(vs, v, limits.acceleration, limits.jerk) + ramp_distance(v, ve, limits.deceleration, limits.jerk) - way;
+        return ramp_distance(vs, v, limits.acceleration, limits.jerk) +
+               ramp_distance(v, ve, limits.deceleration, limits.jerk) - way;
     };
     double low = std::max(vs, ve);
     double high = limits.speed;
@@ -117,7 +118,8 @@ double SCurve::time_at(double way) const {
     const double jerk = jerk_signs[phase] * jerk_;
     // With the acceleration that the phase begins with: exact where there is no jerk.
     const double left = way - start.way;
-    double t = 2 * left / (start.speed + std::sqrt(std::max(0.0, start.speed * start.speed + 2 * start.acceleration * left)));
+    double t =
+        2 * left / (start.speed + std::sqrt(std::max(0.0, start.speed * start.speed + 2 * start.acceleration * left)));
     if (jerk == 0) return begin + std::min(t, durations_[phase]);
     double low = 0;
     double high = durations_[phase];
@@ -127,7 +129,8 @@ double SCurve::time_at(double way) const {
         const double excess = s.way - way;
         if (std::abs(excess) <= 1e-14 * length_) break;
         (excess < 0 ? low : high) = t;
-        const double next = s.speed > 0 ? t - excess * s.speed / (s.speed * s.speed - 0.5 * excess * s.acceleration) : low;
+        const double next =
+            s.speed > 0 ? t - excess * s.speed / (s.speed * s.speed - 0.5 * excess * s.acceleration) : low;
         t = next > low && next < high ? next : 0.5 * (low + high);
     }
     return begin + t;
@@ -141,7 +144,8 @@ PlannedProfile plan_scurve(double way, double start_speed, double end_speed, con
     plan.needed_way = ramp_distance(vs, ve, towards, limits.jerk);
     // A difference of speeds carries their rounding: on a way so short that it is no more than that, the ramp fits.
     const double rounding = speed_play * std::max(vs, ve);
-    const double least_way = 0.5 * (vs + ve) * ramp_time(std::max(0.0, std::abs(ve - vs) - rounding), towards, limits.jerk);
+    const double least_way =
+        0.5 * (vs + ve) * ramp_time(std::max(0.0, std::abs(ve - vs) - rounding), towards, limits.jerk);
     if (least_way > way * (1 + relative_play) + absolute_play) {
         if (ve < vs) {
             plan.status = ProfileStatus::infeasible_decel;
@@ -157,11 +161,15 @@ PlannedProfile plan_scurve(double way, double start_speed, double end_speed, con
                                 : way + 1;
     double peak = limits.speed;
     double cruise = 0;
-    if (at_limit <= way) cruise = way > at_limit ? (way - at_limit) / limits.speed : 0.0;
-    else peak = peak_speed(way, vs, ve, limits);
+    if (at_limit <= way)
+        cruise = way > at_limit ? (way - at_limit) / limits.speed : 0.0;
+    else
+        peak = peak_speed(way, vs, ve, limits);
     const Ramp up = ramp_of(peak - vs, limits.acceleration, limits.jerk);
     const Ramp down = ramp_of(peak - ve, limits.deceleration, limits.jerk);
-    plan.profile = SCurve(vs, limits.jerk, {up.jerk_part, up.constant_part, up.jerk_part, cruise, down.jerk_part, down.constant_part, down.jerk_part});
+    plan.profile = SCurve(
+        vs, limits.jerk,
+        {up.jerk_part, up.constant_part, up.jerk_part, cruise, down.jerk_part, down.constant_part, down.jerk_part});
     plan.profile.pin_end(way, ve);
     return plan;
 }

@@ -69,9 +69,9 @@ private:
 
 struct PlannedProfile {
     ProfileStatus status = ProfileStatus::ok;
-    SCurve profile;           ///< empty when infeasible
-    double needed_way = 0;    ///< of the ramp between the end speeds [mm]
-    double allowed_start = 0; ///< infeasible_decel: the greatest start speed that works [mm/s]
+    SCurve profile;            ///< empty when infeasible
+    double needed_way = 0;     ///< of the ramp between the end speeds [mm]
+    double allowed_start = 0;  ///< infeasible_decel: the greatest start speed that works [mm/s]
 };
 
 /// The fastest profile over `way` from start to end speed, both at most limits.speed.

@@ -25,11 +25,19 @@ double noise_of_one(std::uint64_t& state) {
 }  // namespace
 
 ServoLoop::ServoLoop(const ServoModel& model, double period, double start, std::uint64_t seed)
-    : gain_(model.position_gain), feedforward_(model.velocity_feedforward),
+    : gain_(model.position_gain),
+      feedforward_(model.velocity_feedforward),
       // Exact for a reference that is constant over the period.
       velocity_step_(model.velocity_time_constant > 0 ? 1 - std::exp(-period / model.velocity_time_constant) : 1.0),
-      quantum_(model.quantum), noise_(model.noise), period_(period), play_(0.5 * model.backlash), friction_(model.friction),
-      commanded_(start), position_(start), table_(start), random_(seed) {}
+      quantum_(model.quantum),
+      noise_(model.noise),
+      period_(period),
+      play_(0.5 * model.backlash),
+      friction_(model.friction),
+      commanded_(start),
+      position_(start),
+      table_(start),
+      random_(seed) {}
 
 /// Of a reading [mm].
 double ServoLoop::noise() { return noise_ * noise_of_one(random_); }

@@ -21,8 +21,12 @@ class Controller {
 public:
     // The blocks that are known ahead are shared between the plan and its refinement.
     Controller(const Machine& machine, PathStream& stream, Interpolator& interpolator, Planning planning)
-        : blocks_(planning == Planning::by_nodes ? machine.controller.lookahead_blocks : (machine.controller.lookahead_blocks + 1) / 2), stream_(&stream), planner_(machine, planning == Planning::nearly_optimal),
-          refiner_(machine, interpolator, planning == Planning::by_nodes ? 0 : std::max(1, machine.controller.lookahead_blocks / 2)) {}
+        : blocks_(planning == Planning::by_nodes ? machine.controller.lookahead_blocks
+                                                 : (machine.controller.lookahead_blocks + 1) / 2),
+          stream_(&stream),
+          planner_(machine, planning == Planning::nearly_optimal),
+          refiner_(machine, interpolator,
+                   planning == Planning::by_nodes ? 0 : std::max(1, machine.controller.lookahead_blocks / 2)) {}
 
     /// Runs a section, from rest to rest.
     void run_section(const std::function<void()>& report) {
@@ -32,8 +36,10 @@ public:
         bool ended = false;
         while (true) {
             while (!ended && (window_.empty() || window_.back().base.block - window_.front().base.block < blocks_)) {
-                if (const Span* span = stream_->next()) window_.push_back(*span);
-                else ended = true;
+                if (const Span* span = stream_->next())
+                    window_.push_back(*span);
+                else
+                    ended = true;
             }
             if (window_.empty()) return;
             // Half of the window is run, the other half is what it looks ahead.
@@ -50,7 +56,8 @@ public:
                 pending_ = planner_.runs();
                 while (!pending_.empty() && pending_.front().last <= half) run_first(speed, done);
             } else if (pending_.empty()) {
-                throw std::logic_error(fmt::format("no plan leads from {} mm/s on in the block of line {}", speed, window_.front().base.line));
+                throw std::logic_error(fmt::format("no plan leads from {} mm/s on in the block of line {}", speed,
+                                                   window_.front().base.line));
             } else {
                 // The plan before goes on: it ends at rest, whatever comes after.
                 run_first(speed, done);
@@ -80,14 +87,14 @@ private:
 
 }  // namespace
 
-SimulationSummary simulate(const Program& program, const Machine& machine, const Vec3& start,
-                           const PointSink& sink, const Progress& progress, Planning planning) {
+SimulationSummary simulate(const Program& program, const Machine& machine, const Vec3& start, const PointSink& sink,
+                           const Progress& progress, Planning planning) {
     WholeProgram whole(program);
     return simulate(whole, machine, start, sink, progress, planning);
 }
 
-SimulationSummary simulate(MotionSource& source, const Machine& machine, const Vec3& start,
-                           const PointSink& sink, const Progress& progress, Planning planning) {
+SimulationSummary simulate(MotionSource& source, const Machine& machine, const Vec3& start, const PointSink& sink,
+                           const Progress& progress, Planning planning) {
     PathStream stream(source, machine, start);
     const Vec3 from = stream.blocks().position();
     Recorder recorder(source.program(), machine, from, sink);
@@ -100,8 +107,10 @@ SimulationSummary simulate(MotionSource& source, const Machine& machine, const V
     };
     Vec3 at = from;
     while (stream.begin_section()) {
-        if (scans) scan.run_section(report);
-        else controller.run_section(report);
+        if (scans)
+            scan.run_section(report);
+        else
+            controller.run_section(report);
         at = stream.blocks().section_end();
         interpolator.rest(at, stream.blocks().dwell(), stream.blocks().dwell_line());
     }

@@ -78,7 +78,9 @@ void bound_curve(Span& span) {
     if (span.base.arc) {
         const double turn = span.base.rate * step;  // between checked points
         const double rate = span.base.rate;
-        const double play = 0.125 * turn * turn * (span.base.radius + std::abs(span.base.growth * span.base.length * rate)) * rate * rate * rate;
+        const double play = 0.125 * turn * turn *
+                            (span.base.radius + std::abs(span.base.growth * span.base.length * rate)) * rate * rate *
+                            rate;
         span.twist.array() += (span.base.first.cwiseAbs() + span.base.second.cwiseAbs()).array().min(1.0) * play;
     }
     span.fourth = 24 * span.rounding[4].norm() + (span.base.arc ? span.base.radius * std::pow(span.base.rate, 4) : 0.0);
@@ -170,7 +172,8 @@ void PathStream::add_roundings(Span& span, double begin) const {
     std::array<Vec3, 5>& sum = span.rounding;
     const std::array<Vec3, 4>& c = covering_;
     const double from = span.from;
-    sum = {c[0] + from * (c[1] + from * (c[2] + from * c[3])), c[1] + from * (2 * c[2] + 3 * from * c[3]), c[2] + 3 * from * c[3], c[3], Vec3::Zero()};
+    sum = {c[0] + from * (c[1] + from * (c[2] + from * c[3])), c[1] + from * (2 * c[2] + 3 * from * c[3]),
+           c[2] + 3 * from * c[3], c[3], Vec3::Zero()};
     span.rounded = covered_;
     for (const Joint* j : reaching_) {
         const double side = middle > j->at ? 1.0 : -1.0;
@@ -205,9 +208,11 @@ void PathStream::set_limits(Span& span) const {
         if (speed < span.cap) span.cap = speed, span.ruling = why;
     };
     if (!rapid) limit(span.base.feed * override_factor, override_factor == 1 ? Ruling::feed : Ruling::feed_override);
-    if (machine_->controller.block_time > 0) limit(span.base.block_length / machine_->controller.block_time, Ruling::block_time);
+    if (machine_->controller.block_time > 0)
+        limit(span.base.block_length / machine_->controller.block_time, Ruling::block_time);
     for (int i = 0; i < 3; ++i) {
-        if (span.slope[i] > 0) limit(machine_->axes[static_cast<std::size_t>(i)].max_speed / span.slope[i], Ruling::axis_speed);
+        if (span.slope[i] > 0)
+            limit(machine_->axes[static_cast<std::size_t>(i)].max_speed / span.slope[i], Ruling::axis_speed);
     }
     limit(span.base.greatest_speed, Ruling::corner_tolerance);
     span.free_cap = span.cap;
@@ -222,14 +227,16 @@ void PathStream::set_limits(Span& span) const {
             if (axis.max_jerk > 0) span.jerk = std::min(span.jerk, axis.max_jerk / span.slope[i]);
         }
         // Roots only of what may be broken.
-        if (span.bend[i] * span.cap * span.cap > nearly * axis.max_acceleration) limit(std::sqrt(axis.max_acceleration / span.bend[i]), Ruling::axis_acceleration);
+        if (span.bend[i] * span.cap * span.cap > nearly * axis.max_acceleration)
+            limit(std::sqrt(axis.max_acceleration / span.bend[i]), Ruling::axis_acceleration);
         const bool jerks = axis.max_jerk > 0 && span.twist[i] * span.cap * span.cap * span.cap > nearly * axis.max_jerk;
         if (jerks) limit(std::cbrt(axis.max_jerk / span.twist[i]), corner ? Ruling::corner_tolerance : Ruling::jerk);
     }
     if (span.greatest_bend > 0) {
         const double radius = 1 / span.greatest_bend;
         limit(arc_speed(radius, path.max_normal_acceleration), Ruling::axis_acceleration);
-        limit(chord_speed(radius, machine_->controller.chord_tolerance, machine_->controller.period), Ruling::chord_error);
+        limit(chord_speed(radius, machine_->controller.chord_tolerance, machine_->controller.period),
+              Ruling::chord_error);
     }
 }
 

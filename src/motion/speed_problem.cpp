@@ -10,15 +10,15 @@ constexpr int most_steps = 90;
 constexpr double end_gap = 4e-3;         ///< of the time: how far from the optimum it stops
 constexpr double boundary_share = 0.97;  ///< of the way to a limit in one step
 // A start far from every limit, as its slacks say, converges best.
-constexpr double first_slack = 1.0;      ///< of a bound, at least
-constexpr double first_gap = 1.0;        ///< of the time
-constexpr double mended = 1e-4;          ///< of a bound
-constexpr double held = 1 + 3e-4;        ///< part of a limit that counts as held
-constexpr int most_rounds = 6;           ///< with rows for what the last solution broke
+constexpr double first_slack = 1.0;  ///< of a bound, at least
+constexpr double first_gap = 1.0;    ///< of the time
+constexpr double mended = 1e-4;      ///< of a bound
+constexpr double held = 1 + 3e-4;    ///< part of a limit that counts as held
+constexpr int most_rounds = 6;       ///< with rows for what the last solution broke
 // On the way to a solution rows are looked for, too: first at a gap, then whenever it has shrunk to a part of itself, until it is small.
 constexpr double early_gap = 0.3, look_step = 0.3, last_look = 0.02;  ///< of the time; of the gap; of the time
-constexpr double nearly_held = 0.8;      ///< part of a limit that gets a row there
-constexpr double later_slack = 0.05;     ///< of a bound, of a row that joins
+constexpr double nearly_held = 0.8;                                   ///< part of a limit that gets a row there
+constexpr double later_slack = 0.05;                                  ///< of a bound, of a row that joins
 
 }  // namespace
 
@@ -82,8 +82,11 @@ void SpeedProblem::weigh() {
     begins_.resize(cells_.size());
     for (std::size_t i = 0; i < cells_.size(); ++i) {
         const double h = cells_[i].length;
-        const double before = 1 / ((i > 0 ? cells_[i - 1].length : h) + h), after = 1 / (h + (i + 1 < cells_.size() ? cells_[i + 1].length : h));
-        begins_[i] = {{h * before, 1 - h * before, 0}, {-2 * before, 2 * before, 0}, {2 * before / h, (-2 * after - 2 * before) / h, 2 * after / h}};
+        const double before = 1 / ((i > 0 ? cells_[i - 1].length : h) + h),
+                     after = 1 / (h + (i + 1 < cells_.size() ? cells_[i + 1].length : h));
+        begins_[i] = {{h * before, 1 - h * before, 0},
+                      {-2 * before, 2 * before, 0},
+                      {2 * before / h, (-2 * after - 2 * before) / h, 2 * after / h}};
     }
 }
 
@@ -234,10 +237,12 @@ bool SpeedProblem::step() {
     newton_.products.assign(value_.size(), 0);
     const LimitRows::Steps predicted = rows_.predict(step_.data(), newton_);
     const double primal = taken(predicted.primal), dual = taken(predicted.dual);
-    const double left = gap_ + primal * predicted.by_primal + dual * predicted.by_dual + primal * dual * predicted.by_both;
+    const double left =
+        gap_ + primal * predicted.by_primal + dual * predicted.by_dual + primal * dual * predicted.by_both;
     constexpr double least_centre = 1e-3;
     const double centre = std::clamp(left / gap_, least_centre, 1.0) * gap_ / rows_.sides();
-    for (std::size_t i = 0; i < step_.size(); ++i) step_[i] = newton_.pull[i] + centre * newton_.centring[i] - newton_.products[i];
+    for (std::size_t i = 0; i < step_.size(); ++i)
+        step_[i] = newton_.pull[i] + centre * newton_.centring[i] - newton_.products[i];
     substitute();
     const LimitRows::Steps corrected = rows_.correct(step_.data(), centre);
     if (!std::isfinite(corrected.primal) || !std::isfinite(corrected.dual)) return false;

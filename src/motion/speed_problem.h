@@ -34,7 +34,7 @@ struct CellLimits {
 
 /// The derivatives of a bent path at a place of a cell.
 struct Station {
-    double at = 0;  ///< way after the cell's begin [mm]
+    double at = 0;                                                         ///< way after the cell's begin [mm]
     Vec3 slope = Vec3::Zero(), bend = Vec3::Zero(), twist = Vec3::Zero();  ///< x′, x″ [1/mm], x‴ [1/mm²]
 };
 
@@ -102,7 +102,8 @@ private:
     void make_rows();
     void add_cap(std::uint32_t number, std::size_t cell, const std::array<double, 3>& weights, double cap);
     void add_row(std::uint32_t number, Row kind, std::size_t cell, const std::array<double, 3>& w, double limit);
-    void add_jerk(std::uint32_t number, Row kind, std::size_t cell, const std::array<double, 3>& w, const std::array<double, 3>& b, double limit);
+    void add_jerk(std::uint32_t number, Row kind, std::size_t cell, const std::array<double, 3>& w,
+                  const std::array<double, 3>& b, double limit);
     /// At begin, middle and end.
     [[nodiscard]] std::array<Weights, 3> weights_along(std::size_t cell) const;
     [[nodiscard]] Weights weights_at(std::size_t cell, double at) const;
@@ -111,12 +112,13 @@ private:
     std::vector<Cell> cells_;
     std::vector<HeldStation> stations_;
     std::vector<Weights> begins_;  ///< weights at the begin of each cell
-    std::vector<double> value_;  ///< of the cells, with one beyond each end
-    std::vector<Row> ruling_;    ///< of the cells
+    std::vector<double> value_;    ///< of the cells, with one beyond each end
+    std::vector<Row> ruling_;      ///< of the cells
     LimitRows rows_, rows_before_;
     NewtonSystem newton_;
     std::vector<double> step_;
-    double gap_ = 0, broken_ = 0;  ///< sum of slack times multiplier; greatest part of a bound that a limit is broken by
+    double gap_ = 0,
+           broken_ = 0;  ///< sum of slack times multiplier; greatest part of a bound that a limit is broken by
 };
 
 }  // namespace clsurf

@@ -17,7 +17,9 @@ void SpeedScan::clear() {
     squares_.clear();
 }
 
-void SpeedScan::add_cell(double length, double cap, double acceleration) { cells_.push_back({length, cap * cap, acceleration, rows_.size()}); }
+void SpeedScan::add_cell(double length, double cap, double acceleration) {
+    cells_.push_back({length, cap * cap, acceleration, rows_.size()});
+}
 
 void SpeedScan::add_limit(double at, double slope, double bend, double acceleration) {
     Cell& cell = cells_.back();
@@ -45,7 +47,8 @@ SpeedScan::Bounds SpeedScan::bounds(std::size_t cell, double b, double next) con
         if (greatest.at(b) < high) bounds.high = greatest, high = greatest.at(b);
     };
     narrow({0, -rate}, {rate * next, -rate});
-    for (std::size_t r = first_row(cell); r < c.end_row; ++r) narrow({-rows_[r].width, -rows_[r].tilt}, {rows_[r].width, -rows_[r].tilt});
+    for (std::size_t r = first_row(cell); r < c.end_row; ++r)
+        narrow({-rows_[r].width, -rows_[r].tilt}, {rows_[r].width, -rows_[r].tilt});
     return bounds;
 }
 

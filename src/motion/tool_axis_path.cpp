@@ -7,9 +7,9 @@
 namespace clsurf {
 namespace {
 
-constexpr double least_angle = 1e-9;   ///< [rad] below it the axis does not turn
-constexpr double opposite = 1e-6;      ///< [rad] to a half turn: the plane is not defined
-constexpr int judged_places = 200;     ///< of a passage over the other branch
+constexpr double least_angle = 1e-9;  ///< [rad] below it the axis does not turn
+constexpr double opposite = 1e-6;     ///< [rad] to a half turn: the plane is not defined
+constexpr int judged_places = 200;    ///< of a passage over the other branch
 
 /// Rotation along a great circle that comes within `tilt` of the pole, from there on.
 double rotation_at(double s, double tilt) { return std::atan2(std::sin(s), std::cos(s) * std::sin(tilt)); }
@@ -53,8 +53,8 @@ Vec3 great_circle(const Vec3& a, const Vec3& b, double part) {
     return ((std::sin((1 - part) * angle) * a + std::sin(part * angle) * b) / std::sin(angle)).normalized();
 }
 
-ToolAxisPath::ToolAxisPath(const Kinematics& kinematics, const RotaryAngles& from, const RotaryAngles& to, const AngleRange& tilt,
-                           double ratio, double tolerance)
+ToolAxisPath::ToolAxisPath(const Kinematics& kinematics, const RotaryAngles& from, const RotaryAngles& to,
+                           const AngleRange& tilt, double ratio, double tolerance)
     : kinematics_(&kinematics), from_(from), to_(to), begin_(kinematics.axis_of(from)), end_(kinematics.axis_of(to)) {
     angle_ = angle_between(begin_, end_);
     const bool turns = angle_ > least_angle && angle_ < std::numbers::pi - opposite;
@@ -66,7 +66,8 @@ ToolAxisPath::ToolAxisPath(const Kinematics& kinematics, const RotaryAngles& fro
     if (kinematics.interpolation != ToolAxisInterpolation::safe) return;
     // Windows are for axes that cross at right angles, the tool along the rotation where tilt is 0.
     const Vec3& pole = kinematics.rotation.direction;
-    const bool square = std::abs(kinematics.tilt.direction.dot(pole)) < least_angle && kinematics.tool_axis.cross(pole).norm() < least_angle;
+    const bool square = std::abs(kinematics.tilt.direction.dot(pole)) < least_angle &&
+                        kinematics.tool_axis.cross(pole).norm() < least_angle;
     if (!square) return;
     const Vec3 normal = begin_.cross(end_).normalized();
     const double least = std::asin(std::min(1.0, std::abs(normal.dot(pole))));
@@ -106,11 +107,13 @@ RotaryAngles ToolAxisPath::on_great_circle(const Vec3& axis) const {
 }
 
 RotaryAngles ToolAxisPath::at(double part) const {
-    if (way_ == Way::linear) return {from_.tilt + part * (to_.tilt - from_.tilt), from_.rotation + part * (to_.rotation - from_.rotation)};
+    if (way_ == Way::linear)
+        return {from_.tilt + part * (to_.tilt - from_.tilt), from_.rotation + part * (to_.rotation - from_.rotation)};
     if (part <= 0) return from_;
     RotaryAngles angles = on_great_circle(great_circle(begin_, end_, part));
     const double s = part * angle_ - nearest_;
-    if (way_ == Way::window && std::abs(s) < window_.half) angles.rotation = centre_ + turning_ * (window_.slope * s + window_.cubic * s * s * s);
+    if (way_ == Way::window && std::abs(s) < window_.half)
+        angles.rotation = centre_ + turning_ * (window_.slope * s + window_.cubic * s * s * s);
     return angles;
 }
 

@@ -17,10 +17,10 @@ namespace clsurf {
 /// A passage of the pole with limited speed of the rotation, around the point nearest to it: |s| < half
 /// of angle s along the great circle. C(s) = slope s + cubic s³.
 struct PoleWindow {
-    double half = 0;              ///< [rad]; 0: none is needed
+    double half = 0;  ///< [rad]; 0: none is needed
     double slope = 0, cubic = 0;
-    double greatest_speed = 0;    ///< |dC/ds|
-    double greatest_bend = 0;     ///< |d²C/ds²|
+    double greatest_speed = 0;  ///< |dC/ds|
+    double greatest_bend = 0;   ///< |d²C/ds²|
 };
 
 /// The narrowest window whose dC/ds stays within `ratio`, the greatest speed of the rotation over that of
@@ -51,11 +51,11 @@ private:
     Way way_ = Way::linear;
     RotaryAngles from_, to_;
     Vec3 begin_ = Vec3::UnitZ(), end_ = Vec3::UnitZ();
-    double angle_ = 0;        ///< between the two axes [rad]
-    double branch_ = 1;       ///< sign of the tilt
-    double nearest_ = 0;      ///< angle along the great circle to the point nearest to the pole
-    double turning_ = 1;      ///< +1: the rotation grows
-    double centre_ = 0;       ///< of the rotation in the window
+    double angle_ = 0;    ///< between the two axes [rad]
+    double branch_ = 1;   ///< sign of the tilt
+    double nearest_ = 0;  ///< angle along the great circle to the point nearest to the pole
+    double turning_ = 1;  ///< +1: the rotation grows
+    double centre_ = 0;   ///< of the rotation in the window
     PoleWindow window_;
 };
 

@@ -12,9 +12,9 @@ namespace {
 
 constexpr double collinear = 0.01 * std::numbers::pi / 180;
 constexpr double reversal = 179.0 * std::numbers::pi / 180;
-constexpr double least_way = 1e-7;   ///< [mm] a shorter tangent is rounding
-constexpr double in_plane = 1e-9;    ///< of the chord: how far it may leave the plane of its tangents
-constexpr double most_turn = 0.9;    ///< of what a block may turn until the arc would be a half circle
+constexpr double least_way = 1e-7;  ///< [mm] a shorter tangent is rounding
+constexpr double in_plane = 1e-9;   ///< of the chord: how far it may leave the plane of its tangents
+constexpr double most_turn = 0.9;   ///< of what a block may turn until the arc would be a half circle
 
 /// Of a way between 0, where f is negative, and `high`, where it is not.
 template <typename F>
@@ -28,7 +28,9 @@ public:
     Arm(const PathElement& element, bool before) : element_(&element), before_(before) {}
     [[nodiscard]] Vec3 point(double way) const { return element_->at(before_ ? element_->length - way : way); }
     /// In the direction of travel, unit.
-    [[nodiscard]] Vec3 tangent(double way) const { return element_->tangent(before_ ? element_->length - way : way).normalized(); }
+    [[nodiscard]] Vec3 tangent(double way) const {
+        return element_->tangent(before_ ? element_->length - way : way).normalized();
+    }
     /// Half the block, and no more than a half circle leaves of its bend.
     [[nodiscard]] double share(double deflection) const {
         const double bend = element_->second_derivative(before_ ? element_->length : 0).norm();
@@ -45,8 +47,11 @@ private:
 class Corner {
 public:
     Corner(const PathElement& before, const PathElement& after, double deflection)
-        : before_(before, true), after_(after, false), normal_(before_.tangent(0).cross(after_.tangent(0)).normalized()),
-          share_before_(before_.share(deflection)), share_after_(after_.share(deflection)) {}
+        : before_(before, true),
+          after_(after, false),
+          normal_(before_.tangent(0).cross(after_.tangent(0)).normalized()),
+          share_before_(before_.share(deflection)),
+          share_after_(after_.share(deflection)) {}
 
     /// How much too far on `after` the way is for a circle through both places: half the turning between the tangents less that of the chord.
     [[nodiscard]] double imbalance(double way_before, double way_after) const {
@@ -77,7 +82,8 @@ public:
         arc.middle = arc.centre - arc.radius * normal_.cross(chord).normalized();
         arc.error = std::abs((before_.point(0) - arc.centre).norm() - arc.radius);
         const Vec3 along = (arc.tangent + leaving).normalized();
-        const bool tangent_to_both = (chord - chord.norm() * along).norm() <= in_plane * chord.norm() && std::abs(arc.tangent.dot(normal_)) <= in_plane;
+        const bool tangent_to_both = (chord - chord.norm() * along).norm() <= in_plane * chord.norm() &&
+                                     std::abs(arc.tangent.dot(normal_)) <= in_plane;
         arc.kind = tangent_to_both && arc.sweep > 0 ? CornerKind::arc : CornerKind::none;
         return arc;
     }
@@ -88,7 +94,9 @@ public:
     }
 
 private:
-    [[nodiscard]] double angle(const Vec3& from, const Vec3& to) const { return std::atan2(normal_.dot(from.cross(to)), from.dot(to)); }
+    [[nodiscard]] double angle(const Vec3& from, const Vec3& to) const {
+        return std::atan2(normal_.dot(from.cross(to)), from.dot(to));
+    }
 
     Arm before_, after_;
     Vec3 normal_;
@@ -107,7 +115,9 @@ TransitionArc transition_arc(const PathElement& before, const PathElement& after
     TransitionArc none;
     if (!(before.length > 0) || !(after.length > 0)) return none;
     none.deflection = deflection(before.tangent(before.length).normalized(), after.tangent(0).normalized());
-    none.kind = none.deflection < collinear ? CornerKind::collinear : none.deflection > reversal ? CornerKind::reversal : CornerKind::none;
+    none.kind = none.deflection < collinear  ? CornerKind::collinear
+                : none.deflection > reversal ? CornerKind::reversal
+                                             : CornerKind::none;
     if (none.kind != CornerKind::none) return none;
     const Corner corner(before, after, none.deflection);
     TransitionArc arc;

@@ -19,7 +19,7 @@ enum class CornerKind : std::uint8_t {
     collinear,   ///< turns by less than 0.01°: needs none
     reversal,    ///< turns by more than 179°: has none
     degenerate,  ///< a block without length
-    none,        ///< no circle is tangent to both inside its shares: blocks that do not lie in a plane, or hardly any way
+    none,  ///< no circle is tangent to both inside its shares: blocks that do not lie in a plane, or hardly any way
 };
 
 /// What decided how large an arc is.
@@ -33,7 +33,7 @@ struct TransitionArc {
     double radius = 0, error = 0;          ///< r; distance of the corner from the arc [mm]
     double sweep = 0;                      ///< angle between its tangents [rad]
     Vec3 begin = Vec3::Zero(), middle = Vec3::Zero(), end = Vec3::Zero(), centre = Vec3::Zero();
-    Vec3 tangent = Vec3::Zero();           ///< at its begin, unit
+    Vec3 tangent = Vec3::Zero();  ///< at its begin, unit
 
     [[nodiscard]] PathElement element() const;
 };

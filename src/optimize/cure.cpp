@@ -12,9 +12,9 @@
 namespace clsurf {
 namespace {
 
-constexpr double reach = 1;          ///< [mm] of way before and behind a defect that is levelled with it
-constexpr double lag_aim = 0.95;     ///< of the threshold, that a lag step is brought down to
-constexpr double slowest = 0.6;      ///< of its speed, to which a place is slowed at most for that
+constexpr double reach = 1;       ///< [mm] of way before and behind a defect that is levelled with it
+constexpr double lag_aim = 0.95;  ///< of the threshold, that a lag step is brought down to
+constexpr double slowest = 0.6;   ///< of its speed, to which a place is slowed at most for that
 constexpr int most_selections = 10;
 
 /// Which defect the points in each cell of space are levelled for.
@@ -29,7 +29,9 @@ public:
         for (std::int64_t x = -cells_around; x <= cells_around; ++x) {
             for (std::int64_t y = -cells_around; y <= cells_around; ++y) {
                 for (std::int64_t z = -cells_around; z <= cells_around; ++z) {
-                    const auto at = x * x + y * y + z * z < nearest ? causes_.find({centre[0] + x, centre[1] + y, centre[2] + z}) : causes_.end();
+                    const auto at = x * x + y * y + z * z < nearest
+                                        ? causes_.find({centre[0] + x, centre[1] + y, centre[2] + z})
+                                        : causes_.end();
                     if (at == causes_.end()) continue;
                     nearest = x * x + y * y + z * z;
                     found = at->second;
@@ -42,7 +44,9 @@ public:
 private:
     using Cell = std::array<std::int64_t, 3>;
     static constexpr std::int64_t cells_around = 3;
-    static Cell cell_of(const Vec3& p) { return {std::llround(p.x()), std::llround(p.y()), std::llround(p.z())}; }  // 1 mm wide
+    static Cell cell_of(const Vec3& p) {
+        return {std::llround(p.x()), std::llround(p.y()), std::llround(p.z())};
+    }  // 1 mm wide
 
     std::map<Cell, std::int32_t> causes_;
 };
@@ -64,7 +68,8 @@ public:
 private:
     [[nodiscard]] bool can_be_cured(const Defect& defect) const {
         if (defect.quantity == Quantity::relief) return false;
-        return std::none_of(rules_.hopeless.begin(), rules_.hopeless.end(), [&](const Vec3& place) { return (place - defect.position).norm() < reach; });
+        return std::none_of(rules_.hopeless.begin(), rules_.hopeless.end(),
+                            [&](const Vec3& place) { return (place - defect.position).norm() < reach; });
     }
 
     /// The speeds for the defects that are taken.
@@ -87,7 +92,9 @@ private:
         for (PointIndex i = points.first; i <= points.last; ++i) causes_[static_cast<std::size_t>(i)] = cause;
         const auto walk = [&](PointIndex from, PointIndex step) {
             double left = reach;
-            for (PointIndex i = from + step; left > 0 && i >= 0 && i < run_.signals.size() && own_[static_cast<std::size_t>(i)] == own_[static_cast<std::size_t>(i)]; i += step) {
+            for (PointIndex i = from + step; left > 0 && i >= 0 && i < run_.signals.size() &&
+                                             own_[static_cast<std::size_t>(i)] == own_[static_cast<std::size_t>(i)];
+                 i += step) {
                 causes_[static_cast<std::size_t>(i)] = cause;
                 left -= (run_.surface.positions[i] - run_.surface.positions[i - step]).norm();
             }
@@ -103,7 +110,8 @@ private:
                 for (PointIndex i = stretch.points.first; i <= stretch.points.last; ++i) {
                     const double share = std::pow(std::max(1.0, lag_step(i) / most), -1 / rules_.lag_power);
                     float& speed = speeds_[static_cast<std::size_t>(i)];
-                    if (share >= slowest) speed = std::min(speed, static_cast<float>(share) * own_[static_cast<std::size_t>(i)]);
+                    if (share >= slowest)
+                        speed = std::min(speed, static_cast<float>(share) * own_[static_cast<std::size_t>(i)]);
                 }
             }
         }
@@ -115,7 +123,8 @@ private:
         for (const Side side : {Side::left, Side::right}) {
             const Station at = beside(run_.surface, {i, 0}, run_.signals.feed(i), side);
             if (!at.exists()) continue;
-            const double step = std::abs(run_.signals[i].lag - compared_at(run_.signals, at, run_.signals.normal(i)).lag);
+            const double step =
+                std::abs(run_.signals[i].lag - compared_at(run_.signals, at, run_.signals.normal(i)).lag);
             if (step > most) most = step;
         }
         return most;
@@ -125,7 +134,8 @@ private:
     bool leave_out_the_dearest(std::vector<std::uint8_t>& taken) const {
         std::vector<double> costs(taken.size(), 0);
         for (std::size_t i = 0; i < own_.size(); ++i) {
-            if (causes_[i] >= 0 && speeds_[i] < own_[i]) costs[static_cast<std::size_t>(causes_[i])] += run_.log.period * (own_[i] / speeds_[i] - 1);
+            if (causes_[i] >= 0 && speeds_[i] < own_[i])
+                costs[static_cast<std::size_t>(causes_[i])] += run_.log.period * (own_[i] / speeds_[i] - 1);
         }
         double sum = std::accumulate(costs.begin(), costs.end(), 0.0);
         if (sum <= rules_.budget) return false;
@@ -151,7 +161,9 @@ private:
 double lag_power(const Machine& machine) {
     const ServoModel& x = machine.axes[0].servo;
     const bool alike = std::all_of(machine.axes.begin(), machine.axes.begin() + 3, [&](const MachineAxis& axis) {
-        return axis.servo.position_gain == x.position_gain && axis.servo.velocity_feedforward == x.velocity_feedforward && axis.servo.velocity_time_constant == x.velocity_time_constant;
+        return axis.servo.position_gain == x.position_gain &&
+               axis.servo.velocity_feedforward == x.velocity_feedforward &&
+               axis.servo.velocity_time_constant == x.velocity_time_constant;
     });
     return alike ? 3 : 1;
 }
@@ -166,7 +178,8 @@ std::vector<int> gains_of(const CuringSpeeds& cure, const JudgedRun& run, const 
     std::vector<int> gains(run.report.defects.size(), 0);
     const auto count = [&](const JudgedRun& of, int each) {
         for (const Defect& defect : of.report.defects) {
-            if (const std::int32_t cause = map.near(defect.position); cause >= 0) gains[static_cast<std::size_t>(cause)] += each;
+            if (const std::int32_t cause = map.near(defect.position); cause >= 0)
+                gains[static_cast<std::size_t>(cause)] += each;
         }
     };
     count(run, 1);

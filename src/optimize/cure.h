@@ -36,6 +36,7 @@ struct CuringSpeeds {
 [[nodiscard]] std::vector<int> gains_of(const CuringSpeeds& cure, const JudgedRun& run, const JudgedRun& cured);
 
 /// Per motion of the program the defect that it is slowed for; −1: none.
-[[nodiscard]] std::vector<std::int32_t> causes_by_motion(const CuringSpeeds& cure, const JudgedRun& run, const Program& program);
+[[nodiscard]] std::vector<std::int32_t> causes_by_motion(const CuringSpeeds& cure, const JudgedRun& run,
+                                                         const Program& program);
 
 }  // namespace clsurf

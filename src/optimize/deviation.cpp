@@ -31,7 +31,8 @@ public:
             Foot foot = path_.foot(m, p);
             if (length > 0) {
                 // Of a long motion only what lies in the window counts.
-                const double inside = std::clamp(foot.fraction, std::clamp((way - window - before) / length, 0.0, 1.0), std::clamp((way + window - before) / length, 0.0, 1.0));
+                const double inside = std::clamp(foot.fraction, std::clamp((way - window - before) / length, 0.0, 1.0),
+                                                 std::clamp((way + window - before) / length, 0.0, 1.0));
                 if (inside != foot.fraction) foot = {(path_.at(m, inside) - p).norm(), inside};
             }
             // The later of two that are as near: a path that goes back on itself is not to be walked back.
@@ -96,7 +97,8 @@ LineNumber first_disorder(const Motions& a, const Motions& b) {
         while (i < a.size() && is_plain(a, i)) ++i;
         while (j < b.size() && is_plain(b, j)) ++j;
         if (i == a.size() && j == b.size()) return 0;
-        if (i == a.size() || j == b.size() || !same(a, i, b, j)) return b.size() > 0 ? b.line[static_cast<std::size_t>(std::min(j, b.size() - 1))] : 1;
+        if (i == a.size() || j == b.size() || !same(a, i, b, j))
+            return b.size() > 0 ? b.line[static_cast<std::size_t>(std::min(j, b.size() - 1))] : 1;
         ++i, ++j;
     }
 }
@@ -110,7 +112,9 @@ Deviation measure_deviation(const Program& before, const Program& after, double 
     const auto take = [&](LineNumber line, const Vec3& p, double distance) {
         if (distance > deviation.greatest) deviation = {distance, line, p, deviation.disordered};
     };
-    compare(now, old, step, [&](std::int64_t i, const Vec3& p, double distance) { take(now.motions().line[static_cast<std::size_t>(i)], p, distance); });
+    compare(now, old, step, [&](std::int64_t i, const Vec3& p, double distance) {
+        take(now.motions().line[static_cast<std::size_t>(i)], p, distance);
+    });
     compare(old, now, step, [&](std::int64_t, const Vec3& p, double distance) { take(0, p, distance); });
     return deviation;
 }

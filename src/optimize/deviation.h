@@ -6,8 +6,8 @@
 namespace clsurf {
 
 struct Deviation {
-    double greatest = 0;       ///< [mm]
-    LineNumber line = 0;       ///< of the second program, there
+    double greatest = 0;           ///< [mm]
+    LineNumber line = 0;           ///< of the second program, there
     Vec3 position = Vec3::Zero();  ///< [mm] there
     /// The line (of the second program) of the first rapid, dwell, arc or motion of a rotary axis that is not
     /// the same in both; its last line where the second has fewer; 0: all are the same.

@@ -6,15 +6,23 @@
 
 namespace clsurf {
 
-Drafter::Drafter(const Program& program, const ReadProgram& read, const OptimizeRules& rules, double shortest_line, bool slows_anywhere)
-    : program_(program), read_(read), rules_(rules), shortest_line_(shortest_line), slows_anywhere_(slows_anywhere), laid_(lay_out(program)) {}
+Drafter::Drafter(const Program& program, const ReadProgram& read, const OptimizeRules& rules, double shortest_line,
+                 bool slows_anywhere)
+    : program_(program),
+      read_(read),
+      rules_(rules),
+      shortest_line_(shortest_line),
+      slows_anywhere_(slows_anywhere),
+      laid_(lay_out(program)) {}
 
 Draft Drafter::draft(double chord_error, std::vector<std::uint8_t> needed) const {
     Draft draft;
     draft.chord_error = chord_error;
     LineEditor editor(program_, rules_.least_decimals);
     const double spacing = 0.5 * fitting_spacing(program_, laid_, chord_error);
-    const std::vector<Stretch> stretches = resample(program_, laid_, editor, {rules_.tolerance, spacing, chord_error, shortest_line_, ResampleRules{}.corner_angle}, needed);
+    const std::vector<Stretch> stretches =
+        resample(program_, laid_, editor,
+                 {rules_.tolerance, spacing, chord_error, shortest_line_, ResampleRules{}.corner_angle}, needed);
     std::int64_t old = 0;  // motions so far
     for (const Stretch& stretch : stretches) {
         const std::size_t lines = editor.replace(stretch.first, stretch.last, stretch.points);

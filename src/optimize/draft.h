@@ -20,7 +20,7 @@ struct Draft {
     Program program;
     std::string text;
     std::size_t stretches = 0, changed_lines = 0;
-    double chord_error = 0;              ///< [mm] of its lines against the smooth curve
+    double chord_error = 0;                ///< [mm] of its lines against the smooth curve
     std::vector<std::uint8_t> needed{};    ///< per motion of the old program: 0 has kept its points
     std::vector<std::uint8_t> may_slow{};  ///< per motion of the draft, whether it may get a feed; empty: all may
 };
@@ -29,7 +29,8 @@ class Drafter {
 public:
     /// `shortest_line` [mm]: no new line is shorter but to keep the tolerance. `slows_anywhere`: also what is not in need may get feeds. All must
     /// outlive it. O(points).
-    Drafter(const Program& program, const ReadProgram& read, const OptimizeRules& rules, double shortest_line, bool slows_anywhere);
+    Drafter(const Program& program, const ReadProgram& read, const OptimizeRules& rules, double shortest_line,
+            bool slows_anywhere);
 
     /// New points for the motions in need (one entry a motion).
     [[nodiscard]] Draft draft(double chord_error, std::vector<std::uint8_t> needed) const;

@@ -12,8 +12,8 @@ namespace clsurf {
 
 /// A cure that goes on: where it has come to.
 struct Curing {
-    Tried from;                   ///< the last one kept
-    double share = 0;             ///< of the time there is to lose, that the next round may take
+    Tried from;                    ///< the last one kept
+    double share = 0;              ///< of the time there is to lose, that the next round may take
     std::vector<Vec3> hopeless{};  ///< [mm] places of defects that are let be
 };
 
@@ -32,7 +32,8 @@ public:
     void cure(Curing& curing, int rounds);
 
 private:
-    [[nodiscard]] Tried without_losses(const Proposal& from, const CuringSpeeds& cure, const Proposal& cured, std::vector<Vec3>& hopeless);
+    [[nodiscard]] Tried without_losses(const Proposal& from, const CuringSpeeds& cure, const Proposal& cured,
+                                       std::vector<Vec3>& hopeless);
 
     Prover& prover_;
     double lag_power_;

@@ -14,14 +14,16 @@ constexpr int halvings = 10;  ///< in search of a step
 }  // namespace
 
 std::vector<float> compared_speeds(const JudgedRun& run) {
-    std::vector<float> speeds(static_cast<std::size_t>(run.surface.positions.size()), std::numeric_limits<float>::quiet_NaN());
+    std::vector<float> speeds(static_cast<std::size_t>(run.surface.positions.size()),
+                              std::numeric_limits<float>::quiet_NaN());
     for (std::size_t i = 0; i < speeds.size(); ++i) {
         if (run.signals.samples[i].zone != Zone::outside) speeds[i] = run.signals.samples[i].speed;
     }
     return speeds;
 }
 
-void level_speeds(const JudgedRun& run, const LevelStep& step, std::vector<float>& speeds, std::vector<std::int32_t>& causes) {
+void level_speeds(const JudgedRun& run, const LevelStep& step, std::vector<float>& speeds,
+                  std::vector<std::int32_t>& causes) {
     const auto ratio = static_cast<float>(1 + step.share), more = static_cast<float>(step.speed);
     const auto level = [&](PointIndex i) {
         float& mine = speeds[static_cast<std::size_t>(i)];
@@ -82,11 +84,13 @@ std::vector<float> means_by_motion(const JudgedRun& run, const Program& program,
             ++points[motion];
         }
     }
-    for (std::size_t i = 0; i < count; ++i) sum[i] = points[i] > 0 ? sum[i] / static_cast<float>(points[i]) : std::numeric_limits<float>::quiet_NaN();
+    for (std::size_t i = 0; i < count; ++i)
+        sum[i] = points[i] > 0 ? sum[i] / static_cast<float>(points[i]) : std::numeric_limits<float>::quiet_NaN();
     return sum;
 }
 
-std::vector<float> levelling_feeds(const std::vector<float>& target, const std::vector<std::uint8_t>& may_slow, double width) {
+std::vector<float> levelling_feeds(const std::vector<float>& target, const std::vector<std::uint8_t>& may_slow,
+                                   double width) {
     std::vector<float> feeds(target.size(), 0);
     const auto apart = static_cast<float>(1 + width);
     std::size_t first = 0;  // of the interval
@@ -103,7 +107,8 @@ std::vector<float> levelling_feeds(const std::vector<float>& target, const std::
         }
         low = std::min(low, target[i]);
         high = std::max(high, target[i]);
-        std::fill(feeds.begin() + static_cast<std::ptrdiff_t>(first), feeds.begin() + static_cast<std::ptrdiff_t>(i) + 1, low);
+        std::fill(feeds.begin() + static_cast<std::ptrdiff_t>(first),
+                  feeds.begin() + static_cast<std::ptrdiff_t>(i) + 1, low);
     }
     return feeds;
 }

@@ -21,7 +21,8 @@ struct LevelStep {
 /// Lowers speeds, one a point of the run, until none is more than a step above that of the points beside it on
 /// both neighbour passes. Only points that have a cause (≥ 0; −1: none), or have one beside them, are lowered, and take over
 /// the cause: where all begin with one, speeds are levelled everywhere. Two sweeps over the passes, forth and back: O(points).
-void level_speeds(const JudgedRun& run, const LevelStep& step, std::vector<float>& speeds, std::vector<std::int32_t>& causes);
+void level_speeds(const JudgedRun& run, const LevelStep& step, std::vector<float>& speeds,
+                  std::vector<std::int32_t>& causes);
 
 /// The greatest speeds that are level everywhere.
 [[nodiscard]] std::vector<float> levelled_speeds(const JudgedRun& run, const LevelStep& step);
@@ -31,11 +32,13 @@ void level_speeds(const JudgedRun& run, const LevelStep& step, std::vector<float
 [[nodiscard]] double affordable_step(const JudgedRun& run, double budget);
 
 /// The means over the points of each motion of the program, of one value per point; NaN: it has no point with one.
-[[nodiscard]] std::vector<float> means_by_motion(const JudgedRun& run, const Program& program, const std::vector<float>& values);
+[[nodiscard]] std::vector<float> means_by_motion(const JudgedRun& run, const Program& program,
+                                                 const std::vector<float>& values);
 
 /// Feeds that hold motions to a target [mm/s]; targets and feeds of 0: none. Motions whose entry in `may_slow` is 0 get none;
 /// empty: all may. Neighbouring motions with a feed form constant-speed intervals, inside which targets differ by less
 /// than `width` (a share); each has the lowest of them.
-[[nodiscard]] std::vector<float> levelling_feeds(const std::vector<float>& target, const std::vector<std::uint8_t>& may_slow, double width);
+[[nodiscard]] std::vector<float> levelling_feeds(const std::vector<float>& target,
+                                                 const std::vector<std::uint8_t>& may_slow, double width);
 
 }  // namespace clsurf

@@ -54,7 +54,9 @@ std::optional<PlainLine> read_plain_line(std::string_view text) {
             const std::size_t digits = at;
             while (at < text.size() && is_digit(text[at])) ++at;
             if (at == digits) return std::nullopt;
-            if (letter == 'G' && std::stoi(std::string(text.substr(digits, std::min<std::size_t>(at - digits, 4)))) != 1) return std::nullopt;
+            if (letter == 'G' &&
+                std::stoi(std::string(text.substr(digits, std::min<std::size_t>(at - digits, 4)))) != 1)
+                return std::nullopt;
             if (at < text.size() && text[at] == '.') return std::nullopt;
             at = skip_blanks(text, at);
             std::string_view& kept = letter == 'N' ? line.number : line.code;
@@ -85,7 +87,8 @@ LineEditor::LineEditor(const Program& program, int least_decimals) : program_(&p
     std::vector<std::uint8_t> motions_of_line(std::size_t{main.line_count()} + 1, 0);
     const auto in_main = [&](std::size_t i) { return motions.file.empty() || motions.file[i] == 0; };
     for (std::size_t i = 0; i < count; ++i) {
-        if (in_main(i) && motions.line[i] < motions_of_line.size() && motions_of_line[motions.line[i]] < 2) ++motions_of_line[motions.line[i]];
+        if (in_main(i) && motions.line[i] < motions_of_line.size() && motions_of_line[motions.line[i]] < 2)
+            ++motions_of_line[motions.line[i]];
     }
     std::array<std::size_t, 2> fits{0, 0};
     constexpr std::array<double, 2> units{1, mm_per_inch};
@@ -109,7 +112,8 @@ LineEditor::LineEditor(const Program& program, int least_decimals) : program_(&p
                 for (std::size_t u = 0; u < units.size(); ++u) fits[u] += says(units[u]) ? 1 : 0;
             } else {
                 editable_[i] = says(unit_) ? 1 : 0;
-                if (editable_[i] != 0) decimals_ = std::max(decimals_, *std::max_element(line->decimals.begin(), line->decimals.end()));
+                if (editable_[i] != 0)
+                    decimals_ = std::max(decimals_, *std::max_element(line->decimals.begin(), line->decimals.end()));
             }
         }
         if (turn == 0) unit_ = fits[1] > fits[0] ? units[1] : units[0];
@@ -122,7 +126,8 @@ std::size_t LineEditor::replace(std::int64_t first, std::int64_t last, const std
     const Motions& motions = program_->motions;
     const SourceText& main = program_->main();
     const std::string_view end_of_line = line_end_of(main.text());
-    const LineNumber first_line = motions.line[static_cast<std::size_t>(first)], last_line = motions.line[static_cast<std::size_t>(last)];
+    const LineNumber first_line = motions.line[static_cast<std::size_t>(first)],
+                     last_line = motions.line[static_cast<std::size_t>(last)];
     const std::size_t old_lines = last_line - first_line + 1;
     std::array<std::string, 3> words{"X", "Y", "Z"};
     std::vector<std::string_view> numbers;
@@ -178,7 +183,9 @@ void LineEditor::set_feeds(const std::vector<float>& feeds) {
     const Motions& motions = program_->motions;
     const SourceText& main = program_->main();
     const std::string_view end_of_line = line_end_of(main.text());
-    const auto feed_text = [&](double f) { return fmt::format("F{}", std::round(f * seconds_per_minute / unit_ * feed_steps) / feed_steps); };
+    const auto feed_text = [&](double f) {
+        return fmt::format("F{}", std::round(f * seconds_per_minute / unit_ * feed_steps) / feed_steps);
+    };
     std::string modal;  // what the controller has now, where that is not what was programmed
     for (std::int64_t i = 0; i < motions.size(); ++i) {
         const auto k = static_cast<std::size_t>(i);
@@ -205,14 +212,18 @@ void LineEditor::set_feeds(const std::vector<float>& feeds) {
 std::string LineEditor::text(std::string_view header) const {
     const SourceText& main = program_->main();
     const std::string_view end_of_line = line_end_of(main.text());
-    const bool semicolon = program_->dialect->id == DialectId::siemens || program_->dialect->id == DialectId::heidenhain_iso;
-    const std::string comment = header.empty() ? "" : semicolon ? fmt::format("; {}{}", header, end_of_line) : fmt::format("({}){}", header, end_of_line);
+    const bool semicolon =
+        program_->dialect->id == DialectId::siemens || program_->dialect->id == DialectId::heidenhain_iso;
+    const std::string comment = header.empty() ? ""
+                                : semicolon    ? fmt::format("; {}{}", header, end_of_line)
+                                               : fmt::format("({}){}", header, end_of_line);
     // Behind what must come first: the tape mark and the program's name.
     LineNumber head = 0;
     while (head < main.line_count()) {
         const std::string_view line = main.line(head + 1);
         const std::size_t at = skip_blanks(line, 0);
-        const bool name = at == line.size() || line[at] == '%' || (upper(line[at]) == 'O' && at + 1 < line.size() && is_digit(line[at + 1]));
+        const bool name = at == line.size() || line[at] == '%' ||
+                          (upper(line[at]) == 'O' && at + 1 < line.size() && is_digit(line[at + 1]));
         if (!name) break;
         ++head;
     }
@@ -226,8 +237,10 @@ std::string LineEditor::text(std::string_view header) const {
         const std::size_t after = end == std::string_view::npos ? all.size() : end + 1;
         while (next < edits_.size() && edits_[next].last < n) ++next;
         const bool replaced = next < edits_.size() && edits_[next].first <= n;
-        if (!replaced) result += all.substr(at, after - at);
-        else if (edits_[next].first == n) result += edits_[next].text;
+        if (!replaced)
+            result += all.substr(at, after - at);
+        else if (edits_[next].first == n)
+            result += edits_[next].text;
         at = after;
     }
     return result;

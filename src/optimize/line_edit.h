@@ -18,12 +18,12 @@ namespace clsurf {
 
 /// What a rewritable line looks like.
 struct PlainLine {
-    std::string_view number;       ///< "N120 " with the blanks behind; empty: none
-    std::string_view code;         ///< "G1 ", "G01"; empty: modal
+    std::string_view number;               ///< "N120 " with the blanks behind; empty: none
+    std::string_view code;                 ///< "G1 ", "G01"; empty: modal
     std::array<std::string_view, 3> axis;  ///< "X", "Y ", "Z=" as written before the number; empty: not given
     std::array<double, 3> value{};
     std::array<int, 3> decimals{};
-    bool blanks = false;           ///< between the words
+    bool blanks = false;  ///< between the words
 };
 
 /// Reads a line without its end; nullopt: there is more in it.

@@ -17,10 +17,10 @@ namespace {
 
 constexpr double least_curvature = 1e-4;   ///< [1/mm] below it a line does not bend
 constexpr std::size_t bridged_ends = 2;    ///< good points between bad ones that do not end a run
-constexpr std::size_t fewest_uneven = 3;     ///< ends: a point or two that a collinear line saves are no harm
+constexpr std::size_t fewest_uneven = 3;   ///< ends: a point or two that a collinear line saves are no harm
 constexpr double reversing_cosine = -0.5;  ///< a line runs back that turns by more than 120°
 constexpr double scatter_of_starts = 6;    ///< times the median absolute residual: more is out of line
-constexpr double start_reach = 6;          ///< step-overs that the ends of neighbour passes may lie apart across the feed
+constexpr double start_reach = 6;  ///< step-overs that the ends of neighbour passes may lie apart across the feed
 
 struct RuleText {
     LintRule rule;
@@ -48,7 +48,12 @@ std::optional<double> number_after(std::string_view text, char mark) {
 class Linter {
 public:
     Linter(const Program& program, const ProgrammedSurface& laid, const LintRules& rules)
-        : motions_(program.motions), path_(program.motions, Vec3::Zero()), laid_(laid), surface_(laid.surface), rules_(rules), passes_(cut_passes(laid)) {
+        : motions_(program.motions),
+          path_(program.motions, Vec3::Zero()),
+          laid_(laid),
+          surface_(laid.surface),
+          rules_(rules),
+          passes_(cut_passes(laid)) {
         report_.passes = static_cast<std::int64_t>(passes_.size());
         report_.step_over = surface_.step_over;
         report_.tolerance = rules.tolerance > 0 ? rules.tolerance : programmed_tolerance(program);
@@ -69,7 +74,9 @@ private:
         return laid_.ends_motion(point) ? path_.end(laid_.motion_of(point)) : surface_.positions.absolute(point);
     }
     [[nodiscard]] LineNumber line(PointIndex point) const { return motions_.line[laid_.motion_of(point)]; }
-    [[nodiscard]] bool is_line(PointIndex point) const { return motions_.kind[laid_.motion_of(point)] == MotionKind::feed; }
+    [[nodiscard]] bool is_line(PointIndex point) const {
+        return motions_.kind[laid_.motion_of(point)] == MotionKind::feed;
+    }
 
     void measure_spacing() {
         spacing_.assign(laid_.motion.size(), std::numeric_limits<float>::quiet_NaN());
@@ -77,17 +84,20 @@ private:
         for (const ProgrammedPass& pass : passes_) {
             for (std::size_t k = 1; k < pass.ends.size(); ++k) {
                 const double length = path_.length(laid_.motion_of(pass.ends[k]));
-                for (PointIndex i = pass.ends[k - 1] + 1; i <= pass.ends[k]; ++i) spacing_[static_cast<std::size_t>(i)] = static_cast<float>(length);
+                for (PointIndex i = pass.ends[k - 1] + 1; i <= pass.ends[k]; ++i)
+                    spacing_[static_cast<std::size_t>(i)] = static_cast<float>(length);
                 if (length > 0) lengths.push_back(length);
             }
-            spacing_[static_cast<std::size_t>(pass.points.first)] = spacing_[static_cast<std::size_t>(pass.points.first + 1)];
+            spacing_[static_cast<std::size_t>(pass.points.first)] =
+                spacing_[static_cast<std::size_t>(pass.points.first + 1)];
         }
         report_.spacing = (lengths.empty() ? 0 : quantile_below(lengths, 0.5));
     }
 
     /// Direction of the feed at a point of a pass; 0: the tool stands.
     [[nodiscard]] Eigen::Vector3f feed_at(const ProgrammedPass& pass, PointIndex i) const {
-        const Eigen::Vector3f chord = surface_.positions[std::min(pass.points.last, i + 1)] - surface_.positions[std::max(pass.points.first, i - 1)];
+        const Eigen::Vector3f chord = surface_.positions[std::min(pass.points.last, i + 1)] -
+                                      surface_.positions[std::max(pass.points.first, i - 1)];
         return chord.squaredNorm() > 0 ? chord.normalized() : Eigen::Vector3f::Zero().eval();
     }
 
@@ -96,7 +106,8 @@ private:
         if (!surface_.neighbours.has(Side::left, i) || !surface_.neighbours.has(Side::right, i)) return std::nullopt;
         const Eigen::Vector3f feed = feed_at(pass, i);
         const Station here{i, 0};
-        const std::array<Station, 2> both{beside(surface_, here, feed, Side::left), beside(surface_, here, feed, Side::right)};
+        const std::array<Station, 2> both{beside(surface_, here, feed, Side::left),
+                                          beside(surface_, here, feed, Side::right)};
         if (!both[0].exists() || !both[1].exists()) return std::nullopt;
         return both;
     }
@@ -148,7 +159,8 @@ private:
 
     /// A value that lies on one side of those of both neighbours by more than `ratio`.
     template <typename Read>
-    [[nodiscard]] std::optional<Measured> against_both(const ProgrammedPass& pass, PointIndex i, double ratio, const Read& read) const {
+    [[nodiscard]] std::optional<Measured> against_both(const ProgrammedPass& pass, PointIndex i, double ratio,
+                                                       const Read& read) const {
         const auto both = both_sides(pass, i);
         if (!both) return std::nullopt;
         const double mine = read(i);
@@ -162,13 +174,16 @@ private:
 
     void check_spacing() {
         find_runs_of(LintRule::point_spacing, [&](const ProgrammedPass& pass, PointIndex i) {
-            return against_both(pass, i, rules_.spacing_ratio, [&](PointIndex p) { return static_cast<double>(spacing_[static_cast<std::size_t>(p)]); });
+            return against_both(pass, i, rules_.spacing_ratio, [&](PointIndex p) {
+                return static_cast<double>(spacing_[static_cast<std::size_t>(p)]);
+            });
         });
     }
 
     void check_feeds() {
         find_runs_of(LintRule::feed_difference, [&](const ProgrammedPass& pass, PointIndex i) {
-            return against_both(pass, i, rules_.feed_ratio, [&](PointIndex p) { return static_cast<double>(motions_.feed[laid_.motion_of(p)]); });
+            return against_both(pass, i, rules_.feed_ratio,
+                                [&](PointIndex p) { return static_cast<double>(motions_.feed[laid_.motion_of(p)]); });
         });
     }
 
@@ -183,7 +198,8 @@ private:
             }
             for (std::size_t k = 2; k + 1 < pass.ends.size(); ++k) {
                 if (!is_line(pass.ends[k])) continue;
-                const double error = chord_error_of(path_.length(laid_.motion_of(pass.ends[k])), curvature[k - 1], curvature[k]);
+                const double error =
+                    chord_error_of(path_.length(laid_.motion_of(pass.ends[k])), curvature[k - 1], curvature[k]);
                 if (curvature[k - 1] < least_curvature || curvature[k] < least_curvature) continue;
                 errors.push_back(error);
                 of_point.emplace_back(pass.ends[k], error);
@@ -192,7 +208,8 @@ private:
         report_.chord_error = (errors.empty() ? 0 : quantile_below(errors, 0.95));
         if (report_.tolerance <= 0 || of_point.empty()) return;
         std::vector<float> error_at(laid_.motion.size(), 0);
-        for (const auto& [point, error] : of_point) error_at[static_cast<std::size_t>(point)] = static_cast<float>(error);
+        for (const auto& [point, error] : of_point)
+            error_at[static_cast<std::size_t>(point)] = static_cast<float>(error);
         const double most = report_.tolerance / rules_.least_tolerance_ratio;
         find_runs_of(LintRule::chord_error, [&](const ProgrammedPass&, PointIndex i) -> std::optional<Measured> {
             const double error = error_at[static_cast<std::size_t>(i)];
@@ -201,8 +218,9 @@ private:
         });
         if (report_.chord_error > 0 && report_.tolerance > rules_.most_tolerance_ratio * report_.chord_error) {
             const ProgrammedPass& first = passes_.front();
-            report_.findings.push_back({LintRule::chord_error, Severity::note, line(first.ends[1]), line(passes_.back().ends.back()), 0, 0, 0, at(first.ends[0]), report_.chord_error,
-                                        report_.tolerance / rules_.most_tolerance_ratio});
+            report_.findings.push_back({LintRule::chord_error, Severity::note, line(first.ends[1]),
+                                        line(passes_.back().ends.back()), 0, 0, 0, at(first.ends[0]),
+                                        report_.chord_error, report_.tolerance / rules_.most_tolerance_ratio});
         }
     }
 
@@ -215,15 +233,19 @@ private:
 
     void check_reversals() {
         const double longest = rules_.reversed_share * report_.spacing;
-        find_runs_of(LintRule::reversed_segment, [&](const ProgrammedPass& pass, PointIndex i) -> std::optional<Measured> {
-            const auto k = static_cast<std::size_t>(std::lower_bound(pass.ends.begin(), pass.ends.end(), i) - pass.ends.begin());
-            if (k < 2 || k + 1 >= pass.ends.size()) return std::nullopt;
-            const Vec3 before = at(pass.ends[k - 1]) - at(pass.ends[k - 2]), mine = at(i) - at(pass.ends[k - 1]), after = at(pass.ends[k + 1]) - at(i);
-            const double length = mine.norm();
-            if (length <= 0 || length > longest || before.dot(after) <= 0) return std::nullopt;
-            const bool back = mine.dot(before) < reversing_cosine * length * before.norm() && mine.dot(after) < reversing_cosine * length * after.norm();
-            return back ? std::optional(Measured{length, report_.spacing, -1}) : std::nullopt;
-        });
+        find_runs_of(
+            LintRule::reversed_segment, [&](const ProgrammedPass& pass, PointIndex i) -> std::optional<Measured> {
+                const auto k = static_cast<std::size_t>(std::lower_bound(pass.ends.begin(), pass.ends.end(), i) -
+                                                        pass.ends.begin());
+                if (k < 2 || k + 1 >= pass.ends.size()) return std::nullopt;
+                const Vec3 before = at(pass.ends[k - 1]) - at(pass.ends[k - 2]), mine = at(i) - at(pass.ends[k - 1]),
+                           after = at(pass.ends[k + 1]) - at(i);
+                const double length = mine.norm();
+                if (length <= 0 || length > longest || before.dot(after) <= 0) return std::nullopt;
+                const bool back = mine.dot(before) < reversing_cosine * length * before.norm() &&
+                                  mine.dot(after) < reversing_cosine * length * after.norm();
+                return back ? std::optional(Measured{length, report_.spacing, -1}) : std::nullopt;
+            });
     }
 
     /// An end of a pass, and the nearest ends of the passes before and after it in the program.
@@ -245,12 +267,14 @@ private:
                 sizes.push_back(std::abs(end.residual));
             }
         }
-        const double limit = std::max(rules_.start_step_overs * surface_.step_over, scatter_of_starts * (sizes.empty() ? 0 : quantile_below(sizes, 0.5)));
+        const double limit = std::max(rules_.start_step_overs * surface_.step_over,
+                                      scatter_of_starts * (sizes.empty() ? 0 : quantile_below(sizes, 0.5)));
         for (const End& end : ends) {
             if (std::abs(end.residual) <= limit) continue;
             const PointIndex point = end.begins ? end.pass->ends.front() : end.pass->ends.back();
             const LineNumber number = end.begins ? line(end.pass->ends[1]) : line(point);
-            report_.findings.push_back({LintRule::start_point, Severity::warning, number, number, end.beside, end.beside, end.pass->number, at(point), std::abs(end.residual), limit});
+            report_.findings.push_back({LintRule::start_point, Severity::warning, number, number, end.beside,
+                                        end.beside, end.pass->number, at(point), std::abs(end.residual), limit});
         }
     }
 
@@ -258,7 +282,9 @@ private:
         const ProgrammedPass& pass = passes_[i];
         const PointIndex mine = begins ? pass.points.first : pass.points.last;
         const Vec3 here = at(mine);
-        const Vec3 feed = (at(begins ? std::min(mine + 1, pass.points.last) : mine) - at(begins ? mine : std::max(mine - 1, pass.points.first))).normalized();
+        const Vec3 feed = (at(begins ? std::min(mine + 1, pass.points.last) : mine) -
+                           at(begins ? mine : std::max(mine - 1, pass.points.first)))
+                              .normalized();
         Vec3 mean = Vec3::Zero();
         End end{&pass, begins, 0, 0};
         for (const std::size_t other : {i - 1, i + 1}) {
@@ -290,11 +316,13 @@ std::string_view name_of(LintRule rule) { return rule_texts[static_cast<std::siz
 std::string_view description_of(LintRule rule) { return rule_texts[static_cast<std::size_t>(rule)].description; }
 
 std::size_t LintReport::count(LintRule rule) const {
-    return static_cast<std::size_t>(std::count_if(findings.begin(), findings.end(), [&](const LintFinding& f) { return f.rule == rule; }));
+    return static_cast<std::size_t>(
+        std::count_if(findings.begin(), findings.end(), [&](const LintFinding& f) { return f.rule == rule; }));
 }
 
 std::size_t LintReport::warnings() const {
-    return static_cast<std::size_t>(std::count_if(findings.begin(), findings.end(), [](const LintFinding& f) { return f.severity != Severity::note; }));
+    return static_cast<std::size_t>(std::count_if(findings.begin(), findings.end(),
+                                                  [](const LintFinding& f) { return f.severity != Severity::note; }));
 }
 
 double programmed_tolerance(const Program& program) {
@@ -310,8 +338,9 @@ double programmed_tolerance(const Program& program) {
 
 LintReport lint(const Program& program, const ProgrammedSurface& laid, const LintRules& rules) {
     LintReport report = Linter(program, laid, rules).run();
-    std::stable_sort(report.findings.begin(), report.findings.end(),
-                     [](const LintFinding& a, const LintFinding& b) { return std::pair(a.rule, a.first_line) < std::pair(b.rule, b.first_line); });
+    std::stable_sort(report.findings.begin(), report.findings.end(), [](const LintFinding& a, const LintFinding& b) {
+        return std::pair(a.rule, a.first_line) < std::pair(b.rule, b.first_line);
+    });
     return report;
 }
 

@@ -13,11 +13,11 @@
 namespace clsurf {
 
 enum class LintRule : std::uint8_t {
-    point_spacing,      ///< points lie closer or farther apart than on the passes on both sides
-    chord_error,        ///< lines leave the curve by more than the controller's tolerance can hide
-    reversed_segment,   ///< a short line that runs back against those around it
-    feed_difference,    ///< another feed than on the passes on both sides
-    start_point,        ///< a pass begins or ends out of line with its neighbours
+    point_spacing,     ///< points lie closer or farther apart than on the passes on both sides
+    chord_error,       ///< lines leave the curve by more than the controller's tolerance can hide
+    reversed_segment,  ///< a short line that runs back against those around it
+    feed_difference,   ///< another feed than on the passes on both sides
+    start_point,       ///< a pass begins or ends out of line with its neighbours
 };
 inline constexpr std::size_t lint_rules = 5;
 [[nodiscard]] std::string_view name_of(LintRule rule);         ///< "point-spacing"
@@ -29,29 +29,29 @@ struct LintFinding {
     Severity severity = Severity::warning;
     LineNumber first_line = 0, last_line = 0;
     LineNumber beside_first = 0, beside_last = 0;  ///< lines of a neighbour pass at that place; 0: none
-    std::int64_t pass = 0;    ///< number of the cut pass, from 1; 0: none
-    Vec3 position = Vec3::Zero();  ///< [mm] where it is worst
+    std::int64_t pass = 0;                         ///< number of the cut pass, from 1; 0: none
+    Vec3 position = Vec3::Zero();                  ///< [mm] where it is worst
     double found = 0, expected = 0;  ///< mm, or mm/s for feeds: the worst value and what it is measured by
 };
 
 struct LintRules {
-    double spacing_ratio = 2;      ///< spacing against that of both neighbours, either way
-    double feed_ratio = 1.02;      ///< feeds, likewise
-    double tolerance = 0;          ///< [mm] of the controller; 0: what the program sets, else the chord rule is left out
+    double spacing_ratio = 2;  ///< spacing against that of both neighbours, either way
+    double feed_ratio = 1.02;  ///< feeds, likewise
+    double tolerance = 0;      ///< [mm] of the controller; 0: what the program sets, else the chord rule is left out
     /// The controller's tolerance over the program's chord error: below the first it copies the facets, above
     /// the second it blurs what the points say.
     double least_tolerance_ratio = 1.1, most_tolerance_ratio = 2.0;
-    double reversed_share = 0.5;   ///< of the usual spacing: longer lines that run back are meant
-    double start_step_overs = 1;   ///< how far a pass's end may lie out of line
+    double reversed_share = 0.5;  ///< of the usual spacing: longer lines that run back are meant
+    double start_step_overs = 1;  ///< how far a pass's end may lie out of line
 };
 
 struct LintReport {
     std::vector<LintFinding> findings;  ///< by rule, then by line
     std::int64_t passes = 0;
-    double step_over = 0;       ///< [mm]; 0: nothing to compare with
-    double spacing = 0;         ///< [mm] median length of the cutting lines
-    double chord_error = 0;     ///< [mm] 95th percentile over the way of the lines that bend
-    double tolerance = 0;       ///< [mm] it is held against; 0: not known
+    double step_over = 0;    ///< [mm]; 0: nothing to compare with
+    double spacing = 0;      ///< [mm] median length of the cutting lines
+    double chord_error = 0;  ///< [mm] 95th percentile over the way of the lines that bend
+    double tolerance = 0;    ///< [mm] it is held against; 0: not known
     [[nodiscard]] std::size_t count(LintRule rule) const;
     /// Findings that are more than notes.
     [[nodiscard]] std::size_t warnings() const;

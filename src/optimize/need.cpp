@@ -17,9 +17,11 @@ void mark(Marks& marks, const PointRange& points) {
 
 Marks marked_places(const JudgedRun& run, const NeedRules& rules) {
     Marks marks(static_cast<std::size_t>(run.surface.positions.size()), 0);
-    const double step = rules.share * run.report.thresholds.of[index_of(Quantity::speed)] * run.report.thresholds.usual_speed;
+    const double step =
+        rules.share * run.report.thresholds.of[index_of(Quantity::speed)] * run.report.thresholds.usual_speed;
     for (PointIndex i = 0; i < run.surface.positions.size(); ++i) {
-        if (run.signals[i].zone != Zone::outside && std::abs(run.speed_differences[static_cast<std::size_t>(i)]) > step) marks[static_cast<std::size_t>(i)] = 1;
+        if (run.signals[i].zone != Zone::outside && std::abs(run.speed_differences[static_cast<std::size_t>(i)]) > step)
+            marks[static_cast<std::size_t>(i)] = 1;
     }
     for (const Defect& defect : run.report.defects) {
         if (defect.quantity == Quantity::lag) continue;
@@ -51,8 +53,10 @@ void spread_along(const JudgedRun& run, double reach, Marks& marks) {
             for (PointIndex i = from; i != to + step; i += step) {
                 if (i != from) left -= (run.surface.positions[i] - run.surface.positions[i - step]).norm();
                 std::uint8_t& mine = marks[static_cast<std::size_t>(i)];
-                if (mine == 1) left = reach;
-                else if (left >= 0) mine = 2;
+                if (mine == 1)
+                    left = reach;
+                else if (left >= 0)
+                    mine = 2;
             }
         };
         walk(pass.first, pass.last, 1);
@@ -62,13 +66,16 @@ void spread_along(const JudgedRun& run, double reach, Marks& marks) {
 
 }  // namespace
 
-std::vector<std::uint8_t> marked_motions(const JudgedRun& run, const Program& program, const std::vector<std::uint8_t>& marks) {
+std::vector<std::uint8_t> marked_motions(const JudgedRun& run, const Program& program,
+                                         const std::vector<std::uint8_t>& marks) {
     std::vector<std::uint8_t> marked_ones(static_cast<std::size_t>(program.motions.size()), 0);
     LineNumber line = 0;
     for (PointIndex i = 0; i < run.surface.positions.size(); ++i) {
         const LineNumber here = run.lines->line_at(i);
         if (here == 0) continue;
-        const bool marked = marks[static_cast<std::size_t>(i)] != 0, follows = marked && line != 0 && here > line && here - line <= most_lines_a_period && marks[static_cast<std::size_t>(i - 1)] != 0;
+        const bool marked = marks[static_cast<std::size_t>(i)] != 0,
+                   follows = marked && line != 0 && here > line && here - line <= most_lines_a_period &&
+                             marks[static_cast<std::size_t>(i - 1)] != 0;
         if (marked) {
             for (LineNumber n = follows ? line + 1 : here; n <= here; ++n) {
                 for (const std::uint32_t motion : run.lines->motions_of(n)) {

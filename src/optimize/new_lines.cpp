@@ -13,7 +13,9 @@ constexpr double most_doublings = 6;       ///< of a part
 
 class NewLines {
 public:
-    NewLines(const OldStretch& old, const SmoothStretch& curve, const std::vector<StationOfPass>& stations, const LineRules& rules) : old_(old), curve_(curve), stations_(stations), rules_(rules) {}
+    NewLines(const OldStretch& old, const SmoothStretch& curve, const std::vector<StationOfPass>& stations,
+             const LineRules& rules)
+        : old_(old), curve_(curve), stations_(stations), rules_(rules) {}
 
     std::vector<Vec3> run() {
         const std::vector<std::uint8_t> kept = chosen();
@@ -33,15 +35,19 @@ private:
         const std::size_t n = curve_.points.size();
         std::vector<std::uint8_t> kept(n, 1);
         std::vector<double> bend(n, 0);
-        for (std::size_t k = 1; k + 1 < n; ++k) bend[k] = three_point_curvature(curve_.points[k - 1], curve_.points[k], curve_.points[k + 1]);
+        for (std::size_t k = 1; k + 1 < n; ++k)
+            bend[k] = three_point_curvature(curve_.points[k - 1], curve_.points[k], curve_.points[k + 1]);
         for (std::size_t k = 1; k + 1 < n; ++k) {
             double most = 0;
-            const std::size_t first = k > reach_of_bends ? k - reach_of_bends : 0, last = std::min(k + reach_of_bends, n - 1);
+            const std::size_t first = k > reach_of_bends ? k - reach_of_bends : 0,
+                              last = std::min(k + reach_of_bends, n - 1);
             for (std::size_t j = first; j <= last; ++j) most = std::max(most, bend[j]);
-            const double wanted = most > 0 ? std::min(std::sqrt(8 * rules_.chord_error / most), rules_.usual) : rules_.usual;
+            const double wanted =
+                most > 0 ? std::min(std::sqrt(8 * rules_.chord_error / most), rules_.usual) : rules_.usual;
             const StationOfPass& station = stations_[k - 1];
             const int level = level_of(wanted, station.part);
-            const double line = std::ldexp(station.part, level), to_end = std::min(curve_.way[k], curve_.way.back() - curve_.way[k]);
+            const double line = std::ldexp(station.part, level),
+                         to_end = std::min(curve_.way[k], curve_.way.back() - curve_.way[k]);
             const bool stump = to_end < std::max(rules_.shortest_line, nearest_station * line);
             kept[k] = !stump && station.number % (std::int64_t{1} << level) == 0 ? 1 : 0;
         }
@@ -66,7 +72,8 @@ private:
 
     /// How often a part [mm] is doubled to become a line of up to `wanted` [mm], and not too short a one.
     [[nodiscard]] int level_of(double wanted, double part) const {
-        const double coarsest = std::floor(std::log2(std::max(wanted / part, 1.0))), finest = std::ceil(std::log2(std::max(rules_.shortest_line / part, 1.0)));
+        const double coarsest = std::floor(std::log2(std::max(wanted / part, 1.0))),
+                     finest = std::ceil(std::log2(std::max(rules_.shortest_line / part, 1.0)));
         return static_cast<int>(std::clamp(std::max(coarsest, finest), 0.0, most_doublings));
     }
 
@@ -85,7 +92,10 @@ private:
             return;
         }
         double farthest = farthest_old_point(place(from), place(k)).distance;
-        for (std::size_t i = from + 1; i < k; ++i) farthest = std::max(farthest, (curve_.places[i] - nearest_on_line(curve_.places[i], curve_.points[from], curve_.points[k])).norm());
+        for (std::size_t i = from + 1; i < k; ++i)
+            farthest = std::max(
+                farthest,
+                (curve_.places[i] - nearest_on_line(curve_.places[i], curve_.points[from], curve_.points[k])).norm());
         if (farthest <= rules_.most) {
             points_.push_back(curve_.points[k]);
             return;
@@ -104,7 +114,9 @@ private:
     /// Of the old points between two places the one farthest from the line between them.
     [[nodiscard]] OldPoint farthest_old_point(const Place& from, const Place& to) const {
         OldPoint found;
-        for (auto i = static_cast<std::size_t>(std::upper_bound(old_.way.begin(), old_.way.end(), from.way) - old_.way.begin()); i < old_.way.size() && old_.way[i] < to.way; ++i) {
+        for (auto i = static_cast<std::size_t>(std::upper_bound(old_.way.begin(), old_.way.end(), from.way) -
+                                               old_.way.begin());
+             i < old_.way.size() && old_.way[i] < to.way; ++i) {
             const Vec3 foot = nearest_on_line(old_.points[i], from.position, to.position);
             if (const double off = (old_.points[i] - foot).norm(); off > found.distance) found = {i, off, foot};
         }
@@ -116,7 +128,8 @@ private:
         const OldPoint farthest = farthest_old_point(from, to);
         if (farthest.distance <= rules_.most) return;
         const Vec3& left = old_.points[farthest.index];
-        const Place middle{old_.way[farthest.index], left + (farthest.foot - left) * (rules_.radius / farthest.distance)};
+        const Place middle{old_.way[farthest.index],
+                           left + (farthest.foot - left) * (rules_.radius / farthest.distance)};
         pass_old_points(from, middle);
         points_.push_back(middle.position);
         pass_old_points(middle, to);
@@ -131,6 +144,9 @@ private:
 
 }  // namespace
 
-std::vector<Vec3> new_lines(const OldStretch& old, const SmoothStretch& curve, const std::vector<StationOfPass>& stations, const LineRules& rules) { return NewLines(old, curve, stations, rules).run(); }
+std::vector<Vec3> new_lines(const OldStretch& old, const SmoothStretch& curve,
+                            const std::vector<StationOfPass>& stations, const LineRules& rules) {
+    return NewLines(old, curve, stations, rules).run();
+}
 
 }  // namespace clsurf

@@ -6,12 +6,16 @@
 
 namespace clsurf {
 
-std::size_t OldStretch::line_at(double after) const { return static_cast<std::size_t>(std::upper_bound(way.begin() + 1, way.end() - 1, after) - way.begin()) - 1; }
+std::size_t OldStretch::line_at(double after) const {
+    return static_cast<std::size_t>(std::upper_bound(way.begin() + 1, way.end() - 1, after) - way.begin()) - 1;
+}
 
 Vec3 OldStretch::at(double after) const {
     const std::size_t line = line_at(after);
     const double length = way[line + 1] - way[line];
-    return length > 0 ? Vec3(points[line] + (points[line + 1] - points[line]) * std::clamp((after - way[line]) / length, 0.0, 1.0)) : points[line];
+    return length > 0 ? Vec3(points[line] +
+                             (points[line + 1] - points[line]) * std::clamp((after - way[line]) / length, 0.0, 1.0))
+                      : points[line];
 }
 
 Vec3 OldStretch::nearest(const Vec3& p, double after) const {

@@ -14,14 +14,17 @@ namespace clsurf {
 namespace {
 
 constexpr std::array<double, 3> shares_of_tolerance{0.2, 0.1, 0.4};  ///< that lines may leave the curve by
-constexpr double block_reserve = 1.1;    ///< of the way in a block time
-constexpr NeedRules worst_alone{0.5, 2, 2};  ///< a draft that leaves the more as it is
-constexpr std::size_t most_mixed = 2;        ///< drafts of which regions are given back …
-constexpr int mixing_rounds = 3;             ///< … so many times
-constexpr double share_of_drafts = 0.35;     ///< of all runs, that points alone may take; the others seek feeds
-constexpr std::size_t most_fed = 5;          ///< drafts that feeds are sought for
-constexpr double most_behind = 0.2;          ///< the best, by score, after the first rounds: others are not cured on
-constexpr double small_share = 0.3, large_share = 0.65;  ///< of the time, for a cure that begins with the cheap defects, and for one that takes all it can
+constexpr double block_reserve = 1.1;                                ///< of the way in a block time
+constexpr NeedRules worst_alone{0.5, 2, 2};                          ///< a draft that leaves the more as it is
+constexpr std::size_t most_mixed = 2;                                ///< drafts of which regions are given back …
+constexpr int mixing_rounds = 3;                                     ///< … so many times
+constexpr double share_of_drafts = 0.35;  ///< of all runs, that points alone may take; the others seek feeds
+constexpr std::size_t most_fed = 5;       ///< drafts that feeds are sought for
+constexpr double most_behind = 0.2;       ///< the best, by score, after the first rounds: others are not cured on
+constexpr double
+    small_share = 0.3,
+    large_share =
+        0.65;  ///< of the time, for a cure that begins with the cheap defects, and for one that takes all it can
 constexpr int first_rounds = 2, more_rounds = 8;
 
 /// The median feed of the cutting lines [mm/s].
@@ -29,24 +32,36 @@ double usual_feed(const Program& program) {
     std::vector<double> feeds;
     for (std::int64_t i = 0; i < program.motions.size(); ++i) {
         const auto k = static_cast<std::size_t>(i);
-        if (program.motions.kind[k] == MotionKind::feed && program.motions.feed[k] > 0) feeds.push_back(program.motions.feed[k]);
+        if (program.motions.kind[k] == MotionKind::feed && program.motions.feed[k] > 0)
+            feeds.push_back(program.motions.feed[k]);
     }
     return feeds.empty() ? 0 : median(feeds);
 }
 
 class Optimizer {
 public:
-    Optimizer(const Program& program, const ReadProgram& read, const Machine& machine, const OptimizeRules& rules, const Progress& progress, Diagnostics& diagnostics)
-        : program_(program), read_(read), machine_(machine), rules_(rules), diagnostics_(diagnostics), prover_(program, read, machine, rules, progress, diagnostics) {
-        if (prover_.before().surface.step_over <= 0) throw InputError(Place::of_file(program_.main().name()), "has no passes beside each other: there is nothing to bring into step");
+    Optimizer(const Program& program, const ReadProgram& read, const Machine& machine, const OptimizeRules& rules,
+              const Progress& progress, Diagnostics& diagnostics)
+        : program_(program),
+          read_(read),
+          machine_(machine),
+          rules_(rules),
+          diagnostics_(diagnostics),
+          prover_(program, read, machine, rules, progress, diagnostics) {
+        if (prover_.before().surface.step_over <= 0)
+            throw InputError(Place::of_file(program_.main().name()),
+                             "has no passes beside each other: there is nothing to bring into step");
     }
 
     Optimized run(std::optional<Log> measured) {
         Optimized result;
         const bool has_log = measured.has_value();
-        if (has_log) result.measured = judge_measured(std::move(*measured));
-        else look_for_need(prover_.before());
-        propose_all({program_, read_, rules_, block_reserve * machine_.controller.block_time * usual_feed(program_), !has_log});
+        if (has_log)
+            result.measured = judge_measured(std::move(*measured));
+        else
+            look_for_need(prover_.before());
+        propose_all(
+            {program_, read_, rules_, block_reserve * machine_.controller.block_time * usual_feed(program_), !has_log});
         result.before = prover_.take_before();
         result.run_before = prover_.summary_before();
         Proposal& best = *prover_.best();
@@ -65,9 +80,12 @@ private:
 
     Measured judge_measured(Log log) {
         const JudgedRun run = judge_run(std::move(log), program_, rules_.quality, diagnostics_);
-        if (run.surface.step_over <= 0) throw InputError(Place::of_file(run.log.name), "has no passes beside each other: it does not tell what is out of step");
+        if (run.surface.step_over <= 0)
+            throw InputError(Place::of_file(run.log.name),
+                             "has no passes beside each other: it does not tell what is out of step");
         look_for_need(run);
-        return {run.surface.positions.size(), run.duration, run.mismatch, run.report.defects.size(), static_cast<std::size_t>(std::count(needed_.begin(), needed_.end(), 1))};
+        return {run.surface.positions.size(), run.duration, run.mismatch, run.report.defects.size(),
+                static_cast<std::size_t>(std::count(needed_.begin(), needed_.end(), 1))};
     }
 
     void propose_all(const Drafter& drafter) {
@@ -84,7 +102,8 @@ private:
         std::vector<Tried> mixed, narrow;
         for (std::size_t k = 0; k < std::min(most_mixed, drafts.size()); ++k) {
             mix(drafter, drafts[k], mixed);
-            if (prover_.has_time(share_of_drafts)) propose(drafter.draft(drafts[k]->draft->chord_error, in_worst_need_), narrow);
+            if (prover_.has_time(share_of_drafts))
+                propose(drafter.draft(drafts[k]->draft->chord_error, in_worst_need_), narrow);
         }
         sort(mixed);
         // In turn: what saves most time may be worth more, with feeds, than what is better without.
@@ -111,9 +130,12 @@ private:
             fed.push_back({points, {points, small_share}});
             feeds.cure(fed.back().curing, first_rounds);
         }
-        std::stable_sort(fed.begin(), fed.end(), [&](const Fed& a, const Fed& b) { return prover_.score(*a.curing.from) < prover_.score(*b.curing.from); });
+        std::stable_sort(fed.begin(), fed.end(), [&](const Fed& a, const Fed& b) {
+            return prover_.score(*a.curing.from) < prover_.score(*b.curing.from);
+        });
         for (Fed& each : fed) {
-            if (prover_.score(*each.curing.from) < prover_.score(*prover_.best()) + most_behind) feeds.cure(each.curing, more_rounds - first_rounds);
+            if (prover_.score(*each.curing.from) < prover_.score(*prover_.best()) + most_behind)
+                feeds.cure(each.curing, more_rounds - first_rounds);
         }
         for (const Fed& each : fed) {
             Curing other{each.points, large_share};
@@ -144,8 +166,10 @@ private:
 
     /// The best accepted one first, then by score.
     void sort(std::vector<Tried>& drafts) const {
-        std::stable_sort(drafts.begin(), drafts.end(), [&](const Tried& a, const Tried& b) { return prover_.score(*a) < prover_.score(*b); });
-        const auto accepted = std::find_if(drafts.begin(), drafts.end(), [](const Tried& tried) { return tried->proof.accepted; });
+        std::stable_sort(drafts.begin(), drafts.end(),
+                         [&](const Tried& a, const Tried& b) { return prover_.score(*a) < prover_.score(*b); });
+        const auto accepted =
+            std::find_if(drafts.begin(), drafts.end(), [](const Tried& tried) { return tried->proof.accepted; });
         if (accepted != drafts.end()) std::rotate(drafts.begin(), accepted, accepted + 1);
     }
 
@@ -160,7 +184,8 @@ private:
 
 }  // namespace
 
-Optimized optimize(const Program& program, const ReadProgram& read, const Machine& machine, const OptimizeRules& rules, std::optional<Log> measured, const Progress& progress, Diagnostics& diagnostics) {
+Optimized optimize(const Program& program, const ReadProgram& read, const Machine& machine, const OptimizeRules& rules,
+                   std::optional<Log> measured, const Progress& progress, Diagnostics& diagnostics) {
     return Optimizer(program, read, machine, rules, progress, diagnostics).run(std::move(measured));
 }
 

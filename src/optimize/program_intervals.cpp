@@ -15,17 +15,25 @@ constexpr double alike = 0.15;  ///< speeds side by side that differ by less (a 
 
 class IntervalPlanner {
 public:
-    IntervalPlanner(const Program& program, const ProgrammedSurface& laid, const IntervalRules& rules, const Machine& machine)
-        : motions_(program.motions), path_(program.motions, Vec3::Zero()), laid_(laid), rules_(rules), machine_(machine), of_point_(laid.motion.size(), none) {
+    IntervalPlanner(const Program& program, const ProgrammedSurface& laid, const IntervalRules& rules,
+                    const Machine& machine)
+        : motions_(program.motions),
+          path_(program.motions, Vec3::Zero()),
+          laid_(laid),
+          rules_(rules),
+          machine_(machine),
+          of_point_(laid.motion.size(), none) {
         result_.step_over = laid.surface.step_over;
-        result_.speed_of_motion.assign(static_cast<std::size_t>(motions_.size()), std::numeric_limits<float>::quiet_NaN());
+        result_.speed_of_motion.assign(static_cast<std::size_t>(motions_.size()),
+                                       std::numeric_limits<float>::quiet_NaN());
     }
 
     ProgramIntervals run() {
         for (const ProgrammedPass& pass : cut_passes(laid_)) divide_pass(pass);
         match_neighbours();
         for (std::size_t i = 0; i < of_point_.size(); ++i) {
-            if (of_point_[i] != none) result_.speed_of_motion[laid_.motion[i]] = static_cast<float>(result_.intervals[of_point_[i]].speed);
+            if (of_point_[i] != none)
+                result_.speed_of_motion[laid_.motion[i]] = static_cast<float>(result_.intervals[of_point_[i]].speed);
         }
         return std::move(result_);
     }
@@ -38,7 +46,8 @@ private:
         std::vector<Vec3> points;
         std::vector<PointIndex> ends;
         for (const PointIndex end : pass.ends) {
-            const Vec3 p = laid_.ends_motion(end) ? path_.end(laid_.motion_of(end)) : laid_.surface.positions.absolute(end);
+            const Vec3 p =
+                laid_.ends_motion(end) ? path_.end(laid_.motion_of(end)) : laid_.surface.positions.absolute(end);
             if (!points.empty() && p == points.back()) continue;
             points.push_back(p);
             ends.push_back(end);
@@ -56,7 +65,8 @@ private:
                 interval.length += (points[k] - points[k - 1]).norm();
                 interval.feed = std::min(interval.feed, static_cast<double>(motions_.feed[laid_.motion_of(ends[k])]));
             }
-            for (PointIndex i = ends[piece.first] + 1; i <= ends[piece.last]; ++i) of_point_[static_cast<std::size_t>(i)] = static_cast<std::uint32_t>(result_.intervals.size());
+            for (PointIndex i = ends[piece.first] + 1; i <= ends[piece.last]; ++i)
+                of_point_[static_cast<std::size_t>(i)] = static_cast<std::uint32_t>(result_.intervals.size());
             const double most = std::min(interval.feed * machine_.controller.feed_override, machine_.path.max_speed);
             interval.own_speed = interval.speed = planned_speed(piece, most, speed_limits_of(machine_));
             result_.intervals.push_back(interval);
@@ -64,11 +74,15 @@ private:
         for (std::size_t k = first + 1; k + 1 < result_.intervals.size(); ++k) {
             ProgramInterval& here = result_.intervals[k];
             const double before = result_.intervals[k - 1].speed, after = result_.intervals[k + 1].speed;
-            if (here.speed > std::max(before, after) && ramp(before, here.speed) + ramp(here.speed, after) > here.length) here.speed = std::max(before, after);
+            if (here.speed > std::max(before, after) &&
+                ramp(before, here.speed) + ramp(here.speed, after) > here.length)
+                here.speed = std::max(before, after);
         }
     }
 
-    [[nodiscard]] double ramp(double from, double to) const { return ramp_distance(from, to, machine_.path.max_acceleration, machine_.path.max_jerk); }
+    [[nodiscard]] double ramp(double from, double to) const {
+        return ramp_distance(from, to, machine_.path.max_acceleration, machine_.path.max_jerk);
+    }
 
     void match_neighbours() {
         const auto count = static_cast<PointIndex>(of_point_.size());
@@ -79,7 +93,8 @@ private:
             for (const Side side : {Side::left, Side::right}) {
                 const Station at = beside(laid_.surface, {i, 0}, feed, side);
                 if (!at.exists() || of_point_[static_cast<std::size_t>(at.nearest())] == none) continue;
-                double &a = result_.intervals[mine].speed, &b = result_.intervals[of_point_[static_cast<std::size_t>(at.nearest())]].speed;
+                double &a = result_.intervals[mine].speed,
+                       &b = result_.intervals[of_point_[static_cast<std::size_t>(at.nearest())]].speed;
                 if (std::max(a, b) < (1 + alike) * std::min(a, b)) a = b = std::min(a, b);
             }
         };
@@ -98,7 +113,8 @@ private:
 
 }  // namespace
 
-ProgramIntervals plan_intervals(const Program& program, const ProgrammedSurface& laid, const IntervalRules& rules, const Machine& machine) {
+ProgramIntervals plan_intervals(const Program& program, const ProgrammedSurface& laid, const IntervalRules& rules,
+                                const Machine& machine) {
     return IntervalPlanner(program, laid, rules, machine).run();
 }
 

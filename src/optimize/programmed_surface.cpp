@@ -48,8 +48,10 @@ Sampled sample(const Toolpath& path, double spacing) {
         const MotionKind kind = motions.kind[static_cast<std::size_t>(i)];
         if (cuts(kind)) {
             // A line that hardly passes the spacing is not worth a point in its middle.
-            const auto pieces = static_cast<int>(std::clamp(std::floor(path.length(i) / spacing + 0.5), 1.0, most_points));
-            for (int k = 1; k < pieces; ++k) sampled.add(path.at(i, static_cast<double>(k) / pieces), static_cast<std::size_t>(i), false);
+            const auto pieces =
+                static_cast<int>(std::clamp(std::floor(path.length(i) / spacing + 0.5), 1.0, most_points));
+            for (int k = 1; k < pieces; ++k)
+                sampled.add(path.at(i, static_cast<double>(k) / pieces), static_cast<std::size_t>(i), false);
         }
         sampled.add(path.end(i), static_cast<std::size_t>(i), true);
     }

@@ -28,9 +28,9 @@ struct ProgrammedSurface {
 
 /// The motions of a cut pass in order, as the points where they end; the first is where the pass begins.
 struct ProgrammedPass {
-    std::int64_t number = 0;        ///< of the cut passes, from 1
-    PointRange points;              ///< of the surface
-    std::vector<PointIndex> ends;   ///< points of the surface: the first point, and where motions end
+    std::int64_t number = 0;       ///< of the cut passes, from 1
+    PointRange points;             ///< of the surface
+    std::vector<PointIndex> ends;  ///< points of the surface: the first point, and where motions end
 };
 
 /// All cut passes with at least two points. O(points).

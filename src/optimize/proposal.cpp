@@ -11,7 +11,8 @@
 namespace clsurf {
 namespace {
 
-constexpr double interval_width = 0.005;  ///< of the speeds in a constant-speed interval: wider, passes side by side differ by as much
+constexpr double interval_width =
+    0.005;  ///< of the speeds in a constant-speed interval: wider, passes side by side differ by as much
 constexpr double most_points = 4e6;       ///< of all runs together; then what there is has to do
 constexpr int most_in_vain = 48;          ///< proposals in a row, none of them better than the best
 constexpr double growth_weight = 0.03;    ///< of a program's growth, against shares of mismatch and defects
@@ -20,7 +21,8 @@ constexpr double beyond_goal = 0.3;       ///< … less mismatch counts less
 
 }  // namespace
 
-Prover::Prover(const Program& program, const ReadProgram& read, const Machine& machine, const OptimizeRules& rules, const Progress& progress, Diagnostics& diagnostics)
+Prover::Prover(const Program& program, const ReadProgram& read, const Machine& machine, const OptimizeRules& rules,
+               const Progress& progress, Diagnostics& diagnostics)
     : program_(program), read_(read), machine_(machine), rules_(rules), progress_(progress), diagnostics_(diagnostics) {
     SimulatedRun simulated = simulate_to_log(program_, machine_, rules_.start, progress_);
     summary_before_ = std::move(simulated.summary);
@@ -31,7 +33,7 @@ bool Prover::has_time(double share) const { return points_ < share * most_points
 
 Tried Prover::propose(const std::shared_ptr<const Draft>& draft, std::vector<float> targets) {
     const auto tried = std::make_shared<Proposal>(prove(draft, std::move(targets)));
-                                            ++in_vain_;
+    ++in_vain_;
     if (!best_ || better(*tried, *best_)) {
         best_ = tried;
         in_vain_ = 0;
@@ -74,19 +76,29 @@ Proposal Prover::prove(const std::shared_ptr<const Draft>& draft, std::vector<fl
 /// Why a proposal cannot be taken; empty: it can.
 std::string Prover::objection(const Proposal& p) const {
     if (p.proof.changed_lines == 0) return "no stretch of the program can be rewritten";
-    if (p.proof.deviation.disordered > 0) return fmt::format("line {} would no longer do the same", p.proof.deviation.disordered);
-    if (p.proof.deviation.greatest > rules_.tolerance) return fmt::format("it would leave the programmed path by {:.4f} mm at line {}", p.proof.deviation.greatest, p.proof.deviation.line);
+    if (p.proof.deviation.disordered > 0)
+        return fmt::format("line {} would no longer do the same", p.proof.deviation.disordered);
+    if (p.proof.deviation.greatest > rules_.tolerance)
+        return fmt::format("it would leave the programmed path by {:.4f} mm at line {}", p.proof.deviation.greatest,
+                           p.proof.deviation.line);
     if (!p.summary.limits_ok) return "the machine's limits would not be kept";
-    if (p.run.mismatch >= before_.mismatch) return fmt::format("the speeds of neighbour passes would differ by {:.0f} instead of {:.0f} mm/min", p.run.mismatch * seconds_per_minute, before_.mismatch * seconds_per_minute);
-    if (p.proof.defects_after > p.proof.defects_before) return fmt::format("there would be {} defects instead of {}", p.proof.defects_after, p.proof.defects_before);
-    if (p.run.duration > before_.duration) return fmt::format("it would take {:.3f} instead of {:.3f} s", p.run.duration, before_.duration);
+    if (p.run.mismatch >= before_.mismatch)
+        return fmt::format("the speeds of neighbour passes would differ by {:.0f} instead of {:.0f} mm/min",
+                           p.run.mismatch * seconds_per_minute, before_.mismatch * seconds_per_minute);
+    if (p.proof.defects_after > p.proof.defects_before)
+        return fmt::format("there would be {} defects instead of {}", p.proof.defects_after, p.proof.defects_before);
+    if (p.run.duration > before_.duration)
+        return fmt::format("it would take {:.3f} instead of {:.3f} s", p.run.duration, before_.duration);
     return {};
 }
 
 double Prover::score(const Proposal& p) const {
     const double growth = static_cast<double>(p.proof.lines_after) / static_cast<double>(p.proof.lines_before);
-    const double mismatch = p.run.mismatch / before_.mismatch, defects = static_cast<double>(p.proof.defects_after) / std::max<double>(1, static_cast<double>(p.proof.defects_before));
-    return growth_weight * growth + std::max(mismatch, goal_of_mismatch) + beyond_goal * std::min(mismatch, goal_of_mismatch) + defects;
+    const double mismatch = p.run.mismatch / before_.mismatch,
+                 defects = static_cast<double>(p.proof.defects_after) /
+                           std::max<double>(1, static_cast<double>(p.proof.defects_before));
+    return growth_weight * growth + std::max(mismatch, goal_of_mismatch) +
+           beyond_goal * std::min(mismatch, goal_of_mismatch) + defects;
 }
 
 bool Prover::better(const Proposal& a, const Proposal& b) const {

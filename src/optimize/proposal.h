@@ -16,17 +16,17 @@ struct OptimizeRules {
     int least_decimals = 0;     ///< of new coordinates; 0: as many as the program has
     Vec3 start = Vec3::Zero();  ///< [mm] where the axes stand before the program
     QualityRules quality;
-    std::string header;         ///< text of the comment that says where the program comes from
+    std::string header;  ///< text of the comment that says where the program comes from
 };
 
 /// A proposal held against the program.
 struct Proof {
     bool accepted = false;
-    std::string reason;         ///< why not, or empty
+    std::string reason;  ///< why not, or empty
     Deviation deviation;
     std::size_t intervals = 0;  ///< stretches that were changed
     LineNumber lines_before = 0, lines_after = 0;
-    std::size_t changed_lines = 0;  ///< of the old program
+    std::size_t changed_lines = 0;                      ///< of the old program
     std::size_t defects_before = 0, defects_after = 0;  ///< by the thresholds of the run before
 };
 
@@ -46,7 +46,8 @@ using Tried = std::shared_ptr<Proposal>;
 class Prover {
 public:
     /// Runs the program itself. All must outlive it. Throws what simulate() throws.
-    Prover(const Program& program, const ReadProgram& read, const Machine& machine, const OptimizeRules& rules, const Progress& progress, Diagnostics& diagnostics);
+    Prover(const Program& program, const ReadProgram& read, const Machine& machine, const OptimizeRules& rules,
+           const Progress& progress, Diagnostics& diagnostics);
 
     [[nodiscard]] const JudgedRun& before() const { return before_; }
     [[nodiscard]] JudgedRun take_before() { return std::move(before_); }

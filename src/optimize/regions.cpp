@@ -45,7 +45,8 @@ public:
             for (int x = -aside; x <= aside; ++x) {
                 for (int y = -aside; y <= aside; ++y) {
                     for (int z = -aside; z <= aside; ++z) {
-                        if (const auto it = cells_.find(key + pack_step(x, y, z)); it != cells_.end()) sum += it->second;
+                        if (const auto it = cells_.find(key + pack_step(x, y, z)); it != cells_.end())
+                            sum += it->second;
                     }
                 }
             }
@@ -59,9 +60,15 @@ private:
     static constexpr int bits = 21;
     static constexpr std::int64_t middle = std::int64_t{1} << (bits - 1);
 
-    [[nodiscard]] std::int64_t index(double x) const { return std::clamp(static_cast<std::int64_t>(std::floor(x / side_)) + middle, std::int64_t{1}, 2 * middle - 2); }
-    static Key pack(const std::array<std::int64_t, 3>& c) { return (static_cast<Key>(c[0]) << (2 * bits)) | (static_cast<Key>(c[1]) << bits) | static_cast<Key>(c[2]); }
-    static Key pack_step(int x, int y, int z) { return (static_cast<Key>(x) << (2 * bits)) + (static_cast<Key>(y) << bits) + static_cast<Key>(z); }
+    [[nodiscard]] std::int64_t index(double x) const {
+        return std::clamp(static_cast<std::int64_t>(std::floor(x / side_)) + middle, std::int64_t{1}, 2 * middle - 2);
+    }
+    static Key pack(const std::array<std::int64_t, 3>& c) {
+        return (static_cast<Key>(c[0]) << (2 * bits)) | (static_cast<Key>(c[1]) << bits) | static_cast<Key>(c[2]);
+    }
+    static Key pack_step(int x, int y, int z) {
+        return (static_cast<Key>(x) << (2 * bits)) + (static_cast<Key>(y) << bits) + static_cast<Key>(z);
+    }
 
     double side_;
     std::unordered_map<Key, Excess> cells_;
@@ -74,7 +81,9 @@ struct Mismatch {
     explicit Mismatch(const JudgedRun& run) : usual(counted_from * run.mismatch) {
         for (const float difference : run.speed_differences) all += beyond(difference);
     }
-    [[nodiscard]] double beyond(float difference) const { return difference == difference ? std::max(0.0, std::abs(difference) - usual) : 0; }
+    [[nodiscard]] double beyond(float difference) const {
+        return difference == difference ? std::max(0.0, std::abs(difference) - usual) : 0;
+    }
 };
 
 /// Adds what a run has to the cells, or takes it away (sign −1), as shares of what the run before has.
@@ -83,12 +92,14 @@ void add(const JudgedRun& run, int sign, const Mismatch& mismatch, std::size_t d
     for (PointIndex i = 0; i < run.surface.positions.size(); ++i) {
         Excess& cell = cell_of(i);
         cell.points += sign;
-        if (mismatch.all > 0) cell.mismatch += sign * mismatch.beyond(run.speed_differences[static_cast<std::size_t>(i)]) / mismatch.all;
+        if (mismatch.all > 0)
+            cell.mismatch += sign * mismatch.beyond(run.speed_differences[static_cast<std::size_t>(i)]) / mismatch.all;
     }
     for (const Defect& defect : run.report.defects) {
         PointIndex points = 0;
         for (const DefectRun& r : defect.runs) points += r.points.size();
-        const double each = sign / (static_cast<double>(std::max<std::size_t>(1, defects)) * static_cast<double>(points));
+        const double each =
+            sign / (static_cast<double>(std::max<std::size_t>(1, defects)) * static_cast<double>(points));
         for (const DefectRun& r : defect.runs) {
             for (PointIndex i = r.points.first; i <= r.points.last; ++i) cell_of(i).defects += each;
         }
@@ -118,14 +129,16 @@ std::unordered_set<CellMap::Key> worse_cells(CellMap& map, int aside) {
 
 }  // namespace
 
-std::vector<std::uint8_t> worse_motions(const JudgedRun& before, const JudgedRun& after, const Program& program, const RegionRules& rules) {
+std::vector<std::uint8_t> worse_motions(const JudgedRun& before, const JudgedRun& after, const Program& program,
+                                        const RegionRules& rules) {
     CellMap map(std::max(rules.cell * before.surface.step_over, rules.least_cell));
     const Mismatch mismatch(before);
     add(before, -1, mismatch, before.report.defects.size(), map);
     add(after, 1, mismatch, before.report.defects.size(), map);
     const std::unordered_set<CellMap::Key> worse = worse_cells(map, rules.cells_aside);
     std::vector<std::uint8_t> marks(static_cast<std::size_t>(before.surface.positions.size()), 0);
-    for (std::size_t i = 0; i < marks.size(); ++i) marks[i] = worse.contains(map.key(before.surface.positions.absolute(static_cast<PointIndex>(i)))) ? 1 : 0;
+    for (std::size_t i = 0; i < marks.size(); ++i)
+        marks[i] = worse.contains(map.key(before.surface.positions.absolute(static_cast<PointIndex>(i)))) ? 1 : 0;
     return marked_motions(before, program, marks);
 }
 

@@ -13,10 +13,10 @@
 namespace clsurf {
 namespace {
 
-constexpr double narrowest = 0.3;          ///< of what lines may leave the path by: the tube for knots of the curve
-constexpr double most_used = 0.99;         ///< of what decimals leave of the tolerance, by lines
-constexpr double finest_share = 0.2;       ///< of the usual spacing
-constexpr double line_reserve = 1.5;       ///< lines are one to two times as long as the shortest that they may be
+constexpr double narrowest = 0.3;     ///< of what lines may leave the path by: the tube for knots of the curve
+constexpr double most_used = 0.99;    ///< of what decimals leave of the tolerance, by lines
+constexpr double finest_share = 0.2;  ///< of the usual spacing
+constexpr double line_reserve = 1.5;  ///< lines are one to two times as long as the shortest that they may be
 constexpr std::int64_t passes_a_piece = 4;
 constexpr std::size_t shortest_stretch = 3;  ///< motions
 
@@ -27,28 +27,42 @@ struct Spacings {
 
 /// What the chords of lines, as short as they may be, leave of what lines may leave the path by [mm].
 double tube_radius(double most, const ResampleRules& rules, const Spacings& spacings) {
-    const double shortest = line_reserve * rules.shortest_line, chord = std::max(rules.chord_error, spacings.bend * shortest * shortest / 8);
+    const double shortest = line_reserve * rules.shortest_line,
+                 chord = std::max(rules.chord_error, spacings.bend * shortest * shortest / 8);
     return std::max(most - chord, narrowest * most);
 }
 
 LineRules line_rules(const ResampleRules& rules, const Spacings& spacings, double rounding) {
     const double most = most_used * (rules.tolerance - rounding);
-    return {rules.spacing, std::max(spacings.usual, rules.spacing), rules.shortest_line, rules.chord_error, most, tube_radius(most, rules, spacings)};
+    return {rules.spacing, std::max(spacings.usual, rules.spacing), rules.shortest_line, rules.chord_error,
+            most,          tube_radius(most, rules, spacings)};
 }
 
 class Resampler {
 public:
-    Resampler(const Program& program, const ProgrammedSurface& laid, const LineEditor& editor, const ResampleRules& rules, const Spacings& spacings, std::span<const std::uint8_t> needed)
-        : motions_(program.motions), path_(program.motions, Vec3::Zero()), laid_(laid), editor_(editor), corner_angle_(rules.corner_angle), lines_(line_rules(rules, spacings, editor.rounding())), needed_(needed), phases_(run_phases(laid, rules.spacing)) {}
+    Resampler(const Program& program, const ProgrammedSurface& laid, const LineEditor& editor,
+              const ResampleRules& rules, const Spacings& spacings, std::span<const std::uint8_t> needed)
+        : motions_(program.motions),
+          path_(program.motions, Vec3::Zero()),
+          laid_(laid),
+          editor_(editor),
+          corner_angle_(rules.corner_angle),
+          lines_(line_rules(rules, spacings, editor.rounding())),
+          needed_(needed),
+          phases_(run_phases(laid, rules.spacing)) {}
 
     [[nodiscard]] std::vector<Stretch> run() const {
         const std::vector<ProgrammedPass> passes = cut_passes(laid_);
         std::vector<std::vector<Stretch>> of_pass(passes.size());
-        parallel_for(static_cast<std::int64_t>(passes.size()), passes_a_piece, [&](std::int64_t first, std::int64_t last) {
-            for (auto k = static_cast<std::size_t>(first); k < static_cast<std::size_t>(last); ++k) run_pass(passes[k], of_pass[k]);
-        });
+        parallel_for(static_cast<std::int64_t>(passes.size()), passes_a_piece,
+                     [&](std::int64_t first, std::int64_t last) {
+                         for (auto k = static_cast<std::size_t>(first); k < static_cast<std::size_t>(last); ++k)
+                             run_pass(passes[k], of_pass[k]);
+                     });
         std::vector<Stretch> stretches;
-        for (std::vector<Stretch>& mine : of_pass) stretches.insert(stretches.end(), std::make_move_iterator(mine.begin()), std::make_move_iterator(mine.end()));
+        for (std::vector<Stretch>& mine : of_pass)
+            stretches.insert(stretches.end(), std::make_move_iterator(mine.begin()),
+                             std::make_move_iterator(mine.end()));
         return stretches;
     }
 
@@ -58,7 +72,8 @@ private:
     /// Whether the line to end k of a pass may be rewritten as a whole.
     [[nodiscard]] bool editable(const ProgrammedPass& pass, std::size_t k) const {
         const std::uint32_t m = motion(pass.ends[k]);
-        return (needed_.empty() || needed_[m] != 0) && editor_.editable(m) && laid_.ends_motion(pass.ends[k - 1]) && motion(pass.ends[k - 1]) + 1 == m;
+        return (needed_.empty() || needed_[m] != 0) && editor_.editable(m) && laid_.ends_motion(pass.ends[k - 1]) &&
+               motion(pass.ends[k - 1]) + 1 == m;
     }
 
     void run_pass(const ProgrammedPass& pass, std::vector<Stretch>& stretches) const {
@@ -66,7 +81,10 @@ private:
         std::size_t begin = 0;  // the end that the stretch begins at
         for (std::size_t k = 1; k < pass.ends.size(); ++k) {
             const bool may = editable(pass, k);
-            const bool goes_on = k == begin + 1 || (may && motions_.line[motion(pass.ends[k])] == motions_.line[motion(pass.ends[k - 1])] + 1 && creases[k - 1] == 0);
+            const bool goes_on =
+                k == begin + 1 ||
+                (may && motions_.line[motion(pass.ends[k])] == motions_.line[motion(pass.ends[k - 1])] + 1 &&
+                 creases[k - 1] == 0);
             if (may && goes_on) continue;
             add(pass, begin, k - 1, stretches);
             begin = may ? k - 1 : k;
@@ -82,7 +100,8 @@ private:
         const OldStretch way = old_stretch(pass, 0, n - 1);
         std::vector<std::uint8_t> creases(n, 0);
         for (std::size_t k = 1; k + 1 < n; ++k) {
-            const Vec3 before = way.points[k] - way.at(way.way[k] - reach), after = way.at(way.way[k] + reach) - way.points[k];
+            const Vec3 before = way.points[k] - way.at(way.way[k] - reach),
+                       after = way.at(way.way[k] + reach) - way.points[k];
             creases[k] = before.dot(after) < std::cos(corner_angle_) * before.norm() * after.norm() ? 1 : 0;
         }
         return creases;
@@ -103,8 +122,10 @@ private:
         if (end < begin + shortest_stretch) return;
         const OldStretch old = old_stretch(pass, begin, end);
         if (old.length() < lines_.spacing) return;
-        const std::vector<StationOfPass> stations = stations_between(laid_, phases_, pass.ends[begin], pass.ends[end], old.length());
-        Stretch stretch{motion(pass.ends[begin + 1]), motion(pass.ends[end]), new_lines(old, smooth(old, stations, lines_), stations, lines_)};
+        const std::vector<StationOfPass> stations =
+            stations_between(laid_, phases_, pass.ends[begin], pass.ends[end], old.length());
+        Stretch stretch{motion(pass.ends[begin + 1]), motion(pass.ends[end]),
+                        new_lines(old, smooth(old, stations, lines_), stations, lines_)};
         if (!stays(old, stretch)) stretches.push_back(std::move(stretch));
     }
 
@@ -121,9 +142,9 @@ private:
     Toolpath path_;
     const ProgrammedSurface& laid_;
     const LineEditor& editor_;
-    double corner_angle_;                   ///< [rad]
+    double corner_angle_;  ///< [rad]
     LineRules lines_;
-    std::span<const std::uint8_t> needed_;   ///< one entry a motion, or none
+    std::span<const std::uint8_t> needed_;  ///< one entry a motion, or none
     Phases phases_;
 };
 
@@ -137,7 +158,8 @@ Spacings spacings_of(const Program& program, const ProgrammedSurface& laid) {
             if (k + 1 == pass.ends.size() || k < 2) continue;
             const std::uint32_t after = laid.motion_of(pass.ends[k + 1]);
             // Rounded words make short lines look bent.
-            if (path.length(m) > 0.05 && path.length(after) > 0.05) bends.push_back(three_point_curvature(path.begin(m), path.end(m), path.end(after)));
+            if (path.length(m) > 0.05 && path.length(after) > 0.05)
+                bends.push_back(three_point_curvature(path.begin(m), path.end(m), path.end(after)));
         }
     }
     return {lengths.empty() ? 0 : quantile_below(lengths, 0.5), bends.empty() ? 0 : quantile_below(bends, 0.98)};
@@ -154,7 +176,8 @@ double fitting_spacing(const Program& program, const ProgrammedSurface& laid, do
     return fitting(spacings_of(program, laid), chord_error);
 }
 
-std::vector<Stretch> resample(const Program& program, const ProgrammedSurface& laid, const LineEditor& editor, const ResampleRules& wanted, std::span<const std::uint8_t> needed) {
+std::vector<Stretch> resample(const Program& program, const ProgrammedSurface& laid, const LineEditor& editor,
+                              const ResampleRules& wanted, std::span<const std::uint8_t> needed) {
     const Spacings spacings = spacings_of(program, laid);
     ResampleRules rules = wanted;
     if (rules.spacing <= 0) rules.spacing = fitting(spacings, rules.chord_error);

@@ -12,11 +12,13 @@
 namespace clsurf {
 
 struct ResampleRules {
-    double tolerance = 0.005;    ///< [mm] from the programmed path, all in all
-    double spacing = 0;          ///< [mm] of way between points where the path bends most; 0: fitting_spacing()
-    double chord_error = 0.001;  ///< [mm] of lines against the curve: where it bends less, lines are 2, 4 or 8 spacings long
-    double shortest_line = 0;    ///< [mm] that stations are chosen for: blocks that are passed faster than the controller reads them slow it down
-    double corner_angle = 0.5;   ///< [rad] a point where the path turns by more stays where it is
+    double tolerance = 0.005;  ///< [mm] from the programmed path, all in all
+    double spacing = 0;        ///< [mm] of way between points where the path bends most; 0: fitting_spacing()
+    double chord_error =
+        0.001;  ///< [mm] of lines against the curve: where it bends less, lines are 2, 4 or 8 spacings long
+    double shortest_line =
+        0;  ///< [mm] that stations are chosen for: blocks that are passed faster than the controller reads them slow it down
+    double corner_angle = 0.5;  ///< [rad] a point where the path turns by more stays where it is
 };
 
 /// Motions first … last (lines that may be rewritten, on one pass) and the points that take the place of
@@ -32,6 +34,8 @@ struct Stretch {
 
 /// Stretches of all passes, in the order of the program. `needed`: one entry a motion, 0 where it is to stay; empty:
 /// all are looked at. O(points), parallel.
-[[nodiscard]] std::vector<Stretch> resample(const Program& program, const ProgrammedSurface& laid, const LineEditor& editor, const ResampleRules& rules, std::span<const std::uint8_t> needed);
+[[nodiscard]] std::vector<Stretch> resample(const Program& program, const ProgrammedSurface& laid,
+                                            const LineEditor& editor, const ResampleRules& rules,
+                                            std::span<const std::uint8_t> needed);
 
 }  // namespace clsurf

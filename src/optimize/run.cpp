@@ -18,7 +18,8 @@ struct Columns {
 
 }  // namespace
 
-SimulatedRun simulate_to_log(const Program& program, const Machine& machine, const Vec3& start, const Progress& progress) {
+SimulatedRun simulate_to_log(const Program& program, const Machine& machine, const Vec3& start,
+                             const Progress& progress) {
     SimulatedRun run;
     auto columns = std::make_shared<Columns>();
     run.summary = simulate(
@@ -43,7 +44,8 @@ SimulatedRun simulate_to_log(const Program& program, const Machine& machine, con
     const auto view = [&](const void* data, std::size_t stride, ScalarType type) {
         return ChannelView{static_cast<const std::byte*>(data), stride, log.records, type, false, 1.0, 0.0};
     };
-    for (std::size_t k = 0; k < names.size(); ++k) log.channels.push_back({names[k], "mm", view(columns->positions[k].data(), sizeof(double), ScalarType::f64)});
+    for (std::size_t k = 0; k < names.size(); ++k)
+        log.channels.push_back({names[k], "mm", view(columns->positions[k].data(), sizeof(double), ScalarType::f64)});
     log.channels.push_back({"line", "", view(columns->line.data(), sizeof(LineNumber), ScalarType::u32)});
     return run;
 }
@@ -51,14 +53,17 @@ SimulatedRun simulate_to_log(const Program& program, const Machine& machine, con
 JudgedRun judge_run(Log log, const Program& program, const QualityRules& rules, Diagnostics& diagnostics) {
     JudgedRun run;
     run.log = std::move(log);
-    const Role role = run.log.has(Role::commanded) ? Role::commanded : run.log.has(Role::feedback) ? Role::feedback : Role::actual;
+    const Role role = run.log.has(Role::commanded)  ? Role::commanded
+                      : run.log.has(Role::feedback) ? Role::feedback
+                                                    : Role::actual;
     const Vec3 offset = -run.log.work_offset.value_or(Vec3::Zero());
     run.path = reconstruct(run.log, role, offset);
     run.lines = std::make_unique<LineMap>(map_lines(run.path, run.log, program, true, diagnostics));
     run.surface = stitch(gather(run.path), *run.lines);
     const bool follows = role == Role::commanded && run.log.has(Role::feedback);
     const Trajectory measured = follows ? reconstruct(run.log, Role::feedback, offset) : Trajectory{};
-    run.signals = derive_signals(run.surface, run.path, follows ? &measured : nullptr, smooth_pieces(run.log, run.surface.passes), usual_end_zone(run.surface.step_over));
+    run.signals = derive_signals(run.surface, run.path, follows ? &measured : nullptr,
+                                 smooth_pieces(run.log, run.surface.passes), usual_end_zone(run.surface.step_over));
     run.report = find_defects(run.surface, run.signals, *run.lines, program, run.log.period, rules);
     run.duration = static_cast<double>(std::max<PointIndex>(0, run.log.records - 1)) * run.log.period;
     run.speed_differences = quality_field("speed_mismatch", run.surface, run.signals).values;

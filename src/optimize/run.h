@@ -18,19 +18,21 @@ struct SimulatedRun {
     SimulationSummary summary;
 };
 /// Throws what simulate() throws. Memory: 52 bytes a point.
-[[nodiscard]] SimulatedRun simulate_to_log(const Program& program, const Machine& machine, const Vec3& start, const Progress& progress);
+[[nodiscard]] SimulatedRun simulate_to_log(const Program& program, const Machine& machine, const Vec3& start,
+                                           const Progress& progress);
 
 struct JudgedRun {
     Log log;
-    Trajectory path;                  ///< commanded, or what the log has
+    Trajectory path;  ///< commanded, or what the log has
     std::unique_ptr<LineMap> lines;
     ClSurface surface;
     Signals signals;
     QualityReport report;
-    double duration = 0;              ///< [s]
-    double mismatch = 0;              ///< [mm/s] 95th percentile of the speed difference to the neighbour passes
-    Column<float> speed_differences;  ///< [mm/s] per point, to the neighbour pass that differs most; NaN: none beside it
-    double greatest_mismatch = 0;     ///< [mm/s] 99.9th percentile of it
+    double duration = 0;  ///< [s]
+    double mismatch = 0;  ///< [mm/s] 95th percentile of the speed difference to the neighbour passes
+    Column<float>
+        speed_differences;         ///< [mm/s] per point, to the neighbour pass that differs most; NaN: none beside it
+    double greatest_mismatch = 0;  ///< [mm/s] 99.9th percentile of it
 };
 
 /// Stitches the surface of a log and judges it by `rules`. Adds diagnostics about lines to `diagnostics`.

@@ -9,7 +9,8 @@
 namespace clsurf {
 namespace {
 
-constexpr double knot_share = 0.6;     ///< of the usual spacing: closer points are no knots of the curve that the search begins at
+constexpr double knot_share =
+    0.6;  ///< of the usual spacing: closer points are no knots of the curve that the search begins at
 constexpr double knot_distance = 0.5;  ///< of the spacing between knots of the curve, at least
 
 /// Akima's curve through some of the points, by the way along the old lines.
@@ -24,7 +25,8 @@ public:
         spans_ = akima_spans(through);
     }
     [[nodiscard]] Vec3 at(double way) const {
-        const auto span = static_cast<std::size_t>(std::upper_bound(way_.begin() + 1, way_.end() - 1, way) - way_.begin()) - 1;
+        const auto span =
+            static_cast<std::size_t>(std::upper_bound(way_.begin() + 1, way_.end() - 1, way) - way_.begin()) - 1;
         return spans_[span].at(spans_[span].chord * (way - way_[span]) / (way_[span + 1] - way_[span]));
     }
 
@@ -96,7 +98,8 @@ SmoothStretch smooth(const OldStretch& old, const std::vector<StationOfPass>& st
     const Curve curve = smooth_curve(old, stations, rules);
     for (const double way : result.way) {
         result.places.push_back(old.at(way));
-        result.points.push_back(way > 0 && way < old.length() ? held(curve.at(way), old, way, rules.most) : result.places.back());
+        result.points.push_back(way > 0 && way < old.length() ? held(curve.at(way), old, way, rules.most)
+                                                              : result.places.back());
     }
     return result;
 }

@@ -18,6 +18,7 @@ struct SmoothStretch {
 
 /// Akima's curve through the smoothest way in the tube round the old lines; its knots are the stations and the old points, at which the
 /// tube is narrowest. Between them it is held to most of the tolerance. O(points).
-[[nodiscard]] SmoothStretch smooth(const OldStretch& old, const std::vector<StationOfPass>& stations, const LineRules& rules);
+[[nodiscard]] SmoothStretch smooth(const OldStretch& old, const std::vector<StationOfPass>& stations,
+                                   const LineRules& rules);
 
 }  // namespace clsurf

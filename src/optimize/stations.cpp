@@ -11,7 +11,7 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double steepest = 2.2, flattest = 0.45;  ///< of a phase along a pass, in phases per spacing
-constexpr double jump_play = 0.05;     ///< of a phase that is no jump
+constexpr double jump_play = 0.05;                 ///< of a phase that is no jump
 constexpr double fewest_taken = 0.2;  ///< of a pass's points: less in common with the passes before is no hold
 constexpr int parts = 4;              ///< of a phase, that are told apart
 
@@ -46,11 +46,14 @@ private:
             const PointIndex i = pass.first + static_cast<PointIndex>(k);
             for (const Side side : {Side::left, Side::right}) {
                 if (!surface_.neighbours.has(side, i) || surface_.neighbours.neighbour(side, i) >= pass.first) continue;
-                const Eigen::Vector3f feed = surface_.positions[std::min(i + 1, pass.last)] - surface_.positions[std::max(i - 1, pass.first)];
+                const Eigen::Vector3f feed =
+                    surface_.positions[std::min(i + 1, pass.last)] - surface_.positions[std::max(i - 1, pass.first)];
                 const Station at = beside(surface_, {i, 0}, feed, side);
                 if (!at.exists()) continue;
                 const auto j = static_cast<std::size_t>(at.point);
-                const double phase = at.fraction > 0 ? phases_.of_point[j] + at.fraction * (phases_.of_point[j + 1] - phases_.of_point[j]) : phases_.of_point[j];
+                const double phase = at.fraction > 0 ? phases_.of_point[j] +
+                                                           at.fraction * (phases_.of_point[j + 1] - phases_.of_point[j])
+                                                     : phases_.of_point[j];
                 if (phase == phase) mine_[k] = phase;
             }
         }
@@ -81,7 +84,8 @@ private:
     void keep_what_runs_evenly(double sign) {
         const auto known = [&](std::size_t k) { return mine_[k] == mine_[k]; };
         const auto follows = [&](std::size_t a, std::size_t b) {
-            const double run = sign * (mine_[b] - mine_[a]) * phases_.spacing, gone = way_[b] - way_[a], play = jump_play * phases_.spacing;
+            const double run = sign * (mine_[b] - mine_[a]) * phases_.spacing, gone = way_[b] - way_[a],
+                         play = jump_play * phases_.spacing;
             return run <= steepest * gone + play && run >= flattest * gone - play;
         };
         std::size_t best = 0, best_size = 0, begin = 0;
@@ -92,13 +96,17 @@ private:
         if (best_size == 0) return;
         for (std::size_t k = best + best_size, last = k - 1; k < mine_.size(); ++k) {
             if (!known(k)) continue;
-            if (follows(last, k)) last = k;
-            else mine_[k] = none;
+            if (follows(last, k))
+                last = k;
+            else
+                mine_[k] = none;
         }
         for (std::size_t k = best, last = best; k-- > 0;) {
             if (!known(k)) continue;
-            if (follows(k, last)) last = k;
-            else mine_[k] = none;
+            if (follows(k, last))
+                last = k;
+            else
+                mine_[k] = none;
         }
     }
 
@@ -113,11 +121,14 @@ private:
             known.push_back(0);
         }
         const double rate = sign / phases_.spacing;
-        for (std::size_t k = 0; k < known.front(); ++k) mine_[k] = mine_[known.front()] - rate * (way_[known.front()] - way_[k]);
-        for (std::size_t k = known.back() + 1; k < mine_.size(); ++k) mine_[k] = mine_[known.back()] + rate * (way_[k] - way_[known.back()]);
+        for (std::size_t k = 0; k < known.front(); ++k)
+            mine_[k] = mine_[known.front()] - rate * (way_[known.front()] - way_[k]);
+        for (std::size_t k = known.back() + 1; k < mine_.size(); ++k)
+            mine_[k] = mine_[known.back()] + rate * (way_[k] - way_[known.back()]);
         for (std::size_t g = 1; g < known.size(); ++g) {
             const std::size_t a = known[g - 1], b = known[g];
-            for (std::size_t k = a + 1; k < b; ++k) mine_[k] = mine_[a] + (mine_[b] - mine_[a]) * (way_[k] - way_[a]) / std::max(way_[b] - way_[a], 1e-12);
+            for (std::size_t k = a + 1; k < b; ++k)
+                mine_[k] = mine_[a] + (mine_[b] - mine_[a]) * (way_[k] - way_[a]) / std::max(way_[b] - way_[a], 1e-12);
         }
     }
 
@@ -136,24 +147,30 @@ Phases run_phases(const ProgrammedSurface& laid, double spacing) {
     return runner.take();
 }
 
-std::vector<StationOfPass> stations_between(const ProgrammedSurface& laid, const Phases& phases, PointIndex first, PointIndex last, double length) {
+std::vector<StationOfPass> stations_between(const ProgrammedSurface& laid, const Phases& phases, PointIndex first,
+                                            PointIndex last, double length) {
     std::vector<StationOfPass> stations;
     const double margin = nearest_station * phases.spacing;
     double way = 0;
     for (PointIndex i = first + 1; i <= last; ++i) {
         const double step = (laid.surface.positions[i] - laid.surface.positions[i - 1]).norm(), begin = way;
         way += step;
-        const double a = parts * phases.of_point[static_cast<std::size_t>(i - 1)], b = parts * phases.of_point[static_cast<std::size_t>(i)];
+        const double a = parts * phases.of_point[static_cast<std::size_t>(i - 1)],
+                     b = parts * phases.of_point[static_cast<std::size_t>(i)];
         if (!(a == a) || !(b == b) || a == b) continue;
         const double part = step / std::abs(b - a);
-        const std::int64_t every = parts * part > 2.8 * phases.spacing ? 1 : parts * part > 1.4 * phases.spacing ? 2 : 4;
-        const auto low = static_cast<std::int64_t>(std::ceil(std::min(a, b))), high = static_cast<std::int64_t>(std::ceil(std::max(a, b)));
+        const std::int64_t every = parts * part > 2.8 * phases.spacing   ? 1
+                                   : parts * part > 1.4 * phases.spacing ? 2
+                                                                         : 4;
+        const auto low = static_cast<std::int64_t>(std::ceil(std::min(a, b))),
+                   high = static_cast<std::int64_t>(std::ceil(std::max(a, b)));
         for (std::int64_t k = low; k < high; ++k) {
             const std::int64_t number = a < b ? k : high - 1 - (k - low);
             if (number % every != 0) continue;
             const double at = begin + step * (static_cast<double>(number) - a) / (b - a);
             const double before = stations.empty() ? 0 : stations.back().way;
-            if (at > std::max(margin, before + 0.5 * margin) && at < length - margin) stations.push_back({at, number, part});
+            if (at > std::max(margin, before + 0.5 * margin) && at < length - margin)
+                stations.push_back({at, number, part});
         }
     }
     return stations;

@@ -31,6 +31,7 @@ struct StationOfPass {
 
 /// Stations between two points of the surface, from a margin behind the first to one before the last, `length` [mm] of way
 /// from it. Where passes fan out, halves and quarters of a phase are stations, too. O(points).
-[[nodiscard]] std::vector<StationOfPass> stations_between(const ProgrammedSurface& laid, const Phases& phases, PointIndex first, PointIndex last, double length);
+[[nodiscard]] std::vector<StationOfPass> stations_between(const ProgrammedSurface& laid, const Phases& phases,
+                                                          PointIndex first, PointIndex last, double length);
 
 }  // namespace clsurf

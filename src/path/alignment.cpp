@@ -15,17 +15,17 @@ namespace clsurf {
 namespace {
 
 // Lengths in mm.
-constexpr double play = 0.05;             ///< way that the window always has
-constexpr double window_of_chord = 2.0;   ///< way per chord: corners are cut, the chord is shorter
+constexpr double play = 0.05;                ///< way that the window always has
+constexpr double window_of_chord = 2.0;      ///< way per chord: corners are cut, the chord is shorter
 constexpr double window_of_distance = 10.0;  ///< way per distance: a foot jumps over a cut corner
-constexpr double way_penalty = 0.02;      ///< mm of distance per mm that way and chord differ
-constexpr double sure_distance = 0.02;    ///< a finishing tolerance: full confidence
-constexpr double off_distance = 0.1;      ///< the walk may be on the wrong way from here on
-constexpr double lost_distance = 0.5;     ///< it is
-constexpr double lost_way = 1.0;          ///< way gone off before the walk counts as lost
-constexpr double near_distance = 0.1;     ///< a new start must be this near
-constexpr PointIndex proof_points = 400;  ///< moving points over which a new start must stay near
-constexpr double first_retry = 1.0;       ///< way until a failed search is repeated; doubles
+constexpr double way_penalty = 0.02;         ///< mm of distance per mm that way and chord differ
+constexpr double sure_distance = 0.02;       ///< a finishing tolerance: full confidence
+constexpr double off_distance = 0.1;         ///< the walk may be on the wrong way from here on
+constexpr double lost_distance = 0.5;        ///< it is
+constexpr double lost_way = 1.0;             ///< way gone off before the walk counts as lost
+constexpr double near_distance = 0.1;        ///< a new start must be this near
+constexpr PointIndex proof_points = 400;     ///< moving points over which a new start must stay near
+constexpr double first_retry = 1.0;          ///< way until a failed search is repeated; doubles
 
 /// Where the walk stands on the path.
 struct Stand {
@@ -77,10 +77,7 @@ private:
 class Aligner {
 public:
     Aligner(const Trajectory& log, const Program& program, Diagnostics& diagnostics)
-        : log_(log),
-          path_(program.motions, first_position(log)),
-          walk_(path_),
-          diagnostics_(diagnostics) {
+        : log_(log), path_(program.motions, first_position(log)), walk_(path_), diagnostics_(diagnostics) {
         motion_.resize(static_cast<std::size_t>(log.count));
         confidence_.resize(static_cast<std::size_t>(log.count));
     }
@@ -113,7 +110,9 @@ public:
             off_way += chord;
             if (stand.distance < lost_distance || off_way < retry_after) continue;
             if (const std::optional<Rejoined> found = rejoin(off_since, i, stand.motion)) {
-                diagnostics_.add({Severity::note, "map.resumed", Place::of_point(log_.name, found->point),
+                diagnostics_.add({Severity::note,
+                                  "map.resumed",
+                                  Place::of_point(log_.name, found->point),
                                   fmt::format("the log goes on at line {}, not after line {}",
                                               line_of(found->stand.motion), line_of(stand.motion)),
                                   {}});
@@ -173,9 +172,7 @@ private:
         return {x_[k], y_[k], z_[k]};
     }
 
-    static double confidence_of(double distance) {
-        return distance <= sure_distance ? 1.0 : sure_distance / distance;
-    }
+    static double confidence_of(double distance) { return distance <= sure_distance ? 1.0 : sure_distance / distance; }
     [[nodiscard]] LineNumber line_of(std::int64_t motion) const {
         return path_.motions().line[static_cast<std::size_t>(motion)];
     }
@@ -200,8 +197,10 @@ private:
         Rejoined back{now, *stand};
         for (PointIndex still_off = off; back.point - still_off > 1;) {
             const PointIndex middle = still_off + (back.point - still_off) / 2;
-            if (const std::optional<Stand> earlier = search(middle, from)) back = {middle, *earlier};
-            else still_off = middle;
+            if (const std::optional<Stand> earlier = search(middle, from))
+                back = {middle, *earlier};
+            else
+                still_off = middle;
         }
         return back;
     }

@@ -14,7 +14,6 @@
 namespace clsurf {
 
 /// Lines and confidences for every point. O(points + motions). Adds `map.lost`, `map.far`.
-[[nodiscard]] LineMap align_lines(const Trajectory& path, const Program& program,
-                                  Diagnostics& diagnostics);
+[[nodiscard]] LineMap align_lines(const Trajectory& path, const Program& program, Diagnostics& diagnostics);
 
 }  // namespace clsurf

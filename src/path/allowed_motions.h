@@ -13,8 +13,7 @@ namespace clsurf {
 /// Calls body(first, last), both inclusive, for the motions that `line` allows where `before` is the
 /// line reported before it; stops when body says true. One range for each time that the line runs.
 template <typename Body>
-void for_allowed_motions(const Toolpath& path, const LineMap& map, LineNumber before, LineNumber line,
-                         Body&& body) {
+void for_allowed_motions(const Toolpath& path, const LineMap& map, LineNumber before, LineNumber line, Body&& body) {
     constexpr std::int64_t longest_merge = 1000;  // motions that a kernel makes one of
     for (const std::uint32_t motion : map.motions_of(line)) {
         // Back over the motions that were merged into this one, to the line reported before it.

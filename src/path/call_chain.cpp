@@ -33,7 +33,8 @@ std::int64_t CallChains::motion_of(PointIndex point) const {
     const Vec3 position = path_->at(point);
     std::int64_t nearest = -1;
     double least = 0;
-    for (auto at = std::lower_bound(by_line_.begin(), by_line_.end(), std::pair(line, std::int64_t{0})); at != by_line_.end() && at->first == line; ++at) {
+    for (auto at = std::lower_bound(by_line_.begin(), by_line_.end(), std::pair(line, std::int64_t{0}));
+         at != by_line_.end() && at->first == line; ++at) {
         const double distance = toolpath.foot(at->second, position).distance;
         if (nearest >= 0 && !(distance < least)) continue;
         nearest = at->second;
@@ -57,7 +58,8 @@ CallChain CallChains::of(PointIndex point) const {
                 chain.calls.push_back(place(motions.calls[call - 1].file, motions.calls[call - 1].line));
             }
             std::reverse(chain.calls.begin(), chain.calls.end());
-            if (!chain.calls.empty()) chain.subprogram = place(motions.file.empty() ? 0 : motions.file[at], motions.line[at]);
+            if (!chain.calls.empty())
+                chain.subprogram = place(motions.file.empty() ? 0 : motions.file[at], motions.line[at]);
         }
     }
     const Channel* index = log_->find("program");
@@ -73,10 +75,12 @@ CallChain CallChains::of(PointIndex point) const {
     if (plain_program_name(name) == plain_program_name(program_->main().name())) return {};
     ProgramPlace own{name, own_line, {}};
     for (const SourceText& file : program_->files) {
-        if (plain_program_name(file.name()) == plain_program_name(name)) own = {file.name(), own_line, std::string(file.line(own_line))};
+        if (plain_program_name(file.name()) == plain_program_name(name))
+            own = {file.name(), own_line, std::string(file.line(own_line))};
     }
     chain.subprogram = std::move(own);
-    if (const LineNumber caller = lines_->line_at(point); chain.calls.empty() && caller > 0) chain.calls.push_back(place(0, caller));
+    if (const LineNumber caller = lines_->line_at(point); chain.calls.empty() && caller > 0)
+        chain.calls.push_back(place(0, caller));
     return chain;
 }
 

@@ -13,9 +13,9 @@ namespace clsurf {
 
 /// A line of a program or subprogram.
 struct ProgramPlace {
-    std::string file;      ///< name of its file; what the log calls it where the file was not read
+    std::string file;  ///< name of its file; what the log calls it where the file was not read
     LineNumber line = 0;
-    std::string text;      ///< of the line; empty where the file was not read
+    std::string text;  ///< of the line; empty where the file was not read
 };
 
 struct CallChain {
@@ -42,7 +42,8 @@ private:
     const Log* log_;
     const Program* program_;
     const LineMap* lines_;
-    std::vector<std::pair<LineNumber, std::int64_t>> by_line_;  ///< motions by their own line, and by the main program's that led to them
+    std::vector<std::pair<LineNumber, std::int64_t>>
+        by_line_;  ///< motions by their own line, and by the main program's that led to them
 };
 
 }  // namespace clsurf

@@ -17,8 +17,7 @@ constexpr double window_seconds = 0.020;
 constexpr double jerk_window_seconds = 0.040;
 
 /// out[i] = Σ w[k] · in[i + k]: a loop over taps with vectors along i.
-CLSURF_VECTORISED void convolve(const double* in, const double* weights,
-                                int taps, double* out, std::size_t n) {
+CLSURF_VECTORISED void convolve(const double* in, const double* weights, int taps, double* out, std::size_t n) {
     for (std::size_t i = 0; i < n; ++i) out[i] = weights[0] * in[i];
     for (int k = 1; k < taps; ++k) {
         const double w = weights[k];
@@ -46,7 +45,8 @@ std::vector<double> derivative_weights(int points, int order, int derivative, in
     const Eigen::MatrixXd inverse = powers.completeOrthogonalDecomposition().pseudoInverse();
     std::vector<double> weights(static_cast<std::size_t>(points));
     for (int i = 0; i < points; ++i) {
-        weights[static_cast<std::size_t>(i)] = inverse(derivative, i) * factorial(derivative) / std::pow(half, derivative);
+        weights[static_cast<std::size_t>(i)] =
+            inverse(derivative, i) * factorial(derivative) / std::pow(half, derivative);
     }
     return weights;
 }
@@ -76,7 +76,8 @@ double DerivativeFilter::bandwidth() const {
     const auto gain = [&](double f) {
         const double omega = 2 * std::numbers::pi * f * period;
         std::complex<double> sum = 0;
-        for (int k = 0; k < points; ++k) sum += weights[static_cast<std::size_t>(k)] * std::polar(1.0, omega * (k - middle_point));
+        for (int k = 0; k < points; ++k)
+            sum += weights[static_cast<std::size_t>(k)] * std::polar(1.0, omega * (k - middle_point));
         return std::abs(sum) / std::pow(omega, derivative);
     };
     double low = 0;
@@ -114,7 +115,8 @@ void Differentiator::apply(std::span<const double> samples, PointIndex samples_f
         for (PointIndex i = first; i <= last; ++i) {
             double value = std::numeric_limits<double>::quiet_NaN();
             if (count > filter_.order) {
-                const std::vector<double> w = derivative_weights(count, filter_.order, filter_.derivative, static_cast<int>(i - piece.first));
+                const std::vector<double> w =
+                    derivative_weights(count, filter_.order, filter_.derivative, static_cast<int>(i - piece.first));
                 value = 0;
                 for (int k = 0; k < count; ++k) value += w[static_cast<std::size_t>(k)] * origin[piece.first + k];
                 value *= std::pow(filter_.period, -filter_.derivative);

@@ -44,8 +44,8 @@ public:
     /// points from `samples_first` on, at least `reach()` beyond both ends of the stretch or to the
     /// piece's ends. A piece with fewer points than the window is fitted whole; with fewer than
     /// order + 1 its derivatives are NaN. Units: samples' unit / s^d.
-    void apply(std::span<const double> samples, PointIndex samples_first, PointRange piece,
-               PointIndex first, std::span<double> out) const;
+    void apply(std::span<const double> samples, PointIndex samples_first, PointRange piece, PointIndex first,
+               std::span<double> out) const;
 
 private:
     DerivativeFilter filter_;

@@ -14,8 +14,8 @@ using RealMatrix = Eigen::Matrix<Real, 4, 4>;
 using RealVector = Eigen::Matrix<Real, 4, 1>;
 
 constexpr std::size_t most_steps = 3000;
-constexpr double settled = 1e-9;     ///< relative change of a variance a step
-constexpr double far_away = 1e-5;    ///< relative: what is left of a start
+constexpr double settled = 1e-9;   ///< relative change of a variance a step
+constexpr double far_away = 1e-5;  ///< relative: what is left of a start
 /// What the first position, speed, acceleration and jerk may be, so that as good as nothing is known of
 /// them: far more than machines do [mm/s^d], and than the measurements leave open.
 constexpr std::array<double, 4> greatest{0, 2e4, 1e6, 1e9};
@@ -36,7 +36,8 @@ RealMatrix wandering_of_one() {
     RealMatrix q;
     for (int i = 0; i < 4; ++i) {
         for (int j = 0; j < 4; ++j) {
-            q(i, j) = 1 / static_cast<Real>(factorial[static_cast<std::size_t>(3 - i)] * factorial[static_cast<std::size_t>(3 - j)] * (7 - i - j));
+            q(i, j) = 1 / static_cast<Real>(factorial[static_cast<std::size_t>(3 - i)] *
+                                            factorial[static_cast<std::size_t>(3 - j)] * (7 - i - j));
         }
     }
     return q;
@@ -59,7 +60,9 @@ RealMatrix back_gain(const RealMatrix& filtered, const RealMatrix& f, const Real
     return (scale.asDiagonal() * scaled.ldlt().solve(right)).transpose();
 }
 
-Eigen::Array4d lanes(const std::array<std::span<const double>, 3>& values, std::size_t i) { return {values[0][i], values[1][i], values[2][i], 0.0}; }
+Eigen::Array4d lanes(const std::array<std::span<const double>, 3>& values, std::size_t i) {
+    return {values[0][i], values[1][i], values[2][i], 0.0};
+}
 
 }  // namespace
 
@@ -74,7 +77,8 @@ KalmanSmoother::KalmanSmoother(const SmootherModel& model) : model_(model) {
     RealMatrix predicted = RealMatrix::Zero();
     const std::array<double, 4> scale = unit_of_state();
     for (std::size_t d = 0; d < 4; ++d) {
-        predicted(static_cast<int>(d), static_cast<int>(d)) = squared(std::clamp(greatest[d] / scale[d], least_unknown, most_unknown));
+        predicted(static_cast<int>(d), static_cast<int>(d)) =
+            squared(std::clamp(greatest[d] / scale[d], least_unknown, most_unknown));
     }
     std::vector<RealMatrix> filtered_all, predicted_all, back_all;
     while (forward_.size() < most_steps) {
@@ -82,7 +86,9 @@ KalmanSmoother::KalmanSmoother(const SmootherModel& model) : model_(model) {
         RealMatrix filtered = predicted;
         const auto take = [&](int derivative, Real variance) {
             const RealVector gain = update(filtered, derivative, variance);
-            for (int k = 0; k < 4; ++k) step.gain[static_cast<std::size_t>(derivative)][static_cast<std::size_t>(k)] = static_cast<double>(gain[k]);
+            for (int k = 0; k < 4; ++k)
+                step.gain[static_cast<std::size_t>(derivative)][static_cast<std::size_t>(k)] =
+                    static_cast<double>(gain[k]);
         };
         take(0, 1);
         if (model.has_speed()) take(1, speed_variance);
@@ -90,7 +96,8 @@ KalmanSmoother::KalmanSmoother(const SmootherModel& model) : model_(model) {
         const RealMatrix next = f * filtered * f.transpose() + q;
         const RealMatrix back = back_gain(filtered, f, next);
         for (std::size_t i = 0; i < 4; ++i) {
-            for (std::size_t j = 0; j < 4; ++j) step.back[i][j] = static_cast<double>(back(static_cast<int>(i), static_cast<int>(j)));
+            for (std::size_t j = 0; j < 4; ++j)
+                step.back[i][j] = static_cast<double>(back(static_cast<int>(i), static_cast<int>(j)));
         }
         forward_.push_back(step);
         filtered_all.push_back(filtered);
@@ -123,7 +130,9 @@ KalmanSmoother::KalmanSmoother(const SmootherModel& model) : model_(model) {
     // What a start of which nothing is known still does to later points.
     std::size_t reach = forward_.size();
     while (reach > 1) {
-        const Real off = ((predicted_all[reach - 1] - predicted).diagonal().cwiseAbs().cwiseQuotient(predicted.diagonal())).maxCoeff();
+        const Real off =
+            ((predicted_all[reach - 1] - predicted).diagonal().cwiseAbs().cwiseQuotient(predicted.diagonal()))
+                .maxCoeff();
         if (off > far_away) break;
         --reach;
     }
@@ -137,7 +146,8 @@ KalmanSmoother::KalmanSmoother(const SmootherModel& model) : model_(model) {
 
 std::array<double, 4> KalmanSmoother::unit_of_state() const {
     std::array<double, 4> unit{};
-    for (std::size_t d = 0; d < 4; ++d) unit[d] = model_.position_sigma / std::pow(model_.period, static_cast<double>(d));
+    for (std::size_t d = 0; d < 4; ++d)
+        unit[d] = model_.position_sigma / std::pow(model_.period, static_cast<double>(d));
     return unit;
 }
 
@@ -171,7 +181,8 @@ void KalmanSmoother::smooth(const Measurements& measured, std::span<SmoothedStat
         SmoothedState off;
         for (std::size_t k = 0; k < 4; ++k) off[k] = x[k] - ahead[k];
         for (std::size_t k = 0; k < 4; ++k) {
-            x[k] = states[i][k] + now.back[k][0] * off[0] + now.back[k][1] * off[1] + now.back[k][2] * off[2] + now.back[k][3] * off[3];
+            x[k] = states[i][k] + now.back[k][0] * off[0] + now.back[k][1] * off[1] + now.back[k][2] * off[2] +
+                   now.back[k][3] * off[3];
         }
         states[i] = x;
     }
@@ -199,15 +210,19 @@ void KalmanSmoother::sigmas(int derivative, PointIndex count, PointIndex first, 
         }
         return;
     }
-    const auto of_step = [](const std::vector<Matrix>& all, PointIndex i) -> const Matrix& { return all[std::min(static_cast<std::size_t>(i), all.size() - 1)]; };
+    const auto of_step = [](const std::vector<Matrix>& all, PointIndex i) -> const Matrix& {
+        return all[std::min(static_cast<std::size_t>(i), all.size() - 1)];
+    };
     Matrix smoothed = of_step(filtered_, count - 1);
     for (PointIndex i = count - 1; i >= first; --i) {
         if (i < count - 1) {
-            const Matrix back = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(step(static_cast<std::size_t>(i)).back[0].data());
+            const Matrix back = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(
+                step(static_cast<std::size_t>(i)).back[0].data());
             smoothed = of_step(alone_, i) + back * smoothed * back.transpose();
         }
         const PointIndex at = i - first;
-        if (at < static_cast<PointIndex>(out.size())) out[static_cast<std::size_t>(at)] = std::sqrt(std::max(0.0, smoothed(derivative, derivative))) * unit;
+        if (at < static_cast<PointIndex>(out.size()))
+            out[static_cast<std::size_t>(at)] = std::sqrt(std::max(0.0, smoothed(derivative, derivative))) * unit;
     }
 }
 

@@ -77,12 +77,15 @@ private:
         std::array<std::array<double, 4>, 4> back{};  ///< C of the backward pass
     };
 
-    [[nodiscard]] const Step& step(std::size_t i) const { return forward_[i < forward_.size() ? i : forward_.size() - 1]; }
+    [[nodiscard]] const Step& step(std::size_t i) const {
+        return forward_[i < forward_.size() ? i : forward_.size() - 1];
+    }
     [[nodiscard]] std::array<double, 4> unit_of_state() const;
 
     SmootherModel model_;
-    std::vector<Step> forward_;             ///< from the first point until the gains settle
-    std::vector<Matrix> filtered_, alone_;  ///< likewise: covariances after a point; what smoothing adds to those of the next
+    std::vector<Step> forward_;  ///< from the first point until the gains settle
+    std::vector<Matrix> filtered_,
+        alone_;  ///< likewise: covariances after a point; what smoothing adds to those of the next
     std::vector<std::array<double, 4>> end_variance_;  ///< by distance from an end, the other far away
     double innovation_variance_ = 1;
 };

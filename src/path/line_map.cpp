@@ -42,14 +42,12 @@ PointKind point_kind(MotionKind kind) {
 
 }  // namespace
 
-LineMap::LineMap(const ChannelView& channel, const Program& program,
-                 std::shared_ptr<const void> keep_alive)
+LineMap::LineMap(const ChannelView& channel, const Program& program, std::shared_ptr<const void> keep_alive)
     : count_(channel.count), channel_(channel), keep_alive_(std::move(keep_alive)) {
     index_lines(program);
 }
 
-LineMap::LineMap(Column<std::uint32_t> motion_of_point, Column<std::uint8_t> confidence,
-                 const Program& program)
+LineMap::LineMap(Column<std::uint32_t> motion_of_point, Column<std::uint8_t> confidence, const Program& program)
     : count_(static_cast<PointIndex>(motion_of_point.size())),
       motion_of_point_(std::move(motion_of_point)),
       confidence_(std::move(confidence)) {
@@ -116,9 +114,7 @@ void LineMap::read(PointIndex begin, std::span<LineNumber> out) const {
         return;
     }
     const std::uint32_t* motion = motion_of_point_.data() + begin;
-    for (std::size_t i = 0; i < out.size(); ++i) {
-        out[i] = motion[i] == no_motion ? 0 : line_of_motion_[motion[i]];
-    }
+    for (std::size_t i = 0; i < out.size(); ++i) { out[i] = motion[i] == no_motion ? 0 : line_of_motion_[motion[i]]; }
 }
 
 void LineMap::read_kinds(PointIndex begin, std::span<PointKind> out) const {
@@ -152,8 +148,8 @@ std::vector<PointRange> LineMap::points_of(LineNumber line) const {
     std::vector<PointRange> ranges;
     std::array<LineNumber, 4096> lines;
     for (PointIndex begin = 0; begin < count_; begin += static_cast<PointIndex>(lines.size())) {
-        const auto n = static_cast<std::size_t>(
-            std::min<PointIndex>(static_cast<PointIndex>(lines.size()), count_ - begin));
+        const auto n =
+            static_cast<std::size_t>(std::min<PointIndex>(static_cast<PointIndex>(lines.size()), count_ - begin));
         read(begin, {lines.data(), n});
         for (std::size_t i = 0; i < n; ++i) {
             if (lines[i] != line) continue;
@@ -182,14 +178,15 @@ double play_of(const Program& program) {
     for (const ProgramEvent& event : program.events) {
         if (event.name != "path-mode" || !event.value.starts_with("G64")) continue;
         const std::size_t p = event.value.find(" P");
-        play = std::max(play, p == std::string::npos ? blending_distance : std::strtod(event.value.c_str() + p + 2, nullptr));
+        play = std::max(play,
+                        p == std::string::npos ? blending_distance : std::strtod(event.value.c_str() + p + 2, nullptr));
     }
     return play;
 }
 
 /// Distance of a position to the motions that the reported lines allow; NaN: the line has none.
-double allowed_distance(const Toolpath& path, const LineMap& map, LineNumber before,
-                        LineNumber line, const Vec3& position) {
+double allowed_distance(const Toolpath& path, const LineMap& map, LineNumber before, LineNumber line,
+                        const Vec3& position) {
     double best = std::numeric_limits<double>::quiet_NaN();
     for_allowed_motions(path, map, before, line, [&](std::int64_t first, std::int64_t last) {
         for (std::int64_t m = first; m <= last; ++m) {
@@ -277,18 +274,27 @@ std::string decimals(double value) {
     return text == "-0" ? "0" : text;
 }
 
-void look_for_work_offset(const Trajectory& path, const Program& program, const LineMap* map, Diagnostics& diagnostics) {
+void look_for_work_offset(const Trajectory& path, const Program& program, const LineMap* map,
+                          Diagnostics& diagnostics) {
     const std::optional<Vec3> shift = find_shift(path, program, map);
     constexpr double least_shift = 1e-3;  // [mm] displaced by nothing, they are off for another reason
     if (!shift || shift->norm() < least_shift) return;
     const Vec3 offset = -(path.offset + *shift);
     diagnostics.add({Severity::warning, "map.work-offset", Place::of_file(path.name),
-                     fmt::format("the positions lie parallel to the programmed path, displaced by X {} Y {} Z {} mm", decimals(-shift->x()), decimals(-shift->y()), decimals(-shift->z())),
-                     fmt::format("--work-offset {},{},{} brings them onto it", decimals(offset.x()), decimals(offset.y()), decimals(offset.z()))});
+                     fmt::format("the positions lie parallel to the programmed path, displaced by X {} Y {} Z {} mm",
+                                 decimals(-shift->x()), decimals(-shift->y()), decimals(-shift->z())),
+                     fmt::format("--work-offset {},{},{} brings them onto it", decimals(offset.x()),
+                                 decimals(offset.y()), decimals(offset.z()))});
 }
 
 ChannelView view_of(const Column<LineNumber>& lines) {
-    return {reinterpret_cast<const std::byte*>(lines.data()), sizeof(LineNumber), static_cast<PointIndex>(lines.size()), ScalarType::u32, false, 1.0, 0.0};
+    return {reinterpret_cast<const std::byte*>(lines.data()),
+            sizeof(LineNumber),
+            static_cast<PointIndex>(lines.size()),
+            ScalarType::u32,
+            false,
+            1.0,
+            0.0};
 }
 
 }  // namespace
@@ -300,26 +306,30 @@ LineMap map_lines(const Trajectory& path, const Log& log, const Program& program
     if (channel != nullptr) own = lines_of_program(log, program, diagnostics);
     if (channel == nullptr || !own.known) {
         LineMap map = align_lines(path, program, diagnostics);
-        if (off_share(map) > offset_share) look_for_work_offset(path, program, nullptr, diagnostics);
-        else note_course(path, log, program, map, diagnostics);
+        if (off_share(map) > offset_share)
+            look_for_work_offset(path, program, nullptr, diagnostics);
+        else
+            note_course(path, log, program, map, diagnostics);
         return map;
     }
-    LineMap map = own.lines ? LineMap(view_of(*own.lines), program, own.lines) : LineMap(channel->values, program, log.keep_alive);
+    LineMap map = own.lines ? LineMap(view_of(*own.lines), program, own.lines)
+                            : LineMap(channel->values, program, log.keep_alive);
     const LineAgreement agreement = check_lines(path, program, map);
     const auto more_than = [&](double share) {
         return static_cast<double>(agreement.disagreeing) > share * static_cast<double>(agreement.checked);
     };
     if (more_than(disagreeing_share)) {
-        diagnostics.add(
-            {Severity::warning, "map.disagreement", Place::of_point(log.name, agreement.worst),
-             fmt::format("{} of {} checked points are farther than {} mm from the line that the log "
-                         "gives them: median {:.4f} mm, worst {:.3f} mm",
-                         agreement.disagreeing, agreement.checked, agreement.tolerance,
-                         agreement.median_distance, agreement.worst_distance),
-             "another program, another version of it, or another work offset?"});
+        diagnostics.add({Severity::warning, "map.disagreement", Place::of_point(log.name, agreement.worst),
+                         fmt::format("{} of {} checked points are farther than {} mm from the line that the log "
+                                     "gives them: median {:.4f} mm, worst {:.3f} mm",
+                                     agreement.disagreeing, agreement.checked, agreement.tolerance,
+                                     agreement.median_distance, agreement.worst_distance),
+                         "another program, another version of it, or another work offset?"});
     }
-    if (more_than(offset_share)) look_for_work_offset(path, program, &map, diagnostics);
-    else note_course(path, log, program, map, diagnostics);
+    if (more_than(offset_share))
+        look_for_work_offset(path, program, &map, diagnostics);
+    else
+        note_course(path, log, program, map, diagnostics);
     return map;
 }
 

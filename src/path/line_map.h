@@ -22,9 +22,9 @@ namespace clsurf {
 
 /// What a point does, as far as the program tells.
 enum class PointKind : std::uint8_t {
-    idle,   ///< no block, a dwell, or before the first motion
+    idle,  ///< no block, a dwell, or before the first motion
     rapid,
-    cut,    ///< line, arc or spline at feed
+    cut,  ///< line, arc or spline at feed
 };
 
 class LineMap {
@@ -32,8 +32,7 @@ public:
     /// Lines from the log's channel.
     LineMap(const ChannelView& channel, const Program& program, std::shared_ptr<const void> keep_alive);
     /// Lines from an alignment: a motion per point (no_motion: none) and a confidence of 0 … 255.
-    LineMap(Column<std::uint32_t> motion_of_point, Column<std::uint8_t> confidence,
-            const Program& program);
+    LineMap(Column<std::uint32_t> motion_of_point, Column<std::uint8_t> confidence, const Program& program);
 
     static constexpr std::uint32_t no_motion = 0xffffffffu;
 
@@ -76,9 +75,9 @@ private:
     Column<std::uint8_t> confidence_;
     Column<LineNumber> line_of_motion_;
     Column<PointKind> kind_of_motion_;
-    Column<PointKind> kind_of_line_;             ///< by line number
-    Column<std::uint32_t> first_of_line_;        ///< by line number: where in by_line_ its motions begin
-    Column<std::uint32_t> by_line_;              ///< motions sorted by line
+    Column<PointKind> kind_of_line_;       ///< by line number
+    Column<std::uint32_t> first_of_line_;  ///< by line number: where in by_line_ its motions begin
+    Column<std::uint32_t> by_line_;        ///< motions sorted by line
 };
 
 /// How well the lines of a map and the geometry of the program fit.
@@ -89,18 +88,17 @@ struct LineAgreement {
     double p95_distance = 0;     ///< [mm]
     double tolerance = 0;        ///< [mm]
     PointIndex worst = -1;
-    double worst_distance = 0;   ///< [mm]
+    double worst_distance = 0;  ///< [mm]
 };
 
 /// Checks a map against the geometry on about 10^5 points in evenly spaced stretches. A point may
 /// lie on the motions from its previous distinct line to its line, one more on each side: a kernel
 /// changes the number where a blend begins, and reports the last line of those that it merged.
-[[nodiscard]] LineAgreement check_lines(const Trajectory& path, const Program& program,
-                                        const LineMap& map);
+[[nodiscard]] LineAgreement check_lines(const Trajectory& path, const Program& program, const LineMap& map);
 
 /// How far a point lies from what its line allows [mm], as check_lines() has it; NaN: no line.
-[[nodiscard]] double check_line_at(const Trajectory& path, const Program& program,
-                                   const LineMap& map, PointIndex point);
+[[nodiscard]] double check_line_at(const Trajectory& path, const Program& program, const LineMap& map,
+                                   PointIndex point);
 
 /// Confidence in a line whose point lies `distance` [mm] off it: 1 within a finishing tolerance.
 [[nodiscard]] double off_confidence(double distance);
@@ -109,7 +107,7 @@ struct LineAgreement {
 /// the log names several programs, lines of the others are not taken for this one's.
 /// Adds diagnostics `map.…` about disagreement; where most points are off by the same translation,
 /// `map.work-offset` with the offset that brings them onto the path.
-[[nodiscard]] LineMap map_lines(const Trajectory& path, const Log& log, const Program& program,
-                                bool use_channel, Diagnostics& diagnostics);
+[[nodiscard]] LineMap map_lines(const Trajectory& path, const Log& log, const Program& program, bool use_channel,
+                                Diagnostics& diagnostics);
 
 }  // namespace clsurf

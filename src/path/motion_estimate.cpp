@@ -13,12 +13,12 @@
 namespace clsurf {
 namespace {
 
-constexpr PointIndex looked_at = 2000;        ///< points of a stretch that the model is measured on
-constexpr PointIndex stretches = 48;          ///< evenly spaced over the pieces
-constexpr PointIndex least_piece = 100;       ///< points
-constexpr double finest = 1e-8;               ///< [mm] no position is more exact
+constexpr PointIndex looked_at = 2000;   ///< points of a stretch that the model is measured on
+constexpr PointIndex stretches = 48;     ///< evenly spaced over the pieces
+constexpr PointIndex least_piece = 100;  ///< points
+constexpr double finest = 1e-8;          ///< [mm] no position is more exact
 constexpr double most_wandering = 1e2, least_wandering = 1e-17;
-constexpr double per_sigma = 1.4826;          ///< standard deviation over median of absolute deviations
+constexpr double per_sigma = 1.4826;  ///< standard deviation over median of absolute deviations
 /// A model is sure of itself only so far: the wandering is found to a factor of √10.
 constexpr double wandering_step = 3.1622776601683795;
 
@@ -37,7 +37,10 @@ std::vector<PointRange> samples_of(const std::vector<PointRange>& pieces) {
         }
         next -= piece.size();
     }
-    if (samples.empty() && !pieces.empty()) samples.push_back(*std::max_element(pieces.begin(), pieces.end(), [](const PointRange& a, const PointRange& b) { return a.size() < b.size(); }));
+    if (samples.empty() && !pieces.empty())
+        samples.push_back(*std::max_element(pieces.begin(), pieces.end(), [](const PointRange& a, const PointRange& b) {
+            return a.size() < b.size();
+        }));
     return samples;
 }
 
@@ -45,7 +48,8 @@ double norm(const SmoothedState& state, std::size_t d) { return std::sqrt(state[
 
 }  // namespace
 
-MotionEstimate::MotionEstimate(const Log& log, const Trajectory& path, const std::vector<PointRange>& pieces) : log_(log), path_(path) {
+MotionEstimate::MotionEstimate(const Log& log, const Trajectory& path, const std::vector<PointRange>& pieces)
+    : log_(log), path_(path) {
     measure_positions(pieces);
     across_.emplace(model_);
     // The axes' own speeds are not those of a tool that also turns.
@@ -121,7 +125,8 @@ void MotionEstimate::measure_components(const std::vector<PointRange>& pieces) {
     SmootherModel model = model_;
     for (std::size_t d = 0; d < 2; ++d) {
         std::array<const Channel*, 3> found{};
-        for (std::size_t axis = 0; axis < 3; ++axis) found[axis] = log_.find(fmt::format("{}.{}", d == 0 ? "speed" : "acceleration", "xyz"[axis]));
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            found[axis] = log_.find(fmt::format("{}.{}", d == 0 ? "speed" : "acceleration", "xyz"[axis]));
         if (std::count(found.begin(), found.end(), nullptr) > 0) continue;
         components_[d] = found;
         double quantum = 0;
@@ -129,7 +134,9 @@ void MotionEstimate::measure_components(const std::vector<PointRange>& pieces) {
         quantum /= d == 0 ? seconds_per_minute : 1.0;
         double worst = 0;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            worst = std::max(worst, agreement(pieces, [&](const Scratch& s, std::size_t i) { return s.measured[d + 1][axis][i] - s.states[i][d + 1][static_cast<int>(axis)]; }));
+            worst = std::max(worst, agreement(pieces, [&](const Scratch& s, std::size_t i) {
+                                 return s.measured[d + 1][axis][i] - s.states[i][d + 1][static_cast<int>(axis)];
+                             }));
         }
         // The residual holds what the positions do not know, too.
         const double known = across_->sigma(static_cast<int>(d) + 1);
@@ -145,7 +152,8 @@ void MotionEstimate::measure_components(const std::vector<PointRange>& pieces) {
 void MotionEstimate::measure_path_speed(const std::vector<PointRange>& pieces) {
     path_speed_ = log_.find("speed");
     if (path_speed_ == nullptr) return;
-    const double off = agreement(pieces, [](const Scratch& s, std::size_t i) { return s.path_speed[i] - norm(s.states[i], 1); });
+    const double off =
+        agreement(pieces, [](const Scratch& s, std::size_t i) { return s.path_speed[i] - norm(s.states[i], 1); });
     const double known = across_->sigma(1);
     const double floor = std::max(quantum_of(path_speed_->values) / seconds_per_minute / std::sqrt(12.0), 1e-3 * known);
     SmootherModel model = model_;
@@ -190,7 +198,8 @@ void MotionEstimate::estimate(PointRange piece, PointIndex first, PointIndex las
         for (std::size_t i = 0; i < n; ++i) {
             const double speed = norm(scratch.states[i], 1);
             const double factor = speed > 0 ? scratch.path_speed[i] / speed : 0.0;
-            for (int axis = 0; axis < 3; ++axis) v[static_cast<std::size_t>(axis)][i] = factor * scratch.states[i][1][axis];
+            for (int axis = 0; axis < 3; ++axis)
+                v[static_cast<std::size_t>(axis)][i] = factor * scratch.states[i][1][axis];
         }
         scratch.with_speed.resize(n);
         along_->smooth(measured, scratch.with_speed);
@@ -200,7 +209,8 @@ void MotionEstimate::estimate(PointRange piece, PointIndex first, PointIndex las
             const double speed = norm(state, 1);
             if (!(speed > slowest)) continue;
             const Eigen::Array4d direction = state[1] / speed;
-            for (std::size_t d = 0; d < 4; ++d) state[d] += ((scratch.with_speed[i][d] - state[d]) * direction).sum() * direction;
+            for (std::size_t d = 0; d < 4; ++d)
+                state[d] += ((scratch.with_speed[i][d] - state[d]) * direction).sum() * direction;
         }
     }
     const auto count = static_cast<std::size_t>(last - first + 1);
@@ -211,7 +221,8 @@ void MotionEstimate::estimate(PointRange piece, PointIndex first, PointIndex las
             values.resize(count);
             for (std::size_t i = 0; i < count; ++i) {
                 const bool missing = std::isnan(p[axis][lead + i]);
-                values[i] = missing ? std::numeric_limits<double>::quiet_NaN() : scratch.states[lead + i][d][static_cast<int>(axis)];
+                values[i] = missing ? std::numeric_limits<double>::quiet_NaN()
+                                    : scratch.states[lead + i][d][static_cast<int>(axis)];
             }
         }
     }
@@ -222,10 +233,12 @@ void MotionEstimate::sigmas(int derivative, PointRange piece, PointIndex first, 
 }
 
 std::string MotionEstimate::note(int derivative) const {
-    std::string text = fmt::format("Kalman smoother: positions \u00b1{:.2g} \u00b5m", model_.position_sigma * um_per_mm);
+    std::string text =
+        fmt::format("Kalman smoother: positions \u00b1{:.2g} \u00b5m", model_.position_sigma * um_per_mm);
     const double speed = along_ ? along_->model().speed_sigma : model_.speed_sigma;
     if (std::isfinite(speed)) text += fmt::format(", speeds \u00b1{:.2g} mm/min", speed * seconds_per_minute);
-    if (model_.has_acceleration()) text += fmt::format(", accelerations \u00b1{:.2g} mm/s\u00b2", model_.acceleration_sigma);
+    if (model_.has_acceleration())
+        text += fmt::format(", accelerations \u00b1{:.2g} mm/s\u00b2", model_.acceleration_sigma);
     const double left = sigma(derivative);
     switch (derivative) {
         case 1: return text + fmt::format("; speed known to \u00b1{:.2g} mm/min", left * seconds_per_minute);

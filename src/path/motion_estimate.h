@@ -51,7 +51,9 @@ public:
 
 private:
     /// Along the path the speed is known better than across it, if it is measured.
-    [[nodiscard]] const KalmanSmoother& best(int derivative) const { return along_ && derivative == 1 ? *along_ : *across_; }
+    [[nodiscard]] const KalmanSmoother& best(int derivative) const {
+        return along_ && derivative == 1 ? *along_ : *across_;
+    }
     void measure_positions(const std::vector<PointRange>& pieces);
     void measure_components(const std::vector<PointRange>& pieces);
     void measure_path_speed(const std::vector<PointRange>& pieces);

@@ -19,8 +19,8 @@ std::uint64_t key(const Eigen::Vector3i& c) {
 MotionGrid::MotionGrid(const Toolpath& path) : path_(path) {
     double total = 0;
     for (std::int64_t m = 0; m < path.size(); ++m) total += path.length(m);
-    cell_ = std::max({finest_cell, total / std::max<double>(1.0, static_cast<double>(path.size())),
-                      total / most_entries});
+    cell_ =
+        std::max({finest_cell, total / std::max<double>(1.0, static_cast<double>(path.size())), total / most_entries});
     for (std::int64_t m = 0; m < path.size(); ++m) {
         const double length = path.length(m);
         if (!(length > 0)) continue;

@@ -18,9 +18,7 @@ public:
     [[nodiscard]] std::vector<std::int64_t> near(const Vec3& p, double distance) const;
 
 private:
-    [[nodiscard]] Eigen::Vector3i cell_of(const Vec3& p) const {
-        return (p / cell_).array().floor().cast<int>();
-    }
+    [[nodiscard]] Eigen::Vector3i cell_of(const Vec3& p) const { return (p / cell_).array().floor().cast<int>(); }
 
     const Toolpath& path_;
     double cell_ = 1;

@@ -40,8 +40,7 @@ Positions gather(const Trajectory& trajectory) {
         std::array<std::array<double, step>, 3> scratch;
         for (PointIndex begin = first; begin < last; begin += step) {
             const auto n = static_cast<std::size_t>(std::min(step, last - begin));
-            trajectory.read(begin, {scratch[0].data(), n}, {scratch[1].data(), n},
-                            {scratch[2].data(), n});
+            trajectory.read(begin, {scratch[0].data(), n}, {scratch[1].data(), n}, {scratch[2].data(), n});
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 float* out = columns[axis]->data() + begin;
                 const double origin = positions.origin[static_cast<Eigen::Index>(axis)];

@@ -8,7 +8,7 @@
 namespace clsurf {
 namespace {
 
-constexpr double part_of_program = 0.02;  ///< motions that may be missing at an end: approach, retract
+constexpr double part_of_program = 0.02;     ///< motions that may be missing at an end: approach, retract
 constexpr double begins_again_before = 0.1;  ///< of the motions: here a run begins …
 constexpr double begins_again_after = 0.9;   ///< … after one that came as far as this
 constexpr double least_pause = 1.0;          ///< [s]
@@ -40,7 +40,9 @@ public:
         if (place <= begins_again_before && far_) {
             far_ = false;
             ++runs_;
-            add_note("map.runs", point, fmt::format("the program begins again at line {}: run {} in this log", line, runs_), "passes of several runs lie on each other in a map");
+            add_note("map.runs", point,
+                     fmt::format("the program begins again at line {}: run {} in this log", line, runs_),
+                     "passes of several runs lie on each other in a map");
         }
         last_ = static_cast<double>(motions.back()) / motions_;
         last_line_ = line;
@@ -49,10 +51,16 @@ public:
     void finish() {
         end_pause(log_.records);
         if (first_ > part_of_program) {
-            add_note("map.begins-inside", 0, fmt::format("the log begins at line {}, with {:.0f} % of the program's motions before it", first_line_, first_ * 100), {});
+            add_note("map.begins-inside", 0,
+                     fmt::format("the log begins at line {}, with {:.0f} % of the program's motions before it",
+                                 first_line_, first_ * 100),
+                     {});
         }
         if (first_ >= 0 && last_ < 1 - part_of_program - 1 / motions_) {
-            add_note("map.ends-early", log_.records - 1, fmt::format("the log ends at line {}, with {:.0f} % of the program's motions after it", last_line_, (1 - last_) * 100), {});
+            add_note("map.ends-early", log_.records - 1,
+                     fmt::format("the log ends at line {}, with {:.0f} % of the program's motions after it", last_line_,
+                                 (1 - last_) * 100),
+                     {});
         }
     }
 
@@ -61,7 +69,8 @@ private:
         if (still_since_ < 0 || end <= still_since_) return;
         const double seconds = static_cast<double>(end - still_since_) * log_.period;
         if (seconds < least_pause) return;
-        add_note("map.pause", still_since_, fmt::format("the tool stands still for {:.1f} s on line {}", seconds, line_), {});
+        add_note("map.pause", still_since_,
+                 fmt::format("the tool stands still for {:.1f} s on line {}", seconds, line_), {});
     }
 
     void add_note(const char* code, PointIndex point, std::string text, std::string hint) {
@@ -81,7 +90,8 @@ private:
 
 }  // namespace
 
-void note_course(const Trajectory& path, const Log& log, const Program& program, const LineMap& map, Diagnostics& diagnostics) {
+void note_course(const Trajectory& path, const Log& log, const Program& program, const LineMap& map,
+                 Diagnostics& diagnostics) {
     if (program.motions.size() == 0 || path.count == 0) return;
     constexpr std::size_t block = 4096;
     std::array<LineNumber, block> lines;
@@ -90,7 +100,8 @@ void note_course(const Trajectory& path, const Log& log, const Program& program,
     Course course(log, program, map, diagnostics);
     Vec3 before = path.at(0);
     for (PointIndex begin = 0; begin < path.count; begin += static_cast<PointIndex>(block)) {
-        const auto n = static_cast<std::size_t>(std::min<PointIndex>(static_cast<PointIndex>(block), path.count - begin));
+        const auto n =
+            static_cast<std::size_t>(std::min<PointIndex>(static_cast<PointIndex>(block), path.count - begin));
         map.read(begin, {lines.data(), n});
         map.read_kinds(begin, {kinds.data(), n});
         path.read(begin, {x.data(), n}, {y.data(), n}, {z.data(), n});

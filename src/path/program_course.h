@@ -11,6 +11,7 @@ namespace clsurf {
 /// - map.runs: the program begins again: two runs in one file
 /// - map.pause: the tool stands still for more than a second on a line that cuts
 /// O(points).
-void note_course(const Trajectory& path, const Log& log, const Program& program, const LineMap& map, Diagnostics& diagnostics);
+void note_course(const Trajectory& path, const Log& log, const Program& program, const LineMap& map,
+                 Diagnostics& diagnostics);
 
 }  // namespace clsurf

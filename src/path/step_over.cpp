@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t probes_wanted = 384;
 /// Another part of the way: it is this many times farther along the way than straight across.
 constexpr double way_over_distance = 3.0;
-constexpr double same_place = 1e-3;  ///< [mm]; nearer is the same pass cut again
+constexpr double same_place = 1e-3;   ///< [mm]; nearer is the same pass cut again
 constexpr double finest_cells = 256;  ///< cells along the part's diagonal in the first look
 constexpr int coarsest_look = 7;
 constexpr double enough = 0.5;  ///< share of probes that must have found a neighbour
@@ -33,9 +33,7 @@ public:
             const Eigen::Vector3i c = cell_of(p[probes[i].point]);
             for (int dx = -1; dx <= 1; ++dx) {
                 for (int dy = -1; dy <= 1; ++dy) {
-                    for (int dz = -1; dz <= 1; ++dz) {
-                        cells_[key(c + Eigen::Vector3i(dx, dy, dz))].push_back(i);
-                    }
+                    for (int dz = -1; dz <= 1; ++dz) { cells_[key(c + Eigen::Vector3i(dx, dy, dz))].push_back(i); }
                 }
             }
         }
@@ -58,8 +56,7 @@ private:
     std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
 };
 
-double distance_to_segment(const Eigen::Vector3f& p, const Eigen::Vector3f& a,
-                           const Eigen::Vector3f& b) {
+double distance_to_segment(const Eigen::Vector3f& p, const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
     const Eigen::Vector3f way = b - a;
     const float squared = way.squaredNorm();
     const float t = squared > 0 ? std::clamp((p - a).dot(way) / squared, 0.0F, 1.0F) : 0.0F;
@@ -70,7 +67,8 @@ Eigen::AlignedBox3f box_of(const Positions& p, const Passes& runs) {
     Eigen::AlignedBox3f box;
     for (const Pass& run : runs) {
         if (run.kind != PassKind::cut) continue;
-        std::vector<Eigen::AlignedBox3f> of_block(static_cast<std::size_t>((run.size() + block_points - 1) / block_points));
+        std::vector<Eigen::AlignedBox3f> of_block(
+            static_cast<std::size_t>((run.size() + block_points - 1) / block_points));
         for_each_block(run.size(), [&](PointIndex first, PointIndex last) {
             Eigen::AlignedBox3f& mine = of_block[static_cast<std::size_t>(first / block_points)];
             for (PointIndex i = run.first + first; i < run.first + last; ++i) mine.extend(p[i]);
@@ -83,8 +81,8 @@ Eigen::AlignedBox3f box_of(const Positions& p, const Passes& runs) {
 /// A point of the way and how far along it lies.
 struct Sample {
     PointIndex point = 0;
-    double way = 0;      ///< [mm]
-    bool joined = false; ///< the sample before lies on the same run
+    double way = 0;       ///< [mm]
+    bool joined = false;  ///< the sample before lies on the same run
 };
 
 /// Points of the cutting runs, one per `spacing` [mm] of way or little more.
@@ -105,9 +103,7 @@ std::vector<Sample> thinned(const Passes& runs, const Way& way, double spacing) 
         });
     }
     std::vector<Sample> samples;
-    for (const std::vector<Sample>& block : of_block) {
-        samples.insert(samples.end(), block.begin(), block.end());
-    }
+    for (const std::vector<Sample>& block : of_block) { samples.insert(samples.end(), block.begin(), block.end()); }
     return samples;
 }
 
@@ -120,9 +116,7 @@ double estimate_step_over(const Positions& positions, const Passes& runs, const 
     const std::vector<Sample> path = thinned(runs, way, diagonal / (finest_cells * 8));
     std::vector<Probe> probes;
     const std::size_t stride = std::max<std::size_t>(1, path.size() / probes_wanted);
-    for (std::size_t i = stride / 2; i < path.size(); i += stride) {
-        probes.push_back({path[i].point, path[i].way});
-    }
+    for (std::size_t i = stride / 2; i < path.size(); i += stride) { probes.push_back({path[i].point, path[i].way}); }
     float cell = diagonal / static_cast<float>(finest_cells);
     for (int look = 0; look < coarsest_look; ++look, cell *= 2) {
         const ProbeCells cells(positions, probes, cell);

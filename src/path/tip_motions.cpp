@@ -16,15 +16,20 @@
 namespace clsurf {
 namespace {
 
-constexpr double chord_error = 1e-3;             ///< [mm]
-constexpr double chord_turn = 0.5 * rad_per_deg; ///< of a rotary axis, a chord
-constexpr int most_chords = 2000;                ///< of a motion
+constexpr double chord_error = 1e-3;              ///< [mm]
+constexpr double chord_turn = 0.5 * rad_per_deg;  ///< of a rotary axis, a chord
+constexpr int most_chords = 2000;                 ///< of a motion
 
 class TipMaker {
 public:
     TipMaker(Program& program, const Kinematics& kinematics, const Vec3& offset)
-        : program_(&program), from_(&program.motions), kinematics_(&kinematics), offset_(offset), zero_(kinematics.zero_position()),
-          control_(program), path_(program.motions, Vec3::Constant(std::numeric_limits<double>::quiet_NaN())) {}
+        : program_(&program),
+          from_(&program.motions),
+          kinematics_(&kinematics),
+          offset_(offset),
+          zero_(kinematics.zero_position()),
+          control_(program),
+          path_(program.motions, Vec3::Constant(std::numeric_limits<double>::quiet_NaN())) {}
 
     Motions make() {
         std::vector<std::int64_t> first(from_->kind.size() + 1);  // where each motion begins now
@@ -44,8 +49,10 @@ public:
                 if (word != last_[axis]) held_[axis] = std::numeric_limits<double>::quiet_NaN();
                 last_[axis] = word;
             }
-            if (tip_programmed || level || from_->kind[at] == MotionKind::dwell) keep(i, from_->kind[at] != MotionKind::dwell);
-            else transform(i, before, angles);
+            if (tip_programmed || level || from_->kind[at] == MotionKind::dwell)
+                keep(i, from_->kind[at] != MotionKind::dwell);
+            else
+                transform(i, before, angles);
             before = angles;
         }
         first.back() = to_.size();
@@ -117,9 +124,12 @@ private:
         const Vec3 turned_to = from_->rotary[at].vec();
         for (int k = 1; k <= chords; ++k) {
             const double part = static_cast<double>(k) / chords;
-            const Vec3 position = arc != nullptr ? path_.at(motion, part) : begin.array().isNaN().select(end, begin + part * (end - begin));
-            const RotaryAngles angles{before.tilt + part * (after.tilt - before.tilt), before.rotation + part * (after.rotation - before.rotation)};
-            put(motion, arc != nullptr ? MotionKind::spline : kind, tip_of(k == chords ? end : position, angles), Xyz(turned_from + part * (turned_to - turned_from)));
+            const Vec3 position = arc != nullptr ? path_.at(motion, part)
+                                                 : begin.array().isNaN().select(end, begin + part * (end - begin));
+            const RotaryAngles angles{before.tilt + part * (after.tilt - before.tilt),
+                                      before.rotation + part * (after.rotation - before.rotation)};
+            put(motion, arc != nullptr ? MotionKind::spline : kind, tip_of(k == chords ? end : position, angles),
+                Xyz(turned_from + part * (turned_to - turned_from)));
         }
     }
 
@@ -133,7 +143,8 @@ private:
     Vec3 tip_;
     bool tips_ = false;
     Vec3 last_ = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< programmed
-    Vec3 held_ = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< in force until a word changes it; NaN: it did
+    Vec3 held_ =
+        Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< in force until a word changes it; NaN: it did
 };
 
 }  // namespace
@@ -162,18 +173,22 @@ void note_missing_axes(Program& program, const Kinematics& kinematics) {
     for (int k = 0; k < 3; ++k) {
         const char letter = "abc"[k];
         if (letter == kinematics.tilt.letter || letter == kinematics.rotation.letter) continue;
-        const auto turned = std::find_if(motions.rotary.begin(), motions.rotary.end(), [&](const Xyz& r) { return std::abs(r.vec()[k]) > 0; });
+        const auto turned = std::find_if(motions.rotary.begin(), motions.rotary.end(),
+                                         [&](const Xyz& r) { return std::abs(r.vec()[k]) > 0; });
         if (turned == motions.rotary.end()) continue;
         const auto at = static_cast<std::size_t>(turned - motions.rotary.begin());
         const std::string& file = program.files[motions.file.empty() ? 0 : motions.file[at]].name();
         program.diagnostics.add({Severity::warning, "program.axis", Place::of_line(file, motions.line[at]),
-                                 fmt::format("axis {} turns, which the machine does not have: it is read as 0", static_cast<char>(letter - 'a' + 'A')), "[kinematics] rotary names the machine's two"});
+                                 fmt::format("axis {} turns, which the machine does not have: it is read as 0",
+                                             static_cast<char>(letter - 'a' + 'A')),
+                                 "[kinematics] rotary names the machine's two"});
     }
 }
 
 }  // namespace
 
-void solve_tool_axes(Program& program, const Kinematics& kinematics, const AngleRange& tilt, const AngleRange& rotation) {
+void solve_tool_axes(Program& program, const Kinematics& kinematics, const AngleRange& tilt,
+                     const AngleRange& rotation) {
     Motions& motions = program.motions;
     if (!kinematics.has_rotary()) return;
     note_missing_axes(program, kinematics);
@@ -195,7 +210,8 @@ void solve_tool_axes(Program& program, const Kinematics& kinematics, const Angle
         for (; last < motions.kind.size() && is_vector(last); ++last) axes.push_back(motions.tool_axis[last].vec());
         const std::vector<RotaryAngles> found = follow_rotary(kinematics, axes, before, tilt, rotation);
         if (found.size() < axes.size()) {
-            throw InputError(Place::of_line(program.main().name(), motions.line[first + found.size()]), "the tool axis cannot be reached within the travel of the rotary axes");
+            throw InputError(Place::of_line(program.main().name(), motions.line[first + found.size()]),
+                             "the tool axis cannot be reached within the travel of the rotary axes");
         }
         for (std::size_t i = first; i < last; ++i) motions.rotary[i] = Xyz(kinematics.programmed(found[i - first]));
         before = found.back();

@@ -19,7 +19,8 @@ void make_tip_motions(Program& program, const Kinematics& kinematics, const Vec3
 /// axes least over each run of such motions; motions after it that do not name an axis leave it there. Throws
 /// InputError with the line of a tool axis out of reach. Adds `program.axis` to the program's diagnostics
 /// where an axis turns that the machine does not have. O(motions).
-void solve_tool_axes(Program& program, const Kinematics& kinematics, const AngleRange& tilt = {}, const AngleRange& rotation = {});
+void solve_tool_axes(Program& program, const Kinematics& kinematics, const AngleRange& tilt = {},
+                     const AngleRange& rotation = {});
 /// Within the travel of the machine's axes.
 void solve_tool_axes(Program& program, const Machine& machine);
 

@@ -12,12 +12,12 @@ constexpr double two_pi = 2.0 * std::numbers::pi;
 
 /// An arc or helix in its own frame: angle 0 at the start, growing along the motion.
 struct Helix {
-    int u, v, w;       ///< axes of the plane, axis of rotation
-    double sign;       ///< +1: angle grows from u to v
-    double radius;     ///< at the start
+    int u, v, w;           ///< axes of the plane, axis of rotation
+    double sign;           ///< +1: angle grows from u to v
+    double radius;         ///< at the start
     double radius_growth;  ///< from start to end (a spiral when the programmed radii differ)
-    double sweep;      ///< > 0
-    double rise;       ///< along w over the whole sweep
+    double sweep;          ///< > 0
+    double rise;           ///< along w over the whole sweep
     double start_angle;
     Vec3 centre, begin;
 };
@@ -56,8 +56,7 @@ Vec3 point_of(const Helix& h, double fraction) {
 }
 
 Foot foot_on_helix(const Helix& h, const Vec3& p, double from) {
-    const double angle =
-        h.sign * (std::atan2(p[h.v] - h.centre[h.v], p[h.u] - h.centre[h.u]) - h.start_angle);
+    const double angle = h.sign * (std::atan2(p[h.v] - h.centre[h.v], p[h.u] - h.centre[h.u]) - h.start_angle);
     // Candidates: the ends, and the same angle in every turn (the turn nearest in rise wins).
     Foot best{(point_of(h, from) - p).norm(), from};
     const auto consider = [&](double fraction) {
@@ -79,8 +78,7 @@ Vec3 Toolpath::at(std::int64_t motion, double fraction) const {
     const Vec3 a = begin(motion);
     const Vec3 b = end(motion);
     const Arc* arc = is_arc(kind) ? motions_->arc_of(motion) : nullptr;
-    return arc == nullptr ? Vec3(a + fraction * (b - a))
-                          : point_of(make_helix(*arc, kind, a, b), fraction);
+    return arc == nullptr ? Vec3(a + fraction * (b - a)) : point_of(make_helix(*arc, kind, a, b), fraction);
 }
 
 double Toolpath::length(std::int64_t motion) const {
@@ -100,9 +98,7 @@ Foot Toolpath::foot(std::int64_t motion, const Vec3& p, double from) const {
     const Vec3 a = begin(motion);
     const Vec3 b = end(motion);
     if (is_arc(kind)) {
-        if (const Arc* arc = motions_->arc_of(motion)) {
-            return foot_on_helix(make_helix(*arc, kind, a, b), p, from);
-        }
+        if (const Arc* arc = motions_->arc_of(motion)) { return foot_on_helix(make_helix(*arc, kind, a, b), p, from); }
     }
     const Vec3 way = b - a;
     const double squared = way.squaredNorm();

@@ -22,9 +22,7 @@ public:
     [[nodiscard]] std::int64_t size() const { return motions_->size(); }
     [[nodiscard]] const Motions& motions() const { return *motions_; }
     [[nodiscard]] Vec3 begin(std::int64_t motion) const { return known(motions_->begin_of(motion)); }
-    [[nodiscard]] Vec3 end(std::int64_t motion) const {
-        return known(motions_->end[static_cast<std::size_t>(motion)]);
-    }
+    [[nodiscard]] Vec3 end(std::int64_t motion) const { return known(motions_->end[static_cast<std::size_t>(motion)]); }
     /// The point after a fraction of a motion's way.
     [[nodiscard]] Vec3 at(std::int64_t motion, double fraction) const;
     /// Way along a motion [mm].

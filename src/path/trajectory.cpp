@@ -14,8 +14,7 @@
 
 namespace clsurf {
 
-void Trajectory::read(PointIndex begin, std::span<double> x, std::span<double> y,
-                      std::span<double> z) const {
+void Trajectory::read(PointIndex begin, std::span<double> x, std::span<double> y, std::span<double> z) const {
     const std::array<std::span<double>, 3> out{x, y, z};
     for (int axis = 0; axis < 3; ++axis) {
         copy_block(axes[axis], begin, out[axis]);
@@ -34,7 +33,8 @@ namespace {
 const Channel& channel_of(const Log& log, Role role, char letter) {
     const std::string name = std::string(prefix_of(role)) + "." + letter;
     if (const Channel* channel = log.find(name)) return *channel;
-    throw InputError(Place::of_file(log.name), "no " + std::string(name_of(role)) + " positions: channel '" + name + "' is missing",
+    throw InputError(Place::of_file(log.name),
+                     "no " + std::string(name_of(role)) + " positions: channel '" + name + "' is missing",
                      "`clsurf info` lists the channels that the log has");
 }
 
@@ -52,8 +52,10 @@ Trajectory trajectory_of(const Log& log, Role role) {
 class AngleReader {
 public:
     AngleReader(const Log& log, Role role, const Kinematics& kinematics)
-        : tilt_(&channel_of(log, role, kinematics.tilt.letter).values), rotation_(&channel_of(log, role, kinematics.rotation.letter).values),
-          tilt_factor_(kinematics.tilt.sign * rad_per_deg), rotation_factor_(kinematics.rotation.sign * rad_per_deg) {}
+        : tilt_(&channel_of(log, role, kinematics.tilt.letter).values),
+          rotation_(&channel_of(log, role, kinematics.rotation.letter).values),
+          tilt_factor_(kinematics.tilt.sign * rad_per_deg),
+          rotation_factor_(kinematics.rotation.sign * rad_per_deg) {}
 
     void read(PointIndex begin, std::span<double> tilt, std::span<double> rotation) const {
         copy_block(*tilt_, begin, tilt);
@@ -93,10 +95,17 @@ void own_columns(Trajectory& trajectory, Compute&& compute) {
     for_each_block(trajectory.count, [&](PointIndex first, PointIndex last) {
         const auto at = static_cast<std::size_t>(first);
         const auto size = static_cast<std::size_t>(last - first);
-        compute(first, std::span(columns->at(0).data() + at, size), std::span(columns->at(1).data() + at, size), std::span(columns->at(2).data() + at, size));
+        compute(first, std::span(columns->at(0).data() + at, size), std::span(columns->at(1).data() + at, size),
+                std::span(columns->at(2).data() + at, size));
     });
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        trajectory.axes[axis] = {reinterpret_cast<const std::byte*>(columns->at(axis).data()), sizeof(double), trajectory.count, ScalarType::f64, false, 1.0, 0.0};
+        trajectory.axes[axis] = {reinterpret_cast<const std::byte*>(columns->at(axis).data()),
+                                 sizeof(double),
+                                 trajectory.count,
+                                 ScalarType::f64,
+                                 false,
+                                 1.0,
+                                 0.0};
     }
     trajectory.keep_alive = std::move(columns);
 }
@@ -105,7 +114,8 @@ void own_columns(Trajectory& trajectory, Compute&& compute) {
 
 namespace {
 
-Trajectory reconstruct_ball(const Log& log, Role role, const Vec3& offset, std::shared_ptr<const Kinematics> kinematics, double ball) {
+Trajectory reconstruct_ball(const Log& log, Role role, const Vec3& offset, std::shared_ptr<const Kinematics> kinematics,
+                            double ball) {
     Trajectory trajectory = trajectory_of(log, role);
     trajectory.ball = ball;
     trajectory.offset = offset;
@@ -145,7 +155,9 @@ bool tilts(const Log& log, const Trajectory& trajectory) {
     if (trajectory.kinematics == nullptr) return false;
     constexpr double play = 1e-6;
     const Kinematics& kinematics = *trajectory.kinematics;
-    return for_angles(log, AngleReader(log, trajectory.role, kinematics), [&](PointIndex, const RotaryAngles& angles) { return angle_between(kinematics.axis_of(angles), Vec3::UnitZ()) > play; });
+    return for_angles(log, AngleReader(log, trajectory.role, kinematics), [&](PointIndex, const RotaryAngles& angles) {
+        return angle_between(kinematics.axis_of(angles), Vec3::UnitZ()) > play;
+    });
 }
 
 Trajectory reconstruct_like(const Log& log, Role role, const Trajectory& like) {
@@ -186,8 +198,13 @@ void note_poles(const Log& log, Role role, const Kinematics& kinematics, Diagnos
     double low = 0, high = 0;
     const auto leave = [&] {
         if (inside && high - low > much) {
-            diagnostics.add({Severity::note, "path.pole", Place::of_point(log.name, since),
-                             fmt::format("the tool axis passes its pole: within 2 deg of it axis {} turns by {:.1f} deg", kinematics.rotation.letter, (high - low) * deg_per_rad), {}});
+            diagnostics.add(
+                {Severity::note,
+                 "path.pole",
+                 Place::of_point(log.name, since),
+                 fmt::format("the tool axis passes its pole: within 2 deg of it axis {} turns by {:.1f} deg",
+                             kinematics.rotation.letter, (high - low) * deg_per_rad),
+                 {}});
         }
         inside = false;
     };
@@ -225,9 +242,12 @@ void note_rotary(const Log& log, Role role, Diagnostics& diagnostics) {
             }
         }
         if (!(high - low > moving)) continue;
-        diagnostics.add({Severity::warning, "path.rotary", Place::of_file(log.name),
-                         fmt::format("axis {} moves by {:.2f} deg: positions are those of the linear axes, not of the tool on the workpiece", letter, (high - low) * deg_per_rad),
-                         "--machine FILE says the kinematics"});
+        diagnostics.add(
+            {Severity::warning, "path.rotary", Place::of_file(log.name),
+             fmt::format(
+                 "axis {} moves by {:.2f} deg: positions are those of the linear axes, not of the tool on the workpiece",
+                 letter, (high - low) * deg_per_rad),
+             "--machine FILE says the kinematics"});
         return;
     }
 }

@@ -20,10 +20,10 @@ struct Trajectory {
     std::array<ChannelView, 3> axes;  ///< machine positions x, y, z, or of the tip before the offset [mm]
     Vec3 offset = Vec3::Zero();       ///< workpiece = machine + offset [mm]
     PointIndex count = 0;
-    double period = 0;  ///< [s]
-    std::string name;   ///< of the log, for messages
+    double period = 0;                             ///< [s]
+    std::string name;                              ///< of the log, for messages
     std::shared_ptr<const Kinematics> kinematics;  ///< of machines with rotary axes; nullptr: three axes
-    double ball = 0;    ///< [mm] 0: positions are those of the tip; else as upright_ball() has them
+    double ball = 0;  ///< [mm] 0: positions are those of the tip; else as upright_ball() has them
     std::shared_ptr<const void> keep_alive;
 
     /// Gathers points [begin, begin + x.size()); NaN where the log has none. All spans same size.
@@ -34,7 +34,8 @@ struct Trajectory {
 /// The positions of one role: work offset and tool length as `offset` [mm]; through the chain of
 /// `kinematics`, if given, from all five axes. Throws InputError when the log has no such role, or not
 /// the rotary axes that the kinematics need. With rotary axes O(points), parallel.
-[[nodiscard]] Trajectory reconstruct(const Log& log, Role role, const Vec3& offset, std::shared_ptr<const Kinematics> kinematics = nullptr);
+[[nodiscard]] Trajectory reconstruct(const Log& log, Role role, const Vec3& offset,
+                                     std::shared_ptr<const Kinematics> kinematics = nullptr);
 
 /// In place of the tips of a ball of that radius [mm] those that it would have with its axis along z and the same
 /// centre: tip + radius (axis − z). The ball cuts the same, and what knows upright tools knows it. `like`

@@ -9,8 +9,8 @@
 namespace clsurf {
 namespace {
 
-CLSURF_VECTORISED void measure(const float* x, const float* y, const float* z,
-                               float* steps, PointIndex first, PointIndex last) {
+CLSURF_VECTORISED void measure(const float* x, const float* y, const float* z, float* steps, PointIndex first,
+                               PointIndex last) {
     for (PointIndex i = first; i < last; ++i) {
         const float dx = x[i + 1] - x[i];
         const float dy = y[i + 1] - y[i];
@@ -27,7 +27,8 @@ Way::Way(const Positions& positions) {
     steps_.resize(static_cast<std::size_t>(count));
     sums_ = Column<double>(static_cast<std::size_t>((count + stride - 1) / stride + 1), 0.0);
     for_each_block(count, [&](PointIndex first, PointIndex last) {
-        measure(positions.x.data(), positions.y.data(), positions.z.data(), steps_.data(), first, std::min(last, count - 1));
+        measure(positions.x.data(), positions.y.data(), positions.z.data(), steps_.data(), first,
+                std::min(last, count - 1));
         if (last == count) steps_[static_cast<std::size_t>(count - 1)] = 0;
         for (PointIndex begin = first; begin < last; begin += stride) {
             double sum = 0;

@@ -17,20 +17,20 @@
 namespace clsurf {
 namespace {
 
-constexpr PointIndex stretches = 64;       ///< evenly spaced over the log
-constexpr PointIndex stretch = 1600;       ///< points
+constexpr PointIndex stretches = 64;  ///< evenly spaced over the log
+constexpr PointIndex stretch = 1600;  ///< points
 constexpr std::size_t samples_of_stretch = 24;
 constexpr std::size_t least_samples = 100;
 constexpr std::size_t least_changes = 10;  ///< of the line, for a first guess from them
 constexpr double near = 0.05;              ///< [mm] on the path: a corner tolerance of finishing
 constexpr double near_share = 0.9;
-constexpr double found_share = 0.5;        ///< a guess that has this part of the points in reach is refined
-constexpr double reach = 0.5;              ///< [mm] the grid's cells are at least this large
-constexpr double same_shift = 0.02;        ///< [mm]
+constexpr double found_share = 0.5;  ///< a guess that has this part of the points in reach is refined
+constexpr double reach = 0.5;        ///< [mm] the grid's cells are at least this large
+constexpr double same_shift = 0.02;  ///< [mm]
 constexpr int most_rounds = 30;
-constexpr double settled = 1e-5;           ///< [mm]
-constexpr double least_scatter = 1e-3;     ///< [mm] residuals below count the same
-constexpr double determined = 1e-3;        ///< of the points' directions, in the weakest direction
+constexpr double settled = 1e-5;        ///< [mm]
+constexpr double least_scatter = 1e-3;  ///< [mm] residuals below count the same
+constexpr double determined = 1e-3;     ///< of the points' directions, in the weakest direction
 
 /// A moving point and where it may lie.
 struct Sample {
@@ -49,7 +49,8 @@ Samples take_samples(const Trajectory& path, const Toolpath& toolpath, const Lin
     const PointIndex count = std::min(stretches, path.count / n);
     std::vector<double> x(static_cast<std::size_t>(n)), y(x.size()), z(x.size());
     std::vector<LineNumber> lines(x.size(), 0);
-    const std::size_t every = std::max<std::size_t>(1, x.size() * static_cast<std::size_t>(count) / (static_cast<std::size_t>(stretches) * samples_of_stretch));
+    const std::size_t every = std::max<std::size_t>(
+        1, x.size() * static_cast<std::size_t>(count) / (static_cast<std::size_t>(stretches) * samples_of_stretch));
     for (PointIndex s = 0; s < count; ++s) {
         const PointIndex begin = count == 1 ? 0 : (path.count - n) / (count - 1) * s;
         path.read(begin, x, y, z);
@@ -66,10 +67,12 @@ Samples take_samples(const Trajectory& path, const Toolpath& toolpath, const Lin
                 const std::span<const std::uint32_t> ended = map->motions_of(before);
                 if (ended.size() == 1 && last.allFinite()) {
                     const Vec3 off = toolpath.end(ended.front()) - last;
-                    for (int axis = 0; axis < 3; ++axis) samples.at_changes[static_cast<std::size_t>(axis)].push_back(off[axis]);
+                    for (int axis = 0; axis < 3; ++axis)
+                        samples.at_changes[static_cast<std::size_t>(axis)].push_back(off[axis]);
                 }
             }
-            if (!p.allFinite() || !((p - last).squaredNorm() > 0) || !known || (map != nullptr && lines[i] == 0)) continue;
+            if (!p.allFinite() || !((p - last).squaredNorm() > 0) || !known || (map != nullptr && lines[i] == 0))
+                continue;
             if (moving++ % every != 0) continue;
             Sample sample{p, {}};
             if (map != nullptr) {
@@ -127,7 +130,8 @@ public:
     std::optional<Vec3> refine(Vec3 shift) {
         for (int round = 0; round < most_rounds; ++round) {
             find_feet(shift);
-            if (static_cast<double>(residuals_.size()) < found_share * static_cast<double>(samples_.size())) return std::nullopt;
+            if (static_cast<double>(residuals_.size()) < found_share * static_cast<double>(samples_.size()))
+                return std::nullopt;
             const Vec3 step = solve();
             if (!step.allFinite()) return std::nullopt;
             shift += step;
@@ -138,7 +142,8 @@ public:
 
     [[nodiscard]] bool fits(const Vec3& shift) {
         find_feet(shift);
-        const auto good = std::count_if(residuals_.begin(), residuals_.end(), [](const Residual& r) { return r.off.squaredNorm() <= near * near; });
+        const auto good = std::count_if(residuals_.begin(), residuals_.end(),
+                                        [](const Residual& r) { return r.off.squaredNorm() <= near * near; });
         return static_cast<double>(good) >= near_share * static_cast<double>(samples_.size());
     }
 
@@ -173,7 +178,9 @@ private:
             constexpr double ahead = 1e-4;  // of the motion's way
             Vec3 direction = Vec3::Zero();
             if (best.fraction > 0 && best.fraction < 1) {
-                direction = (path_.at(at, std::min(1.0, best.fraction + ahead)) - path_.at(at, std::max(0.0, best.fraction - ahead))).normalized();
+                direction = (path_.at(at, std::min(1.0, best.fraction + ahead)) -
+                             path_.at(at, std::max(0.0, best.fraction - ahead)))
+                                .normalized();
             }
             residuals_.push_back({foot - p, direction});
         }
@@ -198,7 +205,8 @@ private:
             weights += weight;
         }
         const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(normal);
-        if (!(eigen.eigenvalues()[0] > determined * weights)) return Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+        if (!(eigen.eigenvalues()[0] > determined * weights))
+            return Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
         return normal.ldlt().solve(right);
     }
 
@@ -213,9 +221,11 @@ std::vector<Vec3> guesses_from_boxes(const Box3& program, const Box3& log) {
     for (int corner = 0; corner < 8; ++corner) {
         Vec3 guess;
         for (int axis = 0; axis < 3; ++axis) {
-            guess[axis] = (corner >> axis & 1) == 0 ? program.min()[axis] - log.min()[axis] : program.max()[axis] - log.max()[axis];
+            guess[axis] = (corner >> axis & 1) == 0 ? program.min()[axis] - log.min()[axis]
+                                                    : program.max()[axis] - log.max()[axis];
         }
-        const bool new_one = std::none_of(guesses.begin(), guesses.end(), [&](const Vec3& g) { return (g - guess).norm() < same_shift; });
+        const bool new_one = std::none_of(guesses.begin(), guesses.end(),
+                                          [&](const Vec3& g) { return (g - guess).norm() < same_shift; });
         if (new_one && guess.allFinite()) guesses.push_back(guess);
     }
     return guesses;

@@ -18,7 +18,6 @@ namespace clsurf {
 /// the sampled moving points within 0.05 mm of the path. None for a path that does not determine it
 /// (one straight line; half a raster without lines, which fits at either end). `map`: lines of the
 /// log where it reports them, nullptr without. O(records + motions), some seconds at 10^7.
-[[nodiscard]] std::optional<Vec3> find_shift(const Trajectory& path, const Program& program,
-                                             const LineMap* map);
+[[nodiscard]] std::optional<Vec3> find_shift(const Trajectory& path, const Program& program, const LineMap* map);
 
 }  // namespace clsurf

@@ -35,7 +35,8 @@ Arc resolve_arc(const ArcWords& words, std::string& error) {
             return arc;
         }
         if (half - radius > std::max(radius_play, relative_play * radius)) {
-            error = fmt::format("arc radius {:.4f} is too small: the end is {:.4f} away from the start", radius, 2 * half);
+            error =
+                fmt::format("arc radius {:.4f} is too small: the end is {:.4f} away from the start", radius, 2 * half);
             return arc;
         }
         const double height = std::sqrt(std::max(0.0, radius * radius - half * half));

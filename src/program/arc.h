@@ -11,13 +11,13 @@
 namespace clsurf {
 
 struct ArcWords {
-    Vec3 begin, end;        ///< [mm]; the components along `axis` make it a helix
-    int axis = 2;           ///< of rotation
+    Vec3 begin, end;  ///< [mm]; the components along `axis` make it a helix
+    int axis = 2;     ///< of rotation
     bool clockwise = false;
     bool has_radius = false;
-    double radius = 0;      ///< [mm]; negative: the arc of more than 180°
-    Vec3 centre;            ///< [mm], absolute; unless has_radius
-    int turns = 1;          ///< full circles + 1
+    double radius = 0;  ///< [mm]; negative: the arc of more than 180°
+    Vec3 centre;        ///< [mm], absolute; unless has_radius
+    int turns = 1;      ///< full circles + 1
 };
 
 /// The arc, without its motion's number; or, in `error`, why there is none (both radii named).

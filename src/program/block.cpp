@@ -75,8 +75,10 @@ Statement clean_line(std::string_view line, DialectId dialect) {
     if (dialect == DialectId::heidenhain_iso) {
         // '*' ends a block; in a formula (Q1 = Q2 * 3 *) the last one does.
         while (!text.empty() && text.back() == ' ') text.pop_back();
-        if (!formula) std::replace(text.begin(), text.end(), '*', ' ');
-        else if (text.back() == '*') text.pop_back();
+        if (!formula)
+            std::replace(text.begin(), text.end(), '*', ' ');
+        else if (text.back() == '*')
+            text.pop_back();
         std::replace(text.begin(), text.end(), '~', ' ');  // a block that goes on
     }
     if (dialect == DialectId::linuxcnc && text.find('"') == std::string::npos) close_numbers(text);
@@ -91,7 +93,8 @@ Statement clean_line(std::string_view line, DialectId dialect) {
         statement.deleted = true;
         text[slash] = ' ';
         // A skip level, /1 … /9.
-        if (slash + 1 < text.size() && is_digit(text[slash + 1]) && dialect != DialectId::linuxcnc) text[slash + 1] = ' ';
+        if (slash + 1 < text.size() && is_digit(text[slash + 1]) && dialect != DialectId::linuxcnc)
+            text[slash + 1] = ' ';
     };
     take_skip(at);
     // "%" alone begins and ends a tape; "%name" is a program's name.
@@ -154,8 +157,10 @@ public:
             }
         }
         for (const NumberedAssignment& a : numbered_) {
-            if (a.value) variables_.set(a.number, *a.value);
-            else variables_.forget(a.number);
+            if (a.value)
+                variables_.set(a.number, *a.value);
+            else
+                variables_.forget(a.number);
         }
         for (const NamedAssignment& a : named_) variables_.set(a.name, a.value);
     }
@@ -179,7 +184,8 @@ private:
         const double number = read_value(c_, variables_, dialect_);
         if (!(number >= 0 && number < 1e6)) throw ReadError{"no such variable number", column, {}};
         expect_equals();
-        const std::optional<double> value = dialect_ == DialectId::fanuc ? evaluate_or_vacant(c_, variables_, dialect_) : right_side();
+        const std::optional<double> value =
+            dialect_ == DialectId::fanuc ? evaluate_or_vacant(c_, variables_, dialect_) : right_side();
         numbered_.push_back({static_cast<int>(std::lround(number)), value});
     }
     void expect_equals() {
@@ -202,9 +208,7 @@ private:
 
     void put(char letter, double value, std::size_t column) {
         if (letter == 'G') {
-            if (!add_g(block_.words, value, column)) {
-                block_.unknown.push_back({fmt::format("G{}", value), column});
-            }
+            if (!add_g(block_.words, value, column)) { block_.unknown.push_back({fmt::format("G{}", value), column}); }
         } else if (letter == 'M') {
             if (!add_m(block_.words, value)) block_.unknown.push_back({fmt::format("M{}", value), column});
         } else {
@@ -225,9 +229,8 @@ private:
         }
         ++c_.at;
         const char next = c_.peek();
-        const bool value_follows = is_digit(next) || next == '.' || next == '-' || next == '+' ||
-                                   next == '[' || next == '#' ||
-                                   (is_letter(next) && dialect_ != DialectId::fanuc) ||
+        const bool value_follows = is_digit(next) || next == '.' || next == '-' || next == '+' || next == '[' ||
+                                   next == '#' || (is_letter(next) && dialect_ != DialectId::fanuc) ||
                                    (next == 'Q' && dialect_ == DialectId::heidenhain_iso);
         if (!value_follows) {
             c_.at = column - 1;
@@ -242,13 +245,14 @@ private:
         // A word with a vacant variable of Fanuc is not there.
         constexpr std::string_view lengths = "ABCIJKQRUVWXYZ";
         const double increment = lengths.find(letter) == std::string_view::npos ? 1.0 : least_increment_;
-        if (const std::optional<double> value = read_or_vacant(c_, variables_, dialect_, increment)) put(letter, *value, column);
+        if (const std::optional<double> value = read_or_vacant(c_, variables_, dialect_, increment))
+            put(letter, *value, column);
     }
 
     /// After a letter only a function's name may stand for a value: `Xsin[30]`.
     bool function_follows() {
-        static constexpr std::array<std::string_view, 14> names{"ABS", "ACOS", "ASIN", "ATAN", "COS",
-            "EXP", "FIX", "FUP", "LN", "ROUND", "SIN", "SQRT", "TAN", "EXISTS"};
+        static constexpr std::array<std::string_view, 14> names{
+            "ABS", "ACOS", "ASIN", "ATAN", "COS", "EXP", "FIX", "FUP", "LN", "ROUND", "SIN", "SQRT", "TAN", "EXISTS"};
         if (dialect_ == DialectId::heidenhain_iso) return upper(c_.peek()) == 'Q';
         const std::string id = c_.identifier();
         return std::find(names.begin(), names.end(), id) != names.end();
@@ -273,7 +277,7 @@ private:
     void siemens_word() {
         const std::size_t column = c_.column();
         const char first = upper(c_.peek());
-        if (first == ':' ) {  // main block number
+        if (first == ':') {  // main block number
             ++c_.at;
             return;
         }
@@ -296,7 +300,8 @@ private:
         const std::size_t letters = static_cast<std::size_t>(
             std::find_if(id.begin(), id.end(), [](char ch) { return !is_letter(ch); }) - id.begin());
         const char following = after.peek();
-        const bool single = letters == 1 && (id.size() == 1 || id.find_first_not_of("0123456789", 1) == std::string::npos);
+        const bool single =
+            letters == 1 && (id.size() == 1 || id.find_first_not_of("0123456789", 1) == std::string::npos);
         if (following == '=' && c_.text.substr(after.at, 2) != "==") {
             assign(id, after, column);
             return;
@@ -339,7 +344,8 @@ private:
 
     /// A value, in AC(…) or IC(…) or without.
     double coordinate(std::optional<bool>& increment) {
-        for (const auto& [name, adds] : {std::pair{std::string_view("IC"), true}, std::pair{std::string_view("AC"), false}}) {
+        for (const auto& [name, adds] :
+             {std::pair{std::string_view("IC"), true}, std::pair{std::string_view("AC"), false}}) {
             Cursor inside = c_;
             if (!inside.take_word(name) || inside.peek() != '(') continue;
             c_ = inside;
@@ -379,7 +385,8 @@ private:
         if (c_.peek() == '"') {
             const std::size_t end = c_.text.find('"', c_.at + 1);
             if (end == std::string_view::npos) throw ReadError{"'\"' is not closed", c_.column(), {}};
-            block_.keywords.push_back({id + "=", std::string(c_.text.substr(c_.at + 1, end - c_.at - 1)), true, column});
+            block_.keywords.push_back(
+                {id + "=", std::string(c_.text.substr(c_.at + 1, end - c_.at - 1)), true, column});
             c_.at = end + 1;
             return;
         }
@@ -416,14 +423,16 @@ private:
             block_.polar_angle_incremental = increment.value_or(false);
             return;
         }
-        static constexpr std::array<std::string_view, 14> of_blocks{"AR", "RPL", "I1", "J1", "K1", "RND", "RNDM", "CHR", "CHF", "ANG", "DISR", "A3", "B3", "C3"};
+        static constexpr std::array<std::string_view, 14> of_blocks{"AR",  "RPL", "I1",  "J1",   "K1", "RND", "RNDM",
+                                                                    "CHR", "CHF", "ANG", "DISR", "A3", "B3",  "C3"};
         const bool of_block = std::find(of_blocks.begin(), of_blocks.end(), id) != of_blocks.end();
         const double value = of_block ? coordinate(increment) : evaluate(c_, variables_, dialect_);
         if (id == "CR") {
             put('R', value, column);
         } else if (id == "TURN") {
             block_.extra_turns = static_cast<int>(std::clamp(std::round(value), 0.0, 1e6));
-        } else if (id.size() > 1 && id[0] == 'R' && id.find_first_not_of("0123456789", 1) == std::string::npos && id.size() < 7) {
+        } else if (id.size() > 1 && id[0] == 'R' && id.find_first_not_of("0123456789", 1) == std::string::npos &&
+                   id.size() < 7) {
             variables_.set(100000 + std::stoi(id.substr(1)), value);
         } else if (id.starts_with("R[")) {
             variables_.set(100000 + std::stoi(id.substr(2)), value);
@@ -431,7 +440,8 @@ private:
             block_.named.push_back({id, value, column, increment});
         } else if (variables_.find(id.substr(0, id.find('['))) != nullptr) {
             variables_.set(id, value);
-        } else if (id[0] == 'S' || id[0] == 'M' || id[0] == 'H' || id == "LIMS" || id == "ADIS" || id == "ADISPOS" || id == "P") {
+        } else if (id[0] == 'S' || id[0] == 'M' || id[0] == 'H' || id == "LIMS" || id == "ADIS" || id == "ADISPOS" ||
+                   id == "P") {
             block_.keywords.push_back({id + "=", std::to_string(value), true, column});  // S1=, M2=
         } else {
             block_.unknown.push_back({id + "=", column});

@@ -38,18 +38,19 @@ struct NamedWord {
 
 struct Block {
     Words words;
-    std::uint32_t absolute = 0, incremental = 0;  ///< letters given as AC(…), IC(…)
-    int extra_turns = 0;                          ///< TURN=
+    std::uint32_t absolute = 0, incremental = 0;      ///< letters given as AC(…), IC(…)
+    int extra_turns = 0;                              ///< TURN=
     std::optional<double> polar_radius, polar_angle;  ///< @ and ^ of LinuxCNC, RP= and AP= of Siemens, as written
     bool polar_radius_incremental = false, polar_angle_incremental = false;  ///< IC(…)
     std::vector<NamedWord> named;
-    std::vector<std::pair<char, double>> centres; ///< every I, J, K of Fanuc, which macro calls count
+    std::vector<std::pair<char, double>> centres;  ///< every I, J, K of Fanuc, which macro calls count
     std::vector<Keyword> keywords;
     std::vector<UnknownWord> unknown;
 
     /// A word of several letters, or null.
     [[nodiscard]] const NamedWord* find(std::string_view name) const {
-        const auto found = std::find_if(named.begin(), named.end(), [&](const NamedWord& word) { return word.name == name; });
+        const auto found =
+            std::find_if(named.begin(), named.end(), [&](const NamedWord& word) { return word.name == name; });
         return found == named.end() ? nullptr : &*found;
     }
     [[nodiscard]] std::optional<double> value_of(std::string_view name) const {
@@ -83,11 +84,11 @@ void read_block(Cursor& cursor, Variables& variables, DialectId dialect, double 
 
 /// A line without its comments, block-delete sign and number; blanks at both ends taken off.
 struct Statement {
-    std::string text;          ///< same columns as the line: comments are replaced by blanks
-    bool deleted = false;      ///< begins with '/'
-    bool tape_mark = false;    ///< '%', alone or before a name
-    std::string title;         ///< of heidenhain-iso: what stands behind '%'
-    bool open_comment = false; ///< a '(' that is not closed
+    std::string text;           ///< same columns as the line: comments are replaced by blanks
+    bool deleted = false;       ///< begins with '/'
+    bool tape_mark = false;     ///< '%', alone or before a name
+    std::string title;          ///< of heidenhain-iso: what stands behind '%'
+    bool open_comment = false;  ///< a '(' that is not closed
 };
 [[nodiscard]] Statement clean_line(std::string_view line, DialectId dialect);
 

@@ -17,15 +17,23 @@ struct NotedCode {
     const char* event;
 };
 constexpr auto noted_everywhere = std::to_array<NotedCode>({
-    {400, "cutter-compensation"}, {610, "path-mode"}, {611, "path-mode"}, {640, "path-mode"},
-    {960, "spindle-mode"}, {970, "spindle-mode"}, {80, "unused"}, {130, "unused"},
-    
+    {400, "cutter-compensation"},
+    {610, "path-mode"},
+    {611, "path-mode"},
+    {640, "path-mode"},
+    {960, "spindle-mode"},
+    {970, "spindle-mode"},
+    {80, "unused"},
+    {130, "unused"},
+
 });
 bool is(const Block& block, char letter) { return block.words.given(letter); }
 /// G0 to G3, or a thread.
 bool names_motion(const Block& block) {
     const auto* first = block.words.g.data();
-    return std::any_of(first, first + block.words.g_count, [](std::int32_t code) { return code <= 30 || (code >= 330 && code <= 350) || code == 3310 || code == 3320; });
+    return std::any_of(first, first + block.words.g_count, [](std::int32_t code) {
+        return code <= 30 || (code >= 330 && code <= 350) || code == 3310 || code == 3320;
+    });
 }
 
 constexpr auto cycle_codes = std::to_array<int>({730, 740, 760, 810, 820, 830, 840, 850, 860, 870, 880, 890, 843});
@@ -33,16 +41,43 @@ constexpr auto cycle_codes = std::to_array<int>({730, 740, 760, 810, 820, 830, 8
 /// The order in which the codes of one block work (RS274/NGC, table 8).
 int order_of(int code) {
     switch (code) {
-        case 930: case 940: case 950: return 0;
-        case 170: case 180: case 190: return 1;
+        case 930:
+        case 940:
+        case 950: return 0;
+        case 170:
+        case 180:
+        case 190: return 1;
         case 40: return 2;
-        case 400: case 410: case 420: case 411: case 421: return 3;
-        case 200: case 210: case 700: case 710: return 1;
-        case 430: case 431: case 432: case 434: case 440: case 490: return 4;
+        case 400:
+        case 410:
+        case 420:
+        case 411:
+        case 421: return 3;
+        case 200:
+        case 210:
+        case 700:
+        case 710: return 1;
+        case 430:
+        case 431:
+        case 432:
+        case 434:
+        case 440:
+        case 490: return 4;
         case 530: return 6;
-        case 900: case 910: case 901: case 911: return 7;
-        case 280: case 300: case 281: case 301: case 100: case 520: return 9;
-        case 920: case 921: case 922: case 923: return 9;
+        case 900:
+        case 910:
+        case 901:
+        case 911: return 7;
+        case 280:
+        case 300:
+        case 281:
+        case 301:
+        case 100:
+        case 520: return 9;
+        case 920:
+        case 921:
+        case 922:
+        case 923: return 9;
         default: break;
     }
     return code >= 540 && code < 600 ? 5 : 8;
@@ -57,9 +92,7 @@ void Interpreter::execute(Block& block) {
     if (dialect_ == DialectId::siemens && names_motion(block)) arc_kind_ = ArcKind::usual;  // what ends CIP and CT
     if (data_entry_ && !is_data_end(block)) return;
     if (macro_call(block)) return;
-    for (const Keyword& keyword : block.keywords) {
-        apply_keyword(keyword, block);
-    }
+    for (const Keyword& keyword : block.keywords) { apply_keyword(keyword, block); }
     if (ended_) return;
     change_tool(block);
     settle_codes(block);
@@ -136,29 +169,49 @@ void Interpreter::apply_common(int code, Block& block, std::size_t column) {
         case 190: state_.plane_axis = 0; return;
         case 200: state_.count_in(mm_per_inch); return;
         case 210: state_.count_in(1); return;
-        case 280: case 300: reference(code, block); return;
+        case 280:
+        case 300: reference(code, block); return;
         case 330: state_.motion = MotionMode::thread; return;
-        case 430: case 431: case 432: case 440: case 490:
+        case 430:
+        case 431:
+        case 432:
+        case 440:
+        case 490:
             tool_length(code, block);
             control_tool_centre_point(false, code_text(code));
             return;
-        case 434: case 435:
+        case 434:
+        case 435:
             tool_length(code, block);
             control_tool_centre_point(true, code_text(code));
             return;
-        case 520: case 920: case 921: case 922: case 923:
-            if (code == 520 || code == 920) shift_position(block);
-            else restore_shift(code);
+        case 520:
+        case 920:
+        case 921:
+        case 922:
+        case 923:
+            if (code == 520 || code == 920)
+                shift_position(block);
+            else
+                restore_shift(code);
             return;
         case 530: machine_coordinates_ = true; return;
-        case 540: case 550: case 560: case 570: case 580: case 590:
-            select_work_system((code - 540) / 10 + 1);
-            return;
-        case 591: case 592: case 593: select_work_system(6 + code - 590); return;
+        case 540:
+        case 550:
+        case 560:
+        case 570:
+        case 580:
+        case 590: select_work_system((code - 540) / 10 + 1); return;
+        case 591:
+        case 592:
+        case 593: select_work_system(6 + code - 590); return;
         case 541:
             select_work_system(6 + (is(block, 'P') ? static_cast<int>(std::clamp(block.words.of('P'), -1e6, 1e6)) : 1));
             return;
-        case 800: state_.motion = MotionMode::none; state_.cycle = 0; return;
+        case 800:
+            state_.motion = MotionMode::none;
+            state_.cycle = 0;
+            return;
         case 900: state_.incremental = false; return;
         case 910: state_.incremental = true; return;
         case 901: state_.centre_absolute = true; return;
@@ -168,9 +221,10 @@ void Interpreter::apply_common(int code, Block& block, std::size_t column) {
         case 950: state_.feed_mode = FeedMode::per_revolution; return;
         case 980: state_.retract_to_r = false; return;
         case 990: state_.retract_to_r = true; return;
-        case 410: case 420: case 411: case 421:
-            compensate_by_table(code, block, column);
-            return;
+        case 410:
+        case 420:
+        case 411:
+        case 421: compensate_by_table(code, block, column); return;
         case 400:
             if (!compensation_.on()) break;
             stop_compensation();
@@ -199,24 +253,34 @@ bool Interpreter::apply_of_dialect(int code, Block& block, std::size_t column) {
         case DialectId::linuxcnc:
             switch (code) {
                 case 400: stop_compensation(); return true;
-                case 410: case 420: case 411: case 421: start_compensation(code, block, column); return true;
+                case 410:
+                case 420:
+                case 411:
+                case 421: start_compensation(code, block, column); return true;
                 case 50: state_.motion = MotionMode::cubic_spline; return true;
                 case 51: state_.motion = MotionMode::quadratic_spline; return true;
                 case 52: state_.motion = MotionMode::nurbs; return true;
                 case 53: nurbs_end(); return true;
-                case 70: case 80:
+                case 70:
+                case 80:
                     state_.diameter = code == 70;
                     event("lathe", code_text(code));
                     return true;
                 case 100: set_offsets(block); return true;
-                case 281: case 301: keep_reference(code); return true;
+                case 281:
+                case 301: keep_reference(code); return true;
                 case 331: state_.motion = MotionMode::tap; return true;
-                case 382: case 383: case 384: case 385:
-                    state_.motion = MotionMode::probe;
-                    return true;
-                case 700: case 710: case 711: case 712: case 720: case 721: case 722:
-                    lathe_cycle(code, Block(block), column);
-                    return true;
+                case 382:
+                case 383:
+                case 384:
+                case 385: state_.motion = MotionMode::probe; return true;
+                case 700:
+                case 710:
+                case 711:
+                case 712:
+                case 720:
+                case 721:
+                case 722: lathe_cycle(code, Block(block), column); return true;
                 case 690: return false;
                 default: return false;
             }
@@ -229,21 +293,36 @@ bool Interpreter::apply_of_dialect(int code, Block& block, std::size_t column) {
 
 void Interpreter::apply_m(int code, const Block& block) {
     switch (code) {
-        case 0: case 1: case 60: event("stop", fmt::format("M{}", code)); return;
-        case 2: case 30: event("end", fmt::format("M{}", code)); ended_ = true; return;
-        case 3: case 4: case 5: event("spindle", fmt::format("M{}", code)); return;
+        case 0:
+        case 1:
+        case 60: event("stop", fmt::format("M{}", code)); return;
+        case 2:
+        case 30:
+            event("end", fmt::format("M{}", code));
+            ended_ = true;
+            return;
+        case 3:
+        case 4:
+        case 5: event("spindle", fmt::format("M{}", code)); return;
         case 6: event("tool-change", is(block, 'T') ? fmt::format("M6 T{:g}", block.words.of('T')) : "M6"); return;
-        case 7: case 8: case 9: event("coolant", fmt::format("M{}", code)); return;
+        case 7:
+        case 8:
+        case 9: event("coolant", fmt::format("M{}", code)); return;
         case 17:
             if (dialect_ == DialectId::siemens) leave(false);
             return;
-        case 70: case 71: case 72: case 73:
+        case 70:
+        case 71:
+        case 72:
+        case 73:
             if (dialect_ == DialectId::linuxcnc) keep_modes(code);
             return;
-        case 98: case 99:
+        case 98:
+        case 99:
             if (dialect_ == DialectId::fanuc || dialect_ == DialectId::linuxcnc) {
                 if (code == 98) {
-                    call_program_ = is(block, 'P') ? static_cast<int>(std::clamp(block.words.of('P'), 0.0, 99999999.0)) : -2;
+                    call_program_ =
+                        is(block, 'P') ? static_cast<int>(std::clamp(block.words.of('P'), 0.0, 99999999.0)) : -2;
                     if (dialect_ == DialectId::linuxcnc) call_from_words(block);
                 } else if (is(block, 'P')) {
                     // M99 P: back to that block of the caller.
@@ -257,24 +336,25 @@ void Interpreter::apply_m(int code, const Block& block) {
                 }
             }
             return;
-        case 91: case 92:
+        case 91:
+        case 92:
             if (dialect_ == DialectId::heidenhain_iso) {
                 machine_coordinates_ = code == 91;
-                if (code == 92) note(Severity::warning, "program.unknown-word", "M92: the machine's second zero is not known");
+                if (code == 92)
+                    note(Severity::warning, "program.unknown-word", "M92: the machine's second zero is not known");
                 return;
             }
             event("m-code", fmt::format("M{}", code));
             return;
-        case 128: case 129:
+        case 128:
+        case 129:
             if (dialect_ == DialectId::heidenhain_iso) {
                 control_tool_centre_point(code == 128, fmt::format("M{}", code));
                 return;
             }
             event("m-code", fmt::format("M{}", code));
             return;
-        default:
-            event("m-code", fmt::format("M{}", code) + words_text(block, "PQ"));
-            return;
+        default: event("m-code", fmt::format("M{}", code) + words_text(block, "PQ")); return;
     }
 }
 
@@ -303,14 +383,20 @@ void Interpreter::dwell(const Block& block) {
 /// meant as a corner, an I whose G2 is missing. Blocks with a code of another kind are left to it.
 void Interpreter::report_idle(const Block& block) {
     constexpr auto plain_codes = std::to_array<int>({0, 10, 170, 180, 190, 200, 210, 700, 710, 900, 910, 940});
-    const bool straight = (state_.motion == MotionMode::rapid || state_.motion == MotionMode::feed) && !motion_suppressed_;
+    const bool straight =
+        (state_.motion == MotionMode::rapid || state_.motion == MotionMode::feed) && !motion_suppressed_;
     const auto* first = block.words.g.data();
-    const bool plain = std::all_of(first, first + block.words.g_count, [&](int code) { return std::find(plain_codes.begin(), plain_codes.end(), code) != plain_codes.end(); });
-    const bool theirs = block.words.m_count > 0 || !block.keywords.empty() || modal_call_.active || tool_centre_point_ || compensation_.on();
+    const bool plain = std::all_of(first, first + block.words.g_count, [&](int code) {
+        return std::find(plain_codes.begin(), plain_codes.end(), code) != plain_codes.end();
+    });
+    const bool theirs = block.words.m_count > 0 || !block.keywords.empty() || modal_call_.active ||
+                        tool_centre_point_ || compensation_.on();
     if (!straight || !plain || theirs || dialect_ == DialectId::heidenhain_iso) return;
     for (const char letter : std::string_view(dialect_ == DialectId::siemens ? "IJK" : "IJKLPQR")) {
         if (!is(block, letter)) continue;
-        note(Severity::warning, "program.unused-word", fmt::format("word {} has no meaning beside a straight motion: it is left out", letter), block.words.column[static_cast<std::size_t>(letter - 'A')]);
+        note(Severity::warning, "program.unused-word",
+             fmt::format("word {} has no meaning beside a straight motion: it is left out", letter),
+             block.words.column[static_cast<std::size_t>(letter - 'A')]);
     }
 }
 
@@ -321,10 +407,19 @@ void Interpreter::report_unused(const Block& block) {
         note(Severity::warning, "program.unknown-word", "'" + word.text + "' is not known", word.column);
     }
     for (const NamedWord& word : block.named) {
-        const bool corner = word.name == "RND" || word.name == "RNDM" || word.name == "CHR" || word.name == "CHF" || word.name == "DISR";
-        if (corner) note(Severity::warning, "program.corner", fmt::format("{}={:g} is not carried out: the corner is read as programmed", word.name, word.value), word.column);
+        const bool corner = word.name == "RND" || word.name == "RNDM" || word.name == "CHR" || word.name == "CHF" ||
+                            word.name == "DISR";
+        if (corner)
+            note(Severity::warning, "program.corner",
+                 fmt::format("{}={:g} is not carried out: the corner is read as programmed", word.name, word.value),
+                 word.column);
         const bool line = word.name == "ANG" && (motion_suppressed_ || !ends_by_angle(block));
-        if (line) note(Severity::warning, "program.corner", fmt::format("ANG={:g} is not carried out without one coordinate of the plane: the end is read as programmed", word.value), word.column);
+        if (line)
+            note(Severity::warning, "program.corner",
+                 fmt::format(
+                     "ANG={:g} is not carried out without one coordinate of the plane: the end is read as programmed",
+                     word.value),
+                 word.column);
     }
     for (const char letter : {'V', 'W', 'U', 'E'}) {
         if (!is(block, letter) || motion_suppressed_) continue;
@@ -334,14 +429,18 @@ void Interpreter::report_unused(const Block& block) {
             continue;
         }
         // Where such an axis stays at 0 it changes nothing; moved, it takes the tool or the part elsewhere.
-        const bool moves = state_.motion == MotionMode::rapid || state_.motion == MotionMode::feed || state_.motion == MotionMode::cw || state_.motion == MotionMode::ccw;
+        const bool moves = state_.motion == MotionMode::rapid || state_.motion == MotionMode::feed ||
+                           state_.motion == MotionMode::cw || state_.motion == MotionMode::ccw;
         if (block.words.of(letter) == 0) continue;
         if (moves && dialect_ == DialectId::linuxcnc) {
             // Its axes U V W are never increments of X Y Z, which stay true.
-            note(Severity::warning, "program.axis", fmt::format("axis {} moves: positions are those of X Y Z without it", letter), column);
+            note(Severity::warning, "program.axis",
+                 fmt::format("axis {} moves: positions are those of X Y Z without it", letter), column);
             continue;
         }
-        if (moves) fail(fmt::format("axis {} moves: where the tool is with axes U V W is not known", letter), column, "X Y Z A B C are");
+        if (moves)
+            fail(fmt::format("axis {} moves: where the tool is with axes U V W is not known", letter), column,
+                 "X Y Z A B C are");
         note(Severity::warning, "program.axis", fmt::format("word {} has no meaning here", letter), column);
     }
 }

@@ -13,9 +13,9 @@ namespace {
 
 /// Codes that have no meaning, or another, while the path is not the programmed one.
 constexpr auto forbidden = std::to_array<int>({
-    50, 51, 52, 280, 281, 300, 301, 330, 331, 382, 383, 384, 385, 430, 431, 432, 490, 520, 530, 540, 550, 560,
-    570, 580, 590, 591, 592, 593, 700, 710, 711, 712, 720, 721, 722, 730, 740, 760, 810, 820, 830, 840, 850, 860,
-    870, 880, 890, 920,
+    50,  51,  52,  280, 281, 300, 301, 330, 331, 382, 383, 384, 385, 430, 431, 432,
+    490, 520, 530, 540, 550, 560, 570, 580, 590, 591, 592, 593, 700, 710, 711, 712,
+    720, 721, 722, 730, 740, 760, 810, 820, 830, 840, 850, 860, 870, 880, 890, 920,
 });
 constexpr std::array<int, 3> plane_codes{190, 180, 170};  ///< by axis of rotation
 constexpr int most_orientation = 9;
@@ -57,12 +57,15 @@ void Interpreter::start_compensation(int code, const Block& block, std::size_t c
 void Interpreter::compensate_by_table(int code, const Block& block, std::size_t column) {
     if (tools_.tools.empty()) {
         note(Severity::warning, "program.cutter-compensation",
-             code_text(code) + ": the path is read as programmed, without cutter compensation (--tools gives the diameters)", column);
+             code_text(code) +
+                 ": the path is read as programmed, without cutter compensation (--tools gives the diameters)",
+             column);
         return;
     }
     double diameter = tool_.diameter;
     if (dialect_ == DialectId::fanuc) {
-        if (block.words.given('D')) radius_number_ = static_cast<int>(std::clamp(std::round(block.words.of('D')), 0.0, 1e6));
+        if (block.words.given('D'))
+            radius_number_ = static_cast<int>(std::clamp(std::round(block.words.of('D')), 0.0, 1e6));
         diameter = tool_of(radius_number_, column).diameter;
     }
     if (compensation_.on()) stop_compensation();
@@ -83,7 +86,8 @@ void Interpreter::enter_compensation(const Vec2& direction) {
     const int axis = state_.plane_axis;
     const Vec2 beside = compensation_.enter_beside(in_plane(state_.position, axis), direction);
     Motions& m = program_.motions;
-    for (std::size_t i = open_motions_; i < m.end.size() && entry_programmed_; ++i) m.end[i] = Xyz(from_plane(beside, m.end[i].vec()[axis], axis));
+    for (std::size_t i = open_motions_; i < m.end.size() && entry_programmed_; ++i)
+        m.end[i] = Xyz(from_plane(beside, m.end[i].vec()[axis], axis));
     enters_beside_ = entry_programmed_ = false;
 }
 
@@ -103,7 +107,8 @@ void Interpreter::refuse_in_compensation(int code, const Block& block, std::size
     if (!compensation_.on() || dialect_ != DialectId::linuxcnc) return;
     const bool other_plane = std::find(plane_codes.begin(), plane_codes.end(), code) != plane_codes.end() &&
                              plane_codes[static_cast<std::size_t>(state_.plane_axis)] != code;
-    const bool system_moves = code == 100 && block.words.given('L') && (block.words.of('L') == 2 || block.words.of('L') == 20);
+    const bool system_moves =
+        code == 100 && block.words.given('L') && (block.words.of('L') == 2 || block.words.of('L') == 20);
     if (other_plane || system_moves || std::find(forbidden.begin(), forbidden.end(), code) != forbidden.end()) {
         fail(code_text(code) + " cannot be used while cutter compensation is on", column);
     }
@@ -148,7 +153,8 @@ void Interpreter::compensated_arc(const Arc& arc, bool clockwise, const Vec3& en
 }
 
 /// The motions of a step: along the axis of the plane only the last of them moves. `arc` gives turns.
-void Interpreter::push_compensated(const CompensatedStep& step, MotionKind kind, const Vec3& end, const Vec3& rotary, Arc arc) {
+void Interpreter::push_compensated(const CompensatedStep& step, MotionKind kind, const Vec3& end, const Vec3& rotary,
+                                   Arc arc) {
     if (!step.error.empty()) fail(step.error);
     const int axis = state_.plane_axis;
     Motions& m = program_.motions;

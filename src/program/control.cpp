@@ -16,14 +16,22 @@ struct OWord {
     ControlKind kind;
 };
 constexpr std::array<OWord, 16> o_words{{
-    {"SUB", ControlKind::sub},           {"ENDSUB", ControlKind::end_sub},
-    {"CALL", ControlKind::call},         {"RETURN", ControlKind::leave},
-    {"WHILE", ControlKind::while_begin}, {"ENDWHILE", ControlKind::while_end},
-    {"DO", ControlKind::do_begin},       {"IF", ControlKind::if_begin},
-    {"ELSEIF", ControlKind::else_if},    {"ELSE", ControlKind::else_branch},
-    {"ENDIF", ControlKind::if_end},      {"REPEAT", ControlKind::repeat_begin},
-    {"ENDREPEAT", ControlKind::repeat_end}, {"BREAK", ControlKind::break_loop},
-    {"CONTINUE", ControlKind::continue_loop}, {"PROGRAM", ControlKind::label},
+    {"SUB", ControlKind::sub},
+    {"ENDSUB", ControlKind::end_sub},
+    {"CALL", ControlKind::call},
+    {"RETURN", ControlKind::leave},
+    {"WHILE", ControlKind::while_begin},
+    {"ENDWHILE", ControlKind::while_end},
+    {"DO", ControlKind::do_begin},
+    {"IF", ControlKind::if_begin},
+    {"ELSEIF", ControlKind::else_if},
+    {"ELSE", ControlKind::else_branch},
+    {"ENDIF", ControlKind::if_end},
+    {"REPEAT", ControlKind::repeat_begin},
+    {"ENDREPEAT", ControlKind::repeat_end},
+    {"BREAK", ControlKind::break_loop},
+    {"CONTINUE", ControlKind::continue_loop},
+    {"PROGRAM", ControlKind::label},
 }};
 
 std::string lower(std::string_view text) {
@@ -170,14 +178,22 @@ struct SiemensWord {
     ControlKind kind;
 };
 constexpr std::array<SiemensWord, 17> siemens_words{{
-    {"IF", ControlKind::if_begin},       {"ELSE", ControlKind::else_branch},
-    {"ENDIF", ControlKind::if_end},      {"WHILE", ControlKind::while_begin},
-    {"ENDWHILE", ControlKind::while_end}, {"FOR", ControlKind::for_begin},
-    {"ENDFOR", ControlKind::for_end},    {"LOOP", ControlKind::while_begin},
-    {"ENDLOOP", ControlKind::while_end}, {"REPEAT", ControlKind::do_begin},
-    {"UNTIL", ControlKind::do_while},    {"RET", ControlKind::leave},
-    {"M17", ControlKind::leave},         {"PROC", ControlKind::label},
-    {"ENDPROC", ControlKind::leave},     {"REPEATB", ControlKind::repeat_block},
+    {"IF", ControlKind::if_begin},
+    {"ELSE", ControlKind::else_branch},
+    {"ENDIF", ControlKind::if_end},
+    {"WHILE", ControlKind::while_begin},
+    {"ENDWHILE", ControlKind::while_end},
+    {"FOR", ControlKind::for_begin},
+    {"ENDFOR", ControlKind::for_end},
+    {"LOOP", ControlKind::while_begin},
+    {"ENDLOOP", ControlKind::while_end},
+    {"REPEAT", ControlKind::do_begin},
+    {"UNTIL", ControlKind::do_while},
+    {"RET", ControlKind::leave},
+    {"M17", ControlKind::leave},
+    {"PROC", ControlKind::label},
+    {"ENDPROC", ControlKind::leave},
+    {"REPEATB", ControlKind::repeat_block},
     {"CASE", ControlKind::choice},
 }};
 
@@ -282,7 +298,8 @@ ControlIndex::ControlIndex(const SourceText& text, DialectId dialect) {
         }
         if (control.kind == ControlKind::none) continue;
         control.line = line;
-        if (control.kind == ControlKind::sub || control.kind == ControlKind::label) named_[control.label].push_back(static_cast<int>(controls_.size()));
+        if (control.kind == ControlKind::sub || control.kind == ControlKind::label)
+            named_[control.label].push_back(static_cast<int>(controls_.size()));
         controls_.push_back(std::move(control));
     }
     match();
@@ -293,7 +310,8 @@ void ControlIndex::match() {
     const auto pop = [&](std::initializer_list<ControlKind> kinds, const std::string& label) {
         for (int k = static_cast<int>(open.size()) - 1; k >= 0; --k) {
             const Control& candidate = controls_[static_cast<std::size_t>(open[static_cast<std::size_t>(k)])];
-            if (std::find(kinds.begin(), kinds.end(), candidate.kind) == kinds.end() || candidate.label != label) continue;
+            if (std::find(kinds.begin(), kinds.end(), candidate.kind) == kinds.end() || candidate.label != label)
+                continue;
             const int found = open[static_cast<std::size_t>(k)];
             open.resize(static_cast<std::size_t>(k));
             return found;

@@ -12,9 +12,8 @@ namespace {
 constexpr double pi = std::numbers::pi;
 /// Corners flatter than this are passed without a rounding or a retreat [rad], as LinuxCNC has it.
 constexpr double flat_corner = 0.05;
-constexpr double no_length = 1e-9;     ///< [mm]
-constexpr double angle_play = 1e-9;    ///< [rad]
-
+constexpr double no_length = 1e-9;   ///< [mm]
+constexpr double angle_play = 1e-9;  ///< [rad]
 
 double angle_of(const Vec2& v) { return std::atan2(v.y(), v.x()); }
 Vec2 left_of(const Vec2& v) { return {-v.y(), v.x()}; }
@@ -30,7 +29,8 @@ double sweep_of(const Vec2& begin, const Vec2& end, const Vec2& centre, bool cou
 }
 
 /// Where a line meets a circle: the parameters along it, near one first.
-std::optional<std::pair<double, double>> meets_circle(const Vec2& point, const Vec2& direction, const Vec2& centre, double radius) {
+std::optional<std::pair<double, double>> meets_circle(const Vec2& point, const Vec2& direction, const Vec2& centre,
+                                                      double radius) {
     const double along = (centre - point).dot(direction);
     const double off = cross(direction, centre - point);
     const double half_squared = radius * radius - off * off;
@@ -64,9 +64,7 @@ Vec2 CutterCompensation::enter_beside(const Vec2& from, const Vec2& direction) {
     return centre_;
 }
 
-std::string CutterCompensation::finish() {
-    return entered() ? check_reach(centre_) : std::string();
-}
+std::string CutterCompensation::finish() { return entered() ? check_reach(centre_) : std::string(); }
 
 CompensatedStep CutterCompensation::line(const Vec2& from, const Vec2& to) {
     if (first_) return entry_line(from, to);
@@ -94,7 +92,8 @@ CompensatedStep CutterCompensation::arc(const Vec2& from, const Vec2& to, const 
     CompensatedStep step;
     const double programmed = (from - centre).norm();
     if (inside(counter_clockwise) && programmed < radius_ - no_length) {
-        step.error = fmt::format("the tool (radius {:.4f} mm) does not fit into an arc of radius {:.4f} mm", radius_, programmed);
+        step.error = fmt::format("the tool (radius {:.4f} mm) does not fit into an arc of radius {:.4f} mm", radius_,
+                                 programmed);
         return step;
     }
     const double grows = inside(counter_clockwise) ? -radius_ : radius_;
@@ -121,8 +120,9 @@ CompensatedStep CutterCompensation::entry_line(const Vec2& from, const Vec2& to)
     CompensatedStep step;
     const Vec2 way = to - from;
     if (way.norm() < radius_ - no_length) {
-        step.error = fmt::format("the entry move into cutter compensation ({:.4f} mm) must be longer than the tool's radius ({:.4f} mm)",
-                                 way.norm(), radius_);
+        step.error = fmt::format(
+            "the entry move into cutter compensation ({:.4f} mm) must be longer than the tool's radius ({:.4f} mm)",
+            way.norm(), radius_);
         return step;
     }
     const Vec2 off = side() * radius_ * left_of(way.normalized());
@@ -138,14 +138,17 @@ CompensatedStep CutterCompensation::entry_line(const Vec2& from, const Vec2& to)
 }
 
 /// An arc from the tool's centre to beside the programmed end, tangent there to the programmed arc.
-CompensatedStep CutterCompensation::entry_arc(const Vec2& from, const Vec2& to, const Vec2& centre, bool counter_clockwise) {
+CompensatedStep CutterCompensation::entry_arc(const Vec2& from, const Vec2& to, const Vec2& centre,
+                                              bool counter_clockwise) {
     CompensatedStep step;
     if ((to - from).norm() < radius_ - no_length) {
-        step.error = fmt::format("the entry arc into cutter compensation must reach farther than the tool's radius ({:.4f} mm)", radius_);
+        step.error = fmt::format(
+            "the entry arc into cutter compensation must reach farther than the tool's radius ({:.4f} mm)", radius_);
         return step;
     }
     if (inside(counter_clockwise) && (to - centre).norm() < radius_ - no_length) {
-        step.error = fmt::format("the tool (radius {:.4f} mm) does not fit into an arc of radius {:.4f} mm", radius_, (to - centre).norm());
+        step.error = fmt::format("the tool (radius {:.4f} mm) does not fit into an arc of radius {:.4f} mm", radius_,
+                                 (to - centre).norm());
         return step;
     }
     const Vec2 inwards = (centre - to).normalized();
@@ -215,7 +218,8 @@ bool CutterCompensation::meet(const Vec2& corner, const Open& next, CompensatedS
         const Vec2 between = next.centre - open_.centre;
         const double distance = between.norm();
         if (distance < no_length || open_.radius < no_length) return false;
-        const double along = (open_.radius * open_.radius - next.radius * next.radius + distance * distance) / (2 * distance);
+        const double along =
+            (open_.radius * open_.radius - next.radius * next.radius + distance * distance) / (2 * distance);
         const double height_squared = open_.radius * open_.radius - along * along;
         if (height_squared < 0) return false;
         const Vec2 unit = between / distance;
@@ -228,7 +232,8 @@ bool CutterCompensation::meet(const Vec2& corner, const Open& next, CompensatedS
         const auto crossings = meets_circle(next.beside, next.direction, open_.centre, open_.radius);
         if (!crossings) return false;
         // Inside a circle the line begins at its first crossing, outside at its last.
-        step.corner = next.beside + (inside(open_.counter_clockwise) ? crossings->first : crossings->second) * next.direction;
+        step.corner =
+            next.beside + (inside(open_.counter_clockwise) ? crossings->first : crossings->second) * next.direction;
         return true;
     }
     // The open motion's line runs through the tool's centre, square to where the corner lies.
@@ -252,10 +257,12 @@ std::string CutterCompensation::check_reach(const Vec2& end) const {
     if (open_.is_arc) {
         // A flat corner may have let it begin a little early.
         const double left = sweep_of(open_.begin, end, open_.centre, open_.counter_clockwise);
-        if (left > open_.sweep + flat_corner) return "an arc before an inside corner is too short: the tool would gouge";
+        if (left > open_.sweep + flat_corner)
+            return "an arc before an inside corner is too short: the tool would gouge";
         return {};
     }
-    if ((end - open_.begin).dot(open_.direction) < 0) return "a line before an inside corner is too short: the tool would gouge";
+    if ((end - open_.begin).dot(open_.direction) < 0)
+        return "a line before an inside corner is too short: the tool would gouge";
     return {};
 }
 

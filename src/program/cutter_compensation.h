@@ -13,7 +13,7 @@ namespace clsurf {
 
 /// A motion of the tool's centre in the plane. An arc turns about `centre`.
 struct CompensatedMove {
-    Vec2 end;                ///< [mm]
+    Vec2 end;  ///< [mm]
     Vec2 centre = Vec2::Zero();
     bool is_arc = false;
     bool counter_clockwise = false;
@@ -24,7 +24,7 @@ struct CompensatedStep {
     bool moves_corner = false;   ///< all motions of the step before (and those without way after it) end at `corner`
     Vec2 corner = Vec2::Zero();  ///< [mm]
     std::vector<CompensatedMove> moves;  ///< around an outside corner first, then the motion itself
-    std::string error;           ///< not empty: why the tool cannot go there
+    std::string error;                   ///< not empty: why the tool cannot go there
 };
 
 class CutterCompensation {
@@ -35,7 +35,7 @@ public:
     /// Begins beside a point instead of with an entry move: where the tool's centre is then.
     Vec2 enter_beside(const Vec2& from, const Vec2& direction);
 
-    [[nodiscard]] bool on() const { return on_; }         ///< G41 or G42, whatever the radius
+    [[nodiscard]] bool on() const { return on_; }  ///< G41 or G42, whatever the radius
     [[nodiscard]] bool left() const { return left_; }
     [[nodiscard]] bool active() const { return on_ && radius_ > 0; }
     [[nodiscard]] bool entered() const { return active() && !first_; }  ///< the entry move has been made
@@ -58,14 +58,15 @@ private:
         Vec2 beside = Vec2::Zero();     ///< the tool's centre beside the programmed begin
         Vec2 direction = Vec2::Zero();  ///< of the programmed line
         Vec2 centre = Vec2::Zero();
-        double radius = 0;              ///< of the tool centre's arc
-        double sweep = 0;               ///< of the programmed arc [rad], more than zero
+        double radius = 0;  ///< of the tool centre's arc
+        double sweep = 0;   ///< of the programmed arc [rad], more than zero
         bool counter_clockwise = false;
     };
     [[nodiscard]] double side() const { return left_ ? 1.0 : -1.0; }
     [[nodiscard]] bool inside(bool counter_clockwise) const { return counter_clockwise == left_; }
     [[nodiscard]] CompensatedStep entry_line(const Vec2& from, const Vec2& to);
-    [[nodiscard]] CompensatedStep entry_arc(const Vec2& from, const Vec2& to, const Vec2& centre, bool counter_clockwise);
+    [[nodiscard]] CompensatedStep entry_arc(const Vec2& from, const Vec2& to, const Vec2& centre,
+                                            bool counter_clockwise);
     /// Joins the open motion to one that starts at `corner` in direction `tangent`.
     void join(CompensatedStep& step, const Vec2& corner, const Vec2& tangent, Open& next);
     [[nodiscard]] bool inside_corner(double angle, const Open& next) const;

@@ -20,9 +20,13 @@ Stroke stroke_of(int code, bool linuxcnc) {
         case 730: return {.pecks = true, .breaks_chips = true};
         case 820: return {.dwells = true};
         case 830: return {.pecks = true};
-        case 740: case 840: case 842: case 843: return {.dwells = !linuxcnc, .feeds_out = true};
+        case 740:
+        case 840:
+        case 842:
+        case 843: return {.dwells = !linuxcnc, .feeds_out = true};
         case 850: return {.feeds_out = true};
-        case 860: case 880: return {.dwells = true};
+        case 860:
+        case 880: return {.dwells = true};
         case 890: return {.dwells = true, .feeds_out = true};
         default: return {};
     }
@@ -63,7 +67,8 @@ void Interpreter::cycle(const Block& block) {
     if (std::isnan(cycle_.initial)) cycle_.initial = position[c];
     const double r = cycle_.r * unit + (state_.incremental ? cycle_.initial : 0.0);
     const double bottom = cycle_.z * unit + (state_.incremental ? r : 0.0);
-    if (r < bottom && (linuxcnc || !from_below)) fail(fmt::format("the cycle's R ({:g}) is below its bottom ({:g})", r, bottom));
+    if (r < bottom && (linuxcnc || !from_below))
+        fail(fmt::format("the cycle's R ({:g}) is below its bottom ({:g})", r, bottom));
     int repeats = 1;
     for (const char letter : {'L', 'K'}) {
         if (letter == 'K' && (dialect_ != DialectId::fanuc || from_below)) continue;
@@ -110,17 +115,20 @@ void Interpreter::go_to_level(MotionKind kind, double height, const Vec3& rotary
 }
 
 /// From R down by way of the depths, and out.
-void Interpreter::drill(const Stroke& stroke, double r, double bottom, double clear, const std::vector<double>& depths, const Vec3& rotary) {
+void Interpreter::drill(const Stroke& stroke, double r, double bottom, double clear, const std::vector<double>& depths,
+                        const Vec3& rotary) {
     const int c = state_.plane_axis;
     const bool linuxcnc = dialect_ == DialectId::linuxcnc;
     for (const double depth : depths) {
         go_to_level(MotionKind::feed, depth, rotary);
-        if (stroke.dwells && cycle_.p > 0) push(MotionKind::dwell, state_.position, state_.rotary, static_cast<float>(cycle_.p));
+        if (stroke.dwells && cycle_.p > 0)
+            push(MotionKind::dwell, state_.position, state_.rotary, static_cast<float>(cycle_.p));
         if (!stroke.breaks_chips) go_to_level(MotionKind::rapid, r, rotary);
         go_to_level(MotionKind::rapid, depth + peck_clearance_mm, rotary);
     }
     go_to_level(MotionKind::feed, bottom, rotary);
-    if (stroke.dwells && (linuxcnc || cycle_.p > 0)) push(MotionKind::dwell, state_.position, state_.rotary, static_cast<float>(cycle_.p));
+    if (stroke.dwells && (linuxcnc || cycle_.p > 0))
+        push(MotionKind::dwell, state_.position, state_.rotary, static_cast<float>(cycle_.p));
     if (state_.cycle == 880 && linuxcnc) {
         // The operator takes the tool out by hand: no motion of the program.
         event("stop", "G88");

@@ -25,21 +25,16 @@ struct Sign {
 
 /// Words that one dialect writes and the others do not.
 constexpr auto signs = std::to_array<Sign>({
-    {"TRAORI", DialectId::siemens, 10},   {"TRAFOOF", DialectId::siemens, 10},
-    {"CYCLE8", DialectId::siemens, 10},   {"SUPA", DialectId::siemens, 6},
-    {"DEF REAL", DialectId::siemens, 10}, {"DEF INT", DialectId::siemens, 10},
-    {"MCALL", DialectId::siemens, 10},    {"MSG(\"", DialectId::siemens, 6},
-    {"=AC(", DialectId::siemens, 10},     {"=IC(", DialectId::siemens, 10},
-    {"FFWON", DialectId::siemens, 8},     {"SOFT\n", DialectId::siemens, 4},
-    {"G641", DialectId::siemens, 8},      {"G642", DialectId::siemens, 8},
-    {"TURN=", DialectId::siemens, 8},     {"CR=", DialectId::siemens, 6},
-    {"GOTOF", DialectId::siemens, 8},     {"ENDPROC", DialectId::siemens, 8},
-    {"COMPCAD", DialectId::siemens, 8},   {"T=\"", DialectId::siemens, 8},
-    {"ENDSUB", DialectId::linuxcnc, 10},  {"ENDWHILE", DialectId::linuxcnc, 5},
-    {"#<", DialectId::linuxcnc, 10},      {"G64 P", DialectId::linuxcnc, 6},
-    {"G61.1", DialectId::linuxcnc, 5},    {"G90.1", DialectId::linuxcnc, 3},
-    {"G05 P", DialectId::fanuc, 8},       {"G05P", DialectId::fanuc, 8},
-    {"G5.1 Q", DialectId::fanuc, 8},      {"G05.1", DialectId::fanuc, 8},
+    {"TRAORI", DialectId::siemens, 10},   {"TRAFOOF", DialectId::siemens, 10},  {"CYCLE8", DialectId::siemens, 10},
+    {"SUPA", DialectId::siemens, 6},      {"DEF REAL", DialectId::siemens, 10}, {"DEF INT", DialectId::siemens, 10},
+    {"MCALL", DialectId::siemens, 10},    {"MSG(\"", DialectId::siemens, 6},    {"=AC(", DialectId::siemens, 10},
+    {"=IC(", DialectId::siemens, 10},     {"FFWON", DialectId::siemens, 8},     {"SOFT\n", DialectId::siemens, 4},
+    {"G641", DialectId::siemens, 8},      {"G642", DialectId::siemens, 8},      {"TURN=", DialectId::siemens, 8},
+    {"CR=", DialectId::siemens, 6},       {"GOTOF", DialectId::siemens, 8},     {"ENDPROC", DialectId::siemens, 8},
+    {"COMPCAD", DialectId::siemens, 8},   {"T=\"", DialectId::siemens, 8},      {"ENDSUB", DialectId::linuxcnc, 10},
+    {"ENDWHILE", DialectId::linuxcnc, 5}, {"#<", DialectId::linuxcnc, 10},      {"G64 P", DialectId::linuxcnc, 6},
+    {"G61.1", DialectId::linuxcnc, 5},    {"G90.1", DialectId::linuxcnc, 3},    {"G05 P", DialectId::fanuc, 8},
+    {"G05P", DialectId::fanuc, 8},        {"G5.1 Q", DialectId::fanuc, 8},      {"G05.1", DialectId::fanuc, 8},
     {"G43.4", DialectId::fanuc, 6},
 });
 
@@ -67,8 +62,7 @@ bool folded_at(std::string_view text, std::size_t at, std::string_view word) {
 std::span<const Dialect> dialects() { return table; }
 
 const Dialect* find_dialect(std::string_view name) {
-    const auto* found = std::find_if(table.begin(), table.end(),
-                                     [&](const Dialect& d) { return d.name == name; });
+    const auto* found = std::find_if(table.begin(), table.end(), [&](const Dialect& d) { return d.name == name; });
     return found == table.end() ? nullptr : found;
 }
 

@@ -72,7 +72,8 @@ private:
             if (upper(c_.text[c_.at + i]) != word[i]) return false;
         }
         const std::size_t after = c_.at + word.size();
-        if (after < c_.text.size() && (c_.text[after] == '_' || (is_letter(c_.text[after]) && dialect_ == DialectId::siemens))) {
+        if (after < c_.text.size() &&
+            (c_.text[after] == '_' || (is_letter(c_.text[after]) && dialect_ == DialectId::siemens))) {
             return false;
         }
         c_.at = after;
@@ -87,13 +88,15 @@ private:
             return next == '-' ? -v : v;
         }
         if (next == '[') return bracketed('[', ']');
-        if (next == '(' && (dialect_ == DialectId::siemens || dialect_ == DialectId::heidenhain_iso)) return bracketed('(', ')');
+        if (next == '(' && (dialect_ == DialectId::siemens || dialect_ == DialectId::heidenhain_iso))
+            return bracketed('(', ')');
         if (next == '#') return hash_variable();
         if (is_digit(next) || next == '.') return number();
         if (is_letter(next) || next == '_' || next == '$') return name();
         throw ReadError{next == '\0' ? std::string("expected a value, found the end of the block")
                                      : std::string("expected a value, found '") + next + "'",
-                        c_.column(), {}};
+                        c_.column(),
+                        {}};
     }
 
     double bracketed(char open, char close) {
@@ -163,7 +166,7 @@ private:
         }
         if (!c_.take(close)) throw ReadError{"ATAN is not closed", column, {}};
         if (dialect_ == DialectId::linuxcnc || c_.peek() == '/') {
-            if (!c_.take('/') ) throw ReadError{"expected '/' after ATAN[…]", c_.column(), {}};
+            if (!c_.take('/')) throw ReadError{"expected '/' after ATAN[…]", c_.column(), {}};
             return std::atan2(a, value()) * deg_per_rad;
         }
         return std::atan(a) * deg_per_rad;
@@ -203,7 +206,8 @@ private:
             const double argument = std::isnan(given) ? 0 : given;
             const double result = call_function(*row, argument, dialect_, least_increment_);
             if (std::isnan(result) && !std::isnan(argument)) {
-                throw ReadError{std::string(row->name) + " of " + std::to_string(argument) + " is not defined", column, {}};
+                throw ReadError{
+                    std::string(row->name) + " of " + std::to_string(argument) + " is not defined", column, {}};
             }
             return result;
         }
@@ -218,10 +222,9 @@ private:
         const char close = dialect_ == DialectId::siemens ? ')' : ']';
         std::vector<double> values;
         if (!c_.take(open)) throw ReadError{std::string("expected '") + open + "' after " + id, c_.column(), {}};
-        do {
-            values.push_back(expression(0));
-        } while (c_.take(','));
-        if (!c_.take(close) || values.size() != count) throw ReadError{id + " needs " + std::to_string(count) + " values in brackets", column, {}};
+        do { values.push_back(expression(0)); } while (c_.take(','));
+        if (!c_.take(close) || values.size() != count)
+            throw ReadError{id + " needs " + std::to_string(count) + " values in brackets", column, {}};
         return values;
     }
 
@@ -307,7 +310,8 @@ std::optional<double> evaluate_or_vacant(Cursor& cursor, const Variables& variab
     return std::isnan(value) ? std::nullopt : std::optional(value);
 }
 
-std::optional<double> read_or_vacant(Cursor& cursor, const Variables& variables, DialectId dialect, double least_increment) {
+std::optional<double> read_or_vacant(Cursor& cursor, const Variables& variables, DialectId dialect,
+                                     double least_increment) {
     const double value = Reader(cursor, variables, dialect, least_increment).value();
     return std::isnan(value) ? std::nullopt : std::optional(value);
 }

@@ -17,7 +17,8 @@ namespace clsurf {
 /// The same of Fanuc's macros, where a variable that was never set is vacant: nullopt. In sums it is 0.
 [[nodiscard]] std::optional<double> evaluate_or_vacant(Cursor& cursor, const Variables& variables, DialectId dialect);
 /// ROUND gives multiples of `least_increment`: in a word it rounds to what the axes can be told.
-[[nodiscard]] std::optional<double> read_or_vacant(Cursor& cursor, const Variables& variables, DialectId dialect, double least_increment = 1);
+[[nodiscard]] std::optional<double> read_or_vacant(Cursor& cursor, const Variables& variables, DialectId dialect,
+                                                   double least_increment = 1);
 
 /// A single value at the cursor: a number, a variable, a bracketed expression, a function, with sign.
 [[nodiscard]] double read_value(Cursor& cursor, const Variables& variables, DialectId dialect);

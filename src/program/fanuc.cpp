@@ -13,9 +13,9 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr std::uint32_t xyz = Words::bit('X') | Words::bit('Y') | Words::bit('Z');
-constexpr int extended_systems = 6;      ///< G54.1 P1 follows G59
-constexpr double most_factor = 50;       ///< above it a factor of G51 is in thousandths
-constexpr double full_turn = 360;        ///< above it an angle of G68 is in thousandths
+constexpr int extended_systems = 6;  ///< G54.1 P1 follows G59
+constexpr double most_factor = 50;   ///< above it a factor of G51 is in thousandths
+constexpr double full_turn = 360;    ///< above it an angle of G68 is in thousandths
 constexpr std::size_t argument_count = 26;
 
 double factor_of(double value) { return std::abs(value) > most_factor ? value / 1000 : value; }
@@ -113,16 +113,26 @@ void Interpreter::local_zero(const Block& block) {
 
 bool Interpreter::apply_fanuc(int code, Block& block, std::size_t column) {
     switch (code) {
-        case 22: case 32: case 23: case 33: case 62: case 12:
-            note(Severity::warning, "program.unknown-word", code_text(code) + " (involute, exponential or NURBS) is not carried out", column);
+        case 22:
+        case 32:
+        case 23:
+        case 33:
+        case 62:
+        case 12:
+            note(Severity::warning, "program.unknown-word",
+                 code_text(code) + " (involute, exponential or NURBS) is not carried out", column);
             motion_suppressed_ = true;
             return true;
-        case 50: case 51: case 80: case 81:
+        case 50:
+        case 51:
+        case 80:
+        case 81:
             event("high-speed", code_text(code) + words_text(block, "PQR"));
             motion_suppressed_ = (block.words.has & xyz) == 0;
             block.words.has &= ~(Words::bit('P') | Words::bit('Q') | Words::bit('R'));
             return true;
-        case 100: case 110:
+        case 100:
+        case 110:
             if (code == 100 && block.words.given('L') && block.words.of('L') >= 50) data_entry_ = true;
             if (code == 110) data_entry_ = false;
             if (code == 100) set_offsets(block);
@@ -134,42 +144,59 @@ bool Interpreter::apply_fanuc(int code, Block& block, std::size_t column) {
             event("polar", "G16");
             return true;
         }
-        case 240: case 250: case 511: case 501: mirror_frame(code, block); return true;
+        case 240:
+        case 250:
+        case 511:
+        case 501: mirror_frame(code, block); return true;
         case 500:
             fanuc_frame_.scaling = {};
             settle_fanuc_frame();
             event("scaling", "G50" + words_text(block, "S"));
             return true;
-        case 502: case 512: note(Severity::warning, "program.polygon", code_text(code) + " is not carried out", column); return true;
+        case 502:
+        case 512:
+            note(Severity::warning, "program.polygon", code_text(code) + " is not carried out", column);
+            return true;
         case 510: scale_frame(block); return true;
         case 520: local_zero(block); return true;
         case 540:
             if (!block.words.given('P') || has_code(block, 650) || has_code(block, 660)) return false;
             select_work_system(extended_systems + static_cast<int>(std::clamp(block.words.of('P'), 1.0, 300.0)));
             return true;
-        case 660: case 661: {
-            modal_call_ = {.active = true,
-                           .name = fmt::format("{}", macro_program(block, code, column)),
-                           .repeats = block.words.given('L') ? static_cast<int>(std::clamp(block.words.of('L'), 1.0, 99999.0)) : 1,
-                           .arguments = macro_arguments(block),
-                           .level = frames_.size(),
-                           .column = column};
-            if (code == 661) note(Severity::warning, "program.modal-macro", "G66.1 is read as G66: called after blocks that move", column);
+        case 660:
+        case 661: {
+            modal_call_ = {
+                .active = true,
+                .name = fmt::format("{}", macro_program(block, code, column)),
+                .repeats = block.words.given('L') ? static_cast<int>(std::clamp(block.words.of('L'), 1.0, 99999.0)) : 1,
+                .arguments = macro_arguments(block),
+                .level = frames_.size(),
+                .column = column};
+            if (code == 661)
+                note(Severity::warning, "program.modal-macro", "G66.1 is read as G66: called after blocks that move",
+                     column);
             motion_suppressed_ = true;
             return true;
         }
         case 670: modal_call_ = {}; return true;
         case 680: rotate_frame(block, column); return true;
         case 682: tilt_plane(block, column); return true;
-        case 531: case 536:
-            if (!tilted_) note(Severity::warning, "program.rotation", code_text(code) + " without a tilted plane (G68.2) does nothing", column);
-            else turn_to_plane(fanuc_frame_.rotation.direction_to_work(Vec3::UnitZ()), code == 536, code_text(code));
+        case 531:
+        case 536:
+            if (!tilted_)
+                note(Severity::warning, "program.rotation",
+                     code_text(code) + " without a tilted plane (G68.2) does nothing", column);
+            else
+                turn_to_plane(fanuc_frame_.rotation.direction_to_work(Vec3::UnitZ()), code == 536, code_text(code));
             return true;
-        case 683: case 684:
-            note(Severity::warning, "program.rotation", code_text(code) + ": the tilted plane is not carried out, the path is read as programmed", column);
+        case 683:
+        case 684:
+            note(Severity::warning, "program.rotation",
+                 code_text(code) + ": the tilted plane is not carried out, the path is read as programmed", column);
             motion_suppressed_ = true;
             return true;
-        case 690: case 691:
+        case 690:
+        case 691:
             fanuc_frame_.rotation = {};
             fanuc_frame_.angle = 0;
             settle_fanuc_frame();
@@ -178,7 +205,8 @@ bool Interpreter::apply_fanuc(int code, Block& block, std::size_t column) {
             return true;
         default: break;
     }
-    static constexpr auto noted = std::to_array<int>({71, 220, 230, 260, 405, 534, 535, 545, 620, 630, 601, 121, 131, 125, 135});
+    static constexpr auto noted =
+        std::to_array<int>({71, 220, 230, 260, 405, 534, 535, 545, 620, 630, 601, 121, 131, 125, 135});
     if (std::find(noted.begin(), noted.end(), code) != noted.end()) {
         event("mode", code_text(code) + words_text(block, "PQHDR"));
         motion_suppressed_ = code == 220;
@@ -196,7 +224,7 @@ long Interpreter::macro_program(const Block& block, int code, std::size_t column
 /// the second I is #7 (argument specification II).
 std::vector<double> Interpreter::macro_arguments(const Block& block) const {
     static constexpr std::pair<char, int> numbers[] = {
-        {'A', 1}, {'B', 2}, {'C', 3}, {'I', 4}, {'J', 5}, {'K', 6}, {'D', 7}, {'E', 8}, {'F', 9}, {'H', 11},
+        {'A', 1},  {'B', 2},  {'C', 3},  {'I', 4},  {'J', 5},  {'K', 6},  {'D', 7},  {'E', 8},  {'F', 9},  {'H', 11},
         {'Q', 17}, {'R', 18}, {'S', 19}, {'T', 20}, {'U', 21}, {'V', 22}, {'W', 23}, {'X', 24}, {'Y', 25}, {'Z', 26}};
     std::vector<double> arguments(33, none);
     for (const auto& [letter, number] : numbers) {
@@ -256,8 +284,10 @@ bool Interpreter::set_fanuc_offsets(int level, const Block& block) {
         Tool& tool = tools_.tools[static_cast<int>(std::clamp(w.of('P'), 0.0, 1e6))];
         const double value = w.of('R') * state_.unit_mm;
         const bool wear = level == 11 || level == 13;
-        if (level == 12 || level == 13) tool.diameter = (adds || wear ? tool.diameter : 0.0) + 2 * value;
-        else tool.offset.z() = (adds || wear ? tool.offset.z() : 0.0) + value;
+        if (level == 12 || level == 13)
+            tool.diameter = (adds || wear ? tool.diameter : 0.0) + 2 * value;
+        else
+            tool.offset.z() = (adds || wear ? tool.offset.z() : 0.0) + value;
     }
     return false;
 }
@@ -313,10 +343,15 @@ double Interpreter::fanuc_parameter(int number, const Vec3& known) const {
     if (number >= 5221 && number < 5341) return offset(5221, 1);
     if (number >= 7001 && number < 7961) return offset(7001, extended_systems + 1);
     switch (number) {
-        case 4001: return state_.motion == MotionMode::rapid ? 0 : state_.motion == MotionMode::cw ? 2 : state_.motion == MotionMode::ccw ? 3 : 1;
+        case 4001:
+            return state_.motion == MotionMode::rapid ? 0
+                   : state_.motion == MotionMode::cw  ? 2
+                   : state_.motion == MotionMode::ccw ? 3
+                                                      : 1;
         case 4002: return 17 + (2 - state_.plane_axis);
         case 4003: return state_.incremental ? 91 : 90;
-        case 4005: return state_.feed_mode == FeedMode::inverse_time ? 93 : state_.feed_mode == FeedMode::per_minute ? 94 : 95;
+        case 4005:
+            return state_.feed_mode == FeedMode::inverse_time ? 93 : state_.feed_mode == FeedMode::per_minute ? 94 : 95;
         case 4006: return unit == 1 ? 21 : 20;
         case 4009: return state_.cycle > 0 && state_.motion == MotionMode::cycle ? state_.cycle / 10 : 80;
         case 4010: return state_.retract_to_r ? 99 : 98;

@@ -180,10 +180,14 @@ bool Interpreter::control(const Statement& statement) {
             const double to = evaluate(c, variables_, dialect_);
             double value = from;
             const auto running = counters_.find(line_);
-            const bool numbered = name.size() > 1 && name[0] == 'R' && name.find_first_not_of("0123456789", 1) == std::string::npos;
+            const bool numbered =
+                name.size() > 1 && name[0] == 'R' && name.find_first_not_of("0123456789", 1) == std::string::npos;
             const int number = numbered && name.size() < 7 ? 100000 + std::stoi(name.substr(1)) : 0;
             if (running != counters_.end()) value = running->second + 1;
-            if (numbered) variables_.set(number, value); else variables_.set(name, value);
+            if (numbered)
+                variables_.set(number, value);
+            else
+                variables_.set(name, value);
             if (value > to) {
                 counters_.erase(line_);
                 after(partner_of(own(), "for").line);
@@ -239,9 +243,11 @@ bool Interpreter::control(const Statement& statement) {
                 return true;
             }
             const std::string word = text.substr(std::min(parsed.rest, text.size()));
-            if (dialect_ == DialectId::siemens && word.find_first_not_of(' ') != std::string::npos && text.find(':') != std::string::npos) {
+            if (dialect_ == DialectId::siemens && word.find_first_not_of(' ') != std::string::npos &&
+                text.find(':') != std::string::npos) {
                 Statement after_label = statement;
-                std::fill(after_label.text.begin(), after_label.text.begin() + static_cast<std::ptrdiff_t>(parsed.rest), ' ');
+                std::fill(after_label.text.begin(), after_label.text.begin() + static_cast<std::ptrdiff_t>(parsed.rest),
+                          ' ');
                 if (control(after_label)) return true;
                 Cursor c{after_label.text, 0};
                 read_block(c, variables_, dialect_, state_.least_increment(), block_);
@@ -271,7 +277,8 @@ void Interpreter::jump_to(const std::string& label, int direction, bool may_miss
     }
     if (line == 0 && may_miss) return;
     if (line == 0) fail(fmt::format("there is no block to go to: '{}'", label));
-    const bool leaves = !sections_.empty() && sections_.back().level == frames_.size() && (line < sections_.back().begin || line > sections_.back().end);
+    const bool leaves = !sections_.empty() && sections_.back().level == frames_.size() &&
+                        (line < sections_.back().begin || line > sections_.back().end);
     if (leaves) {
         sections_.pop_back();
         watch_section();
@@ -330,7 +337,8 @@ void Interpreter::repeat_lines(const Control& repeat, const std::string& text) {
         times = evaluate(c, variables_, dialect_);
     }
     if (c.peek() != '\0') throw ReadError{"expected P= after the labels of REPEAT", c.column(), {}};
-    if (section.end < section.begin || (section.begin <= line_ && line_ <= section.end)) fail(fmt::format("REPEAT: no lines to repeat from '{}' on", repeat.label));
+    if (section.end < section.begin || (section.begin <= line_ && line_ <= section.end))
+        fail(fmt::format("REPEAT: no lines to repeat from '{}' on", repeat.label));
     if (sections_.size() >= deepest_call) fail(fmt::format("repeats are nested more than {} deep", deepest_call));
     section.left = std::floor(times);
     if (!(section.left >= 1)) return;
@@ -425,7 +433,9 @@ void Interpreter::call(const std::string& name, int repeats, bool locals, const 
     if (frames_.size() >= deepest_call) {
         fail(fmt::format("calls are nested more than {} deep: a subprogram that calls itself?", deepest_call));
     }
-    const ControlKind kind = dialect_ == DialectId::linuxcnc || dialect_ == DialectId::heidenhain_iso ? ControlKind::sub : ControlKind::label;
+    const ControlKind kind = dialect_ == DialectId::linuxcnc || dialect_ == DialectId::heidenhain_iso
+                                 ? ControlKind::sub
+                                 : ControlKind::label;
     std::size_t file = file_;
     int at = index(file).find(kind, name);
     for (std::size_t other = 0; at < 0 && other < program_.files.size(); ++other) {
@@ -469,7 +479,8 @@ std::uint32_t Interpreter::call_from_here() {
     std::vector<Call>& calls = program_.motions.calls;
     constexpr std::size_t most_calls = 1'000'000;  // of lines and ways to them; what more there is counts as its caller
     if (calls.size() >= most_calls) return call_;
-    const auto [found, is_new] = known_calls_.try_emplace({call_, static_cast<std::uint32_t>(file_), line_}, static_cast<std::uint32_t>(calls.size() + 1));
+    const auto [found, is_new] = known_calls_.try_emplace({call_, static_cast<std::uint32_t>(file_), line_},
+                                                          static_cast<std::uint32_t>(calls.size() + 1));
     if (is_new) calls.push_back({call_, static_cast<std::uint16_t>(file_), line_});
     return found->second;
 }
@@ -477,8 +488,10 @@ std::uint32_t Interpreter::call_from_here() {
 void Interpreter::leave(bool from_end_of_text) {
     if (frames_.empty()) {
         ended_ = true;
-        if (from_end_of_text) note(Severity::note, "program.no-end", "the program ends without M2 or M30");
-        else event("end", "return from the main program");
+        if (from_end_of_text)
+            note(Severity::note, "program.no-end", "the program ends without M2 or M30");
+        else
+            event("end", "return from the main program");
         return;
     }
     Frame& frame = frames_.back();
@@ -516,10 +529,12 @@ void Interpreter::call_from_words(const Block& block) {
         call(fmt::format("{}", number), repeats, false, {});
         return;
     }
-    if (block.words.given('L') && (dialect_ == DialectId::siemens || dialect_ == DialectId::heidenhain_iso) && !motion_suppressed_) {
+    if (block.words.given('L') && (dialect_ == DialectId::siemens || dialect_ == DialectId::heidenhain_iso) &&
+        !motion_suppressed_) {
         const long number = std::lround(block.words.of('L'));
         if (dialect_ == DialectId::siemens) {
-            const int times = block.words.given('P') ? static_cast<int>(std::clamp(block.words.of('P'), 1.0, 9999.0)) : 1;
+            const int times =
+                block.words.given('P') ? static_cast<int>(std::clamp(block.words.of('P'), 1.0, 9999.0)) : 1;
             call(fmt::format("L{}", number), times, true, {});
         } else {
             call(fmt::format("{}", number), 1, false, {});

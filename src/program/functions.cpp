@@ -47,7 +47,9 @@ constexpr std::array<FunctionRow, 5> heidenhain_functions{{
     {"SQ", [](double v) { return v * v; }},
     {"NEG", [](double v) { return -v; }},
     {"FRAC", [](double v) { return v - std::trunc(v); }},
-    {"SGN", [](double v) { return v > 0 ? 1.0 : v < 0 ? -1.0 : 0.0; }},
+    {"SGN", [](double v) { return v > 0   ? 1.0
+                                  : v < 0 ? -1.0
+                                          : 0.0; }},
     {"LOG", [](double v) { return std::log10(v); }},
 }};
 
@@ -57,7 +59,8 @@ double digits_again(double v, std::uint64_t base, double other) {
     if (!(v >= 0 && v < most)) return undefined;
     double value = 0;
     double place = 1;
-    for (auto rest = static_cast<std::uint64_t>(v); rest > 0; rest /= base, place *= other) value += static_cast<double>(rest % base) * place;
+    for (auto rest = static_cast<std::uint64_t>(v); rest > 0; rest /= base, place *= other)
+        value += static_cast<double>(rest % base) * place;
     return value;
 }
 /// Fanuc keeps digits in four bits each: 18 stands for binary 0001'0010. BIN reads it as 12.
@@ -69,7 +72,8 @@ constexpr std::array<FunctionRow, 2> fanuc_functions{{{"BIN", from_decimal_digit
 
 const FunctionRow* find_function(std::string_view name, DialectId dialect) {
     const auto in = [&](std::span<const FunctionRow> table) {
-        const auto found = std::find_if(table.begin(), table.end(), [&](const FunctionRow& row) { return row.name == name; });
+        const auto found =
+            std::find_if(table.begin(), table.end(), [&](const FunctionRow& row) { return row.name == name; });
         return found == table.end() ? nullptr : &*found;
     };
     if (const FunctionRow* found = in(of_all)) return found;
@@ -79,7 +83,8 @@ const FunctionRow* find_function(std::string_view name, DialectId dialect) {
 
 double call_function(const FunctionRow& function, double argument, DialectId dialect, double least_increment) {
     if (dialect == DialectId::fanuc) {
-        if (function.name == "FIX" || function.name == "FUP") return std::copysign(function.value(std::abs(argument)), argument);
+        if (function.name == "FIX" || function.name == "FUP")
+            return std::copysign(function.value(std::abs(argument)), argument);
         if (function.name == "ROUND") return function.value(argument / least_increment) * least_increment;
     }
     return function.value(argument);

@@ -16,6 +16,7 @@ struct FunctionRow {
 [[nodiscard]] const FunctionRow* find_function(std::string_view name, DialectId dialect);
 
 /// As the dialect counts: FIX and FUP of Fanuc by magnitude, its ROUND in multiples of `least_increment`.
-[[nodiscard]] double call_function(const FunctionRow& function, double argument, DialectId dialect, double least_increment);
+[[nodiscard]] double call_function(const FunctionRow& function, double argument, DialectId dialect,
+                                   double least_increment);
 
 }  // namespace clsurf

@@ -39,7 +39,8 @@ void Interpreter::heidenhain_title(const std::string& title) {
     std::string name;
     std::string unit;
     words >> name >> unit;
-    const std::string_view before = program_.files[file_].text().substr(0, static_cast<std::size_t>(current_.data() - program_.files[file_].text().data()));
+    const std::string_view before = program_.files[file_].text().substr(
+        0, static_cast<std::size_t>(current_.data() - program_.files[file_].text().data()));
     const bool begins = before.find_first_not_of(" \t\r\n\xef\xbb\xbf") == std::string_view::npos;
     if (begins) {
         count_in_inches(unit == "G70");
@@ -60,26 +61,43 @@ void Interpreter::count_in_inches(bool inches) {
 bool Interpreter::apply_heidenhain(int code, Block& block, std::size_t column) {
     const Words& w = block.words;
     const auto not_carried_out = [&](const char* what) {
-        note(Severity::warning, "program.unknown-word", fmt::format("{} ({}) is not carried out", code_text(code), what), column);
+        note(Severity::warning, "program.unknown-word",
+             fmt::format("{} ({}) is not carried out", code_text(code), what), column);
         motion_suppressed_ = true;
         return true;
     };
     switch (code) {
         case 700: count_in_inches(true); return true;
         case 710: count_in_inches(false); return true;
-        case 50: arc_kind_ = ArcKind::by_radius; state_.motion = last_clockwise_ ? MotionMode::cw : MotionMode::ccw; return true;
-        case 60: arc_kind_ = ArcKind::tangential; state_.motion = MotionMode::cw; return true;
-        case 160: arc_kind_ = ArcKind::tangential; state_.motion = MotionMode::cw; polar_line_ = true; return true;
+        case 50:
+            arc_kind_ = ArcKind::by_radius;
+            state_.motion = last_clockwise_ ? MotionMode::cw : MotionMode::ccw;
+            return true;
+        case 60:
+            arc_kind_ = ArcKind::tangential;
+            state_.motion = MotionMode::cw;
+            return true;
+        case 160:
+            arc_kind_ = ArcKind::tangential;
+            state_.motion = MotionMode::cw;
+            polar_line_ = true;
+            return true;
         case 70: state_.motion = MotionMode::feed; return true;  // parallel to an axis
-        case 0: case 10: case 20: case 30:
+        case 0:
+        case 10:
+        case 20:
+        case 30:
             polar_line_ = false;
             arc_kind_ = ArcKind::usual;
             return false;
-        case 100: case 110:
+        case 100:
+        case 110:
             polar_line_ = true;
             state_.motion = code == 100 ? MotionMode::rapid : MotionMode::feed;
             return true;
-        case 120: case 130: case 150:
+        case 120:
+        case 130:
+        case 150:
             polar_line_ = true;
             arc_kind_ = ArcKind::usual;
             if (code != 150) last_clockwise_ = code == 120;
@@ -123,7 +141,8 @@ bool Interpreter::apply_heidenhain(int code, Block& block, std::size_t column) {
         case 730:
             if (!w.given('H')) fail("G73 needs its angle (H)", column);
             turned_by_ = state_.incremental ? turned_by_ + w.of('H') : w.of('H');
-            set_heidenhain_frame(rotation, ProgramFrame::turned(Vec3::Unit(state_.plane_axis), turned_by_, Vec3::Zero()));
+            set_heidenhain_frame(rotation,
+                                 ProgramFrame::turned(Vec3::Unit(state_.plane_axis), turned_by_, Vec3::Zero()));
             event("rotation", "G73" + words_text(block, "H"));
             return true;
         case 200: return not_carried_out("fourth axis as tool axis");
@@ -134,11 +153,23 @@ bool Interpreter::apply_heidenhain(int code, Block& block, std::size_t column) {
                 return true;
             }
             return not_carried_out("tilted working plane");
-        case 430: case 440: return not_carried_out("paraxial radius compensation");
-        case 300: case 310: case 360: case 380: case 390: case 500: case 510: case 550: case 990: case 980:
+        case 430:
+        case 440: return not_carried_out("paraxial radius compensation");
+        case 300:
+        case 310:
+        case 360:
+        case 380:
+        case 390:
+        case 500:
+        case 510:
+        case 550:
+        case 990:
+        case 980:
             // Blank form, spindle angle, stop, tools, probing, tool definition, labels.
-            if (code == 380) event("stop", "G38");
-            else event("mode", code_text(code) + words_text(block, "TLR"));
+            if (code == 380)
+                event("stop", "G38");
+            else
+                event("mode", code_text(code) + words_text(block, "TLR"));
             if (code == 990 && w.given('T')) {
                 Tool tool{.number = static_cast<int>(std::clamp(w.of('T'), 0.0, 1e6))};
                 if (w.given('L')) tool.offset.z() = w.of('L') * state_.unit_mm;
@@ -150,13 +181,16 @@ bool Interpreter::apply_heidenhain(int code, Block& block, std::size_t column) {
             return true;
         default: break;
     }
-    const bool cycle = code == 790 || (code >= 740 && code <= 860) || (code >= 2000 && code <= 4990) || (code >= 560 && code <= 590) || code == 370 || code == 1200;
+    const bool cycle = code == 790 || (code >= 740 && code <= 860) || (code >= 2000 && code <= 4990) ||
+                       (code >= 560 && code <= 590) || code == 370 || code == 1200;
     return cycle && not_carried_out("cycle");
 }
 
 /// An axis letter that stands without a number, as in G28 X Y.
 bool Interpreter::take_mention(char letter, Block& block) {
-    return std::erase_if(block.unknown, [&](const UnknownWord& word) { return word.text.size() == 1 && upper(word.text[0]) == letter; }) > 0;
+    return std::erase_if(block.unknown, [&](const UnknownWord& word) {
+               return word.text.size() == 1 && upper(word.text[0]) == letter;
+           }) > 0;
 }
 
 /// I J K give the pole, which stays: in the block of the arc, or before it.
@@ -244,7 +278,8 @@ bool Interpreter::q_function(std::string_view text) {
         case 12: jump(p[0] < p[1]); return true;
         case 13: set(std::atan2(p[0], p[1]) * deg_per_rad); return true;
         default:
-            note(Severity::warning, "program.unknown-word", fmt::format("D{:02} is not carried out", static_cast<int>(code)), 1);
+            note(Severity::warning, "program.unknown-word",
+                 fmt::format("D{:02} is not carried out", static_cast<int>(code)), 1);
             return true;
     }
 }
@@ -299,12 +334,18 @@ void Interpreter::put_about_pole(const Block& block, Vec3& end) {
         polar_.pole = state_.incremental ? from : Vec3(Vec3::Zero());
     } else {
         const bool siemens = dialect_ == DialectId::siemens;
-        const std::optional<double> angle = siemens ? block.polar_angle : block.words.given('H') ? std::optional(block.words.of('H')) : std::nullopt;
-        const std::optional<double> radius = siemens ? block.polar_radius : block.words.given('R') ? std::optional(block.words.of('R')) : std::nullopt;
+        const std::optional<double> angle = siemens                  ? block.polar_angle
+                                            : block.words.given('H') ? std::optional(block.words.of('H'))
+                                                                     : std::nullopt;
+        const std::optional<double> radius = siemens                  ? block.polar_radius
+                                             : block.words.given('R') ? std::optional(block.words.of('R'))
+                                                                      : std::nullopt;
         const Vec2 now(from[u] - polar_.pole[u], from[v] - polar_.pole[v]);
         // What is not given stays as it is now.
-        if (radius) polar_.radius = *radius * unit + (siemens && block.polar_radius_incremental ? now.norm() : 0.0);
-        else polar_.radius = now.norm();
+        if (radius)
+            polar_.radius = *radius * unit + (siemens && block.polar_radius_incremental ? now.norm() : 0.0);
+        else
+            polar_.radius = now.norm();
         const bool adds = siemens ? block.polar_angle_incremental : state_.incremental;
         const double angle_now = std::atan2(now.y(), now.x()) * deg_per_rad;
         polar_.angle = angle ? *angle + (adds ? angle_now : 0.0) : angle_now;

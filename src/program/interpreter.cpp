@@ -20,9 +20,10 @@ constexpr std::size_t shown_text_bytes = 400;   ///< of a message, which may nam
 }  // namespace
 
 Interpreter::Interpreter(SourceText text, const InterpreterOptions& options)
-    : options_(options), variables_([this](int number) { return parameter(number); },
-                                     [this](const std::string& name) { return named_parameter(name); },
-                                     [this](int number, double value) { return write_parameter(number, value); }) {
+    : options_(options),
+      variables_([this](int number) { return parameter(number); },
+                 [this](const std::string& name) { return named_parameter(name); },
+                 [this](int number, double value) { return write_parameter(number, value); }) {
     program_.dialect = options.dialect != nullptr ? options.dialect : &detect_dialect(text.text());
     dialect_ = program_.dialect->id;
     program_.files.push_back(std::move(text));
@@ -42,14 +43,16 @@ Interpreter::Interpreter(SourceText text, const InterpreterOptions& options)
     }
     const std::string_view bytes = program_.main().text();
     if (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff")) {
-        throw InputError(Place::of_file(program_.main().name()), "is UTF-16 text, expected ASCII or UTF-8", "convert it first, as with iconv -f UTF-16 -t UTF-8");
+        throw InputError(Place::of_file(program_.main().name()), "is UTF-16 text, expected ASCII or UTF-8",
+                         "convert it first, as with iconv -f UTF-16 -t UTF-8");
     }
 }
 
 std::int64_t Interpreter::read_on(std::int64_t motions) {
     if (!ended_) {
         while (!ended_ && settled() < motions) run_line();
-        if (ended_ && !nurbs_.empty()) note(Severity::warning, "program.open-spline", "a spline is not closed at the end");
+        if (ended_ && !nurbs_.empty())
+            note(Severity::warning, "program.open-spline", "a spline is not closed at the end");
     }
     return settled();
 }
@@ -65,7 +68,8 @@ void Interpreter::forget(std::int64_t motions) {
     keep_ways(motions);
     program_.motions.drop_front(motions);
     std::vector<ProgramEvent>& events = program_.events;
-    events.erase(events.begin(), std::find_if(events.begin(), events.end(), [motions](const ProgramEvent& e) { return e.motion >= motions; }));
+    events.erase(events.begin(), std::find_if(events.begin(), events.end(),
+                                              [motions](const ProgramEvent& e) { return e.motion >= motions; }));
     for (ProgramEvent& e : events) e.motion -= motions;
     forgotten_ += static_cast<std::uint64_t>(motions);
     open_motions_ -= std::min(open_motions_, static_cast<std::size_t>(motions));
@@ -101,9 +105,8 @@ void Interpreter::go_to(std::size_t file, LineNumber line) {
     file_ = file;
     next_line_ = line;
     const SourceText& text = program_.files[file];
-    next_byte_ = line > text.line_count()
-                     ? text.text().size()
-                     : static_cast<std::size_t>(text.line(line).data() - text.text().data());
+    next_byte_ = line > text.line_count() ? text.text().size()
+                                          : static_cast<std::size_t>(text.line(line).data() - text.text().data());
 }
 
 void Interpreter::run_line() {
@@ -141,7 +144,8 @@ bool Interpreter::run_plain(const Words& words) {
         return false;
     }
     const bool ordinary = (mode == MotionMode::rapid || mode == MotionMode::feed) && !state_.incremental &&
-                          state_.feed_mode == FeedMode::per_minute && !modal_call_.active && !polar_.on && !state_.frame.active() && nurbs_.empty() && !state_.diameter && !compensation_.on();
+                          state_.feed_mode == FeedMode::per_minute && !modal_call_.active && !polar_.on &&
+                          !state_.frame.active() && nurbs_.empty() && !state_.diameter && !compensation_.on();
     if (!ordinary) return false;
     state_.motion = mode;
     const double unit = state_.unit_mm;
@@ -184,12 +188,11 @@ void Interpreter::run_block(std::string_view line) {
             unknown_name_.clear();
         }
         if (unknown_parameter_ != 0) {
-            note(Severity::warning, "program.variable", fmt::format("#{} of the control is not known: read as vacant", unknown_parameter_));
+            note(Severity::warning, "program.variable",
+                 fmt::format("#{} of the control is not known: read as vacant", unknown_parameter_));
             unknown_parameter_ = 0;
         }
-    } catch (const ReadError& error) {
-        fail(error.what, error.column, error.hint);
-    }
+    } catch (const ReadError& error) { fail(error.what, error.column, error.hint); }
 }
 
 void Interpreter::fail(const std::string& what, std::size_t column, const std::string& hint) const {

@@ -19,13 +19,13 @@ namespace clsurf {
 using SubprogramLoader = std::function<std::optional<SourceText>(const std::string& name)>;
 
 struct InterpreterOptions {
-    const Dialect* dialect = nullptr;  ///< nullptr: detected from the text
-    bool block_delete = true;          ///< skip blocks that begin with '/'
-    SubprogramLoader load;             ///< empty: no other files
-    std::uint64_t most_jumps = 5'000'000;     ///< jumps and calls; more is an error: a loop without end
+    const Dialect* dialect = nullptr;      ///< nullptr: detected from the text
+    bool block_delete = true;              ///< skip blocks that begin with '/'
+    SubprogramLoader load;                 ///< empty: no other files
+    std::uint64_t most_jumps = 5'000'000;  ///< jumps and calls; more is an error: a loop without end
     /// Motions from loops, repeats and pecks; 200 a line may come on top. Bounds the memory.
     std::uint64_t most_repeated = 20'000'000;
-    std::optional<ToolTable> tools;    ///< nullopt: for linuxcnc those of its stand-alone interpreter, else none
+    std::optional<ToolTable> tools;  ///< nullopt: for linuxcnc those of its stand-alone interpreter, else none
 };
 
 /// Interprets a program. Throws InputError with file, line and column: a wrong arc, a malformed

@@ -22,8 +22,8 @@ double angle_of(const Vec2& v) { return std::atan2(v.y(), v.x()); }
 
 /// The profile beside itself: `distance` to its left, rounded at outside corners. Empty, with `error`
 /// set, where a tool of that radius would not pass.
-std::vector<CompensatedMove> beside(const Vec2& begin, const std::vector<CompensatedMove>& profile, bool left, double distance, Vec2& first,
-                                    std::string& error) {
+std::vector<CompensatedMove> beside(const Vec2& begin, const std::vector<CompensatedMove>& profile, bool left,
+                                    double distance, Vec2& first, std::string& error) {
     first = begin;
     if (distance == 0) return profile;
     CutterCompensation track;
@@ -39,7 +39,8 @@ std::vector<CompensatedMove> beside(const Vec2& begin, const std::vector<Compens
             }
             first = track.enter_beside(from, tangent.normalized());
         }
-        const CompensatedStep step = move.is_arc ? track.arc(from, move.end, move.centre, move.counter_clockwise) : track.line(from, move.end);
+        const CompensatedStep step =
+            move.is_arc ? track.arc(from, move.end, move.centre, move.counter_clockwise) : track.line(from, move.end);
         error = step.error;
         if (!error.empty()) return {};
         if (step.moves_corner && !moves.empty()) moves.back().end = step.corner;
@@ -57,7 +58,8 @@ struct Frame2 {
 };
 
 /// Where the profile first reaches a depth, seen along the cut.
-std::optional<double> reach(const Vec2& first, const std::vector<CompensatedMove>& moves, const Frame2& frame, double depth) {
+std::optional<double> reach(const Vec2& first, const std::vector<CompensatedMove>& moves, const Frame2& frame,
+                            double depth) {
     Vec2 from = first;
     for (const CompensatedMove& move : moves) {
         const double a = from[frame.depth];
@@ -72,7 +74,8 @@ std::optional<double> reach(const Vec2& first, const std::vector<CompensatedMove
             const double half = std::sqrt(std::max(0.0, radius * radius - off * off));
             const double low = std::min(from[frame.feed], move.end[frame.feed]) - same;
             const double high = std::max(from[frame.feed], move.end[frame.feed]) + same;
-            for (const double at : {move.centre[frame.feed] - frame.onwards * half, move.centre[frame.feed] + frame.onwards * half}) {
+            for (const double at :
+                 {move.centre[frame.feed] - frame.onwards * half, move.centre[frame.feed] + frame.onwards * half}) {
                 if (at >= low && at <= high) return at;
             }
             return move.end[frame.feed];
@@ -87,7 +90,8 @@ bool rises(const Vec2& first, const std::vector<CompensatedMove>& moves, const F
     Vec2 from = first;
     for (const CompensatedMove& move : moves) {
         const Vec2 way = move.end - from;
-        if (way[frame.feed] * frame.onwards < -no_pocket || way[frame.depth] * frame.outwards < -no_pocket) return false;
+        if (way[frame.feed] * frame.onwards < -no_pocket || way[frame.depth] * frame.outwards < -no_pocket)
+            return false;
         if (move.is_arc) {
             // Monotone arcs stay in one quadrant about their centre.
             const double middle = 0.5 * (angle_of(from - move.centre) + angle_of(move.end - move.centre));
@@ -168,7 +172,9 @@ void Interpreter::follow(const std::vector<CompensatedMove>& moves) {
 void Interpreter::lathe_cycle(int code, const Block& words, std::size_t column) {
     if (state_.plane_axis != 1) fail(code_text(code) + " needs the XZ plane (G18)", column);
     if (!words.words.given('Q')) fail(code_text(code) + " needs its profile's subprogram (Q)", column);
-    const auto word = [&](char letter, double otherwise) { return words.words.given(letter) ? words.words.of(letter) : otherwise; };
+    const auto word = [&](char letter, double otherwise) {
+        return words.words.given(letter) ? words.words.of(letter) : otherwise;
+    };
     const double distance = word('D', 0) * state_.unit_mm;
     const double step = word('I', 1) * state_.unit_mm;
     const double retract = word('R', 0.5) * state_.unit_mm;
@@ -213,7 +219,8 @@ void Interpreter::lathe_cycle(int code, const Block& words, std::size_t column) 
     }
     std::vector<CompensatedMove> moves = contour(distance, first);
     if (!rises(first, moves, frame)) {
-        note(Severity::warning, "program.cycle", code_text(code) + ": the profile has pockets, roughing it is not carried out", column);
+        note(Severity::warning, "program.cycle",
+             code_text(code) + ": the profile has pockets, roughing it is not carried out", column);
         return;
     }
     // Out again to the height of the start.

@@ -6,14 +6,12 @@
 namespace clsurf {
 namespace {
 
-constexpr std::array<double, 23> powers_of_ten{1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
-                                               1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
-                                               1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+constexpr std::array<double, 23> powers_of_ten{1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
+                                               1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 constexpr std::uint64_t exact_integers = std::uint64_t{1} << 53;
 
 /// Numbers that do not fit the short way: the library's reader, from the first digit on.
-std::size_t read_long_decimal(const char* first, const char* last, bool negative, double& value,
-                              std::size_t begin) {
+std::size_t read_long_decimal(const char* first, const char* last, bool negative, double& value, std::size_t begin) {
     const auto result = std::from_chars(first, last, value, std::chars_format::fixed);
     if (result.ec != std::errc() && result.ec != std::errc::result_out_of_range) return begin;
     if (negative) value = -value;
@@ -53,8 +51,7 @@ std::size_t read_decimal(std::string_view text, std::size_t at, double& value) {
 
 bool add_g(Words& words, double value, std::size_t column) {
     const double tenths = std::round(value * 10);
-    if (words.g_count == Words::most_codes || !(tenths >= 0 && tenths < 1e6) ||
-        std::abs(tenths - value * 10) > 1e-3) {
+    if (words.g_count == Words::most_codes || !(tenths >= 0 && tenths < 1e6) || std::abs(tenths - value * 10) > 1e-3) {
         return false;
     }
     const auto k = static_cast<std::size_t>(words.g_count++);
@@ -65,8 +62,7 @@ bool add_g(Words& words, double value, std::size_t column) {
 
 bool add_m(Words& words, double value) {
     const double code = std::round(value);
-    if (words.m_count == Words::most_codes || !(code >= 0 && code < 1e6) ||
-        std::abs(code - value) > 1e-3) {
+    if (words.m_count == Words::most_codes || !(code >= 0 && code < 1e6) || std::abs(code - value) > 1e-3) {
         return false;
     }
     words.m[static_cast<std::size_t>(words.m_count++)] = static_cast<std::int32_t>(code);

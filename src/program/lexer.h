@@ -20,7 +20,7 @@ struct Words {
     std::array<std::uint16_t, 26> column;  ///< of the letter, from 1 (65535: farther)
     std::uint32_t has = 0;                 ///< bit per letter
     int g_count = 0, m_count = 0;
-    std::array<std::int32_t, most_codes> g;       ///< in tenths: G54.1 is 541
+    std::array<std::int32_t, most_codes> g;  ///< in tenths: G54.1 is 541
     std::array<std::uint16_t, most_codes> g_column;
     std::array<std::int32_t, most_codes> m;
 

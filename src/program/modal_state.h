@@ -14,43 +14,55 @@
 namespace clsurf {
 
 enum class MotionMode : std::uint8_t {
-    none, rapid, feed, cw, ccw, thread, tap, cubic_spline, quadratic_spline, nurbs, probe, cycle,
+    none,
+    rapid,
+    feed,
+    cw,
+    ccw,
+    thread,
+    tap,
+    cubic_spline,
+    quadratic_spline,
+    nurbs,
+    probe,
+    cycle,
 };
 
 enum class FeedMode : std::uint8_t { per_minute, per_revolution, inverse_time };
 
 struct WorkOffset {
-    Vec3 shift = Vec3::Zero();  ///< [mm]
-    double rotation = 0;        ///< about z [deg]
-    Vec3 rotary = Vec3::Zero(); ///< A, B, C [deg]
+    Vec3 shift = Vec3::Zero();   ///< [mm]
+    double rotation = 0;         ///< about z [deg]
+    Vec3 rotary = Vec3::Zero();  ///< A, B, C [deg]
 };
 
 struct ModalState {
     MotionMode motion = MotionMode::none;
-    int cycle = 0;               ///< the canned cycle's G number in tenths, 0: none
-    int plane_axis = 2;          ///< axis of rotation: 2 G17, 1 G18, 0 G19
-    double unit_mm = 1;          ///< mm per programmed length
-    double feed_unit_mm = 1;     ///< mm per length of F, which G70 of siemens leaves as it is
-    bool incremental = false;    ///< G91
+    int cycle = 0;                 ///< the canned cycle's G number in tenths, 0: none
+    int plane_axis = 2;            ///< axis of rotation: 2 G17, 1 G18, 0 G19
+    double unit_mm = 1;            ///< mm per programmed length
+    double feed_unit_mm = 1;       ///< mm per length of F, which G70 of siemens leaves as it is
+    bool incremental = false;      ///< G91
     bool centre_absolute = false;  ///< G90.1
     FeedMode feed_mode = FeedMode::per_minute;
-    double feed = 0;             ///< as programmed: lengths per minute, per revolution, or 1/min
-    double spindle = 0;          ///< 1/min
-    bool retract_to_r = false;   ///< G99
-    bool diameter = false;       ///< G7: X is a diameter
+    double feed = 0;            ///< as programmed: lengths per minute, per revolution, or 1/min
+    double spindle = 0;         ///< 1/min
+    bool retract_to_r = false;  ///< G99
+    bool diameter = false;      ///< G7: X is a diameter
 
     Vec3 position = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< [mm], of the work system
-    Vec3 rotary = Vec3::Zero();  ///< A, B, C [deg]
-    Vec3 tool_axis = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< programmed as a vector, unit; NaN: by angles
-    ProgramFrame frame;          ///< from programmed coordinates to `position`
+    Vec3 rotary = Vec3::Zero();                                                ///< A, B, C [deg]
+    Vec3 tool_axis =
+        Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< programmed as a vector, unit; NaN: by angles
+    ProgramFrame frame;                                            ///< from programmed coordinates to `position`
 
-    int work_system = 1;         ///< 1: G54
+    int work_system = 1;  ///< 1: G54
     std::map<int, WorkOffset> work_offsets;
-    Vec3 shift = Vec3::Zero();        ///< G92 and G52 together [mm]
-    Vec3 rotary_shift = Vec3::Zero(); ///< the same of A, B, C [deg]
+    Vec3 shift = Vec3::Zero();                                           ///< G92 and G52 together [mm]
+    Vec3 rotary_shift = Vec3::Zero();                                    ///< the same of A, B, C [deg]
     Vec3 saved_shift = Vec3::Zero(), saved_rotary_shift = Vec3::Zero();  ///< what G92.3 restores
-    Vec3 tool_offset = Vec3::Zero();  ///< [mm]
-    Vec3 home = Vec3::Zero(), second_home = Vec3::Zero();  ///< G28, G30; machine coordinates
+    Vec3 tool_offset = Vec3::Zero();                                     ///< [mm]
+    Vec3 home = Vec3::Zero(), second_home = Vec3::Zero();                ///< G28, G30; machine coordinates
     Vec3 home_rotary = Vec3::Zero(), second_home_rotary = Vec3::Zero();  ///< [deg]
 
     /// Sets what lengths and feeds are counted in [mm].

@@ -5,8 +5,8 @@
 namespace clsurf {
 
 const Arc* Motions::arc_of(std::int64_t i) const {
-    const auto found = std::lower_bound(arcs.begin(), arcs.end(), i,
-                                        [](const Arc& arc, std::int64_t m) { return arc.motion < m; });
+    const auto found =
+        std::lower_bound(arcs.begin(), arcs.end(), i, [](const Arc& arc, std::int64_t m) { return arc.motion < m; });
     return found != arcs.end() && found->motion == i ? &*found : nullptr;
 }
 
@@ -25,7 +25,8 @@ void Motions::drop_front(std::int64_t count) {
     drop(tool_axis);
     drop(file);
     drop(call);
-    arcs.erase(arcs.begin(), std::find_if(arcs.begin(), arcs.end(), [count](const Arc& arc) { return arc.motion >= count; }));
+    arcs.erase(arcs.begin(),
+               std::find_if(arcs.begin(), arcs.end(), [count](const Arc& arc) { return arc.motion >= count; }));
     for (Arc& arc : arcs) arc.motion -= count;
 }
 

@@ -17,38 +17,38 @@ namespace clsurf {
 
 enum class MotionKind : std::uint8_t { rapid, feed, cw, ccw, dwell, spline };
 
-[[nodiscard]] constexpr bool is_arc(MotionKind kind) {
-    return kind == MotionKind::cw || kind == MotionKind::ccw;
-}
+[[nodiscard]] constexpr bool is_arc(MotionKind kind) { return kind == MotionKind::cw || kind == MotionKind::ccw; }
 
 /// A circle or helix: the centre, and the plane that it turns in.
 struct Arc {
-    std::int64_t motion = 0;   ///< index of its motion
-    Xyz centre;                ///< [mm]; the component along the axis is that of the start
-    std::int32_t turns = 1;    ///< 1: at most a full circle; n: n − 1 full circles more
-    std::uint8_t axis = 2;     ///< axis of rotation: 2 z (G17), 1 y (G18), 0 x (G19)
+    std::int64_t motion = 0;  ///< index of its motion
+    Xyz centre;               ///< [mm]; the component along the axis is that of the start
+    std::int32_t turns = 1;   ///< 1: at most a full circle; n: n − 1 full circles more
+    std::uint8_t axis = 2;    ///< axis of rotation: 2 z (G17), 1 y (G18), 0 x (G19)
 };
 
 /// A call of a subprogram, at one place and with one way there.
 struct Call {
-    std::uint32_t caller = 0;  ///< the call inside which it stands: index into Motions::calls, from 1; 0: the main program
-    std::uint16_t file = 0;    ///< of the calling line
-    LineNumber line = 0;       ///< that calls
+    std::uint32_t caller =
+        0;  ///< the call inside which it stands: index into Motions::calls, from 1; 0: the main program
+    std::uint16_t file = 0;  ///< of the calling line
+    LineNumber line = 0;     ///< that calls
 };
 
 struct Motions {
     Column<MotionKind> kind;
-    Column<Xyz> end;           ///< [mm]; NaN: this axis has not been programmed yet
-    Column<float> feed;        ///< [mm/s] along the path; rapid: NaN; dwell: its time [s]
-    Column<LineNumber> line;   ///< line in the file that the motion stands in
+    Column<Xyz> end;          ///< [mm]; NaN: this axis has not been programmed yet
+    Column<float> feed;       ///< [mm/s] along the path; rapid: NaN; dwell: its time [s]
+    Column<LineNumber> line;  ///< line in the file that the motion stands in
     /// A, B, C [rad]; empty when the program has no rotary axis; NaN: where the tool axis, a vector, needs
     /// it, or where such a motion left it.
     Column<Xyz> rotary;
-    Column<Xyz> tool_axis;     ///< programmed as a unit vector; NaN: by the angles; empty: always by them
+    Column<Xyz> tool_axis;       ///< programmed as a unit vector; NaN: by the angles; empty: always by them
     Column<std::uint16_t> file;  ///< index into Program::files; empty when all is in the main file
-    Column<std::uint32_t> call;  ///< the call that runs: index into calls, from 1; 0: none; empty when nothing is called
-    std::vector<Call> calls;     ///< a call stands behind its caller; the same line called again is the same
-    std::vector<Arc> arcs;     ///< sorted by motion
+    Column<std::uint32_t>
+        call;                 ///< the call that runs: index into calls, from 1; 0: none; empty when nothing is called
+    std::vector<Call> calls;  ///< a call stands behind its caller; the same line called again is the same
+    std::vector<Arc> arcs;    ///< sorted by motion
     Xyz start{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN(),
               std::numeric_limits<double>::quiet_NaN()};  ///< before the first motion; NaN: unknown
 

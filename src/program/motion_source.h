@@ -37,7 +37,8 @@ public:
 class WholeProgram final : public MotionSource {
 public:
     /// It must outlive this.
-    explicit WholeProgram(const Program& program) : program_(&program), outline_{program.motions.size(), !program.motions.arcs.empty()} {}
+    explicit WholeProgram(const Program& program)
+        : program_(&program), outline_{program.motions.size(), !program.motions.arcs.empty()} {}
 
     [[nodiscard]] const ProgramOutline& outline() const override { return outline_; }
     [[nodiscard]] bool next_piece() override { return !std::exchange(given_, true); }

@@ -43,15 +43,18 @@ Vec3 Interpreter::read_axes(const Block& block, bool machine) {
         if (!block.words.given(letter)) continue;
         const double value = block.words.of(letter) * state_.unit_mm * (axis == 0 && state_.diameter ? 0.5 : 1.0);
         const std::uint32_t bit = Words::bit(letter);
-        const bool incremental = !machine && (state_.incremental ? (block.absolute & bit) == 0 : (block.incremental & bit) != 0);
+        const bool incremental =
+            !machine && (state_.incremental ? (block.absolute & bit) == 0 : (block.incremental & bit) != 0);
         // Before the first motion an increment counts from the control's own zero.
         const double from = std::isnan(base[axis]) ? 0.0 : base[axis];
         base[axis] = incremental ? from + value : value;
     }
     if (ends_by_angle(block)) end_by_angle(block, base);
     if (block.polar_radius || block.polar_angle) {
-        if (dialect_ == DialectId::linuxcnc) put_polar(block, base);
-        else put_about_pole(block, base);
+        if (dialect_ == DialectId::linuxcnc)
+            put_polar(block, base);
+        else
+            put_about_pole(block, base);
     }
     return base;
 }
@@ -62,7 +65,8 @@ void Interpreter::put_polar(const Block& block, Vec3& end) const {
     if (state_.plane_axis != 2) fail("polar words (@, ^) need the XY plane (G17)");
     const Vec2 from(end.x(), end.y());
     const double radius_now = from.norm();
-    if (radius_now == 0 && (state_.incremental || !block.polar_angle)) fail("polar words (@, ^) at the origin: the angle is not known");
+    if (radius_now == 0 && (state_.incremental || !block.polar_angle))
+        fail("polar words (@, ^) at the origin: the angle is not known");
     const double angle_now = std::atan2(from.y(), from.x());
     double radius = radius_now;
     double angle = angle_now;
@@ -85,7 +89,8 @@ Vec3 Interpreter::rotary_target(const Block& block) const {
         }
         const bool incremental = state_.incremental ? (block.absolute & bit) == 0 : (block.incremental & bit) != 0;
         if (incremental && std::isnan(target[axis])) {
-            fail(fmt::format("an increment of {}: its angle is not known after a tool axis given as a vector", letter), block.words.column[static_cast<std::size_t>(letter - 'A')]);
+            fail(fmt::format("an increment of {}: its angle is not known after a tool axis given as a vector", letter),
+                 block.words.column[static_cast<std::size_t>(letter - 'A')]);
         }
         target[axis] = (incremental ? target[axis] : 0.0) + block.words.of(letter);
     }
@@ -94,7 +99,8 @@ Vec3 Interpreter::rotary_target(const Block& block) const {
 
 void Interpreter::move(const Block& block) {
     const bool turns_tool = take_tool_axis(block);
-    const bool axes = turns_tool || (block.words.has & (linear_axes | rotary_axes | other_axes)) != 0 || block.polar_radius || block.polar_angle ||
+    const bool axes = turns_tool || (block.words.has & (linear_axes | rotary_axes | other_axes)) != 0 ||
+                      block.polar_radius || block.polar_angle ||
                       (polar_line_ && (block.words.has & (Words::bit('R') | Words::bit('H'))) != 0);
     switch (state_.motion) {
         case MotionMode::none:
@@ -120,7 +126,8 @@ void Interpreter::move(const Block& block) {
             return;
         case MotionMode::cw:
         case MotionMode::ccw:
-            if (axes || (block.words.has & centres) != 0 || !block.named.empty()) arc(block, state_.motion == MotionMode::cw);
+            if (axes || (block.words.has & centres) != 0 || !block.named.empty())
+                arc(block, state_.motion == MotionMode::cw);
             return;
         case MotionMode::cubic_spline:
         case MotionMode::quadratic_spline:
@@ -145,13 +152,14 @@ float Interpreter::feed_for(double length) {
 
 void Interpreter::straight(MotionKind kind, const Vec3& end, const Vec3& rotary) {
     const Vec3 from = state_.position.array().isNaN().select(end, state_.position);
-    const float feed = kind == MotionKind::rapid ? std::numeric_limits<float>::quiet_NaN()
-                                                 : feed_for((end - from).norm());
+    const float feed =
+        kind == MotionKind::rapid ? std::numeric_limits<float>::quiet_NaN() : feed_for((end - from).norm());
     push(kind, end, rotary, feed);
 }
 
 void Interpreter::arc(const Block& block, bool clockwise) {
-    if (compensation_ended_ == program_.motions.size()) fail("the first motion after cutter compensation (G40) must be a straight one");
+    if (compensation_ended_ == program_.motions.size())
+        fail("the first motion after cutter compensation (G40) must be a straight one");
     ArcWords words;
     // In programmed coordinates; the frame takes the arc as a whole.
     words.begin = state_.programmed();
@@ -183,7 +191,8 @@ void Interpreter::arc(const Block& block, bool clockwise) {
     words.turns = 1 + block.extra_turns;
     if (dialect_ == DialectId::linuxcnc && block.words.given('P')) {
         const double turns = block.words.of('P');
-        if (!(turns >= 1 && turns <= most_turns) || turns != std::round(turns)) fail("P of an arc must be a whole number of turns, 1 or more");
+        if (!(turns >= 1 && turns <= most_turns) || turns != std::round(turns))
+            fail("P of an arc must be a whole number of turns, 1 or more");
         words.turns = static_cast<int>(turns);
     }
     std::string error;
@@ -223,7 +232,8 @@ void Interpreter::flatten_arc(const Arc& arc, bool clockwise, const Vec3& begin,
         Vec3 p = begin + part * (end - begin);
         p[u] = centre[u] + radius * std::cos(first + part * sweep);
         p[v] = centre[v] + radius * std::sin(first + part * sweep);
-        straight(MotionKind::spline, state_.frame.to_work(k == curve_pieces ? end : p), turned_from + part * (rotary - turned_from));
+        straight(MotionKind::spline, state_.frame.to_work(k == curve_pieces ? end : p),
+                 turned_from + part * (rotary - turned_from));
     }
 }
 
@@ -249,11 +259,15 @@ void Interpreter::probe(const Vec3& end, const Vec3& rotary) {
 
 void Interpreter::push(MotionKind kind, const Vec3& end, const Vec3& rotary, float feed) {
     Motions& m = program_.motions;
-    if (forgotten_ + m.kind.size() >= most_motions_) fail(fmt::format("more than {} motions from {} lines: loops or repeats without end?", most_motions_, program_.main().line_count()));
+    if (forgotten_ + m.kind.size() >= most_motions_)
+        fail(fmt::format("more than {} motions from {} lines: loops or repeats without end?", most_motions_,
+                         program_.main().line_count()));
     if (end.array().isInf().any()) fail("a position is not finite");
     if (feed == 0 && kind != MotionKind::dwell && !feed_missed_) {
         feed_missed_ = true;
-        note(Severity::warning, "program.no-feed", state_.feed == 0 ? "a cutting motion without feed (F); said once" : "a cutting motion with a feed of 0 (is the spindle speed missing?); said once");
+        note(Severity::warning, "program.no-feed",
+             state_.feed == 0 ? "a cutting motion without feed (F); said once"
+                              : "a cutting motion with a feed of 0 (is the spindle speed missing?); said once");
     }
     m.kind.push_back(kind);
     m.end.push_back(Xyz(end));
@@ -360,7 +374,8 @@ void Interpreter::nurbs_end() {
                 const int i = span - order + 1 + j;
                 const double width = knot(i + order - r) - knot(i);
                 const double a = width > 0 ? (u - knot(i)) / width : 0.0;
-                d[static_cast<std::size_t>(j)] = (1 - a) * d[static_cast<std::size_t>(j - 1)] + a * d[static_cast<std::size_t>(j)];
+                d[static_cast<std::size_t>(j)] =
+                    (1 - a) * d[static_cast<std::size_t>(j - 1)] + a * d[static_cast<std::size_t>(j)];
             }
         }
         const Vec3& p = d[static_cast<std::size_t>(order - 1)];

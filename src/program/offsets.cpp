@@ -39,9 +39,7 @@ void Interpreter::set_offsets(const Block& block) {
             if (!is(block, letter)) continue;
             const double value = block.words.of(letter) * state_.unit_mm;
             reads[axis] = value;
-            if (level == 2) {
-                offset.shift[axis] = value;
-            }
+            if (level == 2) { offset.shift[axis] = value; }
         }
         for (int axis = 0; axis < 3; ++axis) {
             const char letter = "ABC"[axis];
@@ -53,7 +51,8 @@ void Interpreter::set_offsets(const Block& block) {
             const Vec3 turned = ModalState::rotated(reads + state_.shift, offset.rotation);
             for (int axis = 0; axis < 3; ++axis) {
                 const bool turns = axis < 2 && offset.rotation != 0;  // one word moves both zeros then
-                if (is(block, "XYZ"[axis]) || turns) offset.shift[axis] = machine[axis] - state_.tool_offset[axis] - turned[axis];
+                if (is(block, "XYZ"[axis]) || turns)
+                    offset.shift[axis] = machine[axis] - state_.tool_offset[axis] - turned[axis];
             }
         }
     });
@@ -185,7 +184,9 @@ Tool Interpreter::tool_of(int number, std::size_t column) {
 }
 
 void Interpreter::change_tool(const Block& block) {
-    const auto whole = [&](char letter) { return static_cast<int>(std::clamp(std::round(block.words.of(letter)), 0.0, 1e8)); };
+    const auto whole = [&](char letter) {
+        return static_cast<int>(std::clamp(std::round(block.words.of(letter)), 0.0, 1e8));
+    };
     if (is(block, 'T')) next_tool_ = whole('T');
     // A block with T calls the tool in Heidenhain's dialect; Siemens takes its length with the edge D1.
     bool changed = false;
@@ -223,7 +224,8 @@ void Interpreter::part_from_machine(const Vec3& by) {
 /// one block leaves the position as it reads.
 void Interpreter::read_machine_position(const Block& block) {
     const auto* first = block.words.m.data();
-    const bool reads = std::any_of(first, first + block.words.m_count, [](std::int32_t code) { return code == 6 || code == 66; });
+    const bool reads =
+        std::any_of(first, first + block.words.m_count, [](std::int32_t code) { return code == 6 || code == 66; });
     if (!reads || unread_since_ != program_.motions.size()) return;
     state_.position += unread_;
     unread_ = Vec3::Zero();
@@ -252,9 +254,11 @@ void Interpreter::tool_length(int code, const Block& block) {
     } else if (dialect_ == DialectId::linuxcnc && code == 432) {
         if (!is(block, 'H')) fail("G43.2 needs the tool's number (H)");
         offset += table(false);
-    } else if (dialect_ == DialectId::fanuc && (code == 430 || code == 440 || code == 434 || code == 435) && !tools_.tools.empty()) {
+    } else if (dialect_ == DialectId::fanuc && (code == 430 || code == 440 || code == 434 || code == 435) &&
+               !tools_.tools.empty()) {
         if (is(block, 'H')) length_number_ = static_cast<int>(std::clamp(std::round(block.words.of('H')), 0.0, 1e8));
-        offset = tool_of(length_number_, is(block, 'H') ? block.words.column['H' - 'A'] : 0).offset * (code == 440 ? -1.0 : 1.0);
+        offset = tool_of(length_number_, is(block, 'H') ? block.words.column['H' - 'A'] : 0).offset *
+                 (code == 440 ? -1.0 : 1.0);
     }
     part_from_machine(offset - state_.tool_offset);
     state_.rebase([&] { state_.tool_offset = offset; });

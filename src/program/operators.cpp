@@ -48,7 +48,8 @@ bool near(double a, double b, DialectId dialect) { return dialect == DialectId::
 /// Bit by bit on whole numbers: B_AND … of Siemens, AND, OR and XOR of Fanuc.
 double bitwise(Operator op, double a, double b, std::size_t column) {
     constexpr double most = 9e15;  // whole numbers that a double holds
-    if (!(std::abs(a) < most && std::abs(b) < most)) throw ReadError{"too large for an operation bit by bit", column, {}};
+    if (!(std::abs(a) < most && std::abs(b) < most))
+        throw ReadError{"too large for an operation bit by bit", column, {}};
     const std::int64_t x = std::llround(a);
     const std::int64_t y = std::llround(b);
     return static_cast<double>(op == Operator::bit_and ? x & y : op == Operator::bit_or ? x | y : x ^ y);

@@ -11,9 +11,25 @@
 namespace clsurf {
 
 enum class Operator : std::uint8_t {
-    power, multiply, divide, modulo, integer_divide, add, subtract,
-    equal, unequal, greater, greater_equal, less, less_equal, logical_and, logical_or, logical_xor,
-    bit_and, bit_or, bit_xor,
+    power,
+    multiply,
+    divide,
+    modulo,
+    integer_divide,
+    add,
+    subtract,
+    equal,
+    unequal,
+    greater,
+    greater_equal,
+    less,
+    less_equal,
+    logical_and,
+    logical_or,
+    logical_xor,
+    bit_and,
+    bit_or,
+    bit_xor,
 };
 
 struct OperatorRow {
@@ -24,7 +40,9 @@ struct OperatorRow {
     int siemens;  ///< comparisons come last (Job Planning, "Priority of the operations")
     bool word;
 
-    [[nodiscard]] int rank_in(DialectId dialect) const { return dialect == DialectId::fanuc ? fanuc : dialect == DialectId::siemens ? siemens : rank; }
+    [[nodiscard]] int rank_in(DialectId dialect) const {
+        return dialect == DialectId::fanuc ? fanuc : dialect == DialectId::siemens ? siemens : rank;
+    }
 };
 
 /// Longer ones before those that begin like them.

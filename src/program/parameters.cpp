@@ -43,7 +43,8 @@ double Interpreter::parameter(int number) const {
     if (dialect_ == DialectId::linuxcnc) {
         if (number >= 5420 && number <= 5428) return axis_of(5420, known, state_.rotary, unit);
         if (number >= 5161 && number <= 5169) return axis_of(5161, state_.home, state_.home_rotary, machine_unit);
-        if (number >= 5181 && number <= 5189) return axis_of(5181, state_.second_home, state_.second_home_rotary, machine_unit);
+        if (number >= 5181 && number <= 5189)
+            return axis_of(5181, state_.second_home, state_.second_home_rotary, machine_unit);
         if (number >= 5211 && number <= 5219) return axis_of(5211, state_.shift, state_.rotary_shift, machine_unit);
         if (number == 5220) return state_.work_system;
         if (number >= 5221 && number < 5221 + 9 * 20) {
@@ -106,10 +107,14 @@ double Interpreter::named_parameter(const std::string& name) const {
         {"_retract_r_plane", state_.retract_to_r},
         {"_retract_old_z", !state_.retract_to_r},
         {"_motion_mode", code_of(state_.motion, state_.cycle)},
-        {"_plane", state_.plane_axis == 2 ? 170 : state_.plane_axis == 1 ? 180 : 190},
+        {"_plane", state_.plane_axis == 2   ? 170
+                   : state_.plane_axis == 1 ? 180
+                                            : 190},
         {"_coord_system", system <= numbered_systems ? 530 + 10 * system : 590 + system - numbered_systems},
         {"_tool_offset", !state_.tool_offset.isZero()},
-        {"_ccomp", !compensation_.on() ? 400 : compensation_.left() ? 410 : 420},
+        {"_ccomp", !compensation_.on()    ? 400
+                   : compensation_.left() ? 410
+                                          : 420},
         {"_feed", state_.feed},
         {"_rpm", state_.spindle},
         {"_current_tool", tool_.number},

@@ -41,8 +41,8 @@ private:
 struct ProgramEvent {
     std::int64_t motion = 0;  ///< takes effect before this motion
     LineNumber line = 0;
-    std::string name;         ///< "path-mode", "high-speed", "spindle", "tool", "end", …
-    std::string value;        ///< "G64 P0.005 Q0", "CYCLE832(0.02,1,1)", "S12000 M3"
+    std::string name;   ///< "path-mode", "high-speed", "spindle", "tool", "end", …
+    std::string value;  ///< "G64 P0.005 Q0", "CYCLE832(0.02,1,1)", "S12000 M3"
 };
 
 struct Program {

@@ -47,7 +47,8 @@ public:
         constexpr double play = 1e-9;
         const Vec3 u = turn_.col((axis + 1) % 3);
         const Vec3 v = turn_.col((axis + 2) % 3);
-        if (std::abs(u.norm() - v.norm()) > play * u.norm() || std::abs(u.dot(v)) > play * u.squaredNorm()) return std::nullopt;
+        if (std::abs(u.norm() - v.norm()) > play * u.norm() || std::abs(u.dot(v)) > play * u.squaredNorm())
+            return std::nullopt;
         const Vec3 normal = u.cross(v).normalized();
         for (int k = 0; k < 3; ++k) {
             if (std::abs(normal[k]) < 1 - play) continue;

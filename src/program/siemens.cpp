@@ -14,21 +14,24 @@ namespace {
 
 /// Codes that are kept as an event and change no motion, in tenths.
 constexpr auto noted_codes = std::to_array<int>({
-    90,  250, 260, 270, 330, 340, 350, 500, 600, 601, 602, 603, 2500, 4500, 4510, 4600, 4610, 4620,
-    6010, 6020, 6030, 620, 621, 630, 641, 6410, 6420, 6430, 6440, 6450, 3310, 3320,
-    1400, 1410, 1420, 1430, 3400, 3410, 4000, 5000, 5100, 9610, 9710, 9730,
+    90,   250,  260,  270,  330,  340,  350,  500,  600,  601,  602,  603,  2500, 4500, 4510,
+    4600, 4610, 4620, 6010, 6020, 6030, 620,  621,  630,  641,  6410, 6420, 6430, 6440, 6450,
+    3310, 3320, 1400, 1410, 1420, 1430, 3400, 3410, 4000, 5000, 5100, 9610, 9710, 9730,
 });
 /// Soft approach and retract: the way there is not carried out.
 constexpr auto approach_codes = std::to_array<int>({1470, 1480, 2470, 2480, 3470, 3480});
 
 constexpr auto noted_words = std::to_array<std::string_view>({
-    "MSG", "FNORM", "FLIN", "FCUB", "STOPRE", "ORIWKS", "ORIMKS", "ORIAXES", "ORIVECT", "ORISON",
-    "OTOL", "CTOL", "UPATH", "SPATH", "CDOF", "CDOF2", "CDON", "CUT2D", "CUT2DF", "ORISOF", "WORKPIECE", "FGROUP",
-    "FIFOCTRL", "STARTFIFO", "STOPFIFO", "NORM", "KONT", "KONTT", "KONTC", "DISPLOF", "DISPLON", "SAVE", "SBLOF", "SBLON",
-    "FFWON", "FFWOF", "SOFT", "BRISK", "DRIVE", "SOFTA", "BRISKA", "ACC", "RTLION", "RTLIOF", "TOFFOF", "PAROTOF",
-    "CFC", "CFTCP", "CFIN", "FENDNORM", "FFWOFF", "VELOLIM", "GETT", "TLPREP", "TOWSTD", "TCOABS", "WALIMOF", "WALIMON", "SPOS", "SPCON", "SPCOF",
+    "MSG",     "FNORM",  "FLIN",      "FCUB",    "STOPRE",   "ORIWKS",    "ORIMKS",   "ORIAXES", "ORIVECT",
+    "ORISON",  "OTOL",   "CTOL",      "UPATH",   "SPATH",    "CDOF",      "CDOF2",    "CDON",    "CUT2D",
+    "CUT2DF",  "ORISOF", "WORKPIECE", "FGROUP",  "FIFOCTRL", "STARTFIFO", "STOPFIFO", "NORM",    "KONT",
+    "KONTT",   "KONTC",  "DISPLOF",   "DISPLON", "SAVE",     "SBLOF",     "SBLON",    "FFWON",   "FFWOF",
+    "SOFT",    "BRISK",  "DRIVE",     "SOFTA",   "BRISKA",   "ACC",       "RTLION",   "RTLIOF",  "TOFFOF",
+    "PAROTOF", "CFC",    "CFTCP",     "CFIN",    "FENDNORM", "FFWOFF",    "VELOLIM",  "GETT",    "TLPREP",
+    "TOWSTD",  "TCOABS", "WALIMOF",   "WALIMON", "SPOS",     "SPCON",     "SPCOF",
 });
-constexpr auto curve_words = std::to_array<std::string_view>({"ASPLINE", "BSPLINE", "CSPLINE", "POLY", "OEMIPO1", "OEMIPO2", "INVCW", "INVCCW"});
+constexpr auto curve_words =
+    std::to_array<std::string_view>({"ASPLINE", "BSPLINE", "CSPLINE", "POLY", "OEMIPO1", "OEMIPO2", "INVCW", "INVCCW"});
 
 template <typename List, typename Value>
 bool contains(const List& list, const Value& value) {
@@ -43,17 +46,23 @@ bool Interpreter::apply_siemens(int code, Block& block, std::size_t column) {
         case 710: state_.unit_mm = 1; return true;
         case 7000: state_.count_in(mm_per_inch); return true;
         case 7100: state_.count_in(1); return true;
-        case 530: case 1530: machine_coordinates_ = true; return true;
+        case 530:
+        case 1530: machine_coordinates_ = true; return true;
         case 5000: select_work_system(0); return true;
-        case 580: case 590:
-            note(Severity::warning, "program.frame", code_text(code) + " is not carried out, positions are read as programmed", column);
+        case 580:
+        case 590:
+            note(Severity::warning, "program.frame",
+                 code_text(code) + " is not carried out, positions are read as programmed", column);
             motion_suppressed_ = true;
             return true;
-        case 740: case 750:
+        case 740:
+        case 750:
             event("reference", code_text(code));
             motion_suppressed_ = true;
             return true;
-        case 1100: case 1110: case 1120: set_pole(code, block); return true;
+        case 1100:
+        case 1110:
+        case 1120: set_pole(code, block); return true;
         default: break;
     }
     if (code >= 5050 && code <= 5990) {
@@ -61,7 +70,8 @@ bool Interpreter::apply_siemens(int code, Block& block, std::size_t column) {
         return true;
     }
     if (contains(approach_codes, code)) {
-        note(Severity::warning, "program.approach", code_text(code) + " is not carried out: its end is approached straight", column);
+        note(Severity::warning, "program.approach",
+             code_text(code) + " is not carried out: its end is approached straight", column);
         return true;
     }
     if (contains(noted_codes, code)) {
@@ -76,7 +86,9 @@ bool Interpreter::apply_siemens(int code, Block& block, std::size_t column) {
 void Interpreter::set_pole(int code, const Block& block) {
     motion_suppressed_ = true;
     const Vec3 here = state_.programmed();
-    Vec3 pole = code == 1100 ? Vec3(here.array().isNaN().select(0.0, here)) : code == 1110 ? Vec3(Vec3::Zero()) : polar_.pole;
+    Vec3 pole = code == 1100   ? Vec3(here.array().isNaN().select(0.0, here))
+                : code == 1110 ? Vec3(Vec3::Zero())
+                               : polar_.pole;
     if (block.polar_radius || block.polar_angle) {
         const double radius = block.polar_radius.value_or(0) * state_.unit_mm;
         const double angle = block.polar_angle.value_or(0) * rad_per_deg;
@@ -92,7 +104,8 @@ void Interpreter::set_pole(int code, const Block& block) {
 
 /// TRANS, ROT, SCALE and MIRROR replace the frame; with an A before it they add to it.
 bool Interpreter::siemens_frame(const Keyword& keyword, Block& block) {
-    const bool adds = keyword.name == "ATRANS" || keyword.name == "AROT" || keyword.name == "ASCALE" || keyword.name == "AMIRROR";
+    const bool adds =
+        keyword.name == "ATRANS" || keyword.name == "AROT" || keyword.name == "ASCALE" || keyword.name == "AMIRROR";
     const std::string kind = adds ? keyword.name.substr(1) : keyword.name;
     const Words& w = block.words;
     ProgramFrame frame;
@@ -108,7 +121,8 @@ bool Interpreter::siemens_frame(const Keyword& keyword, Block& block) {
         }
         // About Z, then the new Y, then the new X.
         for (const int k : {2, 1, 0}) {
-            if (w.given("XYZ"[k])) frame = frame.around(ProgramFrame::turned(Vec3::Unit(k), w.of("XYZ"[k]), Vec3::Zero()));
+            if (w.given("XYZ"[k]))
+                frame = frame.around(ProgramFrame::turned(Vec3::Unit(k), w.of("XYZ"[k]), Vec3::Zero()));
         }
     } else if (kind == "SCALE" || kind == "MIRROR") {
         Vec3 factors = Vec3::Ones();
@@ -122,7 +136,8 @@ bool Interpreter::siemens_frame(const Keyword& keyword, Block& block) {
     }
     state_.frame = adds ? state_.frame.around(frame) : swivel_.around(frame);
     const std::optional<double> turned = block.value_of("RPL");
-    event("frame", keyword.name + words_text(block, "XYZ") + (turned ? fmt::format(" RPL={:g}", *turned) : std::string()));
+    event("frame",
+          keyword.name + words_text(block, "XYZ") + (turned ? fmt::format(" RPL={:g}", *turned) : std::string()));
     // The words belong to the frame, not to a motion.
     motion_suppressed_ = true;
     block.words.has &= ~(Words::bit('X') | Words::bit('Y') | Words::bit('Z'));
@@ -193,7 +208,12 @@ bool Interpreter::call_siemens(const std::string& name, const Keyword& keyword, 
 }
 
 void Interpreter::start_modal_call(const Keyword& called) {
-    modal_call_ = {.active = true, .name = called.name, .repeats = 1, .arguments = {}, .level = frames_.size(), .column = called.column};
+    modal_call_ = {.active = true,
+                   .name = called.name,
+                   .repeats = 1,
+                   .arguments = {},
+                   .level = frames_.size(),
+                   .column = called.column};
     for (const std::optional<double>& value : arguments_of(called)) {
         modal_call_.arguments.push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
     }
@@ -221,7 +241,8 @@ void Interpreter::apply_keyword(const Keyword& keyword, Block& block) {
     }
     if (name == "MCALL") {
         // What follows it in the block is called after every block that moves.
-        const auto at = std::find_if(block.keywords.begin(), block.keywords.end(), [](const Keyword& k) { return k.name == "MCALL"; });
+        const auto at = std::find_if(block.keywords.begin(), block.keywords.end(),
+                                     [](const Keyword& k) { return k.name == "MCALL"; });
         if (at + 1 == block.keywords.end()) {
             modal_call_ = {};
             event("modal-call", "MCALL");
@@ -230,7 +251,8 @@ void Interpreter::apply_keyword(const Keyword& keyword, Block& block) {
         }
         return;
     }
-    const bool after_mcall = std::any_of(block.keywords.begin(), block.keywords.end(), [](const Keyword& k) { return k.name == "MCALL"; });
+    const bool after_mcall =
+        std::any_of(block.keywords.begin(), block.keywords.end(), [](const Keyword& k) { return k.name == "MCALL"; });
     if (after_mcall) return;
     if (name == "T=") {
         event("tool", "T=\"" + keyword.arguments + "\"");
@@ -238,7 +260,8 @@ void Interpreter::apply_keyword(const Keyword& keyword, Block& block) {
     }
     if (name == "DIAMON" || name == "DIAMOF" || name == "DIAM90") {
         state_.diameter = name == "DIAMON";
-        if (name == "DIAM90") note(Severity::warning, "program.unknown-word", "DIAM90 is read as DIAMOF", keyword.column);
+        if (name == "DIAM90")
+            note(Severity::warning, "program.unknown-word", "DIAM90 is read as DIAMOF", keyword.column);
         event("lathe", name);
         return;
     }
@@ -276,8 +299,10 @@ void Interpreter::apply_keyword(const Keyword& keyword, Block& block) {
 
 /// ANG= with one coordinate of the plane: a line whose other coordinate the angle gives.
 bool Interpreter::ends_by_angle(const Block& block) const {
-    if (block.find("ANG") == nullptr || (state_.motion != MotionMode::rapid && state_.motion != MotionMode::feed)) return false;
-    return block.words.given("XYZ"[(state_.plane_axis + 1) % 3]) != block.words.given("XYZ"[(state_.plane_axis + 2) % 3]);
+    if (block.find("ANG") == nullptr || (state_.motion != MotionMode::rapid && state_.motion != MotionMode::feed))
+        return false;
+    return block.words.given("XYZ"[(state_.plane_axis + 1) % 3]) !=
+           block.words.given("XYZ"[(state_.plane_axis + 2) % 3]);
 }
 
 void Interpreter::end_by_angle(const Block& block, Vec3& end) const {
@@ -288,9 +313,13 @@ void Interpreter::end_by_angle(const Block& block, Vec3& end) const {
     const Vec2 way(std::cos(angle.value * rad_per_deg), std::sin(angle.value * rad_per_deg));
     const bool along = block.words.given("XYZ"[u]);
     const double given = along ? way.x() : way.y();
-    if (std::abs(given) < 1e-9) fail(fmt::format("a line at ANG={:g} does not reach the given {}", angle.value, "XYZ"[along ? u : v]), angle.column);
-    if (along) end[v] = from[v] + (end[u] - from[u]) * way.y() / way.x();
-    else end[u] = from[u] + (end[v] - from[v]) * way.x() / way.y();
+    if (std::abs(given) < 1e-9)
+        fail(fmt::format("a line at ANG={:g} does not reach the given {}", angle.value, "XYZ"[along ? u : v]),
+             angle.column);
+    if (along)
+        end[v] = from[v] + (end[u] - from[u]) * way.y() / way.x();
+    else
+        end[u] = from[u] + (end[v] - from[v]) * way.x() / way.y();
 }
 
 /// Arcs of the dialects that are given by other words than I J K and R. `words` has begin, end and
@@ -301,7 +330,8 @@ bool Interpreter::arc_of_dialect(const Block& block, ArcWords& words) {
     const int u = (words.axis + 1) % 3;
     const int v = (words.axis + 2) % 3;
     if (arc_kind_ == ArcKind::tangential) {
-        if (std::abs(words.end[words.axis] - words.begin[words.axis]) > 1e-6) fail("CT out of the plane (G17, G18, G19) is not supported");
+        if (std::abs(words.end[words.axis] - words.begin[words.axis]) > 1e-6)
+            fail("CT out of the plane (G17, G18, G19) is not supported");
         arc_along_tangent(words);
         return true;
     }
@@ -309,12 +339,15 @@ bool Interpreter::arc_of_dialect(const Block& block, ArcWords& words) {
         Vec3 between = words.begin;
         for (int k = 0; k < 3; ++k) {
             const NamedWord* word = block.find(std::string(1, "IJK"[k]) + "1");
-            if (word != nullptr) between[k] = word->value * state_.unit_mm + (word->increment.value_or(state_.incremental) ? words.begin[k] : 0.0);
+            if (word != nullptr)
+                between[k] = word->value * state_.unit_mm +
+                             (word->increment.value_or(state_.incremental) ? words.begin[k] : 0.0);
         }
         const Vec2 b(between[u] - words.begin[u], between[v] - words.begin[v]);
         const Vec2 e(words.end[u] - words.begin[u], words.end[v] - words.begin[v]);
         const double area = b.x() * e.y() - b.y() * e.x();
-        if (std::abs(between[words.axis] - words.begin[words.axis]) > 1e-6) fail("CIP out of the plane (G17, G18, G19) is not supported");
+        if (std::abs(between[words.axis] - words.begin[words.axis]) > 1e-6)
+            fail("CIP out of the plane (G17, G18, G19) is not supported");
         if (std::abs(area) < 1e-12) fail("CIP: the three points lie on a line");
         const double bb = b.squaredNorm();
         const double ee = e.squaredNorm();

@@ -11,10 +11,10 @@
 namespace clsurf {
 namespace {
 
-constexpr double chip_break_mm = 1;       ///< back between pecks
-constexpr double shallow_mm = 30;         ///< up to this depth the lead distance is the next value
+constexpr double chip_break_mm = 1;  ///< back between pecks
+constexpr double shallow_mm = 30;    ///< up to this depth the lead distance is the next value
 constexpr double shallow_lead_mm = 0.6;
-constexpr double lead_share = 50;         ///< deeper: depth / 50, at most 7 mm
+constexpr double lead_share = 50;  ///< deeper: depth / 50, at most 7 mm
 constexpr double most_lead_mm = 7;
 constexpr int most_holes = 100'000;
 constexpr std::size_t most_pecks = 1'000'000;
@@ -23,7 +23,8 @@ constexpr std::size_t most_pecks = 1'000'000;
 constexpr std::size_t rtp = 0, rfp = 1, sdis = 2, dp = 3, dpr = 4, dtb = 5;
 
 bool drills(const std::string& name) {
-    static constexpr std::string_view names[] = {"CYCLE81", "CYCLE82", "CYCLE83", "CYCLE84", "CYCLE840", "CYCLE85", "CYCLE86", "CYCLE87", "CYCLE88", "CYCLE89"};
+    static constexpr std::string_view names[] = {"CYCLE81", "CYCLE82", "CYCLE83", "CYCLE84", "CYCLE840",
+                                                 "CYCLE85", "CYCLE86", "CYCLE87", "CYCLE88", "CYCLE89"};
     return std::find(std::begin(names), std::end(names), name) != std::end(names);
 }
 
@@ -64,7 +65,8 @@ bool Interpreter::siemens_cycle(const Keyword& keyword) {
     if (!is_cycle(name) || name == "CYCLE800" || name == "CYCLE832") return false;
     const std::vector<std::optional<double>> given = arguments_of(keyword);
     std::vector<double> values;
-    for (const std::optional<double>& value : given) values.push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
+    for (const std::optional<double>& value : given)
+        values.push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
     if (drills(name)) {
         drill_siemens(name, values);
         return true;
@@ -78,24 +80,31 @@ bool Interpreter::siemens_cycle(const Keyword& keyword) {
 }
 
 void Interpreter::drill_siemens(const std::string& name, const std::vector<double>& values) {
-    const auto value = [&](std::size_t k, double otherwise) { return k < values.size() && !std::isnan(values[k]) ? values[k] : otherwise; };
+    const auto value = [&](std::size_t k, double otherwise) {
+        return k < values.size() && !std::isnan(values[k]) ? values[k] : otherwise;
+    };
     const double unit = state_.unit_mm;
     const double reference = value(rfp, 0) * unit;
     const double clear = value(rtp, 0) * unit;
     const double r = reference + value(sdis, 0) * unit;
     const double relative = value(dpr, 0) * unit;
-    if (relative == 0 && std::isnan(value(dp, std::numeric_limits<double>::quiet_NaN()))) fail(name + " needs its depth (DP or DPR)");
+    if (relative == 0 && std::isnan(value(dp, std::numeric_limits<double>::quiet_NaN())))
+        fail(name + " needs its depth (DP or DPR)");
     const double bottom = relative != 0 ? reference - std::abs(relative) : value(dp, 0) * unit;
     if (r < bottom) fail(fmt::format("{}: the reference plane ({:g}) is below the bottom ({:g})", name, r, bottom));
     const Vec3 rotary = state_.rotary;
-    const auto seconds = [&](double dwell) { return dwell >= 0 || state_.spindle <= 0 ? std::abs(dwell) : -dwell * seconds_per_minute / state_.spindle; };
+    const auto seconds = [&](double dwell) {
+        return dwell >= 0 || state_.spindle <= 0 ? std::abs(dwell) : -dwell * seconds_per_minute / state_.spindle;
+    };
     cycle_.p = name == "CYCLE81" || name == "CYCLE87" ? 0 : seconds(value(name == "CYCLE83" ? std::size_t{8} : dtb, 0));
     const double feed = state_.feed;
     go_to_level(MotionKind::rapid, r, rotary);
     if (name == "CYCLE83") {
         const double whole = reference - bottom;
         const double first_absolute = value(5, std::numeric_limits<double>::quiet_NaN());
-        const double first = value(6, 0) != 0 ? std::abs(value(6, 0)) * unit : std::isnan(first_absolute) ? whole : reference - first_absolute * unit;
+        const double first = value(6, 0) != 0             ? std::abs(value(6, 0)) * unit
+                             : std::isnan(first_absolute) ? whole
+                                                          : reference - first_absolute * unit;
         if (!(first > 0)) fail("CYCLE83: the first depth (FDEP, FDPR) lies above the reference plane");
         const double damp = value(7, 0) < 0 ? value(7, 0) : value(7, 0) * unit;
         peck_siemens(reference, r, strokes(whole, first, damp), value(11, 0) == 0, seconds(value(9, 0)), rotary);
@@ -124,7 +133,8 @@ void Interpreter::drill_siemens(const std::string& name, const std::vector<doubl
 }
 
 /// Deep holes: chips broken by going back a little, or taken out to the reference plane.
-void Interpreter::peck_siemens(double reference, double r, const std::vector<double>& depths, bool breaks_chips, double dwell_above, const Vec3& rotary) {
+void Interpreter::peck_siemens(double reference, double r, const std::vector<double>& depths, bool breaks_chips,
+                               double dwell_above, const Vec3& rotary) {
     const double whole = depths.empty() ? 0 : depths.back();
     const double lead = whole <= shallow_mm ? shallow_lead_mm : std::min(whole / lead_share, most_lead_mm);
     for (std::size_t k = 0; k < depths.size(); ++k) {
@@ -147,7 +157,9 @@ void Interpreter::hole_pattern(const std::string& name, const std::vector<double
     const double unit = state_.unit_mm;
     const Vec2 origin = Vec2(value(0), value(1)) * unit;
     const auto turned = [](double angle) { return Vec2(std::cos(angle * rad_per_deg), std::sin(angle * rad_per_deg)); };
-    const auto count = [&](std::size_t k) { return static_cast<int>(std::clamp(value(k), 0.0, static_cast<double>(most_holes))); };
+    const auto count = [&](std::size_t k) {
+        return static_cast<int>(std::clamp(value(k), 0.0, static_cast<double>(most_holes)));
+    };
     std::vector<Vec2> holes;
     if (name == "HOLES1") {
         const Vec2 along = turned(value(2));
@@ -159,14 +171,18 @@ void Interpreter::hole_pattern(const std::string& name, const std::vector<double
     } else {
         const Vec2 along = turned(value(2));
         const Vec2 across(-along.y(), along.x());
-        if (static_cast<double>(count(5)) * count(6) > most_holes) fail(fmt::format("{}: more than {} holes", name, most_holes), column);
+        if (static_cast<double>(count(5)) * count(6) > most_holes)
+            fail(fmt::format("{}: more than {} holes", name, most_holes), column);
         for (int j = 0; j < count(6); ++j) {  // back and forth
-            for (int i = 0; i < count(5); ++i) holes.push_back(origin + (j % 2 == 0 ? i : count(5) - 1 - i) * value(3) * unit * along + j * value(4) * unit * across);
+            for (int i = 0; i < count(5); ++i)
+                holes.push_back(origin + (j % 2 == 0 ? i : count(5) - 1 - i) * value(3) * unit * along +
+                                j * value(4) * unit * across);
         }
     }
     if (holes.empty()) note(Severity::warning, "program.cycle", name + " has no holes", column);
     if (modal_call_.active && !drills(modal_call_.name)) {
-        note(Severity::warning, "program.cycle", name + ": " + modal_call_.name + " is not called at its places", column);
+        note(Severity::warning, "program.cycle", name + ": " + modal_call_.name + " is not called at its places",
+             column);
     }
     const int c = state_.plane_axis;
     const Vec3 here = state_.programmed();

@@ -46,7 +46,8 @@ void Interpreter::keep_ways(std::int64_t motions) {
     std::vector<Vec3> ways;
     const auto add = [&ways](const Vec3& way) {
         const bool known = (way.array().isFinite() && way.array().abs() > least_way).any();
-        if (known && (ways.empty() || !(ways.front().cross(way).norm() <= least_way * ways.front().norm()))) ways.push_back(way);
+        if (known && (ways.empty() || !(ways.front().cross(way).norm() <= least_way * ways.front().norm())))
+            ways.push_back(way);
     };
     for (std::int64_t i = motions; i-- > 0 && ways.size() < 2;) add(way_at_end(i));
     for (const Vec3& way : forgotten_ways_) {
@@ -64,7 +65,8 @@ Vec2 Interpreter::end_tangent(int u, int v) const {
     };
     Vec2 tangent = Vec2::Zero();
     for (std::int64_t i = program_.motions.size(); i-- > 0 && tangent.isZero(0);) tangent = in_plane(way_at_end(i));
-    for (std::size_t i = 0; i < forgotten_ways_.size() && tangent.isZero(0); ++i) tangent = in_plane(forgotten_ways_[i]);
+    for (std::size_t i = 0; i < forgotten_ways_.size() && tangent.isZero(0); ++i)
+        tangent = in_plane(forgotten_ways_[i]);
     return tangent;
 }
 

@@ -14,11 +14,11 @@ constexpr int most_passes = 100'000;
 constexpr double steepest_slide = 80;  ///< compound angle [deg]
 
 struct Thread {
-    Vec3 begin, end;      ///< drive line's begin, and its end along z [mm]
-    double crest = 0;     ///< from the drive line to the crest, signed [mm]
-    double depth = 0;     ///< of the whole thread, more than 0 [mm]
-    double slide = 0;     ///< how far a depth of 1 shifts a pass along z
-    double taper = 0;     ///< length of the tapers [mm]
+    Vec3 begin, end;   ///< drive line's begin, and its end along z [mm]
+    double crest = 0;  ///< from the drive line to the crest, signed [mm]
+    double depth = 0;  ///< of the whole thread, more than 0 [mm]
+    double slide = 0;  ///< how far a depth of 1 shifts a pass along z
+    double taper = 0;  ///< length of the tapers [mm]
     bool entry_taper = false, exit_taper = false;
 };
 
@@ -81,7 +81,8 @@ void Interpreter::thread_cycle(const Block& block) {
     if (!(springs >= 0 && springs <= most_passes)) fail("H of G76 counts spring passes");
     if (tapers < 0 || tapers > 3) fail("L of G76 is 0 … 3");
     const double both = tapers == 3 ? 2 : 1;
-    if (tapers != 0 && both * thread.taper > std::abs(thread.end.z() - thread.begin.z())) fail("the tapers (E) of G76 are longer than the thread");
+    if (tapers != 0 && both * thread.taper > std::abs(thread.end.z() - thread.begin.z()))
+        fail("the tapers (E) of G76 are longer than the thread");
     thread.entry_taper = (tapers & 1) != 0;
     thread.exit_taper = (tapers & 2) != 0;
     thread.slide = std::tan(angle * rad_per_deg);

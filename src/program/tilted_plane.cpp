@@ -17,7 +17,9 @@
 namespace clsurf {
 namespace {
 
-ProgramFrame turned_about(int axis, double degrees) { return ProgramFrame::turned(Vec3::Unit(axis), degrees, Vec3::Zero()); }
+ProgramFrame turned_about(int axis, double degrees) {
+    return ProgramFrame::turned(Vec3::Unit(axis), degrees, Vec3::Zero());
+}
 
 }  // namespace
 
@@ -60,12 +62,14 @@ void Interpreter::swivel(const Keyword& keyword) {
         return;
     }
     const auto refuse = [&](std::string_view why) {
-        note(Severity::warning, "program.rotation", fmt::format("CYCLE800: {} is not carried out, the path is read as programmed", why), keyword.column);
+        note(Severity::warning, "program.rotation",
+             fmt::format("CYCLE800: {} is not carried out, the path is read as programmed", why), keyword.column);
     };
     // MODE: two bits an axis (1 X, 2 Y, 3 Z), the first one lowest, and two for the kind of angles.
     const int mode = static_cast<int>(std::clamp(value(3), 0.0, 255.0));
     if (const int kind = mode >> 6; kind != 0) {
-        constexpr std::array<std::string_view, 4> kinds{"", "a solid angle", "a projection angle", "direct positioning of the rotary axes"};
+        constexpr std::array<std::string_view, 4> kinds{"", "a solid angle", "a projection angle",
+                                                        "direct positioning of the rotary axes"};
         return refuse(kinds[static_cast<std::size_t>(kind)]);
     }
     if (state_.plane_axis != 2) return refuse("a plane of G18 or G19");
@@ -74,7 +78,9 @@ void Interpreter::swivel(const Keyword& keyword) {
     ProgramFrame frame = ProgramFrame::moved(state_.unit_mm * vector(4));
     for (std::size_t k = 0; k < 3; ++k) {
         const int axis = (mode >> (2 * k)) & 3;
-        if (axis == 0 && value(7 + k) != 0) fail(fmt::format("CYCLE800: its mode {} names no axis for the angle {:g}", mode, value(7 + k)), keyword.column);
+        if (axis == 0 && value(7 + k) != 0)
+            fail(fmt::format("CYCLE800: its mode {} names no axis for the angle {:g}", mode, value(7 + k)),
+                 keyword.column);
         if (axis != 0) frame = frame.around(turned_about(axis - 1, value(7 + k)));
     }
     frame = frame.around(ProgramFrame::moved(state_.unit_mm * vector(10)));
@@ -93,7 +99,8 @@ void Interpreter::tilt_plane(const Block& block, std::size_t column) {
     motion_suppressed_ = true;
     const Words& w = block.words;
     const auto refuse = [&](const std::string& what) {
-        note(Severity::warning, "program.rotation", what + ": this tilted plane is not carried out, the path is read as programmed", column);
+        note(Severity::warning, "program.rotation",
+             what + ": this tilted plane is not carried out, the path is read as programmed", column);
     };
     const int form = w.given('P') ? static_cast<int>(std::clamp(w.of('P'), 0.0, 99.0)) : 0;
     if (form > 1) return refuse(fmt::format("G68.2 P{}", form));
@@ -117,7 +124,8 @@ void Interpreter::tilt_plane(const Block& block, std::size_t column) {
         for (const int axis : axes) {
             if (axis >= 0 && axis < 3) named[static_cast<std::size_t>(axis)] = true;
         }
-        if (!(named[0] && named[1] && named[2])) fail(fmt::format("G68.2 P1: Q{} is no order of 1, 2 and 3", order), column);
+        if (!(named[0] && named[1] && named[2]))
+            fail(fmt::format("G68.2 P1: Q{} is no order of 1, 2 and 3", order), column);
         for (const int axis : axes) turn = turned_about(axis, angles[axis]).around(turn);
     }
     fanuc_frame_.rotation = ProgramFrame::moved(state_.unit_mm * words("XYZ")).around(turn);

@@ -24,7 +24,9 @@ public:
         for (; next_ < events.size() && events[next_].motion <= motion; ++next_) {
             const ProgramEvent& event = events[next_];
             if (event.name != "tool-centre-point") continue;
-            on_ = event.value.starts_with(tilted_plane) || event.value.starts_with("TRAORI") || event.value.starts_with("G43.4") || event.value.starts_with("G43.5") || event.value.starts_with("M128");
+            on_ = event.value.starts_with(tilted_plane) || event.value.starts_with("TRAORI") ||
+                  event.value.starts_with("G43.4") || event.value.starts_with("G43.5") ||
+                  event.value.starts_with("M128");
         }
         return on_;
     }

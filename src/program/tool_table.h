@@ -9,16 +9,16 @@
 namespace clsurf {
 
 struct Tool {
-    int number = 0;              ///< 0: none
-    Vec3 offset = Vec3::Zero();  ///< [mm], what G43 takes off
-    double diameter = 0;         ///< [mm]
+    int number = 0;                          ///< 0: none
+    Vec3 offset = Vec3::Zero();              ///< [mm], what G43 takes off
+    double diameter = 0;                     ///< [mm]
     double front_angle = 0, back_angle = 0;  ///< of a lathe tool [deg]
-    int orientation = 0;         ///< of a lathe tool, 0 … 9
+    int orientation = 0;                     ///< of a lathe tool, 0 … 9
 };
 
 struct ToolTable {
-    std::map<int, Tool> tools;   ///< by number
-    double unit_mm = 1;          ///< of the controller: what #5401 … and #5161 … count in [mm]
+    std::map<int, Tool> tools;  ///< by number
+    double unit_mm = 1;         ///< of the controller: what #5401 … and #5161 … count in [mm]
 
     /// nullptr: there is no such tool.
     [[nodiscard]] const Tool* find(int number) const {

@@ -13,9 +13,9 @@ namespace clsurf {
 template <typename Report, typename Budget>
 struct BudgetLimit {
     std::string_view name;
-    std::optional<double> Budget::* limit;
+    std::optional<double> Budget::*limit;
     double (*measure)(const Report& report);  ///< NaN: not known, which holds no limit
-    bool at_least = false;  ///< the measure must reach the limit; else it must not pass it
+    bool at_least = false;                    ///< the measure must reach the limit; else it must not pass it
 };
 
 struct BudgetLine {
@@ -26,7 +26,8 @@ struct BudgetLine {
 
 /// Every limit that the budget sets, in the order of `limits`.
 template <typename Report, typename Budget>
-[[nodiscard]] std::vector<BudgetLine> hold(std::span<const BudgetLimit<Report, Budget>> limits, const Report& report, const Budget& budget) {
+[[nodiscard]] std::vector<BudgetLine> hold(std::span<const BudgetLimit<Report, Budget>> limits, const Report& report,
+                                           const Budget& budget) {
     std::vector<BudgetLine> lines;
     for (const BudgetLimit<Report, Budget>& limit : limits) {
         const std::optional<double>& value = budget.*limit.limit;

@@ -10,13 +10,13 @@
 namespace clsurf {
 namespace {
 
-constexpr double uneven_spacing = 1.5;        ///< ratio of the programmed steps
-constexpr LineNumber most_lines = 10'000;     ///< of a run that are looked at
-constexpr double corner_way = 0.3;            ///< [mm] in which a corner turns
-constexpr float corner_cosine = 0.906F;       ///< cos 25°
-constexpr double reversal_way = 0.3;          ///< [mm] before the run begins
-constexpr float axis_moves = 0.01F;           ///< of the feed; less is noise
-constexpr float lobe = 0.4F;                  ///< of the peak: a swing counts
+constexpr double uneven_spacing = 1.5;     ///< ratio of the programmed steps
+constexpr LineNumber most_lines = 10'000;  ///< of a run that are looked at
+constexpr double corner_way = 0.3;         ///< [mm] in which a corner turns
+constexpr float corner_cosine = 0.906F;    ///< cos 25°
+constexpr double reversal_way = 0.3;       ///< [mm] before the run begins
+constexpr float axis_moves = 0.01F;        ///< of the feed; less is noise
+constexpr float lobe = 0.4F;               ///< of the peak: a swing counts
 constexpr int lobes_of_oscillation = 3;
 
 /// How often the speed goes to the other side of that of the neighbours, within one run.
@@ -111,13 +111,15 @@ bool CauseFinder::begins_with_reversal(const DefectRun& run) const {
     while (to < run.points.last && !way_.at_least(run.points.first, to, reversal_way)) ++to;
     const Eigen::Vector3f after = signals_.feed(to);
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
-        if (before[axis] * after[axis] < 0 && std::min(std::abs(before[axis]), std::abs(after[axis])) > axis_moves) return true;
+        if (before[axis] * after[axis] < 0 && std::min(std::abs(before[axis]), std::abs(after[axis])) > axis_moves)
+            return true;
     }
     return false;
 }
 
 Cause CauseFinder::cause_of(const Defect& defect, std::span<const Suspect* const> sites) const {
-    if (defect.quantity == Quantity::relief || (defect.quantity != Quantity::lag && spaced_otherwise(defect))) return Cause::point_spacing;
+    if (defect.quantity == Quantity::relief || (defect.quantity != Quantity::lag && spaced_otherwise(defect)))
+        return Cause::point_spacing;
     const auto most_runs = [&](auto&& test) {
         const auto runs = std::count_if(defect.runs.begin(), defect.runs.end(), test);
         return 2 * runs > static_cast<std::ptrdiff_t>(defect.runs.size());

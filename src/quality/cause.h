@@ -13,7 +13,8 @@ namespace clsurf {
 class CauseFinder {
 public:
     /// All must outlive it.
-    CauseFinder(const ClSurface& surface, const Signals& signals, const LineMap& lines, const Program& program, const Way& way)
+    CauseFinder(const ClSurface& surface, const Signals& signals, const LineMap& lines, const Program& program,
+                const Way& way)
         : surface_(surface), signals_(signals), lines_(lines), toolpath_(program.motions, Vec3::Zero()), way_(way) {}
 
     /// `sites`: those of the defect's runs, in order; its neighbours are known.

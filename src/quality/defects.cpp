@@ -15,13 +15,13 @@ namespace clsurf {
 namespace {
 
 constexpr float half_of_peak = 0.5F;
-constexpr float weak_run = 0.25F;           ///< of the strongest run of its group
-constexpr double shown_share = 0.9;         ///< of a plateau: its height without the noise's own peak
-constexpr double smallest_area = 1.0;       ///< squared step-overs
-constexpr float least_speed_share = 0.6F;   ///< of its threshold, for what only the acceleration shows …
-constexpr float strong_alone = 1.5F;        ///< … and of the acceleration's own
+constexpr float weak_run = 0.25F;          ///< of the strongest run of its group
+constexpr double shown_share = 0.9;        ///< of a plateau: its height without the noise's own peak
+constexpr double smallest_area = 1.0;      ///< squared step-overs
+constexpr float least_speed_share = 0.6F;  ///< of its threshold, for what only the acceleration shows …
+constexpr float strong_alone = 1.5F;       ///< … and of the acceleration's own
 constexpr std::size_t fewest_sites = 2;
-constexpr double effect_seconds = 0.020;    ///< by which a height may outlast the motion that makes it
+constexpr double effect_seconds = 0.020;  ///< by which a height may outlast the motion that makes it
 
 /// The height of a plateau of values, signed: of those with the sign of the largest one. NaN are left out.
 double plateau(const std::vector<double>& values) {
@@ -55,7 +55,8 @@ float largest(const std::array<float, quantities>& values, Family family) {
 /// are the edges of something else, and speak only where nothing else does.
 Quantity main_quantity(Sites group, Family family) {
     for (const Quantity q : family) {
-        const bool there = std::any_of(group.begin(), group.end(), [&](const Suspect* s) { return s->share[index_of(q)] >= half_of_peak; });
+        const bool there = std::any_of(group.begin(), group.end(),
+                                       [&](const Suspect* s) { return s->share[index_of(q)] >= half_of_peak; });
         if (there) return q;
     }
     return family.back();
@@ -71,14 +72,16 @@ int severity_of(double depth, float score, bool heights_known, const QualityRule
 
 class Builder {
 public:
-    Builder(const ClSurface& surface, const Signals& signals, const LineMap& lines, const CauseFinder& causes, const Way& way,
-            const QualityRules& rules)
+    Builder(const ClSurface& surface, const Signals& signals, const LineMap& lines, const CauseFinder& causes,
+            const Way& way, const QualityRules& rules)
         : surface_(surface), signals_(signals), lines_(lines), causes_(causes), way_(way), rules_(rules) {
         std::int64_t number = 0;
         for (const Pass& pass : surface.passes) numbers_.push_back(pass.kind == PassKind::cut ? ++number : 0);
     }
 
-    [[nodiscard]] std::int64_t cut_passes() const { return numbers_.empty() ? 0 : *std::max_element(numbers_.begin(), numbers_.end()); }
+    [[nodiscard]] std::int64_t cut_passes() const {
+        return numbers_.empty() ? 0 : *std::max_element(numbers_.begin(), numbers_.end());
+    }
 
     /// The sites of a group that are its defect: on each pass, where the main quantity reaches half of
     /// its peak there; short dips between are its own (an oscillation crosses zero).
@@ -89,7 +92,8 @@ public:
         const auto share = [q](const Suspect* s) { return s->share[q]; };
         float peak = 0;
         for (const Suspect* s : group) peak = std::max(peak, share(s));
-        const float enough = std::max(std::min(1.0F, half_of_peak * peak), weak_run * peak);  // a pass that is hardly suspect is not at fault
+        const float enough = std::max(std::min(1.0F, half_of_peak * peak),
+                                      weak_run * peak);  // a pass that is hardly suspect is not at fault
         Suspects core;
         for_each_run(group, [&](Sites run) {
             float run_peak = 0;
@@ -102,10 +106,12 @@ public:
             for (std::size_t k = 0; k < run.size(); ++k) {
                 if (!strong(run[k])) continue;
                 std::size_t last = k;
-                for (std::size_t j = k + 1; j < run.size() && !way_.at_least(run[last]->point, run[j]->point, joined_); ++j) {
+                for (std::size_t j = k + 1; j < run.size() && !way_.at_least(run[last]->point, run[j]->point, joined_);
+                     ++j) {
                     if (strong(run[j])) last = j;
                 }
-                core.insert(core.end(), run.begin() + static_cast<std::ptrdiff_t>(k), run.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+                core.insert(core.end(), run.begin() + static_cast<std::ptrdiff_t>(k),
+                            run.begin() + static_cast<std::ptrdiff_t>(last) + 1);
                 k = last;
             }
         });
@@ -116,18 +122,23 @@ public:
     [[nodiscard]] Defect build(Sites core, Quantity quantity, Family family) const {
         Defect defect;
         defect.quantity = quantity;
-        const auto weaker = [&](const Suspect* a, const Suspect* b) { return a->share[index_of(quantity)] < b->share[index_of(quantity)]; };
+        const auto weaker = [&](const Suspect* a, const Suspect* b) {
+            return a->share[index_of(quantity)] < b->share[index_of(quantity)];
+        };
         const Suspect& strongest = **std::max_element(core.begin(), core.end(), weaker);
         defect.point = strongest.point;
         defect.speed = signals_[strongest.point].speed;
         defect.speed_beside = defect.speed - strongest.comparison.speed_jump;
         defect.position = surface_.positions.absolute(defect.point);
         for (const Suspect* s : core) defect.score = std::max(defect.score, largest(s->score, family));
-        for_each_run(core, [&](Sites run) { defect.runs.push_back(run_of(run.front()->pass, {run.front()->point, run.back()->point})); });
+        for_each_run(core, [&](Sites run) {
+            defect.runs.push_back(run_of(run.front()->pass, {run.front()->point, run.back()->point}));
+        });
         measure(core, defect);
         defect.neighbours = neighbours_of(core, defect.runs);
         defect.cause = causes_.cause_of(defect, core);
-        defect.severity = severity_of(defect.depth, defect.score, signals_.measured || defect.quantity == Quantity::relief, rules_);
+        defect.severity =
+            severity_of(defect.depth, defect.score, signals_.measured || defect.quantity == Quantity::relief, rules_);
         return defect;
     }
 
@@ -136,7 +147,8 @@ public:
     [[nodiscard]] static bool at_border(Sites core, Family family) {
         const auto starts = [&](const Suspect* s) { return largest(s->score, family) >= 1; };
         const auto all = std::count_if(core.begin(), core.end(), starts);
-        return 4 * std::count_if(core.begin(), core.end(), [&](const Suspect* s) { return s->border && starts(s); }) >= 3 * all;
+        return 4 * std::count_if(core.begin(), core.end(), [&](const Suspect* s) { return s->border && starts(s); }) >=
+               3 * all;
     }
 
 private:
@@ -157,7 +169,9 @@ private:
     void for_each_run(Sites sites, F&& f) const {
         for (std::size_t k = 0; k < sites.size();) {
             std::size_t end = k + 1;
-            while (end < sites.size() && sites[end]->pass == sites[k]->pass && !way_.at_least(sites[end - 1]->point, sites[end]->point, joined_)) ++end;
+            while (end < sites.size() && sites[end]->pass == sites[k]->pass &&
+                   !way_.at_least(sites[end - 1]->point, sites[end]->point, joined_))
+                ++end;
             f(sites.subspan(k, end - k));
             k = end;
         }
@@ -205,10 +219,13 @@ private:
         }
         std::vector<DefectRun> clean;
         for (const auto& [pass, points] : found) {
-            const bool at_fault = std::any_of(runs.begin(), runs.end(), [&, number = numbers_[pass]](const DefectRun& r) { return r.pass == number; });
+            const bool at_fault =
+                std::any_of(runs.begin(), runs.end(),
+                            [&, number = numbers_[pass]](const DefectRun& r) { return r.pass == number; });
             if (!at_fault) clean.push_back(run_of(pass, points));
         }
-        std::sort(clean.begin(), clean.end(), [](const DefectRun& a, const DefectRun& b) { return a.points.first < b.points.first; });
+        std::sort(clean.begin(), clean.end(),
+                  [](const DefectRun& a, const DefectRun& b) { return a.points.first < b.points.first; });
         return clean;
     }
 
@@ -219,7 +236,7 @@ private:
     const Way& way_;
     const QualityRules& rules_;
     double joined_ = std::max(1.0, 2 * surface_.step_over);  ///< [mm] of way between sites that hang together
-    std::vector<std::int64_t> numbers_;  ///< of the cut passes, by index
+    std::vector<std::int64_t> numbers_;                      ///< of the cut passes, by index
 };
 
 bool worse(const Defect& a, const Defect& b) {
@@ -246,7 +263,8 @@ bool starts_defect(Sites sites, Family family) {
 }
 
 /// The defects of one family of quantities.
-std::vector<Built> build_family(const Suspects& suspects, Family family, const ClSurface& surface, const Way& way, const Builder& builder) {
+std::vector<Built> build_family(const Suspects& suspects, Family family, const ClSurface& surface, const Way& way,
+                                const Builder& builder) {
     Suspects mine;
     for (const Suspect* s : suspects) {
         if (largest(s->share, family) >= half_of_peak) mine.push_back(s);
@@ -281,9 +299,11 @@ public:
     /// `room`: points round a run that are its own too.
     Explanations(std::span<const Built> found, PointIndex room) {
         for (std::size_t k = 0; k < found.size(); ++k) {
-            for (const DefectRun& run : found[k].defect.runs) stretches_.push_back({run.points.first - room, run.points.last + room, 0, k});
+            for (const DefectRun& run : found[k].defect.runs)
+                stretches_.push_back({run.points.first - room, run.points.last + room, 0, k});
         }
-        std::sort(stretches_.begin(), stretches_.end(), [](const Stretch& a, const Stretch& b) { return a.first < b.first; });
+        std::sort(stretches_.begin(), stretches_.end(),
+                  [](const Stretch& a, const Stretch& b) { return a.first < b.first; });
         PointIndex farthest = 0;
         for (Stretch& s : stretches_) s.farthest = farthest = std::max(farthest, s.last);
     }
@@ -296,7 +316,8 @@ public:
         };
         std::map<std::size_t, Inside> inside;
         for (const Suspect* s : sites) {
-            auto at = std::upper_bound(stretches_.begin(), stretches_.end(), s->point, [](PointIndex p, const Stretch& b) { return p < b.first; });
+            auto at = std::upper_bound(stretches_.begin(), stretches_.end(), s->point,
+                                       [](PointIndex p, const Stretch& b) { return p < b.first; });
             while (at != stretches_.begin() && (--at)->farthest >= s->point) {
                 Inside& in = inside[at->found];
                 if (at->last < s->point || in.last == s->point) continue;
@@ -318,8 +339,8 @@ private:
 
 }  // namespace
 
-QualityReport find_defects(const ClSurface& surface, const Signals& signals, const LineMap& lines, const Program& program,
-                           double period, const QualityRules& rules) {
+QualityReport find_defects(const ClSurface& surface, const Signals& signals, const LineMap& lines,
+                           const Program& program, double period, const QualityRules& rules) {
     QualityReport report;
     report.step_over = surface.step_over;
     report.has_lag = signals.measured;

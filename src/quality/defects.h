@@ -39,24 +39,24 @@ struct DefectRun {
 };
 
 struct Defect {
-    int severity = 1;     ///< 1 trace, 2 visible on a glossy surface, 3 can be felt, 4 reject
+    int severity = 1;  ///< 1 trace, 2 visible on a glossy surface, 3 can be felt, 4 reject
     Cause cause = Cause::feed_drop;
     Quantity quantity = Quantity::speed;  ///< that shows it best
-    float score = 0;      ///< peak over threshold
-    Vec3 position = Vec3::Zero();  ///< [mm] on the CL surface: where it is strongest
-    PointIndex point = 0;          ///< there
-    Box3 bounds;                   ///< [mm]
-    double area = 0;               ///< [mm²]
-    double length = 0;             ///< [mm] along the feed, of the longest run
-    double depth = 0;              ///< [mm] ≥ 0, predicted step against the neighbours along the normal
-    bool pit = false;              ///< below its neighbours; else a bulge, which they cut down again
-    double speed = 0;              ///< [mm/s] where it is strongest
-    double speed_beside = 0;       ///< [mm/s] of the passes beside it, there
-    double speed_jump = 0;         ///< [mm/s] signed, against the neighbours
-    double speed_mismatch = 0;     ///< ≥ 0, the same relative to the neighbours' speed
-    double acceleration_jump = 0;  ///< [mm/s²] ≥ 0
-    std::vector<DefectRun> runs;        ///< of the passes at fault, in the order of their points
-    std::vector<DefectRun> neighbours;  ///< the clean passes beside them
+    float score = 0;                      ///< peak over threshold
+    Vec3 position = Vec3::Zero();         ///< [mm] on the CL surface: where it is strongest
+    PointIndex point = 0;                 ///< there
+    Box3 bounds;                          ///< [mm]
+    double area = 0;                      ///< [mm²]
+    double length = 0;                    ///< [mm] along the feed, of the longest run
+    double depth = 0;                     ///< [mm] ≥ 0, predicted step against the neighbours along the normal
+    bool pit = false;                     ///< below its neighbours; else a bulge, which they cut down again
+    double speed = 0;                     ///< [mm/s] where it is strongest
+    double speed_beside = 0;              ///< [mm/s] of the passes beside it, there
+    double speed_jump = 0;                ///< [mm/s] signed, against the neighbours
+    double speed_mismatch = 0;            ///< ≥ 0, the same relative to the neighbours' speed
+    double acceleration_jump = 0;         ///< [mm/s²] ≥ 0
+    std::vector<DefectRun> runs;          ///< of the passes at fault, in the order of their points
+    std::vector<DefectRun> neighbours;    ///< the clean passes beside them
 };
 
 struct QualityRules {
@@ -69,14 +69,16 @@ struct QualityReport {
     std::vector<Defect> defects;   ///< worst first
     std::vector<Defect> expected;  ///< at outermost passes: what a part's border always shows
     Thresholds thresholds;
-    PointIndex points = 0;         ///< of cut passes
-    PointIndex compared = 0;       ///< of them, with a neighbour on both sides and away from the ends
-    std::int64_t passes = 0;       ///< cut passes
-    double step_over = 0;          ///< [mm]
-    bool has_lag = false;          ///< measured positions were there
-    std::string note;              ///< the windows
+    PointIndex points = 0;    ///< of cut passes
+    PointIndex compared = 0;  ///< of them, with a neighbour on both sides and away from the ends
+    std::int64_t passes = 0;  ///< cut passes
+    double step_over = 0;     ///< [mm]
+    bool has_lag = false;     ///< measured positions were there
+    std::string note;         ///< the windows
 
-    [[nodiscard]] double coverage() const { return points > 0 ? static_cast<double>(compared) / static_cast<double>(points) : 0; }  ///< 0 … 1
+    [[nodiscard]] double coverage() const {
+        return points > 0 ? static_cast<double>(compared) / static_cast<double>(points) : 0;
+    }  ///< 0 … 1
     [[nodiscard]] int worst_severity() const { return defects.empty() ? 0 : defects.front().severity; }
 };
 

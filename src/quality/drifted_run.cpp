@@ -44,7 +44,8 @@ void DriftFinder::add(const RunDifferences& differences) {
         const Column<float>& values = differences.of[q];
         threshold_[q] = std::max<double>(threshold_[q], differences.threshold[q]);
         for (const PointIndex i : places_) {
-            run[q].push_back(values.empty() ? std::numeric_limits<float>::quiet_NaN() : values[static_cast<std::size_t>(i)]);
+            run[q].push_back(values.empty() ? std::numeric_limits<float>::quiet_NaN()
+                                            : values[static_cast<std::size_t>(i)]);
         }
     }
 }

@@ -12,9 +12,9 @@ namespace clsurf {
 
 /// How far a run departs from what is usual.
 struct RunDeparture {
-    std::array<double, run_quantities> rms{};  ///< inside units; NaN: not known
-    double score = 0;                          ///< the greatest rms over its threshold
-    RunQuantity quantity = RunQuantity::speed; ///< that has it
+    std::array<double, run_quantities> rms{};   ///< inside units; NaN: not known
+    double score = 0;                           ///< the greatest rms over its threshold
+    RunQuantity quantity = RunQuantity::speed;  ///< that has it
 };
 
 class DriftFinder {

@@ -25,8 +25,8 @@ constexpr double opposite = -0.9;        ///< cosine to the nearest contact poin
 
 /// Contact points by squares of the knots' pitch.
 struct Form::Samples {
-    std::vector<Vec3> points;          ///< sorted by square
-    std::vector<std::size_t> start;    ///< of each square
+    std::vector<Vec3> points;        ///< sorted by square
+    std::vector<std::size_t> start;  ///< of each square
     std::int64_t columns = 0, rows = 0;
     double level = 0;
 
@@ -37,7 +37,8 @@ struct Form::Samples {
             f(p);
             return true;
         };
-        for (std::int64_t r = row - squares; r <= row + squares; ++r) (void)for_each_in_run(r, column - squares, column + squares, always);
+        for (std::int64_t r = row - squares; r <= row + squares; ++r)
+            (void)for_each_in_run(r, column - squares, column + squares, always);
     }
 
     /// f(point) for those in the squares that lie `ring` squares from a square, until it returns false. Whether it never did.
@@ -85,8 +86,10 @@ Form::Form(const FormedSurface& formed, const Box2& region) {
     samples.start.assign(static_cast<std::size_t>(columns_ * rows_) + 1, 0);
     // Points beside the grid belong to its outermost squares.
     const auto square = [&](const Vec3& p) {
-        const auto c = std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor((p.x() - corner_.x()) / pitch_)), 0, columns_ - 1);
-        const auto r = std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor((p.y() - corner_.y()) / pitch_)), 0, rows_ - 1);
+        const auto c = std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor((p.x() - corner_.x()) / pitch_)),
+                                                0, columns_ - 1);
+        const auto r = std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor((p.y() - corner_.y()) / pitch_)),
+                                                0, rows_ - 1);
         return static_cast<std::size_t>(r * columns_ + c);
     };
     for (const Vec3& p : found) ++samples.start[square(p) + 1];
@@ -104,7 +107,8 @@ Form::Form(const FormedSurface& formed, const Box2& region) {
     parallel_for(static_cast<std::int64_t>(inside_.size()), 1024, [&](std::int64_t first, std::int64_t last) {
         for (std::int64_t k = first; k < last; ++k) {
             const Vec2 off(static_cast<double>(k % fine_columns), static_cast<double>(k / fine_columns));
-            inside_[static_cast<std::size_t>(k)] = is_inside(corner_ + pitch_ / finer * (off + Vec2::Constant(0.5)), samples) ? 1 : 0;
+            inside_[static_cast<std::size_t>(k)] =
+                is_inside(corner_ + pitch_ / finer * (off + Vec2::Constant(0.5)), samples) ? 1 : 0;
         }
     });
 }
@@ -143,7 +147,8 @@ void Form::fit(std::int64_t column, std::int64_t row, const Samples& samples, Lo
     Knot& knot = knots_[static_cast<std::size_t>(row * columns_ + column)];
     knot.fill(none);
     const Vec2 here = corner_ + pitch_ * Vec2(static_cast<double>(column), static_cast<double>(row));
-    constexpr std::int64_t squares = static_cast<std::int64_t>(reach) + 1;  // a knot stands at the corner of four of them
+    constexpr std::int64_t squares =
+        static_cast<std::int64_t>(reach) + 1;  // a knot stands at the corner of four of them
     double nearest = std::numeric_limits<double>::infinity();
     double base = 0;
     samples.for_each_near(column, row, squares, [&](const Vec3& p) {
@@ -177,7 +182,8 @@ Form::Facet Form::at(const Vec2& place) const {
     Facet sum;
     double weights = 0;
     const bool on_grid = c >= 0 && r >= 0 && c + 1 < columns_ && r + 1 < rows_;
-    if (on_grid && inside_[static_cast<std::size_t>(static_cast<std::int64_t>(v * finer) * finer * columns_ + static_cast<std::int64_t>(u * finer))] != 0) {
+    if (on_grid && inside_[static_cast<std::size_t>(static_cast<std::int64_t>(v * finer) * finer * columns_ +
+                                                    static_cast<std::int64_t>(u * finer))] != 0) {
         for (int k = 0; k < 4; ++k) {
             const std::int64_t kc = c + k % 2;
             const std::int64_t kr = r + k / 2;
@@ -203,7 +209,8 @@ void Form::subtract(const MapFrame& frame, std::int64_t first_row, std::span<flo
         for (std::int64_t k = first; k < last; ++k) {
             float& height = z[static_cast<std::size_t>(k)];
             if (!(height == height)) continue;
-            const Facet form = at(frame.at(static_cast<double>(k % frame.columns), static_cast<double>(first_row + k / frame.columns)));
+            const Facet form = at(
+                frame.at(static_cast<double>(k % frame.columns), static_cast<double>(first_row + k / frame.columns)));
             height = static_cast<float>((height - form.z) / std::sqrt(1 + form.zx * form.zx + form.zy * form.zy));
         }
     });

@@ -10,18 +10,19 @@
 namespace clsurf {
 namespace {
 
-constexpr double steps_per_pass = 200;    ///< a cusp's tip is then met to a hundredth of its height
+constexpr double steps_per_pass = 200;  ///< a cusp's tip is then met to a hundredth of its height
 constexpr std::size_t patches_wanted = 24;
-constexpr double profile_cutoffs = 6;     ///< five sampling lengths and half of one at both ends
-constexpr double patch_cutoffs = 2;       ///< side of a patch
-constexpr double passes_aside = 6.5;      ///< of a mark's profile: a mark of two passes leaves most pairs of it as they are
-constexpr double mark_within = 1.0;       ///< step-overs from the middle that the mark lies in
+constexpr double profile_cutoffs = 6;  ///< five sampling lengths and half of one at both ends
+constexpr double patch_cutoffs = 2;    ///< side of a patch
+constexpr double passes_aside = 6.5;  ///< of a mark's profile: a mark of two passes leaves most pairs of it as they are
+constexpr double mark_within = 1.0;   ///< step-overs from the middle that the mark lies in
 constexpr std::size_t fewest_pairs = 2;   ///< of a mark's profile …
 constexpr std::size_t fewest_pieces = 4;  ///< … or pieces of one
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// Deviations of a row of a map that begins at `from`.
-std::vector<double> row_of(const FormedSurface& formed, const Vec2& from, const Vec2& along, double step, std::int64_t count) {
+std::vector<double> row_of(const FormedSurface& formed, const Vec2& from, const Vec2& along, double step,
+                           std::int64_t count) {
     const MapFrame frame{from, along, step, count, 1};
     const Form form(formed, frame.bounds(0, 0, count, 1));
     std::vector<double> row;
@@ -46,7 +47,8 @@ Across across_at(const FormedSurface& formed, const Signals& signals, PointIndex
     a.direction = Vec2(-flat.y(), flat.x()).normalized();
     // The direction across that lies in the surface.
     const Vec3 in_surface = signals.normal(point).cross(feed).cast<double>();
-    a.step_over = formed.surface().step_over * std::clamp(in_surface.head<2>().norm() / std::max(in_surface.norm(), 1e-9), 0.2, 1.0);
+    a.step_over = formed.surface().step_over *
+                  std::clamp(in_surface.head<2>().norm() / std::max(in_surface.norm(), 1e-9), 0.2, 1.0);
     a.known = true;
     return a;
 }
@@ -57,8 +59,10 @@ std::vector<PointIndex> spread_points(const Signals& signals) {
     const auto count = signals.size();
     const auto inner = [&](PointIndex i) { return signals[i].zone >= Zone::near_end && signals.normal(i).allFinite(); };
     for (std::size_t k = 0; k < patches_wanted; ++k) {
-        const auto first = static_cast<PointIndex>(static_cast<double>(count) * static_cast<double>(k) / patches_wanted);
-        const auto end = static_cast<PointIndex>(static_cast<double>(count) * static_cast<double>(k + 1) / patches_wanted);
+        const auto first =
+            static_cast<PointIndex>(static_cast<double>(count) * static_cast<double>(k) / patches_wanted);
+        const auto end =
+            static_cast<PointIndex>(static_cast<double>(count) * static_cast<double>(k + 1) / patches_wanted);
         // From the middle of its share on, so that patches do not crowd where a pass begins.
         const PointIndex middle = (first + end) / 2;
         PointIndex i = middle;
@@ -105,7 +109,8 @@ FormedProfile measure_profile(const FormedSurface& formed, const Vec2& from, con
             profile.first = k + 1 - run;
         }
     }
-    profile.roughness = roughness_of(std::span(profile.deviation).subspan(profile.first, profile.count), profile.step, cutoff_for(formed.surface().step_over));
+    profile.roughness = roughness_of(std::span(profile.deviation).subspan(profile.first, profile.count), profile.step,
+                                     cutoff_for(formed.surface().step_over));
     return profile;
 }
 
@@ -127,7 +132,8 @@ double mark_depth(std::span<const double> deviation, double step, double step_ov
     const double valley = low;
     const double cusp = high;
     for (std::size_t k = 0; k < deviation.size(); ++k) {
-        if (!std::isfinite(deviation[k]) || std::abs(static_cast<double>(k) - middle) * step > mark_within * step_over) continue;
+        if (!std::isfinite(deviation[k]) || std::abs(static_cast<double>(k) - middle) * step > mark_within * step_over)
+            continue;
         low = std::min(low, deviation[k]);
         high = std::max(high, deviation[k]);
     }
@@ -143,32 +149,37 @@ FormedReport measure_formed(const FormedSurface& formed, const Signals& signals,
 
     const std::vector<PointIndex> points = spread_points(signals);
     std::vector<RoughPatch> patches(points.size());
-    parallel_for(static_cast<std::int64_t>(points.size() + report.defects.size()), 1, [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t k = begin; k < end; ++k) {
-            const auto at = static_cast<std::size_t>(k);
-            const bool is_patch = at < points.size();
-            const Across across = across_at(formed, signals, is_patch ? points[at] : report.defects[at - points.size()].point);
-            if (!across.known) continue;
-            if (is_patch) {
-                patches[at].point = points[at];
-                patches[at].contact = formed.contact(points[at]);
-                const Vec2 half = 0.5 * profile_cutoffs * result.cutoff * across.direction;
-                patches[at].profile = measure_profile(formed, across.at - half, across.at + half).roughness;
-                const Vec2 corner = Vec2::Constant(0.5 * patch_cutoffs * result.cutoff);
-                const Box2 box(across.at - corner, across.at + corner);
-                const Form form(formed, box);
-                std::vector<float> cells;
-                map_deviation(formed, form, frame_of(box, formed.usual_cell()), [&](std::int64_t, std::span<float> z) { cells.insert(cells.end(), z.begin(), z.end()); });
-                patches[at].area = area_heights(cells);
-                continue;
+    parallel_for(
+        static_cast<std::int64_t>(points.size() + report.defects.size()), 1, [&](std::int64_t begin, std::int64_t end) {
+            for (std::int64_t k = begin; k < end; ++k) {
+                const auto at = static_cast<std::size_t>(k);
+                const bool is_patch = at < points.size();
+                const Across across =
+                    across_at(formed, signals, is_patch ? points[at] : report.defects[at - points.size()].point);
+                if (!across.known) continue;
+                if (is_patch) {
+                    patches[at].point = points[at];
+                    patches[at].contact = formed.contact(points[at]);
+                    const Vec2 half = 0.5 * profile_cutoffs * result.cutoff * across.direction;
+                    patches[at].profile = measure_profile(formed, across.at - half, across.at + half).roughness;
+                    const Vec2 corner = Vec2::Constant(0.5 * patch_cutoffs * result.cutoff);
+                    const Box2 box(across.at - corner, across.at + corner);
+                    const Form form(formed, box);
+                    std::vector<float> cells;
+                    map_deviation(
+                        formed, form, frame_of(box, formed.usual_cell()),
+                        [&](std::int64_t, std::span<float> z) { cells.insert(cells.end(), z.begin(), z.end()); });
+                    patches[at].area = area_heights(cells);
+                    continue;
+                }
+                const double step = across.step_over / steps_per_pass;
+                const auto count = static_cast<std::int64_t>(2 * passes_aside * steps_per_pass) + 1;
+                const Vec2 from = across.at - passes_aside * across.step_over * across.direction;
+                const Defect& defect = report.defects[at - points.size()];
+                result.marks[at - points.size()] =
+                    mark_depth(row_of(formed, from, across.direction, step, count), step, across.step_over, defect.pit);
             }
-            const double step = across.step_over / steps_per_pass;
-            const auto count = static_cast<std::int64_t>(2 * passes_aside * steps_per_pass) + 1;
-            const Vec2 from = across.at - passes_aside * across.step_over * across.direction;
-            const Defect& defect = report.defects[at - points.size()];
-            result.marks[at - points.size()] = mark_depth(row_of(formed, from, across.direction, step, count), step, across.step_over, defect.pit);
-        }
-    });
+        });
     for (const RoughPatch& patch : patches) {
         if (patch.profile.length <= 0 || patch.area.cells == 0) continue;
         result.patches.push_back(patch);
@@ -180,7 +191,8 @@ FormedReport measure_formed(const FormedSurface& formed, const Signals& signals,
         result.sz = std::max(result.sz, patch.area.sz);
     }
     if (result.patches.empty()) return result;
-    for (double* mean : {&result.ra, &result.rz, &result.sa, &result.sq}) *mean /= static_cast<double>(result.patches.size());
+    for (double* mean : {&result.ra, &result.rz, &result.sa, &result.sq})
+        *mean /= static_cast<double>(result.patches.size());
     return result;
 }
 

@@ -20,19 +20,20 @@ struct RoughPatch {
 };
 
 struct FormedReport {
-    std::vector<RoughPatch> patches;  ///< that could be measured, in the order of their points; none: nothing below is known
-    double ra = 0, rz = 0;   ///< [mm] mean over the patches' profiles across the feed
-    std::size_t roughest = 0;  ///< patch whose profile has the greatest Rz
-    double sa = 0, sq = 0;   ///< [mm] mean over the patches, form taken off
-    double sz = 0;           ///< [mm] of the roughest patch; cells see the tip of a cusp to a tenth of it
-    double cutoff = 0;       ///< [mm] of the profiles' filter
+    std::vector<RoughPatch>
+        patches;                ///< that could be measured, in the order of their points; none: nothing below is known
+    double ra = 0, rz = 0;      ///< [mm] mean over the patches' profiles across the feed
+    std::size_t roughest = 0;   ///< patch whose profile has the greatest Rz
+    double sa = 0, sq = 0;      ///< [mm] mean over the patches, form taken off
+    double sz = 0;              ///< [mm] of the roughest patch; cells see the tip of a cusp to a tenth of it
+    double cutoff = 0;          ///< [mm] of the profiles' filter
     std::vector<double> marks;  ///< [mm] ≥ 0 per defect of the report; NaN: not known there
 };
 
 /// A profile across the formed surface.
 struct FormedProfile {
-    double step = 0;                ///< [mm] between values
-    std::vector<double> deviation;  ///< [mm] over the form; NaN: nothing was cut, or no form there
+    double step = 0;                   ///< [mm] between values
+    std::vector<double> deviation;     ///< [mm] over the form; NaN: nothing was cut, or no form there
     std::size_t first = 0, count = 0;  ///< the longest stretch without gaps …
     Roughness roughness;               ///< … and its roughness
 };
@@ -47,6 +48,7 @@ struct FormedProfile {
 [[nodiscard]] double mark_depth(std::span<const double> deviation, double step, double step_over, bool pit);
 
 /// Some 24 patches and every defect of `report`. Parallel.
-[[nodiscard]] FormedReport measure_formed(const FormedSurface& formed, const Signals& signals, const QualityReport& report);
+[[nodiscard]] FormedReport measure_formed(const FormedSurface& formed, const Signals& signals,
+                                          const QualityReport& report);
 
 }  // namespace clsurf

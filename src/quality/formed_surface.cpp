@@ -14,16 +14,16 @@
 namespace clsurf {
 namespace {
 
-constexpr double smooth_seconds = 0.015;     ///< as heights are (signals.cpp)
+constexpr double smooth_seconds = 0.015;  ///< as heights are (signals.cpp)
 constexpr PointIndex stretch_points = 64;
-constexpr std::int64_t tile_cells = 256;     ///< a side: 256 kB, which the L2 cache holds
-constexpr double step_overs_aside = 1.5;     ///< half width of the strip where passes lie as they should …
-constexpr double least_followed = 0.002;     ///< [mm] … or as far as the pits that are there reach, of this depth …
-constexpr double deepest_followed = 0.020;   ///< [mm] … up to this one
-constexpr double rough = 0.0005;             ///< [mm] what is left of noise moves the contact along the way
-constexpr float least_up = 0.05F;            ///< of the normal: steeper walls have no height
-constexpr double most_between = 1000;         ///< contact points between two positions
-constexpr PointIndex normal_reach = 512;     ///< points to look for a normal in, where a point has none
+constexpr std::int64_t tile_cells = 256;    ///< a side: 256 kB, which the L2 cache holds
+constexpr double step_overs_aside = 1.5;    ///< half width of the strip where passes lie as they should …
+constexpr double least_followed = 0.002;    ///< [mm] … or as far as the pits that are there reach, of this depth …
+constexpr double deepest_followed = 0.020;  ///< [mm] … up to this one
+constexpr double rough = 0.0005;            ///< [mm] what is left of noise moves the contact along the way
+constexpr float least_up = 0.05F;           ///< of the normal: steeper walls have no height
+constexpr double most_between = 1000;       ///< contact points between two positions
+constexpr PointIndex normal_reach = 512;    ///< points to look for a normal in, where a point has none
 
 int smoother_points(double period) {
     const int points = static_cast<int>(std::lround(std::min(smooth_seconds / period, 2000.0))) | 1;
@@ -48,7 +48,8 @@ bool is_low(const Positions& p, const Pass& link, double step_over) {
 Box2 MapFrame::bounds(std::int64_t column, std::int64_t row, std::int64_t wide, std::int64_t high) const {
     Box2 box;
     for (const std::int64_t c : {column, column + wide - 1}) {
-        for (const std::int64_t r : {row, row + high - 1}) box.extend(at(static_cast<double>(c), static_cast<double>(r)));
+        for (const std::int64_t r : {row, row + high - 1})
+            box.extend(at(static_cast<double>(c), static_cast<double>(r)));
     }
     return box;
 }
@@ -70,7 +71,8 @@ struct FormedSurface::Tile {
     CellBlock cells;
 };
 
-FormedSurface::FormedSurface(const ClSurface& surface, const Signals& signals, Role surface_role, const Trajectory& swept, const std::vector<PointRange>& pieces, const CuttingTool& tool)
+FormedSurface::FormedSurface(const ClSurface& surface, const Signals& signals, Role surface_role,
+                             const Trajectory& swept, const std::vector<PointRange>& pieces, const CuttingTool& tool)
     : surface_(surface),
       signals_(signals),
       surface_role_(surface_role),
@@ -79,12 +81,16 @@ FormedSurface::FormedSurface(const ClSurface& surface, const Signals& signals, R
       smoother_({smoother_points(swept.period), 2, 0, swept.period}),
       smoothed_(smoother_points(swept.period) > 1) {
     const int points = smoother_.filter().points;
-    note_ = fmt::format("{} positions{}", name_of(swept.role), smoothed_ ? fmt::format(" over {} points ({:.3g} ms)", points, 1e3 * points * swept.period) : "");
+    note_ =
+        fmt::format("{} positions{}", name_of(swept.role),
+                    smoothed_ ? fmt::format(" over {} points ({:.3g} ms)", points, 1e3 * points * swept.period) : "");
     auto pass = surface.passes.begin();
     for (const PointRange& piece : pieces) {
         while (pass != surface.passes.end() && pass->last < piece.first) ++pass;
         if (pass == surface.passes.end()) break;
-        if (pass->kind == PassKind::cut || (pass->kind == PassKind::link && is_low(surface.positions, *pass, surface.step_over))) pieces_.push_back(piece);
+        if (pass->kind == PassKind::cut ||
+            (pass->kind == PassKind::link && is_low(surface.positions, *pass, surface.step_over)))
+            pieces_.push_back(piece);
     }
     cut_stretches();
 }
@@ -118,8 +124,10 @@ Eigen::Vector3f FormedSurface::normal_of(PointIndex point, PointRange within) co
     if (known(point)) return signals_.normal(point);
     const PointIndex count = swept_.count;
     for (PointIndex off = 1; off <= normal_reach; ++off) {
-        if (point - off >= std::max<PointIndex>(0, within.first - normal_reach) && known(point - off)) return signals_.normal(point - off);
-        if (point + off < std::min(count, within.last + normal_reach) && known(point + off)) return signals_.normal(point + off);
+        if (point - off >= std::max<PointIndex>(0, within.first - normal_reach) && known(point - off))
+            return signals_.normal(point - off);
+        if (point + off < std::min(count, within.last + normal_reach) && known(point + off))
+            return signals_.normal(point + off);
     }
     // A single pass: upright but for the slope along the way.
     const Eigen::Vector3f up = Eigen::Vector3f::UnitZ();
@@ -168,7 +176,8 @@ void FormedSurface::measure(Stretch& stretch) const {
     double steepest = 0;
     const Positions& p = surface_.positions;
     std::vector<double> axes[3];
-    for (std::vector<double>& axis : axes) axis.resize(static_cast<std::size_t>(stretch.last - stretch.first + (stretch.goes_on ? 2 : 1)));
+    for (std::vector<double>& axis : axes)
+        axis.resize(static_cast<std::size_t>(stretch.last - stretch.first + (stretch.goes_on ? 2 : 1)));
     swept_.read(stretch.first, axes[0], axes[1], axes[2]);
     Eigen::AlignedBox2f tips;
     for (std::size_t k = 0; k < axes[0].size(); ++k) {
@@ -222,7 +231,8 @@ void FormedSurface::read_swept(const Stretch& stretch, std::vector<double> (&axe
     for (std::vector<double>& axis : raw) axis.resize(static_cast<std::size_t>(to - from + 1));
     swept_.read(from, raw[0], raw[1], raw[2]);
     const auto inside = static_cast<std::size_t>(std::min(end, piece.last) - stretch.first + 1);
-    for (std::size_t axis = 0; axis < 3; ++axis) smoother_.apply(raw[axis], from, piece, stretch.first, std::span(axes[axis]).first(inside));
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        smoother_.apply(raw[axis], from, piece, stretch.first, std::span(axes[axis]).first(inside));
     if (inside == count) return;
     const Vec3 next = swept_.at(end);  // the next piece's first point
     for (std::size_t axis = 0; axis < 3; ++axis) axes[axis].back() = next[static_cast<Eigen::Index>(axis)];
@@ -240,7 +250,8 @@ void FormedSurface::lower_by(const Stretch& stretch, const Tile& tile) const {
     // From the tip to the contact point, in the plane. The normal is the surface's across the feed, but along
     // it that of the segment: the swept point lies behind the surface's by the lag.
     const auto offset = [&](std::size_t k, const Vec3& step) {
-        const Vec3 normal = normal_of(stretch.first + static_cast<PointIndex>(k), pieces_[stretch.piece]).cast<double>();
+        const Vec3 normal =
+            normal_of(stretch.first + static_cast<PointIndex>(k), pieces_[stretch.piece]).cast<double>();
         const Vec3 in_frame(along.dot(normal.head<2>()), across.dot(normal.head<2>()), normal.z());
         const Vec3 turned = in_frame - in_frame.dot(step) / std::max(step.squaredNorm(), 1e-20) * step;
         return std::pair(contact_offset(tool_, turned.normalized()), turned.normalized().z() >= least_up);
@@ -311,18 +322,22 @@ void FormedSurface::map(const MapFrame& frame, const TakeRows& take) const {
                 const std::int64_t column = t * tile_cells;
                 const std::int64_t wide = std::min(tile_cells, frame.columns - column);
                 z.assign(static_cast<std::size_t>(wide * high), nothing);
-                const Tile tile{frame, frame.at(static_cast<double>(column), static_cast<double>(first_row)),
-                                {z.data(), static_cast<int>(wide), static_cast<int>(high), static_cast<float>(frame.cell)}};
+                const Tile tile{
+                    frame,
+                    frame.at(static_cast<double>(column), static_cast<double>(first_row)),
+                    {z.data(), static_cast<int>(wide), static_cast<int>(high), static_cast<float>(frame.cell)}};
                 const Box2 world = frame.bounds(column, first_row, wide, high);
                 const Vec2 origin = surface_.positions.origin.head<2>();
-                const Eigen::AlignedBox2f box((world.min() - origin).cast<float>(), (world.max() - origin).cast<float>());
+                const Eigen::AlignedBox2f box((world.min() - origin).cast<float>(),
+                                              (world.max() - origin).cast<float>());
                 for (const std::size_t k : near) {
                     if (stretches_[k].bounds.intersects(box)) lower_by(stretches_[k], tile);
                 }
                 for (std::int64_t r = 0; r < high; ++r) {
                     for (std::int64_t c = 0; c < wide; ++c) {
                         const float height = z[static_cast<std::size_t>(r * wide + c)];
-                        rows[static_cast<std::size_t>(r * frame.columns + column + c)] = height < nothing ? height : std::numeric_limits<float>::quiet_NaN();
+                        rows[static_cast<std::size_t>(r * frame.columns + column + c)] =
+                            height < nothing ? height : std::numeric_limits<float>::quiet_NaN();
                     }
                 }
             }
@@ -350,7 +365,9 @@ std::vector<ContactPoint> FormedSurface::contacts(const Box2& box, double spacin
             const int pieces = goes_on ? static_cast<int>(std::min(way / spacing, most_between)) : 1;
             for (int k = 1; k <= pieces; ++k) {
                 const double share = static_cast<double>(k) / pieces;
-                const ContactPoint between = goes_on ? ContactPoint{before.at + share * (now.at - before.at), before.tip + share * (now.tip - before.tip)} : now;
+                const ContactPoint between = goes_on ? ContactPoint{before.at + share * (now.at - before.at),
+                                                                    before.tip + share * (now.tip - before.tip)}
+                                                     : now;
                 if (box.contains(between.at.head<2>())) found.push_back(between);
             }
             before = now;

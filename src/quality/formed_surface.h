@@ -29,7 +29,7 @@ using Box2 = Eigen::AlignedBox2d;
 struct MapFrame {
     Vec2 corner = Vec2::Zero();  ///< [mm] middle of the first cell
     Vec2 along = Vec2::UnitX();
-    double cell = 0;             ///< [mm]
+    double cell = 0;  ///< [mm]
     std::int64_t columns = 0, rows = 0;
 
     [[nodiscard]] Vec2 across() const { return {-along.y(), along.x()}; }
@@ -56,10 +56,13 @@ public:
     /// contact, `swept` is what the tool did: commanded, feedback or actual positions of the same
     /// points. Signals with a lag of the swept positions make narrower strips do. All must outlive it.
     /// `pieces` (path/pieces.h) bound the smoothing. O(points), parallel.
-    FormedSurface(const ClSurface& surface, const Signals& signals, Role surface_role, const Trajectory& swept, const std::vector<PointRange>& pieces, const CuttingTool& tool);
+    FormedSurface(const ClSurface& surface, const Signals& signals, Role surface_role, const Trajectory& swept,
+                  const std::vector<PointRange>& pieces, const CuttingTool& tool);
 
     /// A twentieth of a step-over [mm]; without neighbours a fiftieth of the tool's radius.
-    [[nodiscard]] double usual_cell() const { return surface_.step_over > 0 ? surface_.step_over / 20 : tool_.radius / 50; }
+    [[nodiscard]] double usual_cell() const {
+        return surface_.step_over > 0 ? surface_.step_over / 20 : tool_.radius / 50;
+    }
     /// What the strips cover [mm].
     [[nodiscard]] Box2 bounds() const { return bounds_; }
     /// From which heights are counted [mm].
@@ -84,9 +87,9 @@ private:
     struct Stretch {
         PointIndex first = 0, last = 0;
         std::size_t piece = 0;
-        bool goes_on = false;            ///< to point last + 1
-        float aside = 0, before = 0;     ///< [mm] half width of the strip, and how far it reaches beyond segments
-        Eigen::AlignedBox2f bounds;      ///< [mm] of the strip, relative to the origin
+        bool goes_on = false;         ///< to point last + 1
+        float aside = 0, before = 0;  ///< [mm] half width of the strip, and how far it reaches beyond segments
+        Eigen::AlignedBox2f bounds;   ///< [mm] of the strip, relative to the origin
     };
     struct Tile;
 

@@ -74,7 +74,8 @@ Station KnotPath::station(const Stand& stand, const Eigen::Vector3f& p, PointInd
     // Runs in step are in step: in a corner a chord cannot tell which of the points on it comes first.
     const PointIndex before = point(std::max<std::int64_t>(0, stand.knot - 1));
     const PointIndex after = point(std::min(size() - 1, stand.knot + 2));
-    if (expected >= before && expected <= after && (at(expected) - p).squaredNorm() < same_spot * same_spot) return {expected, 0};
+    if (expected >= before && expected <= after && (at(expected) - p).squaredNorm() < same_spot * same_spot)
+        return {expected, 0};
     const PointIndex first = point(stand.knot);
     const PointIndex last = point(stand.knot + 1);
     if (last == first + 1) return stand.fraction == 1.0F ? Station{last, 0} : Station{first, stand.fraction};
@@ -89,8 +90,10 @@ Station KnotPath::station(const Stand& stand, const Eigen::Vector3f& p, PointInd
         PointIndex high = last + 1;
         while (low < high) {
             const PointIndex middle = low + (high - low) / 2;
-            if (holds(along(middle))) high = middle;
-            else low = middle + 1;
+            if (holds(along(middle)))
+                high = middle;
+            else
+                low = middle + 1;
         }
         return low;
     };

@@ -28,7 +28,8 @@ struct Moments {
 void load(const double* values, Four& four) { std::memcpy(&four, values, sizeof four); }
 
 /// `count` is a multiple of the width.
-CLSURF_VECTORISED void add_up(const double* x, const double* y, const double* z, const double* weight, const double* robust, std::size_t count, Moments& sums) {
+CLSURF_VECTORISED void add_up(const double* x, const double* y, const double* z, const double* weight,
+                              const double* robust, std::size_t count, Moments& sums) {
     Four m[15] = {};
     Four h[6] = {};
     for (std::size_t k = 0; k < count; k += width) {

@@ -25,7 +25,9 @@ constexpr float slack_step_overs = 0.5F;     ///< along the feed between the end
 constexpr float shape_left = 0.35F;          ///< of a relief: more is left of it beside it where it is the part's own
 constexpr float shape_beside = 0.6F;         ///< of the largest relief around: a smaller one lies beside an edge
 
-bool runs_against(const Signals& signals, PointIndex point, const Station& at) { return signals.feed(at.nearest()).dot(signals.feed(point)) < 0; }
+bool runs_against(const Signals& signals, PointIndex point, const Station& at) {
+    return signals.feed(at.nearest()).dot(signals.feed(point)) < 0;
+}
 
 float larger(float a, float b) { return !(a == a) || b > a ? b : a; }
 
@@ -52,11 +54,15 @@ bool is_shape(float relief, const Compared& left, const Compared& right, std::sp
     }
     const float mean = sum / static_cast<float>(known);
     const float own = relief - mean, l = left.relief - mean, r = right.relief - mean;
-    if (std::min({std::abs(own + l), std::abs(own + r), std::abs(own + l + r)}) > shape_left * std::abs(own)) return true;
-    return std::any_of(places.begin(), places.end(), [&](const Compared& v) { return std::abs(own) < shape_beside * std::abs(v.relief - mean); });
+    if (std::min({std::abs(own + l), std::abs(own + r), std::abs(own + l + r)}) > shape_left * std::abs(own))
+        return true;
+    return std::any_of(places.begin(), places.end(),
+                       [&](const Compared& v) { return std::abs(own) < shape_beside * std::abs(v.relief - mean); });
 }
 
-float quantile(std::vector<float>& values, double share) { return values.empty() ? none : quantile_below(values, share); }
+float quantile(std::vector<float>& values, double share) {
+    return values.empty() ? none : quantile_below(values, share);
+}
 
 /// Evenly spaced judged points, some `sampled_points`. O(points), parallel.
 std::vector<PointIndex> sample_judged(const Signals& signals) {
@@ -121,17 +127,21 @@ void Comparer::compare_along_slant(PointIndex point, Comparison& comparison) con
     std::array<Beside, 2 * aside> places;
     std::size_t count = 0;
     for (const Side side : {Side::left, Side::right}) {
-        (void)for_each_beside(point, side, aside, round_a_corner, [&](const Station& at, int passes) { places[count++] = {at, side == Side::left ? passes : -passes}; });
+        (void)for_each_beside(point, side, aside, round_a_corner, [&](const Station& at, int passes) {
+            places[count++] = {at, side == Side::left ? passes : -passes};
+        });
     }
     const std::optional<AlongSlant> slanted = along_slant(surface_, signals_, point, std::span(places).first(count));
     if (!slanted) return;
     const float reference = std::max(slanted->speed, least_speed_);
     const auto lessen = [&](Quantity q, float residual, float step) {
-        if (std::abs(residual) < std::abs(comparison.residual[index_of(q)])) comparison.residual[index_of(q)] = residual;
+        if (std::abs(residual) < std::abs(comparison.residual[index_of(q)]))
+            comparison.residual[index_of(q)] = residual;
         comparison.step[index_of(q)] = std::min(comparison.step[index_of(q)], step);
     };
     lessen(Quantity::speed, (signals_[point].speed - slanted->speed) / reference, slanted->speed_step / reference);
-    lessen(Quantity::acceleration, (signals_.acceleration(point) - slanted->acceleration).norm(), slanted->acceleration_step);
+    lessen(Quantity::acceleration, (signals_.acceleration(point) - slanted->acceleration).norm(),
+           slanted->acceleration_step);
     if (slanted->corner) lessen(Quantity::relief, signals_[point].relief - slanted->relief, slanted->relief_step);
 }
 
@@ -143,7 +153,8 @@ std::array<float, quantities> Comparer::change_nearby(PointIndex point, float re
     const Sample& mine = signals_[point];
     const auto widen = [&](Quantity q, float value) { change[index_of(q)] = larger(change[index_of(q)], value); };
     for (const PointIndex direction : {-1, 1}) {
-        for (PointIndex i = point + direction; i >= 0 && i < p.size() && signals_[i].zone != Zone::outside; i += direction) {
+        for (PointIndex i = point + direction; i >= 0 && i < p.size() && signals_[i].zone != Zone::outside;
+             i += direction) {
             const Sample& there = signals_[i];
             widen(Quantity::speed, std::abs(there.speed - mine.speed) / reference);
             widen(Quantity::lag, std::abs(there.lag - mine.lag));
@@ -219,9 +230,11 @@ Comparison Comparer::compare_with(Peers peers, PointIndex point, int aside) cons
     if (signals_.measured) result.play[index_of(Quantity::lag)] = change_of_two_periods(signals_, &Sample::lag, point);
     result.speed_jump = mine.speed - usual;
     result.residual[index_of(Quantity::speed)] = result.speed_jump / reference;
-    result.residual[index_of(Quantity::lag)] = mine.lag - median_of(places, fewest_passes, [](const Compared& v) { return v.lag; });
+    result.residual[index_of(Quantity::lag)] =
+        mine.lag - median_of(places, fewest_passes, [](const Compared& v) { return v.lag; });
     const float usual_relief = median_of(places, fewest_passes, [](const Compared& v) { return v.relief; });
-    result.residual[index_of(Quantity::relief)] = even > 0 && is_shape(mine.relief, beside_it[0][0], beside_it[1][0], places) ? 0 : mine.relief - usual_relief;
+    result.residual[index_of(Quantity::relief)] =
+        even > 0 && is_shape(mine.relief, beside_it[0][0], beside_it[1][0], places) ? 0 : mine.relief - usual_relief;
     Eigen::Vector3f consensus;
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
         consensus[axis] = median_of(places, fewest_passes, [axis](const Compared& v) { return v.acceleration[axis]; });
@@ -249,10 +262,12 @@ Thresholds measure_thresholds(const ClSurface& surface, const Signals& signals, 
     const Comparer comparer(surface, signals, thresholds.usual_speed);
     std::vector<std::array<float, quantities>> steps(points.size());
     parallel_for(static_cast<std::int64_t>(points.size()), 4096, [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t k = first; k < last; ++k) steps[static_cast<std::size_t>(k)] = comparer.compare(points[static_cast<std::size_t>(k)], 1).step;
+        for (std::int64_t k = first; k < last; ++k)
+            steps[static_cast<std::size_t>(k)] = comparer.compare(points[static_cast<std::size_t>(k)], 1).step;
     });
     const std::array<float, quantities> least{rule.speed, rule.acceleration * thresholds.usual_acceleration,
-                                             std::max(rule.height, rule.lag_quanta * signals.quantum), std::max(rule.height, rule.relief_quanta * signals.quantum)};
+                                              std::max(rule.height, rule.lag_quanta * signals.quantum),
+                                              std::max(rule.height, rule.relief_quanta * signals.quantum)};
     for (std::size_t q = 0; q < quantities; ++q) {
         values.clear();
         for (const auto& step : steps) {
@@ -264,9 +279,11 @@ Thresholds measure_thresholds(const ClSurface& surface, const Signals& signals, 
         const float spread = normal_deviation * quantile(values, 0.5);
         thresholds.median[q] = median;
         thresholds.spread[q] = spread;
-        const float own = median + (q == index_of(Quantity::acceleration) ? rule.acceleration_spreads : rule.spreads) * spread;
+        const float own =
+            median + (q == index_of(Quantity::acceleration) ? rule.acceleration_spreads : rule.spreads) * spread;
         // Facets of the program itself are texture, however high, where they are everywhere: no cap.
-        const float most = q == index_of(Quantity::relief) ? std::numeric_limits<float>::infinity() : rule.most * least[q];
+        const float most =
+            q == index_of(Quantity::relief) ? std::numeric_limits<float>::infinity() : rule.most * least[q];
         thresholds.of[q] = own == own ? std::max(least[q], std::min(own, most)) : least[q];
     }
     return thresholds;

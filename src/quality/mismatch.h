@@ -91,17 +91,18 @@ struct Thresholds {
 };
 
 struct ThresholdRule {
-    float speed = 0.03F;         ///< least threshold, relative to the neighbours' speed
-    float acceleration = 0.15F;  ///< least threshold, relative to the usual acceleration
-    float height = 0.0015F;      ///< least threshold [mm] …
-    float lag_quanta = 1.5F;     ///< … and in steps of the positions: all of a pass may be rounded the same way,
-    float relief_quanta = 2.4F;  ///< and a relief hangs on three passes
-    float spreads = 6;           ///< above the median; a part's own scatter is no defect …
+    float speed = 0.03F;             ///< least threshold, relative to the neighbours' speed
+    float acceleration = 0.15F;      ///< least threshold, relative to the usual acceleration
+    float height = 0.0015F;          ///< least threshold [mm] …
+    float lag_quanta = 1.5F;         ///< … and in steps of the positions: all of a pass may be rounded the same way,
+    float relief_quanta = 2.4F;      ///< and a relief hangs on three passes
+    float spreads = 6;               ///< above the median; a part's own scatter is no defect …
     float acceleration_spreads = 9;  ///< (the length of a vector of noise reaches farther)
-    float most = 3;              ///< … but at most so many times the least one: a bad part must not hide itself
+    float most = 3;                  ///< … but at most so many times the least one: a bad part must not hide itself
 };
 
 /// Thresholds from some 50,000 evenly spaced judged points. The same for any number of threads.
-[[nodiscard]] Thresholds measure_thresholds(const ClSurface& surface, const Signals& signals, const ThresholdRule& rule);
+[[nodiscard]] Thresholds measure_thresholds(const ClSurface& surface, const Signals& signals,
+                                            const ThresholdRule& rule);
 
 }  // namespace clsurf

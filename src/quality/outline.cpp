@@ -28,7 +28,8 @@ public:
     [[nodiscard]] const std::vector<PointRange>& ranges() const { return ranges_; }
 
     [[nodiscard]] bool holds(PointIndex i) const {
-        const auto after = std::upper_bound(ranges_.begin(), ranges_.end(), i, [](PointIndex p, const PointRange& r) { return p < r.first; });
+        const auto after = std::upper_bound(ranges_.begin(), ranges_.end(), i,
+                                            [](PointIndex p, const PointRange& r) { return p < r.first; });
         return after != ranges_.begin() && i <= (after - 1)->last;
     }
 
@@ -36,7 +37,8 @@ public:
     [[nodiscard]] std::vector<PointIndex> samples(const PointRange& range) const {
         std::vector<PointIndex> points{range.first};
         for (PointIndex i = range.first + 1; i < range.last; ++i) {
-            if ((surface_.positions[i] - surface_.positions[points.back()]).norm() >= sample_way * step_over()) points.push_back(i);
+            if ((surface_.positions[i] - surface_.positions[points.back()]).norm() >= sample_way * step_over())
+                points.push_back(i);
         }
         if (range.last > range.first) points.push_back(range.last);
         return points;
@@ -54,14 +56,16 @@ private:
             for (const Side other : {Side::left, Side::right}) {
                 if (!surface_.neighbours.has(other, clean)) continue;
                 const PointIndex beyond = surface_.neighbours.neighbour(other, clean);
-                const bool goes_on = (surface_.positions[beyond] - surface_.positions[clean]).dot(surface_.positions[clean] - surface_.positions[i]) > 0;
+                const bool goes_on = (surface_.positions[beyond] - surface_.positions[clean])
+                                         .dot(surface_.positions[clean] - surface_.positions[i]) > 0;
                 if (goes_on && holds(beyond)) found.push_back(clean);
             }
         }
     }
 
     void join_near() {
-        std::sort(ranges_.begin(), ranges_.end(), [](const PointRange& a, const PointRange& b) { return a.first < b.first; });
+        std::sort(ranges_.begin(), ranges_.end(),
+                  [](const PointRange& a, const PointRange& b) { return a.first < b.first; });
         std::vector<PointRange> joined;
         for (const PointRange& range : ranges_) {
             if (!joined.empty() && near(joined.back().last, range.first)) {
@@ -74,8 +78,9 @@ private:
     }
 
     [[nodiscard]] bool near(PointIndex end, PointIndex begin) const {
-        return begin <= end || (pass_of(surface_.passes, end) == pass_of(surface_.passes, begin) &&
-                                (surface_.positions[begin] - surface_.positions[end]).norm() < joined_way * step_over());
+        return begin <= end ||
+               (pass_of(surface_.passes, end) == pass_of(surface_.passes, begin) &&
+                (surface_.positions[begin] - surface_.positions[end]).norm() < joined_way * step_over());
     }
 
     const ClSurface& surface_;
@@ -92,7 +97,8 @@ Vec3 border(const ClSurface& surface, PointIndex i, Side side) {
 }
 
 /// The side's pieces beside which the region does not go on.
-void add_side(const Region& region, const ClSurface& surface, const std::vector<PointIndex>& samples, Side side, std::vector<std::vector<Vec3>>& lines) {
+void add_side(const Region& region, const ClSurface& surface, const std::vector<PointIndex>& samples, Side side,
+              std::vector<std::vector<Vec3>>& lines) {
     std::vector<Vec3> piece;
     const auto finish = [&] {
         if (piece.size() > 1) lines.push_back(std::move(piece));

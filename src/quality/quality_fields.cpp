@@ -29,12 +29,15 @@ float largest_beside(const ClSurface& surface, const Signals& signals, PointInde
 
 float speed_mismatch(const ClSurface& surface, const Signals& signals, PointIndex i) {
     const float own = signals[i].speed;
-    return largest_beside(surface, signals, i, [&](const Station& at) { return own - compared_at(signals, at, signals.normal(i)).speed; });
+    return largest_beside(surface, signals, i,
+                          [&](const Station& at) { return own - compared_at(signals, at, signals.normal(i)).speed; });
 }
 
 float acceleration_mismatch(const ClSurface& surface, const Signals& signals, PointIndex i) {
     const Eigen::Vector3f own = signals.acceleration(i);
-    return largest_beside(surface, signals, i, [&](const Station& at) { return (own - compared_at(signals, at, signals.normal(i)).acceleration).norm(); });
+    return largest_beside(surface, signals, i, [&](const Station& at) {
+        return (own - compared_at(signals, at, signals.normal(i)).acceleration).norm();
+    });
 }
 
 float height(const ClSurface&, const Signals& signals, PointIndex i) {
@@ -49,9 +52,19 @@ struct Row {
 
 const std::array<Row, 3>& table() {
     static const std::array<Row, 3> rows{
-        Row{{"speed_mismatch", "Speed against the passes beside it", unit::mm_min, FieldScale::diverging, {}}, &Signals::speed_note, speed_mismatch},
-        Row{{"acceleration_mismatch", "Acceleration against the passes beside it", unit::mm_s2, FieldScale::sequential, {}}, &Signals::acceleration_note, acceleration_mismatch},
-        Row{{"height", "Height over the commanded surface", unit::um, FieldScale::diverging, {}}, &Signals::height_note, height},
+        Row{{"speed_mismatch", "Speed against the passes beside it", unit::mm_min, FieldScale::diverging, {}},
+            &Signals::speed_note,
+            speed_mismatch},
+        Row{{"acceleration_mismatch",
+             "Acceleration against the passes beside it",
+             unit::mm_s2,
+             FieldScale::sequential,
+             {}},
+            &Signals::acceleration_note,
+            acceleration_mismatch},
+        Row{{"height", "Height over the commanded surface", unit::um, FieldScale::diverging, {}},
+            &Signals::height_note,
+            height},
     };
     return rows;
 }
@@ -96,7 +109,9 @@ Field quality_field(std::string_view name, const ClSurface& surface, const Signa
     for (const PointIndex n : with) known += n;
     PointIndex cutting = 0;
     for (const Pass& pass : surface.passes) cutting += pass.kind == PassKind::cut ? pass.size() : 0;
-    field.info.note = fmt::format("{}; {:.1f} % of the cutting points have a value", signals.*row.windows, cutting > 0 ? 100.0 * static_cast<double>(known) / static_cast<double>(cutting) : 0.0);
+    field.info.note =
+        fmt::format("{}; {:.1f} % of the cutting points have a value", signals.*row.windows,
+                    cutting > 0 ? 100.0 * static_cast<double>(known) / static_cast<double>(cutting) : 0.0);
     return field;
 }
 

@@ -7,7 +7,8 @@
 namespace clsurf {
 namespace {
 
-const double alpha = std::sqrt(std::numbers::ln2 / std::numbers::pi);  ///< half of a wave of the cut-off's length goes through
+const double alpha =
+    std::sqrt(std::numbers::ln2 / std::numbers::pi);  ///< half of a wave of the cut-off's length goes through
 constexpr int most_lengths = 5;
 
 }  // namespace

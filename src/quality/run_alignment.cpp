@@ -12,31 +12,36 @@ namespace clsurf {
 namespace {
 
 // Lengths in mm.
-constexpr float off_distance = 0.1F;   ///< the walk may be on the wrong way from here on
-constexpr float lost_distance = 0.5F;  ///< it is
-constexpr float lost_way = 1.0F;       ///< way gone off before the walk counts as lost
-constexpr float near_distance = 0.1F;  ///< a walk must begin this near, and stay so …
-constexpr float proof_way = 5.0F;      ///< … for this way
-constexpr float same_fit = 0.002F;     ///< mean distances that differ less are equal
-constexpr double cell = 0.25;          ///< of the grid in which beginnings are looked for
-constexpr float search_way = 0.1F;     ///< between two searches at first; doubles with each that fails …
+constexpr float off_distance = 0.1F;        ///< the walk may be on the wrong way from here on
+constexpr float lost_distance = 0.5F;       ///< it is
+constexpr float lost_way = 1.0F;            ///< way gone off before the walk counts as lost
+constexpr float near_distance = 0.1F;       ///< a walk must begin this near, and stay so …
+constexpr float proof_way = 5.0F;           ///< … for this way
+constexpr float same_fit = 0.002F;          ///< mean distances that differ less are equal
+constexpr double cell = 0.25;               ///< of the grid in which beginnings are looked for
+constexpr float search_way = 0.1F;          ///< between two searches at first; doubles with each that fails …
 constexpr float longest_search_way = 5.0F;  ///< … up to this
-constexpr float one_place = 1.0F;      ///< points of B with less way between them are one place
-constexpr std::size_t most_places = 32;      ///< where a walk is tried to begin
-constexpr std::int64_t work_per_point = 8;   ///< bound of what is walked more than once
+constexpr float one_place = 1.0F;           ///< points of B with less way between them are one place
+constexpr std::size_t most_places = 32;     ///< where a walk is tried to begin
+constexpr std::int64_t work_per_point = 8;  ///< bound of what is walked more than once
 
 /// A walk that is tried.
 struct Trial {
     Stand begin, stand;
-    float way = 0;     ///< gone near the path
-    double cost = 0;   ///< distance times way; `near_distance` times way where it is off
+    float way = 0;    ///< gone near the path
+    double cost = 0;  ///< distance times way; `near_distance` times way where it is off
     bool alive = true;
 };
 
 class Aligner {
 public:
     Aligner(const Positions& a, const Positions& b)
-        : a_(a), b_(b), shift_((b.origin - a.origin).cast<float>()), path_(b, shift_), trial_steps_(work_per_point * (a.size() + 1000)), rewinds_(work_per_point * a.size()) {}
+        : a_(a),
+          b_(b),
+          shift_((b.origin - a.origin).cast<float>()),
+          path_(b, shift_),
+          trial_steps_(work_per_point * (a.size() + 1000)),
+          rewinds_(work_per_point * a.size()) {}
 
     RunAlignment run() {
         RunAlignment result;
@@ -50,10 +55,10 @@ public:
 
 private:
     void walk(Column<Station>& stations) {
-        PointIndex off_since = -1;   // first point at which the walk is off the path
-        float off_way = 0;           // gone since
+        PointIndex off_since = -1;  // first point at which the walk is off the path
+        float off_way = 0;          // gone since
         float retry_after = lost_way;
-        float to_search = 0;         // way until the next search for a beginning
+        float to_search = 0;  // way until the next search for a beginning
         float search_step = search_way;
         Station last{};
         PointIndex last_point = -1;  // of A, on the path; −1: the walk stands nowhere
@@ -133,7 +138,8 @@ private:
             if (stand.distance <= near_distance) trials.push_back({stand, stand});
             first = last + 1;
         }
-        const auto after = std::find_if(trials.begin(), trials.end(), [&](const Trial& t) { return t.begin.knot >= stand_.knot; });
+        const auto after =
+            std::find_if(trials.begin(), trials.end(), [&](const Trial& t) { return t.begin.knot >= stand_.knot; });
         std::rotate(trials.begin(), after, trials.end());
         if (trials.size() > most_places) trials.resize(most_places);
         return trials;
@@ -153,7 +159,9 @@ private:
         }
         return best;
     }
-    [[nodiscard]] float way_between(std::int64_t knot) const { return (b_[path_.point(knot + 1)] - b_[path_.point(knot)]).norm(); }
+    [[nodiscard]] float way_between(std::int64_t knot) const {
+        return (b_[path_.point(knot + 1)] - b_[path_.point(knot)]).norm();
+    }
 
     /// Puts the walk where it fits best from A's point `i` on. False: nowhere.
     bool begin(PointIndex i) {
@@ -228,9 +236,9 @@ private:
     Stand stand_;
     std::unique_ptr<Way> way_;
     std::unique_ptr<WayGrid> grid_;
-    std::int64_t trial_steps_;  ///< points that several walks at once may still take
+    std::int64_t trial_steps_;        ///< points that several walks at once may still take
     std::vector<PointIndex> begins_;  ///< of A, where a walk began
-    PointIndex rewinds_;        ///< points that may still be walked again
+    PointIndex rewinds_;              ///< points that may still be walked again
 };
 
 }  // namespace

@@ -29,7 +29,8 @@ double aligned(const RunReport& report) { return 100 * report.aligned / report.w
 
 constexpr auto limits = std::to_array<RunBudgetLimit>({
     {"max_speed_difference_percent", &RunBudget::max_speed_difference_percent, speed},
-    {"max_acceleration_difference_mm_s2", &RunBudget::max_acceleration_difference_mm_s2, most<RunQuantity::acceleration>},
+    {"max_acceleration_difference_mm_s2", &RunBudget::max_acceleration_difference_mm_s2,
+     most<RunQuantity::acceleration>},
     {"max_lag_difference_um", &RunBudget::max_lag_difference_um, lag},
     {"max_height_difference_um", &RunBudget::max_height_difference_um, height},
     {"max_time_difference_percent", &RunBudget::max_time_difference_percent, time},
@@ -40,6 +41,8 @@ constexpr auto limits = std::to_array<RunBudgetLimit>({
 
 std::span<const RunBudgetLimit> run_budget_limits() { return limits; }
 
-std::vector<BudgetLine> hold(const RunReport& report, const RunBudget& budget) { return hold(run_budget_limits(), report, budget); }
+std::vector<BudgetLine> hold(const RunReport& report, const RunBudget& budget) {
+    return hold(run_budget_limits(), report, budget);
+}
 
 }  // namespace clsurf

@@ -78,7 +78,8 @@ Vec3 position_between(const Trajectory& path, const Station& at) {
 }
 
 /// How far `b` lies above `a` along A's surface [mm].
-Column<float> heights_of(const Trajectory& a, const Trajectory& b, const RunAlignment& alignment, const ClSurface& surface, const Trajectory& path) {
+Column<float> heights_of(const Trajectory& a, const Trajectory& b, const RunAlignment& alignment,
+                         const ClSurface& surface, const Trajectory& path) {
     Column<float> heights(static_cast<std::size_t>(a.count));
     for_each_block(a.count, [&](PointIndex first, PointIndex last) {
         for (PointIndex i = first; i < last; ++i) {
@@ -88,7 +89,8 @@ Column<float> heights_of(const Trajectory& a, const Trajectory& b, const RunAlig
             if (!at.exists()) continue;
             const Vec3 feed = feed_at(path, i);
             if (!feed.allFinite()) continue;
-            height = static_cast<float>((position_between(b, at) - a.at(i)).dot(normal_at(surface, i, feed.cast<float>()).cast<double>()));
+            height = static_cast<float>(
+                (position_between(b, at) - a.at(i)).dot(normal_at(surface, i, feed.cast<float>()).cast<double>()));
         }
     });
     return heights;
@@ -217,7 +219,8 @@ RunDifferences compare_runs(const Run& a, const ClSurface& surface, const Run& b
         lag = lags_of(a);
         subtract(lags_of(b), out.alignment, lag);
         smooth(lag, out.alignment.stretches, window);
-        for (const Run* run : {&a, &b}) lag_quantum = std::max({lag_quantum, quantum_of(*run->commanded), quantum_of(*run->measured)});
+        for (const Run* run : {&a, &b})
+            lag_quantum = std::max({lag_quantum, quantum_of(*run->commanded), quantum_of(*run->measured)});
     }
     const bool measured = a.truest && b.truest;
     const Trajectory& height_a = measured ? *a.truest : a.path;
@@ -234,7 +237,8 @@ RunDifferences compare_runs(const Run& a, const ClSurface& surface, const Run& b
     const float height_quantum = std::max(quantum_of(height_a), quantum_of(height_b));
     out.speed_play = rules.period * static_cast<float>(std::max(a.log->period, b.log->period)) * out.usual_acceleration;
     out.threshold = {rules.speed * out.usual_speed + out.speed_play, rules.acceleration * out.usual_acceleration,
-                     std::max(rules.height, rules.lag_quanta * lag_quantum), std::max(rules.height, rules.height_quanta * height_quantum)};
+                     std::max(rules.height, rules.lag_quanta * lag_quantum),
+                     std::max(rules.height, rules.height_quanta * height_quantum)};
     leave_out_rapids(surface.passes, out);
     return out;
 }

@@ -36,9 +36,9 @@ struct RunQuantityInfo {
 /// A run as it is compared.
 struct Run {
     const Log* log = nullptr;
-    Trajectory path;                       ///< runs are laid onto each other by it
+    Trajectory path;                                ///< runs are laid onto each other by it
     std::optional<Trajectory> commanded, measured;  ///< both: lags are compared
-    std::optional<Trajectory> truest;      ///< heights are compared along it; none: along `path`
+    std::optional<Trajectory> truest;               ///< heights are compared along it; none: along `path`
 };
 
 struct RunThresholds {
@@ -53,8 +53,9 @@ struct RunThresholds {
 
 struct RunDifferences {
     RunAlignment alignment;
-    std::array<Column<float>, run_quantities> of;  ///< per point of A, inside units; NaN: not compared; empty: not known
-    std::array<float, run_quantities> threshold{}; ///< above which a place differs; of the speed: at usual speed
+    std::array<Column<float>, run_quantities>
+        of;  ///< per point of A, inside units; NaN: not compared; empty: not known
+    std::array<float, run_quantities> threshold{};  ///< above which a place differs; of the speed: at usual speed
     RunThresholds rules;
     float usual_speed = 0;         ///< [mm/s] 95th percentile of A where it cuts
     float usual_acceleration = 0;  ///< [mm/s²] 99th percentile
@@ -70,6 +71,7 @@ struct RunDifferences {
 
 /// `surface` is stitched from A's path. Points of rapids are not compared. Windows of derivatives are
 /// those of the coarser period; lags and heights are means over 15 ms. O(points of both).
-[[nodiscard]] RunDifferences compare_runs(const Run& a, const ClSurface& surface, const Run& b, const RunThresholds& rules = {});
+[[nodiscard]] RunDifferences compare_runs(const Run& a, const ClSurface& surface, const Run& b,
+                                          const RunThresholds& rules = {});
 
 }  // namespace clsurf

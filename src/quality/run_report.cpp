@@ -28,7 +28,8 @@ void keep_worst(std::vector<RunDifferenceStretch>& stretches) {
 
 class Reporter {
 public:
-    Reporter(const Run& a, const ClSurface& surface, const LineMap* lines, const Run& b, const RunDifferences& differences)
+    Reporter(const Run& a, const ClSurface& surface, const LineMap* lines, const Run& b,
+             const RunDifferences& differences)
         : a_(a), b_(b), lines_(lines), differences_(differences), way_(surface.positions) {}
 
     [[nodiscard]] RunQuantitySummary summarise(RunQuantity q) const {
@@ -48,7 +49,9 @@ public:
                 const double step = i < stretch.last ? way_.step(i) : 0;
                 summary.lowest = std::min<double>(summary.lowest, value);
                 summary.highest = std::max<double>(summary.highest, value);
-                if (q == RunQuantity::speed) summary.relative_most = std::max<double>(summary.relative_most, std::abs(value) / differences_.speed_base(i));
+                if (q == RunQuantity::speed)
+                    summary.relative_most =
+                        std::max<double>(summary.relative_most, std::abs(value) / differences_.speed_base(i));
                 if (std::abs(value) > differences_.threshold_at(q, i)) summary.over += step;
                 summary.way += step;
                 sum += step * value;
@@ -84,7 +87,8 @@ public:
             if (!(std::abs(value) > differences_.threshold_at(q, i))) return 0;
             return value > 0 ? 1 : -1;
         };
-        const PointIndex least = std::max<PointIndex>(least_points, std::lround(std::min(least_seconds / a_.log->period, 1e6)));
+        const PointIndex least =
+            std::max<PointIndex>(least_points, std::lround(std::min(least_seconds / a_.log->period, 1e6)));
         for (const PointRange& stretch : differences_.alignment.stretches) {
             PointRange open;
             int sign = 0;
@@ -127,14 +131,17 @@ private:
         const double time = b_.log->time_of(at.point);
         return at.fraction > 0 ? time + at.fraction * (b_.log->time_of(at.point + 1) - time) : time;
     }
-    [[nodiscard]] double time_of_b(const PointRange& points) const { return time_at_b(points.last) - time_at_b(points.first); }
+    [[nodiscard]] double time_of_b(const PointRange& points) const {
+        return time_at_b(points.last) - time_at_b(points.first);
+    }
 
     [[nodiscard]] RunDifferenceStretch measure(RunQuantity q, const PointRange& points) const {
         RunDifferenceStretch d;
         d.quantity = q;
         d.points = points;
         const auto& stations = differences_.alignment.stations;
-        d.points_of_b = {stations[static_cast<std::size_t>(points.first)].nearest(), stations[static_cast<std::size_t>(points.last)].nearest()};
+        d.points_of_b = {stations[static_cast<std::size_t>(points.first)].nearest(),
+                         stations[static_cast<std::size_t>(points.last)].nearest()};
         const Column<float>& values = differences_.of[index_of(q)];
         double weights = 0;
         for (PointIndex i = points.first; i <= points.last; ++i) {
@@ -176,11 +183,13 @@ private:
 }  // namespace
 
 const RunQuantitySummary* RunReport::find(RunQuantity q) const {
-    const auto at = std::find_if(quantities.begin(), quantities.end(), [&](const RunQuantitySummary& s) { return s.quantity == q; });
+    const auto at = std::find_if(quantities.begin(), quantities.end(),
+                                 [&](const RunQuantitySummary& s) { return s.quantity == q; });
     return at == quantities.end() ? nullptr : &*at;
 }
 
-RunReport report_run(const Run& a, const ClSurface& surface, const LineMap* lines, const Run& b, const RunDifferences& differences) {
+RunReport report_run(const Run& a, const ClSurface& surface, const LineMap* lines, const Run& b,
+                     const RunDifferences& differences) {
     RunReport report;
     report.aligned = differences.alignment.aligned;
     report.way = differences.alignment.way;

@@ -7,10 +7,12 @@ namespace clsurf {
 
 double scallop_height(double ball, double step_over, double rho) {
     if (!(ball > 0) || !(step_over >= 0)) throw std::domain_error("a ball and a step-over are positive");
-    if (step_over >= 2 * ball) throw std::domain_error("the passes do not meet: the step-over is the ball's diameter or more");
+    if (step_over >= 2 * ball)
+        throw std::domain_error("the passes do not meet: the step-over is the ball's diameter or more");
     if (std::isinf(rho)) return ball - std::sqrt(ball * ball - 0.25 * step_over * step_over);
     const double radius = std::abs(rho);
-    if (!(radius > 0) || step_over >= 2 * radius) throw std::domain_error("the step-over is wider than the surface is round");
+    if (!(radius > 0) || step_over >= 2 * radius)
+        throw std::domain_error("the step-over is wider than the surface is round");
     const double sine = step_over / (2 * radius);
     const double cosine = std::sqrt(1 - sine * sine);
     if (rho > 0) {

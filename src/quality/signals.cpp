@@ -17,19 +17,19 @@ namespace clsurf {
 namespace {
 
 constexpr float none = std::numeric_limits<float>::quiet_NaN();
-constexpr double speed_seconds = 0.010;    ///< longest window: an oscillation of 20 ms keeps four fifths of its height …
-constexpr double speed_way = 0.4;          ///< [mm] … and of fast passes one of 0.8 mm, since marks are seen by their length
+constexpr double speed_seconds = 0.010;  ///< longest window: an oscillation of 20 ms keeps four fifths of its height …
+constexpr double speed_way = 0.4;  ///< [mm] … and of fast passes one of 0.8 mm, since marks are seen by their length
 constexpr double height_seconds = 0.015;   ///< window of the mean that heights are smoothed with
 constexpr PointIndex relief_every = 3;     ///< points: normals and reliefs are those of every third
 constexpr double longest_lag = 0.1;        ///< [s] that the measured position may come after the commanded one
 constexpr PointIndex shortest_reach = 64;  ///< points
 constexpr PointIndex longest_reach = 4096;
-constexpr PointIndex lead = 16;            ///< points that it may come before: logs that were put together
-constexpr float farthest_lag = 2.0F;       ///< step-overs; farther, the paths have nothing to do with each other
-constexpr double longest_ramp = 20.0;      ///< [mm] 100 mm/s are reached over 17 mm at 300 mm/s²
-constexpr double rise_seconds = 0.005;     ///< in which the speed of a ramp rises …
-constexpr float least_rise = 0.005F;       ///< … by this share at least
-constexpr float slowest = 1e-3F;           ///< [mm/s]; slower, the feed has no direction
+constexpr PointIndex lead = 16;         ///< points that it may come before: logs that were put together
+constexpr float farthest_lag = 2.0F;    ///< step-overs; farther, the paths have nothing to do with each other
+constexpr double longest_ramp = 20.0;   ///< [mm] 100 mm/s are reached over 17 mm at 300 mm/s²
+constexpr double rise_seconds = 0.005;  ///< in which the speed of a ramp rises …
+constexpr float least_rise = 0.005F;    ///< … by this share at least
+constexpr float slowest = 1e-3F;        ///< [mm/s]; slower, the feed has no direction
 
 int window_points(double seconds, double period, int least) {
     return std::max(least, static_cast<int>(std::lround(std::min(seconds / period, 2000.0))) | 1);
@@ -90,7 +90,8 @@ void for_each_stretch(PointIndex count, const std::vector<PointRange>& pieces, F
 
 class Deriver {
 public:
-    Deriver(const ClSurface& surface, const Trajectory& path, const Trajectory* measured, double usual_speed, Signals& out)
+    Deriver(const ClSurface& surface, const Trajectory& path, const Trajectory* measured, double usual_speed,
+            Signals& out)
         : surface_(surface),
           path_(path),
           measured_(measured),
@@ -98,10 +99,13 @@ public:
           speed_({window_points(std::min(speed_seconds, speed_way / usual_speed), path.period, 5), 2, 1, path.period}),
           acceleration_(derivative_filter(2, path.period)),
           smoother_(window_points(height_seconds, path.period, 1)),
-          reach_(std::clamp(static_cast<PointIndex>(std::lround(std::min(longest_lag / path.period, 1e6))), shortest_reach, longest_reach)) {}
+          reach_(std::clamp(static_cast<PointIndex>(std::lround(std::min(longest_lag / path.period, 1e6))),
+                            shortest_reach, longest_reach)) {}
 
     void note_windows(Signals& signals) const {
-        const auto note = [&](std::string_view what, int points) { return fmt::format("{} over {} points ({:.3g} ms)", what, points, 1e3 * points * path_.period); };
+        const auto note = [&](std::string_view what, int points) {
+            return fmt::format("{} over {} points ({:.3g} ms)", what, points, 1e3 * points * path_.period);
+        };
         signals.speed_note = note("speed", speed_.filter().points);
         signals.acceleration_note = note("acceleration", acceleration_.filter().points);
         signals.height_note = note("heights", static_cast<int>(2 * smoother_.reach() + 1));
@@ -150,8 +154,10 @@ public:
                 // Between two of them the normal hardly turns.
                 relief[k] = none;
                 const PointIndex before = std::max(piece.first, i - i % relief_every);
-                if (before >= from) normals[k] = normals[static_cast<std::size_t>(before - from)];
-                else (void)measure_relief(before, normals[k]);
+                if (before >= from)
+                    normals[k] = normals[static_cast<std::size_t>(before - from)];
+                else
+                    (void)measure_relief(before, normals[k]);
             }
             if (i >= first && i <= last) Eigen::Map<Eigen::Vector3f>(out_[i].normal) = normals[k];
         }
@@ -188,7 +194,8 @@ private:
         return (here - b - share * across).dot(normal);
     }
 
-    void measure_lag(PointIndex from, PointIndex to, const std::vector<Eigen::Vector3f>& normals, std::vector<float>& lag) const {
+    void measure_lag(PointIndex from, PointIndex to, const std::vector<Eigen::Vector3f>& normals,
+                     std::vector<float>& lag) const {
         const PointIndex begin = std::max<PointIndex>(0, from - lead - 1);
         const PointIndex end = std::min(path_.count - 1, to + reach_);
         Axes commanded;
@@ -258,7 +265,8 @@ float quantum_of_axes(const Trajectory& role) {
 }
 
 /// The zones at one end of a piece, walked from `end` inwards in `direction`.
-void mark_end(PointIndex end, PointIndex count, int direction, double end_zone, PointIndex stride, const Way& way, Signals& signals) {
+void mark_end(PointIndex end, PointIndex count, int direction, double end_zone, PointIndex stride, const Way& way,
+              Signals& signals) {
     double gone = 0;
     float before = 0;
     bool ramp = true;
@@ -266,9 +274,12 @@ void mark_end(PointIndex end, PointIndex count, int direction, double end_zone, 
         const PointIndex i = end + direction * k;
         Sample& sample = signals[i];
         ramp = ramp && gone < end_zone + longest_ramp;
-        if (gone < end_zone) sample.zone = Zone::outside;
-        else if (gone > 2 * end_zone + longest_ramp) return;
-        else if (sample.zone != Zone::outside) sample.zone = std::min(sample.zone, ramp ? Zone::ramp : Zone::near_end);
+        if (gone < end_zone)
+            sample.zone = Zone::outside;
+        else if (gone > 2 * end_zone + longest_ramp)
+            return;
+        else if (sample.zone != Zone::outside)
+            sample.zone = std::min(sample.zone, ramp ? Zone::ramp : Zone::near_end);
         if (k % stride == 0) {
             const float speed = sample.speed;
             if (gone >= end_zone && !(speed > (1 + least_rise) * before)) ramp = false;
@@ -279,7 +290,8 @@ void mark_end(PointIndex end, PointIndex count, int direction, double end_zone, 
 }
 
 /// Marks what may be compared with what.
-void mark_zones(const ClSurface& surface, const std::vector<PointRange>& pieces, double end_zone, double period, Signals& signals) {
+void mark_zones(const ClSurface& surface, const std::vector<PointRange>& pieces, double end_zone, double period,
+                Signals& signals) {
     const Way way(surface.positions);
     for (const Pass& pass : surface.passes) {
         const Zone zone = pass.kind == PassKind::cut ? Zone::inner : Zone::outside;
@@ -306,7 +318,8 @@ Signals derive_signals(const ClSurface& surface, const Trajectory& path, const T
     // Where loops are joined the speed sideways is not that of the pass.
     std::vector<PointRange> pieces;
     JogCutter cutter(surface.jogs);
-    for (const PointRange& piece : smooth) cutter.cut(piece, [&](const PointRange& part, bool) { pieces.push_back(part); });
+    for (const PointRange& piece : smooth)
+        cutter.cut(piece, [&](const PointRange& part, bool) { pieces.push_back(part); });
     signals.samples.resize(static_cast<std::size_t>(path.count));
     signals.measured = measured != nullptr;
     for (const Trajectory* role : {&path, measured}) {
@@ -314,9 +327,13 @@ Signals derive_signals(const ClSurface& surface, const Trajectory& path, const T
     }
     const Deriver deriver(surface, path, measured, usual_speed_of(surface, path.period), signals);
     deriver.note_windows(signals);
-    for_each_stretch(path.count, pieces, [&](PointRange piece, PointIndex first, PointIndex last) { deriver.derive_motion(piece, first, last); });
+    for_each_stretch(path.count, pieces, [&](PointRange piece, PointIndex first, PointIndex last) {
+        deriver.derive_motion(piece, first, last);
+    });
     mark_zones(surface, pieces, end_zone, path.period, signals);
-    for_each_stretch(path.count, pieces, [&](PointRange piece, PointIndex first, PointIndex last) { deriver.derive_heights(piece, first, last); });
+    for_each_stretch(path.count, pieces, [&](PointRange piece, PointIndex first, PointIndex last) {
+        deriver.derive_heights(piece, first, last);
+    });
     return signals;
 }
 

@@ -23,16 +23,18 @@ enum class Zone : std::uint8_t {
 /// What is known of a point, side by side: whoever compares passes looks at all of it at once, on a
 /// dozen passes at a time, and pays for every cache line.
 struct Sample {
-    float speed;            ///< [mm/s] of the surface's own positions
-    float lag;              ///< [mm] how far the measured path runs above (+) the commanded one, along the normal; NaN: none
-    float relief;           ///< [mm] how far the point lies above the chord between its neighbours, along the normal
+    float speed;   ///< [mm/s] of the surface's own positions
+    float lag;     ///< [mm] how far the measured path runs above (+) the commanded one, along the normal; NaN: none
+    float relief;  ///< [mm] how far the point lies above the chord between its neighbours, along the normal
     float acceleration[3];  ///< [mm/s²]
     float feed[3];          ///< unit vector; NaN where the tool stands
     float normal[3];        ///< unit vector of the CL surface, feed × (left − right); NaN: no neighbour
     Zone zone;
 };
 
-[[nodiscard]] inline Eigen::Map<const Eigen::Vector3f> vector_of(const float (&v)[3]) { return Eigen::Map<const Eigen::Vector3f>(v); }
+[[nodiscard]] inline Eigen::Map<const Eigen::Vector3f> vector_of(const float (&v)[3]) {
+    return Eigen::Map<const Eigen::Vector3f>(v);
+}
 
 struct Signals {
     Column<Sample> samples;  ///< one per point
@@ -44,7 +46,9 @@ struct Signals {
     [[nodiscard]] const Sample& operator[](PointIndex i) const { return samples[static_cast<std::size_t>(i)]; }
     [[nodiscard]] Sample& operator[](PointIndex i) { return samples[static_cast<std::size_t>(i)]; }
     [[nodiscard]] Eigen::Map<const Eigen::Vector3f> feed(PointIndex i) const { return vector_of((*this)[i].feed); }
-    [[nodiscard]] Eigen::Map<const Eigen::Vector3f> acceleration(PointIndex i) const { return vector_of((*this)[i].acceleration); }
+    [[nodiscard]] Eigen::Map<const Eigen::Vector3f> acceleration(PointIndex i) const {
+        return vector_of((*this)[i].acceleration);
+    }
     [[nodiscard]] Eigen::Map<const Eigen::Vector3f> normal(PointIndex i) const { return vector_of((*this)[i].normal); }
 };
 
@@ -58,8 +62,7 @@ struct Signals {
 ///
 /// The lag is where the measured path crosses the plane through the commanded point normal to the
 /// feed: a lag *along* the path, which says nothing about the surface, drops out.
-[[nodiscard]] Signals derive_signals(const ClSurface& surface, const Trajectory& path,
-                                     const Trajectory* measured, const std::vector<PointRange>& pieces,
-                                     double end_zone);
+[[nodiscard]] Signals derive_signals(const ClSurface& surface, const Trajectory& path, const Trajectory* measured,
+                                     const std::vector<PointRange>& pieces, double end_zone);
 
 }  // namespace clsurf

@@ -11,15 +11,15 @@
 namespace clsurf {
 namespace {
 
-constexpr float steepest = 1.5F;      ///< step-overs along the feed per pass: an edge at 34° to the feed
+constexpr float steepest = 1.5F;        ///< step-overs along the feed per pass: an edge at 34° to the feed
 constexpr float sampled_every = 0.25F;  ///< step-overs
-constexpr int tries = 24;             ///< slants on either side of the straight one …
-constexpr int halvings = 3;           ///< … and how often their distance is halved round the best
-constexpr int most_passes = 3;        ///< on either side
+constexpr int tries = 24;               ///< slants on either side of the straight one …
+constexpr int halvings = 3;             ///< … and how often their distance is halved round the best
+constexpr int most_passes = 3;          ///< on either side
 constexpr std::size_t fewest = 4;
 constexpr float corner_cosine = 0.906F;  ///< cos 25°
 constexpr float same_speed = 0.01F;      ///< of the speed: nothing that moves on from pass to pass
-constexpr float clearly_better = 0.5F;  ///< share of the disagreement straight across
+constexpr float clearly_better = 0.5F;   ///< share of the disagreement straight across
 constexpr float none = std::numeric_limits<float>::quiet_NaN();
 
 /// A pass round its station: speeds at even distances along the feed of the point that is looked at.
@@ -30,7 +30,8 @@ public:
         const float reach = steepest * static_cast<float>(std::abs(place.passes) * surface.step_over);
         const auto samples = static_cast<std::size_t>(std::ceil(reach / spacing_)) + 1;
         const bool along = signals.feed(place.at.nearest()).dot(feed) > 0;
-        for (const bool onwards : {true, false}) walk(surface.positions, signals, place.at, along == onwards ? 1 : -1, samples, stations_[onwards ? 1 : 0]);
+        for (const bool onwards : {true, false})
+            walk(surface.positions, signals, place.at, along == onwards ? 1 : -1, samples, stations_[onwards ? 1 : 0]);
     }
 
     [[nodiscard]] int passes() const { return passes_; }
@@ -59,10 +60,15 @@ public:
             for (const Station& at : side) {
                 const Compared there = compared_at(signals, at, normal);
                 // Between two stations it goes through all that lies between.
-                const auto passes_through = [&](float Compared::*value) { return std::clamp(own.*value, std::min(before.*value, there.*value), std::max(before.*value, there.*value)); };
+                const auto passes_through = [&](float Compared::*value) {
+                    return std::clamp(own.*value, std::min(before.*value, there.*value),
+                                      std::max(before.*value, there.*value));
+                };
                 take(result.speed, passes_through(&Compared::speed), own.speed);
                 take(result.relief, passes_through(&Compared::relief), own.relief);
-                if ((there.acceleration - own.acceleration).squaredNorm() < (result.acceleration - own.acceleration).squaredNorm()) result.acceleration = there.acceleration;
+                if ((there.acceleration - own.acceleration).squaredNorm() <
+                    (result.acceleration - own.acceleration).squaredNorm())
+                    result.acceleration = there.acceleration;
                 before = there;
             }
         }
@@ -76,7 +82,8 @@ private:
     }
 
     /// Stations `spacing_` apart from one on, as long as the pass is judged.
-    void walk(const Positions& p, const Signals& signals, const Station& from, int direction, std::size_t samples, std::vector<Station>& out) const {
+    void walk(const Positions& p, const Signals& signals, const Station& from, int direction, std::size_t samples,
+              std::vector<Station>& out) const {
         out.push_back(from);
         PointIndex next = direction > 0 ? from.point + 1 : from.fraction > 0 ? from.point : from.point - 1;
         Eigen::Vector3f here = position_at(p, from);
@@ -135,13 +142,15 @@ bool turns(const ClSurface& surface, const Signals& signals, PointIndex point, c
     const Eigen::Vector3f here = along_surface(point);
     for (const PointIndex step : {-1, 1}) {
         float way = 0, looked = 0;
-        for (PointIndex i = point + step; i >= 0 && i < p.size() && signals[i].zone != Zone::outside && way < steepest * step_over; i += step) {
+        for (PointIndex i = point + step;
+             i >= 0 && i < p.size() && signals[i].zone != Zone::outside && way < steepest * step_over; i += step) {
             way += (p[i] - p[i - step]).norm();
             if (way < looked) continue;
             looked = way + sampled_every * step_over;
             const Eigen::Vector3f there = along_surface(i);
             const float dot = there.dot(here);
-            if (dot < 0 || dot * dot < corner_cosine * corner_cosine * there.squaredNorm() * here.squaredNorm()) return true;
+            if (dot < 0 || dot * dot < corner_cosine * corner_cosine * there.squaredNorm() * here.squaredNorm())
+                return true;
         }
     }
     return false;
@@ -149,8 +158,11 @@ bool turns(const ClSurface& surface, const Signals& signals, PointIndex point, c
 
 /// Straight across the feed the passes hardly differ.
 bool agree_straight(const Signals& signals, std::span<const Beside> places) {
-    const auto [low, high] = std::minmax_element(places.begin(), places.end(), [&](const Beside& a, const Beside& b) { return signals[a.at.nearest()].speed < signals[b.at.nearest()].speed; });
-    return signals[high->at.nearest()].speed - signals[low->at.nearest()].speed < same_speed * signals[high->at.nearest()].speed;
+    const auto [low, high] = std::minmax_element(places.begin(), places.end(), [&](const Beside& a, const Beside& b) {
+        return signals[a.at.nearest()].speed < signals[b.at.nearest()].speed;
+    });
+    return signals[high->at.nearest()].speed - signals[low->at.nearest()].speed <
+           same_speed * signals[high->at.nearest()].speed;
 }
 
 /// The passes' medians, and the steps to those next to the point. `value(profile)`: what a pass does.
@@ -168,13 +180,15 @@ AlongSlant summarise(const Compared& own, std::span<const Profile> profiles, F&&
     const std::span<const Compared> there(places.data(), profiles.size());
     result.speed = median_of(there, 1, [](const Compared& c) { return c.speed; });
     result.relief = median_of(there, 1, [](const Compared& c) { return c.relief; });
-    for (Eigen::Index axis = 0; axis < 3; ++axis) result.acceleration[axis] = median_of(there, 1, [axis](const Compared& c) { return c.acceleration[axis]; });
+    for (Eigen::Index axis = 0; axis < 3; ++axis)
+        result.acceleration[axis] = median_of(there, 1, [axis](const Compared& c) { return c.acceleration[axis]; });
     return result;
 }
 
 }  // namespace
 
-std::optional<AlongSlant> along_slant(const ClSurface& surface, const Signals& signals, PointIndex point, std::span<const Beside> places) {
+std::optional<AlongSlant> along_slant(const ClSurface& surface, const Signals& signals, PointIndex point,
+                                      std::span<const Beside> places) {
     if (places.empty()) return std::nullopt;
     const Eigen::Vector3f feed = signals.feed(point);
     const Eigen::Vector3f normal = signals.normal(point);
@@ -186,7 +200,8 @@ std::optional<AlongSlant> along_slant(const ClSurface& surface, const Signals& s
     for (const Beside& place : places) profiles.emplace_back(surface, signals, place, feed);
     if (corner) {
         // In a corner passes agree on no straight slant: across it some are on the straight, some in the bend.
-        AlongSlant result = summarise(own, profiles, [&](const Profile& profile) { return profile.nearest(signals, own, normal); });
+        AlongSlant result =
+            summarise(own, profiles, [&](const Profile& profile) { return profile.nearest(signals, own, normal); });
         result.corner = true;
         return result;
     }
@@ -209,7 +224,9 @@ std::optional<AlongSlant> along_slant(const ClSurface& surface, const Signals& s
     }
     if (!(best.disagreement < clearly_better * straight.disagreement)) return std::nullopt;
 
-    return summarise(own, profiles, [&](const Profile& profile) { return compared_at(signals, profile.at(slant * static_cast<float>(profile.passes())), normal); });
+    return summarise(own, profiles, [&](const Profile& profile) {
+        return compared_at(signals, profile.at(slant * static_cast<float>(profile.passes())), normal);
+    });
 }
 
 }  // namespace clsurf

@@ -23,7 +23,7 @@ struct Beside {
 
 /// Motion and relief of the passes round a point, where the slant meets them.
 struct AlongSlant {
-    float speed = 0;  ///< [mm/s] median of the passes
+    float speed = 0;               ///< [mm/s] median of the passes
     Eigen::Vector3f acceleration;  ///< median by component
     bool corner = false;           ///< the path turns there
     float relief = 0;              ///< [mm] the same, counted along the point's normal; NaN: not known
@@ -36,6 +36,7 @@ struct AlongSlant {
 /// the path turns on the surface by more than 25° within 1.5 step-overs: of each pass what is nearest to the point's
 /// own motion within 1.5 step-overs per pass.
 /// `places`: up to three on either side. O(points within some five step-overs of way).
-[[nodiscard]] std::optional<AlongSlant> along_slant(const ClSurface& surface, const Signals& signals, PointIndex point, std::span<const Beside> places);
+[[nodiscard]] std::optional<AlongSlant> along_slant(const ClSurface& surface, const Signals& signals, PointIndex point,
+                                                    std::span<const Beside> places);
 
 }  // namespace clsurf

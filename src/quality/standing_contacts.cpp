@@ -18,7 +18,8 @@ constexpr double rounding = 1e-9;  ///< [mm] of distances
 class SquareGrid {
 public:
     /// Of contact points whose tips lie no farther than `radius` from them, at least `least` mm a square.
-    SquareGrid(const std::vector<ContactPoint>& found, const Box2& region, double radius, double least) : square_(std::max(least, radius / tips_aside)), radius_(radius) {
+    SquareGrid(const std::vector<ContactPoint>& found, const Box2& region, double radius, double least)
+        : square_(std::max(least, radius / tips_aside)), radius_(radius) {
         Box2 all = region;
         for (const ContactPoint& contact : found) all.extend(Vec2(contact.tip.head<2>()));
         corner_ = all.min();
@@ -54,16 +55,21 @@ public:
         const std::int64_t last_row = std::min(rows_ - 1, row_of(box.max().y() + radius_));
         const std::int64_t last_column = std::min(columns_ - 1, column_of(box.max().x() + radius_));
         for (std::int64_t r = std::max<std::int64_t>(0, row_of(box.min().y() - radius_)); r <= last_row; ++r) {
-            for (std::int64_t c = std::max<std::int64_t>(0, column_of(box.min().x() - radius_)); c <= last_column; ++c) {
+            for (std::int64_t c = std::max<std::int64_t>(0, column_of(box.min().x() - radius_)); c <= last_column;
+                 ++c) {
                 f(lowest_[static_cast<std::size_t>(r * columns_ + c)]);
             }
         }
     }
 
 private:
-    [[nodiscard]] std::int64_t column_of(double x) const { return static_cast<std::int64_t>((x - corner_.x()) / square_); }
+    [[nodiscard]] std::int64_t column_of(double x) const {
+        return static_cast<std::int64_t>((x - corner_.x()) / square_);
+    }
     [[nodiscard]] std::int64_t row_of(double y) const { return static_cast<std::int64_t>((y - corner_.y()) / square_); }
-    [[nodiscard]] std::size_t square_of(const Vec3& at) const { return static_cast<std::size_t>(row_of(at.y()) * columns_ + column_of(at.x())); }
+    [[nodiscard]] std::size_t square_of(const Vec3& at) const {
+        return static_cast<std::size_t>(row_of(at.y()) * columns_ + column_of(at.x()));
+    }
 
     double square_, radius_;
     Vec2 corner_ = Vec2::Zero();
@@ -103,11 +109,17 @@ std::vector<Vec3> standing_contacts(const FormedSurface& formed, const Box2& reg
             tips.clear();
             grid.for_each_tip_near(extent.box, [&](const Vec3& tip) {
                 const double room_above = extent.highest - tip.z() - cut_away;
-                if (room_above > 0 && outline_height(tool, std::max(0.0, extent.box.exteriorDistance(Vec2(tip.head<2>())) - rounding)) < room_above) tips.push_back(tip);
+                if (room_above > 0 &&
+                    outline_height(tool, std::max(0.0, extent.box.exteriorDistance(Vec2(tip.head<2>())) - rounding)) <
+                        room_above)
+                    tips.push_back(tip);
             });
             for (const std::uint32_t k : places) {
                 const Vec3& at = found[k].at;
-                keep[k] = std::none_of(tips.begin(), tips.end(), [&](const Vec3& tip) { return depth_inside(tool, at - tip) > cut_away; }) ? 1 : 0;
+                keep[k] = std::none_of(tips.begin(), tips.end(),
+                                       [&](const Vec3& tip) { return depth_inside(tool, at - tip) > cut_away; })
+                              ? 1
+                              : 0;
             }
         }
     });

@@ -14,10 +14,10 @@ namespace {
 constexpr double site_seconds = 0.005;  ///< between sites at most, and less on fast passes:
 constexpr double site_length = 0.25;    ///< [mm] marks are seen by their length
 constexpr float site_way = 0.1F;        ///< step-overs
-constexpr int fewest_alike = 2;         ///< passes of the same way on each side, where two ways cannot be told from a fault
-constexpr float suspect_share = 0.5F;   ///< of a threshold
-constexpr double joined_along = 1.0;    ///< [mm] of way between suspects of one pass, or two step-overs
-constexpr float joined_beside = 1.0F;   ///< step-overs along the feed between suspects of two passes
+constexpr int fewest_alike = 2;  ///< passes of the same way on each side, where two ways cannot be told from a fault
+constexpr float suspect_share = 0.5F;  ///< of a threshold
+constexpr double joined_along = 1.0;   ///< [mm] of way between suspects of one pass, or two step-overs
+constexpr float joined_beside = 1.0F;  ///< step-overs along the feed between suspects of two passes
 
 /// How far residual and step pass the thresholds, together.
 void measure(Suspect& suspect, const Thresholds& thresholds) {
@@ -25,7 +25,8 @@ void measure(Suspect& suspect, const Thresholds& thresholds) {
     suspect.score.fill(0);
     for (std::size_t q = 0; q < quantities; ++q) {
         const Comparison& c = suspect.comparison;
-        const float share = std::max(std::abs(c.residual[q]) - c.slack[q], 0.0F) / thresholds.of[q];  // NaN stays NaN in this order
+        const float share =
+            std::max(std::abs(c.residual[q]) - c.slack[q], 0.0F) / thresholds.of[q];  // NaN stays NaN in this order
         if (!(share == share)) continue;
         suspect.share[q] = share;
         const float step = (c.step[q] - c.play[q] - c.slack[q]) / thresholds.of[q];
@@ -79,13 +80,15 @@ std::size_t lower_bound_near(const std::vector<PointIndex>& points, std::size_t 
         high = std::min(high + step, points.size());
     }
     const auto begin = points.begin() + static_cast<std::ptrdiff_t>(low);
-    return static_cast<std::size_t>(std::lower_bound(begin, points.begin() + static_cast<std::ptrdiff_t>(high), point) - points.begin());
+    return static_cast<std::size_t>(std::lower_bound(begin, points.begin() + static_cast<std::ptrdiff_t>(high), point) -
+                                    points.begin());
 }
 
 }  // namespace
 
 std::size_t pass_of(const Passes& passes, PointIndex point) {
-    const auto after = std::upper_bound(passes.begin(), passes.end(), point, [](PointIndex p, const Pass& pass) { return p < pass.first; });
+    const auto after = std::upper_bound(passes.begin(), passes.end(), point,
+                                        [](PointIndex p, const Pass& pass) { return p < pass.first; });
     return static_cast<std::size_t>(after - passes.begin()) - 1;
 }
 
@@ -95,7 +98,9 @@ PointIndex count_compared(const ClSurface& surface, const Signals& signals) {
     for_each_block(count, [&](PointIndex first, PointIndex last) {
         PointIndex& mine = of_block[static_cast<std::size_t>(first / block_points)];
         for (PointIndex i = first; i < last; ++i) {
-            if (signals[i].zone != Zone::outside && surface.neighbours.has(Side::left, i) && surface.neighbours.has(Side::right, i)) ++mine;
+            if (signals[i].zone != Zone::outside && surface.neighbours.has(Side::left, i) &&
+                surface.neighbours.has(Side::right, i))
+                ++mine;
         }
     });
     return std::accumulate(of_block.begin(), of_block.end(), PointIndex{0});
@@ -137,7 +142,8 @@ private:
     [[nodiscard]] std::vector<PointIndex> sites_with_step() const {
         const PointIndex count = signals_.size();
         const auto least_way = site_way * static_cast<float>(surface_.step_over);
-        std::vector<std::vector<PointIndex>> of_block(static_cast<std::size_t>((count + block_points - 1) / block_points));
+        std::vector<std::vector<PointIndex>> of_block(
+            static_cast<std::size_t>((count + block_points - 1) / block_points));
         for_each_block(count, [&](PointIndex first, PointIndex last) {
             std::vector<PointIndex>& mine = of_block[static_cast<std::size_t>(first / block_points)];
             PointIndex before = -1;
@@ -147,7 +153,8 @@ private:
                 before = i;
                 const Comparison c = comparer_.compare(i, 1);
                 bool steps = false;
-                for (std::size_t q = 0; q < quantities; ++q) steps = steps || c.step[q] >= suspect_share * thresholds_.of[q];
+                for (std::size_t q = 0; q < quantities; ++q)
+                    steps = steps || c.step[q] >= suspect_share * thresholds_.of[q];
                 if (steps) mine.push_back(i);
             }
         });
@@ -176,7 +183,8 @@ private:
         const Comparison& c = suspect.comparison;
         suspect.border = c.left == 0 || c.right == 0;
         if (suspect.border) return;
-        const std::array zones{signals_[suspect.point].zone, signals_[c.beside_left.nearest()].zone, signals_[c.beside_right.nearest()].zone};
+        const std::array zones{signals_[suspect.point].zone, signals_[c.beside_left.nearest()].zone,
+                               signals_[c.beside_right.nearest()].zone};
         const auto any = [&](Zone zone) { return std::find(zones.begin(), zones.end(), zone) != zones.end(); };
         if (!any(Zone::ramp)) return;
         suspect.border = any(Zone::inner);
@@ -234,7 +242,8 @@ private:
 
 }  // namespace
 
-FoundSuspects find_suspects(const ClSurface& surface, const Signals& signals, const Thresholds& thresholds, double period) {
+FoundSuspects find_suspects(const ClSurface& surface, const Signals& signals, const Thresholds& thresholds,
+                            double period) {
     return SuspectFinder(surface, signals, thresholds, period).find();
 }
 
@@ -269,7 +278,8 @@ std::vector<Suspects> group_suspects(const Suspects& suspects, const ClSurface& 
                 if (!surface.neighbours.has(other, adjacent)) continue;
                 const PointIndex next = surface.neighbours.neighbour(other, adjacent);
                 const Eigen::Vector3f on = surface.positions[next] - surface.positions[adjacent];
-                if (on.dot(surface.positions[adjacent] - surface.positions[point]) > 0) join_near(k, next, near[static_cast<std::size_t>(other)]);
+                if (on.dot(surface.positions[adjacent] - surface.positions[point]) > 0)
+                    join_near(k, next, near[static_cast<std::size_t>(other)]);
             }
         }
     };

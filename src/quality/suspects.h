@@ -12,8 +12,8 @@ namespace clsurf {
 
 struct Suspect {
     PointIndex point = 0;
-    std::size_t pass = 0;     ///< index into surface.passes
-    bool border = false;            ///< no pass on one side, or one begins or ends there: the difference is expected
+    std::size_t pass = 0;  ///< index into surface.passes
+    bool border = false;   ///< no pass on one side, or one begins or ends there: the difference is expected
     std::array<float, quantities> share{};  ///< |residual| over threshold
     std::array<float, quantities> score{};  ///< the same, where the step passes it too; from 1 on a defect starts
     Comparison comparison;
@@ -39,7 +39,8 @@ struct FoundSuspects {
 /// every 5 ms, or every 0.25 mm at the usual speed, that lies a tenth of a step-over or more from the one before. Only sites with a step are
 /// looked at with all passes around, and then what lies beside a suspect: the inner passes of a band
 /// have no step of their own. O(points), parallel; the same for any number of threads.
-[[nodiscard]] FoundSuspects find_suspects(const ClSurface& surface, const Signals& signals, const Thresholds& thresholds, double period);
+[[nodiscard]] FoundSuspects find_suspects(const ClSurface& surface, const Signals& signals,
+                                          const Thresholds& thresholds, double period);
 
 /// Suspects that hang together along a pass, across to the next one or over one clean pass; each group
 /// in the order of its points, and groups in the order of their first ones. O(suspects log suspects), parallel.

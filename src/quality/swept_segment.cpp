@@ -61,7 +61,8 @@ Columns rows_of(const SweptSegment& g, const CellBlock& cells) {
 }
 
 /// One row under a ball: the loop that all the time goes into.
-CLSURF_VECTORISED void lower_row(float* z, int count, float s, float ds, float w, float dw, float radius, float sine, float slope, float length, float tip) {
+CLSURF_VECTORISED void lower_row(float* z, int count, float s, float ds, float w, float dw, float radius, float sine,
+                                 float slope, float length, float tip) {
     const float squared = radius * radius;
     for (int k = 0; k < count; ++k) {
         const auto x = static_cast<float>(k);
@@ -88,8 +89,9 @@ void lower_ball(float radius, const SweptSegment& g, const CellBlock& cells) {
         const Row r = row_of(g, cells, row);
         if (r.columns.first >= r.columns.last) continue;
         const float x = static_cast<float>(r.columns.first) * cells.cell;
-        lower_row(cells.z + static_cast<std::ptrdiff_t>(row) * cells.columns + r.columns.first, r.columns.last - r.columns.first, r.s + g.dx * x, g.dx * cells.cell,
-                  r.w - g.dy * x, -g.dy * cells.cell, radius, sine, g.slope, g.length, g.z);
+        lower_row(cells.z + static_cast<std::ptrdiff_t>(row) * cells.columns + r.columns.first,
+                  r.columns.last - r.columns.first, r.s + g.dx * x, g.dx * cells.cell, r.w - g.dy * x,
+                  -g.dy * cells.cell, radius, sine, g.slope, g.length, g.z);
     }
 }
 
@@ -118,11 +120,13 @@ float touched_before(const CuttingTool& tool, float across, float slope) {
 /// The same for many places across: it depends on nothing else.
 class Touched {
 public:
-    Touched(const CuttingTool& tool, const SweptSegment& g) : low_(std::max(g.across_low, static_cast<float>(-tool.radius))) {
+    Touched(const CuttingTool& tool, const SweptSegment& g)
+        : low_(std::max(g.across_low, static_cast<float>(-tool.radius))) {
         const float high = std::min(g.across_high, static_cast<float>(tool.radius));
         const float step = std::max(high - low_, 1e-6F) / intervals;
         per_mm_ = 1 / step;
-        for (std::size_t k = 0; k < before_.size(); ++k) before_[k] = touched_before(tool, low_ + static_cast<float>(k) * step, g.slope);
+        for (std::size_t k = 0; k < before_.size(); ++k)
+            before_[k] = touched_before(tool, low_ + static_cast<float>(k) * step, g.slope);
     }
     [[nodiscard]] float before(float across) const {
         const float at = std::clamp((across - low_) * per_mm_, 0.0F, static_cast<float>(intervals) - 0.001F);

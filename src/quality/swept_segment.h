@@ -8,10 +8,10 @@ namespace clsurf {
 
 /// Lengths in mm from the centre of the map's first cell; heights from any level.
 struct SweptSegment {
-    float x = 0, y = 0, z = 0;    ///< the tip where it begins
-    float dx = 1, dy = 0;         ///< unit vector in the plane
-    float length = 0;             ///< in the plane
-    float slope = 0;              ///< rise per length
+    float x = 0, y = 0, z = 0;              ///< the tip where it begins
+    float dx = 1, dy = 0;                   ///< unit vector in the plane
+    float length = 0;                       ///< in the plane
+    float slope = 0;                        ///< rise per length
     float along_low = 0, along_high = 0;    ///< cells that are looked at: from x, y along the way …
     float across_low = 0, across_high = 0;  ///< … and to the left of it
 };

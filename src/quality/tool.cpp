@@ -30,17 +30,21 @@ std::vector<double> numbers_of(std::string_view text) {
 CuttingTool parse_tool(std::string_view text) {
     const std::size_t colon = text.find(':');
     const std::string_view kind = text.substr(0, colon);
-    const std::vector<double> numbers = colon == std::string_view::npos ? std::vector<double>{} : numbers_of(text.substr(colon + 1));
+    const std::vector<double> numbers =
+        colon == std::string_view::npos ? std::vector<double>{} : numbers_of(text.substr(colon + 1));
     const auto fail = [&](const std::string& why) -> CuttingTool {
-        throw UsageError(fmt::format("tool '{}': {}", text, why), "ball:D, bull:D,R or flat:D in mm, for example ball:6");
+        throw UsageError(fmt::format("tool '{}': {}", text, why),
+                         "ball:D, bull:D,R or flat:D in mm, for example ball:6");
     };
     if (kind != "ball" && kind != "bull" && kind != "flat") return fail("not a ball, bull or flat tool");
-    if (numbers.size() != (kind == "bull" ? 2U : 1U)) return fail(kind == "bull" ? "needs a diameter and a corner radius" : "needs a diameter");
+    if (numbers.size() != (kind == "bull" ? 2U : 1U))
+        return fail(kind == "bull" ? "needs a diameter and a corner radius" : "needs a diameter");
     const double radius = 0.5 * numbers[0];
     if (!(radius > 0) || !std::isfinite(radius)) return fail("the diameter must be positive");
     if (kind == "ball") return {ToolKind::ball, radius, radius};
     if (kind == "flat") return {ToolKind::flat, radius, 0};
-    if (!(numbers[1] > 0 && numbers[1] < radius)) return fail("the corner radius must lie between 0 and half the diameter");
+    if (!(numbers[1] > 0 && numbers[1] < radius))
+        return fail("the corner radius must lie between 0 and half the diameter");
     return {ToolKind::bull, radius, numbers[1]};
 }
 

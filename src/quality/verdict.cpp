@@ -45,6 +45,8 @@ constexpr auto limits = std::to_array<QualityLimit>({
 
 std::span<const QualityLimit> budget_limits() { return limits; }
 
-std::vector<BudgetLine> hold(const QualityReport& report, const QualityBudget& budget) { return hold(budget_limits(), report, budget); }
+std::vector<BudgetLine> hold(const QualityReport& report, const QualityBudget& budget) {
+    return hold(budget_limits(), report, budget);
+}
 
 }  // namespace clsurf

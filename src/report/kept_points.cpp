@@ -12,8 +12,8 @@ namespace {
 /// Longest chord between kept points of a cut, in step-overs: beyond it triangles between passes are
 /// too long to follow the surface. Where there is no room for so many it grows up to the last.
 constexpr std::array<double, 4> longest_chords{3, 6, 12, 24};
-constexpr double most_for_chords = 0.75;  ///< of the points that may stay
-constexpr PointIndex share_of_defects = 4;     ///< one in so many points may belong to defects that are kept whole
+constexpr double most_for_chords = 0.75;    ///< of the points that may stay
+constexpr PointIndex share_of_defects = 4;  ///< one in so many points may belong to defects that are kept whole
 constexpr PointIndex windows_at_once = 64;
 
 using Marks = Column<std::uint8_t>;  ///< per point: 1, it stays
@@ -144,7 +144,9 @@ private:
     float longest_chord_;
 };
 
-PointIndex count_of(const Marks& marks) { return static_cast<PointIndex>(std::count(marks.begin(), marks.end(), std::uint8_t{1})); }
+PointIndex count_of(const Marks& marks) {
+    return static_cast<PointIndex>(std::count(marks.begin(), marks.end(), std::uint8_t{1}));
+}
 
 PointIndex longest_pass(const Passes& passes) {
     PointIndex longest = 2;
@@ -154,7 +156,8 @@ PointIndex longest_pass(const Passes& passes) {
 
 /// Marks with the shortest windows that leave at most `most` points, or with windows of whole passes,
 /// where nothing more can be left out. Returns the window.
-PointIndex mark_windows(Marks& marks, const Marks& lasting, const Windows& windows, const Passes& passes, PointIndex most) {
+PointIndex mark_windows(Marks& marks, const Marks& lasting, const Windows& windows, const Passes& passes,
+                        PointIndex most) {
     const PointIndex longest = longest_pass(passes);
     const auto fits = [&](PointIndex window) {
         marks = lasting;
@@ -177,7 +180,8 @@ PointIndex mark_windows(Marks& marks, const Marks& lasting, const Windows& windo
 
 }  // namespace
 
-KeptPoints keep_points(const ClSurface& surface, const LineMap& lines, std::span<const Field> fields, std::span<const Defect> defects, PointIndex most) {
+KeptPoints keep_points(const ClSurface& surface, const LineMap& lines, std::span<const Field> fields,
+                       std::span<const Defect> defects, PointIndex most) {
     const PointIndex count = surface.positions.size();
     KeptPoints kept;
     for (PointIndex i = 0; i < count; ++i) kept.all += has_position(surface.positions, i) ? 1 : 0;
@@ -194,7 +198,8 @@ KeptPoints keep_points(const ClSurface& surface, const LineMap& lines, std::span
             const Windows windows(surface, fields, chord * surface.step_over);
             marks = lasting;
             windows.add(marks, longest_pass(surface.passes));
-            const bool room_for_windows = static_cast<double>(count_of(marks)) <= most_for_chords * static_cast<double>(most);
+            const bool room_for_windows =
+                static_cast<double>(count_of(marks)) <= most_for_chords * static_cast<double>(most);
             if (!room_for_windows && chord != longest_chords.back()) continue;
             kept.window = mark_windows(marks, lasting, windows, surface.passes, most);
             break;

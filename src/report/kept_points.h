@@ -16,10 +16,10 @@
 namespace clsurf {
 
 struct KeptPoints {
-    Column<PointIndex> points;  ///< rising; points without a position are never among them
-    PointIndex all = 0;         ///< with a position
-    PointIndex window = 1;      ///< points; 1: all are kept
-    bool line_starts = true;    ///< the first point of each line is among them
+    Column<PointIndex> points;                   ///< rising; points without a position are never among them
+    PointIndex all = 0;                          ///< with a position
+    PointIndex window = 1;                       ///< points; 1: all are kept
+    bool line_starts = true;                     ///< the first point of each line is among them
     std::size_t defects = 0, whole_defects = 0;  ///< and those of which all points are among them
 
     [[nodiscard]] bool reduced() const { return window > 1; }

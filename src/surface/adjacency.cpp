@@ -16,16 +16,16 @@ using Vec3f = Eigen::Vector3f;
 
 // All in step-overs, after docs/design/surface.md.
 constexpr float nearest_neighbour = 0.2F;   ///< nearer is the same pass cut again
-constexpr float usual_neighbour = 1.6F;      ///< farther, a nearer one may have begun: it is sought
-constexpr float farthest_neighbour = 4.0F;   ///< on steep flanks passes are so far apart
+constexpr float usual_neighbour = 1.6F;     ///< farther, a nearer one may have begun: it is sought
+constexpr float farthest_neighbour = 4.0F;  ///< on steep flanks passes are so far apart
 constexpr float along_play = 0.35F;         ///< how far a foot may lie along the feed
-constexpr float steep_share = 0.12F;         ///< squared cosine to the horizontal below which a neighbour is above
-constexpr float direction_chord = 0.75F;   ///< way of the chords that give the feed direction
+constexpr float steep_share = 0.12F;        ///< squared cosine to the horizontal below which a neighbour is above
+constexpr float direction_chord = 0.75F;    ///< way of the chords that give the feed direction
 constexpr double grid_cell = 4.0;
 constexpr float search_again = 0.25F;      ///< way without a neighbour after which it is sought anew
-constexpr float own_way = 1.7F;             ///< the way to a neighbour is this many distances or more
-constexpr float running_along = 0.8660F;    ///< cos 30°
-constexpr PointIndex part_points = 65536;   ///< of a pass, walked by one thread
+constexpr float own_way = 1.7F;            ///< the way to a neighbour is this many distances or more
+constexpr float running_along = 0.8660F;   ///< cos 30°
+constexpr PointIndex part_points = 65536;  ///< of a pass, walked by one thread
 
 /// A place on another pass that is followed while the own point moves on.
 struct Follower {
@@ -55,8 +55,8 @@ struct Across {
 
 class Walker {
 public:
-    Walker(const Positions& positions, const Passes& passes, const Way& way, const WayGrid& grid,
-           double step_over, Adjacency& out)
+    Walker(const Positions& positions, const Passes& passes, const Way& way, const WayGrid& grid, double step_over,
+           Adjacency& out)
         : p_(positions),
           passes_(passes),
           way_(way),
@@ -81,8 +81,7 @@ public:
                 Column<std::int32_t>& column = side == Side::left ? out_.left : out_.right;
                 const PointIndex delta = f.point - i;
                 const bool fits = f.point >= 0 && std::abs(delta) < std::numeric_limits<std::int32_t>::max();
-                column[static_cast<std::size_t>(i)] =
-                    fits ? static_cast<std::int32_t>(delta) : Adjacency::none;
+                column[static_cast<std::size_t>(i)] = fits ? static_cast<std::int32_t>(delta) : Adjacency::none;
             }
             if (i < last) chords.advance();
         }
@@ -155,8 +154,7 @@ private:
         const float play = along_play * step_over_;
         if (along * along > play * play * across.chord_squared) return false;
         const float squared = d.squaredNorm() / (step_over_ * step_over_);
-        if (!(squared > nearest_neighbour * nearest_neighbour &&
-              squared < farthest_neighbour * farthest_neighbour)) {
+        if (!(squared > nearest_neighbour * nearest_neighbour && squared < farthest_neighbour * farthest_neighbour)) {
             return false;
         }
         return across.side_of(p_[n]) == side;
@@ -222,8 +220,7 @@ struct Part {
 
 }  // namespace
 
-Adjacency find_neighbours(const Positions& positions, const Passes& passes, const Way& way,
-                          double step_over) {
+Adjacency find_neighbours(const Positions& positions, const Passes& passes, const Way& way, double step_over) {
     Adjacency adjacency;
     const auto count = static_cast<std::size_t>(positions.size());
     adjacency.left.resize(count);

@@ -30,14 +30,12 @@ struct Adjacency {
     [[nodiscard]] PointIndex neighbour(Side side, PointIndex i) const {
         return i + column(side)[static_cast<std::size_t>(i)];
     }
-    [[nodiscard]] const Column<std::int32_t>& column(Side side) const {
-        return side == Side::left ? left : right;
-    }
+    [[nodiscard]] const Column<std::int32_t>& column(Side side) const { return side == Side::left ? left : right; }
 };
 
 /// Neighbours of all points of cut passes, for a step-over [mm]; 0: nobody has neighbours.
 /// O(points), parallel over pieces of passes; the same for any number of threads.
-[[nodiscard]] Adjacency find_neighbours(const Positions& positions, const Passes& passes,
-                                        const Way& way, double step_over);
+[[nodiscard]] Adjacency find_neighbours(const Positions& positions, const Passes& passes, const Way& way,
+                                        double step_over);
 
 }  // namespace clsurf

@@ -7,9 +7,9 @@
 namespace clsurf {
 namespace {
 
-constexpr double jog_reach = 4.0;   ///< step-overs of way round a seam in which the link of a loop is looked for
-constexpr float jog_half = 0.25F;   ///< step-overs of way from a point to the ends of its own chord
-constexpr float run_near = 0.6F;    ///< … and of the chords before and after it
+constexpr double jog_reach = 4.0;  ///< step-overs of way round a seam in which the link of a loop is looked for
+constexpr float jog_half = 0.25F;  ///< step-overs of way from a point to the ends of its own chord
+constexpr float run_near = 0.6F;   ///< … and of the chords before and after it
 constexpr float run_far = 2.0F;
 constexpr float jog_cosine = 0.7F;  ///< a jog turns off by more than 45° and comes back into the old direction
 
@@ -60,7 +60,8 @@ private:
 
 /// A loop or a spiral has come round where its neighbour lies in the same piece: there the piece is
 /// cut, so that every turn is a pass. Adds the steps sideways from loop to loop to `jogs`.
-Passes cut_at_returns(const Passes& passes, const Adjacency& neighbours, const JogFinder& finder, std::vector<PointRange>& jogs) {
+Passes cut_at_returns(const Passes& passes, const Adjacency& neighbours, const JogFinder& finder,
+                      std::vector<PointRange>& jogs) {
     Passes turns;
     for (const Pass& pass : passes) {
         if (pass.kind != PassKind::cut) {
@@ -103,7 +104,8 @@ ClSurface stitch(Positions positions, const LineMap& lines, double step_over) {
     }
     const Passes passes = find_passes(surface.positions, way, runs, surface.step_over);
     surface.neighbours = find_neighbours(surface.positions, passes, way, surface.step_over);
-    surface.passes = cut_at_returns(passes, surface.neighbours, JogFinder(surface.positions, way, surface.step_over), surface.jogs);
+    surface.passes =
+        cut_at_returns(passes, surface.neighbours, JogFinder(surface.positions, way, surface.step_over), surface.jogs);
     return surface;
 }
 

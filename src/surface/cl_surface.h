@@ -15,7 +15,7 @@ namespace clsurf {
 
 struct ClSurface {
     Positions positions;
-    Passes passes;         ///< by turns back and by returning to themselves (a turn of a spiral is one)
+    Passes passes;                 ///< by turns back and by returning to themselves (a turn of a spiral is one)
     std::vector<PointRange> jogs;  ///< steps sideways from one closed loop to the next, in order
     Adjacency neighbours;
     double step_over = 0;  ///< [mm]; 0: a single pass, no neighbours

@@ -37,8 +37,7 @@ Station beside(const ClSurface& surface, const Station& from, const Eigen::Vecto
     return {k, 0};
 }
 
-Station beyond(const ClSurface& surface, const Station& before, const Station& from,
-               const Eigen::Vector3f& feed) {
+Station beyond(const ClSurface& surface, const Station& before, const Station& from, const Eigen::Vector3f& feed) {
     const PointIndex own = from.nearest();
     const Positions& p = surface.positions;
     const Eigen::Vector3f across = p[own] - position_at(p, before);

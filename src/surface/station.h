@@ -32,8 +32,7 @@ template <typename T>
 
 /// Where the plane through `from`, normal to `feed` (any length), meets the pass on that side; none
 /// where there is no neighbour. O(1): the adjacency knows the point next to it.
-[[nodiscard]] Station beside(const ClSurface& surface, const Station& from,
-                             const Eigen::Vector3f& feed, Side side);
+[[nodiscard]] Station beside(const ClSurface& surface, const Station& from, const Eigen::Vector3f& feed, Side side);
 
 /// The same away from `before`, where the way from pass to pass came from: sides are those of the
 /// feed, which turns round on every other pass of a zigzag.

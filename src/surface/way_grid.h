@@ -44,9 +44,7 @@ private:
         return (p * per_mm_).array().floor().cast<int>();
     }
     static std::uint64_t key(const Eigen::Vector3i& c) {
-        const auto part = [](int v) {
-            return static_cast<std::uint64_t>(static_cast<std::uint32_t>(v)) & 0x1fffff;
-        };
+        const auto part = [](int v) { return static_cast<std::uint64_t>(static_cast<std::uint32_t>(v)) & 0x1fffff; };
         return part(c.x()) << 42 | part(c.y()) << 21 | part(c.z());
     }
 

@@ -34,15 +34,13 @@ const std::map<std::string, std::set<std::string>> rooms{
     {"motion", {"core", "curve", "program", "machine", "log"}},
     {"quality", {"core", "program", "log", "path", "surface", "field"}},
     {"report", {"core", "log", "path", "surface", "field", "quality"}},
-    {"optimize",
-     {"core", "curve", "program", "machine", "log", "path", "surface", "field", "quality", "motion"}},
+    {"optimize", {"core", "curve", "program", "machine", "log", "path", "surface", "field", "quality", "motion"}},
     {"io",
-     {"core", "program", "machine", "log", "path", "surface", "field", "motion", "quality",
-      "report", "optimize"}},
+     {"core", "program", "machine", "log", "path", "surface", "field", "motion", "quality", "report", "optimize"}},
     {"viz", {"core", "path", "surface", "field", "quality"}},
     {"cli",
-     {"core", "program", "machine", "log", "path", "surface", "field", "motion", "quality",
-      "report", "optimize", "io", "viz"}},
+     {"core", "program", "machine", "log", "path", "surface", "field", "motion", "quality", "report", "optimize", "io",
+      "viz"}},
 };
 
 // How the headers of a third party begin → paths that may include them.
@@ -116,8 +114,8 @@ Complaints check_rooms(const SourceFile& file) {
         if (!include.own) continue;
         const std::string other = room_of(include.header);
         if (other != room && !allowed->second.contains(other)) {
-            complaints.push_back(file.path + " includes \"" + include.header + "\": " + room +
-                                 " may not include " + other);
+            complaints.push_back(file.path + " includes \"" + include.header + "\": " + room + " may not include " +
+                                 other);
         }
     }
     return complaints;
@@ -128,9 +126,8 @@ Complaints check_third_parties(const SourceFile& file) {
     for (const Include& include : includes_of(file)) {
         for (const ThirdParty& party : third_parties) {
             if (!include.header.starts_with(party.header)) continue;
-            const bool allowed =
-                std::any_of(party.where.begin(), party.where.end(),
-                            [&](std::string_view where) { return file.path.starts_with(where); });
+            const bool allowed = std::any_of(party.where.begin(), party.where.end(),
+                                             [&](std::string_view where) { return file.path.starts_with(where); });
             if (!allowed) complaints.push_back(file.path + " includes <" + include.header + ">");
         }
     }
@@ -151,8 +148,8 @@ std::string code_of(const std::string& text) {
             const std::string close = ")" + text.substr(i + 2, open - i - 2) + "\"";
             i = text.find(close, open) + close.size();
         } else if (rest[0] == '"' ||
-                   (rest[0] == '\'' && (i == 0 || std::isalnum(static_cast<unsigned char>(
-                                                      text[i - 1])) == 0))) {  // not 1'000
+                   (rest[0] == '\'' &&
+                    (i == 0 || std::isalnum(static_cast<unsigned char>(text[i - 1])) == 0))) {  // not 1'000
             const char quote = rest[0];
             for (++i; i < text.size() && text[i] != quote; ++i) {
                 if (text[i] == '\\') ++i;
@@ -169,9 +166,7 @@ std::string code_of(const std::string& text) {
 Complaints check_form(const SourceFile& file) {
     Complaints complaints;
     const std::size_t lines = lines_of(file.text).size();
-    if (lines > longest_file) {
-        complaints.push_back(file.path + " has " + std::to_string(lines) + " lines");
-    }
+    if (lines > longest_file) { complaints.push_back(file.path + " has " + std::to_string(lines) + " lines"); }
     if (file.path.ends_with(".h") && !file.text.starts_with("#pragma once\n")) {
         complaints.push_back(file.path + " does not begin with #pragma once");
     }
@@ -187,16 +182,14 @@ Complaints check_form(const SourceFile& file) {
 }
 
 // A file is built when the CMakeLists.txt of its folder, or the nearest above, names it.
-Complaints check_listed(const SourceFile& file, const std::string& cmake_folder,
-                        const std::string& cmake_text) {
+Complaints check_listed(const SourceFile& file, const std::string& cmake_folder, const std::string& cmake_text) {
     const std::string name = fs::relative(file.path, cmake_folder).generic_string();
     const std::string plain = fs::path(file.path).filename().string();
     const auto is_name = [](char c) {
         return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.';
     };
     for (const std::string& wanted : {name, plain}) {
-        for (std::size_t at = cmake_text.find(wanted); at != std::string::npos;
-             at = cmake_text.find(wanted, at + 1)) {
+        for (std::size_t at = cmake_text.find(wanted); at != std::string::npos; at = cmake_text.find(wanted, at + 1)) {
             const bool starts = at == 0 || !is_name(cmake_text[at - 1]);
             const std::size_t end = at + wanted.size();
             if (starts && (end == cmake_text.size() || !is_name(cmake_text[end]))) return {};
@@ -219,12 +212,10 @@ std::vector<SourceFile> sources_in(const std::vector<std::string>& folders) {
         for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
             const std::string extension = entry.path().extension().string();
             if (extension != ".cpp" && extension != ".h") continue;
-            files.push_back(
-                {fs::relative(entry.path(), root).generic_string(), read(entry.path())});
+            files.push_back({fs::relative(entry.path(), root).generic_string(), read(entry.path())});
         }
     }
-    std::sort(files.begin(), files.end(),
-              [](const SourceFile& a, const SourceFile& b) { return a.path < b.path; });
+    std::sort(files.begin(), files.end(), [](const SourceFile& a, const SourceFile& b) { return a.path < b.path; });
     return files;
 }
 
@@ -244,16 +235,13 @@ TEST(Rooms, IncludeOnlyWhatTheTableAllows) {
 }
 
 TEST(ThirdParties, OneInTheWrongRoomIsFound) {
-    EXPECT_EQ(check_third_parties({"src/path/x.cpp", "#include <tbb/parallel_for.h>\n"}).size(),
-              1U);
+    EXPECT_EQ(check_third_parties({"src/path/x.cpp", "#include <tbb/parallel_for.h>\n"}).size(), 1U);
     EXPECT_EQ(check_third_parties({"src/cli/x.cpp", "#include <vtkActor.h>\n"}).size(), 1U);
     EXPECT_TRUE(check_third_parties({"viz/x.cpp", "#include <vtkActor.h>\n"}).empty());
 }
 
 TEST(ThirdParties, AreUsedInTheirRoomOnly) {
-    for (const SourceFile& file : sources_in({"src", "io", "viz"})) {
-        expect_none(check_third_parties(file));
-    }
+    for (const SourceFile& file : sources_in({"src", "io", "viz"})) { expect_none(check_third_parties(file)); }
 }
 
 TEST(Form, ALongFileAForeignLetterAndAMissingPragmaAreFound) {
@@ -261,15 +249,12 @@ TEST(Form, ALongFileAForeignLetterAndAMissingPragmaAreFound) {
     EXPECT_EQ(check_form({"a.cpp", "int l\u00e4nge = 0;\n"}).size(), 1U);
     EXPECT_EQ(check_form({"a.h", "int a;\n"}).size(), 1U);
     EXPECT_EQ(check_form({"a.cpp", "int a;"}).size(), 1U);
-    EXPECT_TRUE(
-        check_form({"a.cpp", "// \u00b5m\nauto a = \"\\\"\u00b5m\"; /* \u00b5 */\n"}).empty());
+    EXPECT_TRUE(check_form({"a.cpp", "// \u00b5m\nauto a = \"\\\"\u00b5m\"; /* \u00b5 */\n"}).empty());
     EXPECT_TRUE(check_form({"a.cpp", "int a = 1'000; // it's\nchar b = '\"';\n"}).empty());
 }
 
 TEST(Form, IsKeptByEveryFile) {
-    for (const SourceFile& file : sources_in({"src", "io", "viz", "tests", "data"})) {
-        expect_none(check_form(file));
-    }
+    for (const SourceFile& file : sources_in({"src", "io", "viz", "tests", "data"})) { expect_none(check_form(file)); }
 }
 
 TEST(Listing, AFileThatNobodyBuildsIsFound) {
@@ -285,8 +270,7 @@ TEST(Listing, EveryFileIsBuilt) {
         if (file.path.ends_with(".h") && !in_room) continue;
         fs::path folder = fs::path(file.path).parent_path();
         while (!fs::exists(root / folder / "CMakeLists.txt")) folder = folder.parent_path();
-        expect_none(
-            check_listed(file, folder.generic_string(), read(root / folder / "CMakeLists.txt")));
+        expect_none(check_listed(file, folder.generic_string(), read(root / folder / "CMakeLists.txt")));
     }
 }
 

@@ -25,7 +25,8 @@ std::string plain_program(std::size_t lines) {
             return s;
         };
         const double x = static_cast<double>(i % 1000) * 0.344 - 11;
-        text += "X" + number(x) + " Y" + number(static_cast<double>(i / 1000) * 0.4) + " Z" + number(x * x * 0.01 - 3) + "\n";
+        text += "X" + number(x) + " Y" + number(static_cast<double>(i / 1000) * 0.4) + " Z" + number(x * x * 0.01 - 3) +
+                "\n";
     }
     return text;
 }
@@ -34,7 +35,8 @@ void parse_plain_lines(benchmark::State& state) {
     const auto text = std::make_shared<std::string>(plain_program(static_cast<std::size_t>(state.range(0))));
     InterpreterOptions options;
     options.dialect = find_dialect("fanuc");
-    for (auto _ : state) benchmark::DoNotOptimize(parse_program(SourceText("made.nc", *text, text), options).motions.size());
+    for (auto _ : state)
+        benchmark::DoNotOptimize(parse_program(SourceText("made.nc", *text, text), options).motions.size());
     state.SetBytesProcessed(static_cast<std::int64_t>(state.iterations() * text->size()));
 }
 BENCHMARK(parse_plain_lines)->Arg(1'000'000)->Unit(benchmark::kMillisecond);
@@ -81,9 +83,13 @@ BENCHMARK(walk_both_neighbours)->Unit(benchmark::kMillisecond)->UseRealTime();
 struct Cloud {
     const Positions& p;
     [[nodiscard]] std::size_t kdtree_get_point_count() const { return static_cast<std::size_t>(p.size()); }
-    [[nodiscard]] float kdtree_get_pt(std::size_t i, std::size_t axis) const { return axis == 0 ? p.x[i] : axis == 1 ? p.y[i] : p.z[i]; }
+    [[nodiscard]] float kdtree_get_pt(std::size_t i, std::size_t axis) const {
+        return axis == 0 ? p.x[i] : axis == 1 ? p.y[i] : p.z[i];
+    }
     template <typename Box>
-    bool kdtree_get_bbox(Box&) const { return false; }
+    bool kdtree_get_bbox(Box&) const {
+        return false;
+    }
 };
 
 /// The same question to a k-d tree, as it is usually put: of the points within 1.6 step-overs, the nearest

@@ -30,8 +30,7 @@ TEST(Text, BreaksByColumnsNotByBytes) {
 }
 
 TEST(Text, FillsParagraphsAndKeepsExamples) {
-    const std::vector<Paragraph> paragraphs =
-        paragraphs_of("one\ntwo\n\n  clsurf a\n  clsurf b\nthree");
+    const std::vector<Paragraph> paragraphs = paragraphs_of("one\ntwo\n\n  clsurf a\n  clsurf b\nthree");
     ASSERT_EQ(paragraphs.size(), 3U);
     EXPECT_EQ(paragraphs[0].text, "one two");
     EXPECT_TRUE(paragraphs[1].literal);
@@ -47,8 +46,7 @@ TEST(ProgressLine, FillsItsBarByTheFraction) {
 TEST(ProgressLine, TakesAnyNumber) {
     EXPECT_EQ(progress_line("x", -1, 80), progress_line("x", 0, 80));
     EXPECT_EQ(progress_line("x", 7, 80), progress_line("x", 1, 80));
-    EXPECT_EQ(progress_line("x", std::numeric_limits<double>::quiet_NaN(), 80),
-              progress_line("x", 0, 80));
+    EXPECT_EQ(progress_line("x", std::numeric_limits<double>::quiet_NaN(), 80), progress_line("x", 0, 80));
 }
 
 TEST(ProgressLine, IsCutBetweenCharacters) {

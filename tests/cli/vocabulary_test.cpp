@@ -54,9 +54,7 @@ TEST(Subcommands, AreDescribedInFull) {
     }
 }
 
-po::variables_map parse(const std::vector<std::string>& words) {
-    return parse_words(find_subcommand("moves"), words);
-}
+po::variables_map parse(const std::vector<std::string>& words) { return parse_words(find_subcommand("moves"), words); }
 
 TEST(CommandLine, GivesWordsTheNamesOfArguments) {
     const po::variables_map values = parse({"a.nc", "--dialect", "fanuc", "-q"});

@@ -12,7 +12,13 @@ namespace {
 
 template <typename T>
 ChannelView view_of(const std::vector<T>& values, ScalarType type) {
-    return {reinterpret_cast<const std::byte*>(values.data()), sizeof(T), static_cast<PointIndex>(values.size()), type, false, 1.0, 0.0};
+    return {reinterpret_cast<const std::byte*>(values.data()),
+            sizeof(T),
+            static_cast<PointIndex>(values.size()),
+            type,
+            false,
+            1.0,
+            0.0};
 }
 
 TEST(ChannelView, AppliesScaleAndBias) {

@@ -16,9 +16,7 @@ TEST(Queue, KeepsTheOrderWhileItsItemsMove) {
         }
         ASSERT_EQ(queue.size(), static_cast<std::size_t>(next - first));
         for (std::size_t i = 0; i < queue.size(); ++i) ASSERT_EQ(queue[i], first + static_cast<int>(i));
-        if (!queue.empty()) {
-            ASSERT_EQ(queue.back(), next - 1);
-        }
+        if (!queue.empty()) { ASSERT_EQ(queue.back(), next - 1); }
     }
     queue.clear();
     EXPECT_TRUE(queue.empty());

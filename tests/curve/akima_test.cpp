@@ -37,14 +37,16 @@ std::vector<Case> read_cases() {
 
 std::vector<Vec3> points_of(const std::vector<double>& numbers) {
     std::vector<Vec3> points;
-    for (std::size_t i = 0; i + 2 < numbers.size(); i += 3) points.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
+    for (std::size_t i = 0; i + 2 < numbers.size(); i += 3)
+        points.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
     return points;
 }
 
 void expect_points(const std::vector<Vec3>& found, const std::vector<double>& expected) {
     const std::vector<Vec3> points = points_of(expected);
     ASSERT_EQ(found.size(), points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) EXPECT_LE((found[i] - points[i]).norm(), 1e-8 + 1e-6 * points[i].norm()) << "point " << i;
+    for (std::size_t i = 0; i < points.size(); ++i)
+        EXPECT_LE((found[i] - points[i]).norm(), 1e-8 + 1e-6 * points[i].norm()) << "point " << i;
 }
 
 std::vector<Vec3> middles(const std::vector<CubicSpan>& spans) {
@@ -93,7 +95,8 @@ TEST(Akima, MeetsItsPointsWithOneTangent) {
     std::mt19937 random(1);
     for (int trial = 0; trial < 1000; ++trial) {
         const std::vector<Vec3> points = random_path(random, 3 + static_cast<std::size_t>(trial % 20));
-        const std::vector<CubicSpan> spans = akima_spans(points, trial % 2 == 0 ? AkimaTangents::plain : AkimaTangents::unit);
+        const std::vector<CubicSpan> spans =
+            akima_spans(points, trial % 2 == 0 ? AkimaTangents::plain : AkimaTangents::unit);
         ASSERT_EQ(spans.size() + 1, points.size());
         for (std::size_t i = 0; i < spans.size(); ++i) {
             EXPECT_LE((spans[i].at(0) - points[i]).norm(), 1e-12);

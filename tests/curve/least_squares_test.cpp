@@ -17,7 +17,8 @@ class Profile : public testing::Test {
 protected:
     void SetUp() override {
         for (VectorRow& row : vector_rows("curve", "windowed_fit.txt")) {
-            for (std::string word = row.word(); !word.empty(); word = row.word()) numbers_[row.name].push_back(std::stod(word));
+            for (std::string word = row.word(); !word.empty(); word = row.word())
+                numbers_[row.name].push_back(std::stod(word));
         }
         for (const double z : numbers_["heights"]) {
             at_.push_back(10.0 * static_cast<double>(at_.size()));
@@ -67,7 +68,8 @@ TEST(LeastSquaresSpans, GoBesideThePointsOfACubicExactlyAndBackTheSame) {
     for (int trial = 0; trial < 200; ++trial) {
         std::vector<Vec3> points{Vec3::Zero()};
         const int count = 6 + trial % 60;
-        for (int i = 0; i < count; ++i) points.push_back(points.back() + Vec3(step(random), aside(random), aside(random)));
+        for (int i = 0; i < count; ++i)
+            points.push_back(points.back() + Vec3(step(random), aside(random), aside(random)));
         const std::vector<CubicSpan> forth = least_squares_spans(points, 10);
         ASSERT_EQ(forth.size() + 1, points.size());
         EXPECT_LT((forth.front().at(0) - points.front()).norm(), 1e-9);
@@ -86,7 +88,8 @@ TEST(LeastSquaresSpans, GoBesideThePointsOfACubicExactlyAndBackTheSame) {
     // What is a cubic of the way is met: a line with points wherever.
     std::vector<Vec3> line{Vec3::Zero()};
     for (int i = 0; i < 30; ++i) line.push_back(line.back() + step(random) * Vec3(0.6, 0, 0.8));
-    for (const CubicSpan& span : least_squares_spans(line, 10)) EXPECT_LT(span.at(0.5 * span.chord).cross(Vec3(0.6, 0, 0.8)).norm(), 1e-9);
+    for (const CubicSpan& span : least_squares_spans(line, 10))
+        EXPECT_LT(span.at(0.5 * span.chord).cross(Vec3(0.6, 0, 0.8)).norm(), 1e-9);
 }
 
 }  // namespace

@@ -20,12 +20,15 @@ struct Tube {
 /// Places on chords of a circle, `facets` to a quarter, seven to a facet.
 Tube facetted(double r, int facets) {
     Tube tube;
-    const auto corner = [&](int k) { return Vec3(r * std::cos(k * 1.5707963 / facets), r * std::sin(k * 1.5707963 / facets), 0); };
+    const auto corner = [&](int k) {
+        return Vec3(r * std::cos(k * 1.5707963 / facets), r * std::sin(k * 1.5707963 / facets), 0);
+    };
     for (int f = 0; f < facets; ++f) {
         for (int k = 0; k < 7; ++k) tube.places.push_back(corner(f) + (corner(f + 1) - corner(f)) * (k / 7.0));
     }
     tube.places.push_back(corner(facets));
-    for (std::size_t i = 0; i < tube.places.size(); ++i) tube.ways.push_back(i == 0 ? 0 : tube.ways.back() + (tube.places[i] - tube.places[i - 1]).norm());
+    for (std::size_t i = 0; i < tube.places.size(); ++i)
+        tube.ways.push_back(i == 0 ? 0 : tube.ways.back() + (tube.places[i] - tube.places[i - 1]).norm());
     tube.radii.assign(tube.places.size(), radius);
     tube.radii.front() = tube.radii.back() = 0;
     return tube;
@@ -49,7 +52,8 @@ TEST(Tube, KeepsInsideAndItsEnds) {
         }
         const std::vector<Vec3> smooth = smoothest_in_tube(tube.places, tube.ways, tube.radii, {});
         ASSERT_EQ(smooth.size(), tube.places.size());
-        for (std::size_t i = 0; i < smooth.size(); ++i) EXPECT_LE((smooth[i] - tube.places[i]).norm(), tube.radii[i] + 1e-12);
+        for (std::size_t i = 0; i < smooth.size(); ++i)
+            EXPECT_LE((smooth[i] - tube.places[i]).norm(), tube.radii[i] + 1e-12);
     }
 }
 

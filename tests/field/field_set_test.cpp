@@ -10,8 +10,8 @@
 namespace clsurf {
 namespace {
 
-constexpr double radius = 20;   // [mm]
-constexpr double speed = 50;    // [mm/s]
+constexpr double radius = 20;  // [mm]
+constexpr double speed = 50;   // [mm/s]
 constexpr double period = 0.001;
 
 /// A circle at constant speed; feedback 5 µm inside it and 2 records late.
@@ -32,7 +32,9 @@ struct Circle {
         log.period = period;
         log.records = 3000;
         for (int k = 0; k < 3; ++k) {
-            const auto view = [](const std::vector<double>& v) { return ChannelView{reinterpret_cast<const std::byte*>(v.data()), 8, 3000, ScalarType::f64, false, 1, 0}; };
+            const auto view = [](const std::vector<double>& v) {
+                return ChannelView{reinterpret_cast<const std::byte*>(v.data()), 8, 3000, ScalarType::f64, false, 1, 0};
+            };
             log.channels.push_back({std::string("cmd.") + "xyz"[k], "mm", view(c[k])});
             log.channels.push_back({std::string("fb.") + "xyz"[k], "mm", view(f[k])});
         }
@@ -54,7 +56,7 @@ TEST(FieldSet, KnowsTheSpeedAndAccelerationOfACircle) {
     const Field j = circle.get("jerk");
     for (std::size_t i = 50; i < 2950; i += 100) {
         EXPECT_NEAR(v.values[i], speed, 0.01);
-        EXPECT_NEAR(a.values[i], speed * speed / radius, 0.05);   // 125 mm/s²
+        EXPECT_NEAR(a.values[i], speed * speed / radius, 0.05);  // 125 mm/s²
         EXPECT_NEAR(n.values[i], speed * speed / radius, 0.05);
         EXPECT_NEAR(t.values[i], 0, 0.01);
         EXPECT_NEAR(k.values[i], 1 / radius, 1e-4);
@@ -78,9 +80,7 @@ TEST(FieldSet, SuggestsTheNearestNameAndNamesMissingRoles) {
     try {
         (void)circle.get("acelleration");
         FAIL();
-    } catch (const UsageError& error) {
-        EXPECT_EQ(error.hint(), "did you mean 'acceleration'?");
-    }
+    } catch (const UsageError& error) { EXPECT_EQ(error.hint(), "did you mean 'acceleration'?"); }
     circle.log.channels.erase(circle.log.channels.begin() + 1);  // fb.x
     EXPECT_THROW((void)circle.get("following_error"), UsageError);
 }

@@ -13,10 +13,10 @@ namespace clsurf {
 namespace {
 
 constexpr double period = 0.001;
-constexpr double step = 0.03;          ///< [mm] a record along the way: 30 mm/s
-constexpr double lift = 0.004;         ///< [mm] the tip is off, along the commanded tool axis
-constexpr double leaning = 2e-4;       ///< [rad] the tilt is off
-constexpr int late = 3;                ///< records
+constexpr double step = 0.03;     ///< [mm] a record along the way: 30 mm/s
+constexpr double lift = 0.004;    ///< [mm] the tip is off, along the commanded tool axis
+constexpr double leaning = 2e-4;  ///< [rad] the tilt is off
+constexpr int late = 3;           ///< records
 constexpr int count = 4000;
 
 /// The tip goes along x while the tool swings through 60° and the table turns.
@@ -40,7 +40,8 @@ struct PlantedRun {
         passes.push_back({0, count - 1, PassKind::cut});
     }
     Field get(const char* name, bool five = true) {
-        const Trajectory path = reconstruct(made.log, Role::commanded, Vec3::Zero(), five ? std::make_shared<Kinematics>(kinematics) : nullptr);
+        const Trajectory path = reconstruct(made.log, Role::commanded, Vec3::Zero(),
+                                            five ? std::make_shared<Kinematics>(kinematics) : nullptr);
         return FieldSet(made.log, path, passes).get(name);
     }
 };

@@ -42,9 +42,13 @@ private:
     int descriptor_;
 };
 
-inline std::string_view text_of(const std::uint8_t* data, std::size_t size) { return {reinterpret_cast<const char*>(data), size}; }
+inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
+    return {reinterpret_cast<const char*>(data), size};
+}
 
-inline io::Source source_of(std::string_view bytes) { return {"input", {reinterpret_cast<const std::byte*>(bytes.data()), bytes.size()}, nullptr}; }
+inline io::Source source_of(std::string_view bytes) {
+    return {"input", {reinterpret_cast<const std::byte*>(bytes.data()), bytes.size()}, nullptr};
+}
 
 /// The input in two: what stands before and behind the first NUL byte.
 inline std::pair<std::string_view, std::string_view> in_two(std::string_view input) {
@@ -57,7 +61,8 @@ inline void look_at(const Log& log) {
     std::array<double, 1024> values;
     for (const Channel& channel : log.channels) {
         for (PointIndex begin = 0; begin < log.records; begin += static_cast<PointIndex>(values.size())) {
-            const auto n = static_cast<std::size_t>(std::min<PointIndex>(static_cast<PointIndex>(values.size()), log.records - begin));
+            const auto n = static_cast<std::size_t>(
+                std::min<PointIndex>(static_cast<PointIndex>(values.size()), log.records - begin));
             copy_block(channel.values, begin, {values.data(), n});
         }
     }
@@ -70,9 +75,7 @@ template <typename Read>
 int answer(const Read& read) {
     try {
         read();
-    } catch (const InputError& error) {
-        (void)to_text(error.diagnostic());
-    }
+    } catch (const InputError& error) { (void)to_text(error.diagnostic()); }
     return 0;
 }
 

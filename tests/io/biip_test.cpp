@@ -28,7 +28,8 @@ struct Made {
 
 std::string write_made(const test::TemporaryFolder& folder) {
     const std::string path = folder / "a.biip";
-    write_biip(path, Made().channels(), 3, 0.001, R"({"programs":[{"name":"a.nc","sha256":"00"}],"work_offset":[1,2,3]})");
+    write_biip(path, Made().channels(), 3, 0.001,
+               R"({"programs":[{"name":"a.nc","sha256":"00"}],"work_offset":[1,2,3]})");
     return path;
 }
 
@@ -37,9 +38,7 @@ Log open(const std::string& path) { return open_log(path, {}); }
 std::string error_of(const std::string& path) {
     try {
         (void)open(path);
-    } catch (const InputError& error) {
-        return error.diagnostic().text;
-    }
+    } catch (const InputError& error) { return error.diagnostic().text; }
     return "";
 }
 

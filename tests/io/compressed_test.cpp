@@ -40,8 +40,8 @@ std::string zstd(const std::string& text) {
 std::string xz(const std::string& text) {
     std::string out(lzma_stream_buffer_bound(text.size()), '\0');
     std::size_t size = 0;
-    EXPECT_EQ(lzma_easy_buffer_encode(6, LZMA_CHECK_CRC32, nullptr, reinterpret_cast<const std::uint8_t*>(text.data()), text.size(),
-                                      reinterpret_cast<std::uint8_t*>(out.data()), &size, out.size()),
+    EXPECT_EQ(lzma_easy_buffer_encode(6, LZMA_CHECK_CRC32, nullptr, reinterpret_cast<const std::uint8_t*>(text.data()),
+                                      text.size(), reinterpret_cast<std::uint8_t*>(out.data()), &size, out.size()),
               LZMA_OK);
     out.resize(size);
     return out;
@@ -76,7 +76,8 @@ TEST(Compressed, JoinsMembersThatFollowEachOther) {
 }
 
 TEST(Compressed, ReadsZstandardBehindASkippableFrame) {
-    const auto zstd = std::find_if(std::begin(packers), std::end(packers), [](const Packer& packer) { return std::string(packer.name) == "zstd"; });
+    const auto zstd = std::find_if(std::begin(packers), std::end(packers),
+                                   [](const Packer& packer) { return std::string(packer.name) == "zstd"; });
     ASSERT_NE(zstd, std::end(packers));
     EXPECT_EQ(unpacked(source(std::string("\x50\x2a\x4d\x18\x04\0\0\0abcd", 12) + zstd->pack(text))).text(), text);
 }
@@ -127,7 +128,8 @@ TEST(Compressed, LogsAndProgramsComeCompressed) {
     for (const Packer& packer : packers) {
         const Log log = open_log(folder.write("run.log", packer.pack(text)), LogOptions{});
         EXPECT_EQ(log.records, 3) << packer.name;
-        const Program program = read_program(folder.write("part", packer.pack("G21 G90\nG1 X10 F100\nM30\n")), ProgramOptions{});
+        const Program program =
+            read_program(folder.write("part", packer.pack("G21 G90\nG1 X10 F100\nM30\n")), ProgramOptions{});
         EXPECT_EQ(program.motions.size(), 1u) << packer.name;
     }
 }

@@ -97,12 +97,16 @@ TEST(Delimited, TakesNamesFromTheCommentAboveTheRecords) {
 TEST(Delimited, ReadsTimesOfDay) {
     const test::TemporaryFolder folder;
     // Differences are exact to the last digit that is written: the date does not cost any.
-    Log log = open(folder, "time,cmd.x\n2024-05-01T12:00:00.000125Z,1\n2024-05-01T12:00:00.001125Z,2\n2024-05-01T12:00:00.002125Z,3\n");
+    Log log = open(
+        folder,
+        "time,cmd.x\n2024-05-01T12:00:00.000125Z,1\n2024-05-01T12:00:00.001125Z,2\n2024-05-01T12:00:00.002125Z,3\n");
     EXPECT_NEAR(log.period, 0.001, 1e-10);
     EXPECT_NEAR(log.time_of(2), 0.002, 1e-10);
     EXPECT_EQ(log.diagnostics.count("log.bad-number"), 0U);
     // Over midnight, with a date and without; offsets; decimal commas.
-    log = open(folder, "Time [hh:mm:ss];cmd.x\n31.12.2024 23:59:59,998;1\n01.01.2025 00:00:00,000;2\n01.01.2025 00:00:00,002;2\n");
+    log = open(
+        folder,
+        "Time [hh:mm:ss];cmd.x\n31.12.2024 23:59:59,998;1\n01.01.2025 00:00:00,000;2\n01.01.2025 00:00:00,002;2\n");
     EXPECT_NEAR(log.time_of(2), 0.004, 1e-9);
     log = open(folder, "time,cmd.x\n23:59:59.998,1\n0:00:00.000,2\n0:00:00.002,2\n");
     EXPECT_NEAR(log.time_of(2), 0.004, 1e-9);
@@ -117,7 +121,8 @@ TEST(Delimited, ReadsTimesOfDay) {
 
 TEST(Delimited, PassesOverColumnsOfWords) {
     const test::TemporaryFolder folder;
-    const Log log = open(folder, "Date;time;Mode;cmd.x\n01.05.2024;12:00:00,000;AUTO;1\n01.05.2024;12:00:00,002;AUTO;2\n");
+    const Log log =
+        open(folder, "Date;time;Mode;cmd.x\n01.05.2024;12:00:00,000;AUTO;1\n01.05.2024;12:00:00,002;AUTO;2\n");
     EXPECT_NEAR(log.period, 0.002, 1e-9);
     EXPECT_EQ(log.find("Mode"), nullptr);
     EXPECT_EQ(log.find("Date"), nullptr);
@@ -131,10 +136,12 @@ TEST(Delimited, JoinsEventsAndRecordsByTheirClocks) {
     const test::TemporaryFolder folder;
     folder.write("events.csv", "when,block\n2024-05-01 23:59:59.999,5\n2024-05-02 00:00:00.001,6\n");
     LogOptions options;
-    options.mapping = folder.write("m.toml",
-                                   "[[column]]\nfrom = \"t\"\nname = \"time\"\n[[column]]\nfrom = \"x\"\nname = \"cmd.x\"\n"
-                                   "[events]\nfile = \"events.csv\"\nfrom = \"when\"\nline = \"block\"\n");
-    const Log log = open(folder, "t,x\n2024-05-02T00:00:00.000,1\n2024-05-02T00:00:00.001,2\n2024-05-02T00:00:00.002,3\n", options);
+    options.mapping =
+        folder.write("m.toml",
+                     "[[column]]\nfrom = \"t\"\nname = \"time\"\n[[column]]\nfrom = \"x\"\nname = \"cmd.x\"\n"
+                     "[events]\nfile = \"events.csv\"\nfrom = \"when\"\nline = \"block\"\n");
+    const Log log =
+        open(folder, "t,x\n2024-05-02T00:00:00.000,1\n2024-05-02T00:00:00.001,2\n2024-05-02T00:00:00.002,3\n", options);
     EXPECT_EQ(log.find("line")->values.at(0), 5);
     EXPECT_EQ(log.find("line")->values.at(1), 6);
     options.mapping = folder.write("scaled.toml", "[[column]]\nfrom = \"t\"\nname = \"time\"\nscale = 0.001\n");
@@ -146,9 +153,7 @@ TEST(Delimited, SaysThatATextIsUtf16) {
     try {
         (void)open(folder, std::string("\xff\xfet\0i\0", 6));
         FAIL();
-    } catch (const InputError& error) {
-        EXPECT_NE(std::string(error.what()).find("UTF-16"), std::string::npos);
-    }
+    } catch (const InputError& error) { EXPECT_NE(std::string(error.what()).find("UTF-16"), std::string::npos); }
 }
 
 TEST(Delimited, TakesABadNumberAsMissingAndNamesItsPlace) {
@@ -173,7 +178,9 @@ TEST(Delimited, NeedsAPeriodFromSomewhere) {
 TEST(Delimited, FollowsAMapping) {
     const test::TemporaryFolder folder;
     LogOptions options;
-    options.mapping = folder.write("m.toml", "[log]\nperiod_s = 0.002\n[[column]]\nfrom = \"DES_POS|1\"\nname = \"cmd.x\"\nunit = \"mm\"\nscale = 0.001\n");
+    options.mapping = folder.write(
+        "m.toml",
+        "[log]\nperiod_s = 0.002\n[[column]]\nfrom = \"DES_POS|1\"\nname = \"cmd.x\"\nunit = \"mm\"\nscale = 0.001\n");
     const Log log = open(folder, "n,DES_POS|1\n0,1500\n1,1600\n", options);
     EXPECT_DOUBLE_EQ(log.find("cmd.x")->values.at(0), 1.5);
     EXPECT_EQ(log.channels.size(), 1u);
@@ -212,7 +219,9 @@ TEST(Delimited, TakesLinesFromEventsInASecondFile) {
     const test::TemporaryFolder folder;
     (void)folder.write("events.csv", "Line;T\n8;0,004\n7;0,001\n9;99\n");
     LogOptions options;
-    options.mapping = folder.write("m.toml", "[log]\nperiod_s = 0.001\n[events]\nfile = \"events.csv\"\nfrom = \"T\"\nline = \"Line\"\n[[column]]\nfrom = \"P\"\nname = \"cmd.x\"\n");
+    options.mapping = folder.write(
+        "m.toml",
+        "[log]\nperiod_s = 0.001\n[events]\nfile = \"events.csv\"\nfrom = \"T\"\nline = \"Line\"\n[[column]]\nfrom = \"P\"\nname = \"cmd.x\"\n");
     const Log log = open(folder, "P;Q\n1;1\n2;1\n3;1\n4;1\n5;1\n6;1\n", options);
     const double lines[] = {0, 7, 7, 7, 8, 8};
     for (PointIndex i = 0; i < 6; ++i) EXPECT_EQ(log.find("line")->values.at(i), lines[i]) << i;
@@ -224,7 +233,9 @@ TEST(Delimited, CountsRecordsWhereTheEventsDo) {
     (void)folder.write("events.csv", "n,line\n0,3\n2,4\n");
     LogOptions options;
     options.period = 0.002;
-    options.mapping = folder.write("m.toml", "[events]\nfile = \"events.csv\"\nat = \"record\"\nfrom = 0\nline = 1\n[[column]]\nfrom = 0\nname = \"cmd.x\"\n");
+    options.mapping = folder.write(
+        "m.toml",
+        "[events]\nfile = \"events.csv\"\nat = \"record\"\nfrom = 0\nline = 1\n[[column]]\nfrom = 0\nname = \"cmd.x\"\n");
     const Log log = open(folder, "P,Q\n1,1\n2,1\n3,1\n", options);
     EXPECT_EQ(log.find("line")->values.at(1), 3);
     EXPECT_EQ(log.find("line")->values.at(2), 4);
@@ -237,13 +248,13 @@ TEST(Delimited, NamesTheEventFileThatIsWrong) {
     for (const std::string name : {"missing.csv", "empty.csv", "other.csv", "/dev/full"}) {
         LogOptions options;
         options.period = 0.002;
-        options.mapping = folder.write("m.toml", "[events]\nfile = \"" + name + "\"\nfrom = \"T\"\nline = \"Line\"\n[[column]]\nfrom = 0\nname = \"cmd.x\"\n");
+        options.mapping =
+            folder.write("m.toml", "[events]\nfile = \"" + name +
+                                       "\"\nfrom = \"T\"\nline = \"Line\"\n[[column]]\nfrom = 0\nname = \"cmd.x\"\n");
         try {
             (void)open(folder, "P,Q\n1,1\n2,1\n", options);
             FAIL() << name;
-        } catch (const InputError& error) {
-            EXPECT_NE(error.diagnostic().where.file.find(name), std::string::npos);
-        }
+        } catch (const InputError& error) { EXPECT_NE(error.diagnostic().where.file.find(name), std::string::npos); }
     }
 }
 

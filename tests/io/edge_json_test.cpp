@@ -16,7 +16,8 @@ Log open(const std::string& text, const LogOptions& options = {}) {
 const std::string header =
     "{\"Header\":{\"CycleTimeMs\":2,\"SignalListHFData\":[{\"Name\":\"CYCLE\",\"Axis\":\"Cycle\"},\n"
     "{\"Name\":\"DES_POS|1\",\"Axis\":\"X1\"},{\"Name\":\"ENC_POS|5\",\"Axis\":\"B1\"},{\"Name\":\"LOAD|6\",\"Axis\":\"SP1\"}]},\n";
-const std::string recording = header +
+const std::string recording =
+    header +
     "\"Payload\":[{\"HFBlockEvent\":{\"HFProbeCounter\":100,\"SeekOffset\":5}},\n"
     "{\"HFData\":[[100,1.5,90,7],[101,1.6,90,7]]},\n"
     "{\"HFCallEvent\":{\"HFProbeCounter\":102,\"SeekOffset\":20,\"CallStackLevel\":1,\"Path\":\"/_PART\"}},\n"
@@ -61,9 +62,7 @@ TEST(Edge, ReadsACutRecordingAsFarAsItGoes) {
     for (std::size_t size = header.size(); size < recording.size(); ++size) {
         try {
             EXPECT_LE(open(recording.substr(0, size)).records, 5);
-        } catch (const InputError& error) {
-            EXPECT_FALSE(error.diagnostic().where.file.empty());
-        }
+        } catch (const InputError& error) { EXPECT_FALSE(error.diagnostic().where.file.empty()); }
     }
 }
 
@@ -90,8 +89,11 @@ TEST(Edge, RefusesWhatIsNoRecording) {
     EXPECT_THROW((void)open("{\"Payload\":[{\"HFData\":[[1,2]]}]}"), InputError);
     EXPECT_THROW((void)open("{\"HFData\":" + std::string(100, '[')), InputError);
     // A signal behind the first rows would have fewer values than the others.
-    EXPECT_THROW((void)open(header + "\"Payload\":[{\"HFData\":[[1,2,3,4]]}],\"SignalListHFData\":[{\"Name\":\"CYCLE\"}]}"), InputError);
-    EXPECT_THROW((void)open("{\"Header\":{\"SignalListHFData\":[{\"Name\":\"a\"}]},\"Payload\":[{\"HFData\":[[1]]}]}"), InputError);
+    EXPECT_THROW(
+        (void)open(header + "\"Payload\":[{\"HFData\":[[1,2,3,4]]}],\"SignalListHFData\":[{\"Name\":\"CYCLE\"}]}"),
+        InputError);
+    EXPECT_THROW((void)open("{\"Header\":{\"SignalListHFData\":[{\"Name\":\"a\"}]},\"Payload\":[{\"HFData\":[[1]]}]}"),
+                 InputError);
 }
 
 TEST(Edge, SampleHasItsGapsAndPrograms) {

@@ -34,7 +34,8 @@ TEST(Halscope, NamesChannelsAfterTheirPins) {
 }
 
 TEST(Halscope, ReadsTheOldFormWithANameBeforeEachValue) {
-    const Log log = open("Sampling period is 1000000 nSec \n\njoint.0.motor-pos-cmd +1.5 motion.program-line +3.0 \njoint.0.motor-pos-cmd +1.6 motion.program-line +4.0 \n");
+    const Log log = open(
+        "Sampling period is 1000000 nSec \n\njoint.0.motor-pos-cmd +1.5 motion.program-line +3.0 \njoint.0.motor-pos-cmd +1.6 motion.program-line +4.0 \n");
     EXPECT_EQ(log.records, 2);
     EXPECT_DOUBLE_EQ(log.period, 0.001);
     EXPECT_DOUBLE_EQ(log.find("cmd.x")->values.at(1), 1.6);
@@ -42,7 +43,8 @@ TEST(Halscope, ReadsTheOldFormWithANameBeforeEachValue) {
 }
 
 TEST(Halscope, NumbersAxesAsLinuxcnc27Did) {
-    const Log log = open("Sampling period is 1000000 nSec\naxis.0.motor-pos-cmd +1.5 axis.2.motor-pos-fb -2 \naxis.0.motor-pos-cmd +2.5 axis.2.motor-pos-fb -3 \n");
+    const Log log = open(
+        "Sampling period is 1000000 nSec\naxis.0.motor-pos-cmd +1.5 axis.2.motor-pos-fb -2 \naxis.0.motor-pos-cmd +2.5 axis.2.motor-pos-fb -3 \n");
     EXPECT_DOUBLE_EQ(log.find("cmd.x")->values.at(1), 2.5);
     EXPECT_DOUBLE_EQ(log.find("fb.z")->values.at(0), -2);
 }
@@ -56,21 +58,21 @@ TEST(Halscope, KeepsTheNameOfASecondPinOfAnAxis) {
 TEST(Halscope, TakesAMapping) {
     const test::TemporaryFolder folder;
     LogOptions options;
-    options.mapping = folder.write("m.toml", "[[column]]\nfrom = \"spindle.0.orient\"\nname = \"cmd.x\"\nunit = \"in\"\n");
+    options.mapping =
+        folder.write("m.toml", "[[column]]\nfrom = \"spindle.0.orient\"\nname = \"cmd.x\"\nunit = \"in\"\n");
     const Log log = open_log(folder.write("scope.log", table), options);
     EXPECT_EQ(log.channels.size(), 1u);
     EXPECT_DOUBLE_EQ(log.find("cmd.x")->values.at(0), 25.4);
 }
 
 TEST(Halscope, NamesTheLineOfWhatIsWrong) {
-    for (const auto& [text, line] : {std::pair<const char*, std::uint64_t>{"# Sampling period is zero ns\na;b\n1;2\n", 1},
-                                     {"Sampling period is 1000 ns\n\none 1 two\n", 3}}) {
+    for (const auto& [text, line] :
+         {std::pair<const char*, std::uint64_t>{"# Sampling period is zero ns\na;b\n1;2\n", 1},
+          {"Sampling period is 1000 ns\n\none 1 two\n", 3}}) {
         try {
             (void)open(text);
             FAIL() << text;
-        } catch (const InputError& error) {
-            EXPECT_EQ(error.diagnostic().where.number, line);
-        }
+        } catch (const InputError& error) { EXPECT_EQ(error.diagnostic().where.number, line); }
     }
 }
 
@@ -78,9 +80,7 @@ TEST(Halscope, ReadsOrRefusesEveryCutFile) {
     for (std::size_t size = 25; size < table.size(); ++size) {
         try {
             EXPECT_LE(open(table.substr(0, size)).records, 2);
-        } catch (const InputError& error) {
-            EXPECT_FALSE(error.diagnostic().where.file.empty());
-        }
+        } catch (const InputError& error) { EXPECT_FALSE(error.diagnostic().where.file.empty()); }
     }
 }
 

@@ -125,10 +125,24 @@ TEST(HeaderMemory, TheBiipThatIsCraftedCanBeRead) {
 }
 
 TEST(HeaderMemory, OfABiipWhateverItsFieldsSay) {
-    const std::vector<std::uint64_t> numbers{0, 1, 7, 8, 255, 65535, (1u << 24) + 8, 0x7ffffff8, 0x7fffffff, 0x80000000, 0xfffffff8, 0xffffffff,
-                                             std::uint64_t{1} << 40, std::uint64_t{1} << 62, std::numeric_limits<std::uint64_t>::max()};
+    const std::vector<std::uint64_t> numbers{0,
+                                             1,
+                                             7,
+                                             8,
+                                             255,
+                                             65535,
+                                             (1u << 24) + 8,
+                                             0x7ffffff8,
+                                             0x7fffffff,
+                                             0x80000000,
+                                             0xfffffff8,
+                                             0xffffffff,
+                                             std::uint64_t{1} << 40,
+                                             std::uint64_t{1} << 62,
+                                             std::numeric_limits<std::uint64_t>::max()};
     for (const std::uint64_t number : numbers) {
-        for (const std::size_t at : {12u, 16u, 20u, 40u, 84u, 132u}) {  // header, record, channels, metadata, offsets of channels
+        for (const std::size_t at :
+             {12u, 16u, 20u, 40u, 84u, 132u}) {  // header, record, channels, metadata, offsets of channels
             std::string bytes = small_biip();
             put<std::uint32_t>(bytes, at, static_cast<std::uint32_t>(number));
             expect_small(sealed(bytes), fmt::format("byte {}: {}", at, number));
@@ -140,7 +154,8 @@ TEST(HeaderMemory, OfABiipWhateverItsFieldsSay) {
         bytes[first_channel + 32] = static_cast<char>(number);
         expect_small(sealed(bytes), fmt::format("type {}", number));
     }
-    for (const double number : {0.0, -1.0, 1e-323, 1e-300, 1e300, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+    for (const double number : {0.0, -1.0, 1e-323, 1e-300, 1e300, std::numeric_limits<double>::infinity(),
+                                std::numeric_limits<double>::quiet_NaN()}) {
         for (const std::size_t at : {std::size_t{32}, first_channel + 40}) {
             std::string bytes = small_biip();
             put<double>(bytes, at, number);
@@ -176,11 +191,15 @@ TEST(HeaderMemory, OfPackedDataWhateverTheySayToUnpackTo) {
         put<std::uint64_t>(head, 5, std::uint64_t{1} << power);
         expect_small(block(head), fmt::format("zstd of 2^{} bytes", power));
     }
-    for (const int window : {0, 0x50, 0x88, 0x90, 0xa8, 0xf8, 0xff}) expect_small(block(std::string("\x28\xb5\x2f\xfd\x00", 5) + static_cast<char>(window)), fmt::format("zstd, window {:#x}", window));
+    for (const int window : {0, 0x50, 0x88, 0x90, 0xa8, 0xf8, 0xff})
+        expect_small(block(std::string("\x28\xb5\x2f\xfd\x00", 5) + static_cast<char>(window)),
+                     fmt::format("zstd, window {:#x}", window));
     // xz: the dictionary of the block header, which has a checksum of its own.
     std::string xz(256, '\0');
     std::size_t size = 0;
-    ASSERT_EQ(lzma_easy_buffer_encode(0, LZMA_CHECK_CRC32, nullptr, reinterpret_cast<const std::uint8_t*>(text.data()), text.size(), reinterpret_cast<std::uint8_t*>(xz.data()), &size, xz.size()), LZMA_OK);
+    ASSERT_EQ(lzma_easy_buffer_encode(0, LZMA_CHECK_CRC32, nullptr, reinterpret_cast<const std::uint8_t*>(text.data()),
+                                      text.size(), reinterpret_cast<std::uint8_t*>(xz.data()), &size, xz.size()),
+              LZMA_OK);
     xz.resize(size);
     constexpr std::size_t block_header = 12;
     const std::size_t header_bytes = 4 * (static_cast<unsigned char>(xz[block_header]) + 1u);
@@ -188,7 +207,9 @@ TEST(HeaderMemory, OfPackedDataWhateverTheySayToUnpackTo) {
     ASSERT_LT(dictionary, block_header + header_bytes);
     for (const int bits : {0, 20, 31, 36, 40}) {
         xz[dictionary] = static_cast<char>(bits);
-        put<std::uint32_t>(xz, block_header + header_bytes - 4, lzma_crc32(reinterpret_cast<const std::uint8_t*>(xz.data()) + block_header, header_bytes - 4, 0));
+        put<std::uint32_t>(
+            xz, block_header + header_bytes - 4,
+            lzma_crc32(reinterpret_cast<const std::uint8_t*>(xz.data()) + block_header, header_bytes - 4, 0));
         expect_small(xz, fmt::format("xz, dictionary {}", bits));
     }
 }
@@ -197,10 +218,15 @@ TEST(HeaderMemory, OfALayoutWhateverItSays) {
     const test::TemporaryFolder folder;
     for (const char* key : {"header_bytes", "record_bytes", "offset", "period_s", "scale"}) {
         for (const char* value : {"0", "1", "4294967296", "9223372036854775807", "1e-323", "1e300"}) {
-            const auto of = [&](const char* name, const char* usual) { return fmt::format("{} = {}\n", name, std::string(name) == key ? value : usual); };
+            const auto of = [&](const char* name, const char* usual) {
+                return fmt::format("{} = {}\n", name, std::string(name) == key ? value : usual);
+            };
             LogOptions options;
-            options.layout = folder.write("layout.toml", "[log]\n" + of("header_bytes", "0") + of("record_bytes", "16") + of("period_s", "0.001") +
-                                                             "[[channel]]\nname = \"cmd.x\"\ntype = \"f64\"\nunit = \"mm\"\n" + of("offset", "8") + of("scale", "1.0"));
+            options.layout =
+                folder.write("layout.toml", "[log]\n" + of("header_bytes", "0") + of("record_bytes", "16") +
+                                                of("period_s", "0.001") +
+                                                "[[channel]]\nname = \"cmd.x\"\ntype = \"f64\"\nunit = \"mm\"\n" +
+                                                of("offset", "8") + of("scale", "1.0"));
             expect_small(std::string(1600, '\x01'), fmt::format("{} = {}", key, value), options);
         }
     }
@@ -208,20 +234,33 @@ TEST(HeaderMemory, OfALayoutWhateverItSays) {
 
 TEST(HeaderMemory, OfTextLogsWhateverTheirNumbersSay) {
     for (const double number : {0.0, -1.0, 1e-323, 1e-9, 2147483648.0, 4294967296.0, huge, 1e300}) {
-        expect_small(fmt::format("{{\"Header\":{{\"CycleTimeMs\":{0},\"SignalListHFData\":[{{\"Name\":\"CYCLE\",\"Axis\":\"Cycle\"}},{{\"Name\":\"DES_POS|1\",\"Axis\":\"X1\"}}]}},\n"
-                                 "\"Payload\":[{{\"HFBlockEvent\":{{\"HFProbeCounter\":{0},\"SeekOffset\":{0}}}}},\n"
-                                 "{{\"HFCallEvent\":{{\"HFProbeCounter\":1,\"SeekOffset\":{0},\"CallStackLevel\":{0},\"Path\":\"/_P\"}}}},\n"
-                                 "{{\"HFData\":[[1,1.5],[{0},1.6],[3,1.7]]}}],\"Footer\":null}}\n", number),
-                     fmt::format("Edge, {}", number));
-        expect_small(fmt::format("<?xml version=\"1.0\"?>\n<traceSession version=\"2.0\"><traceData dataFrames=\"{0}\"><dataFrame><frameHeader dropOuts=\"{0}\"/>\n"
-                                 "<dataSignal id=\"f1\" name=\"/Nck/!SEMA/cmdContrPos [u1, 1]\" interval=\"{0}\"/>\n"
-                                 "<rec time=\"0\" f1=\"1.5\"/><rec time=\"{0}\" f1=\"{0}\"/><rec time=\"1\" f1=\"2\"/></dataFrame></traceData></traceSession>\n", number),
-                     fmt::format("trace, {}", number));
-        expect_small(fmt::format("# Sampling period is {0} ns\njoint.0.motor-pos-cmd;motion.program-line\n+1.5;{0}\n+1.75;8\n", number), fmt::format("halscope, {}", number));
-        expect_small(fmt::format("Name\tscope\nFile\tscope.csv\nStarttime of export\t{0}\tMontag\n\n\nName\tcmd.x\tName\tload\nSampleTime[ms]\t{0}\tSampleTime[ms]\t2\n\n"
-                                 "0\t1.5\t0\t17\n{0}\t1.6\t2\t18\nEOF\n", number),
-                     fmt::format("TwinCAT, {}", number));
-        expect_small(fmt::format("time[s],cmd.x[mm],line\n0,1,1\n{0},{0},{0}\n0.002,2,3\n", number), fmt::format("CSV, {}", number));
+        expect_small(
+            fmt::format(
+                "{{\"Header\":{{\"CycleTimeMs\":{0},\"SignalListHFData\":[{{\"Name\":\"CYCLE\",\"Axis\":\"Cycle\"}},{{\"Name\":\"DES_POS|1\",\"Axis\":\"X1\"}}]}},\n"
+                "\"Payload\":[{{\"HFBlockEvent\":{{\"HFProbeCounter\":{0},\"SeekOffset\":{0}}}}},\n"
+                "{{\"HFCallEvent\":{{\"HFProbeCounter\":1,\"SeekOffset\":{0},\"CallStackLevel\":{0},\"Path\":\"/_P\"}}}},\n"
+                "{{\"HFData\":[[1,1.5],[{0},1.6],[3,1.7]]}}],\"Footer\":null}}\n",
+                number),
+            fmt::format("Edge, {}", number));
+        expect_small(
+            fmt::format(
+                "<?xml version=\"1.0\"?>\n<traceSession version=\"2.0\"><traceData dataFrames=\"{0}\"><dataFrame><frameHeader dropOuts=\"{0}\"/>\n"
+                "<dataSignal id=\"f1\" name=\"/Nck/!SEMA/cmdContrPos [u1, 1]\" interval=\"{0}\"/>\n"
+                "<rec time=\"0\" f1=\"1.5\"/><rec time=\"{0}\" f1=\"{0}\"/><rec time=\"1\" f1=\"2\"/></dataFrame></traceData></traceSession>\n",
+                number),
+            fmt::format("trace, {}", number));
+        expect_small(
+            fmt::format("# Sampling period is {0} ns\njoint.0.motor-pos-cmd;motion.program-line\n+1.5;{0}\n+1.75;8\n",
+                        number),
+            fmt::format("halscope, {}", number));
+        expect_small(
+            fmt::format(
+                "Name\tscope\nFile\tscope.csv\nStarttime of export\t{0}\tMontag\n\n\nName\tcmd.x\tName\tload\nSampleTime[ms]\t{0}\tSampleTime[ms]\t2\n\n"
+                "0\t1.5\t0\t17\n{0}\t1.6\t2\t18\nEOF\n",
+                number),
+            fmt::format("TwinCAT, {}", number));
+        expect_small(fmt::format("time[s],cmd.x[mm],line\n0,1,1\n{0},{0},{0}\n0.002,2,3\n", number),
+                     fmt::format("CSV, {}", number));
         LogOptions options;
         options.period = number;
         expect_small("cmd.x,cmd.y\n1,2\n3,4\n", fmt::format("--period {}", number), options);
@@ -229,7 +268,10 @@ TEST(HeaderMemory, OfTextLogsWhateverTheirNumbersSay) {
 }
 
 TEST(HeaderMemory, OfMetadataWhateverItSays) {
-    for (const std::string_view metadata : {R"({"programs":[{"name":"a","size":1e300}]})", R"({"programs":[{"size":18446744073709551615}],"work_offset":[1e300,1e300,1e300]})", R"({"work_offset":[1,2]})"}) {
+    for (const std::string_view metadata :
+         {R"({"programs":[{"name":"a","size":1e300}]})",
+          R"({"programs":[{"size":18446744073709551615}],"work_offset":[1e300,1e300,1e300]})",
+          R"({"work_offset":[1,2]})"}) {
         std::string bytes = small_biip();
         std::string padded(metadata);
         padded.resize((padded.size() + 7) / 8 * 8, '\0');

@@ -13,7 +13,8 @@ TEST(HtmlText, MarkupIsText) {
 }
 
 TEST(HtmlText, LettersOfAllLanguagesStay) {
-    EXPECT_EQ(html("Gr\u00f6\u00dfe \u00b5m \u6a21\u5177 \U0001f527"), "Gr\u00f6\u00dfe \u00b5m \u6a21\u5177 \U0001f527");
+    EXPECT_EQ(html("Gr\u00f6\u00dfe \u00b5m \u6a21\u5177 \U0001f527"),
+              "Gr\u00f6\u00dfe \u00b5m \u6a21\u5177 \U0001f527");
 }
 
 TEST(HtmlText, ControlCharactersAreSeen) {
@@ -22,16 +23,17 @@ TEST(HtmlText, ControlCharactersAreSeen) {
     EXPECT_EQ(html("\u0085"), "[U+0085]");
 }
 
-TEST(HtmlText, MarksThatTurnTextAreSeen) {
-    EXPECT_EQ(html("a\u202eb\u2066c\u200fd"), "a[U+202E]b[U+2066]c[U+200F]d");
-}
+TEST(HtmlText, MarksThatTurnTextAreSeen) { EXPECT_EQ(html("a\u202eb\u2066c\u200fd"), "a[U+202E]b[U+2066]c[U+200F]d"); }
 
 TEST(HtmlText, BytesThatAreNoUtf8BecomeTheReplacementCharacter) {
-    EXPECT_EQ(html("a\xff" "b"), "a\ufffd" "b");
-    EXPECT_EQ(html("\xc0\xaf"), "\ufffd\ufffd");              // overlong
-    EXPECT_EQ(html("\xed\xa0\x80"), "\ufffd\ufffd\ufffd");      // half of a surrogate pair
+    EXPECT_EQ(html("a\xff"
+                   "b"),
+              "a\ufffd"
+              "b");
+    EXPECT_EQ(html("\xc0\xaf"), "\ufffd\ufffd");                      // overlong
+    EXPECT_EQ(html("\xed\xa0\x80"), "\ufffd\ufffd\ufffd");            // half of a surrogate pair
     EXPECT_EQ(html("\xf4\x90\x80\x80"), "\ufffd\ufffd\ufffd\ufffd");  // beyond U+10FFFF
-    EXPECT_EQ(html("\xe2\x82"), "\ufffd\ufffd");              // cut short
+    EXPECT_EQ(html("\xe2\x82"), "\ufffd\ufffd");                      // cut short
 }
 
 TEST(HtmlText, JsonHasNoLessThan) {

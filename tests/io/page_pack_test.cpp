@@ -30,14 +30,18 @@ std::string from_base64(std::string_view text) {
     return bytes;
 }
 
-std::int64_t unfold(std::uint64_t value) { return static_cast<std::int64_t>(value >> 1) ^ -static_cast<std::int64_t>(value & 1); }
+std::int64_t unfold(std::uint64_t value) {
+    return static_cast<std::int64_t>(value >> 1) ^ -static_cast<std::int64_t>(value & 1);
+}
 
 /// As viz/page/src/columns.ts has it.
 std::vector<std::int64_t> unpack_integers(const PackedColumn& packed) {
     std::string bytes(packed.count * static_cast<std::size_t>(packed.planes), '\0');
     const std::string stream = from_base64(packed.base64);
     uLongf size = static_cast<uLongf>(bytes.size());
-    if (!bytes.empty() && uncompress(reinterpret_cast<Bytef*>(bytes.data()), &size, reinterpret_cast<const Bytef*>(stream.data()), static_cast<uLong>(stream.size())) != Z_OK) {
+    if (!bytes.empty() &&
+        uncompress(reinterpret_cast<Bytef*>(bytes.data()), &size, reinterpret_cast<const Bytef*>(stream.data()),
+                   static_cast<uLong>(stream.size())) != Z_OK) {
         ADD_FAILURE() << "a packed column is damaged";
     }
     std::vector<std::int64_t> values(packed.count);
@@ -45,7 +49,9 @@ std::vector<std::int64_t> unpack_integers(const PackedColumn& packed) {
     for (std::size_t i = 0; i < packed.count; ++i) {
         std::uint64_t folded = 0;
         for (int plane = 0; plane < packed.planes; ++plane) {
-            folded |= static_cast<std::uint64_t>(static_cast<unsigned char>(bytes[static_cast<std::size_t>(plane) * packed.count + i])) << (8 * plane);
+            folded |= static_cast<std::uint64_t>(
+                          static_cast<unsigned char>(bytes[static_cast<std::size_t>(plane) * packed.count + i]))
+                      << (8 * plane);
         }
         const auto before = [&](std::size_t steps) { return i >= steps * stride ? values[i - steps * stride] : 0; };
         std::int64_t value = unfold(folded);

@@ -30,7 +30,9 @@ TEST(Sha256, IsTheSameWithAndWithoutTheMachinesInstructions) {
     }
 }
 
-Source made(const std::string& name, std::string_view text) { return {name, std::as_bytes(std::span(text.data(), text.size())), nullptr}; }
+Source made(const std::string& name, std::string_view text) {
+    return {name, std::as_bytes(std::span(text.data(), text.size())), nullptr};
+}
 
 std::string warning_of(const Source& program, const std::vector<ProgramReference>& programs) {
     Log log;
@@ -56,20 +58,24 @@ TEST(ProgramIdentity, IsQuietWhereTheProgramRanOrNothingIsKnown) {
 
 TEST(ProgramIdentity, TellsAnEditedProgramFromAnotherOne) {
     const ProgramReference ran = identify(made("part.nc", "G1 X1\n"));
-    EXPECT_NE(warning_of(made("here/part.nc", "G1 X2\n"), {ran}).find("here/part.nc was edited after the run"), std::string::npos);
+    EXPECT_NE(warning_of(made("here/part.nc", "G1 X2\n"), {ran}).find("here/part.nc was edited after the run"),
+              std::string::npos);
     EXPECT_NE(warning_of(made("other.nc", "G1 X2\n"), {ran}).find("other.nc is another program"), std::string::npos);
 }
 
 TEST(ProgramIdentity, KeepsTheRestOfTheMetadata) {
     const ProgramReference ran{"part.nc", std::string(64, '0'), 6};
     EXPECT_EQ(with_programs(R"({"machine":"m","programs":[{"name":"old"}],"comment":"c"})", std::span(&ran, 1)),
-              R"({"machine":"m","programs":[{"name":"part.nc","sha256":")" + std::string(64, '0') + R"(","size":6}],"comment":"c"})");
+              R"({"machine":"m","programs":[{"name":"part.nc","sha256":")" + std::string(64, '0') +
+                  R"(","size":6}],"comment":"c"})");
     EXPECT_EQ(with_programs("", {}), R"({"programs":[]})");
 }
 
 TEST(ProgramIdentity, LeavesOutMetadataThatIsNestedTooDeep) {
     const ProgramReference program{"part.nc", "", {}};
-    const auto nested = [](std::size_t levels) { return "{\"a\":" + std::string(levels, '[') + std::string(levels, ']') + "}"; };
+    const auto nested = [](std::size_t levels) {
+        return "{\"a\":" + std::string(levels, '[') + std::string(levels, ']') + "}";
+    };
     EXPECT_NE(with_programs(nested(60), std::span(&program, 1)).find("[[["), std::string::npos);
     const std::string without = with_programs(nested(100'000), std::span(&program, 1));
     EXPECT_EQ(without.find("[[["), std::string::npos);

@@ -21,7 +21,8 @@ const char* const layout =
 TEST(RecordLayout, ReadsBigEndianValuesWithScaleAndBias) {
     const test::TemporaryFolder folder;
     // Records: skip one byte, then 0x0102 and 0xFFFE (−2); one byte is left over.
-    const Log log = open(folder, std::string("HH") + std::string("\x00\x01\x02", 3) + std::string("\x00\xFF\xFE", 3) + "?", layout);
+    const Log log =
+        open(folder, std::string("HH") + std::string("\x00\x01\x02", 3) + std::string("\x00\xFF\xFE", 3) + "?", layout);
     EXPECT_EQ(log.records, 2);
     EXPECT_DOUBLE_EQ(log.find("cmd.x")->values.at(0), 0x0102 * 0.5 + 10);
     EXPECT_DOUBLE_EQ(log.find("cmd.x")->values.at(1), 9.0);
@@ -47,9 +48,7 @@ TEST(RecordLayout, SuggestsTheNearestTypeAndKey) {
     try {
         (void)open(folder, "HHabcdef", wrong);
         FAIL();
-    } catch (const InputError& error) {
-        EXPECT_EQ(error.diagnostic().hint, "did you mean 'i16'?");
-    }
+    } catch (const InputError& error) { EXPECT_EQ(error.diagnostic().hint, "did you mean 'i16'?"); }
 }
 
 }  // namespace

@@ -42,7 +42,8 @@ TEST(SinumerikXml, HoldsWhatIsNotRepeated) {
 TEST(SinumerikXml, TakesAMappingForOtherAxes) {
     const test::TemporaryFolder folder;
     LogOptions options;
-    options.mapping = folder.write("m.toml", "[[column]]\nfrom = \"/Nck/!SEMA/cmdContrPos [u1, 1]\"\nname = \"cmd.z\"\n");
+    options.mapping =
+        folder.write("m.toml", "[[column]]\nfrom = \"/Nck/!SEMA/cmdContrPos [u1, 1]\"\nname = \"cmd.z\"\n");
     const Log log = open_log(folder.write("trace.xml", session), options);
     EXPECT_DOUBLE_EQ(log.find("cmd.z")->values.at(2), 1.75);
     EXPECT_EQ(log.diagnostics.count("log.axes"), 0u);

@@ -16,9 +16,7 @@ ToolTable read(const std::string& text) {
 std::string error_of(const std::string& text) {
     try {
         (void)read(text);
-    } catch (const InputError& error) {
-        return error.what();
-    }
+    } catch (const InputError& error) { return error.what(); }
     return "";
 }
 

@@ -55,7 +55,8 @@ TEST(TwinCat, UnderstandsDecimalPointsAndCommasAsSeparators) {
 }
 
 TEST(TwinCat, UnderstandsFullTimestamps) {
-    const Log log = open("Name;a\nStarttime of export;1\n\nName;cmd.x\n\n132959733843760000;1,5\n132959733843780000;1,6\n");
+    const Log log =
+        open("Name;a\nStarttime of export;1\n\nName;cmd.x\n\n132959733843760000;1,5\n132959733843780000;1,6\n");
     EXPECT_NEAR(log.period, 0.002, 1e-5);
     EXPECT_EQ(log.records, 2);
 }
@@ -63,7 +64,8 @@ TEST(TwinCat, UnderstandsFullTimestamps) {
 TEST(TwinCat, TakesAMappingByNameOrSymbol) {
     const test::TemporaryFolder folder;
     LogOptions options;
-    options.mapping = folder.write("m.toml", "[[column]]\nfrom = \"GVL.x\"\nname = \"fb.z\"\n[[column]]\nfrom = \"cmd.y\"\nname = \"fb.x\"\n");
+    options.mapping = folder.write(
+        "m.toml", "[[column]]\nfrom = \"GVL.x\"\nname = \"fb.z\"\n[[column]]\nfrom = \"cmd.y\"\nname = \"fb.x\"\n");
     const Log log = open_log(folder.write("scope.csv", scope), options);
     EXPECT_DOUBLE_EQ(log.find("fb.z")->values.at(1), 1.6);
     EXPECT_DOUBLE_EQ(log.find("fb.x")->values.at(1), 2);
@@ -84,9 +86,7 @@ TEST(TwinCat, ReadsOrRefusesEveryCutFile) {
     for (std::size_t size = 60; size < scope.size(); ++size) {
         try {
             EXPECT_LE(open(scope.substr(0, size)).records, 3);
-        } catch (const InputError& error) {
-            EXPECT_FALSE(error.diagnostic().where.file.empty());
-        }
+        } catch (const InputError& error) { EXPECT_FALSE(error.diagnostic().where.file.empty()); }
     }
 }
 

@@ -29,7 +29,8 @@ struct Made {
         rest(200, 0);
         for (const char axis : {'x', 'y', 'z'}) {
             std::vector<double> lagging = at(std::string("cmd.") + axis);
-            for (std::size_t i = 1; i < lagging.size(); ++i) lagging[i] = lagging[i - 1] + (lagging[i] - lagging[i - 1]) * (1 - std::exp(-period / 0.003));
+            for (std::size_t i = 1; i < lagging.size(); ++i)
+                lagging[i] = lagging[i - 1] + (lagging[i] - lagging[i - 1]) * (1 - std::exp(-period / 0.003));
             columns[std::string("fb.") + axis] = std::move(lagging);
         }
     }
@@ -45,7 +46,10 @@ struct Made {
         log.records = static_cast<PointIndex>(size());
         for (const auto& [name, values] : columns) {
             const char* unit = name == "time" ? "s" : name == "line" ? "" : "mm";
-            log.channels.push_back({name, unit, {reinterpret_cast<const std::byte*>(values.data()), 8, log.records, ScalarType::f64, false, 1, 0}});
+            log.channels.push_back(
+                {name,
+                 unit,
+                 {reinterpret_cast<const std::byte*>(values.data()), 8, log.records, ScalarType::f64, false, 1, 0}});
         }
         return check_health(log, program_lines);
     }
@@ -253,7 +257,8 @@ TEST(Health, FindsAConstantOffsetInALogThatNeverRests) {
     for (double& t : made["time"]) t -= first;
     EXPECT_TRUE(made.check().empty());
     for (double& x : made["fb.x"]) x -= 0.02;
-    for (std::size_t i = 0; i < made.size(); ++i) made["fb.x"][i] += 1e-3 * std::sin(0.9 * static_cast<double>(i));  // rests nowhere
+    for (std::size_t i = 0; i < made.size(); ++i)
+        made["fb.x"][i] += 1e-3 * std::sin(0.9 * static_cast<double>(i));  // rests nowhere
     const Diagnostic d = only(made.check(), "log.offset");
     expect_says(d, "fb.x differs from cmd.x by -0.02");
     expect_says(d, "whichever way the axis moves");

@@ -24,7 +24,8 @@ Kinematics machine_of(KinematicsType type, const std::string& kind) {
 }
 
 void expect_near(const Vec3& value, const Vec3& expected, double tolerance, const std::string& what) {
-    EXPECT_LE((value - expected).cwiseAbs().maxCoeff(), tolerance) << what << ": " << value.transpose() << " for " << expected.transpose();
+    EXPECT_LE((value - expected).cwiseAbs().maxCoeff(), tolerance)
+        << what << ": " << value.transpose() << " for " << expected.transpose();
 }
 
 Vec3 vec(VectorRow& row) {
@@ -132,7 +133,8 @@ TEST(Kinematics, BothSolutionsGiveTheAxis) {
         for (int s = 0; s < found.count; ++s) {
             const RotaryAngles& angles = found.angles[static_cast<std::size_t>(s)];
             ASSERT_LE(angle_between(k.axis_of(angles), axis), 1e-9) << i << ' ' << given.tilt << ' ' << given.rotation;
-            const double off = std::abs(std::remainder(angles.tilt - given.tilt, 2 * pi)) + std::abs(std::remainder(angles.rotation - given.rotation, 2 * pi));
+            const double off = std::abs(std::remainder(angles.tilt - given.tilt, 2 * pi)) +
+                               std::abs(std::remainder(angles.rotation - given.rotation, 2 * pi));
             met = met || off < 1e-7;
         }
         ASSERT_TRUE(met) << i << ' ' << given.tilt << ' ' << given.rotation;

@@ -44,7 +44,8 @@ PathElement arc(const Vec3& centre, const Vec3& from, double angle) {
 
 TEST(JunctionVectors, SpeedRules) {
     for (VectorRow& r : vector_rows("motion", "junction_speed.txt")) {
-        const double alpha = r.number(), a = r.number(), period = r.number(), chord_error = r.number(), radius = r.number(), error = r.number();
+        const double alpha = r.number(), a = r.number(), period = r.number(), chord_error = r.number(),
+                     radius = r.number(), error = r.number();
         (void)r.number();  // of a corner that is passed as it is, which no corner mode does
         near(arc_speed(radius, a), r.number(), 1e-9, 1e-12, r.name);
         near(chord_speed(radius, chord_error, period), r.number(), 1e-9, 1e-12, r.name);
@@ -111,7 +112,9 @@ TEST(TransitionArcVectors, BetweenLineAndArcForthAndBack) {
 }
 
 /// Arcs about a centre, clockwise up to the origin or from it, by an angle [rad].
-PathElement clockwise_to_origin(const Vec3& centre, double sweep) { return arc(centre, centre + Eigen::AngleAxisd(sweep, Vec3::UnitZ()) * -centre, -sweep); }
+PathElement clockwise_to_origin(const Vec3& centre, double sweep) {
+    return arc(centre, centre + Eigen::AngleAxisd(sweep, Vec3::UnitZ()) * -centre, -sweep);
+}
 PathElement clockwise_from_origin(const Vec3& centre, double sweep) { return arc(centre, Vec3::Zero(), -sweep); }
 double direction_to(const Vec3& from, const Vec3& to) { return std::atan2(to.y() - from.y(), to.x() - from.x()); }
 
@@ -164,7 +167,9 @@ TEST(TransitionArc, AsLongAsHalfOfAnArcBetweenUnequalOnes) {
 // The centre of an arc between two arcs lies on the offsets of both: at |ρ ± r| from their centres.
 TEST(TransitionArc, BetweenArcsTouchesBoth) {
     std::mt19937_64 random(7);
-    const auto uniform = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+    const auto uniform = [&](double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(random);
+    };
     int found = 0;
     constexpr int trials = 1000;
     for (int trial = 0; trial < trials; ++trial) {
@@ -172,7 +177,8 @@ TEST(TransitionArc, BetweenArcsTouchesBoth) {
         const auto [angle0, rho0] = arm();
         const auto [angle1, rho1] = arm();
         const double turn0 = uniform(0, 1) < 0.5 ? 1 : -1, turn1 = uniform(0, 1) < 0.5 ? 1 : -1;
-        const Vec3 centre0 = rho0 * Vec3(std::cos(angle0), std::sin(angle0), 0), centre1 = rho1 * Vec3(std::cos(angle1), std::sin(angle1), 0);
+        const Vec3 centre0 = rho0 * Vec3(std::cos(angle0), std::sin(angle0), 0),
+                   centre1 = rho1 * Vec3(std::cos(angle1), std::sin(angle1), 0);
         const double sweep0 = uniform(0.1, 3), sweep1 = uniform(0.1, 3);
         const Vec3 begin = centre0 + Eigen::AngleAxisd(-turn0 * sweep0, Vec3::UnitZ()) * Vec3(-centre0);
         const PathElement before = arc(centre0, begin, turn0 * sweep0);

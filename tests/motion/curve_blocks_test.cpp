@@ -69,7 +69,8 @@ TEST_P(Curves, AreTheSameForthAndBack) {
             cubics += forth[i].cubic;
             EXPECT_EQ(forth[i].cubic, other.cubic);
             EXPECT_NEAR(forth[i].length, other.length, 1e-5);
-            EXPECT_LT((forth[i].at(0.3 * forth[i].length) - other.at(0.7 * other.length)).norm(), 1e-5) << trial << " block " << i;
+            EXPECT_LT((forth[i].at(0.3 * forth[i].length) - other.at(0.7 * other.length)).norm(), 1e-5)
+                << trial << " block " << i;
         }
     }
     EXPECT_GT(cubics, 50U * 60);
@@ -101,7 +102,9 @@ TEST(CurveBlocks, TakeTheFacetsOutOfACircle) {
         double farthest = 0;
         const std::vector<PathElement> elements = shaped(points, mode);
         for (std::size_t i = 5; i + 5 < elements.size(); ++i) {
-            for (const double part : {0.0, 0.25, 0.5, 0.75}) farthest = std::max(farthest, std::abs((elements[i].at(part * elements[i].length) - Vec3(0, 20, 0)).norm() - 20));
+            for (const double part : {0.0, 0.25, 0.5, 0.75})
+                farthest = std::max(farthest,
+                                    std::abs((elements[i].at(part * elements[i].length) - Vec3(0, 20, 0)).norm() - 20));
         }
         return farthest;
     };

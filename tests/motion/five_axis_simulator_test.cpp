@@ -30,7 +30,9 @@ Recorded run(const std::string& text, const Machine& machine) {
     r.program = test::parse_text(text);
     solve_tool_axes(r.program, machine);
     make_tip_motions(r.program, machine.kinematics, -zero);
-    r.summary = simulate_five_axis(r.program, machine, zero, Vec3::Zero(), [&](std::span<const FiveAxisPoint> p) { r.points.insert(r.points.end(), p.begin(), p.end()); }, {});
+    r.summary = simulate_five_axis(
+        r.program, machine, zero, Vec3::Zero(),
+        [&](std::span<const FiveAxisPoint> p) { r.points.insert(r.points.end(), p.begin(), p.end()); }, {});
     return r;
 }
 
@@ -50,7 +52,8 @@ double worst_share(const Recorded& r, const Machine& machine) {
         const MachineAxis& axis = k < 3 ? machine.axes[k] : machine.rotary[k - 3];
         const auto p = [&](std::size_t i) { return r.points[i].commanded[k]; };
         for (std::size_t i = 3; i < r.points.size(); ++i) {
-            worst = std::max({worst, std::abs(p(i) - p(i - 1)) / t / axis.max_speed, std::abs(p(i) - 2 * p(i - 1) + p(i - 2)) / (t * t) / axis.max_acceleration,
+            worst = std::max({worst, std::abs(p(i) - p(i - 1)) / t / axis.max_speed,
+                              std::abs(p(i) - 2 * p(i - 1) + p(i - 2)) / (t * t) / axis.max_acceleration,
                               std::abs(p(i) - 3 * p(i - 1) + 3 * p(i - 2) - p(i - 3)) / (t * t * t) / axis.max_jerk});
         }
     }
@@ -58,7 +61,8 @@ double worst_share(const Recorded& r, const Machine& machine) {
 }
 
 TEST(FiveAxisSimulator, ADomeHoldsLimitsAndPath) {
-    for (const ToolAxisInterpolation way : {ToolAxisInterpolation::linear, ToolAxisInterpolation::vector, ToolAxisInterpolation::safe}) {
+    for (const ToolAxisInterpolation way :
+         {ToolAxisInterpolation::linear, ToolAxisInterpolation::vector, ToolAxisInterpolation::safe}) {
         Machine machine = trunnion();
         machine.kinematics.interpolation = way;
         const Recorded r = run(test::dome_program(), machine);
@@ -72,7 +76,8 @@ TEST(FiveAxisSimulator, ADomeHoldsLimitsAndPath) {
             double nearest = 1e9;
             for (std::int64_t m = 0; m < path.size(); ++m) {
                 const LineNumber line = r.program.motions.line[static_cast<std::size_t>(m)];
-                if (line + 2 >= r.points[i].line && line <= r.points[i].line + 2) nearest = std::min(nearest, path.foot(m, tip).distance);
+                if (line + 2 >= r.points[i].line && line <= r.points[i].line + 2)
+                    nearest = std::min(nearest, path.foot(m, tip).distance);
             }
             off = std::max(off, nearest);
         }
@@ -80,7 +85,9 @@ TEST(FiveAxisSimulator, ADomeHoldsLimitsAndPath) {
         const ToolPose end = pose_of(machine, r.points.back().commanded);
         const auto last = static_cast<std::size_t>(r.program.motions.size() - 1);
         EXPECT_LE((end.tip - r.program.motions.end[last].vec()).norm(), 1e-9) << name_of(way);
-        EXPECT_LE(angle_between(end.axis, machine.kinematics.axis_of(machine.kinematics.angles_of(r.program.motions.rotary[last].vec()))), 1e-9);
+        EXPECT_LE(angle_between(end.axis, machine.kinematics.axis_of(
+                                              machine.kinematics.angles_of(r.program.motions.rotary[last].vec()))),
+                  1e-9);
         // Half a degree is what a triangle of 16 periods takes from the changes of direction at the passes' ends.
         EXPECT_LT(r.summary.orientation_error, 0.6 * rad_per_deg) << name_of(way);
     }
@@ -100,7 +107,8 @@ TEST(FiveAxisSimulator, LinesNearThePoleHoldTheLimitsOfTheRotation) {
     EXPECT_LE(worst_share(r, machine), 1.0011);
     EXPECT_LT(r.summary.run.duration, 15) << "slower than it must be";
     // The last block's angles are met.
-    const RotaryAngles last = machine.kinematics.angles_of(r.program.motions.rotary[r.program.motions.kind.size() - 1].vec());
+    const RotaryAngles last =
+        machine.kinematics.angles_of(r.program.motions.rotary[r.program.motions.kind.size() - 1].vec());
     EXPECT_NEAR(r.points.back().commanded[4], last.rotation, 1e-12);
 }
 
@@ -124,9 +132,7 @@ TEST(FiveAxisSimulator, FeedOfZeroNamesTheLine) {
     try {
         (void)run("G43.4 H1\nG1 X10 A-5 F0\n", trunnion());
         FAIL();
-    } catch (const InputError& error) {
-        EXPECT_EQ(error.diagnostic().where.number, 2u);
-    }
+    } catch (const InputError& error) { EXPECT_EQ(error.diagnostic().where.number, 2u); }
 }
 
 }  // namespace

@@ -46,9 +46,12 @@ public:
         for (int block = 0; block < 60; ++block) {
             const double kind = uniform(0, 1);
             Vec3 to = at + scale * spread(0.02, 1) * Vec3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
-            if (kind < 0.05) to = at;                                      // no way
-            else if (kind < 0.1) to = before;                              // back again
-            else if (kind < 0.2) to = at + uniform(0, 2) * (at - before);  // straight on
+            if (kind < 0.05)
+                to = at;  // no way
+            else if (kind < 0.1)
+                to = before;  // back again
+            else if (kind < 0.2)
+                to = at + uniform(0, 2) * (at - before);  // straight on
             before = at;
             if (chance(0.1)) {  // a bend of short lines
                 const double radius = scale * spread(0.02, 1), step = spread(0.02, 0.4);
@@ -65,7 +68,8 @@ public:
             if (chance(0.03)) text += chance(0.5) ? fmt::format("G64 P{:.4f}\n", spread(0.001, 0.2)) : "G61\n";
             const double feed = spread(50, 20000);
             if (kind < 0.65) {
-                text += fmt::format("G{} X{:.6f} Y{:.6f} Z{:.6f} F{:.1f}\n", kind < 0.55 ? 1 : 0, to.x(), to.y(), to.z(), feed);
+                text += fmt::format("G{} X{:.6f} Y{:.6f} Z{:.6f} F{:.1f}\n", kind < 0.55 ? 1 : 0, to.x(), to.y(),
+                                    to.z(), feed);
                 at = to;
                 continue;
             }
@@ -75,7 +79,8 @@ public:
                 if (chance(0.15)) to = at + Vec3(spread(1e-4, 1e-2), spread(1e-4, 1e-2), 0);
                 if (chance(0.6)) to.z() = at.z();
                 const double radius = 0.5 * std::hypot(to.x() - at.x(), to.y() - at.y()) * spread(1.01, 5);
-                text += fmt::format("G{} X{:.6f} Y{:.6f} Z{:.6f} R{:.6f} F{:.1f}\n", chance(0.5) ? 2 : 3, to.x(), to.y(), to.z(), radius, feed);
+                text += fmt::format("G{} X{:.6f} Y{:.6f} Z{:.6f} R{:.6f} F{:.1f}\n", chance(0.5) ? 2 : 3, to.x(),
+                                    to.y(), to.z(), radius, feed);
                 before = at;
                 at = to;
                 to = at + scale * spread(0.02, 1) * Vec3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
@@ -96,10 +101,12 @@ private:
 };
 
 std::string parts_of_limits(const SimulationSummary& s, const Machine& machine) {
-    std::string parts = fmt::format("T {} speed {:.4f}", machine.controller.period, s.max_speed / machine.path.max_speed);
+    std::string parts =
+        fmt::format("T {} speed {:.4f}", machine.controller.period, s.max_speed / machine.path.max_speed);
     for (int x = 0; x < 3; ++x) {
         const MachineAxis& axis = machine.axes[static_cast<std::size_t>(x)];
-        parts += fmt::format(", {} {:.4f} {:.4f} {:.4f}", axis_names[static_cast<std::size_t>(x)], s.max_axis_speed[x] / axis.max_speed, s.max_acceleration[x] / axis.max_acceleration,
+        parts += fmt::format(", {} {:.4f} {:.4f} {:.4f}", axis_names[static_cast<std::size_t>(x)],
+                             s.max_axis_speed[x] / axis.max_speed, s.max_acceleration[x] / axis.max_acceleration,
                              s.max_jerk[x] / axis.max_jerk);
     }
     return parts;
@@ -110,7 +117,8 @@ double greatest_tolerance(const Program& program, const Machine& machine) {
     double greatest = machine.controller.tolerance;
     for (const ProgramEvent& event : program.events) {
         const std::size_t p = event.value.find('P');
-        if (event.name == "path-mode" && p != std::string::npos) greatest = std::max(greatest, std::stod(event.value.substr(p + 1)));
+        if (event.name == "path-mode" && p != std::string::npos)
+            greatest = std::max(greatest, std::stod(event.value.substr(p + 1)));
     }
     return greatest;
 }
@@ -134,26 +142,35 @@ TEST_P(RandomPrograms, HoldLimitsToleranceAndEnd) {
         EXPECT_TRUE(r.summary.limits_ok) << "round " << round << ": " << parts_of_limits(r.summary, machine);
         const double tolerance = greatest_tolerance(program, machine);
         EXPECT_LE(r.summary.path_deviation, tolerance * (1 + 1e-9)) << round;
-        EXPECT_LE(greatest_distance(elements_of(program), r.points, 1 + r.points.size() / 2000, 25), r.summary.path_deviation + 1e-6) << round;
+        EXPECT_LE(greatest_distance(elements_of(program), r.points, 1 + r.points.size() / 2000, 25),
+                  r.summary.path_deviation + 1e-6)
+            << round;
         ASSERT_LT((r.points.back().commanded - maker.end()).norm(), 1e-5) << round;
-        for (const SimulatedPoint& p : r.points) ASSERT_TRUE(p.commanded.allFinite() && p.feedback.allFinite() && std::isfinite(p.speed)) << round;
+        for (const SimulatedPoint& p : r.points)
+            ASSERT_TRUE(p.commanded.allFinite() && p.feedback.allFinite() && std::isfinite(p.speed)) << round;
         if (round % 10 != 0) continue;
         const Recorded again = run_program(program, machine);
         ASSERT_EQ(again.points.size(), r.points.size());
-        for (std::size_t i = 0; i < r.points.size(); ++i) ASSERT_TRUE(again.points[i].commanded == r.points[i].commanded && again.points[i].feedback == r.points[i].feedback);
+        for (std::size_t i = 0; i < r.points.size(); ++i)
+            ASSERT_TRUE(again.points[i].commanded == r.points[i].commanded &&
+                        again.points[i].feedback == r.points[i].feedback);
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(PathModes, RandomPrograms,
-                         testing::Values(Modes{CornerMode::spline, CurveMode::none}, Modes{CornerMode::arc, CurveMode::none}, Modes{CornerMode::stop, CurveMode::none},
-                                         Modes{CornerMode::spline, CurveMode::akima}, Modes{CornerMode::spline, CurveMode::least_squares}, Modes{CornerMode::arc, CurveMode::akima},
-                                         Modes{CornerMode::spline, CurveMode::none, false}, Modes{CornerMode::arc, CurveMode::none, false}, Modes{CornerMode::stop, CurveMode::none, false},
-                                         Modes{CornerMode::spline, CurveMode::akima, false}),
-                         [](const auto& modes) {
-                             std::string name = fmt::format("{}_{}{}", name_of(modes.param.corner), name_of(modes.param.curve), modes.param.jerk ? "" : "_without_jerk_limit");
-                             std::replace(name.begin(), name.end(), '-', '_');
-                             return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    PathModes, RandomPrograms,
+    testing::Values(Modes{CornerMode::spline, CurveMode::none}, Modes{CornerMode::arc, CurveMode::none},
+                    Modes{CornerMode::stop, CurveMode::none}, Modes{CornerMode::spline, CurveMode::akima},
+                    Modes{CornerMode::spline, CurveMode::least_squares}, Modes{CornerMode::arc, CurveMode::akima},
+                    Modes{CornerMode::spline, CurveMode::none, false}, Modes{CornerMode::arc, CurveMode::none, false},
+                    Modes{CornerMode::stop, CurveMode::none, false},
+                    Modes{CornerMode::spline, CurveMode::akima, false}),
+    [](const auto& modes) {
+        std::string name = fmt::format("{}_{}{}", name_of(modes.param.corner), name_of(modes.param.curve),
+                                       modes.param.jerk ? "" : "_without_jerk_limit");
+        std::replace(name.begin(), name.end(), '-', '_');
+        return name;
+    });
 
 }  // namespace
 }  // namespace clsurf

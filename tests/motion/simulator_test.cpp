@@ -22,7 +22,8 @@ Recorded run(const std::string& text, const Machine& machine) { return run_progr
 /// A machine whose axes follow exactly.
 Machine ideal() {
     Machine machine;
-    for (MachineAxis& axis : machine.axes) axis.servo = {.position_gain = 100, .velocity_feedforward = 1, .velocity_time_constant = 0, .quantum = 0};
+    for (MachineAxis& axis : machine.axes)
+        axis.servo = {.position_gain = 100, .velocity_feedforward = 1, .velocity_time_constant = 0, .quantum = 0};
     return machine;
 }
 
@@ -40,7 +41,8 @@ TEST(Simulator, ALineFromRestTakesTheTimeOnPaper) {
 
 TEST(Simulator, LagOnALineIsSpeedTimesWhatFeedForwardLeavesOverGain) {
     Machine machine = ideal();
-    machine.axes[0].servo = {.position_gain = 80, .velocity_feedforward = 0.9, .velocity_time_constant = 0.003, .quantum = 0};
+    machine.axes[0].servo = {
+        .position_gain = 80, .velocity_feedforward = 0.9, .velocity_time_constant = 0.003, .quantum = 0};
     const Recorded r = run("G1 X100 F3000\nM2\n", machine);
     const SimulatedPoint& middle = r.points[1000];
     EXPECT_NEAR(middle.commanded.x() - middle.feedback.x(), 50 * (1 - 0.9) / 80, 1e-9);
@@ -50,12 +52,14 @@ TEST(Simulator, LagOnALineIsSpeedTimesWhatFeedForwardLeavesOverGain) {
 
 TEST(Simulator, FrictionAddsItsSpeedOverTheGainAndHoldsAfterAReversal) {
     Machine machine = ideal();
-    machine.axes[0].servo = {.position_gain = 80, .velocity_feedforward = 1, .velocity_time_constant = 0.002, .quantum = 0, .friction = 2};
+    machine.axes[0].servo = {
+        .position_gain = 80, .velocity_feedforward = 1, .velocity_time_constant = 0.002, .quantum = 0, .friction = 2};
     const Recorded r = run("G1 X100 F3000\nX0\nM2\n", machine);
     const SimulatedPoint& middle = r.points[1000];
     EXPECT_NEAR(middle.commanded.x() - middle.feedback.x(), 2.0 / 80, 1e-9);
     int standing = 0;
-    for (std::size_t i = 1; i < r.points.size(); ++i) standing += r.points[i].feedback.x() > 99 && r.points[i].feedback.x() == r.points[i - 1].feedback.x();
+    for (std::size_t i = 1; i < r.points.size(); ++i)
+        standing += r.points[i].feedback.x() > 99 && r.points[i].feedback.x() == r.points[i - 1].feedback.x();
     EXPECT_GT(standing, 3);
     EXPECT_GT(r.points.back().feedback.x(), 0);  // it stops on the way back, within what friction holds
     EXPECT_LT(r.points.back().feedback.x(), 2.0 / 80 + 0.01);
@@ -63,7 +67,8 @@ TEST(Simulator, FrictionAddsItsSpeedOverTheGainAndHoldsAfterAReversal) {
 
 TEST(Simulator, BacklashIsLostOnceAReversal) {
     Machine machine = ideal();
-    machine.axes[0].servo = {.position_gain = 100, .velocity_feedforward = 1, .velocity_time_constant = 0, .quantum = 0, .backlash = 0.02};
+    machine.axes[0].servo = {
+        .position_gain = 100, .velocity_feedforward = 1, .velocity_time_constant = 0, .quantum = 0, .backlash = 0.02};
     const Recorded r = run("G1 X100 F3000\nX0\nM2\n", machine);
     EXPECT_NEAR(r.points[1000].commanded.x() - r.points[1000].feedback.x(), 0.01, 1e-9);
     const SimulatedPoint& back = r.points[r.points.size() - 1000];
@@ -74,7 +79,8 @@ TEST(Simulator, ACircleShrinksByTheGainOfTheLoop) {
     // Without feed-forward the loop is T_v s² + s + Kv: its gain at ω = v/R shrinks the radius.
     Machine machine = ideal();
     const double gain = 50, lag = 0.002;
-    for (MachineAxis& axis : machine.axes) axis.servo = {.position_gain = gain, .velocity_feedforward = 0, .velocity_time_constant = lag, .quantum = 0};
+    for (MachineAxis& axis : machine.axes)
+        axis.servo = {.position_gain = gain, .velocity_feedforward = 0, .velocity_time_constant = lag, .quantum = 0};
     machine.controller.period = 0.0001;
     const Recorded r = run("G64 P0.01\nG1 X20 F3000\nG3 X20 Y0 I-20 J0 P3\nM2\n", machine);
     const double omega = 50.0 / 20.0;
@@ -110,20 +116,22 @@ TEST(Simulator, ACornerOfAnArcIsPassedAtTheLeastOfItsSpeeds) {
     const auto greatest_on_arc = [&] {
         const Recorded r = run_program(program, machine);
         EXPECT_TRUE(r.summary.limits_ok);
-        EXPECT_NEAR(r.summary.path_deviation, 0.02, 1e-9);  // of the corner from the arc; points leave the lines by r (1 − cos 45°)
-        EXPECT_LE(greatest_distance(elements_of(program), r.points, 1, 5), radius * (1 - std::numbers::sqrt2 / 2) + 1e-9);
+        EXPECT_NEAR(r.summary.path_deviation, 0.02,
+                    1e-9);  // of the corner from the arc; points leave the lines by r (1 − cos 45°)
+        EXPECT_LE(greatest_distance(elements_of(program), r.points, 1, 5),
+                  radius * (1 - std::numbers::sqrt2 / 2) + 1e-9);
         double greatest = 0;
         for (const SimulatedPoint& p : r.points) {
             if (p.commanded.x() > 10 - radius && p.commanded.y() < radius) greatest = std::max(greatest, p.speed);
         }
         return greatest;
     };
-    EXPECT_NEAR(greatest_on_arc(), std::sqrt(400 * radius), 0.1);  // 4.39 mm/s
-    machine.controller.chord_tolerance = 1e-6;                     // 2/T √(2 r E)
+    EXPECT_NEAR(greatest_on_arc(), std::sqrt(400 * radius), 0.1);                         // 4.39 mm/s
+    machine.controller.chord_tolerance = 1e-6;                                            // 2/T √(2 r E)
     EXPECT_NEAR(greatest_on_arc(), 2000 * std::sqrt(1e-6 * (2 * radius - 1e-6)), 0.001);  // 0.62 mm/s
     machine.controller.chord_tolerance = 1;
     machine.path.max_normal_acceleration = 1e6;
-    machine.controller.period = 0.02;  // one period in the arc
+    machine.controller.period = 0.02;                                                         // one period in the arc
     EXPECT_LE(greatest_on_arc(), 2 * radius * std::sin(std::numbers::pi / 4) / 0.02 + 1e-9);  // 3.41 mm/s
 }
 
@@ -169,16 +177,21 @@ TEST(Simulator, CarriesAccelerationThroughNodes) {
     const PathLimits& path = machine.path;
     const double fast = 100, slow = 20;
     const double braking = ramp_distance(fast, slow, path.max_acceleration, path.max_jerk);
-    const SCurve ramp = plan_scurve(braking, fast, slow, {fast, path.max_acceleration, path.max_acceleration, path.max_jerk}).profile;
+    const SCurve ramp =
+        plan_scurve(braking, fast, slow, {fast, path.max_acceleration, path.max_acceleration, path.max_jerk}).profile;
     std::string text = fmt::format("G64\nG1 X50 F{}\n", fast * 60);
     constexpr int steps = 12;
     for (int k = 1; k <= steps; ++k) {
         const double begin = braking * (k - 1) / steps;
-        text += fmt::format("X{:.12f} F{:.12f}\n", 50 + braking * k / steps, 60 * (k == 1 ? fast : ramp.at(ramp.time_at(begin)).speed));
+        text += fmt::format("X{:.12f} F{:.12f}\n", 50 + braking * k / steps,
+                            60 * (k == 1 ? fast : ramp.at(ramp.time_at(begin)).speed));
     }
-    const double time = run(text + fmt::format("X{:.12f} F{}\nM2\n", 50 + braking + 20, slow * 60), machine).summary.duration;
-    const double optimum = (50 - ramp_distance(0, fast, path.max_acceleration, path.max_jerk)) / fast + ramp_time(fast, path.max_acceleration, path.max_jerk) +
-                           ramp.duration() + (20 - ramp_distance(slow, 0, path.max_acceleration, path.max_jerk)) / slow + ramp_time(slow, path.max_acceleration, path.max_jerk);
+    const double time =
+        run(text + fmt::format("X{:.12f} F{}\nM2\n", 50 + braking + 20, slow * 60), machine).summary.duration;
+    const double optimum = (50 - ramp_distance(0, fast, path.max_acceleration, path.max_jerk)) / fast +
+                           ramp_time(fast, path.max_acceleration, path.max_jerk) + ramp.duration() +
+                           (20 - ramp_distance(slow, 0, path.max_acceleration, path.max_jerk)) / slow +
+                           ramp_time(slow, path.max_acceleration, path.max_jerk);
     EXPECT_GT(time, optimum - 0.001);
     EXPECT_LT(time, 1.01 * optimum);
 }
@@ -186,20 +199,30 @@ TEST(Simulator, CarriesAccelerationThroughNodes) {
 // What LinuxCNC took, from the first to the last movement of the recorded logs [s].
 TEST(Simulator, TakesAsLongAsLinuxCncWithItsRules) {
     const Machine machine = io::read_machine(SAMPLE_DATA "/machines/linuxcnc_logs.toml");
-    const std::vector<std::pair<std::string, double>> recorded{{"bottle_zigzag.nc", 34.79}, {"bottle_uneven.nc", 27.21}, {"dome_loops.nc", 18.21},
-        {"transition_g61.nc", 28.86}, {"mixed.ngc", 21.31}, {"petal_loops_g64.ngc", 87.94}, {"petal_spiral.ngc", 83.86}, {"petal_zigzag_g64.ngc", 137.09},
-        {"petal_zigzag_irregular.ngc", 163.22}};
+    const std::vector<std::pair<std::string, double>> recorded{{"bottle_zigzag.nc", 34.79},
+                                                               {"bottle_uneven.nc", 27.21},
+                                                               {"dome_loops.nc", 18.21},
+                                                               {"transition_g61.nc", 28.86},
+                                                               {"mixed.ngc", 21.31},
+                                                               {"petal_loops_g64.ngc", 87.94},
+                                                               {"petal_spiral.ngc", 83.86},
+                                                               {"petal_zigzag_g64.ngc", 137.09},
+                                                               {"petal_zigzag_irregular.ngc", 163.22}};
     for (const auto& [name, seconds] : recorded) {
-        const Program program = io::read_program(io::open_source(SAMPLE_DATA "/programs/" + name), {.dialect = "linuxcnc", .tools = {}});
-        const SimulationSummary summary = simulate(program, machine, Vec3::Zero(), [](std::span<const SimulatedPoint>) {}, {});
+        const Program program =
+            io::read_program(io::open_source(SAMPLE_DATA "/programs/" + name), {.dialect = "linuxcnc", .tools = {}});
+        const SimulationSummary summary =
+            simulate(program, machine, Vec3::Zero(), [](std::span<const SimulatedPoint>) {}, {});
         EXPECT_NEAR(summary.duration, seconds, 0.05 * seconds) << name;
     }
 }
 
 // 52.3 s with zero acceleration at every node.
 TEST(Simulator, AZigzagUnderAJerkLimitIsNearItsOptimum) {
-    const Program program = io::read_program(io::open_source(SAMPLE_DATA "/programs/bottle_zigzag.nc"), {.dialect = "linuxcnc", .tools = {}});
-    const SimulationSummary summary = simulate(program, Machine{}, Vec3::Zero(), [](std::span<const SimulatedPoint>) {}, {});
+    const Program program = io::read_program(io::open_source(SAMPLE_DATA "/programs/bottle_zigzag.nc"),
+                                             {.dialect = "linuxcnc", .tools = {}});
+    const SimulationSummary summary =
+        simulate(program, Machine{}, Vec3::Zero(), [](std::span<const SimulatedPoint>) {}, {});
     EXPECT_TRUE(summary.limits_ok);
     EXPECT_LT(summary.duration, 39.5);
 }
@@ -210,7 +233,9 @@ TEST(Simulator, PassesABendBackAsForth) {
     machine.path.max_jerk = 2 * machine.path.max_acceleration / machine.controller.period;
     for (MachineAxis& axis : machine.axes) axis.max_jerk = 0;
     std::vector<std::string> bend;
-    for (int i = -200; i <= 200; ++i) bend.push_back(fmt::format("G1 X{:.5f} Y{:.5f} F12000\n", 0.1 * i, 4 * std::exp(-0.0002 * (i - 30) * (i - 30))));
+    for (int i = -200; i <= 200; ++i)
+        bend.push_back(
+            fmt::format("G1 X{:.5f} Y{:.5f} F12000\n", 0.1 * i, 4 * std::exp(-0.0002 * (i - 30) * (i - 30))));
     const Recorded forth = run("G64\nG0 X-20\n" + fmt::format("{}", fmt::join(bend, "")) + "M2\n", machine);
     std::reverse(bend.begin(), bend.end());
     const Recorded back = run("G64\nG0 X20\n" + fmt::format("{}", fmt::join(bend, "")) + "M2\n", machine);
@@ -221,16 +246,17 @@ TEST(Simulator, PassesABendBackAsForth) {
         while (i > 0 && (r.points[i - 1].commanded.x() > x) == behind) --i;
         return r.points[i].speed;
     };
-    for (const double x : {-15.0, -8.0, -2.0, 0.0, 2.0, 3.0, 4.0, 6.0, 9.0, 16.0}) EXPECT_NEAR(speed_at(forth, x), speed_at(back, x), 3) << x;
+    for (const double x : {-15.0, -8.0, -2.0, 0.0, 2.0, 3.0, 4.0, 6.0, 9.0, 16.0})
+        EXPECT_NEAR(speed_at(forth, x), speed_at(back, x), 3) << x;
 }
 
 TEST(Simulator, DegenerateMovesKeepLimitsAndEnd) {
     const std::vector<std::pair<std::string, Vec3>> programs{
-        {"G1 X0 F600\nX0 Y0\nX1\nX1\n", {1, 0, 0}},                        // no length, repeated
-        {"G1 X5 F6000\nX2\nX5\nX4.9999\n", {4.9999, 0, 0}},                 // back on itself
+        {"G1 X0 F600\nX0 Y0\nX1\nX1\n", {1, 0, 0}},                          // no length, repeated
+        {"G1 X5 F6000\nX2\nX5\nX4.9999\n", {4.9999, 0, 0}},                  // back on itself
         {"G1 X1 F6000\nX0 Y0.000001\n", {0, 0.000001, 0}},                   // nearly back
         {"G1 X1 F6000\nG3 X1.002 Y0 R0.001\nG1 X2\n", {2, 0, 0}},            // an arc smaller than the tolerance
-        {"G1 X0.00001 F6000\nY0.00001\nX0.00002\n", {0.00002, 0.00001, 0}},   // all of it below resolution
+        {"G1 X0.00001 F6000\nY0.00001\nX0.00002\n", {0.00002, 0.00001, 0}},  // all of it below resolution
         {"G2 X0 Y0 I0.5 P20 F9000\nG1 X-1 Z2\n", {-1, 0, 2}},                // many turns
         {"G1 X10 F0.5\nG1 X10.01 F90000\n", {10.01, 0, 0}},                  // feeds far apart
     };
@@ -239,7 +265,8 @@ TEST(Simulator, DegenerateMovesKeepLimitsAndEnd) {
         EXPECT_TRUE(r.summary.limits_ok) << text;
         EXPECT_LE(r.summary.path_deviation, 0.01) << text;
         EXPECT_LT((r.points.back().commanded - end).norm(), 1e-9) << text;
-        for (const SimulatedPoint& p : r.points) ASSERT_TRUE(p.commanded.allFinite() && p.feedback.allFinite() && std::isfinite(p.speed)) << text;
+        for (const SimulatedPoint& p : r.points)
+            ASSERT_TRUE(p.commanded.allFinite() && p.feedback.allFinite() && std::isfinite(p.speed)) << text;
     }
 }
 
@@ -258,7 +285,8 @@ TEST(Simulator, ABlockTimeHoldsShortBlocksBack) {
 TEST(Simulator, ASpeedReachedOverHardlyAnyWayIsPlanned) {
     const double way = 7.58264e-07, jerk = 50000, acceleration = 2000, before = 47.273111160212636;
     const double after = reach(before, way, acceleration, jerk);
-    for (const auto& [from, to] : {std::pair{before, after}, std::pair{after, before}, std::pair{47.273111160215855, before}}) {
+    for (const auto& [from, to] :
+         {std::pair{before, after}, std::pair{after, before}, std::pair{47.273111160215855, before}}) {
         const PlannedProfile plan = plan_scurve(way, from, to, {100, acceleration, acceleration, jerk});
         EXPECT_EQ(plan.status, ProfileStatus::ok);
         EXPECT_EQ(plan.profile.length(), way);

@@ -87,7 +87,9 @@ TEST(SpeedScan, ForgetsCellsAndGoesOnAsPlanned) {
 // back is driven as the way forth.
 TEST(SpeedScan, HoldsItsLimitsIsTightAndTheSameBackwards) {
     std::mt19937_64 random(7);
-    const auto uniform = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+    const auto uniform = [&](double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(random);
+    };
     constexpr std::size_t cells = 300;
     constexpr double steepest = 2000, limit = 1500;
     struct Place {
@@ -115,7 +117,8 @@ TEST(SpeedScan, HoldsItsLimitsIsTightAndTheSameBackwards) {
     const auto holds = [&](std::size_t i, double before, double after) {
         const double a = 0.5 * (after - before) / lengths[i];
         const double here = places[i].slope * a + places[i].bend * (before + 2 * a * places[i].at);
-        return std::max(before, after) <= caps[i] * caps[i] * (1 + 1e-9) && std::abs(a) <= steepest * (1 + 1e-9) && std::abs(here) <= limit * (1 + 1e-9);
+        return std::max(before, after) <= caps[i] * caps[i] * (1 + 1e-9) && std::abs(a) <= steepest * (1 + 1e-9) &&
+               std::abs(here) <= limit * (1 + 1e-9);
     };
     for (std::size_t i = 0; i < cells; ++i) {
         const double before = scan.speed(i) * scan.speed(i), after = scan.speed(i + 1) * scan.speed(i + 1);

@@ -32,7 +32,8 @@ TEST(ToolAxisPath, AgreesWithIndependentVectors) {
         const double error = row.number();
         const double least_tilt = row.number();
         const Kinematics linear = trunnion(ToolAxisInterpolation::linear);
-        EXPECT_NEAR(ToolAxisPath(linear, from, to, any, 1e9, 0).greatest_error(2000), error, 1e-6 + 1e-4 * error) << row.name;
+        EXPECT_NEAR(ToolAxisPath(linear, from, to, any, 1e9, 0).greatest_error(2000), error, 1e-6 + 1e-4 * error)
+            << row.name;
         const Kinematics vector = trunnion(ToolAxisInterpolation::vector);
         const ToolAxisPath path(vector, from, to, any, 1e9, 0);
         double least = 10;
@@ -42,7 +43,8 @@ TEST(ToolAxisPath, AgreesWithIndependentVectors) {
             const double part = row.number();
             const std::vector<double> t = row.numbers(3);
             const Vec3 expected(t[0], t[1], t[2]);
-            EXPECT_LE((great_circle(linear.axis_of(from), linear.axis_of(to), part) - expected).norm(), 2e-9) << row.name;
+            EXPECT_LE((great_circle(linear.axis_of(from), linear.axis_of(to), part) - expected).norm(), 2e-9)
+                << row.name;
             EXPECT_LE((vector.axis_of(path.at(part)) - expected).norm(), 1e-8) << row.name;
         }
     }
@@ -86,11 +88,14 @@ TEST(ToolAxisPath, SafePassesThePole) {
 }
 
 TEST(ToolAxisPath, DegenerateEnds) {
-    for (const ToolAxisInterpolation way : {ToolAxisInterpolation::linear, ToolAxisInterpolation::vector, ToolAxisInterpolation::safe}) {
+    for (const ToolAxisInterpolation way :
+         {ToolAxisInterpolation::linear, ToolAxisInterpolation::vector, ToolAxisInterpolation::safe}) {
         const Kinematics k = trunnion(way);
-        for (const auto& [from, to] : {std::pair{RotaryAngles{0, 0}, RotaryAngles{0, 2}}, std::pair{RotaryAngles{0, 0}, RotaryAngles{0.5, 1}},
-                                       std::pair{RotaryAngles{0.5, 0}, RotaryAngles{0.5, std::numbers::pi}}, std::pair{RotaryAngles{0.3, 1}, RotaryAngles{0.3, 1}},
-                                       std::pair{RotaryAngles{0, 0}, RotaryAngles{std::numbers::pi, 0}}}) {
+        for (const auto& [from, to] :
+             {std::pair{RotaryAngles{0, 0}, RotaryAngles{0, 2}}, std::pair{RotaryAngles{0, 0}, RotaryAngles{0.5, 1}},
+              std::pair{RotaryAngles{0.5, 0}, RotaryAngles{0.5, std::numbers::pi}},
+              std::pair{RotaryAngles{0.3, 1}, RotaryAngles{0.3, 1}},
+              std::pair{RotaryAngles{0, 0}, RotaryAngles{std::numbers::pi, 0}}}) {
             const ToolAxisPath path(k, from, to, any, 20, 0.01);
             for (int i = 0; i <= 100; ++i) {
                 const RotaryAngles at = path.at(i / 100.0);

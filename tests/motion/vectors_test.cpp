@@ -140,7 +140,8 @@ TEST(LookaheadVectors, JerkLimitedScan) {
         const double expected_time = r.number();
         if (!braked) continue;
         double time = 0;
-        for (std::size_t i = 0; i < lengths.size(); ++i) time += plan_scurve(lengths[i], speeds[i], speeds[i + 1], {feeds[i], a, a, j}).profile.duration();
+        for (std::size_t i = 0; i < lengths.size(); ++i)
+            time += plan_scurve(lengths[i], speeds[i], speeds[i + 1], {feeds[i], a, a, j}).profile.duration();
         near(time, expected_time, 1e-7, 1e-9, r.name);
         for (const double v : speeds) near(v, r.number(), 1e-7, 1e-9, r.name);
     }

@@ -18,7 +18,9 @@ struct SlowStretch {
     Program program;
     JudgedRun run;
 
-    explicit SlowStretch(double crowded = 0.02) : program(read_text(wavy_zigzag(9, 24, [=](int pass, double x) { return pass == 3 && x > 10 && x < 12 ? crowded : 0.31; }, 0))) {
+    explicit SlowStretch(double crowded = 0.02)
+        : program(read_text(wavy_zigzag(
+              9, 24, [=](int pass, double x) { return pass == 3 && x > 10 && x < 12 ? crowded : 0.31; }, 0))) {
         Machine machine;
         machine.path.max_jerk = 1e6;
         for (MachineAxis& axis : machine.axes) axis.max_jerk = 2e6;
@@ -70,7 +72,8 @@ TEST(Cure, LevelsThePassesBesideASlowStretch) {
             const Station at = beside(part.run.surface, {point, 0}, part.run.signals.feed(point), side);
             if (!at.exists()) continue;
             const auto j = static_cast<std::size_t>(at.point);
-            const float other = at.fraction > 0 ? cure.speeds[j] + at.fraction * (cure.speeds[j + 1] - cure.speeds[j]) : cure.speeds[j];
+            const float other =
+                at.fraction > 0 ? cure.speeds[j] + at.fraction * (cure.speeds[j + 1] - cure.speeds[j]) : cure.speeds[j];
             if (!(other == other)) continue;
             EXPECT_LE(cure.speeds[i], 1.251F * other) << i;
         }
@@ -81,9 +84,15 @@ TEST(Cure, LevelsThePassesBesideASlowStretch) {
 
 TEST(Cure, KeepsItsBudget) {
     const SlowStretch part;
-    const double whole = lost(part.run, curing_speeds(part.run, {.step = 0.1, .budget = 1e9, .lag_power = 3, .hopeless = {}}).speeds);
+    const double whole =
+        lost(part.run, curing_speeds(part.run, {.step = 0.1, .budget = 1e9, .lag_power = 3, .hopeless = {}}).speeds);
     EXPECT_GT(whole, 0.1);
-    for (const double share : {0.0, 0.3, 0.7}) EXPECT_LE(lost(part.run, curing_speeds(part.run, {.step = 0.1, .budget = share * whole, .lag_power = 3, .hopeless = {}}).speeds), share * whole);
+    for (const double share : {0.0, 0.3, 0.7})
+        EXPECT_LE(
+            lost(
+                part.run,
+                curing_speeds(part.run, {.step = 0.1, .budget = share * whole, .lag_power = 3, .hopeless = {}}).speeds),
+            share * whole);
 }
 
 TEST(Cure, LetsHopelessPlacesBe) {
@@ -110,7 +119,8 @@ TEST(Cure, KnowsHowLagGrowsWithSpeed) {
 
 TEST(Levelling, FeedsAreThoseOfIntervals) {
     // 100.4 lies within 0.5 % of 100, 104 does not; the last motion may not be slowed.
-    EXPECT_EQ(levelling_feeds({0, 100.4F, 100, 104, 0, 50}, {1, 1, 1, 1, 1, 0}, 0.005), (std::vector<float>{0, 100, 100, 104, 0, 0}));
+    EXPECT_EQ(levelling_feeds({0, 100.4F, 100, 104, 0, 50}, {1, 1, 1, 1, 1, 0}, 0.005),
+              (std::vector<float>{0, 100, 100, 104, 0, 0}));
 }
 
 TEST(JudgedRun, IsJudgedByTheThresholdsOfAnother) {
@@ -118,11 +128,15 @@ TEST(JudgedRun, IsJudgedByTheThresholdsOfAnother) {
     QualityRules rules;
     rules.fixed = slow.run.report.thresholds;
     for (float& threshold : rules.fixed->of) threshold *= 100;
-    const QualityReport report = find_defects(slow.run.surface, slow.run.signals, *slow.run.lines, slow.program, slow.run.log.period, rules);
+    const QualityReport report =
+        find_defects(slow.run.surface, slow.run.signals, *slow.run.lines, slow.program, slow.run.log.period, rules);
     EXPECT_EQ(report.thresholds.of, rules.fixed->of);
     EXPECT_TRUE(report.defects.empty());
     rules.fixed = slow.run.report.thresholds;
-    EXPECT_EQ(find_defects(slow.run.surface, slow.run.signals, *slow.run.lines, slow.program, slow.run.log.period, rules).defects.size(), slow.run.report.defects.size());
+    EXPECT_EQ(
+        find_defects(slow.run.surface, slow.run.signals, *slow.run.lines, slow.program, slow.run.log.period, rules)
+            .defects.size(),
+        slow.run.report.defects.size());
 }
 
 }  // namespace

@@ -43,7 +43,8 @@ std::vector<Case> read_cases() {
         if (kind == "boundaries") c.boundaries = numbers;
         if (kind == "interval") c.intervals.push_back(numbers);
         if (kind != "points") continue;
-        for (std::size_t i = 0; i + 2 < numbers.size(); i += 3) c.points.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
+        for (std::size_t i = 0; i + 2 < numbers.size(); i += 3)
+            c.points.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
     }
     return cases;
 }
@@ -89,7 +90,8 @@ TEST(IntervalVectors, AreTheSameForthAndBack) {
         std::reverse(c.points.begin(), c.points.end());
         std::vector<SpeedInterval> back = divide(c.points, rules);
         ASSERT_EQ(forth.size(), back.size());
-        for (std::size_t i = 0; i < forth.size(); ++i) EXPECT_EQ(c.points.size() - 1 - back[back.size() - 1 - i].last, forth[i].first);
+        for (std::size_t i = 0; i < forth.size(); ++i)
+            EXPECT_EQ(c.points.size() - 1 - back[back.size() - 1 - i].last, forth[i].first);
     }
 }
 
@@ -107,7 +109,8 @@ TEST(Intervals, CutWhereCurvatureDrifts) {
     rules.drift_ratio = 2;
     const std::vector<SpeedInterval> cut = divide(points, rules);
     EXPECT_GE(cut.size(), 4U);
-    for (const SpeedInterval& interval : cut) EXPECT_LE(interval.greatest_curvature, 2.01 * std::max(interval.mean_curvature, rules.flat_curvature));
+    for (const SpeedInterval& interval : cut)
+        EXPECT_LE(interval.greatest_curvature, 2.01 * std::max(interval.mean_curvature, rules.flat_curvature));
 }
 
 TEST(Intervals, OfWhatHasNoInside) {
@@ -117,7 +120,8 @@ TEST(Intervals, OfWhatHasNoInside) {
     ASSERT_EQ(line.size(), 1U);
     EXPECT_EQ(line[0].greatest_curvature, 0);
     EXPECT_EQ(planned_speed(line[0], 50, {}), 50);
-    const std::vector<SpeedInterval> straight = divide(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}, {});
+    const std::vector<SpeedInterval> straight =
+        divide(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}, {});
     ASSERT_EQ(straight.size(), 1U);
     EXPECT_EQ(straight[0].greatest_curvature, 0);
 }
@@ -132,7 +136,8 @@ TEST(Intervals, EndWhereThePathTurnsBack) {
 // A closed loop has no end to begin with: it is cut at the point farthest from its start.
 TEST(Intervals, CharacteristicPointsOfALoopAreThoseOfItsHalves) {
     std::vector<Vec3> points;
-    for (int i = 0; i <= 64; ++i) points.emplace_back(std::cos(std::numbers::pi * i / 32), std::sin(std::numbers::pi * i / 32), 0);
+    for (int i = 0; i <= 64; ++i)
+        points.emplace_back(std::cos(std::numbers::pi * i / 32), std::sin(std::numbers::pi * i / 32), 0);
     points.back() = points.front();
     const std::vector<std::size_t> corners = characteristic_points(points, 0.01);
     EXPECT_TRUE(std::find(corners.begin(), corners.end(), 32U) != corners.end());

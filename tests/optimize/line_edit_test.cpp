@@ -12,7 +12,8 @@ TEST(PlainLine, IsNumberG1AndCoordinatesOnly) {
     EXPECT_TRUE(read_plain_line("X1.5 Y-2.").has_value());
     EXPECT_TRUE(read_plain_line("N10 G01 X1.5Y2Z3.000").has_value());
     EXPECT_TRUE(read_plain_line("n10g1x=1.5").has_value());
-    for (const char* text : {"", "N10", "G1", "G0 X1", "G1 X1 F100", "X1 (edge)", "X1 ; edge", "X#1", "X1 A5", "X1 M8", "G1 G41 X1", "X1 X2", "X", "G1.1 X1", "/X1", "X1 G1"}) {
+    for (const char* text : {"", "N10", "G1", "G0 X1", "G1 X1 F100", "X1 (edge)", "X1 ; edge", "X#1", "X1 A5", "X1 M8",
+                             "G1 G41 X1", "X1 X2", "X", "G1.1 X1", "/X1", "X1 G1"}) {
         EXPECT_FALSE(read_plain_line(text).has_value()) << text;
     }
     const PlainLine line = *read_plain_line("N10 G1 X1.250 Z=-3");
@@ -23,7 +24,8 @@ TEST(PlainLine, IsNumberG1AndCoordinatesOnly) {
     EXPECT_EQ(line.value[2], -3);
 }
 
-constexpr const char* part = "%\r\nO1000 (PART)\r\n( ROUGH )\r\nG21 G90\r\nG0 X0 Y0 Z5.\r\nN10 G1 X1.000 F600 (ENTRY)\r\nN20 X2.000\r\nN30 X3.000\r\nN40 X4.000 Y0.500\r\nN50 X5.000\r\nM8\r\nN60 X6.000\r\nM2\r\n%";
+constexpr const char* part =
+    "%\r\nO1000 (PART)\r\n( ROUGH )\r\nG21 G90\r\nG0 X0 Y0 Z5.\r\nN10 G1 X1.000 F600 (ENTRY)\r\nN20 X2.000\r\nN30 X3.000\r\nN40 X4.000 Y0.500\r\nN50 X5.000\r\nM8\r\nN60 X6.000\r\nM2\r\n%";
 
 std::vector<std::int64_t> editable(const Program& program) {
     const LineEditor editor(program);
@@ -37,7 +39,8 @@ std::vector<std::int64_t> editable(const Program& program) {
 TEST(LineEditor, LeavesLinesWithMoreInThemAlone) {
     const Program program = read_text(part);
     EXPECT_EQ(editable(program), (std::vector<std::int64_t>{2, 3, 4, 5, 6}));
-    EXPECT_TRUE(editable(read_text("G91\nG0 X1\nG1 X1 F100\nX2\nX2\n")).empty()) << "incremental words do not say where they go";
+    EXPECT_TRUE(editable(read_text("G91\nG0 X1\nG1 X1 F100\nX2\nX2\n")).empty())
+        << "incremental words do not say where they go";
     EXPECT_TRUE(editable(read_text("G0 X0 Y0 Z0\nG1 X1 F100\nX2 A5\nX3 A6\n")).empty()) << "an orientation that turns";
 }
 
@@ -62,10 +65,13 @@ TEST(LineEditor, SetsFeedsAndTheProgrammedOneBehindThem) {
     feeds[5] = 8;  // N50, before M8
     editor.set_feeds(feeds);
     const std::string text = editor.text("");
-    EXPECT_NE(text.find("N20 X2.000\r\nN30 X3.000 F300\r\nN40 X4.000 Y0.500 F600\r\nN50 X5.000 F480\r\nF600\r\nM8\r\n"), std::string::npos) << text;
+    EXPECT_NE(text.find("N20 X2.000\r\nN30 X3.000 F300\r\nN40 X4.000 Y0.500 F600\r\nN50 X5.000 F480\r\nF600\r\nM8\r\n"),
+              std::string::npos)
+        << text;
     const Program again = read_text(text);
     ASSERT_EQ(again.motions.size(), program.motions.size());
-    for (std::size_t i = 1; i < feeds.size(); ++i) EXPECT_FLOAT_EQ(again.motions.feed[i], feeds[i] > 0 ? feeds[i] : program.motions.feed[i]) << i;
+    for (std::size_t i = 1; i < feeds.size(); ++i)
+        EXPECT_FLOAT_EQ(again.motions.feed[i], feeds[i] > 0 ? feeds[i] : program.motions.feed[i]) << i;
 }
 
 TEST(LineEditor, WritesInchesWhereTheProgramDoes) {

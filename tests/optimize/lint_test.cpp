@@ -35,9 +35,13 @@ TEST(Lint, FindsNothingInAnEvenProgram) {
 }
 
 TEST(Lint, FindsCrowdedPointsOnThePassThatHasThem) {
-    const LintReport report = lint_text(wavy_zigzag(9, 12, [](int pass, double x) { return pass == 4 && x > 4 && x < 8 ? 0.03 : 0.3; }));
+    const LintReport report =
+        lint_text(wavy_zigzag(9, 12, [](int pass, double x) { return pass == 4 && x > 4 && x < 8 ? 0.03 : 0.3; }));
     ASSERT_GE(report.count(LintRule::point_spacing), 1U);
-    const LintFinding& found = *std::max_element(report.findings.begin(), report.findings.end(), [](const LintFinding& a, const LintFinding& b) { return a.last_line - a.first_line < b.last_line - b.first_line; });
+    const LintFinding& found = *std::max_element(report.findings.begin(), report.findings.end(),
+                                                 [](const LintFinding& a, const LintFinding& b) {
+                                                     return a.last_line - a.first_line < b.last_line - b.first_line;
+                                                 });
     EXPECT_EQ(found.pass, 5);
     EXPECT_NEAR(found.found, 0.03, 0.01);
     EXPECT_NEAR(found.expected, 0.3, 0.1);
@@ -62,7 +66,8 @@ TEST(Lint, FindsALineThatRunsBack) {
     text.insert(text.find('\n', text.find("X3.0000")) + 1, "X2.9500\n");
     const LintReport report = lint_text(text);
     ASSERT_EQ(report.count(LintRule::reversed_segment), 1U);
-    const auto found = std::find_if(report.findings.begin(), report.findings.end(), [](const LintFinding& f) { return f.rule == LintRule::reversed_segment; });
+    const auto found = std::find_if(report.findings.begin(), report.findings.end(),
+                                    [](const LintFinding& f) { return f.rule == LintRule::reversed_segment; });
     EXPECT_EQ(read_text(text).main().line(found->first_line).substr(0, 7), "X2.9500");
 }
 

@@ -33,7 +33,8 @@ double farthest(const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
         for (int k = 1; k <= pieces; ++k) {
             const Vec3 p = from[i - 1] + (from[i] - from[i - 1]) * k / pieces;
             double nearest = 1e9;
-            for (std::size_t j = 1; j < to.size(); ++j) nearest = std::min(nearest, (p - nearest_on_line(p, to[j - 1], to[j])).norm());
+            for (std::size_t j = 1; j < to.size(); ++j)
+                nearest = std::min(nearest, (p - nearest_on_line(p, to[j - 1], to[j])).norm());
             most = std::max(most, nearest);
         }
     }
@@ -42,7 +43,9 @@ double farthest(const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
 
 std::string resampled_text(const Program& program, double tolerance, double spacing) {
     LineEditor editor(program);
-    for (const Stretch& stretch : resample(program, lay_out(program), editor, {tolerance, spacing, 0.2 * tolerance, 0, 0.5}, {})) editor.replace(stretch.first, stretch.last, stretch.points);
+    for (const Stretch& stretch :
+         resample(program, lay_out(program), editor, {tolerance, spacing, 0.2 * tolerance, 0, 0.5}, {}))
+        editor.replace(stretch.first, stretch.last, stretch.points);
     return editor.text("");
 }
 
@@ -61,7 +64,8 @@ TEST(Resample, StaysInsideTheToleranceEverywhere) {
     for (const double tolerance : {0.001, 0.003, 0.01}) {
         for (const double spacing : {0.1, 0.25, 0.6}) {
             const Program changed = read_text(resampled_text(program, tolerance, spacing));
-            const double forth = farthest(corners_of(changed), corners_of(program)), back = farthest(corners_of(program), corners_of(changed));
+            const double forth = farthest(corners_of(changed), corners_of(program)),
+                         back = farthest(corners_of(program), corners_of(changed));
             EXPECT_LE(std::max(forth, back), tolerance) << tolerance << " " << spacing;
             const Deviation measured = measure_deviation(program, changed, 0.02);
             EXPECT_EQ(measured.disordered, 0U);
@@ -115,17 +119,20 @@ TEST(Resample, LeavesCreasesAlone) {
 
 // Gentle waves: no line needs to be shorter for the sake of the tolerance. Where it meets a point that stays it may be.
 TEST(Resample, LaysNoLineShorterThanItMay) {
-    const Program program = read_text(wavy_zigzag(7, 12, [](int pass, double x) { return 0.25 + 0.05 * std::sin(pass + x); }, 0.2));
+    const Program program = read_text(wavy_zigzag(
+        7, 12, [](int pass, double x) { return 0.25 + 0.05 * std::sin(pass + x); }, 0.2));
     LineEditor editor(program);
     const double shortest = 0.2;
     for (const Stretch& stretch : resample(program, lay_out(program), editor, {0.01, 0.09, 0.004, shortest, 0.5}, {})) {
-        for (std::size_t k = 1; k < stretch.points.size(); ++k) EXPECT_GE((stretch.points[k] - stretch.points[k - 1]).norm(), 0.99 * shortest);
+        for (std::size_t k = 1; k < stretch.points.size(); ++k)
+            EXPECT_GE((stretch.points[k] - stretch.points[k - 1]).norm(), 0.99 * shortest);
     }
 }
 
 // Flat passes; the fourth one has 100 points where the others have six.
 TEST(Need, IsWhereARunDiffersAndBesideIt) {
-    const Program program = read_text(wavy_zigzag(7, 30, [](int pass, double x) { return pass == 3 && x > 10 && x < 12 ? 0.02 : 0.31; }, 0));
+    const Program program = read_text(wavy_zigzag(
+        7, 30, [](int pass, double x) { return pass == 3 && x > 10 && x < 12 ? 0.02 : 0.31; }, 0));
     Machine machine = brisk();
     machine.controller.block_time = 0.002;
     Diagnostics diagnostics;
@@ -190,7 +197,9 @@ TEST(Optimizer, IsBetterInEveryRespectOrRefuses) {
     EXPECT_LE(result.after.duration, result.before.duration);
     EXPECT_LE(result.proof.defects_after, result.proof.defects_before);
     const Program changed = read_text(result.text);
-    EXPECT_LE(std::max(farthest(corners_of(changed), corners_of(program)), farthest(corners_of(program), corners_of(changed))), rules.tolerance);
+    EXPECT_LE(std::max(farthest(corners_of(changed), corners_of(program)),
+                       farthest(corners_of(program), corners_of(changed))),
+              rules.tolerance);
     EXPECT_NE(result.text.find("(by a test)"), std::string::npos);
     // What is not a plain line of a pass is still there, in order.
     std::istringstream old(program.main().text().data()), now(result.text);
@@ -218,7 +227,9 @@ TEST(Optimizer, RefusesWhereNothingCanBeRewritten) {
 
 TEST(Optimizer, RefusesASinglePass) {
     Diagnostics diagnostics;
-    EXPECT_THROW((void)optimize(read_text("G0 X0 Y0 Z0\nG1 X10 F600\nX20\n"), read_text, brisk(), {}, {}, {}, diagnostics), InputError);
+    EXPECT_THROW(
+        (void)optimize(read_text("G0 X0 Y0 Z0\nG1 X10 F600\nX20\n"), read_text, brisk(), {}, {}, {}, diagnostics),
+        InputError);
 }
 
 }  // namespace

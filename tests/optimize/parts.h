@@ -20,11 +20,13 @@ inline Program read_text(const std::string& text) {
 template <typename Spacing>
 std::string wavy_zigzag(int passes, double length, const Spacing& spacing, double height = 0.8) {
     const auto z = [=](double x, double y) { return height * std::sin(0.9 * x + 0.1 * y); };
-    std::string text = "%\n(WAVES)\nG21 G90 G17 G40 G49 G80\nG64 P0.005\nS12000 M3\nG0 X0 Y0 Z10\nG1 Z0 F1000\nG1 F3000\n";
+    std::string text =
+        "%\n(WAVES)\nG21 G90 G17 G40 G49 G80\nG64 P0.005\nS12000 M3\nG0 X0 Y0 Z10\nG1 Z0 F1000\nG1 F3000\n";
     for (int pass = 0; pass < passes; ++pass) {
         const double y = 0.4 * pass;
         const bool back = pass % 2 == 1;
-        if (pass > 0) text += fmt::format("X{:.4f} Y{:.4f} Z{:.4f}\n", back ? length : 0.0, y, z(back ? length : 0.0, y));
+        if (pass > 0)
+            text += fmt::format("X{:.4f} Y{:.4f} Z{:.4f}\n", back ? length : 0.0, y, z(back ? length : 0.0, y));
         for (double way = spacing(pass, 0.0); way < length + 1e-9; way += spacing(pass, way)) {
             const double x = back ? length - way : way;
             text += fmt::format("X{:.4f} Z{:.4f}\n", x, z(x, y));

@@ -25,14 +25,16 @@ Machine slow_at_short_blocks() {
 
 /// Flat passes, the fifth of which (it runs forth) has 100 points between `from` and `from` + 2 mm.
 Program crowded_at(double from) {
-    return read_text(wavy_zigzag(9, 40, [=](int pass, double x) { return pass == 4 && x > from && x < from + 2 ? 0.02 : 0.31; }, 0));
+    return read_text(wavy_zigzag(
+        9, 40, [=](int pass, double x) { return pass == 4 && x > from && x < from + 2 ? 0.02 : 0.31; }, 0));
 }
 
 JudgedRun run_of(const Program& program, const std::optional<Thresholds>& thresholds = {}) {
     Diagnostics diagnostics;
     QualityRules rules;
     rules.fixed = thresholds;
-    return judge_run(simulate_to_log(program, slow_at_short_blocks(), Vec3::Zero(), {}).log, program, rules, diagnostics);
+    return judge_run(simulate_to_log(program, slow_at_short_blocks(), Vec3::Zero(), {}).log, program, rules,
+                     diagnostics);
 }
 
 bool marked_near(const Program& program, const std::vector<std::uint8_t>& marks, double x, double y) {
@@ -51,7 +53,8 @@ TEST(Regions, AreWhereTheOtherRunIsWorse) {
     ASSERT_EQ(worse.size(), static_cast<std::size_t>(program.motions.size()));
     const double y = 4 * 0.4;
     EXPECT_TRUE(marked_near(program, worse, 29, y));
-    EXPECT_TRUE(marked_near(program, worse, 29, y - 0.4) && marked_near(program, worse, 29, y + 0.4)) << "the passes beside it";
+    EXPECT_TRUE(marked_near(program, worse, 29, y - 0.4) && marked_near(program, worse, 29, y + 0.4))
+        << "the passes beside it";
     EXPECT_FALSE(marked_near(program, worse, 11, y) || marked_near(program, worse, 11, y + 0.4)) << "is better";
     EXPECT_FALSE(marked_near(program, worse, 20, y) || marked_near(program, worse, 3, y)) << "is the same";
 }
@@ -65,7 +68,10 @@ TEST(Regions, AreNoneBetweenARunAndItself) {
 
 // Slower by the same on all passes: no defect, no difference between them, but time.
 TEST(Regions, ThatCostTimeAreGivenBack) {
-    const auto of = [](double spacing) { return read_text(wavy_zigzag(9, 40, [=](int, double x) { return x > 18 && x < 22 ? spacing : 0.31; }, 0)); };
+    const auto of = [](double spacing) {
+        return read_text(wavy_zigzag(
+            9, 40, [=](int, double x) { return x > 18 && x < 22 ? spacing : 0.31; }, 0));
+    };
     const Program program = of(0.31), changed = of(0.02);
     const JudgedRun before = run_of(program), after = run_of(changed, before.report.thresholds);
     ASSERT_GT(after.duration, before.duration + 9 * 0.2);  // 4 mm at 10 mm/s instead of 50
@@ -77,7 +83,9 @@ TEST(Regions, ThatCostTimeAreGivenBack) {
 
 /// A part that holds both: a crowd of points to be repaired, and bends where every pass has its points where it wants.
 Program mixed_part() {
-    return read_text(wavy_zigzag(6, 9, [](int pass, double x) { return pass == 3 && x > 3 && x < 4 ? 0.02 : 0.23 + 0.1 * std::abs(std::sin(1.7 * pass + 0.6 * x)); }));
+    return read_text(wavy_zigzag(6, 9, [](int pass, double x) {
+        return pass == 3 && x > 3 && x < 4 ? 0.02 : 0.23 + 0.1 * std::abs(std::sin(1.7 * pass + 0.6 * x));
+    }));
 }
 
 TEST(Draft, KeepsWhatIsGivenBackByteForByte) {
@@ -113,7 +121,9 @@ TEST(Optimizer, IsNeverWorseThanADraftTakenWhole) {
     Prover prover(program, read, machine, rules, silent, diagnostics);
     const Drafter drafter(program, read, rules, 1.1 * machine.controller.block_time * 50, true);
     for (const double share : {0.1, 0.2, 0.4}) {
-        const Tried whole = prover.propose(std::make_shared<const Draft>(drafter.draft(share * rules.tolerance, motions_in_need(prover.before(), program, {}))), {});
+        const Tried whole = prover.propose(std::make_shared<const Draft>(drafter.draft(
+                                               share * rules.tolerance, motions_in_need(prover.before(), program, {}))),
+                                           {});
         EXPECT_FALSE(prover.better(*whole, taken)) << share;
     }
 }

@@ -53,13 +53,15 @@ TEST(Derivative, HasTheNoiseOfTheFormula) {
         return std::sqrt(sum / static_cast<double>(values.size() - 200));
     };
     EXPECT_NEAR(rms(derive(samples, 1)) / (std::sqrt(12 / (n * (n * n - 1))) / period), 1.0, 0.02);
-    EXPECT_NEAR(rms(derive(samples, 2)) / (2 * std::sqrt(180 / (n * (n * n - 1) * (n * n - 4))) / (period * period)), 1.0, 0.02);
+    EXPECT_NEAR(rms(derive(samples, 2)) / (2 * std::sqrt(180 / (n * (n * n - 1) * (n * n - 4))) / (period * period)),
+                1.0, 0.02);
 }
 
 TEST(Derivative, HasNoLag) {
     // The derivative of a slow sine peaks where the cosine does.
     std::vector<double> samples(2000);
-    for (std::size_t i = 0; i < samples.size(); ++i) samples[i] = std::sin(2 * M_PI * 2.0 * static_cast<double>(i) * period);
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        samples[i] = std::sin(2 * M_PI * 2.0 * static_cast<double>(i) * period);
     const std::vector<double> v = derive(samples, 1);
     std::size_t peak = 300;
     for (std::size_t i = 300; i < 700; ++i) {
@@ -80,7 +82,8 @@ TEST(Derivative, StatesItsBandwidth) {
     const DerivativeFilter filter = derivative_filter(1, period);
     const double f = filter.bandwidth();
     std::vector<double> samples(4000);
-    for (std::size_t i = 0; i < samples.size(); ++i) samples[i] = std::sin(2 * M_PI * f * static_cast<double>(i) * period);
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        samples[i] = std::sin(2 * M_PI * f * static_cast<double>(i) * period);
     double most = 0;
     const std::vector<double> v = derive(samples, 1);
     for (std::size_t i = 100; i < 3900; ++i) most = std::max(most, std::abs(v[i]));
@@ -119,7 +122,8 @@ TEST(Derivative, IsThatOfSciPyToItsEnds) {
         d.apply(signal, 0, {0, 159}, 0, values);
         ASSERT_EQ(r.values.size(), values.size());
         for (std::size_t i = 0; i < values.size(); ++i) {
-            EXPECT_NEAR(values[i], r.values[i], 1e-9) << "window " << r.window << ", order " << r.order << ", derivative " << r.derivative << ", sample " << i;
+            EXPECT_NEAR(values[i], r.values[i], 1e-9) << "window " << r.window << ", order " << r.order
+                                                      << ", derivative " << r.derivative << ", sample " << i;
         }
     }
 }

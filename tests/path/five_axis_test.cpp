@@ -44,9 +44,13 @@ double right_share(Program program, const Kinematics& kinematics) {
     return static_cast<double>(right) / static_cast<double>(path.count);
 }
 
-TEST(FiveAxisLines, FoundUnderToolCentrePointControl) { EXPECT_GE(right_share(test::parse_text(test::dome_program()), test::trunnion()), 0.995); }
+TEST(FiveAxisLines, FoundUnderToolCentrePointControl) {
+    EXPECT_GE(right_share(test::parse_text(test::dome_program()), test::trunnion()), 0.995);
+}
 
-TEST(FiveAxisLines, FoundWithPositionsOfTheAxes) { EXPECT_GE(right_share(test::parse_text(tilted_program()), test::trunnion()), 0.995); }
+TEST(FiveAxisLines, FoundWithPositionsOfTheAxes) {
+    EXPECT_GE(right_share(test::parse_text(tilted_program()), test::trunnion()), 0.995);
+}
 
 TEST(FiveAxisLines, FoundOnAForkHead) {
     Kinematics k;
@@ -84,7 +88,8 @@ TEST(UprightBall, HasTheSameCentre) {
     const Trajectory upright = upright_ball(made.log, tips, 3);
     EXPECT_LE((upright.at(0) - tips.at(0)).norm(), 1e-12);
     EXPECT_LE((tips.at(tips.count - 1) - Vec3(1, 2, 3)).norm(), 1e-9);
-    EXPECT_LE((upright.at(upright.count - 1) - Vec3(1, 5, 0)).norm(), 1e-9) << upright.at(upright.count - 1).transpose();
+    EXPECT_LE((upright.at(upright.count - 1) - Vec3(1, 5, 0)).norm(), 1e-9)
+        << upright.at(upright.count - 1).transpose();
     EXPECT_TRUE(tilts(made.log, tips));
 }
 
@@ -94,7 +99,8 @@ TEST(FiveAxisLines, EventsStayBeforeTheirMotions) {
     Program program = test::parse_text("G21 G90\nG0 X0 Y0 Z0 A-90\nG43.4 H1\nG1 X1 F100\nG49\nG1 X2\nM30\n");
     make_tip_motions(program, k, Vec3::Zero());
     ToolCentrePoint control(program);
-    for (std::int64_t m = 0; m < program.motions.size(); ++m) EXPECT_EQ(control.on(m), program.motions.line[static_cast<std::size_t>(m)] == 4);
+    for (std::int64_t m = 0; m < program.motions.size(); ++m)
+        EXPECT_EQ(control.on(m), program.motions.line[static_cast<std::size_t>(m)] == 4);
 }
 
 TEST(ToolCentrePoint, IsSwitchedByTheWordsOfEachDialect) {
@@ -106,15 +112,17 @@ TEST(ToolCentrePoint, IsSwitchedByTheWordsOfEachDialect) {
     };
     EXPECT_EQ(states(test::parse_text("G0 X1\nG43.4 H1\nG1 X2 F9\nG49\nX3\nG43.5 H1\nX4\nG43 H1\nX5\n")), "01010");
     EXPECT_EQ(states(test::parse_text("G0 X1\nTRAORI\nG1 X2 F9\nTRAFOOF\nX3\nTRAORI(1)\nX4\n", "siemens")), "0101");
-    EXPECT_EQ(states(test::parse_text("%1 G71\nN1 G0 X+1\nN2 M128\nN3 G1 X+2 F9\nN4 M129\nN5 X+3\n", "heidenhain-iso")), "010");
+    EXPECT_EQ(states(test::parse_text("%1 G71\nN1 G0 X+1\nN2 M128\nN3 G1 X+2 F9\nN4 M129\nN5 X+3\n", "heidenhain-iso")),
+              "010");
 }
 
 // The tool axis (0.6, 0, 0.8): tilt B of atan2(0.6, 0.8), C 0; or A of the same and C of atan2(0.6, −0) = 90°.
 TEST(ToolAxisVectors, BecomeAngles) {
     Machine machine;
     machine.kinematics = test::trunnion();
-    for (const auto& [text, dialect] : {std::pair{"G90 G0 X0 Y0 Z0\nG43.5 H1\nG1 X1 I0.6 J0 K0.8 F100\nX2\nX3 A0 C0\nM30\n", "fanuc"},
-                                        std::pair{"G90 G0 X0 Y0 Z0\nTRAORI\nG1 X1 A3=3 B3=0 C3=4 F100\nX2\nX3 A0 C0\nM30\n", "siemens"}}) {
+    for (const auto& [text, dialect] :
+         {std::pair{"G90 G0 X0 Y0 Z0\nG43.5 H1\nG1 X1 I0.6 J0 K0.8 F100\nX2\nX3 A0 C0\nM30\n", "fanuc"},
+          std::pair{"G90 G0 X0 Y0 Z0\nTRAORI\nG1 X1 A3=3 B3=0 C3=4 F100\nX2\nX3 A0 C0\nM30\n", "siemens"}}) {
         Program program = test::parse_text(text, dialect);
         EXPECT_TRUE(program.diagnostics.empty()) << dialect;
         solve_tool_axes(program, machine);
@@ -136,15 +144,22 @@ TEST(ToolAxisVectors, BecomeAngles) {
 TEST(TiltedPlanes, AreWaysOfTheTipWithTheToolUprightOnThem) {
     Kinematics k;
     k.type = KinematicsType::table_table;
-    for (const auto& [text, dialect] : {std::pair{"G90 G21\nG0 X0 Y0 Z0\nG68.2 X0 Y0 Z0 I0 J90 K0\nG53.1\nG1 X1 Y2 Z3 F100\nX2\nG69\nG0 X7 Y8 Z9\nA0 C0\nM30\n", "fanuc"},
-                                        std::pair{"G90 G71\nG0 X0 Y0 Z0\nCYCLE800(0,\"TC\",100000,57,0,0,0,90,0,0,0,0,0,1)\nG1 X1 Y2 Z3 F100\nX2\nCYCLE800()\nG0 X7 Y8 Z9\nA0 C0\nM30\n", "siemens"}}) {
+    for (
+        const auto& [text, dialect] :
+        {std::pair{
+             "G90 G21\nG0 X0 Y0 Z0\nG68.2 X0 Y0 Z0 I0 J90 K0\nG53.1\nG1 X1 Y2 Z3 F100\nX2\nG69\nG0 X7 Y8 Z9\nA0 C0\nM30\n",
+             "fanuc"},
+         std::pair{
+             "G90 G71\nG0 X0 Y0 Z0\nCYCLE800(0,\"TC\",100000,57,0,0,0,90,0,0,0,0,0,1)\nG1 X1 Y2 Z3 F100\nX2\nCYCLE800()\nG0 X7 Y8 Z9\nA0 C0\nM30\n",
+             "siemens"}}) {
         Program program = test::parse_text(text, dialect);
         EXPECT_TRUE(program.diagnostics.empty()) << dialect;
         solve_tool_axes(program, k);
         ASSERT_EQ(program.motions.size(), 6) << dialect;
         const Motions& m = program.motions;
         EXPECT_LE((m.end[2].vec() - Vec3(1, -3, 2)).norm(), 1e-12) << dialect;
-        for (const std::size_t i : {1u, 2u, 3u}) EXPECT_LE(angle_between(k.axis_of(k.angles_of(m.rotary[i].vec())), {0, -1, 0}), 1e-12) << dialect << i;
+        for (const std::size_t i : {1u, 2u, 3u})
+            EXPECT_LE(angle_between(k.axis_of(k.angles_of(m.rotary[i].vec())), {0, -1, 0}), 1e-12) << dialect << i;
         EXPECT_EQ(m.rotary[4], m.rotary[3]) << dialect;  // G69 turns nothing back
         EXPECT_EQ(m.rotary[5], Xyz(0, 0, 0)) << dialect;
         const LineNumber after = m.line[4];
@@ -191,7 +206,9 @@ TEST(FiveAxisPositions, NeedTheRotaryChannels) {
     made.add(Vec3::Zero(), {}, 1);
     made.finish(0.001);
     std::erase_if(made.log.channels, [](const Channel& c) { return c.name == "cmd.c"; });
-    EXPECT_THROW((void)reconstruct(made.log, Role::commanded, Vec3::Zero(), std::make_shared<Kinematics>(test::trunnion())), InputError);
+    EXPECT_THROW(
+        (void)reconstruct(made.log, Role::commanded, Vec3::Zero(), std::make_shared<Kinematics>(test::trunnion())),
+        InputError);
 }
 
 }  // namespace

@@ -28,8 +28,10 @@ Eigen::Matrix4d transition(double t) {
 
 /// ∫ g(τ) g(τ)ᵀ dτ over a period, g = (τ³/6, τ²/2, τ, 1), by Gauss's five points: exact for its order.
 Eigen::Matrix4d wandering(double t, double density) {
-    constexpr std::array<double, 5> nodes{0, 0.5384693101056831, -0.5384693101056831, 0.9061798459386640, -0.9061798459386640};
-    constexpr std::array<double, 5> weights{0.5688888888888889, 0.4786286704993665, 0.4786286704993665, 0.2369268850561891, 0.2369268850561891};
+    constexpr std::array<double, 5> nodes{0, 0.5384693101056831, -0.5384693101056831, 0.9061798459386640,
+                                          -0.9061798459386640};
+    constexpr std::array<double, 5> weights{0.5688888888888889, 0.4786286704993665, 0.4786286704993665,
+                                            0.2369268850561891, 0.2369268850561891};
     Eigen::Matrix4d q = Eigen::Matrix4d::Zero();
     for (std::size_t i = 0; i < 5; ++i) {
         const double s = 0.5 * t * (1 + nodes[i]);
@@ -59,12 +61,16 @@ Motion draw(const SmootherModel& model, int count, std::mt19937& random) {
     std::normal_distribution<double> normal;
     const double density = model.wandering * model.position_sigma * model.position_sigma / std::pow(model.period, 7);
     // Scaled to units of the period, in which the root of the covariance is well conditioned.
-    const Eigen::Matrix4d root = Eigen::LLT<Eigen::Matrix4d>(wandering(1, density * std::pow(model.period, 7))).matrixL();
+    const Eigen::Matrix4d root =
+        Eigen::LLT<Eigen::Matrix4d>(wandering(1, density * std::pow(model.period, 7))).matrixL();
     const State unit(1, 1 / model.period, 1 / std::pow(model.period, 2), 1 / std::pow(model.period, 3));
     Motion motion;
     State x(3, 40, 500, -2000);
     for (int i = 0; i < count; ++i) {
-        if (i > 0) x = transition(model.period) * x + State(unit.array() * (root * State(normal(random), normal(random), normal(random), normal(random))).array());
+        if (i > 0)
+            x = transition(model.period) * x +
+                State(unit.array() *
+                      (root * State(normal(random), normal(random), normal(random), normal(random))).array());
         motion.truth.push_back(x);
         const std::array<double, 3> sigma{model.position_sigma, model.speed_sigma, model.acceleration_sigma};
         for (std::size_t d = 0; d < 3; ++d) {
@@ -95,7 +101,8 @@ TEST(KalmanSmoother, IsTheSolutionOfTheBatchProblem) {
     for (const double density : {1e13, 1e16, 1e18}) {
         const SmootherModel model = model_of(density);
         const Motion motion = draw(model, n, random);
-        const State unit(model.position_sigma, model.position_sigma / period, model.position_sigma / std::pow(period, 2), model.position_sigma / std::pow(period, 3));
+        const State unit(model.position_sigma, model.position_sigma / period,
+                         model.position_sigma / std::pow(period, 2), model.position_sigma / std::pow(period, 3));
         const Eigen::Matrix4d f = transition(1);
         const Eigen::Matrix4d steps = Eigen::LLT<Eigen::Matrix4d>(wandering(1, model.wandering)).matrixL();
         Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(3 * n + 4 * (n - 1), 4 * n);
@@ -105,7 +112,9 @@ TEST(KalmanSmoother, IsTheSolutionOfTheBatchProblem) {
             for (int d = 0; d < 3; ++d) {
                 rows(3 * i + d, 4 * i + d) = unit[d] / sigma[static_cast<std::size_t>(d)];
                 const double origin = d == 0 ? motion.measured[0][0] : 0.0;
-                right[3 * i + d] = (motion.measured[static_cast<std::size_t>(d)][static_cast<std::size_t>(i)] - origin) / sigma[static_cast<std::size_t>(d)];
+                right[3 * i + d] =
+                    (motion.measured[static_cast<std::size_t>(d)][static_cast<std::size_t>(i)] - origin) /
+                    sigma[static_cast<std::size_t>(d)];
             }
             if (i == 0) continue;
             const Eigen::Matrix4d whiten = steps.triangularView<Eigen::Lower>().solve(Eigen::Matrix4d::Identity());
@@ -122,7 +131,9 @@ TEST(KalmanSmoother, IsTheSolutionOfTheBatchProblem) {
             for (int d = 0; d < 4; ++d) {
                 const double left = std::sqrt(inverse.row(4 * i + d).squaredNorm()) * unit[d];
                 const double origin = d == 0 ? motion.measured[0][0] : 0.0;
-                EXPECT_NEAR(states[static_cast<std::size_t>(i)][static_cast<std::size_t>(d)][0], solution[4 * i + d] * unit[d] + origin, 1e-4 * left) << density << ' ' << i << ' ' << d;
+                EXPECT_NEAR(states[static_cast<std::size_t>(i)][static_cast<std::size_t>(d)][0],
+                            solution[4 * i + d] * unit[d] + origin, 1e-4 * left)
+                    << density << ' ' << i << ' ' << d;
                 EXPECT_NEAR(sigma_at(smoother, d, i, n), left, 1e-4 * left) << density << ' ' << i << ' ' << d;
             }
         }
@@ -147,7 +158,8 @@ TEST(KalmanSmoother, IsExactOnCubics) {
         for (std::size_t i = 0; i < states.size(); ++i) {
             for (int d = 0; d < 4; ++d) {
                 const double left = sigma_at(smoother, d, static_cast<PointIndex>(i), 700);
-                ASSERT_NEAR(states[i][static_cast<std::size_t>(d)][1], motion.truth[i][d], 1e-3 * left) << wandering << ' ' << i << ' ' << d;
+                ASSERT_NEAR(states[i][static_cast<std::size_t>(d)][1], motion.truth[i][d], 1e-3 * left)
+                    << wandering << ' ' << i << ' ' << d;
             }
         }
     }
@@ -171,13 +183,16 @@ TEST(KalmanSmoother, ErrsAsMuchAsItSays) {
             for (std::size_t k = 0; k < places.size(); ++k) {
                 const auto at = static_cast<std::size_t>(places[k]);
                 for (int d = 0; d < 4; ++d) {
-                    const double off = (states[at][static_cast<std::size_t>(d)][0] - motion.truth[at][d]) / sigma_at(smoother, d, places[k], count);
+                    const double off = (states[at][static_cast<std::size_t>(d)][0] - motion.truth[at][d]) /
+                                       sigma_at(smoother, d, places[k], count);
                     sums[k][static_cast<std::size_t>(d)] += off * off;
                 }
             }
         }
         for (std::size_t k = 0; k < places.size(); ++k) {
-            for (int d = 0; d < 4; ++d) EXPECT_NEAR(sums[k][static_cast<std::size_t>(d)] / motions, 1, 4 * std::sqrt(2.0 / motions)) << places[k] << ' ' << d;
+            for (int d = 0; d < 4; ++d)
+                EXPECT_NEAR(sums[k][static_cast<std::size_t>(d)] / motions, 1, 4 * std::sqrt(2.0 / motions))
+                    << places[k] << ' ' << d;
         }
     }
 }
@@ -192,11 +207,15 @@ TEST(KalmanSmoother, PartsOfALongRunAgree) {
     Motion part;
     const std::size_t from = 2000 - reach;
     part.truth.resize(2 * reach + 1);
-    for (std::size_t d = 0; d < 3; ++d) part.measured[d].assign(motion.measured[d].begin() + static_cast<std::ptrdiff_t>(from), motion.measured[d].begin() + static_cast<std::ptrdiff_t>(from + 2 * reach + 1));
+    for (std::size_t d = 0; d < 3; ++d)
+        part.measured[d].assign(motion.measured[d].begin() + static_cast<std::ptrdiff_t>(from),
+                                motion.measured[d].begin() + static_cast<std::ptrdiff_t>(from + 2 * reach + 1));
     const std::vector<SmoothedState> states = smooth(smoother, part);
     for (int d = 0; d < 4; ++d) {
         const double value = whole[2000][static_cast<std::size_t>(d)][0];
-        EXPECT_NEAR(states[reach][static_cast<std::size_t>(d)][0], value, 1e-3 * smoother.sigma(d) + 1e-14 * std::abs(value)) << d;
+        EXPECT_NEAR(states[reach][static_cast<std::size_t>(d)][0], value,
+                    1e-3 * smoother.sigma(d) + 1e-14 * std::abs(value))
+            << d;
     }
 }
 
@@ -219,7 +238,8 @@ struct Ramps {
             const Vec3 along(-std::sin(angle), std::cos(angle), 0);
             const Vec3 inward(-std::cos(angle), -std::sin(angle), 0);
             const Vec3 p(20 * std::cos(angle), 20 * std::sin(angle), 4);
-            for (int k = 0; k < 3; ++k) positions[static_cast<std::size_t>(k)].push_back(std::round(p[k] / quantum) * quantum);
+            for (int k = 0; k < 3; ++k)
+                positions[static_cast<std::size_t>(k)].push_back(std::round(p[k] / quantum) * quantum);
             exact_speed.push_back(v);
             velocity.push_back(v * along);
             acceleration.push_back(a * along + v * v / 20 * inward);
@@ -239,15 +259,19 @@ struct Ramps {
         log.name = "ramps";
         log.period = period;
         log.records = count;
-        const auto view = [](const std::vector<double>& x) { return ChannelView{reinterpret_cast<const std::byte*>(x.data()), 8, count, ScalarType::f64, false, 1, 0}; };
-        for (std::size_t k = 0; k < 3; ++k) log.channels.push_back({std::string("cmd.") + "xyz"[k], "mm", view(positions[k])});
+        const auto view = [](const std::vector<double>& x) {
+            return ChannelView{reinterpret_cast<const std::byte*>(x.data()), 8, count, ScalarType::f64, false, 1, 0};
+        };
+        for (std::size_t k = 0; k < 3; ++k)
+            log.channels.push_back({std::string("cmd.") + "xyz"[k], "mm", view(positions[k])});
         if (with_speed) log.channels.push_back({"speed", "mm/min", view(speeds)});
     }
 
     struct Errors {
         double speed = 0, acceleration = 0;  ///< rms
     };
-    [[nodiscard]] Errors kalman(std::string* note = nullptr, double* speed_sigma = nullptr, double* acceleration_sigma = nullptr) const {
+    [[nodiscard]] Errors kalman(std::string* note = nullptr, double* speed_sigma = nullptr,
+                                double* acceleration_sigma = nullptr) const {
         const Trajectory path = reconstruct(log, Role::commanded, Vec3::Zero());
         const MotionEstimate estimate(log, path, pieces);
         if (note != nullptr) *note = estimate.note(2);
@@ -272,7 +296,8 @@ struct Ramps {
     }
 
 private:
-    [[nodiscard]] Errors errors(const std::array<std::vector<double>, 3>& v, const std::array<std::vector<double>, 3>& a) const {
+    [[nodiscard]] Errors errors(const std::array<std::vector<double>, 3>& v,
+                                const std::array<std::vector<double>, 3>& a) const {
         Errors sums;
         int n = 0;
         for (std::size_t i = 100; i + 100 < count; ++i, ++n) {
@@ -320,7 +345,8 @@ TEST(MotionEstimate, MissingPositionsStayMissing) {
     for (int i = 0; i <= 200; ++i) {
         EXPECT_EQ(std::isnan(out[1][0][static_cast<std::size_t>(i)]), i == 100) << i;
         if (i == 100) continue;
-        EXPECT_NEAR(out[1][0][static_cast<std::size_t>(i)], ramps.velocity[static_cast<std::size_t>(4900 + i)].x(), 1.5);
+        EXPECT_NEAR(out[1][0][static_cast<std::size_t>(i)], ramps.velocity[static_cast<std::size_t>(4900 + i)].x(),
+                    1.5);
     }
 }
 

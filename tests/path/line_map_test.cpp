@@ -62,8 +62,10 @@ class Alignment : public testing::TestWithParam<Sample> {};
 TEST_P(Alignment, FindsTheLinesOfARecordedLog) { EXPECT_GE(right_share(GetParam()), 0.995); }
 
 INSTANTIATE_TEST_SUITE_P(Recorded, Alignment,
-                         testing::Values(Sample{"bottle_uneven.nc", "bottle_uneven.biip"}, Sample{"bottle_zigzag.nc", "bottle_zigzag.biip"},
-                                         Sample{"dome_loops.nc", "dome_loops.biip"}, Sample{"transition_g61.nc", "transition_g61.biip"},
+                         testing::Values(Sample{"bottle_uneven.nc", "bottle_uneven.biip"},
+                                         Sample{"bottle_zigzag.nc", "bottle_zigzag.biip"},
+                                         Sample{"dome_loops.nc", "dome_loops.biip"},
+                                         Sample{"transition_g61.nc", "transition_g61.biip"},
                                          Sample{"petal_zigzag_g64.ngc", "petal_zigzag_g64.biip"},
                                          Sample{"petal_zigzag_irregular.ngc", "petal_zigzag_irregular.biip"},
                                          Sample{"petal_loops_g64.ngc", "petal_loops_g64.biip"},
@@ -94,9 +96,7 @@ TEST(LineMap, FindsItsPlaceInALogThatBeginsInTheMiddle) {
     Diagnostics diagnostics;
     const LineMap ours = align_lines(path, program, diagnostics);
     const LineMap whole = map_lines(reconstruct(log, Role::commanded, Vec3::Zero()), log, program, true, diagnostics);
-    for (const PointIndex i : {0, 500, 5000}) {
-        EXPECT_NEAR(ours.line_at(i), whole.line_at(i + cut), 2.0) << i;
-    }
+    for (const PointIndex i : {0, 500, 5000}) { EXPECT_NEAR(ours.line_at(i), whole.line_at(i + cut), 2.0) << i; }
 }
 
 /// Ways in steps of 0.1 mm as a trajectory without lines.
@@ -116,7 +116,13 @@ struct Walked {
         path.period = 0.001;
         path.name = "walked";
         for (std::size_t k = 0; k < 3; ++k) {
-            path.axes[k] = {reinterpret_cast<const std::byte*>(axis[k].data()), sizeof(double), path.count, ScalarType::f64, false, 1.0, 0.0};
+            path.axes[k] = {reinterpret_cast<const std::byte*>(axis[k].data()),
+                            sizeof(double),
+                            path.count,
+                            ScalarType::f64,
+                            false,
+                            1.0,
+                            0.0};
         }
         return path;
     }
@@ -127,7 +133,9 @@ TEST(LineMap, GoesOnBehindAWayThatIsNoneOfTheProgramsOwn) {
     std::string text = "G0 X0 Y0 Z0\nG1 F600\n";
     for (int k = 1; k <= 9; ++k) text += fmt::format("X{} Y{}\n", k % 2 == 1 ? 30 : 0, k);
     const Program program = parse_program(SourceText("test.nc", text, nullptr), {});
-    const auto end_of = [](int line) { return line < 3 ? Vec3(0, 0, 0) : Vec3((line - 2) % 2 == 1 ? 30 : 0, line - 2, 0); };
+    const auto end_of = [](int line) {
+        return line < 3 ? Vec3(0, 0, 0) : Vec3((line - 2) % 2 == 1 ? 30 : 0, line - 2, 0);
+    };
     Walked log;
     for (int line = 3; line <= 7; ++line) log.go(end_of(line - 1), end_of(line));
     const Vec3 stop = 0.5 * (end_of(7) + end_of(8));

@@ -19,7 +19,8 @@ Log log_of(const Recorded& r, std::vector<std::string> programs) {
     log.period = 0.001;
     log.records = static_cast<PointIndex>(r.x.size());
     const auto add = [&](const char* name, const void* data, ScalarType type, std::size_t stride) {
-        log.channels.push_back({name, "", {static_cast<const std::byte*>(data), stride, log.records, type, false, 1.0, 0.0}});
+        log.channels.push_back(
+            {name, "", {static_cast<const std::byte*>(data), stride, log.records, type, false, 1.0, 0.0}});
     };
     add("cmd.x", r.x.data(), ScalarType::f64, 8);
     add("cmd.y", r.y.data(), ScalarType::f64, 8);
@@ -30,7 +31,9 @@ Log log_of(const Recorded& r, std::vector<std::string> programs) {
     return log;
 }
 
-Program parse(const std::string& name, std::string_view text) { return parse_program(SourceText(name, text, nullptr), {}); }
+Program parse(const std::string& name, std::string_view text) {
+    return parse_program(SourceText(name, text, nullptr), {});
+}
 
 TEST(ProgramLines, ALineOfASubprogramIsTheLineThatCalledIt) {
     const Recorded r{{0, 0, 0, 0, 0}, {0, 0, 0, 0, 0}, {0, 0, 0, 0, 0}, {9, 2, 7, 8, 3}, {2, 0, 1, 1, 0}};
@@ -45,11 +48,14 @@ TEST(ProgramLines, ALineOfASubprogramIsTheLineThatCalledIt) {
 
 TEST(ProgramLines, ALineThatCallsCutsWhileItsSubprogramDoes) {
     InterpreterOptions options;
-    options.load = [](const std::string&) { return std::optional(SourceText("sub.spf", "G1 X2\nG1 X3\nRET\n", nullptr)); };
+    options.load = [](const std::string&) {
+        return std::optional(SourceText("sub.spf", "G1 X2\nG1 X3\nRET\n", nullptr));
+    };
     options.dialect = find_dialect("siemens");
     const Program program = parse_program(SourceText("part.mpf", "G1 X1 F100\nM8\nSUB\nG1 X4\nM9\n", nullptr), options);
     ASSERT_EQ(program.motions.size(), 4);
-    const Recorded r{{0.5, 1, 1.5, 2.5, 3.5, 4}, {0, 0, 0, 0, 0, 0}, {0, 0, 0, 0, 0, 0}, {1, 1, 1, 2, 4, 5}, {0, 0, 1, 1, 0, 0}};
+    const Recorded r{
+        {0.5, 1, 1.5, 2.5, 3.5, 4}, {0, 0, 0, 0, 0, 0}, {0, 0, 0, 0, 0, 0}, {1, 1, 1, 2, 4, 5}, {0, 0, 1, 1, 0, 0}};
     const Log log = log_of(r, {"/_N_PART_MPF", "/_N_SUB_SPF"});
     Diagnostics diagnostics;
     const LineMap map = map_lines(reconstruct(log, Role::commanded, Vec3::Zero()), log, program, true, diagnostics);
@@ -60,7 +66,8 @@ TEST(ProgramLines, ALineThatCallsCutsWhileItsSubprogramDoes) {
 TEST(ProgramLines, SaysWhichProgramsRanWhereNoneIsThisOne) {
     const Recorded r{{0, 0}, {0, 0}, {0, 0}, {9, 2}, {0, 1}};
     Diagnostics diagnostics;
-    const ProgramLines own = lines_of_program(log_of(r, {"/_A", "/_B"}), parse("part.mpf", "G1 X1 F100\n"), diagnostics);
+    const ProgramLines own =
+        lines_of_program(log_of(r, {"/_A", "/_B"}), parse("part.mpf", "G1 X1 F100\n"), diagnostics);
     EXPECT_FALSE(own.known);
     ASSERT_EQ(diagnostics.count("map.program"), 1u);
     EXPECT_NE(diagnostics.kept()[0].text.find("/_A, /_B"), std::string::npos);
@@ -130,7 +137,8 @@ TEST(ProgramCourse, FindsAPause) {
     run(r, 51, 100);
     const Diagnostics found = course_of(r);
     ASSERT_EQ(found.count("map.pause"), 1u);
-    EXPECT_NE(found.kept()[0].text.find("stands still for 2.5 s on line 50"), std::string::npos) << found.kept()[0].text;
+    EXPECT_NE(found.kept()[0].text.find("stands still for 2.5 s on line 50"), std::string::npos)
+        << found.kept()[0].text;
 }
 
 }  // namespace

@@ -14,7 +14,8 @@ namespace clsurf {
 namespace {
 
 constexpr PointIndex lead = 2;  // [records]
-constexpr std::array logs{"bottle_uneven", "bottle_zigzag", "dome_loops", "transition_g61", "petal_zigzag_g64", "petal_zigzag_irregular", "petal_loops_g64"};
+constexpr std::array logs{"bottle_uneven",    "bottle_zigzag",          "dome_loops",     "transition_g61",
+                          "petal_zigzag_g64", "petal_zigzag_irregular", "petal_loops_g64"};
 
 struct Speeds {
     std::vector<double> derived, recorded;  // [mm/min]

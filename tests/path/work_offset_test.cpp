@@ -60,7 +60,8 @@ TEST_P(WorkOffset, OfALogInPlaceIsNone) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Recorded, WorkOffset,
-                         testing::Values(Sample{"bottle_uneven.nc", "bottle_uneven.biip"}, Sample{"dome_loops.nc", "dome_loops.biip"},
+                         testing::Values(Sample{"bottle_uneven.nc", "bottle_uneven.biip"},
+                                         Sample{"dome_loops.nc", "dome_loops.biip"},
                                          Sample{"transition_g61.nc", "transition_g61.biip"},
                                          Sample{"petal_zigzag_g64.ngc", "petal_zigzag_g64.biip"},
                                          Sample{"petal_loops_g64.ngc", "petal_loops_g64.biip"}));

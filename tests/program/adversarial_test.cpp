@@ -28,7 +28,8 @@ TEST(Adversarial, LinesOfTenMegabytes) {
     read_in_every_dialect("G1 X1 " + repeated("7 ", 5 * megabytes) + "\n");
     read_in_every_dialect(repeated("X1 ", 3 * megabytes));
     read_in_every_dialect("#1=" + repeated("1+", 5 * megabytes) + "1\n");
-    EXPECT_EQ(motions(parse("G0 X1 Y0 Z0" + std::string(10 * megabytes, ' ') + "\nX2\n", "fanuc")), (Rows{"rapid 1 0 0", "rapid 2 0 0"}));
+    EXPECT_EQ(motions(parse("G0 X1 Y0 Z0" + std::string(10 * megabytes, ' ') + "\nX2\n", "fanuc")),
+              (Rows{"rapid 1 0 0", "rapid 2 0 0"}));
     // The message shows the beginning of the line only.
     EXPECT_LT(error_of("G1 X[" + std::string(10 * megabytes, 'c') + "\n", "fanuc").size(), 10'000u);
 }
@@ -44,7 +45,8 @@ TEST(Adversarial, AMillionNestedBrackets) {
 }
 
 TEST(Adversarial, AMillionCalls) {
-    const std::string calls = "G0 X0 Y0 Z0\nG91\n#1=0\nWHILE [#1 LT 1000000] DO 1\n#1=#1+1\nM98 P7\nEND 1\nM30\nO7\nX1\nM99\n";
+    const std::string calls =
+        "G0 X0 Y0 Z0\nG91\n#1=0\nWHILE [#1 LT 1000000] DO 1\n#1=#1+1\nM98 P7\nEND 1\nM30\nO7\nX1\nM99\n";
     const Program p = parse(calls, "fanuc");
     ASSERT_EQ(p.motions.size(), 1'000'001);
     EXPECT_DOUBLE_EQ(p.motions.end.back().x, 1e6);
@@ -69,7 +71,8 @@ TEST(Adversarial, DeepRecursionAndLoopsWithoutEnd) {
     EXPECT_NE(error_of("M98 P1\nM30\nO1\nM98 P1\nM99\n", "fanuc").find("calls itself?"), std::string::npos);
     EXPECT_NE(error_of("AGAIN: GOTOB AGAIN\n", "siemens").find("loop without end?"), std::string::npos);
     EXPECT_NE(error_of("N1 GOTO 1\n", "fanuc").find("loop without end?"), std::string::npos);
-    EXPECT_NE(error_of("MCALL PART\nX1\nM30\nPART:\nMCALL PART\nX1\nRET\n", "siemens").find("calls itself?"), std::string::npos);
+    EXPECT_NE(error_of("MCALL PART\nX1\nM30\nPART:\nMCALL PART\nX1\nRET\n", "siemens").find("calls itself?"),
+              std::string::npos);
 }
 
 TEST(Adversarial, OtherEncodingsAndBytes) {

@@ -46,10 +46,13 @@ TEST(FanucFrame, TurnsAboutAnyAxisInSpace) {
 
 TEST(FanucFrame, ScalesAndMirrors) {
     // About (10, 10) by 2 (P2000): (20, 10) → (30, 10). G50 ends it.
-    EXPECT_EQ(rows("G0 X0 Y0 Z0\nG51 X10 Y10 Z0 P2000\nG1 F60 X20 Y10\nG50 X20\n"), (Rows{"rapid 0 0 0", "feed 30 10 0", "feed 20 10 0"}));
+    EXPECT_EQ(rows("G0 X0 Y0 Z0\nG51 X10 Y10 Z0 P2000\nG1 F60 X20 Y10\nG50 X20\n"),
+              (Rows{"rapid 0 0 0", "feed 30 10 0", "feed 20 10 0"}));
     // I −1: mirrored about X 5; a clockwise arc comes out counter-clockwise.
-    EXPECT_EQ(rows("G0 X0 Y0 Z0\nG51 X5 Y0 I-1000 J1000\nG1 F60 X0\nG2 X2 I1\n"), (Rows{"rapid 0 0 0", "feed 10 0 0", "ccw 8 0 0"}));
-    EXPECT_EQ(rows("G0 X0 Y0 Z0\nG51.1 X0\nG1 F60 X3\nG50.1 X0\nX3\n"), (Rows{"rapid 0 0 0", "feed -3 0 0", "feed 3 0 0"}));
+    EXPECT_EQ(rows("G0 X0 Y0 Z0\nG51 X5 Y0 I-1000 J1000\nG1 F60 X0\nG2 X2 I1\n"),
+              (Rows{"rapid 0 0 0", "feed 10 0 0", "ccw 8 0 0"}));
+    EXPECT_EQ(rows("G0 X0 Y0 Z0\nG51.1 X0\nG1 F60 X3\nG50.1 X0\nX3\n"),
+              (Rows{"rapid 0 0 0", "feed -3 0 0", "feed 3 0 0"}));
     // Uneven factors make an ellipse: chords; its top is at Y 20.
     const Rows ellipse = rows("G0 X0 Y0 Z0\nG51 X0 Y0 I1000 J2000\nG1 F60 X10 Y0\nG3 X-10 I-10\n");
     EXPECT_EQ(ellipse[51], "spline 0 20 0");
@@ -58,8 +61,10 @@ TEST(FanucFrame, ScalesAndMirrors) {
 
 TEST(FanucFrame, MirrorsThenScalesThenTurnsInItsLocalZero) {
     // (1, 0) → mirrored (−1, 0) → scaled (−2, 0) → turned (0, −2) → local zero (10, 18).
-    EXPECT_EQ(rows("G0 X0 Y0 Z0\nG52 X10 Y20\nG51.1 X0\nG51 X0 Y0 P2\nG68 X0 Y0 R90\nG1 F60 X1 Y0\n"), (Rows{"rapid 0 0 0", "feed 10 18 0"}));
-    EXPECT_EQ(rows("G0 X0 Y0 Z0\nG52 X10\nG1 F60 X1\nG52 X0\nX1\n"), (Rows{"rapid 0 0 0", "feed 11 0 0", "feed 1 0 0"}));
+    EXPECT_EQ(rows("G0 X0 Y0 Z0\nG52 X10 Y20\nG51.1 X0\nG51 X0 Y0 P2\nG68 X0 Y0 R90\nG1 F60 X1 Y0\n"),
+              (Rows{"rapid 0 0 0", "feed 10 18 0"}));
+    EXPECT_EQ(rows("G0 X0 Y0 Z0\nG52 X10\nG1 F60 X1\nG52 X0\nX1\n"),
+              (Rows{"rapid 0 0 0", "feed 11 0 0", "feed 1 0 0"}));
 }
 
 TEST(FanucPolar, CountsFromTheZeroOrFromThePosition) {
@@ -67,23 +72,27 @@ TEST(FanucPolar, CountsFromTheZeroOrFromThePosition) {
     EXPECT_EQ(rows("G0 X0 Y0 Z0\nG90 G16\nG0 X100 Y30\nY150\nY270\nG15 X0 Y0\n"),
               (Rows{"rapid 0 0 0", "rapid 86.6025 50 0", "rapid -86.6025 50 0", "rapid 0 -100 0", "rapid 0 0 0"}));
     // G91: 10 from where the tool is, each angle added to the one before.
-    EXPECT_EQ(rows("G0 X5 Y0 Z0\nG16 G91\nG1 F60 X10 Y0\nX10 Y90\n"), (Rows{"rapid 5 0 0", "feed 15 0 0", "feed 15 10 0"}));
+    EXPECT_EQ(rows("G0 X5 Y0 Z0\nG16 G91\nG1 F60 X10 Y0\nX10 Y90\n"),
+              (Rows{"rapid 5 0 0", "feed 15 0 0", "feed 15 10 0"}));
     // G18: Z is the radius, X the angle.
     EXPECT_EQ(rows("G0 X0 Y0 Z0\nG18 G16\nG1 F60 Z10 X90\n"), (Rows{"rapid 0 0 0", "feed 10 0 0"}));
 }
 
 TEST(FanucMacro, PassesArgumentsAndKnowsVacantOnes) {
     // B is not given: vacant, so Y#2 is not there. M is #13.
-    EXPECT_EQ(rows("G0 X0 Y7 Z0\nG1 F60\nG65 P9 A3 M5\nM30\nO9\nIF [#2 NE #0] GOTO 5\nX#1 Y#2 Z#13\nN5 M99\n"), (Rows{"rapid 0 7 0", "feed 3 7 5"}));
+    EXPECT_EQ(rows("G0 X0 Y7 Z0\nG1 F60\nG65 P9 A3 M5\nM30\nO9\nIF [#2 NE #0] GOTO 5\nX#1 Y#2 Z#13\nN5 M99\n"),
+              (Rows{"rapid 0 7 0", "feed 3 7 5"}));
     // Specification II: the second I is #7, its K #9.
-    EXPECT_EQ(rows("G0 X0 Y0 Z0\nG1 F60\nG65 P9 I1 J2 K3 I4 K6\nM30\nO9\nX#4 Y#7 Z#9\nM99\n"), (Rows{"rapid 0 0 0", "feed 1 4 6"}));
+    EXPECT_EQ(rows("G0 X0 Y0 Z0\nG1 F60\nG65 P9 I1 J2 K3 I4 K6\nM30\nO9\nX#4 Y#7 Z#9\nM99\n"),
+              (Rows{"rapid 0 0 0", "feed 1 4 6"}));
     // The words of G65 are arguments: F is not a feed.
     EXPECT_NEAR(parse("G1 F60 X1\nG65 P9 F600\nM30\nO9\nX2\nM99\n", "fanuc").motions.feed[1], 1, 1e-6);
 }
 
 TEST(FanucMacro, CallsModallyAfterEveryMotion) {
     EXPECT_EQ(rows("G0 X0 Y0 Z0\nG66 P9 A2\nX1\nX2\nG67\nX3\nM30\nO9\nG1 F60 Z-#1\nG0 Z0\nM99\n"),
-              (Rows{"rapid 0 0 0", "rapid 1 0 0", "feed 1 0 -2", "rapid 1 0 0", "rapid 2 0 0", "feed 2 0 -2", "rapid 2 0 0", "rapid 3 0 0"}));
+              (Rows{"rapid 0 0 0", "rapid 1 0 0", "feed 1 0 -2", "rapid 1 0 0", "rapid 2 0 0", "feed 2 0 -2",
+                    "rapid 2 0 0", "rapid 3 0 0"}));
 }
 
 TEST(FanucMacro, CountsAsTheManualHasIt) {
@@ -103,7 +112,8 @@ TEST(FanucMacro, CountsAsTheManualHasIt) {
 TEST(FanucMacro, JumpsLoopsAndReturnsToABlock) {
     EXPECT_EQ(rows("G0 X0 Y0 Z0\n#100=30\nGOTO #100\nX9\nN30 X1\nM98 P20007\nX9\nN50 X2\nM30\nO7\nG91 Y1\nG90 M99\n"),
               (Rows{"rapid 0 0 0", "rapid 1 0 0", "rapid 1 1 0", "rapid 1 2 0", "rapid 9 2 0", "rapid 2 2 0"}));
-    EXPECT_EQ(rows("G0 X0 Y0 Z0\nM98 P7 L1\nX9\nN50 X2\nM30\nO7\nX5\nM99 P50\n"), (Rows{"rapid 0 0 0", "rapid 5 0 0", "rapid 2 0 0"}));
+    EXPECT_EQ(rows("G0 X0 Y0 Z0\nM98 P7 L1\nX9\nN50 X2\nM30\nO7\nX5\nM99 P50\n"),
+              (Rows{"rapid 0 0 0", "rapid 5 0 0", "rapid 2 0 0"}));
     EXPECT_EQ(rows("G0 X0 Y0 Z0\n#1=0\nWHILE[#1LT2]DO1\n#1=#1+1\nIF[#1EQ2]THEN #2=5\nX#1\nEND1\nX#2\n"),
               (Rows{"rapid 0 0 0", "rapid 1 0 0", "rapid 2 0 0", "rapid 5 0 0"}));
 }
@@ -120,26 +130,31 @@ TEST(FanucOffsets, AreSetByG10AndByVariables) {
     // G55 lies 5 to the right of G54 (both ways), G54.1 P1 10 up; the machine stays.
     EXPECT_EQ(rows("G54 G0 X0 Y0 Z0\nG10 L2 P2 X5\nG55\nG53 X7\nG10 L20 P1 X5 Y10\nG54.1 P1\nG53 Y12\nG54 P1 X1 Y1\n"),
               (Rows{"rapid 0 0 0", "rapid 2 0 0", "rapid 2 2 0", "rapid 1 1 0"}));
-    EXPECT_EQ(rows("G54 G0 X0 Y0 Z0\n#5241=5\nG55 X#5241\nG91 G10 L2 P2 X1\nG90 G53 X0\n"), (Rows{"rapid 0 0 0", "rapid 5 0 0", "rapid -6 0 0"}));
+    EXPECT_EQ(rows("G54 G0 X0 Y0 Z0\n#5241=5\nG55 X#5241\nG91 G10 L2 P2 X1\nG90 G53 X0\n"),
+              (Rows{"rapid 0 0 0", "rapid 5 0 0", "rapid -6 0 0"}));
 }
 
 TEST(FanucCycles, CrossAtTheLevelWhereTheyAre) {
     EXPECT_EQ(rows("G0 X0 Y0 Z10\nG99 G81 X1 R2 Z-1 F60\nX2 K2\nG98 X3\nG80\n"),
-              (Rows{"rapid 0 0 10", "rapid 1 0 10", "rapid 1 0 2", "feed 1 0 -1", "rapid 1 0 2", "rapid 2 0 2", "rapid 2 0 2", "feed 2 0 -1", "rapid 2 0 2",
-                    "rapid 2 0 2", "rapid 2 0 2", "feed 2 0 -1", "rapid 2 0 2", "rapid 3 0 2", "rapid 3 0 2", "feed 3 0 -1", "rapid 3 0 10"}));
+              (Rows{"rapid 0 0 10", "rapid 1 0 10", "rapid 1 0 2", "feed 1 0 -1", "rapid 1 0 2", "rapid 2 0 2",
+                    "rapid 2 0 2", "feed 2 0 -1", "rapid 2 0 2", "rapid 2 0 2", "rapid 2 0 2", "feed 2 0 -1",
+                    "rapid 2 0 2", "rapid 3 0 2", "rapid 3 0 2", "feed 3 0 -1", "rapid 3 0 10"}));
 }
 
 TEST(FanucCycles, BoreFineAndFromBehind) {
     // G76: aside by Q along X, out, back. G87: aside, to R below, back, up to Z.
     EXPECT_EQ(rows("G0 X0 Y0 Z10\nG98 G76 X1 R2 Z-5 Q0.5 F60\n"),
-              (Rows{"rapid 0 0 10", "rapid 1 0 10", "rapid 1 0 2", "feed 1 0 -5", "rapid 1.5 0 -5", "rapid 1.5 0 10", "rapid 1 0 10"}));
+              (Rows{"rapid 0 0 10", "rapid 1 0 10", "rapid 1 0 2", "feed 1 0 -5", "rapid 1.5 0 -5", "rapid 1.5 0 10",
+                    "rapid 1 0 10"}));
     EXPECT_EQ(rows("G0 X0 Y0 Z10\nG98 G87 X1 R-8 Z-5 Q0.5 F60\n"),
-              (Rows{"rapid 0 0 10", "rapid 1 0 10", "rapid 1.5 0 10", "rapid 1.5 0 -8", "rapid 1 0 -8", "feed 1 0 -5", "rapid 1.5 0 -5", "rapid 1.5 0 10", "rapid 1 0 10"}));
+              (Rows{"rapid 0 0 10", "rapid 1 0 10", "rapid 1.5 0 10", "rapid 1.5 0 -8", "rapid 1 0 -8", "feed 1 0 -5",
+                    "rapid 1.5 0 -5", "rapid 1.5 0 10", "rapid 1 0 10"}));
 }
 
 TEST(FanucCycles, TapWithDwellInMilliseconds) {
     const Program p = parse("G0 X0 Y0 Z10\nG99 G84 R2 Z-5 P500 F60\n", "fanuc");
-    EXPECT_EQ(motions(p), (Rows{"rapid 0 0 10", "rapid 0 0 10", "rapid 0 0 2", "feed 0 0 -5", "dwell 0 0 -5", "feed 0 0 2"}));
+    EXPECT_EQ(motions(p),
+              (Rows{"rapid 0 0 10", "rapid 0 0 10", "rapid 0 0 2", "feed 0 0 -5", "dwell 0 0 -5", "feed 0 0 2"}));
     EXPECT_FLOAT_EQ(p.motions.feed[4], 0.5F);
 }
 
@@ -156,7 +171,8 @@ TEST(FanucTools, GiveLengthsAndRadii) {
 
 TEST(FanucBlocks, NameWordsThatAStraightMotionDoesNotUse) {
     // A corner without its comma, a centre without its G2; M and H words are the machine's own.
-    const Program p = parse("G0 X0 Y0 Z0\nG1 X10 R5 F60\nX20 I5\nX30 M3 P2\nX40 H1\nM98 P9 L2\nM30\nO9\nX50\nM99\n", "fanuc");
+    const Program p =
+        parse("G0 X0 Y0 Z0\nG1 X10 R5 F60\nX20 I5\nX30 M3 P2\nX40 H1\nM98 P9 L2\nM30\nO9\nX50\nM99\n", "fanuc");
     ASSERT_EQ(p.diagnostics.count("program.unused-word"), 2u);
     EXPECT_EQ(p.diagnostics.kept()[0].where.text(), "test.nc:2:8");
     EXPECT_EQ(p.diagnostics.kept()[1].where.text(), "test.nc:3:5");
@@ -175,7 +191,8 @@ TEST(FanucModes, AreNotedAndTheRestReported) {
 std::string axis_of(const Program& p, std::size_t motion) {
     if (p.motions.tool_axis.empty()) return "none";
     const Vec3 a = p.motions.tool_axis[motion].vec();
-    return a.array().isNaN().any() ? "none" : fmt::format("{:.4f} {:.4f} {:.4f}", a.x() + 0.0, a.y() + 0.0, a.z() + 0.0);
+    return a.array().isNaN().any() ? "none"
+                                   : fmt::format("{:.4f} {:.4f} {:.4f}", a.x() + 0.0, a.y() + 0.0, a.z() + 0.0);
 }
 
 TEST(FanucTiltedPlanes, AreEulerAnglesOrTurnsAboutTheWorkAxes) {
@@ -191,15 +208,18 @@ TEST(FanucTiltedPlanes, AreEulerAnglesOrTurnsAboutTheWorkAxes) {
     EXPECT_EQ(axis_of(parse("G0 X0 Y0 Z0\nG68.2 X0 Y0 Z0 I90 J90 K37\nG53.1\n", "fanuc"), 1), "1.0000 0.0000 0.0000");
     // P1: about the work axes, X first: by 90° (y → z, z → −y), then Y by 90° (x → −z, z → x): normal −y stays −y. Y
     // first: z → x, which X leaves.
-    EXPECT_EQ(axis_of(parse("G0 X0 Y0 Z0\nG68.2 P1 Q123 X0 Y0 Z0 I90 J90 K0\nG53.1\n", "fanuc"), 1), "0.0000 -1.0000 0.0000");
-    EXPECT_EQ(axis_of(parse("G0 X0 Y0 Z0\nG68.2 P1 Q213 X0 Y0 Z0 I90 J90 K0\nG53.1\n", "fanuc"), 1), "1.0000 0.0000 0.0000");
+    EXPECT_EQ(axis_of(parse("G0 X0 Y0 Z0\nG68.2 P1 Q123 X0 Y0 Z0 I90 J90 K0\nG53.1\n", "fanuc"), 1),
+              "0.0000 -1.0000 0.0000");
+    EXPECT_EQ(axis_of(parse("G0 X0 Y0 Z0\nG68.2 P1 Q213 X0 Y0 Z0 I90 J90 K0\nG53.1\n", "fanuc"), 1),
+              "1.0000 0.0000 0.0000");
     // Inches; arcs in a plane that stands on edge are arcs about its normal.
     p = parse("G20 G0 X0 Y0 Z0\nG68.2 X1 Y0 Z0 I0 J90 K0\nG53.1\nG1 X0 Y0 Z0 F60\nG2 X1 Y0 R0.5\n", "fanuc");
     EXPECT_EQ(p.motions.arcs.at(0).axis, 1);
 }
 
 TEST(FanucTiltedPlanes, NameWhatTheyCannotDo) {
-    for (const char* text : {"G68.2 P2 Q0 X0 Y0 Z0 R0\n", "G68.2 P3 Q1 I1 J0 K0\n", "G68.2 P4 I10 J10 K0\n", "G68.3 X0 Y0 Z0\n", "G68.4 X0 Y0 Z0 I0 J10 K0\n", "G18 G68.2 I0 J10 K0\n"}) {
+    for (const char* text : {"G68.2 P2 Q0 X0 Y0 Z0 R0\n", "G68.2 P3 Q1 I1 J0 K0\n", "G68.2 P4 I10 J10 K0\n",
+                             "G68.3 X0 Y0 Z0\n", "G68.4 X0 Y0 Z0 I0 J10 K0\n", "G18 G68.2 I0 J10 K0\n"}) {
         const Program p = parse(std::string("G0 X1 Y1 Z1\n") + text, "fanuc");
         EXPECT_EQ(p.diagnostics.count("program.rotation"), 1u) << text;
         EXPECT_EQ(p.diagnostics.kept()[0].where.number, 2u) << text;
@@ -207,7 +227,9 @@ TEST(FanucTiltedPlanes, NameWhatTheyCannotDo) {
     }
     EXPECT_EQ(parse("G53.1\nG0 X1\n", "fanuc").diagnostics.count("program.rotation"), 1u) << "no plane";
     EXPECT_NE(error_of("G68.2 P1 Q113 I1 J1 K1\n", "fanuc").find("Q113 is no order"), std::string::npos);
-    EXPECT_NE(error_of("G0 X0 Y0 Z0\nG68.2 I0 J30 K0\nG53.1\nG91 A5\n", "fanuc").find("test.nc:4:5: error: an increment of A"), std::string::npos);
+    EXPECT_NE(error_of("G0 X0 Y0 Z0\nG68.2 I0 J30 K0\nG53.1\nG91 A5\n", "fanuc")
+                  .find("test.nc:4:5: error: an increment of A"),
+              std::string::npos);
 }
 
 TEST(FanucBlocks, AreSkippedAtEveryLevel) {
@@ -222,7 +244,10 @@ TEST(Programs, TellOfMissingFeedsEndsAndAxes) {
     // An axis beside X Y Z: where it stays at 0 all is known, moved it takes the tool elsewhere.
     EXPECT_EQ(p.diagnostics.count("program.axis"), 0u);
     for (const char* dialect : {"fanuc", "siemens"}) {
-        EXPECT_TRUE(error_of("G0 X1 Y0 Z0\nG1 X2 V-0.5 F100\n", dialect).starts_with("test.nc:2:7: error: axis V moves: where the tool is with axes U V W is not known")) << dialect;
+        EXPECT_TRUE(
+            error_of("G0 X1 Y0 Z0\nG1 X2 V-0.5 F100\n", dialect)
+                .starts_with("test.nc:2:7: error: axis V moves: where the tool is with axes U V W is not known"))
+            << dialect;
     }
     EXPECT_EQ(parse("G0 X1 Y0 Z0\nG1 X2 V-0.5 F100\n", "linuxcnc").diagnostics.count("program.axis"), 1u);
     EXPECT_EQ(parse("G1 X1 F1\nM30\n", "fanuc").diagnostics.count("program.no-end"), 0u);

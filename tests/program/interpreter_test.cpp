@@ -12,7 +12,8 @@ namespace clsurf {
 namespace {
 
 TEST(Interpreter, KeepsModalMotionAndAxes) {
-    EXPECT_EQ(motions(parse("G0 X1 Y2 Z3\nG1 F60 X2\nY5\nG0Z9\n", "fanuc")), (Rows{"rapid 1 2 3", "feed 2 2 3", "feed 2 5 3", "rapid 2 5 9"}));
+    EXPECT_EQ(motions(parse("G0 X1 Y2 Z3\nG1 F60 X2\nY5\nG0Z9\n", "fanuc")),
+              (Rows{"rapid 1 2 3", "feed 2 2 3", "feed 2 5 3", "rapid 2 5 9"}));
 }
 
 TEST(Interpreter, ConvertsInchesAndFeeds) {
@@ -22,12 +23,14 @@ TEST(Interpreter, ConvertsInchesAndFeeds) {
 }
 
 TEST(Interpreter, AddsIncrementsUnderG91) {
-    EXPECT_EQ(motions(parse("G0 X1 Y1 Z0\nG91 G1 F60 X1\nX1 Y-3\nG90 X0\n", "fanuc")), (Rows{"rapid 1 1 0", "feed 2 1 0", "feed 3 -2 0", "feed 0 -2 0"}));
+    EXPECT_EQ(motions(parse("G0 X1 Y1 Z0\nG91 G1 F60 X1\nX1 Y-3\nG90 X0\n", "fanuc")),
+              (Rows{"rapid 1 1 0", "feed 2 1 0", "feed 3 -2 0", "feed 0 -2 0"}));
 }
 
 TEST(Interpreter, ReadsTapesAsTheyCome) {
     // Byte order mark, CRLF, lower case, no blanks, N numbers, comments, block delete, percent.
-    const std::string tape = "\xef\xbb\xbf%\r\no1000 (part)\r\nn10g90g21\r\nn20g0x.5y1.z-1\r\n/g0x99\r\nn30.5 g1f100x1 (half) y2 ; rest\r\nm30\r\n%\r\ng0x7\r\n";
+    const std::string tape =
+        "\xef\xbb\xbf%\r\no1000 (part)\r\nn10g90g21\r\nn20g0x.5y1.z-1\r\n/g0x99\r\nn30.5 g1f100x1 (half) y2 ; rest\r\nm30\r\n%\r\ng0x7\r\n";
     EXPECT_EQ(motions(parse(tape, "fanuc")), (Rows{"rapid 0.5 1 -1", "feed 1 2 -1"}));
 }
 
@@ -47,26 +50,30 @@ TEST(Interpreter, ResolvesFullCirclesPlanesAndAbsoluteCentres) {
 }
 
 TEST(Interpreter, MakesAWrongArcAnErrorWithBothRadii) {
-    EXPECT_EQ(error_of("G0 X0 Y0\nG2 X2 Y0 I1.2 J0 F60\n", "linuxcnc"),
-              "test.nc:2:1: error: arc radius differs: 1.2000 at the start, 0.8000 at the end\n    G2 X2 Y0 I1.2 J0 F60\n    ^\n");
+    EXPECT_EQ(
+        error_of("G0 X0 Y0\nG2 X2 Y0 I1.2 J0 F60\n", "linuxcnc"),
+        "test.nc:2:1: error: arc radius differs: 1.2000 at the start, 0.8000 at the end\n    G2 X2 Y0 I1.2 J0 F60\n    ^\n");
 }
 
 TEST(Interpreter, ShiftsWithG92AndWorkOffsets) {
     // G92 makes the present position read 10; G10 L2 moves the zero of G55 to machine X 5.
-    EXPECT_EQ(motions(parse("G0 X1 Y0 Z0\nG92 X10\nG0 X11\nG92.1\nG0 X0\nG10 L2 P2 X5\nG55 G0 X0\nG53 G0 X0\n", "linuxcnc")),
-              (Rows{"rapid 1 0 0", "rapid 11 0 0", "rapid 0 0 0", "rapid 0 0 0", "rapid -5 0 0"}));
+    EXPECT_EQ(
+        motions(parse("G0 X1 Y0 Z0\nG92 X10\nG0 X11\nG92.1\nG0 X0\nG10 L2 P2 X5\nG55 G0 X0\nG53 G0 X0\n", "linuxcnc")),
+        (Rows{"rapid 1 0 0", "rapid 11 0 0", "rapid 0 0 0", "rapid 0 0 0", "rapid -5 0 0"}));
 }
 
 TEST(Interpreter, RunsCannedCyclesAsMotions) {
     // G83, Q 2 from R 1 to Z −3: pecks at −1 and −3, out to R between, 0.254 mm above the last depth.
     EXPECT_EQ(motions(parse("G0 X0 Y0 Z5\nG98 G83 X1 Y2 Z-3 R1 Q2 F60\nG80\n", "linuxcnc")),
-              (Rows{"rapid 0 0 5", "rapid 1 2 5", "rapid 1 2 1", "feed 1 2 -1", "rapid 1 2 1", "rapid 1 2 -0.746", "feed 1 2 -3", "rapid 1 2 5"}));
+              (Rows{"rapid 0 0 5", "rapid 1 2 5", "rapid 1 2 1", "feed 1 2 -1", "rapid 1 2 1", "rapid 1 2 -0.746",
+                    "feed 1 2 -3", "rapid 1 2 5"}));
 }
 
 TEST(Interpreter, ReturnsToTheLevelWhereACycleBegan) {
     // G98 after G99: out to Z 10, where the first of the cycles began, and across at that height.
     EXPECT_EQ(motions(parse("G0 X0 Y0 Z10\nG99 G81 X1 Z-1 R2 F60\nG98 X2\n", "linuxcnc")),
-              (Rows{"rapid 0 0 10", "rapid 1 0 10", "rapid 1 0 2", "feed 1 0 -1", "rapid 1 0 2", "rapid 2 0 10", "rapid 2 0 2", "feed 2 0 -1", "rapid 2 0 10"}));
+              (Rows{"rapid 0 0 10", "rapid 1 0 10", "rapid 1 0 2", "feed 1 0 -1", "rapid 1 0 2", "rapid 2 0 10",
+                    "rapid 2 0 2", "feed 2 0 -1", "rapid 2 0 10"}));
 }
 
 TEST(Interpreter, SetsTheZeroOfATurnedSystem) {
@@ -80,26 +87,34 @@ TEST(Interpreter, TakesBlanksInsideNumbersAndDiameters) {
 }
 
 TEST(Interpreter, EvaluatesExpressionsByTheirRanks) {
-    EXPECT_EQ(motions(parse("#1=[2+3*4**2]\n#<_k>=7\nG0 X#1 Y[#<_k> MOD 4] Z[SIN[30]*2]\nG0 X-#1 Y[[1 LT 2] AND [3 EQ 3]] Z[ATAN[1]/[1]]\n", "linuxcnc")),
-              (Rows{"rapid 50 3 1", "rapid -50 1 45"}));
+    EXPECT_EQ(
+        motions(parse(
+            "#1=[2+3*4**2]\n#<_k>=7\nG0 X#1 Y[#<_k> MOD 4] Z[SIN[30]*2]\nG0 X-#1 Y[[1 LT 2] AND [3 EQ 3]] Z[ATAN[1]/[1]]\n",
+            "linuxcnc")),
+        (Rows{"rapid 50 3 1", "rapid -50 1 45"}));
 }
 
 TEST(Interpreter, RunsOWords) {
     const char* text =
         "o100 sub\n  G1 X#1 F60\n  o101 if [#1 GT 2]\n    G1 Y#1\n  o101 else\n    G1 Y-1\n  o101 endif\no100 endsub\n"
         "#5=0\no1 while [#5 LT 2]\n#5=[#5+1]\no100 call [#5*2-1]\no1 endwhile\no2 repeat [2]\nG91 G1 Z1\no2 endrepeat\nM2\n";
-    EXPECT_EQ(motions(parse(text, "linuxcnc")), (Rows{"feed 1 0 0", "feed 1 -1 0", "feed 3 -1 0", "feed 3 3 0", "feed 3 3 1", "feed 3 3 2"}));
+    EXPECT_EQ(motions(parse(text, "linuxcnc")),
+              (Rows{"feed 1 0 0", "feed 1 -1 0", "feed 3 -1 0", "feed 3 3 0", "feed 3 3 1", "feed 3 3 2"}));
 }
 
 TEST(Interpreter, RunsFanucSubprogramsAndMacros) {
-    const char* text = "G91 G1 F60\nM98 P1000 L2\nM98 P20001\nG65 P2 X5 A2\nWHILE [#1 LT 2] DO 1\n#1=#1+1\nX1\nEND 1\nIF [1 EQ 1] GOTO 50\nX99\nN50 Y9\nM30\n"
-                       "O1000\nX10\nM99\nO0001\nY1\nM99\nO2\nX#24 Y#1\nM99\n";
+    const char* text =
+        "G91 G1 F60\nM98 P1000 L2\nM98 P20001\nG65 P2 X5 A2\nWHILE [#1 LT 2] DO 1\n#1=#1+1\nX1\nEND 1\nIF [1 EQ 1] GOTO 50\nX99\nN50 Y9\nM30\n"
+        "O1000\nX10\nM99\nO0001\nY1\nM99\nO2\nX#24 Y#1\nM99\n";
     EXPECT_EQ(motions(parse(text, "fanuc")),
-              (Rows{"feed 10 nan nan", "feed 20 nan nan", "feed 20 1 nan", "feed 20 2 nan", "feed 25 4 nan", "feed 26 4 nan", "feed 27 4 nan", "feed 27 13 nan"}));
+              (Rows{"feed 10 nan nan", "feed 20 nan nan", "feed 20 1 nan", "feed 20 2 nan", "feed 25 4 nan",
+                    "feed 26 4 nan", "feed 27 4 nan", "feed 27 13 nan"}));
 }
 
 TEST(Interpreter, ReadsSiemensWords) {
-    const Program p = parse("DEF REAL _DEPTH\n_DEPTH=-2.5\nR1=4\nG0 X=R1*2 Y=AC(3) Z=_DEPTH\nG91 X=AC(1) Y=IC(2)\nG90 G3 X3 Y5 CR=-5 F60\nG2 X3 Y5 I0 J2 TURN=2\nTRAORI\n", "siemens");
+    const Program p = parse(
+        "DEF REAL _DEPTH\n_DEPTH=-2.5\nR1=4\nG0 X=R1*2 Y=AC(3) Z=_DEPTH\nG91 X=AC(1) Y=IC(2)\nG90 G3 X3 Y5 CR=-5 F60\nG2 X3 Y5 I0 J2 TURN=2\nTRAORI\n",
+        "siemens");
     EXPECT_EQ(motions(p)[0], "rapid 8 3 -2.5");
     EXPECT_EQ(motions(p)[1], "rapid 1 5 -2.5");
     ASSERT_GE(p.motions.arcs.size(), 1u);
@@ -115,8 +130,10 @@ TEST(Interpreter, ReportsUnknownWordsWithTheirPlace) {
 
 TEST(Interpreter, StopsEndlessLoopsAndRecursion) {
     EXPECT_NE(error_of("o1 while [1]\no1 endwhile\n", "linuxcnc").find("a loop without end?"), std::string::npos);
-    EXPECT_NE(error_of("o1 sub\no1 call\no1 endsub\no1 call\n", "linuxcnc").find("a subprogram that calls itself?"), std::string::npos);
-    EXPECT_NE(error_of("M98 P77\n", "fanuc").find("subprogram '77' is neither in the program nor beside it"), std::string::npos);
+    EXPECT_NE(error_of("o1 sub\no1 call\no1 endsub\no1 call\n", "linuxcnc").find("a subprogram that calls itself?"),
+              std::string::npos);
+    EXPECT_NE(error_of("M98 P77\n", "fanuc").find("subprogram '77' is neither in the program nor beside it"),
+              std::string::npos);
 }
 
 TEST(Interpreter, TakesANameWithoutALetterForNoAxis) {
@@ -128,12 +145,15 @@ TEST(Interpreter, TakesANameWithoutALetterForNoAxis) {
 TEST(Interpreter, BoundsTheMotionsOfRepeats) {
     InterpreterOptions options;
     options.most_repeated = 1000;
-    EXPECT_THROW((void)parse_program(SourceText("t", "G90 G81 X1 Y1 Z-1 R1 L1000000 F100\n", nullptr), options), InputError);
-    EXPECT_GT(parse_program(SourceText("t", "G90 G81 X1 Y1 Z-1 R1 L200 F100\n", nullptr), options).motions.size(), 500u);
+    EXPECT_THROW((void)parse_program(SourceText("t", "G90 G81 X1 Y1 Z-1 R1 L1000000 F100\n", nullptr), options),
+                 InputError);
+    EXPECT_GT(parse_program(SourceText("t", "G90 G81 X1 Y1 Z-1 R1 L200 F100\n", nullptr), options).motions.size(),
+              500u);
 }
 
 TEST(Interpreter, SurvivesBrokenBlocks) {
-    for (const char* text : {"X[1+", "#1=[", "G1 X[1/0]", "#<abc", "o1 if [", "G2 X1", "X1.2.3", "o[ call", "G0 X[SQRT[-1]]", "((((", "\"\"\"", "N", "/", "%%", "o100", "#=", "G", "M", "[[[[[[[["}) {
+    for (const char* text : {"X[1+", "#1=[", "G1 X[1/0]", "#<abc", "o1 if [", "G2 X1", "X1.2.3", "o[ call",
+                             "G0 X[SQRT[-1]]", "((((", "\"\"\"", "N", "/", "%%", "o100", "#=", "G", "M", "[[[[[[[["}) {
         for (const Dialect& dialect : dialects()) {
             try {
                 (void)parse(text, dialect.name.data());

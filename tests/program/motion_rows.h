@@ -30,7 +30,8 @@ inline std::vector<std::string> motions(const Program& program) {
     };
     const Motions& m = program.motions;
     for (std::size_t i = 0; i < m.kind.size(); ++i) {
-        all.push_back(std::string(kinds[static_cast<int>(m.kind[i])]) + " " + number(m.end[i].x) + " " + number(m.end[i].y) + " " + number(m.end[i].z));
+        all.push_back(std::string(kinds[static_cast<int>(m.kind[i])]) + " " + number(m.end[i].x) + " " +
+                      number(m.end[i].y) + " " + number(m.end[i].z));
     }
     return all;
 }
@@ -40,9 +41,7 @@ using Rows = std::vector<std::string>;
 inline std::string error_of(const std::string& text, const char* dialect) {
     try {
         (void)parse(text, dialect);
-    } catch (const InputError& error) {
-        return error.what();
-    }
+    } catch (const InputError& error) { return error.what(); }
     return "";
 }
 

@@ -7,9 +7,7 @@
 namespace clsurf {
 namespace {
 
-std::string inside_comp(const std::string& path) {
-    return "G41.1 D4\nG1 F60 X10\nX20\n" + path + "G40\nG1 X50\n";
-}
+std::string inside_comp(const std::string& path) { return "G41.1 D4\nG1 F60 X10\nX20\n" + path + "G40\nG1 X50\n"; }
 
 TEST(CutterCompensation, GoesAroundAnOutsideCornerAndComesBackToTheProgrammedPath) {
     // Radius 2 on the right: below the first line, then a quarter circle about (20, 0), then beside X 20.
@@ -30,8 +28,9 @@ TEST(CutterCompensation, KeepsBesideArcs) {
     // inside one it runs on radius 1, after turning about both of its ends.
     EXPECT_EQ(motions(parse(inside_comp("G2 X26 I3\nG1 X30\n"), "linuxcnc")),
               (Rows{"feed 10 2 0", "feed 18.4174 2 0", "cw 27.5826 2 0", "feed 30 2 0", "feed 50 0 0"}));
-    EXPECT_EQ(motions(parse(inside_comp("G3 X26 I3\nG1 X30\n"), "linuxcnc")),
-              (Rows{"feed 10 2 0", "feed 20 2 0", "cw 22 0 0", "ccw 24 0 0", "cw 26 2 0", "feed 30 2 0", "feed 50 0 0"}));
+    EXPECT_EQ(
+        motions(parse(inside_comp("G3 X26 I3\nG1 X30\n"), "linuxcnc")),
+        (Rows{"feed 10 2 0", "feed 20 2 0", "cw 22 0 0", "ccw 24 0 0", "cw 26 2 0", "feed 30 2 0", "feed 50 0 0"}));
 }
 
 TEST(CutterCompensation, JoinsArcsWhereTheirTracksCross) {
@@ -54,18 +53,23 @@ TEST(CutterCompensation, WorksInTheLathesPlane) {
 
 TEST(CutterCompensation, SaysWhyATooLargeToolCannotGoThere) {
     EXPECT_NE(error_of(inside_comp("X0 Y4\n"), "linuxcnc").find("the tool would gouge"), std::string::npos);
-    EXPECT_NE(error_of("G41.1 D4\nG1 F60 X1\n", "linuxcnc").find("must be longer than the tool's radius"), std::string::npos);
-    EXPECT_NE(error_of(inside_comp("G3 X22 I1\n"), "linuxcnc").find("does not fit into an arc of radius 1.0000 mm"), std::string::npos);
+    EXPECT_NE(error_of("G41.1 D4\nG1 F60 X1\n", "linuxcnc").find("must be longer than the tool's radius"),
+              std::string::npos);
+    EXPECT_NE(error_of(inside_comp("G3 X22 I1\n"), "linuxcnc").find("does not fit into an arc of radius 1.0000 mm"),
+              std::string::npos);
     EXPECT_NE(error_of("G41.1\n", "linuxcnc").find("needs the tool's diameter (D)"), std::string::npos);
     EXPECT_NE(error_of(inside_comp("G41.1 D4\n"), "linuxcnc").find("is on already"), std::string::npos);
-    EXPECT_NE(error_of(inside_comp("G28\n"), "linuxcnc").find("G28 cannot be used while cutter compensation is on"), std::string::npos);
-    EXPECT_NE(error_of(inside_comp("X30\nG40\nG2 X32 I1\n"), "linuxcnc").find("must be a straight one"), std::string::npos);
+    EXPECT_NE(error_of(inside_comp("G28\n"), "linuxcnc").find("G28 cannot be used while cutter compensation is on"),
+              std::string::npos);
+    EXPECT_NE(error_of(inside_comp("X30\nG40\nG2 X32 I1\n"), "linuxcnc").find("must be a straight one"),
+              std::string::npos);
     EXPECT_NE(error_of("G19 G41.1 D4\n", "linuxcnc").find("needs the XY or the XZ plane"), std::string::npos);
 }
 
 TEST(ToolTable, IsThatOfTheStandAloneInterpreter) {
     // T1: 0.511 inch long, 0.125 inch wide. Its length is taken off where nothing says Z.
-    EXPECT_EQ(motions(parse("T1 M6\nG43\nG0 X1\nG41\nG1 F60 X10\n", "linuxcnc")), (Rows{"rapid 1 0 -12.9794", "feed 10 1.5875 -12.9794"}));
+    EXPECT_EQ(motions(parse("T1 M6\nG43\nG0 X1\nG41\nG1 F60 X10\n", "linuxcnc")),
+              (Rows{"rapid 1 0 -12.9794", "feed 10 1.5875 -12.9794"}));
     // In the block of the change the position stays; G43.2 adds, G43.1 gives, G49 ends.
     EXPECT_EQ(motions(parse("T2 M6 G43\nG0 X1\nG43.2 H1\nG0 X2\nG43.1 Z1\nG0 X3\nG49\nG0 X4\n", "linuxcnc")),
               (Rows{"rapid 1 0 0", "rapid 2 0 -12.9794", "rapid 3 0 1.54", "rapid 4 0 2.54"}));
@@ -87,30 +91,33 @@ TEST(ToolTable, OfTheUserComesFirst) {
 
 TEST(Cycles, CountIncrementsFromWhereTheyBegan) {
     // Begun at 10: R 8, bottom 7; after two holes R -3 is still from 10.
-    EXPECT_EQ(motions(parse("G0 Z10\nG91 G99 G81 X1 Z-1 R-2 F60 L2\nX2 R-3\n", "linuxcnc")),
-              (Rows{"rapid 0 0 10", "rapid 1 0 10", "rapid 1 0 8", "feed 1 0 7", "rapid 1 0 8", "rapid 2 0 8", "rapid 2 0 8", "feed 2 0 7", "rapid 2 0 8",
-                    "rapid 4 0 8", "rapid 4 0 7", "feed 4 0 6", "rapid 4 0 7"}));
+    EXPECT_EQ(
+        motions(parse("G0 Z10\nG91 G99 G81 X1 Z-1 R-2 F60 L2\nX2 R-3\n", "linuxcnc")),
+        (Rows{"rapid 0 0 10", "rapid 1 0 10", "rapid 1 0 8", "feed 1 0 7", "rapid 1 0 8", "rapid 2 0 8", "rapid 2 0 8",
+              "feed 2 0 7", "rapid 2 0 8", "rapid 4 0 8", "rapid 4 0 7", "feed 4 0 6", "rapid 4 0 7"}));
 }
 
 TEST(Cycles, BoreFromBelow) {
     EXPECT_EQ(motions(parse("G98 G0 Z3\nG87 X3 Z-1 R1 I1 J1 K0.5 F60\n", "linuxcnc")),
-              (Rows{"rapid 0 0 3", "rapid 3 0 3", "rapid 3 0 1", "rapid 4 1 1", "rapid 4 1 -1", "rapid 3 0 -1", "feed 3 0 0.5", "feed 3 0 -1",
-                    "rapid 4 1 -1", "rapid 4 1 3", "rapid 3 0 3"}));
+              (Rows{"rapid 0 0 3", "rapid 3 0 3", "rapid 3 0 1", "rapid 4 1 1", "rapid 4 1 -1", "rapid 3 0 -1",
+                    "feed 3 0 0.5", "feed 3 0 -1", "rapid 4 1 -1", "rapid 4 1 3", "rapid 3 0 3"}));
 }
 
 TEST(Cycles, LeaveABoreWithFeedToR) {
     EXPECT_EQ(motions(parse("G98 G0 Z5\nG85 Z-2 R1 F60\nG89 Z-2 R1 P0\n", "linuxcnc")),
-              (Rows{"rapid 0 0 5", "rapid 0 0 5", "rapid 0 0 1", "feed 0 0 -2", "feed 0 0 1", "rapid 0 0 5", "rapid 0 0 5", "rapid 0 0 1", "feed 0 0 -2",
-                    "dwell 0 0 -2", "feed 0 0 5"}));
+              (Rows{"rapid 0 0 5", "rapid 0 0 5", "rapid 0 0 1", "feed 0 0 -2", "feed 0 0 1", "rapid 0 0 5",
+                    "rapid 0 0 5", "rapid 0 0 1", "feed 0 0 -2", "dwell 0 0 -2", "feed 0 0 5"}));
 }
 
 TEST(Cycles, CutThreadsInPasses) {
     // Crest at X 9, cuts at 8.4 and 8; clear of them by crest and depth, 2; both tapers rise by 1 over 0.5.
     EXPECT_EQ(motions(parse("G18 G0 X10 Z5\nS100 M3\nG76 P1 Z-10 I-1 J0.6 K1 E0.5 L3\n", "linuxcnc")),
-              (Rows{"rapid 10 0 5", "rapid 10.4 0 5", "feed 9.4 0 5", "feed 8.4 0 4.5", "feed 8.4 0 -9.5", "feed 9.4 0 -10", "rapid 10.4 0 -10",
-                    "rapid 10 0 5", "feed 9 0 5", "feed 8 0 4.5", "feed 8 0 -9.5", "feed 9 0 -10", "rapid 10 0 -10", "rapid 10 0 -10"}));
+              (Rows{"rapid 10 0 5", "rapid 10.4 0 5", "feed 9.4 0 5", "feed 8.4 0 4.5", "feed 8.4 0 -9.5",
+                    "feed 9.4 0 -10", "rapid 10.4 0 -10", "rapid 10 0 5", "feed 9 0 5", "feed 8 0 4.5", "feed 8 0 -9.5",
+                    "feed 9 0 -10", "rapid 10 0 -10", "rapid 10 0 -10"}));
     // R 2 keeps the area: J·√n; Q 45 slides by the depth.
-    EXPECT_EQ(motions(parse("G18 G0 X10 Z5\nS100 M3\nG76 P1 Z-10 I-1 J1 K1.2 R2 Q45\n", "linuxcnc"))[1], "rapid 10.2 0 4");
+    EXPECT_EQ(motions(parse("G18 G0 X10 Z5\nS100 M3\nG76 P1 Z-10 I-1 J1 K1.2 R2 Q45\n", "linuxcnc"))[1],
+              "rapid 10.2 0 4");
     EXPECT_NE(error_of("G18 G0 X10 Z5\nG76 P1 Z-10 I-1 K1\n", "linuxcnc").find("J is missing"), std::string::npos);
 }
 
@@ -120,23 +127,25 @@ TEST(LatheCycles, RoughAlongZFromTheStartToTheProfile) {
     // Cuts at X 32, 28, 24, each from the line between the start and the profile's begin, back out by R
     // at 45°; then the profile, and out to X 32.
     EXPECT_EQ(motions(parse(turned + "G71 Q100 X32 Z3 I4 R1\n", "linuxcnc")),
-              (Rows{"rapid 50 0 6", "rapid 32 0 3", "rapid 32 0 3",
-                    "rapid 32 0 3", "feed 32 0 -10", "rapid 33 0 -9", "rapid 33 0 2", "rapid 32 0 3",
-                    "rapid 28 0 2", "feed 28 0 -8.3333", "rapid 29 0 -7.3333", "rapid 29 0 1", "rapid 28 0 2",
-                    "rapid 24 0 1", "feed 24 0 -5", "rapid 25 0 -4", "rapid 25 0 0", "rapid 24 0 1",
-                    "rapid 20 0 0", "feed 20 0 -5", "feed 24 0 -5", "feed 30 0 -10", "feed 32 0 -10"}));
+              (Rows{"rapid 50 0 6",       "rapid 32 0 3",  "rapid 32 0 3", "rapid 32 0 3", "feed 32 0 -10",
+                    "rapid 33 0 -9",      "rapid 33 0 2",  "rapid 32 0 3", "rapid 28 0 2", "feed 28 0 -8.3333",
+                    "rapid 29 0 -7.3333", "rapid 29 0 1",  "rapid 28 0 2", "rapid 24 0 1", "feed 24 0 -5",
+                    "rapid 25 0 -4",      "rapid 25 0 0",  "rapid 24 0 1", "rapid 20 0 0", "feed 20 0 -5",
+                    "feed 24 0 -5",       "feed 30 0 -10", "feed 32 0 -10"}));
 }
 
 TEST(LatheCycles, FinishInPassesBesideTheProfile) {
     // D 1 in two passes: half a millimetre off, inside corner at (20.5, -4.5), then the profile itself.
     const std::vector<std::string> all = motions(parse(turned + "G70 Q100 X32 Z3 D1 P2\n", "linuxcnc"));
     ASSERT_EQ(all.size(), 13u);
-    EXPECT_EQ(Rows(all.begin() + 1, all.begin() + 5), (Rows{"rapid 32 0 3", "rapid 32 0 3", "rapid 20.5 0 0", "feed 20.5 0 -4.5"}));
+    EXPECT_EQ(Rows(all.begin() + 1, all.begin() + 5),
+              (Rows{"rapid 32 0 3", "rapid 32 0 3", "rapid 20.5 0 0", "feed 20.5 0 -4.5"}));
     EXPECT_EQ(Rows(all.end() - 4, all.end()), (Rows{"rapid 20 0 0", "feed 20 0 -5", "feed 24 0 -5", "feed 30 0 -10"}));
 }
 
 TEST(LatheCycles, SayWhatTheyDoNotCut) {
-    const Program p = parse("G18 F60\no1 sub\nG0 X20 Z0\nG1 Z-5\nX18\nZ-10\nX30\no1 endsub\nG71 Q1 X32 Z2 I1\n", "linuxcnc");
+    const Program p =
+        parse("G18 F60\no1 sub\nG0 X20 Z0\nG1 Z-5\nX18\nZ-10\nX30\no1 endsub\nG71 Q1 X32 Z2 I1\n", "linuxcnc");
     EXPECT_EQ(p.diagnostics.count("program.cycle"), 1u);
     EXPECT_EQ(p.motions.size(), 0);
     EXPECT_NE(error_of("G18 F60\nG71 Q9 X1 Z1 I1\n", "linuxcnc").find("subprogram '9' is neither"), std::string::npos);
@@ -144,12 +153,14 @@ TEST(LatheCycles, SayWhatTheyDoNotCut) {
 
 TEST(Probing, EndsAtTheProgrammedPoint) {
     // The stand-alone interpreter's probe touches there, 5061 … tell, and stops 0.254 mm before.
-    EXPECT_EQ(motions(parse("G38.2 Z-2 F60\nG0 X#5063\nG0 Z#5070\n", "linuxcnc")), (Rows{"rapid -2 0 -1.746", "rapid -2 0 0"}));
+    EXPECT_EQ(motions(parse("G38.2 Z-2 F60\nG0 X#5063\nG0 Z#5070\n", "linuxcnc")),
+              (Rows{"rapid -2 0 -1.746", "rapid -2 0 0"}));
 }
 
 TEST(Modes, AreKeptAndComeBack) {
     EXPECT_EQ(motions(parse("M70\nG20 G91\nM72\nG0 X1\nX1\n", "linuxcnc")), (Rows{"rapid 1 0 0", "rapid 1 0 0"}));
-    EXPECT_EQ(motions(parse("o1 sub\nM73\nG20 G0 X1\no1 endsub\no1 call\nG0 X1\n", "linuxcnc")), (Rows{"rapid 25.4 0 0", "rapid 1 0 0"}));
+    EXPECT_EQ(motions(parse("o1 sub\nM73\nG20 G0 X1\no1 endsub\no1 call\nG0 X1\n", "linuxcnc")),
+              (Rows{"rapid 25.4 0 0", "rapid 1 0 0"}));
 }
 
 TEST(Offsets, MoveRotaryAxesToo) {
@@ -160,7 +171,8 @@ TEST(Offsets, MoveRotaryAxesToo) {
 }
 
 TEST(Parameters, TellModesByName) {
-    EXPECT_EQ(motions(parse("G91 G1 F60 X3 Y4\nG90\nG0 X[#<_x>+#<_metric>] Y[#<_motion_mode>] Z[EXISTS[#<_nothing>]]\n", "linuxcnc")),
+    EXPECT_EQ(motions(parse("G91 G1 F60 X3 Y4\nG90\nG0 X[#<_x>+#<_metric>] Y[#<_motion_mode>] Z[EXISTS[#<_nothing>]]\n",
+                            "linuxcnc")),
               (Rows{"feed 3 4 0", "rapid 4 10 0"}));
 }
 

@@ -16,17 +16,22 @@ TEST(SiemensFrames, ReplaceOrAdd) {
     EXPECT_EQ(rows("G0 X0 Y0 Z0\nTRANS X10 Y5\nX1 Y0\nATRANS Z3\nX2 Z0\nTRANS X1\nX0 Y0 Z0\nTRANS\nX0\n"),
               (Rows{"rapid 0 0 0", "rapid 11 5 0", "rapid 12 5 3", "rapid 1 0 0", "rapid 0 0 0"}));
     // Turned by 90° in the moved frame: (2, 0) → (10, 2). Then the axes of the turned frame: +1 in its X.
-    EXPECT_EQ(rows("G0 X0 Y0 Z0\nTRANS X10\nAROT RPL=90\nX2 Y0\nATRANS X1\nX2 Y0\n"), (Rows{"rapid 0 0 0", "rapid 10 2 0", "rapid 10 3 0"}));
-    EXPECT_EQ(rows("G0 X0 Y0 Z0\nMIRROR X0\nX2 Y1\nASCALE X3\nX2\n"), (Rows{"rapid 0 0 0", "rapid -2 1 0", "rapid -6 1 0"}));
+    EXPECT_EQ(rows("G0 X0 Y0 Z0\nTRANS X10\nAROT RPL=90\nX2 Y0\nATRANS X1\nX2 Y0\n"),
+              (Rows{"rapid 0 0 0", "rapid 10 2 0", "rapid 10 3 0"}));
+    EXPECT_EQ(rows("G0 X0 Y0 Z0\nMIRROR X0\nX2 Y1\nASCALE X3\nX2\n"),
+              (Rows{"rapid 0 0 0", "rapid -2 1 0", "rapid -6 1 0"}));
     // ROT X90: Y → Z; an arc of G17 is one of G18, Y down: turned the same way about −Y, so the other way about +Y.
-    EXPECT_EQ(rows("G0 X0 Y0 Z0\nROT X90\nG1 F60 Y5\nG3 X0 Y-5 I0 J-5\n"), (Rows{"rapid 0 0 0", "feed 0 0 5", "cw 0 0 -5"}));
+    EXPECT_EQ(rows("G0 X0 Y0 Z0\nROT X90\nG1 F60 Y5\nG3 X0 Y-5 I0 J-5\n"),
+              (Rows{"rapid 0 0 0", "feed 0 0 5", "cw 0 0 -5"}));
     EXPECT_NE(error_of("SCALE X0\n", "siemens").find("a factor of 0"), std::string::npos);
 }
 
 TEST(SiemensSwivel, TurnsAxisByAxisAndMoves) {
     const auto axis = [](const Program& p, std::size_t i) { return Vec3(p.motions.tool_axis[i].vec()); };
     // Mode 57: X, Y, Z. About X by 90°: (1, 2, 3) → (1, −3, 2); moved by (10, 20, 30) before, by (0, 0, 5) after it.
-    Program p = parse("G0 X0 Y0 Z0\nCYCLE800(0,\"TC\",100000,57,10,20,30,90,0,0,0,0,5,1)\nG1 X1 Y2 Z3 F60\nTRANS X1\nX1 Y2 Z3\nCYCLE800()\nG0 X0 Y0 Z0\n", "siemens");
+    Program p = parse(
+        "G0 X0 Y0 Z0\nCYCLE800(0,\"TC\",100000,57,10,20,30,90,0,0,0,0,5,1)\nG1 X1 Y2 Z3 F60\nTRANS X1\nX1 Y2 Z3\nCYCLE800()\nG0 X0 Y0 Z0\n",
+        "siemens");
     EXPECT_EQ(p.diagnostics.count("program.rotation"), 0u);
     EXPECT_EQ(motions(p), (Rows{"rapid 0 0 0", "rapid 0 0 0", "feed 11 12 32", "feed 12 12 32", "rapid 0 0 0"}));
     EXPECT_LE((axis(p, 2) - Vec3(0, -1, 0)).norm(), 1e-12);
@@ -35,7 +40,9 @@ TEST(SiemensSwivel, TurnsAxisByAxisAndMoves) {
     p = parse("G0 X0 Y0 Z0\nCYCLE800(1,\"TC\",200000,27,0,0,0,90,90,0,0,0,0,-1,100,1)\n", "siemens");
     EXPECT_LE((axis(p, 1) - Vec3(0, 1, 0)).norm(), 1e-12) << axis(p, 1).transpose();
     // Added to it: by 90° about the X of that plane, which points down now: x' = −z, the normal goes from y to x.
-    p = parse("G0 X0 Y0 Z0\nCYCLE800(1,\"TC\",200000,27,0,0,0,90,90,0,0,0,0,-1)\nCYCLE800(1,\"TC\",200001,57,0,0,0,90,0,0,0,0,0,-1)\n", "siemens");
+    p = parse(
+        "G0 X0 Y0 Z0\nCYCLE800(1,\"TC\",200000,27,0,0,0,90,90,0,0,0,0,-1)\nCYCLE800(1,\"TC\",200001,57,0,0,0,90,0,0,0,0,0,-1)\n",
+        "siemens");
     EXPECT_LE((axis(p, 2) - Vec3(1, 0, 0)).norm(), 1e-12) << axis(p, 2).transpose();
     // Direction 0: the frame alone, the program turns the axes.
     p = parse("G0 X0 Y0 Z0\nCYCLE800(0,\"TC\",100000,57,0,0,0,90,0,0,0,0,0,0)\nG1 X1 Y2 Z3 A-90 F60\n", "siemens");
@@ -45,12 +52,15 @@ TEST(SiemensSwivel, TurnsAxisByAxisAndMoves) {
 
 TEST(SiemensSwivel, NamesWhatItCannotDo) {
     for (const char* mode : {"64", "128", "192"}) {
-        const Program p = parse(std::string("G0 X0 Y0 Z0\nCYCLE800(0,\"TC\",100000,") + mode + ",0,0,0,10,20,0,0,0,0,1)\nX1\n", "siemens");
+        const Program p = parse(
+            std::string("G0 X0 Y0 Z0\nCYCLE800(0,\"TC\",100000,") + mode + ",0,0,0,10,20,0,0,0,0,1)\nX1\n", "siemens");
         ASSERT_EQ(p.diagnostics.count("program.rotation"), 1u) << mode;
         EXPECT_EQ(p.diagnostics.kept()[0].where.text(), "test.nc:2:1");
         EXPECT_EQ(motions(p), (Rows{"rapid 0 0 0", "rapid 1 0 0"}));
     }
-    EXPECT_NE(error_of("CYCLE800(0,\"TC\",0,9,0,0,0,10,20,30,0,0,0,1)\n", "siemens").find("names no axis for the angle 30"), std::string::npos);
+    EXPECT_NE(
+        error_of("CYCLE800(0,\"TC\",0,9,0,0,0,10,20,30,0,0,0,1)\n", "siemens").find("names no axis for the angle 30"),
+        std::string::npos);
 }
 
 TEST(SiemensPoles, AreAtTheToolTheZeroOrTheLastPole) {
@@ -58,7 +68,8 @@ TEST(SiemensPoles, AreAtTheToolTheZeroOrTheLastPole) {
     EXPECT_EQ(rows("G0 X0 Y0 Z0\nG111 X10 Y10\nG1 F60 RP=5 AP=0\nAP=90\nG110 X1\nRP=2 AP=180\nG112 Y3\nRP=2 AP=90\n"),
               (Rows{"rapid 0 0 0", "feed 15 10 0", "feed 10 15 0", "feed 9 15 0", "feed 11 20 0"}));
     // Increments of angle and radius.
-    EXPECT_EQ(rows("G0 X10 Y0 Z0\nG111 X0 Y0\nG1 F60 AP=IC(90)\nRP=IC(5)\n"), (Rows{"rapid 10 0 0", "feed 0 10 0", "feed 0 15 0"}));
+    EXPECT_EQ(rows("G0 X10 Y0 Z0\nG111 X0 Y0\nG1 F60 AP=IC(90)\nRP=IC(5)\n"),
+              (Rows{"rapid 10 0 0", "feed 0 10 0", "feed 0 15 0"}));
     // An arc about the pole.
     const Program p = parse("G0 X10 Y0 Z0\nG111 X0 Y0\nG3 F60 RP=10 AP=90\n", "siemens");
     EXPECT_EQ(motions(p), (Rows{"rapid 10 0 0", "ccw 0 10 0"}));
@@ -83,7 +94,8 @@ TEST(SiemensArcs, ByAngleByPointsAndByRadius) {
 
 TEST(SiemensArcs, TakePointsAsIncrementsAndGoOnAlongTheTangent) {
     // Through (5, 15) from (5, 5) to (15, 15): about (10, 10), clockwise.
-    Program p = parse("G0 X5 Y5 Z0\nCIP X15 Y15 I1=IC(0) J1=IC(10) F60\nG91 CIP X-10 Y-10 I1=AC(15) J1=AC(5)\n", "siemens");
+    Program p =
+        parse("G0 X5 Y5 Z0\nCIP X15 Y15 I1=IC(0) J1=IC(10) F60\nG91 CIP X-10 Y-10 I1=AC(15) J1=AC(5)\n", "siemens");
     EXPECT_EQ(motions(p), (Rows{"rapid 5 5 0", "cw 15 15 0", "cw 5 5 0"}));
     EXPECT_NEAR(p.motions.arcs.at(0).centre.x, 10, 1e-9);
     EXPECT_NEAR(p.motions.arcs.at(1).centre.y, 10, 1e-9);
@@ -95,55 +107,68 @@ TEST(SiemensArcs, TakePointsAsIncrementsAndGoOnAlongTheTangent) {
 }
 
 TEST(SiemensLines, EndWhereTheAngleMeetsACoordinate) {
-    EXPECT_EQ(rows("G0 X0 Y0 Z0\nG1 X10 ANG=45 F60\nY0 ANG=-90\nX0 ANG=180\n"), (Rows{"rapid 0 0 0", "feed 10 10 0", "feed 10 0 0", "feed 0 0 0"}));
+    EXPECT_EQ(rows("G0 X0 Y0 Z0\nG1 X10 ANG=45 F60\nY0 ANG=-90\nX0 ANG=180\n"),
+              (Rows{"rapid 0 0 0", "feed 10 10 0", "feed 10 0 0", "feed 0 0 0"}));
     const Program p = parse("G0 X0 Y0 Z0\nG1 ANG=45 F60\nX10 Y20 ANG=90\n", "siemens");
     ASSERT_EQ(p.diagnostics.count("program.corner"), 2u);
     EXPECT_EQ(p.diagnostics.kept()[0].where.text(), "test.nc:2:4");
-    EXPECT_NE(error_of("G0 X0 Y0\nG1 X10 ANG=90 F60\n", "siemens").find("does not reach the given X"), std::string::npos);
+    EXPECT_NE(error_of("G0 X0 Y0\nG1 X10 ANG=90 F60\n", "siemens").find("does not reach the given X"),
+              std::string::npos);
 }
 
 TEST(SiemensCycles, DrillOnceOrAfterEveryMotion) {
     // RTP 10, RFP 0, SDIS 2, DP −5.
-    EXPECT_EQ(rows("G0 X1 Y1 Z20 F60\nCYCLE81(10,0,2,-5)\n"), (Rows{"rapid 1 1 20", "rapid 1 1 2", "feed 1 1 -5", "rapid 1 1 10"}));
+    EXPECT_EQ(rows("G0 X1 Y1 Z20 F60\nCYCLE81(10,0,2,-5)\n"),
+              (Rows{"rapid 1 1 20", "rapid 1 1 2", "feed 1 1 -5", "rapid 1 1 10"}));
     EXPECT_EQ(rows("G0 X0 Y0 Z10 F60\nMCALL CYCLE82(10,0,2,,4,0.5)\nX1\nX2\nMCALL\nX3\n"),
-              (Rows{"rapid 0 0 10", "rapid 1 0 10", "rapid 1 0 2", "feed 1 0 -4", "dwell 1 0 -4", "rapid 1 0 10", "rapid 2 0 10", "rapid 2 0 2", "feed 2 0 -4",
-                    "dwell 2 0 -4", "rapid 2 0 10", "rapid 3 0 10"}));
+              (Rows{"rapid 0 0 10", "rapid 1 0 10", "rapid 1 0 2", "feed 1 0 -4", "dwell 1 0 -4", "rapid 1 0 10",
+                    "rapid 2 0 10", "rapid 2 0 2", "feed 2 0 -4", "dwell 2 0 -4", "rapid 2 0 10", "rapid 3 0 10"}));
     // Tapping goes out with feed, boring with CYCLE85 too.
-    EXPECT_EQ(rows("G0 X1 Y1 Z10 F60\nCYCLE84(10,0,2,-5,,,,,1)\n"), (Rows{"rapid 1 1 10", "rapid 1 1 2", "feed 1 1 -5", "feed 1 1 2", "rapid 1 1 10"}));
+    EXPECT_EQ(rows("G0 X1 Y1 Z10 F60\nCYCLE84(10,0,2,-5,,,,,1)\n"),
+              (Rows{"rapid 1 1 10", "rapid 1 1 2", "feed 1 1 -5", "feed 1 1 2", "rapid 1 1 10"}));
     const Program p = parse("G0 X1 Y1 Z10 F60\nCYCLE85(10,0,2,-5,,0,120,240)\n", "siemens");
     EXPECT_EQ(motions(p), (Rows{"rapid 1 1 10", "rapid 1 1 2", "feed 1 1 -5", "feed 1 1 2", "rapid 1 1 10"}));
     EXPECT_FLOAT_EQ(p.motions.feed[2], 2);
     EXPECT_FLOAT_EQ(p.motions.feed[3], 4);
     EXPECT_EQ(rows("G0 X1 Y1 Z10 F60\nCYCLE86(10,0,2,-5,,0,3,-0.5,0,0)\n"),
-              (Rows{"rapid 1 1 10", "rapid 1 1 2", "feed 1 1 -5", "rapid 0.5 1 -5", "rapid 0.5 1 2", "rapid 0.5 1 10", "rapid 1 1 10"}));
+              (Rows{"rapid 1 1 10", "rapid 1 1 2", "feed 1 1 -5", "rapid 0.5 1 -5", "rapid 0.5 1 2", "rapid 0.5 1 10",
+                    "rapid 1 1 10"}));
 }
 
 TEST(SiemensCycles, PeckByDegression) {
     // 20 deep, 8 first, 3 less each: 8, 5, then 3; 4 are left, so 3 no more but 2 and 2 (ends 8, 13, 16, 18, 20).
     EXPECT_EQ(rows("G0 X0 Y0 Z5 F60\nCYCLE83(5,0,1,-20,,-8,,3,0,0,1,0)\n"),
-              (Rows{"rapid 0 0 5", "rapid 0 0 1", "feed 0 0 -8", "feed 0 0 -7", "feed 0 0 -13", "feed 0 0 -12", "feed 0 0 -16", "feed 0 0 -15", "feed 0 0 -18",
-                    "feed 0 0 -17", "feed 0 0 -20", "rapid 0 0 5"}));
+              (Rows{"rapid 0 0 5", "rapid 0 0 1", "feed 0 0 -8", "feed 0 0 -7", "feed 0 0 -13", "feed 0 0 -12",
+                    "feed 0 0 -16", "feed 0 0 -15", "feed 0 0 -18", "feed 0 0 -17", "feed 0 0 -20", "rapid 0 0 5"}));
     // Chips taken out: to R and back to 0.6 above.
     EXPECT_EQ(rows("G0 X0 Y0 Z5 F60\nCYCLE83(5,0,1,-4,,,2,0,0,0,1,1)\n"),
-              (Rows{"rapid 0 0 5", "rapid 0 0 1", "feed 0 0 -2", "rapid 0 0 1", "rapid 0 0 -1.4", "feed 0 0 -4", "rapid 0 0 5"}));
+              (Rows{"rapid 0 0 5", "rapid 0 0 1", "feed 0 0 -2", "rapid 0 0 1", "rapid 0 0 -1.4", "feed 0 0 -4",
+                    "rapid 0 0 5"}));
 }
 
 TEST(SiemensCycles, FollowPatternsAndReportPockets) {
     EXPECT_EQ(rows("G0 X0 Y0 Z5 F60\nMCALL CYCLE81(5,0,1,-2)\nHOLES1(10,0,90,1,2,2)\nMCALL\n"),
-              (Rows{"rapid 0 0 5", "rapid 10 1 5", "rapid 10 1 1", "feed 10 1 -2", "rapid 10 1 5", "rapid 10 3 5", "rapid 10 3 1", "feed 10 3 -2", "rapid 10 3 5"}));
-    EXPECT_EQ(rows("G0 X0 Y0 Z5\nHOLES2(0,0,10,0,0,4)\n"), (Rows{"rapid 0 0 5", "rapid 10 0 5", "rapid 0 10 5", "rapid -10 0 5", "rapid 0 -10 5"}));
-    EXPECT_EQ(rows("G0 X0 Y0 Z5\nCYCLE801(0,0,0,5,2,2,2)\n"), (Rows{"rapid 0 0 5", "rapid 0 0 5", "rapid 5 0 5", "rapid 5 2 5", "rapid 0 2 5"}));
+              (Rows{"rapid 0 0 5", "rapid 10 1 5", "rapid 10 1 1", "feed 10 1 -2", "rapid 10 1 5", "rapid 10 3 5",
+                    "rapid 10 3 1", "feed 10 3 -2", "rapid 10 3 5"}));
+    EXPECT_EQ(rows("G0 X0 Y0 Z5\nHOLES2(0,0,10,0,0,4)\n"),
+              (Rows{"rapid 0 0 5", "rapid 10 0 5", "rapid 0 10 5", "rapid -10 0 5", "rapid 0 -10 5"}));
+    EXPECT_EQ(rows("G0 X0 Y0 Z5\nCYCLE801(0,0,0,5,2,2,2)\n"),
+              (Rows{"rapid 0 0 5", "rapid 0 0 5", "rapid 5 0 5", "rapid 5 2 5", "rapid 0 2 5"}));
     const Program p = parse("G0 X0\nPOCKET3(5,0,1,-5)\n", "siemens");
     ASSERT_EQ(p.diagnostics.count("program.cycle"), 1u);
     EXPECT_EQ(p.diagnostics.kept()[0].where.text(), "test.nc:2:1");
 }
 
 TEST(SiemensFlow, JumpsAndLoops) {
-    EXPECT_EQ(rows("DEF INT _N=0\nG0 X0 Y0 Z0\nAGAIN: _N=_N+1\nX=_N\nIF _N<2 GOTOB AGAIN\nGOTOF DONE\nX99\nDONE:\nFOR R1=5 TO 6\nY=R1\nENDFOR\nWHILE R1>5\nR1=R1-1\nENDWHILE\nZ=R1\n"
-                   "LOOP\nR1=R1+1\nIF R1==8\nGOTOF OUT\nENDIF\nENDLOOP\nOUT: X=R1\nREPEAT\nR1=R1+1\nUNTIL R1>=10\nY=R1\nM30\n"),
-              (Rows{"rapid 0 0 0", "rapid 1 0 0", "rapid 2 0 0", "rapid 2 5 0", "rapid 2 6 0", "rapid 2 6 5", "rapid 8 6 5", "rapid 8 10 5"}));
+    EXPECT_EQ(
+        rows(
+            "DEF INT _N=0\nG0 X0 Y0 Z0\nAGAIN: _N=_N+1\nX=_N\nIF _N<2 GOTOB AGAIN\nGOTOF DONE\nX99\nDONE:\nFOR R1=5 TO 6\nY=R1\nENDFOR\nWHILE R1>5\nR1=R1-1\nENDWHILE\nZ=R1\n"
+            "LOOP\nR1=R1+1\nIF R1==8\nGOTOF OUT\nENDIF\nENDLOOP\nOUT: X=R1\nREPEAT\nR1=R1+1\nUNTIL R1>=10\nY=R1\nM30\n"),
+        (Rows{"rapid 0 0 0", "rapid 1 0 0", "rapid 2 0 0", "rapid 2 5 0", "rapid 2 6 0", "rapid 2 6 5", "rapid 8 6 5",
+              "rapid 8 10 5"}));
     // A section is repeated from its label on, twice more.
-    EXPECT_EQ(rows("G0 X0 Y0 Z0\nSECTION: G91 X1\nREPEAT SECTION P=2\nG90 Y1\nM30\n"), (Rows{"rapid 0 0 0", "rapid 1 0 0", "rapid 2 0 0", "rapid 3 0 0", "rapid 3 1 0"}));
+    EXPECT_EQ(rows("G0 X0 Y0 Z0\nSECTION: G91 X1\nREPEAT SECTION P=2\nG90 Y1\nM30\n"),
+              (Rows{"rapid 0 0 0", "rapid 1 0 0", "rapid 2 0 0", "rapid 3 0 0", "rapid 3 1 0"}));
 }
 
 TEST(SiemensFlow, RepeatsBlocksAndSections) {
@@ -151,18 +176,26 @@ TEST(SiemensFlow, RepeatsBlocksAndSections) {
     EXPECT_EQ(rows("G0 X0 Y0 Z0\nPOS: G91 X1 Y2\nREPEATB POS P=3\nM30\n"),
               (Rows{"rapid 0 0 0", "rapid 1 2 0", "rapid 2 4 0", "rapid 3 6 0", "rapid 4 8 0"}));
     EXPECT_EQ(rows("G0 X0 Y0 Z0\nBEGIN: G91 X1\nUNTIL_HERE: Y1\nZ1\nREPEAT BEGIN UNTIL_HERE P=2\nG90 Z9\nM30\n"),
-              (Rows{"rapid 0 0 0", "rapid 1 0 0", "rapid 1 1 0", "rapid 1 1 1", "rapid 2 1 1", "rapid 2 2 1", "rapid 3 2 1", "rapid 3 3 1", "rapid 3 3 9"}));
-    EXPECT_EQ(rows("G0 X0 Y0 Z0\nHERE: G91 X1\nENDLABEL:\nZ1\nREPEAT HERE\nM30\n"), (Rows{"rapid 0 0 0", "rapid 1 0 0", "rapid 1 0 1", "rapid 2 0 1"}));
+              (Rows{"rapid 0 0 0", "rapid 1 0 0", "rapid 1 1 0", "rapid 1 1 1", "rapid 2 1 1", "rapid 2 2 1",
+                    "rapid 3 2 1", "rapid 3 3 1", "rapid 3 3 9"}));
+    EXPECT_EQ(rows("G0 X0 Y0 Z0\nHERE: G91 X1\nENDLABEL:\nZ1\nREPEAT HERE\nM30\n"),
+              (Rows{"rapid 0 0 0", "rapid 1 0 0", "rapid 1 0 1", "rapid 2 0 1"}));
     // Sections within sections: AA runs BB twice more each time.
     EXPECT_EQ(rows("G0 X0 Y0 Z0 G91\nBB: X1\nAA: Y1\nREPEATB BB P=2\nREPEAT AA P=1\nM30\n"),
-              (Rows{"rapid 0 0 0", "rapid 1 0 0", "rapid 1 1 0", "rapid 2 1 0", "rapid 3 1 0", "rapid 3 2 0", "rapid 4 2 0", "rapid 5 2 0"}));
+              (Rows{"rapid 0 0 0", "rapid 1 0 0", "rapid 1 1 0", "rapid 2 1 0", "rapid 3 1 0", "rapid 3 2 0",
+                    "rapid 4 2 0", "rapid 5 2 0"}));
     // A jump out of it ends it: without, X3 would come back to the second turn.
-    EXPECT_EQ(rows("R1=0\nGOTOF START\nAA: R1=R1+1\nX=R1\nIF R1==2 GOTOF OUT\nENDLABEL:\nM30\nSTART: G0 X0\nREPEAT AA P=5\nM30\nOUT: X3\nM30\n").size(), 4u);
+    EXPECT_EQ(
+        rows(
+            "R1=0\nGOTOF START\nAA: R1=R1+1\nX=R1\nIF R1==2 GOTOF OUT\nENDLABEL:\nM30\nSTART: G0 X0\nREPEAT AA P=5\nM30\nOUT: X3\nM30\n")
+            .size(),
+        4u);
     EXPECT_NE(error_of("REPEAT NOWHERE P=2\n", "siemens").find("no label 'NOWHERE'"), std::string::npos);
 }
 
 TEST(SiemensFlow, ChoosesByCase) {
-    const std::string program = "CASE R1 OF 1 GOTOF A1 2 GOTOF A2 DEFAULT GOTOF A3\nA1: G0 X1\nM30\nA2: G0 X2\nM30\nA3: G0 X3\nM30\n";
+    const std::string program =
+        "CASE R1 OF 1 GOTOF A1 2 GOTOF A2 DEFAULT GOTOF A3\nA1: G0 X1\nM30\nA2: G0 X2\nM30\nA3: G0 X3\nM30\n";
     EXPECT_EQ(rows("G0 X0 Y0 Z0\nR1=2\n" + program).back(), "rapid 2 0 0");
     EXPECT_EQ(rows("G0 X0 Y0 Z0\nR1=7\n" + program).back(), "rapid 3 0 0");
     EXPECT_EQ(rows("G0 X0 Y0 Z0\nGOTOC NOWHERE\nX1\n").back(), "rapid 1 0 0");
@@ -178,13 +211,15 @@ TEST(SiemensExpressions, FollowTheManualsPriorities) {
 TEST(SiemensUnits, G70TakesLengthsAndLeavesFeeds) {
     const Program p = parse("G0 X0 Y0 Z0\nG70 G1 X1 F60\nG700 X2\nG71 X10\n", "siemens");
     EXPECT_EQ(motions(p), (Rows{"rapid 0 0 0", "feed 25.4 0 0", "feed 50.8 0 0", "feed 10 0 0"}));
-    EXPECT_FLOAT_EQ(p.motions.feed[1], 1);     // 60 mm/min
+    EXPECT_FLOAT_EQ(p.motions.feed[1], 1);      // 60 mm/min
     EXPECT_FLOAT_EQ(p.motions.feed[2], 25.4F);  // 60 in/min
 }
 
 TEST(SiemensFlow, CallsFilesBesideTheProgramWithArguments) {
-    const std::map<std::string, std::string> files{{"SLOT_A", "PROC SLOT_A(REAL _X, REAL _D=3)\nG1 F60 X=_X Z=-_D\nRET\n"}, {"L12", "G0 Y12\nM17\n"}};
-    const auto text = std::make_shared<std::string>("G0 X0 Y0 Z0\nSLOT_A(4,2)\nSLOT_A(5)\nL12\nEXTCALL \"SLOT_A\"\nEXTCALL(\"/nc/_N_L12_SPF\")\nM30\n");
+    const std::map<std::string, std::string> files{
+        {"SLOT_A", "PROC SLOT_A(REAL _X, REAL _D=3)\nG1 F60 X=_X Z=-_D\nRET\n"}, {"L12", "G0 Y12\nM17\n"}};
+    const auto text = std::make_shared<std::string>(
+        "G0 X0 Y0 Z0\nSLOT_A(4,2)\nSLOT_A(5)\nL12\nEXTCALL \"SLOT_A\"\nEXTCALL(\"/nc/_N_L12_SPF\")\nM30\n");
     InterpreterOptions options;
     options.dialect = find_dialect("siemens");
     options.load = [&](const std::string& name) -> std::optional<SourceText> {
@@ -194,11 +229,14 @@ TEST(SiemensFlow, CallsFilesBesideTheProgramWithArguments) {
     };
     EXPECT_EQ(motions(parse_program(SourceText("test.nc", *text, text), options)),
               (Rows{"rapid 0 0 0", "feed 4 0 -2", "feed 5 0 -3", "rapid 5 12 -3", "feed 0 12 -3", "rapid 0 12 -3"}));
-    EXPECT_NE(error_of("EXTCALL(\"NOWHERE\")\n", "siemens").find("test.nc:1:1: error: subprogram 'NOWHERE' is neither"), std::string::npos);
+    EXPECT_NE(error_of("EXTCALL(\"NOWHERE\")\n", "siemens").find("test.nc:1:1: error: subprogram 'NOWHERE' is neither"),
+              std::string::npos);
 }
 
 TEST(SiemensVariables, AreNumbersArraysAndTheControls) {
-    const Program p = parse("DEF REAL A[3], B=2\nDEF STRING[20] NAME=\"X\"\nA[1]=B*3\nR[5]=7\nG0 X=A[1] Y=R5 Z=A[2]\nX=$P_UIFR[1]+1\n", "siemens");
+    const Program p = parse(
+        "DEF REAL A[3], B=2\nDEF STRING[20] NAME=\"X\"\nA[1]=B*3\nR[5]=7\nG0 X=A[1] Y=R5 Z=A[2]\nX=$P_UIFR[1]+1\n",
+        "siemens");
     EXPECT_EQ(motions(p), (Rows{"rapid 6 7 0", "rapid 1 7 0"}));
     EXPECT_EQ(p.diagnostics.count("program.variable"), 1u);
 }

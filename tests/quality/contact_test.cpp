@@ -14,7 +14,9 @@ const CuttingTool flat{ToolKind::flat, 4, 0};
 /// A 3-4-5 triangle: the surface falls towards +x, the tool stands uphill of … its contact lies at −x.
 const Vec3 tilted(0.6, 0, 0.8);
 
-void expect_near(const Vec3& a, const Vec3& b) { EXPECT_LT((a - b).norm(), 1e-12) << a.transpose() << " is not " << b.transpose(); }
+void expect_near(const Vec3& a, const Vec3& b) {
+    EXPECT_LT((a - b).norm(), 1e-12) << a.transpose() << " is not " << b.transpose();
+}
 
 TEST(Contact, OnALevelSurfaceItIsTheTip) {
     for (const CuttingTool& tool : {ball, bull, flat}) expect_near(contact_offset(tool, Vec3::UnitZ()), Vec3::Zero());
@@ -59,7 +61,8 @@ TEST(Contact, TheOutlineEndsAtTheRadius) {
     EXPECT_EQ(outline_height(bull, 4), 0);
     EXPECT_NEAR(outline_height(bull, 4.6), 0.2, 1e-12);  // 1 − √(1 − 0.36)
     EXPECT_EQ(outline_height(flat, 3.9), 0);
-    for (const CuttingTool& tool : {ball, bull, flat}) EXPECT_EQ(outline_height(tool, 5.01), std::numeric_limits<double>::infinity());
+    for (const CuttingTool& tool : {ball, bull, flat})
+        EXPECT_EQ(outline_height(tool, 5.01), std::numeric_limits<double>::infinity());
 }
 
 TEST(Contact, TheLargerRadiusIsThatOfTheTorus) {

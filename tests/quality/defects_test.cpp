@@ -25,7 +25,8 @@ class Planted : public testing::TestWithParam<Shape> {};
 TEST_P(Planted, DefectsAreFoundAndNothingElse) {
     planted::Score sum;
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-        const planted::PlantedLog log = planted::make_planted_log(planted::random_recipe(seed, GetParam(), false, seed == 2));
+        const planted::PlantedLog log =
+            planted::make_planted_log(planted::random_recipe(seed, GetParam(), false, seed == 2));
         sum += planted::score(log, planted::judge(log));
     }
     EXPECT_EQ(sum.found, sum.planted);
@@ -38,7 +39,8 @@ TEST_P(Planted, DefectsAreFoundAndNothingElse) {
 
 TEST_P(Planted, ACleanLogIsClean) {
     for (std::uint64_t seed = 11; seed <= 12; ++seed) {
-        const planted::PlantedLog log = planted::make_planted_log(planted::random_recipe(seed, GetParam(), true, false));
+        const planted::PlantedLog log =
+            planted::make_planted_log(planted::random_recipe(seed, GetParam(), true, false));
         const QualityReport report = planted::judge(log);
         EXPECT_TRUE(report.defects.empty()) << planted::name_of(GetParam()) << " seed " << seed;
         EXPECT_GT(report.compared, report.points / 2);
@@ -81,11 +83,13 @@ TEST(Defects, OfARecordedPartAreWhereTheProgramHasThem) {
     const QualityReport report = find_defects(surface, signals, lines, program, log.period, {});
     for (const double y : {-5.6, -2.8, 0.0, 2.8, 5.6}) {
         const auto here = std::find_if(report.defects.begin(), report.defects.end(), [&](const Defect& d) {
-            return d.cause == Cause::point_spacing && d.speed_jump < -30 && d.bounds.min().y() < y + 0.1 && d.bounds.max().y() > y - 0.1;
+            return d.cause == Cause::point_spacing && d.speed_jump < -30 && d.bounds.min().y() < y + 0.1 &&
+                   d.bounds.max().y() > y - 0.1;
         });
         ASSERT_NE(here, report.defects.end()) << "y = " << y;
         // The dense lines: their pass holds more than a hundred of them.
-        const bool dense = std::any_of(here->runs.begin(), here->runs.end(), [](const DefectRun& run) { return run.last_line - run.first_line > 100; });
+        const bool dense = std::any_of(here->runs.begin(), here->runs.end(),
+                                       [](const DefectRun& run) { return run.last_line - run.first_line > 100; });
         EXPECT_TRUE(dense) << "y = " << y;
     }
 }
@@ -178,7 +182,12 @@ TEST(Defects, OfFastPassesAreSeenByTheirLength) {
     recipe.noise = 1e-4;
     recipe.scatter = 0;
     recipe.quantum = 1e-4;
-    recipe.defects = {{.kind = planted::Kind::oscillation, .first_pass = 12, .last_pass = 12, .from = 20, .to = 24, .amplitude = 0.08}};
+    recipe.defects = {{.kind = planted::Kind::oscillation,
+                       .first_pass = 12,
+                       .last_pass = 12,
+                       .from = 20,
+                       .to = 24,
+                       .amplitude = 0.08}};
     const planted::PlantedLog log = planted::make_planted_log(recipe);
     const planted::Score score = planted::score(log, planted::judge(log));
     EXPECT_EQ(score.found, 1);

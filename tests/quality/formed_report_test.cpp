@@ -52,7 +52,8 @@ TEST(FormedReport, APlantedPitOfFiveMicrometresShowsAsFive) {
         const Planted pit(recipe_with(-0.005, shape, planted::Surface::transition));
         ASSERT_GE(pit.report.defects.size(), 1U) << planted::name_of(shape);
         EXPECT_TRUE(pit.report.defects[0].pit);
-        EXPECT_NEAR(pit.result.marks[0], 0.005, 0.0005) << planted::name_of(shape) << ", found " << pit.report.defects[0].depth;
+        EXPECT_NEAR(pit.result.marks[0], 0.005, 0.0005)
+            << planted::name_of(shape) << ", found " << pit.report.defects[0].depth;
     }
 }
 

@@ -37,7 +37,8 @@ struct Made {
 CuttingTool ball(double radius) { return {ToolKind::ball, radius, radius}; }
 
 /// One row of heights over z = 0, `step` apart.
-std::vector<double> profile(const FormedSurface& formed, const Vec2& from, const Vec2& along, double step, std::int64_t count) {
+std::vector<double> profile(const FormedSurface& formed, const Vec2& from, const Vec2& along, double step,
+                            std::int64_t count) {
     std::vector<double> z;
     formed.map({from, along, step, count, 1}, [&](std::int64_t, std::span<float> row) {
         for (const float height : row) z.push_back(height + formed.level());
@@ -48,7 +49,8 @@ std::vector<double> profile(const FormedSurface& formed, const Vec2& from, const
 std::vector<float> deviations(const FormedSurface& formed, const MapFrame& frame) {
     const Form form(formed, frame.bounds(0, 0, frame.columns, frame.rows));
     std::vector<float> all;
-    map_deviation(formed, form, frame, [&](std::int64_t, std::span<float> rows) { all.insert(all.end(), rows.begin(), rows.end()); });
+    map_deviation(formed, form, frame,
+                  [&](std::int64_t, std::span<float> rows) { all.insert(all.end(), rows.begin(), rows.end()); });
     return all;
 }
 
@@ -61,7 +63,8 @@ TEST(FormedSurface, TheScallopOfABallIsTheClosedFormToOnePercent) {
     for (const double radius : {1.0, 3.0, 5.0, 8.0}) {
         for (const double apart : {0.1, 0.3, 0.5}) {
             const Made made(test::flat_zigzag(9, 6, apart, 40, {}));
-            const std::vector<double> z = profile(made.formed(ball(radius)), Vec2(3.01, 2 * apart), Vec2::UnitY(), apart / 200, 801);
+            const std::vector<double> z =
+                profile(made.formed(ball(radius)), Vec2(3.01, 2 * apart), Vec2::UnitY(), apart / 200, 801);
             const double closed = scallop_height(radius, apart, std::numeric_limits<double>::infinity());
             EXPECT_NEAR(rise(z), closed, 0.01 * closed) << radius << " " << apart;
         }
@@ -100,11 +103,46 @@ struct Envelope {
 
 // Sections of passes with height offsets, from an implementation of its own, tolerance 0.2 %.
 const std::vector<Envelope> envelopes{
-    {3.0, 0.331, {0.0, 0.0, 0.01055, 0.0, 0.01659, 0.0, 0.0, 0.0, 0.0}, {0.0, 0.00456852022951, 0.01055, 0.00456852022951, 0.0, 0.00456852022951, 0.01659, 0.00456852022951, 0.0, 0.00456852022951, 0.0, 0.00456852022951, 0.0}, 0.00368977680843, 0.00446582278442, 0.0166301413082},
-    {3.0, 0.192, {0.0, 0.0, 0.0, 0.0, 0.01437, -0.01158, 0.0, 0.0, 0.0}, {0.0, 0.00153639341746, 0.0, 0.00153639341746, 0.0, 0.00153639341746, -0.00542969562602, -0.0100436065825, -0.01158, -0.0100436065825, -0.00542969562602, 0.00153639341746, 0.0}, 0.00432260627839, 0.00474923084464, 0.0133060782196},
-    {3.0, 0.361, {0.0, 0.0, -0.00732, 0.0, 0.0, -0.00464, 0.0, 0.0, 0.0}, {0.0, -0.00188503519292, -0.00732, -0.00188503519292, 0.0, 0.00543496480708, 0.0, 0.000794964807076, -0.00464, 0.000794964807076, 0.0, 0.00543496480708, 0.0}, 0.00252085224065, 0.00311299832877, 0.0127549648071},
-    {3.0, 0.336, {0.0, 0.0, 0.01155, -0.00965, 0.0, 0.0, 0.0, 0.0, 0.0}, {0.0, 0.00470769373004, 0.00922537999499, -0.00494230626996, -0.00965, -0.00494230626996, 0.0, 0.00470769373004, 0.0, 0.00470769373004, 0.0, 0.00470769373004, 0.0}, 0.00335920332268, 0.0048397265446, 0.0219045961186},
-    {3.0, 0.284, {0.0, 0.0, 0.0, 0.00834, 0.01297, 0.0, 0.0, 0.0, 0.0}, {0.0, 0.00336255112501, 0.0, 0.00336255112501, 0.00834, 0.011702551125, 0.01297, 0.00336255112501, 0.0, 0.00336255112501, 0.0, 0.00336255112501, 0.0}, 0.00367204310696, 0.00434412815894, 0.0144165646089},
+    {3.0,
+     0.331,
+     {0.0, 0.0, 0.01055, 0.0, 0.01659, 0.0, 0.0, 0.0, 0.0},
+     {0.0, 0.00456852022951, 0.01055, 0.00456852022951, 0.0, 0.00456852022951, 0.01659, 0.00456852022951, 0.0,
+      0.00456852022951, 0.0, 0.00456852022951, 0.0},
+     0.00368977680843,
+     0.00446582278442,
+     0.0166301413082},
+    {3.0,
+     0.192,
+     {0.0, 0.0, 0.0, 0.0, 0.01437, -0.01158, 0.0, 0.0, 0.0},
+     {0.0, 0.00153639341746, 0.0, 0.00153639341746, 0.0, 0.00153639341746, -0.00542969562602, -0.0100436065825,
+      -0.01158, -0.0100436065825, -0.00542969562602, 0.00153639341746, 0.0},
+     0.00432260627839,
+     0.00474923084464,
+     0.0133060782196},
+    {3.0,
+     0.361,
+     {0.0, 0.0, -0.00732, 0.0, 0.0, -0.00464, 0.0, 0.0, 0.0},
+     {0.0, -0.00188503519292, -0.00732, -0.00188503519292, 0.0, 0.00543496480708, 0.0, 0.000794964807076, -0.00464,
+      0.000794964807076, 0.0, 0.00543496480708, 0.0},
+     0.00252085224065,
+     0.00311299832877,
+     0.0127549648071},
+    {3.0,
+     0.336,
+     {0.0, 0.0, 0.01155, -0.00965, 0.0, 0.0, 0.0, 0.0, 0.0},
+     {0.0, 0.00470769373004, 0.00922537999499, -0.00494230626996, -0.00965, -0.00494230626996, 0.0, 0.00470769373004,
+      0.0, 0.00470769373004, 0.0, 0.00470769373004, 0.0},
+     0.00335920332268,
+     0.0048397265446,
+     0.0219045961186},
+    {3.0,
+     0.284,
+     {0.0, 0.0, 0.0, 0.00834, 0.01297, 0.0, 0.0, 0.0, 0.0},
+     {0.0, 0.00336255112501, 0.0, 0.00336255112501, 0.00834, 0.011702551125, 0.01297, 0.00336255112501, 0.0,
+      0.00336255112501, 0.0, 0.00336255112501, 0.0},
+     0.00367204310696,
+     0.00434412815894,
+     0.0144165646089},
 };
 
 TEST(FormedSurface, PassesOfDifferentHeightsFormTheirEnvelope) {
@@ -113,8 +151,10 @@ TEST(FormedSurface, PassesOfDifferentHeightsFormTheirEnvelope) {
             return Vec3(p + Vec3(0, 0, e.offsets[static_cast<std::size_t>(std::lround(p.y() / e.apart))]));
         }));
         constexpr int per_pass = 400;
-        const std::vector<double> z = profile(made.formed(ball(e.radius)), Vec2(3.01, e.apart), Vec2::UnitY(), e.apart / per_pass, 6 * per_pass + 1);
-        for (std::size_t k = 0; k < e.z.size(); ++k) EXPECT_NEAR(z[k * per_pass / 2], e.z[k], 2e-6 + 0.002 * std::abs(e.z[k])) << k;
+        const std::vector<double> z = profile(made.formed(ball(e.radius)), Vec2(3.01, e.apart), Vec2::UnitY(),
+                                              e.apart / per_pass, 6 * per_pass + 1);
+        for (std::size_t k = 0; k < e.z.size(); ++k)
+            EXPECT_NEAR(z[k * per_pass / 2], e.z[k], 2e-6 + 0.002 * std::abs(e.z[k])) << k;
         const ProfileHeights h = profile_heights(z);
         EXPECT_NEAR(h.ra, e.ra, 2e-6 + 0.002 * e.ra);
         EXPECT_NEAR(h.rq, e.rq, 2e-6 + 0.002 * e.rq);
@@ -127,7 +167,9 @@ TEST(FormedSurface, APitGoesThroughAndABulgeVanishesAtFourScallops) {
     constexpr double apart = 0.3;
     const double h = scallop_height(radius, apart, std::numeric_limits<double>::infinity());
     const auto rise_with = [&](double offset) {
-        const Made made(test::flat_zigzag(11, 6, apart, 40, [&](const Vec3& p, const Vec3&) { return Vec3(p + Vec3(0, 0, std::lround(p.y() / apart) == 5 ? offset : 0.0)); }));
+        const Made made(test::flat_zigzag(11, 6, apart, 40, [&](const Vec3& p, const Vec3&) {
+            return Vec3(p + Vec3(0, 0, std::lround(p.y() / apart) == 5 ? offset : 0.0));
+        }));
         return rise(profile(made.formed(ball(radius)), Vec2(3, 3 * apart), Vec2::UnitY(), apart / 400, 1601));
     };
     EXPECT_NEAR(rise_with(-0.005), h + 0.005, 0.00005);
@@ -150,7 +192,9 @@ TEST(FormedSurface, SegmentsAreSweptAndNotStampedAtTheirEnds) {
 }
 
 TEST(FormedSurface, AFlatToolLeavesAPlaneAndABullCusps) {
-    const auto pit = [](const Vec3& p, const Vec3&) { return Vec3(p + Vec3(0, 0, std::lround(p.y() / 2) == 4 ? -0.005 : 0.0)); };
+    const auto pit = [](const Vec3& p, const Vec3&) {
+        return Vec3(p + Vec3(0, 0, std::lround(p.y() / 2) == 4 ? -0.005 : 0.0));
+    };
     const Made made(test::flat_zigzag(9, 30, 2, 40, pit));
     // A pit's groove is as wide as the flat tool.
     const FormedSurface flat = made.formed({ToolKind::flat, 3, 0});
@@ -162,7 +206,8 @@ TEST(FormedSurface, AFlatToolLeavesAPlaneAndABullCusps) {
     }
     // Passes 4.4 mm apart of a tool of 2 mm flat half width: cusps of the corners 0.2 mm beside them.
     const Made wide(test::flat_zigzag(7, 30, 4.4, 100, {}));
-    const std::vector<double> cusps = profile(wide.formed({ToolKind::bull, 3, 1}), Vec2(15, 8.8), Vec2::UnitY(), 0.01, 881);
+    const std::vector<double> cusps =
+        profile(wide.formed({ToolKind::bull, 3, 1}), Vec2(15, 8.8), Vec2::UnitY(), 0.01, 881);
     EXPECT_NEAR(rise(cusps), 1 - std::sqrt(1 - 0.04), 1e-5);
 }
 
@@ -212,7 +257,9 @@ TEST(FormedSurface, AHighLinkLeavesNothing) {
     const FormedSurface without(lifted, low.signals, Role::commanded, low.made.path, low.pieces, ball(3));
     const auto cut = [](const FormedSurface& formed) {
         std::ptrdiff_t cells = 0;
-        formed.map(frame_of(Box2(Vec2(-2, -2), Vec2(8, 5)), 0.05), [&](std::int64_t, std::span<float> z) { cells += std::count_if(z.begin(), z.end(), [](float v) { return v == v; }); });
+        formed.map(frame_of(Box2(Vec2(-2, -2), Vec2(8, 5)), 0.05), [&](std::int64_t, std::span<float> z) {
+            cells += std::count_if(z.begin(), z.end(), [](float v) { return v == v; });
+        });
         return cells;
     };
     EXPECT_GT(cut(without), 6 * 2.4 / 0.0025);
@@ -237,20 +284,26 @@ TEST(StandingContacts, AreThoseOfTheTentOnTheirOwnSideOfTheRidge) {
     const FormedSurface formed = made.formed(ball(3));
     const Box2 box(Vec2(2, -2.5), Vec2(10, 2.5));
     std::size_t expected = 0;
-    for (const ContactPoint& contact : formed.contacts(box, 0.05)) expected += contact.at.y() * contact.tip.y() > 1e-9 ? 1U : 0U;
+    for (const ContactPoint& contact : formed.contacts(box, 0.05))
+        expected += contact.at.y() * contact.tip.y() > 1e-9 ? 1U : 0U;
     const std::vector<Vec3> standing = standing_contacts(formed, box, 0.05);
     EXPECT_GT(expected, 2000U);
     EXPECT_EQ(standing.size(), expected);
-    for (const Vec3& at : standing) ASSERT_NEAR(at.z(), -std::abs(at.y()) * std::tan(M_PI / 6) - 3 * (1 / std::cos(M_PI / 6) - 1), 1e-6) << at.transpose();
+    for (const Vec3& at : standing)
+        ASSERT_NEAR(at.z(), -std::abs(at.y()) * std::tan(M_PI / 6) - 3 * (1 / std::cos(M_PI / 6) - 1), 1e-6)
+            << at.transpose();
 }
 
 TEST(LocalQuadratic, IsExactOnQuadraticsAndHardlyBentByOneRaisedPass) {
-    const auto height = [](double x, double y) { return 0.3 - 0.2 * x + 0.1 * y + 0.05 * x * x - 0.02 * x * y + 0.04 * y * y; };
+    const auto height = [](double x, double y) {
+        return 0.3 - 0.2 * x + 0.1 * y + 0.05 * x * x - 0.02 * x * y + 0.04 * y * y;
+    };
     const double expected[] = {0.3, -0.2, 0.1, 0.05, -0.02, 0.04};
     for (const double raised : {0.0, 0.01}) {
         LocalQuadratic quadratic;
         for (int row = -3; row <= 3; ++row) {
-            for (int k = -12; k <= 12; ++k) quadratic.add(0.25 * k, row, height(0.25 * k, row) + (row == 1 ? raised : 0), 1);
+            for (int k = -12; k <= 12; ++k)
+                quadratic.add(0.25 * k, row, height(0.25 * k, row) + (row == 1 ? raised : 0), 1);
         }
         const LocalQuadratic::Terms a = quadratic.fit(1e-4);
         for (Eigen::Index k = 0; k < 6; ++k) EXPECT_NEAR(a[k], expected[k], raised > 0 ? 0.1 * raised : 2e-6) << k;

@@ -17,7 +17,9 @@ constexpr double length = 40;
 /// A surface z(x, y) under passes along X; what its reliefs have that those around have not, at every fifth point [mm].
 template <typename Height>
 std::vector<float> own_reliefs(const Height& height, double low, double high) {
-    const test::MadeSurface made = test::flat_zigzag(passes, length, apart, 50, {}, [&](const Vec3& flat) { return Vec3(flat.x(), flat.y(), height(flat.x(), flat.y())); });
+    const test::MadeSurface made = test::flat_zigzag(passes, length, apart, 50, {}, [&](const Vec3& flat) {
+        return Vec3(flat.x(), flat.y(), height(flat.x(), flat.y()));
+    });
     const Signals signals = made.signals();
     const Comparer comparer(made.surface, signals, 50);
     std::vector<float> own;
@@ -52,7 +54,9 @@ TEST(Relief, OfEverySecondPassIsAMark) {
 TEST(Relief, OfAnEdgeOfThePartIsNone) {
     for (const double slope : {0.0, 0.05, -0.3}) {
         for (const double steep : {0.5, -0.5, 0.02}) {
-            const auto roof = [&](double x, double y) { return -steep * std::abs(y - 4.07 - slope * (x - 0.5 * length)); };
+            const auto roof = [&](double x, double y) {
+                return -steep * std::abs(y - 4.07 - slope * (x - 0.5 * length));
+            };
             for (const float own : own_reliefs(roof, 2, 6)) EXPECT_LT(std::abs(own), 1e-5F);
         }
     }
@@ -65,7 +69,8 @@ TEST(Relief, OfANarrowFilletIsNone) {
         const double along = y - 4;
         if (along < 0) return 0.0;
         const double end = radius * std::sqrt(0.5);
-        return along < end ? radius - std::sqrt(radius * radius - along * along) : radius - std::sqrt(0.5) * radius + (along - end);
+        return along < end ? radius - std::sqrt(radius * radius - along * along)
+                           : radius - std::sqrt(0.5) * radius + (along - end);
     };
     for (const float own : own_reliefs(height, 2, 6)) EXPECT_LT(std::abs(own), 1e-5F);
 }

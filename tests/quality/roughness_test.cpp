@@ -30,7 +30,9 @@ TEST(Roughness, OfASineIsTwoOverPiOfItsAmplitude) {
 
 TEST(Roughness, TheFilterHalvesAWaveOfItsCutoff) {
     // 1 − e^(−π (α λc/λ)²), α² = ln 2/π: ½ at λc, 15.9 % of a wave twice as long, 94 % of half of one.
-    const auto passed = [](double wave) { return roughness_of(sine(0.001, wave, 24, 0.002), 0.002, 0.8).rq * std::sqrt(2.0) / 0.001; };
+    const auto passed = [](double wave) {
+        return roughness_of(sine(0.001, wave, 24, 0.002), 0.002, 0.8).rq * std::sqrt(2.0) / 0.001;
+    };
     EXPECT_NEAR(passed(0.8), 0.5, 0.005);
     EXPECT_NEAR(passed(1.6), 1 - std::pow(0.5, 0.25), 0.005);
     EXPECT_NEAR(passed(0.4), 1 - std::pow(0.5, 4), 0.005);

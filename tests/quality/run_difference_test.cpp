@@ -11,8 +11,8 @@
 namespace clsurf {
 namespace {
 
-using test::make_run;
 using test::MadeRun;
+using test::make_run;
 using test::RunRecipe;
 
 /// Every point of a run cuts.
@@ -39,7 +39,9 @@ Compared compare(const MadeRun& a, const MadeRun& b) {
     return compared;
 }
 
-RunAlignment align(const MadeRun& a, const MadeRun& b) { return align_runs(gather(a.run().path), gather(b.run().path)); }
+RunAlignment align(const MadeRun& a, const MadeRun& b) {
+    return align_runs(gather(a.run().path), gather(b.run().path));
+}
 
 /// How far, in way, a station lies off the truth at worst, among points of A inside [begin, end].
 double worst_error(const MadeRun& a, const MadeRun& b, const RunAlignment& alignment, double begin, double end) {
@@ -118,8 +120,10 @@ TEST(RunDifference, ChangesItsSignWhenTheRunsAreSwapped) {
     ASSERT_EQ(stretches_of(there, RunQuantity::speed).size(), stretches_of(back, RunQuantity::speed).size());
     for (const RunQuantity q : {RunQuantity::speed, RunQuantity::height}) {
         EXPECT_NEAR(there.find(q)->mean, -back.find(q)->mean, 0.02 * std::abs(there.find(q)->mean)) << index_of(q);
-        EXPECT_NEAR(there.find(q)->lowest, -back.find(q)->highest, 0.02 * std::abs(there.find(q)->lowest) + 3e-4) << index_of(q);
-        EXPECT_NEAR(there.find(q)->highest, -back.find(q)->lowest, 0.02 * std::abs(there.find(q)->highest) + 3e-4) << index_of(q);
+        EXPECT_NEAR(there.find(q)->lowest, -back.find(q)->highest, 0.02 * std::abs(there.find(q)->lowest) + 3e-4)
+            << index_of(q);
+        EXPECT_NEAR(there.find(q)->highest, -back.find(q)->lowest, 0.02 * std::abs(there.find(q)->highest) + 3e-4)
+            << index_of(q);
     }
 }
 
@@ -145,14 +149,18 @@ TEST(RunDifference, FindsAHeightAlongTheNormalOfTheSurface) {
     const Vec3 side(0, 0.8, 0.6);
     recipe.off = [](double) -> Vec3 { return Vec3(0.004, 0, 0); };
     const MadeRun a = make_run(recipe);
-    recipe.off = [=](double s) -> Vec3 { return s > 27 && s < 37 ? Vec3(0.003 * normal + Vec3(0.004, 0, 0)) : Vec3(0.004, 0, 0); };
+    recipe.off = [=](double s) -> Vec3 {
+        return s > 27 && s < 37 ? Vec3(0.003 * normal + Vec3(0.004, 0, 0)) : Vec3(0.004, 0, 0);
+    };
     const Compared c = compare(a, make_run(recipe));
     const auto found = stretches_of(c.report, RunQuantity::height);
     ASSERT_EQ(found.size(), 1u);
     EXPECT_NEAR(found[0].peak, 0.003, 1e-4);
     EXPECT_NEAR(found[0].mean, 0.003, 4e-4);
     // Along the surface, across the feed, it is no height.
-    recipe.off = [=](double s) -> Vec3 { return s > 27 && s < 37 ? Vec3(0.003 * side + Vec3(0.004, 0, 0)) : Vec3(0.004, 0, 0); };
+    recipe.off = [=](double s) -> Vec3 {
+        return s > 27 && s < 37 ? Vec3(0.003 * side + Vec3(0.004, 0, 0)) : Vec3(0.004, 0, 0);
+    };
     EXPECT_TRUE(stretches_of(compare(a, make_run(recipe)).report, RunQuantity::height).empty());
 }
 
@@ -345,7 +353,7 @@ TEST(DriftedRun, IsTheOneThatDepartsFromTheOthers) {
     EXPECT_EQ(drifted({0, 1, 3, 2}), 3);
     EXPECT_EQ(drifted({3, 1, 2}), 3);  // the reference itself
     EXPECT_EQ(drifted({0, 1, 2}), -1);
-    EXPECT_EQ(drifted({0, 3}), -1);    // two differ from each other: nobody knows which
+    EXPECT_EQ(drifted({0, 3}), -1);  // two differ from each other: nobody knows which
 }
 
 }  // namespace

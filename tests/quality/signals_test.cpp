@@ -28,18 +28,18 @@ void for_each_inner(const Signals& s, F&& f) {
 
 TEST(Signals, ALagAlongThePathIsNoHeight) {
     // 20 ms at 50 mm/s: one millimetre behind, exactly on the way.
-    const MadeSurface made = test::flat_zigzag(9, 30, 0.4, 50, [](const Vec3& p, const Vec3& feed) { return Vec3(p - 1.0 * feed); });
+    const MadeSurface made =
+        test::flat_zigzag(9, 30, 0.4, 50, [](const Vec3& p, const Vec3& feed) { return Vec3(p - 1.0 * feed); });
     const Signals s = made.signals();
     for_each_inner(s, [&](PointIndex i) {
         const float lag = s[i].lag;
-        if (lag == lag) {
-            EXPECT_NEAR(lag, 0.0F, 1e-6F) << i;
-        }
+        if (lag == lag) { EXPECT_NEAR(lag, 0.0F, 1e-6F) << i; }
     });
 }
 
 TEST(Signals, AnOffsetAlongTheNormalIsTheHeight) {
-    const MadeSurface made = test::flat_zigzag(9, 30, 0.4, 50, [](const Vec3& p, const Vec3& feed) { return Vec3(p - 0.3 * feed + Vec3(0, 0, 0.005)); });
+    const MadeSurface made = test::flat_zigzag(
+        9, 30, 0.4, 50, [](const Vec3& p, const Vec3& feed) { return Vec3(p - 0.3 * feed + Vec3(0, 0, 0.005)); });
     const Signals s = made.signals();
     std::int64_t with = 0;
     for_each_inner(s, [&](PointIndex i) {
@@ -85,7 +85,7 @@ TEST(Mismatch, OfASlowerPassIsWhatItIsSlower) {
             EXPECT_NEAR(c.speed_jump, -5.0F, 0.05F);
             ++seen[0];
         } else if (pass == 3 || pass == 5) {
-            EXPECT_NEAR(step, 0.10F, 1e-3F);  // the step is on both sides of it …
+            EXPECT_NEAR(step, 0.10F, 1e-3F);     // the step is on both sides of it …
             EXPECT_NEAR(residual, 0.0F, 1e-3F);  // … and the fault is not theirs
             ++seen[1];
         } else if (pass == 2 || pass == 6) {

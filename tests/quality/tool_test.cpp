@@ -15,7 +15,8 @@ TEST(CuttingTool, ReadsItsThreeKinds) {
 }
 
 TEST(CuttingTool, RefusesWhatIsNone) {
-    for (const char* text : {"", "ball", "ball:", "ball:0", "ball:-6", "ball:6,1", "ball:6mm", "ball:nan", "ball:inf", "bull:10", "bull:10,5", "bull:10,0", "cone:6", "flat:"}) {
+    for (const char* text : {"", "ball", "ball:", "ball:0", "ball:-6", "ball:6,1", "ball:6mm", "ball:nan", "ball:inf",
+                             "bull:10", "bull:10,5", "bull:10,0", "cone:6", "flat:"}) {
         EXPECT_THROW((void)parse_tool(text), UsageError) << text;
     }
 }

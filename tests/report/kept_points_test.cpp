@@ -26,7 +26,8 @@ ClSurface raster() {
         p.y.push_back(0.3F * static_cast<float>(i / per_pass));
         p.z.push_back(0);
     }
-    for (PointIndex first = 0; first < points; first += per_pass) surface.passes.push_back({first, first + per_pass - 1, PassKind::cut});
+    for (PointIndex first = 0; first < points; first += per_pass)
+        surface.passes.push_back({first, first + per_pass - 1, PassKind::cut});
     surface.step_over = 0.3;
     return surface;
 }
@@ -68,7 +69,9 @@ Field noise() {
     return field;
 }
 
-bool keeps(const KeptPoints& kept, PointIndex i) { return std::binary_search(kept.points.begin(), kept.points.end(), i); }
+bool keeps(const KeptPoints& kept, PointIndex i) {
+    return std::binary_search(kept.points.begin(), kept.points.end(), i);
+}
 
 TEST(KeptPoints, AllStayWhereTheyFit) {
     const Lines lines;
@@ -92,7 +95,8 @@ TEST(KeptPoints, ExtremesOfEveryWindowEndsOfPassesAndStartsOfLinesStay) {
         for (PointIndex first = pass.first; first <= pass.last; first += kept.window) {
             const PointIndex last = std::min(pass.last, first + kept.window - 1);
             for (const Field& field : fields) {
-                const auto [low, high] = std::minmax_element(field.values.begin() + first, field.values.begin() + last + 1);
+                const auto [low, high] =
+                    std::minmax_element(field.values.begin() + first, field.values.begin() + last + 1);
                 EXPECT_TRUE(keeps(kept, low - field.values.begin()));
                 EXPECT_TRUE(keeps(kept, high - field.values.begin()));
             }
@@ -117,7 +121,8 @@ TEST(KeptPoints, DefectsTooLargeForAQuarterOfTheRoomAreReducedLikeAllElse) {
     // 12 passes of 900 points, and behind it one of 100 points.
     Defect large;
     large.point = 450;
-    for (PointIndex pass = 0; pass < 12; ++pass) large.runs.push_back({pass, {pass * per_pass + 50, pass * per_pass + 949}, 1, 1});
+    for (PointIndex pass = 0; pass < 12; ++pass)
+        large.runs.push_back({pass, {pass * per_pass + 50, pass * per_pass + 949}, 1, 1});
     Defect small;
     small.point = 15'050;
     small.runs.push_back({15, {15'000, 15'099}, 1, 1});

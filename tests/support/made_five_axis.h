@@ -36,10 +36,10 @@ inline Kinematics trunnion() {
 }
 
 struct MadeLog {
-    std::vector<double> axes[5];      ///< x, y, z [mm], a, c [deg], commanded
+    std::vector<double> axes[5];  ///< x, y, z [mm], a, c [deg], commanded
     std::vector<double> feedback[5];
     std::vector<double> line;
-    double tilt_sign = 1;             ///< of the control's angles
+    double tilt_sign = 1;  ///< of the control's angles
     Log log;
 
     void add(const Vec3& linear, const RotaryAngles& angles, double at_line) {
@@ -52,10 +52,14 @@ struct MadeLog {
         log.name = "made";
         log.period = period;
         log.records = static_cast<PointIndex>(line.size());
-        const auto view = [&](const std::vector<double>& v) { return ChannelView{reinterpret_cast<const std::byte*>(v.data()), 8, log.records, ScalarType::f64, false, 1, 0}; };
+        const auto view = [&](const std::vector<double>& v) {
+            return ChannelView{
+                reinterpret_cast<const std::byte*>(v.data()), 8, log.records, ScalarType::f64, false, 1, 0};
+        };
         for (int k = 0; k < 5; ++k) {
             log.channels.push_back({std::string("cmd.") + "xyzac"[k], k < 3 ? "mm" : "deg", view(axes[k])});
-            if (!feedback[0].empty()) log.channels.push_back({std::string("fb.") + "xyzac"[k], k < 3 ? "mm" : "deg", view(feedback[k])});
+            if (!feedback[0].empty())
+                log.channels.push_back({std::string("fb.") + "xyzac"[k], k < 3 ? "mm" : "deg", view(feedback[k])});
         }
     }
 };
@@ -72,16 +76,21 @@ inline MadeLog run(const Program& program, const Kinematics& kinematics, const V
     Vec3 at = zero + kinematics.zero_position();  // of the axes
     Vec3 word = Vec3::Zero();
     for (std::int64_t m = 0; m < path.size(); ++m) {
-        const RotaryAngles after = kinematics.angles_of(program.motions.rotary.empty() ? Vec3(0, 0, 0) : program.motions.rotary[static_cast<std::size_t>(m)].vec());
+        const RotaryAngles after = kinematics.angles_of(
+            program.motions.rotary.empty() ? Vec3(0, 0, 0) : program.motions.rotary[static_cast<std::size_t>(m)].vec());
         const double turn = std::max(std::abs(after.tilt - before.tilt), std::abs(after.rotation - before.rotation));
-        const int steps = std::max({1, static_cast<int>(path.length(m) / step), static_cast<int>(turn * deg_per_rad / 0.5)});
+        const int steps =
+            std::max({1, static_cast<int>(path.length(m) / step), static_cast<int>(turn * deg_per_rad / 0.5)});
         const bool tips = control.on(m);
-        const Vec3 to = (path.end(m).array() == word.array()).select(at, path.end(m) + zero + kinematics.zero_position());
+        const Vec3 to =
+            (path.end(m).array() == word.array()).select(at, path.end(m) + zero + kinematics.zero_position());
         for (int i = 1; i <= steps; ++i) {
             const double part = static_cast<double>(i) / steps;
-            const RotaryAngles angles{before.tilt + part * (after.tilt - before.tilt), before.rotation + part * (after.rotation - before.rotation)};
+            const RotaryAngles angles{before.tilt + part * (after.tilt - before.tilt),
+                                      before.rotation + part * (after.rotation - before.rotation)};
             Vec3 linear = tips ? kinematics.to_axes(path.at(m, part) + zero, angles) : at + part * (to - at);
-            if (!tips && is_arc(program.motions.kind[static_cast<std::size_t>(m)])) linear = path.at(m, part) + zero + kinematics.zero_position();
+            if (!tips && is_arc(program.motions.kind[static_cast<std::size_t>(m)]))
+                linear = path.at(m, part) + zero + kinematics.zero_position();
             made.add(linear, angles, program.motions.line[static_cast<std::size_t>(m)]);
         }
         before = after;
@@ -105,7 +114,8 @@ inline std::string dome_program() {
             double turn = std::atan2(n.x(), -n.y()) * deg_per_rad;
             turn += 360 * std::round((c - turn) / 360);
             c = turn;
-            if (pass == 0 && i == 0) text += fmt::format("G0 X{:.4f} Y{:.4f} Z{:.4f} A{:.4f} C{:.4f}\n", x, y, z + 10, a, c);
+            if (pass == 0 && i == 0)
+                text += fmt::format("G0 X{:.4f} Y{:.4f} Z{:.4f} A{:.4f} C{:.4f}\n", x, y, z + 10, a, c);
             text += fmt::format("G1 X{:.4f} Y{:.4f} Z{:.4f} A{:.4f} C{:.4f}\n", x, y, z, a, c);
         }
     }

@@ -28,7 +28,10 @@ inline Program program_of(const std::string& text) {
 
 inline Recorded run_program(const Program& program, const Machine& machine) {
     Recorded recorded;
-    recorded.summary = simulate(program, machine, Vec3::Zero(), [&](std::span<const SimulatedPoint> p) { recorded.points.insert(recorded.points.end(), p.begin(), p.end()); }, {});
+    recorded.summary = simulate(
+        program, machine, Vec3::Zero(),
+        [&](std::span<const SimulatedPoint> p) { recorded.points.insert(recorded.points.end(), p.begin(), p.end()); },
+        {});
     return recorded;
 }
 
@@ -52,7 +55,9 @@ inline std::vector<PathElement> elements_of(const Program& program) {
 /// How far a point is from a curve [mm]: places of it, then golden sections between the best place's neighbours.
 inline double distance_to(const PathElement& element, const Vec3& point) {
     if (!(element.length > 0)) return (element.begin - point).norm();
-    if (element.straight()) return (element.at(std::clamp((point - element.begin).dot(element.direction), 0.0, element.length)) - point).norm();
+    if (element.straight())
+        return (element.at(std::clamp((point - element.begin).dot(element.direction), 0.0, element.length)) - point)
+            .norm();
     constexpr int places = 32;
     int best = 0;
     double least = std::numeric_limits<double>::infinity();
@@ -61,7 +66,8 @@ inline double distance_to(const PathElement& element, const Vec3& point) {
         const double here = distance(element.length * k / places);
         if (here < least) least = here, best = k;
     }
-    double low = element.length * std::max(0, best - 1) / places, high = element.length * std::min(places, best + 1) / places;
+    double low = element.length * std::max(0, best - 1) / places,
+           high = element.length * std::min(places, best + 1) / places;
     constexpr double golden = 0.6180339887498949;
     for (int k = 0; k < 30; ++k) {
         const double a = high - golden * (high - low), b = low + golden * (high - low);
@@ -72,7 +78,8 @@ inline double distance_to(const PathElement& element, const Vec3& point) {
 
 /// The greatest distance of every `step`-th point from the program [mm], looked for among the motions whose
 /// lines are at most `around` away from the point's.
-inline double greatest_distance(const std::vector<PathElement>& path, const std::vector<SimulatedPoint>& points, std::size_t step, LineNumber around) {
+inline double greatest_distance(const std::vector<PathElement>& path, const std::vector<SimulatedPoint>& points,
+                                std::size_t step, LineNumber around) {
     double greatest = 0;
     for (std::size_t i = 0; i < points.size(); i += step) {
         const SimulatedPoint& p = points[i];

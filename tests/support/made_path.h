@@ -57,8 +57,10 @@ inline Positions loops(double outer, int count, double apart, double step) {
             const double angle = 2 * std::numbers::pi * i / n;
             add(p, radius * std::cos(angle), radius * std::sin(angle), 0);
         }
-        if (k + 1 < count) add_line(p, {radius, 0, 0}, {radius - apart, 0, 0}, step);
-        else add(p, radius, 0, 0);
+        if (k + 1 < count)
+            add_line(p, {radius, 0, 0}, {radius - apart, 0, 0}, step);
+        else
+            add(p, radius, 0, 0);
     }
     return p;
 }

@@ -20,13 +20,15 @@ using PathOfWay = std::function<Vec3(double)>;
 
 struct RunRecipe {
     PathOfWay path;
-    double begin = 0, end = 100;                           ///< [mm] of way
-    double period = 0.001;                                 ///< [s]
+    double begin = 0, end = 100;                                        ///< [mm] of way
+    double period = 0.001;                                              ///< [s]
     std::function<double(double)> speed = [](double) { return 30.0; };  ///< [mm/s] by way
-    std::vector<std::pair<double, double>> pauses;         ///< at a way [mm], for a time [s]
-    std::function<Vec3(double)> off = [](double) -> Vec3 { return Vec3::Zero(); };  ///< measured minus commanded, by way
+    std::vector<std::pair<double, double>> pauses;                      ///< at a way [mm], for a time [s]
+    std::function<Vec3(double)> off = [](double) -> Vec3 {
+        return Vec3::Zero();
+    };  ///< measured minus commanded, by way
     std::function<Vec3(double)> shift = [](double) -> Vec3 { return Vec3::Zero(); };  ///< of all positions, by way
-    double phase = 0;                                      ///< of a period, after which sampling begins
+    double phase = 0;  ///< of a period, after which sampling begins
 };
 
 struct MadeRun {
@@ -82,8 +84,10 @@ inline MadeRun make_run(const RunRecipe& recipe) {
         }
         for (const std::size_t role : {0, 3}) {
             const double* first = made.columns->data() + (role + axis) * n;
-            made.log.channels.push_back({std::string(role == 0 ? "cmd." : "fb.") + "xyz"[axis], "mm",
-                                         {reinterpret_cast<const std::byte*>(first), sizeof(double), made.log.records, ScalarType::f64, false, 1.0, 0.0}});
+            made.log.channels.push_back({std::string(role == 0 ? "cmd." : "fb.") + "xyz"[axis],
+                                         "mm",
+                                         {reinterpret_cast<const std::byte*>(first), sizeof(double), made.log.records,
+                                          ScalarType::f64, false, 1.0, 0.0}});
         }
     }
     return made;

@@ -31,7 +31,8 @@ using Measure = std::function<Vec3(const Vec3& commanded, const Vec3& feed)>;
 /// Where the plane's points really lie: a rotation, a curved surface; empty: on the plane. Keeps distances.
 using Place = std::function<Vec3(const Vec3& flat)>;
 
-inline MadeSurface made_zigzag(const std::vector<double>& speeds, double length, double apart, const Measure& measure, const Place& place = {}) {
+inline MadeSurface made_zigzag(const std::vector<double>& speeds, double length, double apart, const Measure& measure,
+                               const Place& place = {}) {
     constexpr double period = 0.001;
     std::vector<Vec3> points;
     std::vector<Vec3> off;
@@ -68,7 +69,8 @@ inline MadeSurface made_zigzag(const std::vector<double>& speeds, double length,
         t.period = period;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const double* first = made.columns->data() + (column + axis) * n;
-            t.axes[axis] = ChannelView{reinterpret_cast<const std::byte*>(first), sizeof(double), t.count, ScalarType::f64, false, 1.0, 0.0};
+            t.axes[axis] = ChannelView{
+                reinterpret_cast<const std::byte*>(first), sizeof(double), t.count, ScalarType::f64, false, 1.0, 0.0};
         }
         return t;
     };
@@ -82,10 +84,13 @@ inline MadeSurface made_zigzag(const std::vector<double>& speeds, double length,
     return made;
 }
 
-inline MadeSurface flat_zigzag(int passes, double length, double apart, double speed, const Measure& measure, const Place& place = {}) {
+inline MadeSurface flat_zigzag(int passes, double length, double apart, double speed, const Measure& measure,
+                               const Place& place = {}) {
     return made_zigzag(std::vector<double>(static_cast<std::size_t>(passes), speed), length, apart, measure, place);
 }
 
-inline MadeSurface zigzag_of_speeds(const std::vector<double>& speeds, double length, double apart) { return made_zigzag(speeds, length, apart, {}); }
+inline MadeSurface zigzag_of_speeds(const std::vector<double>& speeds, double length, double apart) {
+    return made_zigzag(speeds, length, apart, {});
+}
 
 }  // namespace clsurf::test

@@ -29,7 +29,9 @@ ClSurface raster() {
 }
 
 double area_of(const ClSurface& surface, const WayVertices& vertices, const Bands& bands) {
-    const auto at = [&](std::size_t k) -> Vec3 { return surface.positions[vertices.points[bands.triangles[k]]].cast<double>(); };
+    const auto at = [&](std::size_t k) -> Vec3 {
+        return surface.positions[vertices.points[bands.triangles[k]]].cast<double>();
+    };
     double area = 0;
     for (std::size_t k = 0; k < bands.triangles.size(); k += 3) {
         const Vec3 a = at(k);
@@ -46,7 +48,8 @@ TEST(Bands, FewVerticesFarApartLeaveNothingOpen) {
         for (const Pass& pass : surface.passes) {
             // Extremes of fields lie anywhere: steps of one point up to the longest, two of which often lie together.
             std::uniform_int_distribution<PointIndex> stride(1, static_cast<PointIndex>(longest / step));
-            for (PointIndex i = pass.first; i < pass.last; i += random() % 3 == 0 ? 1 : stride(random)) points.push_back(i);
+            for (PointIndex i = pass.first; i < pass.last; i += random() % 3 == 0 ? 1 : stride(random))
+                points.push_back(i);
             points.push_back(pass.last);
         }
         const WayVertices vertices = way_vertices(surface, points);

@@ -24,7 +24,8 @@ TEST(ColourMap, IsurfaceHasTheColoursOfThePaper) {
 TEST(ColourMap, EvenMapsRiseInLightness) {
     for (const char* name : {"viridis", "cividis", "gray"}) {
         const ColourMap map = make_colour_map(name);
-        for (int k = 1; k <= 100; ++k) EXPECT_GT(lightness(map.at(k / 100.0)) + 0.6, lightness(map.at((k - 1) / 100.0))) << name << k;
+        for (int k = 1; k <= 100; ++k)
+            EXPECT_GT(lightness(map.at(k / 100.0)) + 0.6, lightness(map.at((k - 1) / 100.0))) << name << k;
     }
 }
 
@@ -53,7 +54,8 @@ TEST(ColourScale, RampHasTheColourOfEachValueAtItsPlace) {
         for (double value = -3; value <= 7; value += 0.37) {
             const double texel = std::clamp(scale.along(value), 0.0, 1.0) * static_cast<double>(ramp.size());
             const Rgb at = ramp[std::min(ramp.size() - 1, static_cast<std::size_t>(texel))];
-            for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(at[k], scale.colour(value)[k], bins > 0 ? 0 : 2) << value << ' ' << bins;
+            for (std::size_t k = 0; k < 3; ++k)
+                EXPECT_NEAR(at[k], scale.colour(value)[k], bins > 0 ? 0 : 2) << value << ' ' << bins;
         }
     }
 }

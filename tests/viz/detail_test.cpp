@@ -47,7 +47,9 @@ public:
                 side[k] = (b.x() - a.x()) * (y - a.y()) - (b.y() - a.y()) * (x - a.x());
             }
             constexpr double play = 1e-6;
-            if ((side[0] >= -play && side[1] >= -play && side[2] >= -play) || (side[0] <= play && side[1] <= play && side[2] <= play)) return true;
+            if ((side[0] >= -play && side[1] >= -play && side[2] >= -play) ||
+                (side[0] <= play && side[1] <= play && side[2] <= play))
+                return true;
         }
         return false;
     }
@@ -76,12 +78,16 @@ TEST(Detail, LeavesNothingOpenWhereLoopsBegin) {
 TEST(Detail, DrawsAStepSidewaysNowhereElse) {
     ClSurface surface = surface_of(test::loops(10, 12, 0.4, 0.02), 0.4);
     std::vector<float> values(static_cast<std::size_t>(surface.positions.size()), 1.0F);
-    const auto in_jog = [&](PointIndex i) { return i > 0 && surface.positions[i].y() == 0 && surface.positions[i - 1].y() == 0; };
+    const auto in_jog = [&](PointIndex i) {
+        return i > 0 && surface.positions[i].y() == 0 && surface.positions[i - 1].y() == 0;
+    };
     for (PointIndex i = 0; i < surface.positions.size(); ++i) {
         if (!in_jog(i)) continue;
         values[static_cast<std::size_t>(i)] = 100;
-        if (in_jog(i - 1)) surface.jogs.back().last = i;
-        else surface.jogs.push_back({i, i});
+        if (in_jog(i - 1))
+            surface.jogs.back().last = i;
+        else
+            surface.jogs.push_back({i, i});
     }
     ASSERT_EQ(surface.jogs.size(), 11U);
     const Detail detail = detail_of(surface, values);
@@ -89,9 +95,7 @@ TEST(Detail, DrawsAStepSidewaysNowhereElse) {
     for (double x = 5.65; x < 9.95; x += 0.043) {
         for (double y = -0.6; y < 0.6; y += 0.037) {
             EXPECT_TRUE(covered(x, y)) << x << ' ' << y;
-            if (std::abs(y) > 0.04) {
-                EXPECT_FALSE(covered(x, y, 2)) << x << ' ' << y;
-            }
+            if (std::abs(y) > 0.04) { EXPECT_FALSE(covered(x, y, 2)) << x << ' ' << y; }
         }
     }
 }

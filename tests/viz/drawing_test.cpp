@@ -18,7 +18,8 @@ Sheet red_square() {
     MeshPanel panel;
     panel.rect = {0, 0, 80, 60};
     panel.camera = camera_for(parse_view("top"), Box3(Vec3(0, 0, 0), Vec3(10, 10, 0)), 80, 60, {});
-    for (const float v : {0.F, 0.F, 0.F, 10.F, 0.F, 0.F, 10.F, 10.F, 0.F, 0.F, 10.F, 0.F}) panel.geometry.xyz.push_back(v);
+    for (const float v : {0.F, 0.F, 0.F, 10.F, 0.F, 0.F, 10.F, 10.F, 0.F, 0.F, 10.F, 0.F})
+        panel.geometry.xyz.push_back(v);
     for (int k = 0; k < 4; ++k) {
         for (const std::uint8_t c : {200, 30, 40}) panel.geometry.rgb.push_back(c);
     }
