@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <string_view>
 #include <vector>
 
@@ -194,7 +193,7 @@ std::string kinematics_text(const Kinematics& kinematics) {
     text += fmt::format("tool_centre_point = \"{}\"  # program: as its words say\n",
                         kinematics.always_tool_centre_point ? "always" : "program");
     text += fmt::format("interpolation = \"{}\"       # of the tool axis\n", name_of(kinematics.interpolation));
-    text += fmt::format("axis_tolerance = {}\n", std::round(kinematics.axis_tolerance * deg_per_rad * 1e9) / 1e9);
+    text += fmt::format("axis_tolerance = {}\n", settled_number(kinematics.axis_tolerance * deg_per_rad));
     text += fmt::format("\n[kinematics.directions]\n{} = {}\n{} = {}\n", t.letter, vector(t.direction), r.letter,
                         vector(r.direction));
     text += "\n[kinematics.offsets]\n";

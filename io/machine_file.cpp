@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <sstream>
 #include <string>
@@ -142,9 +141,7 @@ void read_axis(const TomlFile& file, const toml::table& table, std::vector<std::
 }
 
 std::string axis_text(std::string_view name, const MachineAxis& a, double factor) {
-    const auto whole = [&](double value) {
-        return std::round(value / factor * 1e9) / 1e9 + 0.0;
-    };  // no −0: TOML has none for whole numbers
+    const auto whole = [&](double value) { return settled_number(value / factor); };
     std::string text =
         fmt::format("\n[[axis]]\nname = \"{}\"\ntravel = [{}, {}]\n", name, whole(a.travel_low), whole(a.travel_high));
     text += fmt::format("max_speed = {}\nmax_acceleration = {}\n", whole(a.max_speed * seconds_per_minute),
@@ -203,8 +200,9 @@ std::string machine_text(const Machine& machine) {
         fmt::format("tolerance = {}              # of corners and path; G64 P in a program replaces it\n", c.tolerance);
     text += fmt::format("chord_tolerance = {}       # of the steps of a period against arcs\n", c.chord_tolerance);
     text += fmt::format("block_time = {}                # s, a block takes no less; 0: not limited\n", c.block_time);
-    text += fmt::format("feed_override = {}           # %, of programmed feeds\n\n[path]\n", c.feed_override * 100);
-    text += fmt::format("max_speed = {}\n", p.max_speed * seconds_per_minute);
+    text += fmt::format("feed_override = {}           # %, of programmed feeds\n\n[path]\n",
+                        settled_number(c.feed_override * 100));
+    text += fmt::format("max_speed = {}\n", settled_number(p.max_speed * seconds_per_minute));
     text += fmt::format("max_acceleration = {}        # tangential\n", p.max_acceleration);
     text += fmt::format("max_normal_acceleration = {}\n", p.max_normal_acceleration);
     text += fmt::format("max_jerk = {}               # tangential\n", p.max_jerk);

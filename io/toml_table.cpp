@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <cstdlib>
 
 #include "core/error.h"
 #include "core/spelling.h"
@@ -75,6 +76,12 @@ const toml::array* TomlFile::tables(const toml::table& table, std::string_view k
     if (node == nullptr) return nullptr;
     if (!node->is_array_of_tables()) fail(*node, fmt::format("'{}' must be written as [[{}]]", key, key));
     return node->as_array();
+}
+
+double settled_number(double value) {
+    const std::string digits = fmt::format("{:.11e}", value);
+    std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    return value + 0.0;
 }
 
 }  // namespace clsurf::io

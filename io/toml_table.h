@@ -43,4 +43,8 @@ private:
     toml::table root_;
 };
 
+/// A number of twelve digits, so that what is scaled when it is read and when it is written stays the same; no −0, which
+/// TOML does not have for whole numbers.
+[[nodiscard]] double settled_number(double value);
+
 }  // namespace clsurf::io
