@@ -1,10 +1,10 @@
 #include "io/toml_table.h"
 
+#include <charconv>
 #include <cmath>
 #include <vector>
 
 #include <fmt/format.h>
-#include <cstdlib>
 
 #include "core/error.h"
 #include "core/spelling.h"
