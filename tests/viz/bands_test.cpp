@@ -6,8 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "path/way.h"
-#include "support/made_path.h"
+#include "support/stitched_path.h"
 
 namespace clsurf::viz {
 namespace {
@@ -16,17 +15,6 @@ constexpr int passes = 40;
 constexpr double length = 60;
 constexpr double apart = 0.1;
 constexpr double step = 0.02;
-
-ClSurface raster() {
-    ClSurface surface;
-    Positions positions = test::zigzag(passes, length, apart, step);
-    const Way way(positions);
-    surface.passes = find_passes(positions, way, test::one_run(positions), apart);
-    surface.neighbours = find_neighbours(positions, surface.passes, way, apart);
-    surface.positions = std::move(positions);
-    surface.step_over = apart;
-    return surface;
-}
 
 double area_of(const ClSurface& surface, const WayVertices& vertices, const Bands& bands) {
     const auto at = [&](std::size_t k) -> Vec3 {
@@ -41,7 +29,7 @@ double area_of(const ClSurface& surface, const WayVertices& vertices, const Band
 }
 
 TEST(Bands, FewVerticesFarApartLeaveNothingOpen) {
-    const ClSurface surface = raster();
+    const ClSurface surface = test::surface_of(test::zigzag(passes, length, apart, step), apart);
     std::mt19937 random(3);
     for (const double longest : {0.1, 0.6, 1.2, 2.4}) {  // mm between vertices, up to 24 step-overs
         std::vector<PointIndex> points;

@@ -6,23 +6,14 @@
 
 #include <gtest/gtest.h>
 
-#include "path/way.h"
-#include "support/made_path.h"
+#include "support/stitched_path.h"
 
 namespace clsurf::viz {
 namespace {
 
-constexpr double pixels_per_mm = 20;
+using test::surface_of;
 
-ClSurface surface_of(Positions positions, double step_over) {
-    ClSurface surface;
-    const Way way(positions);
-    surface.passes = find_passes(positions, way, test::one_run(positions), step_over);
-    surface.neighbours = find_neighbours(positions, surface.passes, way, step_over);
-    surface.positions = std::move(positions);
-    surface.step_over = step_over;
-    return surface;
-}
+constexpr double pixels_per_mm = 20;
 
 /// Seen from above, 0,0 in the middle; `values` empty: 1 everywhere.
 Detail detail_of(const ClSurface& surface, std::vector<float> values = {}) {

@@ -1,0 +1,22 @@
+#pragma once
+// Surfaces of made paths (support/made_path.h).
+
+#include <utility>
+
+#include "path/way.h"
+#include "support/made_path.h"
+#include "surface/cl_surface.h"
+
+namespace clsurf::test {
+
+inline ClSurface surface_of(Positions positions, double step_over) {
+    ClSurface surface;
+    const Way way(positions);
+    surface.passes = find_passes(positions, way, one_run(positions), step_over);
+    surface.neighbours = find_neighbours(positions, surface.passes, way, step_over);
+    surface.positions = std::move(positions);
+    surface.step_over = step_over;
+    return surface;
+}
+
+}  // namespace clsurf::test
