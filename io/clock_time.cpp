@@ -78,10 +78,10 @@ bool offset(Scanner& scan, double& seconds) {
 
 std::optional<ClockTime> parse_clock(std::string_view field) {
     ClockTime time;
-    if (field.find(':') == std::string_view::npos) return std::nullopt;
+    const std::size_t colon = field.find(':');
+    if (colon == std::string_view::npos) return std::nullopt;
     Scanner scan(field);
-    if (const std::size_t colon = field.find(':');
-        field.substr(0, colon).find_first_of("-/.") != std::string_view::npos) {
+    if (field.substr(0, colon).find_first_of("-/.") != std::string_view::npos) {
         time.day = date(scan);
         if (!time.day || !scan.any_of("Tt ")) return std::nullopt;
     }

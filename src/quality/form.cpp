@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
+#include "core/grouping.h"
 #include "core/parallel.h"
 #include "quality/local_quadratic.h"
 #include "quality/standing_contacts.h"
@@ -83,7 +85,6 @@ Form::Form(const FormedSurface& formed, const Box2& region) {
     samples.level = formed.level();
     samples.columns = columns_;
     samples.rows = rows_;
-    samples.start.assign(static_cast<std::size_t>(columns_ * rows_) + 1, 0);
     // Points beside the grid belong to its outermost squares.
     const auto square = [&](const Vec3& p) {
         const auto c = std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor((p.x() - corner_.x()) / pitch_)),
@@ -92,11 +93,11 @@ Form::Form(const FormedSurface& formed, const Box2& region) {
                                                 0, rows_ - 1);
         return static_cast<std::size_t>(r * columns_ + c);
     };
-    for (const Vec3& p : found) ++samples.start[square(p) + 1];
-    for (std::size_t k = 1; k < samples.start.size(); ++k) samples.start[k] += samples.start[k - 1];
-    samples.points.resize(found.size());
-    std::vector<std::size_t> next(samples.start.begin(), samples.start.end() - 1);
-    for (const Vec3& p : found) samples.points[next[square(p)]++] = p;
+    Grouping by_square = group_numbers(found.size(), static_cast<std::size_t>(columns_ * rows_),
+                                       [&](std::size_t k) { return square(found[k]); });
+    samples.start = std::move(by_square.start);
+    samples.points.reserve(found.size());
+    for (const std::uint32_t k : by_square.order) samples.points.push_back(found[k]);
     found = {};
     parallel_for(columns_ * rows_, 64, [&](std::int64_t first, std::int64_t last) {
         LocalQuadratic quadratic;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "core/grouping.h"
 #include "core/parallel.h"
 #include "quality/contact.h"
 
@@ -27,26 +28,20 @@ public:
         rows_ = row_of(all.max().y()) + 1;
         const auto squares = static_cast<std::size_t>(columns_ * rows_);
         lowest_.assign(squares, Vec3(0, 0, std::numeric_limits<double>::infinity()));
-        start_.assign(squares + 1, 0);
-        std::vector<std::uint32_t> places;  // of those inside the region
-        for (std::size_t k = 0; k < found.size(); ++k) {
-            Vec3& lowest = lowest_[square_of(found[k].tip)];
-            if (found[k].tip.z() < lowest.z()) lowest = found[k].tip;
-            if (!region.contains(found[k].at.head<2>())) continue;
-            places.push_back(static_cast<std::uint32_t>(k));
-            ++start_[square_of(found[k].at) + 1];
+        for (const ContactPoint& contact : found) {
+            Vec3& lowest = lowest_[square_of(contact.tip)];
+            if (contact.tip.z() < lowest.z()) lowest = contact.tip;
         }
-        for (std::size_t s = 1; s < start_.size(); ++s) start_[s] += start_[s - 1];
-        inside_.resize(places.size());
-        std::vector<std::size_t> next(start_.begin(), start_.end() - 1);
-        for (const std::uint32_t k : places) inside_[next[square_of(found[k].at)]++] = k;
+        // Those beside the region are a group behind the last square.
+        places_ = group_numbers(found.size(), squares + 1, [&](std::size_t k) {
+            return region.contains(found[k].at.head<2>()) ? square_of(found[k].at) : squares;
+        });
     }
 
     [[nodiscard]] std::int64_t squares() const { return columns_ * rows_; }
     /// Numbers of the contact points in a square, inside the region.
     [[nodiscard]] std::span<const std::uint32_t> places(std::int64_t square) const {
-        const auto s = static_cast<std::size_t>(square);
-        return std::span(inside_).subspan(start_[s], start_[s + 1] - start_[s]);
+        return places_.of(static_cast<std::size_t>(square));
     }
 
     /// f(tip) for the lowest tips of the squares within the tool's radius of a box.
@@ -75,8 +70,7 @@ private:
     Vec2 corner_ = Vec2::Zero();
     std::int64_t columns_ = 0, rows_ = 0;
     std::vector<Vec3> lowest_;  ///< of each square; z infinite: no tip
-    std::vector<std::size_t> start_;
-    std::vector<std::uint32_t> inside_;
+    Grouping places_;           ///< by square
 };
 
 /// Where some places, all near each other, lie.
