@@ -35,6 +35,11 @@ bool take_units(const std::vector<std::string>& units, std::vector<ColumnPlan>& 
     return true;
 }
 
+struct Comment {
+    std::string_view text;
+    std::uint64_t line = 0;
+};
+
 /// Where a reader of lines stands.
 struct Reader {
     std::string_view rest;
@@ -45,13 +50,13 @@ struct Reader {
         return first_line(rest);
     }
     /// Takes the comments in front; the last that says something.
-    std::string_view take_comments() {
-        std::string_view last;
+    Comment take_comments() {
+        Comment last;
         while (!rest.empty()) {
             Reader ahead = *this;
             const std::string_view line = ahead.take();
             if (!is_comment(line)) break;
-            if (!said_by(line).empty()) last = line;
+            if (!said_by(line).empty()) last = {line, number};
             *this = ahead;
         }
         return last;
@@ -63,7 +68,7 @@ struct Reader {
 TextHead read_head(std::string_view text, char separator) {
     Reader reader{text};
     if (reader.rest.starts_with("\xef\xbb\xbf")) reader.rest.remove_prefix(3);
-    const std::string_view comment = reader.take_comments();
+    const Comment comment = reader.take_comments();
     TextHead head;
     head.line = reader.number;
     Reader below = reader;
@@ -91,10 +96,10 @@ TextHead read_head(std::string_view text, char separator) {
     take_record();
     head.columns.resize(fields.size());
     head.titles.resize(fields.size());
-    const std::vector<std::string> said = split(said_by(comment), head.separator);
+    const std::vector<std::string> said = split(said_by(comment.text), head.separator);
     if (said.size() == fields.size() && !has_value(said) && has_word(said)) {
         name_columns(said, head);
-        --head.line;
+        head.line = comment.line;
     }
     return head;
 }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "io/text_head.h"
 #include "support/temporary_folder.h"
 
 namespace clsurf::io {
@@ -92,6 +93,10 @@ TEST(Delimited, TakesNamesFromTheCommentAboveTheRecords) {
     EXPECT_EQ(log.records, 2);
     EXPECT_TRUE(log.diagnostics.kept().empty());
     EXPECT_THROW((void)open(folder, "# machine 7, shift 2, run 3\n0,1,2\n0.001,1,2\n"), InputError);
+    // Errors about columns name the line that names them, whatever stands between it and the records.
+    const TextHead head = read_head("# measured\n# time cmd.x\n#\n\n0 1\n");
+    EXPECT_EQ(head.line, 2U);
+    EXPECT_EQ(head.first_data_line, 5U);
 }
 
 TEST(Delimited, ReadsTimesOfDay) {

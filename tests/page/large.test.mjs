@@ -1,4 +1,4 @@
-// A million points: all of them where they fit, and what is kept where they do not.
+// Many points: all of them where they fit, and what is kept where they do not.
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
@@ -8,11 +8,11 @@ import { after, before, test } from 'node:test';
 
 import { chosenLine, closeReport, folder, goTo, numbers, openReport, run, startBrowser, writeReport } from './browser.mjs';
 
-const part = { program: path.join(folder, 'million.nc'), log: path.join(folder, 'million.biip') };
+const part = { program: path.join(folder, 'many.nc'), log: path.join(folder, 'many.biip') };
 
 let browser;
 before(async () => {
-    execFileSync(process.env.MAKE_SAMPLE, ['zigzag', '1000000', part.program, part.log]);
+    execFileSync(process.env.MAKE_SAMPLE, ['zigzag', '300000', part.program, part.log]);
     browser = await startBrowser();
 });
 after(async () => {
@@ -22,29 +22,29 @@ after(async () => {
 
 const query = (...words) => JSON.parse(run('query', part.program, part.log, '--json', '-q', ...words)).matches;
 
-test('a million points are all there', async () => {
+test('three hundred thousand points are all there', async () => {
     const file = writeReport('whole.html', part);
-    assert.ok(fs.statSync(file).size < 30e6);
+    assert.ok(fs.statSync(file).size < 6e6);
     const page = await openReport(browser, file);
-    assert.match(await page.locator('#contents').innerText(), /all 1\u202f000\u202f000 points are in this page/);
-    await goTo(page, 'point', 765_432);
-    const [match] = query('--point', '765432');
-    assert.equal(Number((await numbers(page)).Point), 765_432);
+    assert.match(await page.locator('#contents').innerText(), /all 300\u202f000 points are in this page/);
+    await goTo(page, 'point', 265_432);
+    const [match] = query('--point', '265432');
+    assert.equal(Number((await numbers(page)).Point), 265_432);
     assert.equal(await chosenLine(page), match.line);
     await closeReport(page);
     fs.rmSync(file);
 });
 
 test('a small page keeps what it says it keeps, and says what it leaves out', async () => {
-    const file = writeReport('small.html', part, '--max-size', '8.5');
-    assert.ok(fs.statSync(file).size <= 8.5e6, `${fs.statSync(file).size} bytes`);
+    const file = writeReport('small.html', part, '--max-size', '3.6');
+    assert.ok(fs.statSync(file).size <= 3.6e6, `${fs.statSync(file).size} bytes`);
     const page = await openReport(browser, file);
-    assert.match(await page.locator('#contents').innerText(), /of 1\u202f000\u202f000 points are in this page. Of each [\d\u202f]+ consecutive points/);
+    assert.match(await page.locator('#contents').innerText(), /of 300\u202f000 points are in this page. Of each [\d\u202f]+ consecutive points/);
     // The first point of a line is there, where the page says that all are.
     const starts = /first point of each line/.test(await page.locator('#contents').innerText());
     if (starts) {
-        await goTo(page, 'line', 40_000);
-        assert.equal(Number((await numbers(page)).Point), query('--line', '40000')[0].point);
+        await goTo(page, 'line', 12_000);
+        assert.equal(Number((await numbers(page)).Point), query('--line', '12000')[0].point);
     }
     // The place where a defect is strongest is there.
     const { defects } = JSON.parse(run('check', part.program, part.log, '--json', '-q'));
