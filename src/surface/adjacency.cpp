@@ -32,6 +32,7 @@ struct Follower {
     PointIndex point = -1;  ///< −1: lost
     PointRange pass;        ///< it stays inside
     float since = 1e30F;    ///< own way since it was lost or sought [step-overs]
+    int direction = 1;      ///< along its pass in which it was followed last
 };
 
 /// The plane across the feed at a point. Nothing is normalised: roots would cost more than the walk.
@@ -104,7 +105,7 @@ private:
         for (const Side side : {Side::left, Side::right}) {
             Follower& f = followers[static_cast<std::size_t>(side)];
             if (f.point >= 0) {
-                f.point = cross(across, f.point, f.pass);
+                f.point = cross(across, f.point, f.pass, f.direction);
                 if (!valid(across, f.point, side) || !elsewhere(i, f.point)) {
                     f.point = -1;
                     f.since = search_again;  // seek at once
@@ -121,17 +122,18 @@ private:
         }
     }
 
-    /// Walks from `n` to the point of its pass that is nearest to the plane across the feed.
-    [[nodiscard]] PointIndex cross(const Across& across, PointIndex n, const PointRange& pass) const {
-        const auto along = [&](PointIndex k) { return (p_[k] - across.here).dot(across.chord); };
-        float at = along(n);
+    /// Walks from `n` to the point of its pass that is nearest to the plane across the feed, first in the
+    /// direction in which it went before.
+    [[nodiscard]] PointIndex cross(const Across& across, PointIndex n, const PointRange& pass, int& direction) const {
+        const auto distance = [&](PointIndex k) { return std::abs((p_[k] - across.here).dot(across.chord)); };
+        const float begin = distance(n);
         // Whichever way brings it nearer to the plane; a pass that runs away ends the walk.
-        for (const int direction : {+1, -1}) {
+        for (int attempt = 0; attempt < 2; ++attempt) {
             PointIndex k = n;
-            float best = std::abs(at);
+            float best = begin;
             PointIndex standing = 0;
             while (k + direction >= pass.first && k + direction <= pass.last) {
-                const float next = std::abs(along(k + direction));
+                const float next = distance(k + direction);
                 if (next > best) break;
                 // Where the neighbour stood still the points do not come nearer: go on, within reason.
                 standing = next == best ? standing + 1 : 0;
@@ -139,11 +141,8 @@ private:
                 k += direction;
                 best = next;
             }
-            if (best < std::abs(at)) {
-                n = k;
-                at = along(n);
-                break;
-            }
+            if (best < begin) return k;
+            direction = -direction;
         }
         return n;
     }
@@ -190,7 +189,8 @@ private:
         grid_.for_each_near(across.here, [&](const WayGrid::Entry& entry) {
             const PointRange pass{passes_[static_cast<std::size_t>(entry.pass)].first,
                                   passes_[static_cast<std::size_t>(entry.pass)].last};
-            const PointIndex n = cross(across, entry.point, pass);
+            int direction = 1;
+            const PointIndex n = cross(across, entry.point, pass, direction);
             const Side side = across.side_of(p_[n]);
             const auto s = static_cast<std::size_t>(side);
             const float distance = (p_[n] - across.here).norm();
@@ -198,7 +198,7 @@ private:
             if (!valid(across, n, side) || !parallel(across, n, pass)) return;
             if (!elsewhere(i, n)) return;
             best[s] = distance;
-            found[s] = {n, pass, 0};
+            found[s] = {n, pass, 0, direction};
         });
         for (std::size_t s = 0; s < 2; ++s) {
             if (found[s].point >= 0) followers[s] = found[s];
