@@ -84,6 +84,8 @@ ExitCode run(const po::variables_map& values) {
     if (!(rules.tolerance > 0) || !std::isfinite(rules.tolerance)) throw UsageError("--tolerance must be above 0 mm");
     if (values.count("decimals") > 0) rules.least_decimals = values["decimals"].as<int>();
     if (rules.least_decimals < 0 || rules.least_decimals > 9) throw UsageError("--decimals must be 0 to 9");
+    if (values.count("more-time") > 0) rules.more_time = values["more-time"].as<double>() / 100;
+    if (!(rules.more_time >= 0) || rules.more_time > 1) throw UsageError("--more-time must be 0 to 100 %");
     rules.start = read_start(values);
     rules.header = fmt::format("clsurf {} optimize, tolerance {} mm", version, rules.tolerance);
     const Machine machine =
@@ -129,7 +131,7 @@ Subcommand optimize_subcommand() {
         .description =
             "Runs the program on the machine, puts the points of its finishing passes in step with those of the passes beside\n"
             "them, on the smoothest curve that is never farther from the programmed path than the tolerance, and\n"
-            "runs it again. Written is only what is better: speeds of neighbour passes differ less, no more defects, not longer, inside\n"
+            "runs it again. Written is only what is better: speeds of neighbour passes differ less, no more defects, not longer (or by --more-time at most), inside\n"
             "the tolerance. Otherwise exit code 1, with the reason. Lines with anything but line number, G1, X, Y, Z stay byte for byte.\n\n"
             "  clsurf optimize part.nc --machine mill.toml --tolerance 0.005 -o better.nc --picture better.png",
         .declare =
@@ -139,6 +141,7 @@ Subcommand optimize_subcommand() {
                     ("output,o", po::value<std::string>()->value_name("FILE"), "the new program")
                     ("picture", po::value<std::string>()->value_name("FILE"), "speeds before and after on one scale (PNG), also where the new program is refused")
                     ("tolerance", po::value<double>()->value_name("MM"), "how far the new path may leave the programmed one (default: 0.005)")
+                    ("more-time", po::value<double>()->value_name("PERCENT"), "how much longer the new program may take, for fewer defects (default: 0)")
                     ("decimals", po::value<int>()->value_name("N"), "new coordinates have at least so many, if the controller reads them (default: as many as the program's)");
                 // clang-format on
                 options.add_options()(

@@ -43,12 +43,12 @@ void FeedSearch::level(const Tried& from) {
         if (!prover_.has_time()) return;
         const Tried levelled =
             prover_.propose(from->draft, lowered_targets(*from, levelled_speeds(from->run, {step, 0})));
-        if (levelled->run.duration > prover_.before().duration) return;  // lower feeds take longer still
+        if (levelled->run.duration > prover_.longest()) return;  // lower feeds take longer still
     }
 }
 
 void FeedSearch::level_in_time(const Tried& from) {
-    const double there = prover_.before().duration - from->run.duration;
+    const double there = prover_.longest() - from->run.duration;
     double budget = most_share * there;
     for (int round = 0; round < levelling_rounds && budget > 0 && prover_.has_time(); ++round) {
         const std::vector<float> targets =
@@ -69,7 +69,7 @@ void FeedSearch::cure(Curing& curing, int rounds) {
     rules.lag_power = lag_power_;
     for (int round = 0; round < rounds && prover_.has_time(); ++round) {
         const Tried from = curing.from;
-        rules.budget = curing.share * (before.duration - from->run.duration);
+        rules.budget = curing.share * (prover_.longest() - from->run.duration);
         if (rules.budget <= 0) return;
         rules.hopeless = curing.hopeless;
         const CuringSpeeds cure = curing_speeds(from->run, rules);
@@ -82,7 +82,7 @@ void FeedSearch::cure(Curing& curing, int rounds) {
         const Tried cured = prover_.propose(from->draft, targets);
         const Tried kept = prover_.has_time() ? without_losses(*from, cure, *cured, curing.hopeless) : nullptr;
         for (const Tried& tried : {cured, kept}) {
-            if (tried && tried->run.duration <= before.duration && prover_.score(*tried) < prover_.score(*curing.from))
+            if (tried && tried->run.duration <= prover_.longest() && prover_.score(*tried) < prover_.score(*curing.from))
                 curing.from = tried;
         }
         curing.share = curing.from == from ? curing.share / 2 : std::min(2 * curing.share, most_share);

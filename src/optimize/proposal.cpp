@@ -87,8 +87,8 @@ std::string Prover::objection(const Proposal& p) const {
                            p.run.mismatch * seconds_per_minute, before_.mismatch * seconds_per_minute);
     if (p.proof.defects_after > p.proof.defects_before)
         return fmt::format("there would be {} defects instead of {}", p.proof.defects_after, p.proof.defects_before);
-    if (p.run.duration > before_.duration)
-        return fmt::format("it would take {:.3f} instead of {:.3f} s", p.run.duration, before_.duration);
+    if (p.run.duration > longest())
+        return fmt::format("it would take {:.3f} instead of {:.3f} s", p.run.duration, longest());
     return {};
 }
 
@@ -97,8 +97,9 @@ double Prover::score(const Proposal& p) const {
     const double mismatch = p.run.mismatch / before_.mismatch,
                  defects = static_cast<double>(p.proof.defects_after) /
                            std::max<double>(1, static_cast<double>(p.proof.defects_before));
+    const double later = std::clamp(p.run.duration / before_.duration - 1, 0.0, rules_.more_time);
     return growth_weight * growth + std::max(mismatch, goal_of_mismatch) +
-           beyond_goal * std::min(mismatch, goal_of_mismatch) + defects;
+           beyond_goal * std::min(mismatch, goal_of_mismatch) + defects + later;
 }
 
 bool Prover::better(const Proposal& a, const Proposal& b) const {

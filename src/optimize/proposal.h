@@ -13,6 +13,7 @@ namespace clsurf {
 
 struct OptimizeRules {
     double tolerance = 0.005;   ///< [mm] from the programmed path
+    double more_time = 0;       ///< a share: how much longer the new program may take
     int least_decimals = 0;     ///< of new coordinates; 0: as many as the program has
     Vec3 start = Vec3::Zero();  ///< [mm] where the axes stand before the program
     QualityRules quality;
@@ -52,6 +53,8 @@ public:
     [[nodiscard]] const JudgedRun& before() const { return before_; }
     [[nodiscard]] JudgedRun take_before() { return std::move(before_); }
     [[nodiscard]] const SimulationSummary& summary_before() const { return summary_before_; }
+    /// How long a proposal may take [s].
+    [[nodiscard]] double longest() const { return before_.duration * (1 + rules_.more_time); }
     /// Whether there is time for one more: all runs together have a bound, of which a share may be used, and so have those in a row that
     /// are no better than the best.
     [[nodiscard]] bool has_time(double share = 1) const;
@@ -63,7 +66,8 @@ public:
     /// Accepted ones are better than others; then what leaves less mismatch and defects, and of two that are nearly as good the shorter.
     [[nodiscard]] bool better(const Proposal& a, const Proposal& b) const;
 
-    /// The less, the better: what is left of mismatch and defects, as shares, and the growth.
+    /// The less, the better: what is left of mismatch and defects, as shares, the growth, and the time beyond that before where
+    /// more is allowed.
     [[nodiscard]] double score(const Proposal& proposal) const;
 
 private:

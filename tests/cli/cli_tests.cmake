@@ -411,6 +411,7 @@ clsurf_cli_test(NAME optimize_accepts_what_is_better SETUP "${crowded}" ARGS opt
 clsurf_cli_test(NAME optimize_starts_from_a_log SETUP "${crowded}; $CLSURF simulate part.nc --machine @DATA@/machines/linuxcnc_logs.toml -o run.biip" ARGS optimize part.nc --log run.biip --machine @DATA@/machines/linuxcnc_logs.toml --json -o better.nc
   STDOUT "\"accepted\": true" "\"proof\": \"simulation\"" "\"motions_in_need\": [1-9]" FILE better.nc)
 clsurf_cli_test(NAME optimize_log_options_without_a_log ARGS optimize ${uneven} --period 0.001 -o better.nc EXIT 2 STDERR "--period is of a log" NO_FILE better.nc)
+clsurf_cli_test(NAME optimize_wrong_time ARGS optimize ${uneven} --more-time -3 -o better.nc EXIT 2 STDERR "--more-time must be 0 to 100 %" NO_FILE better.nc)
 clsurf_cli_test(NAME optimize_wrong_decimals ARGS optimize ${uneven} --decimals 12 -o better.nc EXIT 2 STDERR "--decimals must be 0 to 9" NO_FILE better.nc)
 clsurf_cli_test(NAME optimize_refuses_what_is_not SETUP "printf 'G21 G90\nG0 X0 Y0 Z0\nG1 X10 F600 (A)\nY0.3 (B)\nX0 (C)\nY0.6 (D)\nX10 (E)\nY0.9 (F)\nX0 (G)\nM2\n' > a.nc"
   ARGS optimize a.nc -o better.nc EXIT 1 STDOUT "refused: no stretch" NO_FILE better.nc)

@@ -214,6 +214,26 @@ TEST(Optimizer, IsBetterInEveryRespectOrRefuses) {
     EXPECT_EQ(next, kept.size()) << kept[std::min(next, kept.size() - 1)];
 }
 
+TEST(Optimizer, SlowsNeighboursDownOnlyInTheTimeThatIsAllowed) {
+    // One pass is slower than those beside it. Feeds are only ever lowered: there is no cure that takes no time.
+    std::string text = wavy_zigzag(7, 10, [](int, double) { return 0.3; }, 0);
+    for (const auto& [begin, feed] : {std::pair{"Y1.2000", " F2700"}, std::pair{"Y1.6000", " F3000"}})
+        text.insert(text.find('\n', text.find(begin)), feed);
+    const Program program = read_text(text);
+    Diagnostics diagnostics;
+    OptimizeRules rules;
+    const Optimized refused = optimize(program, read_text, brisk(), rules, {}, {}, diagnostics);
+    EXPECT_GT(refused.before.report.defects.size(), 0U);
+    EXPECT_FALSE(refused.proof.accepted && refused.proof.defects_after < refused.proof.defects_before);
+    rules.more_time = 0.1;
+    const Optimized taken = optimize(program, read_text, brisk(), rules, {}, {}, diagnostics);
+    EXPECT_TRUE(taken.proof.accepted) << taken.proof.reason;
+    EXPECT_EQ(taken.proof.defects_after, 0U);
+    EXPECT_LT(taken.after.mismatch, 0.5 * taken.before.mismatch);
+    EXPECT_GT(taken.after.duration, taken.before.duration);
+    EXPECT_LE(taken.after.duration, 1.1 * taken.before.duration);
+}
+
 TEST(Optimizer, RefusesWhereNothingCanBeRewritten) {
     std::string text = wavy_zigzag(5, 6, [](int, double) { return 0.3; });
     std::string commented;
