@@ -142,8 +142,21 @@ private:
             feeds.cure(other, more_rounds);
             feeds.level(each.points);
         }
-        Curing last{prover_.best(), large_share};
-        if (last.from->proof.accepted) feeds.cure(last, more_rounds);
+        cure_best(feeds);
+        if (rules_.more_time <= 0) return;
+        // After all that costs nothing: what the user gives is added to that, and never makes it worse.
+        prover_.allow_more_time();
+        cure_best(feeds);
+        for (const Fed& each : fed) {
+            feeds.level_in_time(each.points);
+            Curing other{each.points, large_share};
+            feeds.cure(other, more_rounds);
+        }
+    }
+
+    void cure_best(FeedSearch& feeds) const {
+        Curing best{prover_.best(), large_share};
+        if (best.from->proof.accepted) feeds.cure(best, more_rounds);
     }
 
     /// A draft alone; nullptr: it changes nothing.

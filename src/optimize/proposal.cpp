@@ -31,6 +31,15 @@ Prover::Prover(const Program& program, const ReadProgram& read, const Machine& m
 
 bool Prover::has_time(double share) const { return points_ < share * most_points && in_vain_ < most_in_vain; }
 
+void Prover::allow_more_time() {
+    more_time_ = rules_.more_time;
+    points_ = std::min(points_, 0.5 * most_points);
+    in_vain_ = 0;
+    if (!best_) return;
+    best_->proof.reason = objection(*best_);
+    best_->proof.accepted = best_->proof.reason.empty();
+}
+
 Tried Prover::propose(const std::shared_ptr<const Draft>& draft, std::vector<float> targets) {
     const auto tried = std::make_shared<Proposal>(prove(draft, std::move(targets)));
     ++in_vain_;
@@ -97,7 +106,7 @@ double Prover::score(const Proposal& p) const {
     const double mismatch = p.run.mismatch / before_.mismatch,
                  defects = static_cast<double>(p.proof.defects_after) /
                            std::max<double>(1, static_cast<double>(p.proof.defects_before));
-    const double later = std::clamp(p.run.duration / before_.duration - 1, 0.0, rules_.more_time);
+    const double later = std::clamp(p.run.duration / before_.duration - 1, 0.0, more_time_);
     return growth_weight * growth + std::max(mismatch, goal_of_mismatch) +
            beyond_goal * std::min(mismatch, goal_of_mismatch) + defects + later;
 }

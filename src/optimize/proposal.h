@@ -53,8 +53,10 @@ public:
     [[nodiscard]] const JudgedRun& before() const { return before_; }
     [[nodiscard]] JudgedRun take_before() { return std::move(before_); }
     [[nodiscard]] const SimulationSummary& summary_before() const { return summary_before_; }
-    /// How long a proposal may take [s].
-    [[nodiscard]] double longest() const { return before_.duration * (1 + rules_.more_time); }
+    /// How long a proposal may take [s]: not longer than the program did, until more is allowed.
+    [[nodiscard]] double longest() const { return before_.duration * (1 + more_time_); }
+    /// From now on what the rules allow. As much of the search is left, at least, as with half of it done.
+    void allow_more_time();
     /// Whether there is time for one more: all runs together have a bound, of which a share may be used, and so have those in a row that
     /// are no better than the best.
     [[nodiscard]] bool has_time(double share = 1) const;
@@ -82,8 +84,9 @@ private:
     JudgedRun before_;
     SimulationSummary summary_before_;
     Tried best_;
-    double points_ = 0;  ///< simulated so far
-    int in_vain_ = 0;    ///< proposals since the best one
+    double more_time_ = 0;  ///< a share
+    double points_ = 0;     ///< simulated so far
+    int in_vain_ = 0;       ///< proposals since the best one
 };
 
 }  // namespace clsurf
