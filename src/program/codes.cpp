@@ -216,9 +216,9 @@ void Interpreter::apply_common(int code, Block& block, std::size_t column) {
         case 910: state_.incremental = true; return;
         case 901: state_.centre_absolute = true; return;
         case 911: state_.centre_absolute = false; return;
-        case 930: state_.feed_mode = FeedMode::inverse_time; return;
-        case 940: state_.feed_mode = FeedMode::per_minute; return;
-        case 950: state_.feed_mode = FeedMode::per_revolution; return;
+        case 930: select_feed_mode(FeedMode::inverse_time); return;
+        case 940: select_feed_mode(FeedMode::per_minute); return;
+        case 950: select_feed_mode(FeedMode::per_revolution); return;
         case 980: state_.retract_to_r = false; return;
         case 990: state_.retract_to_r = true; return;
         case 410:

@@ -196,6 +196,7 @@ private:
     void restore_modes(const ModalState& kept);
     void keep_reference(int code);  ///< G28.1, G30.1
     void select_work_system(int number);
+    void select_feed_mode(FeedMode mode);
     void change_tool(const Block& block);  ///< T, M6, M61
     void part_from_machine(const Vec3& by);
     void read_machine_position(const Block& block);

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "program/feed_per_minute.h"
 #include "program/interpreter_state.h"
 
 namespace clsurf {
@@ -138,6 +139,15 @@ void Interpreter::move(const Block& block) {
             if (axes) cycle(block);
             return;
     }
+}
+
+void Interpreter::select_feed_mode(FeedMode mode) {
+    if (mode == state_.feed_mode) return;
+    state_.feed_mode = mode;
+    const bool per_minute = mode == FeedMode::per_minute;
+    event(std::string(feed_mode_event), per_minute                       ? std::string(feed_per_minute)
+                                        : mode == FeedMode::inverse_time ? "G93"
+                                                                         : "G95");
 }
 
 float Interpreter::feed_for(double length) {

@@ -127,7 +127,7 @@ void Interpreter::restore_modes(const ModalState& kept) {
     state_.plane_axis = kept.plane_axis;
     state_.incremental = kept.incremental;
     state_.centre_absolute = kept.centre_absolute;
-    state_.feed_mode = kept.feed_mode;
+    select_feed_mode(kept.feed_mode);
     state_.feed = kept.feed;
     state_.spindle = kept.spindle;
     state_.retract_to_r = kept.retract_to_r;

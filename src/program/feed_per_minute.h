@@ -1,0 +1,34 @@
+#pragma once
+// Feed modes: whether F counts lengths per minute (G94), or the inverse of a time (G93) or lengths per revolution (G95).
+
+#include <cstdint>
+#include <string_view>
+
+#include "program/program.h"
+
+namespace clsurf {
+
+/// The event of a feed mode that another one takes the place of, and its value for G94.
+inline constexpr std::string_view feed_mode_event = "feed-mode", feed_per_minute = "G94";
+
+/// Goes along the events of a program. Programs begin with feeds per minute.
+class FeedPerMinute {
+public:
+    explicit FeedPerMinute(const Program& program) : program_(&program) {}
+
+    /// Whether F counts lengths per minute at a motion; motions must not go back.
+    [[nodiscard]] bool on(std::int64_t motion) {
+        const std::vector<ProgramEvent>& events = program_->events;
+        for (; next_ < events.size() && events[next_].motion <= motion; ++next_) {
+            if (events[next_].name == feed_mode_event) on_ = events[next_].value == feed_per_minute;
+        }
+        return on_;
+    }
+
+private:
+    const Program* program_;
+    std::size_t next_ = 0;
+    bool on_ = true;
+};
+
+}  // namespace clsurf
