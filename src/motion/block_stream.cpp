@@ -84,12 +84,12 @@ bool BlockStream::turns(const Motions& motions, std::size_t motion) {
 /// The next motion with a way; dwells on the way to it are added up.
 bool BlockStream::read(PathElement& element) {
     const Motions& motions = source_->program().motions;
-    const auto fail = [&](std::int64_t m, const std::string& what) {
+    const auto fail = [&](std::int64_t m, const std::string& what, const std::string& hint = {}) {
         const SourceText& text = source_->program().main();
         const auto line = motions.line[static_cast<std::size_t>(m)];
         Place place = Place::of_line(text.name(), line);
         place.source = std::string(text.line(line));
-        throw InputError(place, what);
+        throw InputError(place, what, hint);
     };
     while (at_a_motion()) {
         const std::int64_t m = next_motion_++;
@@ -103,7 +103,9 @@ bool BlockStream::read(PathElement& element) {
             continue;
         }
         if (kind == MotionKind::spline) fail(m, "splines cannot be simulated yet");
-        if (turning) fail(m, "a rotary axis moves: only x, y and z can be simulated");
+        if (turning)
+            fail(m, "a rotary axis moves: only x, y and z can be simulated",
+                 "--machine FILE with rotary axes and their kinematics simulates five");
         const Xyz& to = motions.end[i];
         const Vec3 end(to.x == to.x ? to.x : at_.x(), to.y == to.y ? to.y : at_.y(), to.z == to.z ? to.z : at_.z());
         element = element_of(kind, is_arc(kind) ? motions.arc_of(m) : nullptr, at_, end);
