@@ -30,6 +30,9 @@ std::string optimize_text(const Optimized& r) {
     row("lines", r.proof.lines_before, r.proof.lines_after, 0, "");
     text += fmt::format("{} stretches, {} lines changed; off the programmed path by at most {:.4f} mm\n",
                         r.proof.intervals, r.proof.changed_lines, r.proof.deviation.greatest);
+    if (r.five_axes)
+        text += fmt::format("tool axis off the programmed one by at most {:.4f} deg\n",
+                            r.proof.deviation.turned * deg_per_rad);
     text += r.proof.accepted ? "accepted\n" : fmt::format("refused: {}\n", r.proof.reason);
     return text;
 }
@@ -48,22 +51,24 @@ Json measured_json(const std::optional<Measured>& measured) {
 }  // namespace
 
 std::string optimize_json(const Optimized& r, const Diagnostics& diagnostics) {
-    return dump(Json{{"accepted", r.proof.accepted},
-                     {"reason", r.proof.accepted ? Json(nullptr) : Json(r.proof.reason)},
-                     {"deviation_mm", number(r.proof.deviation.greatest)},
-                     {"time_before_s", number(r.before.duration)},
-                     {"time_after_s", number(r.after.duration)},
-                     {"mismatch_before", number(r.before.mismatch * seconds_per_minute)},
-                     {"mismatch_after", number(r.after.mismatch * seconds_per_minute)},
-                     {"defects_before", r.proof.defects_before},
-                     {"defects_after", r.proof.defects_after},
-                     {"intervals", r.proof.intervals},
-                     {"lines_before", r.proof.lines_before},
-                     {"lines_after", r.proof.lines_after},
-                     {"lines_changed", r.proof.changed_lines},
-                     {"proof", "simulation"},
-                     {"log", measured_json(r.measured)},
-                     {"diagnostics", list(diagnostics)}});
+    Json json{{"accepted", r.proof.accepted},
+              {"reason", r.proof.accepted ? Json(nullptr) : Json(r.proof.reason)},
+              {"deviation_mm", number(r.proof.deviation.greatest)},
+              {"time_before_s", number(r.before.duration)},
+              {"time_after_s", number(r.after.duration)},
+              {"mismatch_before", number(r.before.mismatch * seconds_per_minute)},
+              {"mismatch_after", number(r.after.mismatch * seconds_per_minute)},
+              {"defects_before", r.proof.defects_before},
+              {"defects_after", r.proof.defects_after},
+              {"intervals", r.proof.intervals},
+              {"lines_before", r.proof.lines_before},
+              {"lines_after", r.proof.lines_after},
+              {"lines_changed", r.proof.changed_lines},
+              {"proof", "simulation"},
+              {"log", measured_json(r.measured)},
+              {"diagnostics", list(diagnostics)}};
+    if (r.five_axes) json["tool_axis_deviation_deg"] = number(r.proof.deviation.turned * deg_per_rad);
+    return dump(json);
 }
 
 }  // namespace clsurf::io

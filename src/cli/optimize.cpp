@@ -38,11 +38,13 @@ Program read_text(const io::Source& source, const std::string& text, const io::P
 }
 
 /// The recorded run of --log. Throws UsageError where its options are given without it.
-std::optional<Log> read_measured(const po::variables_map& values) {
+std::optional<Log> read_measured(const po::variables_map& values, bool five_axes) {
     if (values.count("log") == 0) {
-        for (const char* name : {"layout", "mapping", "period", "work-offset"}) {
+        for (const char* name : {"layout", "mapping", "period"}) {
             if (values.count(name) > 0) throw UsageError(std::string("--") + name + " is of a log: give --log");
         }
+        if (values.count("work-offset") > 0 && !five_axes)
+            throw UsageError("--work-offset is of a log, or for programs on rotary axes: give --log");
         return std::nullopt;
     }
     Log log = io::open_log(values["log"].as<std::string>(), read_log_options(values));
@@ -93,7 +95,12 @@ ExitCode run(const po::variables_map& values) {
     const io::ProgramOptions options = read_program_options(values);
     const io::Source source = io::open_source(required(values, "PROGRAM"));
     const Program program = io::read_program(source, options);
-    std::optional<Log> measured = read_measured(values);
+    const bool five_axes = runs_on_five_axes(program, machine);
+    std::optional<Log> measured = read_measured(values, five_axes);
+    if (five_axes) {
+        const std::optional<Vec3> known = measured ? measured->work_offset : std::nullopt;
+        rules.zero = read_work_offset(values).value_or(known.value_or(Vec3::Zero()));
+    }
     io::AtomicFile output(output_path);
     std::unique_ptr<io::AtomicFile> picture;
     if (values.count("picture") > 0) picture = std::make_unique<io::AtomicFile>(values["picture"].as<std::string>());
@@ -132,7 +139,9 @@ Subcommand optimize_subcommand() {
             "Runs the program on the machine, puts the points of its finishing passes in step with those of the passes beside\n"
             "them, on the smoothest curve that is never farther from the programmed path than the tolerance, and\n"
             "runs it again. Written is only what is better: speeds of neighbour passes differ less, no more defects, not longer (or by --more-time at most), inside\n"
-            "the tolerance. Otherwise exit code 1, with the reason. Lines with anything but line number, G1, X, Y, Z stay byte for byte.\n\n"
+            "the tolerance. Otherwise exit code 1, with the reason. Lines with anything but line number, G1, X, Y, Z, A, B, C stay byte for byte.\n\n"
+            "Programs that move rotary axes need a machine file that has them: passes are then those of the tool's tip, and the\n"
+            "tool axis stays within a hundredth of a degree of the programmed one.\n\n"
             "  clsurf optimize part.nc --machine mill.toml --tolerance 0.005 -o better.nc --picture better.png",
         .declare =
             [](po::options_description& options) {

@@ -7,12 +7,13 @@
 namespace clsurf {
 
 Drafter::Drafter(const Program& program, const ReadProgram& read, const OptimizeRules& rules, double shortest_line,
-                 bool slows_anywhere)
+                 bool slows_anywhere, const Orientation* orientation)
     : program_(program),
       read_(read),
       rules_(rules),
       shortest_line_(shortest_line),
       slows_anywhere_(slows_anywhere),
+      orientation_(orientation),
       laid_(lay_out(program)) {}
 
 Draft Drafter::draft(double chord_error, std::vector<std::uint8_t> needed) const {
@@ -22,10 +23,11 @@ Draft Drafter::draft(double chord_error, std::vector<std::uint8_t> needed) const
     const double spacing = 0.5 * fitting_spacing(program_, laid_, chord_error);
     const std::vector<Stretch> stretches =
         resample(program_, laid_, editor,
-                 {rules_.tolerance, spacing, chord_error, shortest_line_, ResampleRules{}.corner_angle}, needed);
+                 {rules_.tolerance, spacing, chord_error, shortest_line_, ResampleRules{}.corner_angle, most_turned},
+                 needed, orientation_);
     std::int64_t old = 0;  // motions so far
     for (const Stretch& stretch : stretches) {
-        const std::size_t lines = editor.replace(stretch.first, stretch.last, stretch.points);
+        const std::size_t lines = editor.replace(stretch.first, stretch.last, stretch.points, stretch.angles);
         if (slows_anywhere_) continue;
         draft.may_slow.insert(draft.may_slow.end(), needed.begin() + old, needed.begin() + stretch.first);
         draft.may_slow.insert(draft.may_slow.end(), lines, 1);

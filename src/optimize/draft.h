@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "optimize/orientation.h"
 #include "optimize/programmed_surface.h"
 #include "program/program.h"
 
@@ -27,10 +28,10 @@ struct Draft {
 
 class Drafter {
 public:
-    /// `shortest_line` [mm]: no new line is shorter but to keep the tolerance. `slows_anywhere`: also what is not in need may get feeds. All must
-    /// outlive it. O(points).
+    /// `shortest_line` [mm]: no new line is shorter but to keep the tolerance. `slows_anywhere`: also what is not in need may get feeds.
+    /// `orientation`: of a program that is run on five axes. All must outlive it. O(points).
     Drafter(const Program& program, const ReadProgram& read, const OptimizeRules& rules, double shortest_line,
-            bool slows_anywhere);
+            bool slows_anywhere, const Orientation* orientation = nullptr);
 
     /// New points for the motions in need (one entry a motion).
     [[nodiscard]] Draft draft(double chord_error, std::vector<std::uint8_t> needed) const;
@@ -43,6 +44,7 @@ private:
     const OptimizeRules& rules_;
     double shortest_line_;
     bool slows_anywhere_;
+    const Orientation* orientation_;
     ProgrammedSurface laid_;
 };
 

@@ -6,13 +6,17 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "program/feed_per_minute.h"
 #include "program/lexer.h"
 
 namespace clsurf {
 namespace {
 
 constexpr double same_place = 1e-7;  ///< [mm] a word and where its motion ends
-constexpr double feed_steps = 10;    ///< per unit and minute of a feed word
+constexpr double same_angle = 1e-9;  ///< [rad]
+constexpr std::string_view letters = "XYZABC";
+constexpr std::size_t linear = 3, axes = 6;  ///< words: X, Y, Z and A, B, C behind them
+constexpr double feed_steps = 10;            ///< per unit and minute of a feed word
 
 std::size_t skip_blanks(std::string_view text, std::size_t at) {
     while (at < text.size() && is_blank(text[at])) ++at;
@@ -34,6 +38,23 @@ std::string number_text(double value, int decimals) {
 
 bool cuts_in_a_line(const Motions& motions, std::size_t i) { return motions.kind[i] == MotionKind::feed; }
 
+/// A, B, C before a motion [rad].
+Vec3 angles_before(const Motions& motions, std::int64_t i) {
+    return i > 0 && !motions.rotary.empty() ? motions.rotary[static_cast<std::size_t>(i - 1)].vec() : Vec3::Zero();
+}
+
+/// Whether a line's words are the angles at which its motion ends; where those turn, the tip must move as well.
+bool says_its_angles(const PlainLine& line, const Motions& motions, std::size_t i) {
+    const Vec3 begin = angles_before(motions, static_cast<std::int64_t>(i)),
+               end = motions.rotary.empty() ? Vec3::Zero() : motions.rotary[i].vec();
+    for (std::size_t a = linear; a < axes; ++a) {
+        const auto axis = static_cast<int>(a - linear);
+        const double expected = line.axis[a].empty() ? begin[axis] : line.value[a] * rad_per_deg;
+        if (!(std::abs(end[axis] - expected) <= same_angle)) return false;
+    }
+    return begin == end || motions.begin_of(static_cast<std::int64_t>(i)) != motions.end[i];
+}
+
 /// The line's end as the program has it.
 std::string_view line_end_of(std::string_view text) {
     const std::size_t end = text.find('\n');
@@ -45,7 +66,7 @@ std::string_view line_end_of(std::string_view text) {
 std::optional<PlainLine> read_plain_line(std::string_view text) {
     PlainLine line;
     std::size_t at = skip_blanks(text, 0);
-    bool any = false;
+    bool any = false, moves = false;
     while (at < text.size()) {
         const char letter = upper(text[at]);
         const std::size_t word = at;
@@ -64,19 +85,20 @@ std::optional<PlainLine> read_plain_line(std::string_view text) {
             kept = text.substr(word, at - word);
             continue;
         }
-        if (letter < 'X' || letter > 'Z') return std::nullopt;
-        const auto axis = static_cast<std::size_t>(letter - 'X');
-        if (!line.axis[axis].empty()) return std::nullopt;
+        const std::size_t axis = letters.find(letter);
+        if (axis == std::string_view::npos || !line.axis[axis].empty()) return std::nullopt;
         if (at < text.size() && text[at] == '=') at = skip_blanks(text, at + 1);
         line.axis[axis] = text.substr(word, at - word);
         const std::size_t end = read_decimal(text, at, line.value[axis]);
         if (end == at) return std::nullopt;
-        line.decimals[axis] = decimals_of(text.substr(at, end - at));
+        line.digits[axis] = text.substr(at, end - at);
+        line.decimals[axis] = decimals_of(line.digits[axis]);
         at = skip_blanks(text, end);
         line.blanks = line.blanks || at > end;
         any = true;
+        moves = moves || axis < linear;
     }
-    return any ? std::optional(line) : std::nullopt;
+    return moves ? std::optional(line) : std::nullopt;
 }
 
 LineEditor::LineEditor(const Program& program, int least_decimals) : program_(&program), decimals_(least_decimals) {
@@ -94,11 +116,12 @@ LineEditor::LineEditor(const Program& program, int least_decimals) : program_(&p
     constexpr std::array<double, 2> units{1, mm_per_inch};
     for (int turn = 0; turn < 2; ++turn) {
         // First which unit the words have, then which lines say where they go in it.
+        FeedPerMinute per_minute(program);
         for (std::size_t i = 0; i < count; ++i) {
+            if (!per_minute.on(static_cast<std::int64_t>(i))) continue;
             if (!cuts_in_a_line(motions, i) || !in_main(i) || motions_of_line[motions.line[i]] != 1) continue;
-            if (i > 0 && !motions.rotary.empty() && !(motions.rotary[i] == motions.rotary[i - 1])) continue;
             const std::optional<PlainLine> line = read_plain_line(main.line(motions.line[i]));
-            if (!line) continue;
+            if (!line || !says_its_angles(*line, motions, i)) continue;
             const Vec3 end = motions.end[i].vec(), begin = motions.begin_of(static_cast<std::int64_t>(i)).vec();
             const auto says = [&](double unit) {
                 for (int axis = 0; axis < 3; ++axis) {
@@ -112,8 +135,10 @@ LineEditor::LineEditor(const Program& program, int least_decimals) : program_(&p
                 for (std::size_t u = 0; u < units.size(); ++u) fits[u] += says(units[u]) ? 1 : 0;
             } else {
                 editable_[i] = says(unit_) ? 1 : 0;
-                if (editable_[i] != 0)
-                    decimals_ = std::max(decimals_, *std::max_element(line->decimals.begin(), line->decimals.end()));
+                if (editable_[i] == 0) continue;
+                const auto angles = line->decimals.begin() + linear;
+                decimals_ = std::max(decimals_, *std::max_element(line->decimals.begin(), angles));
+                turn_decimals_ = std::max(turn_decimals_, *std::max_element(angles, line->decimals.end()));
             }
         }
         if (turn == 0) unit_ = fits[1] > fits[0] ? units[1] : units[0];
@@ -122,32 +147,46 @@ LineEditor::LineEditor(const Program& program, int least_decimals) : program_(&p
 
 double LineEditor::rounding() const { return 0.5 * std::sqrt(3.0) * unit_ * std::pow(10.0, -decimals_); }
 
-std::size_t LineEditor::replace(std::int64_t first, std::int64_t last, const std::vector<Vec3>& points) {
+double LineEditor::turn_rounding() const { return std::sqrt(0.5) * rad_per_deg * std::pow(10.0, -turn_decimals_); }
+
+std::size_t LineEditor::replace(std::int64_t first, std::int64_t last, const std::vector<Vec3>& points,
+                                const std::vector<LineAngles>& angles) {
     const Motions& motions = program_->motions;
     const SourceText& main = program_->main();
     const std::string_view end_of_line = line_end_of(main.text());
     const LineNumber first_line = motions.line[static_cast<std::size_t>(first)],
                      last_line = motions.line[static_cast<std::size_t>(last)];
     const std::size_t old_lines = last_line - first_line + 1;
-    std::array<std::string, 3> words{"X", "Y", "Z"};
+    const std::size_t used = angles.empty() ? linear : axes;
+    std::array<std::string, axes> words;
+    std::array<bool, axes> everywhere;  // written on every line
+    everywhere.fill(true);
+    for (std::size_t a = 0; a < axes; ++a) words[a] = letters[a];
     std::vector<std::string_view> numbers;
     std::string first_code;
-    bool code_everywhere = true, blanks = false, all_axes = true;
+    bool code_everywhere = true, blanks = false;
     for (LineNumber n = first_line; n <= last_line; ++n) {
         const PlainLine line = *read_plain_line(main.line(n));
-        for (std::size_t a = 0; a < 3; ++a) {
+        for (std::size_t a = 0; a < axes; ++a) {
             if (!line.axis[a].empty()) words[a] = line.axis[a];
-            all_axes = all_axes && !line.axis[a].empty();
+            everywhere[a] = everywhere[a] && !line.axis[a].empty();
         }
         if (!line.number.empty()) numbers.push_back(line.number);
         if (n == first_line) first_code = line.code;
         code_everywhere = code_everywhere && !line.code.empty();
         blanks = blanks || line.blanks;
     }
+    const bool all_linear = everywhere[0] && everywhere[1] && everywhere[2];
+    std::fill(everywhere.begin(), everywhere.begin() + linear, all_linear);
     Edit edit{first_line, last_line, {}};
-    std::array<std::string, 3> modal;
+    std::array<std::string, axes> modal;
+    const auto text_of = [&](std::size_t axis, const Vec3& position, const Vec3& turned) {
+        const int k = static_cast<int>(axis % linear);
+        return axis < linear ? number_text(position[k] / unit_, decimals_)
+                             : number_text(turned[k] * deg_per_rad, turn_decimals_);
+    };
     const Vec3 begin = motions.begin_of(first).vec();
-    for (std::size_t a = 0; a < 3; ++a) modal[a] = number_text(begin[static_cast<int>(a)] / unit_, decimals_);
+    for (std::size_t a = 0; a < used; ++a) modal[a] = text_of(a, begin, angles_before(motions, first));
     const bool numbered = numbers.size() == old_lines;
     bool code_written = false;
     std::size_t written = 0;
@@ -161,14 +200,21 @@ std::size_t LineEditor::replace(std::int64_t first, std::int64_t last, const std
         if (numbered && (k + 1 < old_lines || is_last)) text += is_last ? numbers.back() : numbers[k];
         if (code_everywhere || !code_written) text += first_code;
         bool moves = false;
-        for (std::size_t a = 0; a < 3; ++a) {
-            const std::string number = number_text(points[k][static_cast<int>(a)] / unit_, decimals_);
-            if (number == modal[a] && !all_axes) continue;
-            moves = moves || number != modal[a];
-            add(words[a] + number);
-            modal[a] = number;
+        std::array<std::string, axes> now;
+        for (std::size_t a = 0; a < used; ++a) {
+            now[a] = text_of(a, points[k], angles.empty() ? Vec3::Zero() : angles[k].programmed);
+            moves = moves || (a < linear && now[a] != modal[a]);
         }
         if (!moves) continue;  // nearer to the point before than the decimals tell
+        const std::int64_t kept = angles.empty() ? -1 : angles[k].motion;
+        const PlainLine as_written =
+            kept < 0 ? PlainLine{} : *read_plain_line(main.line(motions.line[static_cast<std::size_t>(kept)]));
+        for (std::size_t a = 0; a < used; ++a) {
+            if (now[a] == modal[a] && !everywhere[a]) continue;
+            const bool same_words = a >= linear && !as_written.axis[a].empty();
+            add(same_words ? std::string(as_written.axis[a]) + std::string(as_written.digits[a]) : words[a] + now[a]);
+            modal[a] = now[a];
+        }
         code_written = true;
         ++written;
         edit.text += text;

@@ -10,6 +10,7 @@ struct LineRules {
     double chord_error = 0;    ///< [mm] of lines against the curve
     double most = 0;           ///< [mm] that lines may leave the old ones by, before they are rounded
     double radius = 0;         ///< [mm] of the tube that the curve lies in: what chords leave of the tolerance
+    double most_turned = 0;    ///< [rad] that lines may turn the tool axis away from the old ones
 };
 
 }  // namespace clsurf

@@ -14,10 +14,10 @@ constexpr double most_doublings = 6;       ///< of a part
 class NewLines {
 public:
     NewLines(const OldStretch& old, const SmoothStretch& curve, const std::vector<StationOfPass>& stations,
-             const LineRules& rules)
-        : old_(old), curve_(curve), stations_(stations), rules_(rules) {}
+             const LineRules& rules, const TurningStretch* turning)
+        : old_(old), curve_(curve), stations_(stations), rules_(rules), turning_(turning) {}
 
-    std::vector<Vec3> run() {
+    std::vector<NewPlace> run() {
         const std::vector<std::uint8_t> kept = chosen();
         std::size_t from = 0;
         for (std::size_t k = 1; k < kept.size(); ++k) {
@@ -25,8 +25,8 @@ public:
             join(from, k);
             from = k;
         }
-        points_.back() = old_.points.back();
-        return std::move(points_);
+        ends_.back() = {old_.length(), old_.points.back()};
+        return std::move(ends_);
     }
 
 private:
@@ -77,18 +77,14 @@ private:
         return static_cast<int>(std::clamp(std::max(coarsest, finest), 0.0, most_doublings));
     }
 
-    struct Place {
-        double way = 0;
-        Vec3 position = Vec3::Zero();
-    };
-    [[nodiscard]] Place place(std::size_t k) const { return {curve_.way[k], curve_.points[k]}; }
+    [[nodiscard]] NewPlace place(std::size_t k) const { return {curve_.way[k], curve_.points[k]}; }
 
     /// The point at k, and before it those between it and the point `from` that the line needs to pass the old
     /// lines closely enough.
     void join(std::size_t from, std::size_t k) {
         if (k == from + 1) {
             pass_old_points(place(from), place(k));
-            points_.push_back(curve_.points[k]);
+            ends_.push_back(place(k));
             return;
         }
         double farthest = farthest_old_point(place(from), place(k)).distance;
@@ -96,8 +92,8 @@ private:
             farthest = std::max(
                 farthest,
                 (curve_.places[i] - nearest_on_line(curve_.places[i], curve_.points[from], curve_.points[k])).norm());
-        if (farthest <= rules_.most) {
-            points_.push_back(curve_.points[k]);
+        if (farthest <= rules_.most && !turns_away(place(from), place(k))) {
+            ends_.push_back(place(k));
             return;
         }
         const std::size_t middle = (from + k) / 2;
@@ -112,7 +108,7 @@ private:
     };
 
     /// Of the old points between two places the one farthest from the line between them.
-    [[nodiscard]] OldPoint farthest_old_point(const Place& from, const Place& to) const {
+    [[nodiscard]] OldPoint farthest_old_point(const NewPlace& from, const NewPlace& to) const {
         OldPoint found;
         for (auto i = static_cast<std::size_t>(std::upper_bound(old_.way.begin(), old_.way.end(), from.way) -
                                                old_.way.begin());
@@ -123,30 +119,51 @@ private:
         return found;
     }
 
+    [[nodiscard]] bool turns_away(const NewPlace& from, const NewPlace& to) const {
+        return turning_ != nullptr && turning_->error_of(from, to).greatest > rules_.most_turned;
+    }
+
     /// Between two places, points beside old ones that the line between them would leave too far off.
-    void pass_old_points(const Place& from, const Place& to) {
+    void pass_old_points(const NewPlace& from, const NewPlace& to) {
         const OldPoint farthest = farthest_old_point(from, to);
-        if (farthest.distance <= rules_.most) return;
+        if (farthest.distance <= rules_.most) {
+            pass_turns(from, to);
+            return;
+        }
         const Vec3& left = old_.points[farthest.index];
-        const Place middle{old_.way[farthest.index],
-                           left + (farthest.foot - left) * (rules_.radius / farthest.distance)};
+        const NewPlace middle{old_.way[farthest.index],
+                              left + (farthest.foot - left) * (rules_.radius / farthest.distance)};
         pass_old_points(from, middle);
-        points_.push_back(middle.position);
+        ends_.push_back(middle);
         pass_old_points(middle, to);
+    }
+
+    /// Between two places, points of the line between them that have the angles of old ones.
+    void pass_turns(const NewPlace& from, const NewPlace& to) {
+        if (turning_ == nullptr) return;
+        const AxisError error = turning_->error_of(from, to);
+        if (error.greatest <= rules_.most_turned || error.point == 0) return;
+        const NewPlace middle{old_.way[error.point],
+                              nearest_on_line(old_.points[error.point], from.position, to.position)};
+        pass_turns(from, middle);
+        ends_.push_back(middle);
+        pass_turns(middle, to);
     }
 
     const OldStretch& old_;
     const SmoothStretch& curve_;
     const std::vector<StationOfPass>& stations_;
     const LineRules& rules_;
-    std::vector<Vec3> points_;
+    const TurningStretch* turning_;
+    std::vector<NewPlace> ends_;
 };
 
 }  // namespace
 
-std::vector<Vec3> new_lines(const OldStretch& old, const SmoothStretch& curve,
-                            const std::vector<StationOfPass>& stations, const LineRules& rules) {
-    return NewLines(old, curve, stations, rules).run();
+std::vector<NewPlace> new_lines(const OldStretch& old, const SmoothStretch& curve,
+                                const std::vector<StationOfPass>& stations, const LineRules& rules,
+                                const TurningStretch* turning) {
+    return NewLines(old, curve, stations, rules, turning).run();
 }
 
 }  // namespace clsurf

@@ -18,15 +18,18 @@ Vec3 OldStretch::at(double after) const {
                       : points[line];
 }
 
-Vec3 OldStretch::nearest(const Vec3& p, double after) const {
-    const std::size_t line = line_at(after);
-    Vec3 nearest = nearest_on_line(p, points[line], points[line + 1]);
-    const std::size_t first = line >= 2 ? line - 2 : 0, last = std::min(line + 3, points.size() - 1);
+OldStretch::Foot OldStretch::foot(const Vec3& p, double after) const {
+    std::size_t on = line_at(after);
+    Vec3 nearest = nearest_on_line(p, points[on], points[on + 1]);
+    const std::size_t first = on >= 2 ? on - 2 : 0, last = std::min(on + 3, points.size() - 1);
     for (std::size_t k = first; k < last; ++k) {
         const Vec3 q = nearest_on_line(p, points[k], points[k + 1]);
-        if ((q - p).squaredNorm() < (nearest - p).squaredNorm()) nearest = q;
+        if ((q - p).squaredNorm() < (nearest - p).squaredNorm()) {
+            nearest = q;
+            on = k;
+        }
     }
-    return nearest;
+    return {nearest, way[on] + (nearest - points[on]).norm()};
 }
 
 }  // namespace clsurf

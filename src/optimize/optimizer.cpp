@@ -9,6 +9,7 @@
 #include "optimize/feed_search.h"
 #include "optimize/need.h"
 #include "optimize/regions.h"
+#include "path/tip_motions.h"
 
 namespace clsurf {
 namespace {
@@ -60,8 +61,9 @@ public:
             result.measured = judge_measured(std::move(*measured));
         else
             look_for_need(prover_.before());
-        propose_all(
-            {program_, read_, rules_, block_reserve * machine_.controller.block_time * usual_feed(program_), !has_log});
+        propose_all({program_, read_, rules_, block_reserve * machine_.controller.block_time * usual_feed(program_),
+                     !has_log, prover_.orientation()});
+        result.five_axes = prover_.orientation() != nullptr;
         result.before = prover_.take_before();
         result.run_before = prover_.summary_before();
         Proposal& best = *prover_.best();
@@ -79,7 +81,7 @@ private:
     }
 
     Measured judge_measured(Log log) {
-        const JudgedRun run = judge_run(std::move(log), program_, rules_.quality, diagnostics_);
+        const JudgedRun run = judge_run(std::move(log), program_, rules_.quality, diagnostics_, prover_.kinematics());
         if (run.surface.step_over <= 0)
             throw InputError(Place::of_file(run.log.name),
                              "has no passes beside each other: it does not tell what is out of step");
@@ -199,7 +201,19 @@ private:
 
 Optimized optimize(const Program& program, const ReadProgram& read, const Machine& machine, const OptimizeRules& rules,
                    std::optional<Log> measured, const Progress& progress, Diagnostics& diagnostics) {
-    return Optimizer(program, read, machine, rules, progress, diagnostics).run(std::move(measured));
+    if (!runs_on_five_axes(program, machine))
+        return Optimizer(program, read, machine, rules, progress, diagnostics).run(std::move(measured));
+    const auto of_the_tip = [&](Program programmed) {
+        solve_tool_axes(programmed, machine);
+        make_tip_motions(programmed, machine.kinematics, -rules.zero);
+        return programmed;
+    };
+    Program turned = program;
+    turned.diagnostics = {};
+    turned = of_the_tip(std::move(turned));
+    diagnostics.append(turned.diagnostics);
+    const ReadProgram read_turned = [&](const std::string& text) { return of_the_tip(read(text)); };
+    return Optimizer(turned, read_turned, machine, rules, progress, diagnostics).run(std::move(measured));
 }
 
 }  // namespace clsurf

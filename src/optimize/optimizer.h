@@ -20,7 +20,8 @@ struct Measured {
 };
 
 struct Optimized {
-    Proof proof;  ///< by simulation, also where a recorded run was given
+    Proof proof;             ///< by simulation, also where a recorded run was given
+    bool five_axes = false;  ///< the program was run on them
     std::optional<Measured> measured;
     std::string text;  ///< of the new program; that of the best proposal where none was accepted
     JudgedRun before, after;
@@ -28,7 +29,8 @@ struct Optimized {
 };
 
 /// Runs the program, proposes, runs and judges the proposals. With a recorded run `measured` of the program, only what that
-/// run shows to be in need is changed; what a proposal is worth is found by simulation, before and after. Throws
+/// run shows to be in need is changed; what a proposal is worth is found by simulation, before and after. A program that names
+/// rotary axes is run on five where the machine has them: its passes are those of the tip. Throws
 /// InputError where the program cannot be run or has no passes beside each other.
 [[nodiscard]] Optimized optimize(const Program& program, const ReadProgram& read, const Machine& machine,
                                  const OptimizeRules& rules, std::optional<Log> measured, const Progress& progress,

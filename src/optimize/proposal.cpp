@@ -24,9 +24,13 @@ constexpr double beyond_goal = 0.3;       ///< … less mismatch counts less
 Prover::Prover(const Program& program, const ReadProgram& read, const Machine& machine, const OptimizeRules& rules,
                const Progress& progress, Diagnostics& diagnostics)
     : program_(program), read_(read), machine_(machine), rules_(rules), progress_(progress), diagnostics_(diagnostics) {
-    SimulatedRun simulated = simulate_to_log(program_, machine_, rules_.start, progress_);
+    if (runs_on_five_axes(program_, machine_)) {
+        kinematics_ = std::make_shared<const Kinematics>(machine_.kinematics);
+        orientation_ = std::make_unique<const Orientation>(program_, machine_, rules_.zero, rules_.start);
+    }
+    SimulatedRun simulated = simulate_to_log(program_, machine_, rules_.start, progress_, rules_.zero);
     summary_before_ = std::move(simulated.summary);
-    before_ = judge_run(std::move(simulated.log), program_, rules_.quality, diagnostics_);
+    before_ = judge_run(std::move(simulated.log), program_, rules_.quality, diagnostics_, kinematics_);
 }
 
 bool Prover::has_time(double share) const { return points_ < share * most_points && in_vain_ < most_in_vain; }
@@ -67,19 +71,25 @@ Proposal Prover::prove(const std::shared_ptr<const Draft>& draft, std::vector<fl
     const Program changed = read_(result.text);
     proof.lines_before = program_.main().line_count();
     proof.lines_after = changed.main().line_count();
-    proof.deviation = measure_deviation(program_, changed);
-    SimulatedRun simulated = simulate_to_log(changed, machine_, rules_.start, progress_);
+    proof.deviation = deviation_of(changed);
+    SimulatedRun simulated = simulate_to_log(changed, machine_, rules_.start, progress_, rules_.zero);
     result.summary = std::move(simulated.summary);
     points_ += static_cast<double>(result.summary.points);
     // A cleaner run must not be judged more strictly for being cleaner.
     QualityRules as_before = rules_.quality;
     as_before.fixed = before_.report.thresholds;
-    result.run = judge_run(std::move(simulated.log), changed, as_before, diagnostics_);
+    result.run = judge_run(std::move(simulated.log), changed, as_before, diagnostics_, kinematics_);
     proof.defects_before = before_.report.defects.size();
     proof.defects_after = result.run.report.defects.size();
     proof.reason = objection(result);
     proof.accepted = proof.reason.empty();
     return result;
+}
+
+Deviation Prover::deviation_of(const Program& changed) const {
+    if (orientation_ == nullptr) return measure_deviation(program_, changed);
+    const Orientation after(changed, machine_, rules_.zero, rules_.start);
+    return measure_deviation(program_, changed, Deviation::usual_step, {orientation_.get(), &after});
 }
 
 /// Why a proposal cannot be taken; empty: it can.
@@ -90,7 +100,12 @@ std::string Prover::objection(const Proposal& p) const {
     if (p.proof.deviation.greatest > rules_.tolerance)
         return fmt::format("it would leave the programmed path by {:.4f} mm at line {}", p.proof.deviation.greatest,
                            p.proof.deviation.line);
-    if (!p.summary.limits_ok) return "the machine's limits would not be kept";
+    if (p.proof.deviation.turned > most_turned)
+        return fmt::format("it would turn the tool axis away from the programmed one by {:.4f} deg at line {}",
+                           p.proof.deviation.turned * deg_per_rad, p.proof.deviation.turned_line);
+    if (!p.summary.limits_ok)
+        return summary_before_.limits_ok ? "the machine's limits would not be kept"
+                                         : "the machine's limits are not kept, nor are they by the program as it is";
     if (p.run.mismatch >= before_.mismatch)
         return fmt::format("the speeds of neighbour passes would differ by {:.0f} instead of {:.0f} mm/min",
                            p.run.mismatch * seconds_per_minute, before_.mismatch * seconds_per_minute);

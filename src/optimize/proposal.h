@@ -5,17 +5,23 @@
 #include <string>
 #include <vector>
 
+#include "core/units.h"
 #include "optimize/deviation.h"
 #include "optimize/draft.h"
 #include "optimize/run.h"
 
 namespace clsurf {
 
+/// How far the tool axis may be turned away from the programmed one: a hundredth of a degree takes the centre of a ball of
+/// 6 mm radius 1 µm aside.
+inline constexpr double most_turned = 0.01 * rad_per_deg;
+
 struct OptimizeRules {
     double tolerance = 0.005;   ///< [mm] from the programmed path
     double more_time = 0;       ///< a share: how much longer the new program may take
     int least_decimals = 0;     ///< of new coordinates; 0: as many as the program has
     Vec3 start = Vec3::Zero();  ///< [mm] where the axes stand before the program
+    Vec3 zero = Vec3::Zero();   ///< [mm] machine position of its zero, on five axes
     QualityRules quality;
     std::string header;  ///< text of the comment that says where the program comes from
 };
@@ -57,6 +63,9 @@ public:
     [[nodiscard]] double longest() const { return before_.duration * (1 + more_time_); }
     /// From now on what the rules allow. As much of the search is left, at least, as with half of it done.
     void allow_more_time();
+    /// nullptr: the program is not run on five axes.
+    [[nodiscard]] const Orientation* orientation() const { return orientation_.get(); }
+    [[nodiscard]] const std::shared_ptr<const Kinematics>& kinematics() const { return kinematics_; }
     /// Whether there is time for one more: all runs together have a bound, of which a share may be used, and so have those in a row that
     /// are no better than the best.
     [[nodiscard]] bool has_time(double share = 1) const;
@@ -74,6 +83,7 @@ public:
 
 private:
     [[nodiscard]] Proposal prove(const std::shared_ptr<const Draft>& draft, std::vector<float> targets);
+    [[nodiscard]] Deviation deviation_of(const Program& changed) const;
     [[nodiscard]] std::string objection(const Proposal& proposal) const;
     const Program& program_;
     const ReadProgram& read_;
@@ -81,6 +91,8 @@ private:
     const OptimizeRules& rules_;
     const Progress& progress_;
     Diagnostics& diagnostics_;
+    std::shared_ptr<const Kinematics> kinematics_;  ///< of a program that is run on five axes
+    std::unique_ptr<const Orientation> orientation_;
     JudgedRun before_;
     SimulationSummary summary_before_;
     Tried best_;

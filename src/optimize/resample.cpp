@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 
 #include "core/parallel.h"
 #include "core/statistics.h"
@@ -32,23 +33,30 @@ double tube_radius(double most, const ResampleRules& rules, const Spacings& spac
     return std::max(most - chord, narrowest * most);
 }
 
-LineRules line_rules(const ResampleRules& rules, const Spacings& spacings, double rounding) {
+LineRules line_rules(const ResampleRules& rules, const Spacings& spacings, double rounding, double turn_rounding) {
     const double most = most_used * (rules.tolerance - rounding);
-    return {rules.spacing, std::max(spacings.usual, rules.spacing), rules.shortest_line, rules.chord_error,
-            most,          tube_radius(most, rules, spacings)};
+    return {rules.spacing,
+            std::max(spacings.usual, rules.spacing),
+            rules.shortest_line,
+            rules.chord_error,
+            most,
+            tube_radius(most, rules, spacings),
+            most_used * (rules.most_turned - turn_rounding)};
 }
 
 class Resampler {
 public:
     Resampler(const Program& program, const ProgrammedSurface& laid, const LineEditor& editor,
-              const ResampleRules& rules, const Spacings& spacings, std::span<const std::uint8_t> needed)
+              const ResampleRules& rules, const Spacings& spacings, std::span<const std::uint8_t> needed,
+              const Orientation* orientation)
         : motions_(program.motions),
           path_(program.motions, Vec3::Zero()),
           laid_(laid),
           editor_(editor),
           corner_angle_(rules.corner_angle),
-          lines_(line_rules(rules, spacings, editor.rounding())),
+          lines_(line_rules(rules, spacings, editor.rounding(), editor.turn_rounding())),
           needed_(needed),
+          orientation_(orientation),
           phases_(run_phases(laid, rules.spacing)) {}
 
     [[nodiscard]] std::vector<Stretch> run() const {
@@ -73,7 +81,11 @@ private:
     [[nodiscard]] bool editable(const ProgrammedPass& pass, std::size_t k) const {
         const std::uint32_t m = motion(pass.ends[k]);
         return (needed_.empty() || needed_[m] != 0) && editor_.editable(m) && laid_.ends_motion(pass.ends[k - 1]) &&
-               motion(pass.ends[k - 1]) + 1 == m;
+               motion(pass.ends[k - 1]) + 1 == m && (orientation_ == nullptr || may_be_divided(m));
+    }
+
+    [[nodiscard]] bool may_be_divided(std::uint32_t m) const {
+        return orientation_->divisible(m) && (lines_.most_turned > 0 || !orientation_->turns(m));
     }
 
     void run_pass(const ProgrammedPass& pass, std::vector<Stretch>& stretches) const {
@@ -113,6 +125,7 @@ private:
             const Vec3 p = path_.end(motion(pass.ends[k]));
             old.way.push_back(old.points.empty() ? 0 : old.way.back() + (p - old.points.back()).norm());
             old.points.push_back(p);
+            old.motion.push_back(motion(pass.ends[k]));
         }
         return old;
     }
@@ -124,9 +137,28 @@ private:
         if (old.length() < lines_.spacing) return;
         const std::vector<StationOfPass> stations =
             stations_between(laid_, phases_, pass.ends[begin], pass.ends[end], old.length());
-        Stretch stretch{motion(pass.ends[begin + 1]), motion(pass.ends[end]),
-                        new_lines(old, smooth(old, stations, lines_), stations, lines_)};
+        std::optional<TurningStretch> turning;
+        if (turns(old)) turning.emplace(old, *orientation_);
+        Stretch stretch{motion(pass.ends[begin + 1]), motion(pass.ends[end]), {}};
+        for (const NewPlace& place :
+             new_lines(old, smooth(old, stations, lines_), stations, lines_, turning ? &*turning : nullptr)) {
+            stretch.points.push_back(place.position);
+            if (turning)
+                stretch.angles.push_back(turning->words(place));
+            else if (!motions_.rotary.empty())
+                stretch.angles.push_back(standing(stretch.last));
+        }
         if (!stays(old, stretch)) stretches.push_back(std::move(stretch));
+    }
+
+    [[nodiscard]] bool turns(const OldStretch& old) const {
+        return orientation_ != nullptr && std::any_of(old.motion.begin() + 1, old.motion.end(),
+                                                      [&](std::int64_t m) { return orientation_->turns(m); });
+    }
+
+    /// The angles of a stretch without an axis that turns.
+    [[nodiscard]] LineAngles standing(std::int64_t m) const {
+        return {motions_.rotary[static_cast<std::size_t>(m)].vec(), m};
     }
 
     /// The points are the old ones already.
@@ -145,6 +177,7 @@ private:
     double corner_angle_;  ///< [rad]
     LineRules lines_;
     std::span<const std::uint8_t> needed_;  ///< one entry a motion, or none
+    const Orientation* orientation_;
     Phases phases_;
 };
 
@@ -177,12 +210,13 @@ double fitting_spacing(const Program& program, const ProgrammedSurface& laid, do
 }
 
 std::vector<Stretch> resample(const Program& program, const ProgrammedSurface& laid, const LineEditor& editor,
-                              const ResampleRules& wanted, std::span<const std::uint8_t> needed) {
+                              const ResampleRules& wanted, std::span<const std::uint8_t> needed,
+                              const Orientation* orientation) {
     const Spacings spacings = spacings_of(program, laid);
     ResampleRules rules = wanted;
     if (rules.spacing <= 0) rules.spacing = fitting(spacings, rules.chord_error);
     if (rules.spacing <= 0 || rules.tolerance <= editor.rounding()) return {};
-    return Resampler(program, laid, editor, rules, spacings, needed).run();
+    return Resampler(program, laid, editor, rules, spacings, needed, orientation).run();
 }
 
 }  // namespace clsurf

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "optimize/line_edit.h"
+#include "optimize/orientation.h"
 #include "optimize/programmed_surface.h"
 
 namespace clsurf {
@@ -19,13 +20,15 @@ struct ResampleRules {
     double shortest_line =
         0;  ///< [mm] that stations are chosen for: blocks that are passed faster than the controller reads them slow it down
     double corner_angle = 0.5;  ///< [rad] a point where the path turns by more stays where it is
+    double most_turned = 0;     ///< [rad] that the tool axis may be off, all in all
 };
 
 /// Motions first … last (lines that may be rewritten, on one pass) and the points that take the place of
 /// their ends. The last point is where they ended.
 struct Stretch {
     std::int64_t first = 0, last = 0;
-    std::vector<Vec3> points;  ///< [mm]
+    std::vector<Vec3> points;          ///< [mm]
+    std::vector<LineAngles> angles{};  ///< one a point; none in programs without rotary axes
 };
 
 /// The spacing that lines need where the path bends most [mm]: for a chord error at the 98th percentile of curvature, between
@@ -33,9 +36,11 @@ struct Stretch {
 [[nodiscard]] double fitting_spacing(const Program& program, const ProgrammedSurface& laid, double chord_error);
 
 /// Stretches of all passes, in the order of the program. `needed`: one entry a motion, 0 where it is to stay; empty:
-/// all are looked at. O(points), parallel.
+/// all are looked at. `orientation`: of a program that is run on five axes; else nullptr, and angles stand. The tool
+/// axis at a new point is what it was at its foot on the old lines. O(points), parallel.
 [[nodiscard]] std::vector<Stretch> resample(const Program& program, const ProgrammedSurface& laid,
                                             const LineEditor& editor, const ResampleRules& rules,
-                                            std::span<const std::uint8_t> needed);
+                                            std::span<const std::uint8_t> needed,
+                                            const Orientation* orientation = nullptr);
 
 }  // namespace clsurf

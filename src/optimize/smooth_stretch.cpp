@@ -83,7 +83,7 @@ Curve smooth_curve(const OldStretch& old, const std::vector<StationOfPass>& stat
 
 /// A point of the curve between its knots, no farther from the old lines about `way` than most of the tolerance.
 Vec3 held(const Vec3& p, const OldStretch& old, double way, double most) {
-    const Vec3 nearest = old.nearest(p, way);
+    const Vec3 nearest = old.foot(p, way).position;
     const double off = (p - nearest).norm();
     return off > most ? Vec3(nearest + (p - nearest) * (most / off)) : p;
 }

@@ -8,12 +8,13 @@
 namespace clsurf {
 namespace {
 
-TEST(PlainLine, IsNumberG1AndCoordinatesOnly) {
+TEST(PlainLine, IsNumberG1AndAxesOnly) {
     EXPECT_TRUE(read_plain_line("X1.5 Y-2.").has_value());
     EXPECT_TRUE(read_plain_line("N10 G01 X1.5Y2Z3.000").has_value());
     EXPECT_TRUE(read_plain_line("n10g1x=1.5").has_value());
-    for (const char* text : {"", "N10", "G1", "G0 X1", "G1 X1 F100", "X1 (edge)", "X1 ; edge", "X#1", "X1 A5", "X1 M8",
-                             "G1 G41 X1", "X1 X2", "X", "G1.1 X1", "/X1", "X1 G1"}) {
+    for (const char* text :
+         {"", "N10", "G1", "G0 X1", "G1 X1 F100", "X1 (edge)", "X1 ; edge", "X#1", "A5", "X1 A3=0.1", "X1 I0 J0 K1",
+          "X1 C=DC(5)", "X1 M8", "G1 G41 X1", "X1 X2", "X", "G1.1 X1", "/X1", "X1 G1"}) {
         EXPECT_FALSE(read_plain_line(text).has_value()) << text;
     }
     const PlainLine line = *read_plain_line("N10 G1 X1.250 Z=-3");
@@ -22,6 +23,11 @@ TEST(PlainLine, IsNumberG1AndCoordinatesOnly) {
     EXPECT_EQ(line.decimals[0], 3);
     EXPECT_EQ(line.axis[2], "Z=");
     EXPECT_EQ(line.value[2], -3);
+    const PlainLine turning = *read_plain_line("X1. A-16.4010 C=117.69");
+    EXPECT_EQ(turning.axis[5], "C=");
+    EXPECT_EQ(turning.digits[3], "-16.4010");
+    EXPECT_EQ(turning.decimals[5], 2);
+    EXPECT_EQ(turning.value[3], -16.401);
 }
 
 constexpr const char* part =
@@ -41,7 +47,28 @@ TEST(LineEditor, LeavesLinesWithMoreInThemAlone) {
     EXPECT_EQ(editable(program), (std::vector<std::int64_t>{2, 3, 4, 5, 6}));
     EXPECT_TRUE(editable(read_text("G91\nG0 X1\nG1 X1 F100\nX2\nX2\n")).empty())
         << "incremental words do not say where they go";
-    EXPECT_TRUE(editable(read_text("G0 X0 Y0 Z0\nG1 X1 F100\nX2 A5\nX3 A6\n")).empty()) << "an orientation that turns";
+    EXPECT_EQ(editable(read_text("G0 X0 Y0 Z0\nG1 X1 F100\nX2 A5\nX2 A6\nX3 A7\n")), (std::vector<std::int64_t>{2, 4}))
+        << "a turn in place has to stay";
+    EXPECT_EQ(editable(read_text("G0 X0 Y0 Z0\nG1 X1 F100\nX2\nG93 X3 F2\nX4\nG95 X5 F0.1\nX6\nG94 X7 F100\nX8\n")),
+              (std::vector<std::int64_t>{2, 8}))
+        << "F counts something else than lengths per minute";
+}
+
+// Three lines become four: the words of an old point stay as they are, others have the finest decimals of the program.
+TEST(LineEditor, WritesAngles) {
+    const Program program =
+        read_text("G90\nG0 X0 Y0 Z0 A0 C0\nG1 X1 F100\nX2.0 A-1.50 C10.5\nX3.0 A-3.00 C20.0\nX4.0 A-4.5 C30.125\n");
+    LineEditor editor(program);
+    const auto of = [](double a, double c) { return Vec3(a * rad_per_deg, 0, c * rad_per_deg); };
+    editor.replace(2, 4, {{1.5, 0, 0}, {2, 0.1, 0}, {3.5, 0, 0}, {4, 0, 0}},
+                   {{of(-0.75, 5.25), -1}, {of(-1.5, 10.5), 2}, {of(-3.75, 25.0625), -1}, {of(-4.5, 30.125), 4}});
+    const std::string text = editor.text("");
+    EXPECT_NE(text.find("F100\nX1.5 A-0.750 C5.250\nX2.0 Y0.1 A-1.50 C10.5\nX3.5 Y0.0 A-3.750 C25.062\nX4.0 A-4.5 "
+                        "C30.125\n"),
+              std::string::npos)
+        << text;
+    // Two angles, each off by half of a thousandth of a degree.
+    EXPECT_NEAR(editor.turn_rounding(), std::hypot(0.0005, 0.0005) * rad_per_deg, 1e-12);
 }
 
 TEST(LineEditor, ReplacesAStretchAndNothingElse) {

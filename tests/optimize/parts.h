@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/diagnostic.h"
+#include "core/units.h"
 #include "program/interpreter.h"
 
 namespace clsurf {
@@ -35,6 +36,32 @@ std::string wavy_zigzag(int passes, double length, const Spacing& spacing, doubl
         text += fmt::format("X{:.4f} Z{:.4f}\n", end, z(end, y));
     }
     return text + "G0 Z10\nM5\nM2\n%\n";
+}
+
+/// A zigzag over a ball of radius 60 mm, the tool normal to it and 8° or more from the pole, under G43.4: passes along x, 0.4 mm apart.
+/// `spacing` as above; angles have `decimals`.
+template <typename Spacing>
+std::string tilted_zigzag(int passes, double length, const Spacing& spacing, int decimals = 4) {
+    constexpr double radius = 60, from = 10;
+    std::string text = "%\n(BALL)\nG21 G90 G17 G54\nG64 P0.005\nG43.4 H1\nS12000 M3\n";
+    const auto at = [&](const char* code, double x, double y, double above, const char* feed) {
+        const double z = std::sqrt(radius * radius - x * x - y * y) - radius;
+        const double tilt = -std::asin(std::hypot(x, y) / radius) * deg_per_rad, turn = std::atan2(-x, y) * deg_per_rad;
+        text += fmt::format("{}X{:.4f} Y{:.4f} Z{:.4f} A{:.{}f} C{:.{}f}{}\n", code, x, y, z + above, tilt, decimals,
+                            turn, decimals, feed);
+    };
+    at("G0 ", from, 0, 10, "");
+    at("G1 ", from, 0, 0, " F1000");
+    text += "G1 F3000\n";
+    for (int pass = 0; pass < passes; ++pass) {
+        const double y = 0.4 * pass;
+        const bool back = pass % 2 == 1;
+        const auto x = [&](double way) { return from + (back ? length - way : way); };
+        if (pass > 0) at("", x(0), y, 0, "");
+        for (double way = spacing(pass, 0.0); way < length - 1e-9; way += spacing(pass, way)) at("", x(way), y, 0, "");
+        at("", x(length), y, 0, "");
+    }
+    return text + "G0 Z10\nG49\nM5\nM2\n%\n";
 }
 
 }  // namespace clsurf
