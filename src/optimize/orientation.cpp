@@ -50,7 +50,7 @@ bool Orientation::is_divisible(std::int64_t motion) const {
     if (turn_between(from, to) > most_by_a_line) return false;
     for (int k = 0; k <= judged_places; ++k) {
         const RotaryAngles at = angles(motion, static_cast<double>(k) / judged_places);
-        if (axis({at.tilt, 0}).cross(kinematics_->rotation.direction).norm() < std::sin(least_from_pole)) return false;
+        if (from_pole(at) < std::sin(least_from_pole)) return false;
     }
     return true;
 }

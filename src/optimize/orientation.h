@@ -30,6 +30,10 @@ public:
         return blocks_.way(static_cast<std::size_t>(motion)).at(part);
     }
     [[nodiscard]] Vec3 axis(const RotaryAngles& angles) const { return kinematics_->axis_of(angles); }
+    /// The sine of the angle between the tool axis and its pole: how far a turn of the table turns it.
+    [[nodiscard]] double from_pole(const RotaryAngles& angles) const {
+        return axis({angles.tilt, 0}).cross(kinematics_->rotation.direction).norm();
+    }
     /// The way of the tool axis on a line between two places of lines that may be divided.
     [[nodiscard]] ToolAxisPath between(const RotaryAngles& from, const RotaryAngles& to) const {
         return {*kinematics_, from, to, {}, std::numeric_limits<double>::infinity(), 0};

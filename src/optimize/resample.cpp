@@ -138,7 +138,7 @@ private:
         const std::vector<StationOfPass> stations =
             stations_between(laid_, phases_, pass.ends[begin], pass.ends[end], old.length());
         std::optional<TurningStretch> turning;
-        if (turns(old)) turning.emplace(old, *orientation_);
+        if (turns(old)) turning.emplace(old, *orientation_, stations, lines_);
         Stretch stretch{motion(pass.ends[begin + 1]), motion(pass.ends[end]), {}};
         for (const NewPlace& place :
              new_lines(old, smooth(old, stations, lines_), stations, lines_, turning ? &*turning : nullptr)) {

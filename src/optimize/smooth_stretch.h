@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "curve/cubic_span.h"
 #include "optimize/line_rules.h"
 #include "optimize/old_stretch.h"
 #include "optimize/stations.h"
@@ -17,7 +18,22 @@ struct SmoothStretch {
 };
 
 /// Akima's curve through the smoothest way in the tube round the old lines; its knots are the stations and the old points, at which the
-/// tube is narrowest. Between them it is held to most of the tolerance. O(points).
+/// tube is narrowest. Between them it is held to most of the tolerance.
+class SmoothCurve {
+public:
+    /// `old` must outlive it. O(points).
+    SmoothCurve(const OldStretch& old, const std::vector<StationOfPass>& stations, const LineRules& rules);
+    /// After some way along the old lines [mm].
+    [[nodiscard]] Vec3 at(double way) const;
+
+private:
+    const OldStretch& old_;
+    double most_;              ///< [mm] off the old lines
+    std::vector<double> way_;  ///< of its knots
+    std::vector<CubicSpan> spans_;
+};
+
+/// Such a curve at all stations. O(points).
 [[nodiscard]] SmoothStretch smooth(const OldStretch& old, const std::vector<StationOfPass>& stations,
                                    const LineRules& rules);
 

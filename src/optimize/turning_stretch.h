@@ -1,9 +1,10 @@
 #pragma once
-// TurningStretch: where the tool points along the old lines of a stretch, and how far new lines beside them turn it away.
+// TurningStretch: where the tool points along the old lines of a stretch, where it is to point on new ones, and how far those turn it
+// away.
 
 #include "optimize/line_edit.h"
-#include "optimize/old_stretch.h"
 #include "optimize/orientation.h"
+#include "optimize/smooth_stretch.h"
 
 namespace clsurf {
 
@@ -21,12 +22,14 @@ struct AxisError {
 
 class TurningStretch {
 public:
-    /// Both must outlive it. The lines of the stretch may be divided.
-    TurningStretch(const OldStretch& old, const Orientation& orientation) : old_(old), orientation_(orientation) {}
+    /// Old lines and orientation must outlive it. The lines of the stretch may be divided. O(points).
+    TurningStretch(const OldStretch& old, const Orientation& orientation, const std::vector<StationOfPass>& stations,
+                   const LineRules& rules);
 
-    /// Angles of the old lines at the foot of a new point on them.
-    [[nodiscard]] RotaryAngles beside(const NewPlace& place) const;
-    /// The words for them: those of an old point as they stand where the place is its own.
+    /// Angles of a new line at one of its ends: at the foot on the old lines what the smoothest way of the angles in a tube has there; at an old
+    /// point those that it had.
+    [[nodiscard]] RotaryAngles angles(const NewPlace& place) const;
+    /// The words for them: those of an old point as they stand.
     [[nodiscard]] LineAngles words(const NewPlace& place) const;
     /// The axis along a new line against that at the same part of the old ones between its ends, at old points and half-way
     /// between them. O(old points between).
@@ -34,9 +37,14 @@ public:
 
 private:
     [[nodiscard]] RotaryAngles at(double way) const;
+    /// The old point that a place is; 0: none.
+    [[nodiscard]] std::size_t old_point(const NewPlace& place) const;
 
     const OldStretch& old_;
     const Orientation& orientation_;
+    double turn_lever_;   ///< [mm/rad] that rotations are drawn with
+    OldStretch drawn_;    ///< the angles as lines in space: tilt, rotation, way [mm]
+    SmoothCurve smooth_;  ///< through them
 };
 
 }  // namespace clsurf
