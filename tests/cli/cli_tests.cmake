@@ -410,6 +410,19 @@ clsurf_cli_test(NAME optimize_accepts_what_is_better SETUP "${crowded}" ARGS opt
   STDOUT "\"accepted\": true" "\"deviation_mm\": 0.00[0-4]" "\"lines_before\": 263" FILE better.nc)
 clsurf_cli_test(NAME optimize_starts_from_a_log SETUP "${crowded}; $CLSURF simulate part.nc --machine @DATA@/machines/linuxcnc_logs.toml -o run.biip" ARGS optimize part.nc --log run.biip --machine @DATA@/machines/linuxcnc_logs.toml --json -o better.nc
   STDOUT "\"accepted\": true" "\"proof\": \"simulation\"" "\"motions_in_need\": [1-9]" FILE better.nc)
+# The same passes with a tool that turns, on five axes that are quick to plan for.
+set(crowded5 "sed 's/max_jerk = .*/max_jerk = 1e7/; s/^period.*/&\\nblock_time = 0.003/' @DATA@/machines/five_axis_trunnion.toml > m.toml && awk 'BEGIN { print \"G21 G90\\nG64 P0.005\\nG43.4 H1\\nG0 X0 Y0 Z10 A-15 C90\\nG1 Z0 F1000\\nG1 F3000\"; for (k = 0; k < 5; ++k) for (w = 0; w < 6.01; w += k == 2 && w > 2 && w < 3 ? 0.02 : 0.25) { x = k % 2 ? 6 - w : w; printf \"X%.3f Y%.3f Z%.3f A%.3f C%.3f\\n\", x, 0.4 * k, 0.2 * sin(0.8 * x), -15 - 0.2 * x, 90 + 0.5 * x } print \"G49\\nG0 Z10\\nM2\" }' > part.nc")
+clsurf_cli_test(NAME optimize_five_axes SETUP "${crowded5}" ARGS optimize part.nc --machine m.toml --work-offset 5,0,10 --json -o better.nc
+  STDOUT "\"accepted\": true" "\"deviation_mm\": 0.00[0-4]" "\"defects_before\": [1-9]" "\"defects_after\": 0" "\"tool_axis_deviation_deg\": 0.00" FILE better.nc)
+# Rapids, codes and comments are still there, every line says its angles, and the last one is where the passes ended.
+clsurf_cli_test(NAME optimize_five_axes_keeps_the_rest
+  SETUP "${crowded5} && $CLSURF optimize part.nc --machine m.toml -o better.nc | grep -q 'tool axis off the programmed one by at most 0.00[0-9]* deg' && grep -v '^X' part.nc > kept && grep -v '^X\\|clsurf' better.nc | sed 's/^F[0-9.]*$//; /^$/d' | cmp - kept && test $(grep -c '^X.* A.* C' better.nc) -eq $(grep -c '^X' better.nc)"
+  ARGS moves better.nc --machine m.toml STDOUT "feed,6,0,-0.199,-16.2,0,93,")
+clsurf_cli_test(NAME optimize_five_axes_refuses SETUP "${crowded5}; sed -i 's/^X.*/& (KEEP)/' part.nc" ARGS optimize part.nc --machine m.toml -o better.nc
+  EXIT 1 STDOUT "refused: no stretch of the program can be rewritten" "tool axis off the programmed one by at most 0.0000 deg" NO_FILE better.nc)
+clsurf_cli_test(NAME optimize_five_axes_on_three SETUP "${crowded5}" ARGS optimize part.nc --machine @DATA@/machines/three_axis_mill.toml -o better.nc
+  EXIT 3 STDERR "part.nc:4: error: a rotary axis moves" "hint: --machine FILE with rotary axes" NO_FILE better.nc)
+clsurf_cli_test(NAME optimize_work_offset_of_three_axes ARGS optimize ${uneven} --work-offset 1,2,3 -o better.nc EXIT 2 STDERR "for programs on rotary axes" NO_FILE better.nc)
 clsurf_cli_test(NAME optimize_log_options_without_a_log ARGS optimize ${uneven} --period 0.001 -o better.nc EXIT 2 STDERR "--period is of a log" NO_FILE better.nc)
 clsurf_cli_test(NAME optimize_wrong_time ARGS optimize ${uneven} --more-time -3 -o better.nc EXIT 2 STDERR "--more-time must be 0 to 100 %" NO_FILE better.nc)
 clsurf_cli_test(NAME optimize_wrong_decimals ARGS optimize ${uneven} --decimals 12 -o better.nc EXIT 2 STDERR "--decimals must be 0 to 9" NO_FILE better.nc)
