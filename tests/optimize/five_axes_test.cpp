@@ -150,8 +150,7 @@ struct Resampled {
     std::string text;
 };
 
-Resampled resampled(const std::string& text, double tolerance, double spacing) {
-    const Machine machine = trunnion();
+Resampled resampled(const std::string& text, double tolerance, double spacing, const Machine& machine = trunnion()) {
     Resampled r{of_the_tip(text, machine), {}, {}};
     const Orientation orientation(r.before, machine, zero, Vec3::Zero());
     LineEditor editor(r.before);
@@ -215,6 +214,21 @@ TEST(FiveAxisResample, KeepsTipAndToolAxis) {
     }
 }
 
+TEST(FiveAxisResample, KeepsTheToolAxisAlongGreatCircles) {
+    for (const ToolAxisInterpolation way : {ToolAxisInterpolation::vector, ToolAxisInterpolation::safe}) {
+        Machine machine = trunnion();
+        machine.kinematics.interpolation = way;
+        const std::string text = tilted_zigzag(5, 8, crowded);
+        const Resampled r = resampled(text, 0.005, 0.6, machine);
+        EXPECT_NE(r.text, text);
+        const Orientation before(r.before, machine, zero, Vec3::Zero()), after(r.after, machine, zero, Vec3::Zero());
+        const Deviation measured = measure_deviation(r.before, r.after, 0.05, {&before, &after});
+        EXPECT_EQ(measured.disordered, 0U);
+        EXPECT_LE(measured.greatest, 0.005);
+        EXPECT_LE(measured.turned, most_turned) << name_of(way);
+    }
+}
+
 // The decimals of the words are the program's own; words at points that stay are those that were there.
 TEST(FiveAxisResample, WritesAsManyDecimalsAsTheProgram) {
     const std::string text = tilted_zigzag(5, 8, crowded, 3);
@@ -230,6 +244,27 @@ TEST(FiveAxisResample, WritesAsManyDecimalsAsTheProgram) {
     // One decimal is 0.07° of rounding: no new angle can be written, and nothing changes.
     const std::string coarse = tilted_zigzag(5, 8, crowded, 1);
     EXPECT_EQ(resampled(coarse, 0.005, 0.6).text, coarse);
+}
+
+/// Of all joints of lines on passes, a step-over away from their ends, the greatest jump of the rates of C [rad/mm].
+double greatest_jump(const Motions& m) {
+    double greatest = 0;
+    const auto rate = [&](std::size_t i) {
+        return (m.rotary[i].z - m.rotary[i - 1].z) / (m.end[i].vec() - m.end[i - 1].vec()).norm();
+    };
+    for (std::size_t i = 2; i + 2 < m.end.size(); ++i) {
+        if (m.end[i].x > 11 && m.end[i].x < 17) greatest = std::max(greatest, std::abs(rate(i + 1) - rate(i)));
+    }
+    return greatest;
+}
+
+// Where lines become half as long, jumps of the rates become half as great, as they would not on the old lines.
+TEST(FiveAxisResample, TurnsTheToolEvenly) {
+    const Resampled r = resampled(tilted_zigzag(
+                                      5, 8, [](int, double) { return 0.8; }, 5),
+                                  0.005, 0.4);
+    EXPECT_GT(r.after.motions.size(), r.before.motions.size() * 3 / 2);
+    EXPECT_LT(greatest_jump(r.after.motions), 0.7 * greatest_jump(r.before.motions));
 }
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -248,7 +283,7 @@ std::size_t found_in_order(const std::vector<std::string>& kept, const std::vect
 
 TEST(FiveAxisOptimizer, IsBetterInEveryRespect) {
     const Machine machine = trunnion();
-    const std::string text = tilted_zigzag(6, 6, crowded);
+    const std::string text = tilted_zigzag(5, 5, crowded);
     OptimizeRules rules;
     rules.zero = zero;
     Diagnostics diagnostics;
