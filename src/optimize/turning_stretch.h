@@ -25,6 +25,8 @@ public:
     /// Old lines and orientation must outlive it. The lines of the stretch may be divided. O(points).
     TurningStretch(const OldStretch& old, const Orientation& orientation, const std::vector<StationOfPass>& stations,
                    const LineRules& rules);
+    TurningStretch(const TurningStretch&) = delete;
+    TurningStretch& operator=(const TurningStretch&) = delete;
 
     /// Angles of a new line at one of its ends: at the foot on the old lines what the smoothest way of the angles in a tube has there; at an old
     /// point those that it had.
