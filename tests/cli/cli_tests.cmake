@@ -418,6 +418,8 @@ clsurf_cli_test(NAME optimize_five_axes SETUP "${crowded5}" ARGS optimize part.n
 clsurf_cli_test(NAME optimize_five_axes_keeps_the_rest
   SETUP "${crowded5} && $CLSURF optimize part.nc --machine m.toml -o better.nc | grep -q 'tool axis off the programmed one by at most 0.00[0-9]* deg' && grep -v '^X' part.nc > kept && grep -v '^X\\|clsurf' better.nc | sed 's/^F[0-9.]*$//; /^$/d' | cmp - kept && test $(grep -c '^X.* A.* C' better.nc) -eq $(grep -c '^X' better.nc)"
   ARGS moves better.nc --machine m.toml STDOUT "feed,6,0,-0.199,-16.2,0,93,")
+clsurf_cli_test(NAME optimize_five_axes_from_a_log SETUP "${crowded5} && $CLSURF simulate part.nc --machine m.toml --work-offset 5,0,10 -o run.biip -q"
+  ARGS optimize part.nc --log run.biip --machine m.toml --json -o better.nc STDOUT "\"accepted\": true" "\"motions_in_need\": [1-9]" FILE better.nc)
 clsurf_cli_test(NAME optimize_five_axes_refuses SETUP "${crowded5}; sed -i 's/^X.*/& (KEEP)/' part.nc" ARGS optimize part.nc --machine m.toml -o better.nc
   EXIT 1 STDOUT "refused: no stretch of the program can be rewritten" "tool axis off the programmed one by at most 0.0000 deg" NO_FILE better.nc)
 clsurf_cli_test(NAME optimize_five_axes_on_three SETUP "${crowded5}" ARGS optimize part.nc --machine @DATA@/machines/three_axis_mill.toml -o better.nc
