@@ -67,7 +67,24 @@ public:
         return apart;
     }
 
+    /// Goes along the line of the path, if there is one from here, that is the same as line `i` of another: how far its points are is known.
+    [[nodiscard]] bool goes_along(const Toolpath& other, std::int64_t i) {
+        if (orientation_ != nullptr || !is_line(other, i)) return false;
+        double before = way_before_;
+        for (std::int64_t m = at_; m < std::min(at_ + 2, path_.size()); before += path_.length(m++)) {
+            if (!is_line(path_, m) || path_.begin(m) != other.begin(i) || path_.end(m) != other.end(i)) continue;
+            at_ = m;
+            way_before_ = before;
+            way_ = before + path_.length(m);
+            return true;
+        }
+        return false;
+    }
+
 private:
+    [[nodiscard]] static bool is_line(const Toolpath& path, std::int64_t i) {
+        return path.motions().kind[static_cast<std::size_t>(i)] == MotionKind::feed;
+    }
     /// Of feet that are as near, the one counts where the tool points most alike.
     void compare_axes(const Sample& sample, std::int64_t motion, const Foot& foot, Apart& apart) const {
         const RotaryAngles angles = orientation_->angles(motion, foot.fraction);
@@ -101,6 +118,7 @@ void compare(const Way& from, const Way& to, double step, const Take& take) {
     Walk walk(to.path, to.orientation);
     const Toolpath& path = from.path;
     for (std::int64_t i = 0; i < path.size(); ++i) {
+        if (walk.goes_along(path, i)) continue;
         // What lies between rapids has to be there; rapids themselves are compared by their ends.
         const bool rapid = path.motions().kind[static_cast<std::size_t>(i)] == MotionKind::rapid;
         const double pieces = rapid ? std::ceil(path.length(i) / (0.5 * window))

@@ -82,7 +82,8 @@ void FeedSearch::cure(Curing& curing, int rounds) {
         const Tried cured = prover_.propose(from->draft, targets);
         const Tried kept = prover_.has_time() ? without_losses(*from, cure, *cured, curing.hopeless) : nullptr;
         for (const Tried& tried : {cured, kept}) {
-            if (tried && tried->run.duration <= prover_.longest() && prover_.score(*tried) < prover_.score(*curing.from))
+            if (tried && tried->run.duration <= prover_.longest() &&
+                prover_.score(*tried) < prover_.score(*curing.from))
                 curing.from = tried;
         }
         curing.share = curing.from == from ? curing.share / 2 : std::min(2 * curing.share, most_share);

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/parallel.h"
 #include "core/units.h"
 #include "optimize/levelling.h"
 #include "optimize/line_edit.h"
@@ -33,7 +34,10 @@ Prover::Prover(const Program& program, const ReadProgram& read, const Machine& m
     before_ = judge_run(std::move(simulated.log), program_, rules_.quality, diagnostics_, kinematics_);
 }
 
-bool Prover::has_time(double share) const { return points_ < share * most_points && in_vain_ < most_in_vain; }
+bool Prover::has_time(double share) const {
+    const auto one_run = static_cast<double>(before_.log.records);
+    return (points_ == 0 || points_ + one_run <= share * most_points) && in_vain_ < most_in_vain;
+}
 
 void Prover::allow_more_time() {
     more_time_ = rules_.more_time;
@@ -71,8 +75,9 @@ Proposal Prover::prove(const std::shared_ptr<const Draft>& draft, std::vector<fl
     const Program changed = read_(result.text);
     proof.lines_before = program_.main().line_count();
     proof.lines_after = changed.main().line_count();
-    proof.deviation = deviation_of(changed);
-    SimulatedRun simulated = simulate_to_log(changed, machine_, rules_.start, progress_, rules_.zero);
+    SimulatedRun simulated;
+    parallel_invoke([&] { simulated = simulate_to_log(changed, machine_, rules_.start, progress_, rules_.zero); },
+                    [&] { proof.deviation = deviation_of(changed); });
     result.summary = std::move(simulated.summary);
     points_ += static_cast<double>(result.summary.points);
     // A cleaner run must not be judged more strictly for being cleaner.

@@ -66,8 +66,8 @@ public:
     /// nullptr: the program is not run on five axes.
     [[nodiscard]] const Orientation* orientation() const { return orientation_.get(); }
     [[nodiscard]] const std::shared_ptr<const Kinematics>& kinematics() const { return kinematics_; }
-    /// Whether there is time for one more: all runs together have a bound, of which a share may be used, and so have those in a row that
-    /// are no better than the best.
+    /// Whether there is time for one more (for the first one there always is): all runs together have a bound, of which a share may be
+    /// used, and so have those in a row that are no better than the best.
     [[nodiscard]] bool has_time(double share = 1) const;
 
     /// `targets`: as those of a Proposal, or none at all.
