@@ -53,10 +53,9 @@ BlockStream::BlockStream(MotionSource& source, const Machine& machine, const Vec
 }
 
 void BlockStream::follow_events(std::int64_t motion) {
-    const std::vector<ProgramEvent>& events = source_->program().events;
-    for (; next_event_ < events.size() && events[next_event_].motion <= motion; ++next_event_) {
-        if (events[next_event_].name == "path-mode") tolerance_ = path_tolerance(events[next_event_], *machine_);
-    }
+    events_.pass(source_->program().events, motion, [&](const ProgramEvent& event) {
+        if (event.name == "path-mode") tolerance_ = path_tolerance(event, *machine_);
+    });
 }
 
 double BlockStream::done() const {
@@ -69,7 +68,7 @@ bool BlockStream::at_a_motion() {
     while (next_motion_ >= source_->piece_size()) {
         if (!source_->next_piece()) return false;
         taken_before_ += std::exchange(next_motion_, 0);
-        next_event_ = 0;
+        events_ = {};
     }
     return true;
 }

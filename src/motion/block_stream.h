@@ -5,6 +5,7 @@
 #include "core/geometry.h"
 #include "machine/machine.h"
 #include "motion/path_element.h"
+#include "program/event_cursor.h"
 #include "program/motion_source.h"
 
 namespace clsurf {
@@ -53,7 +54,7 @@ private:
     const Machine* machine_;
     Vec3 at_;                                          ///< end of the last element read
     std::int64_t next_motion_ = 0, taken_before_ = 0;  ///< in the piece at hand, and in those before
-    std::size_t next_event_ = 0;                       ///< in the piece
+    EventCursor events_;                               ///< of the piece
     std::int64_t blocks_ = 0;
     Xyz rotary_;            ///< of the last motion [rad]
     double tolerance_ = 0;  ///< in force; 0: exact path

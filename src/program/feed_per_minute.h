@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "program/event_cursor.h"
 #include "program/program.h"
 
 namespace clsurf {
@@ -18,16 +19,15 @@ public:
 
     /// Whether F counts lengths per minute at a motion; motions must not go back.
     [[nodiscard]] bool on(std::int64_t motion) {
-        const std::vector<ProgramEvent>& events = program_->events;
-        for (; next_ < events.size() && events[next_].motion <= motion; ++next_) {
-            if (events[next_].name == feed_mode_event) on_ = events[next_].value == feed_per_minute;
-        }
+        cursor_.pass(program_->events, motion, [&](const ProgramEvent& event) {
+            if (event.name == feed_mode_event) on_ = event.value == feed_per_minute;
+        });
         return on_;
     }
 
 private:
     const Program* program_;
-    std::size_t next_ = 0;
+    EventCursor cursor_;
     bool on_ = true;
 };
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "program/event_cursor.h"
 #include "program/program.h"
 
 namespace clsurf {
@@ -20,20 +21,18 @@ public:
 
     /// Whether it is on at a motion; motions must not go back.
     [[nodiscard]] bool on(std::int64_t motion) {
-        const std::vector<ProgramEvent>& events = program_->events;
-        for (; next_ < events.size() && events[next_].motion <= motion; ++next_) {
-            const ProgramEvent& event = events[next_];
-            if (event.name != "tool-centre-point") continue;
+        cursor_.pass(program_->events, motion, [&](const ProgramEvent& event) {
+            if (event.name != "tool-centre-point") return;
             on_ = event.value.starts_with(tilted_plane) || event.value.starts_with("TRAORI") ||
                   event.value.starts_with("G43.4") || event.value.starts_with("G43.5") ||
                   event.value.starts_with("M128");
-        }
+        });
         return on_;
     }
 
 private:
     const Program* program_;
-    std::size_t next_ = 0;
+    EventCursor cursor_;
     bool on_ = false;
 };
 

@@ -1,0 +1,24 @@
+#pragma once
+// EventCursor: along the events of a program, beside its motions.
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "program/program.h"
+
+namespace clsurf {
+
+class EventCursor {
+public:
+    /// Calls take(event) for the events up to a motion that were not passed before; motions must not go back.
+    template <typename Take>
+    void pass(const std::vector<ProgramEvent>& events, std::int64_t motion, const Take& take) {
+        for (; next_ < events.size() && events[next_].motion <= motion; ++next_) take(events[next_]);
+    }
+
+private:
+    std::size_t next_ = 0;
+};
+
+}  // namespace clsurf
