@@ -2,18 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "core/not_finite.h"
 
 namespace clsurf::io {
 namespace {
 
 constexpr std::size_t deepest = 32;  ///< levels; recordings have six
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 using Json = nlohmann::json;
 
@@ -40,7 +39,7 @@ public:
         return std::move(recording);
     }
 
-    bool null() override { return number(not_a_number); }
+    bool null() override { return number(missing<double>); }
     bool boolean(bool) override { return true; }
     bool number_integer(number_integer_t value) override { return number(static_cast<double>(value)); }
     bool number_unsigned(number_unsigned_t value) override { return number(static_cast<double>(value)); }
@@ -49,7 +48,7 @@ public:
 
     bool string(string_t& text) override {
         if (in_row_) {
-            row_.push_back(not_a_number);
+            row_.push_back(missing<double>);
         } else if (in_signal_) {
             if (key_ == "Name")
                 recording.signals.back().name = std::move(text);

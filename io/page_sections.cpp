@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/file_name.h"
 #include "core/units.h"
 #include "io/html_text.h"
 #include "io/json_value.h"
@@ -14,8 +15,6 @@ namespace clsurf::io {
 namespace {
 
 constexpr std::size_t defects_in_table = 200;
-
-std::string base_name(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
 /// "12 345 678" with thin spaces.
 std::string count_text(std::int64_t number) {
@@ -175,7 +174,7 @@ std::string health_section(const ReportPage& page) {
 
 std::string kept_text(const PageSurface& surface) {
     const KeptPoints& kept = *surface.kept;
-    const std::string log = html(base_name(surface.log->name));
+    const std::string log = html(file_name(surface.log->name));
     if (!kept.reduced())
         return fmt::format("<li>{}: all {} points are in this page.</li>\n", log, count_text(kept.all));
     return fmt::format(
@@ -205,15 +204,15 @@ std::string contents_section(const ReportPage& page) {
 
 }  // namespace
 
-std::string page_title(const ReportPage& page) { return base_name(page.program) + " · " + base_name(page.log); }
+std::string page_title(const ReportPage& page) { return file_name(page.program) + " · " + file_name(page.log); }
 
 std::string page_summary(const ReportPage& page) {
     const PageSurface& s = page.surfaces.front();
     const QualityReport& report = *page.quality.report;
     const Log& log = *s.log;
     std::string text =
-        fmt::format("<header id=\"summary\">\n<h1>{} <small>{}{}</small></h1>\n<dl>\n", html(base_name(page.program)),
-                    html(base_name(page.log)), page.before.empty() ? "" : html(" · before: " + base_name(page.before)));
+        fmt::format("<header id=\"summary\">\n<h1>{} <small>{}{}</small></h1>\n<dl>\n", html(file_name(page.program)),
+                    html(file_name(page.log)), page.before.empty() ? "" : html(" · before: " + file_name(page.before)));
     const std::string machine = metadata_text(log, "machine");
     if (!machine.empty()) text += fact("Machine", machine);
     text +=

@@ -1,10 +1,10 @@
 #include "io/program_identity.h"
 
 #include <algorithm>
-#include <filesystem>
 
 #include <fmt/format.h>
 
+#include "core/file_name.h"
 #include "io/json_value.h"
 #include "io/sha256.h"
 
@@ -18,8 +18,6 @@ bool same_hash(std::string_view a, std::string_view b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](char x, char y) { return lower(x) == lower(y); });
 }
 
-std::string base_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
-
 std::string size_text(const ProgramReference& program) {
     return program.size ? fmt::format("{} bytes, ", *program.size) : std::string();
 }
@@ -29,7 +27,7 @@ std::string short_hash(const ProgramReference& program) { return program.sha256.
 }  // namespace
 
 ProgramReference identify(const Source& program) {
-    return {base_name(program.name), sha256(program.bytes), program.bytes.size()};
+    return {file_name(program.name), sha256(program.bytes), program.bytes.size()};
 }
 
 std::string with_programs(const std::string& metadata, std::span<const ProgramReference> programs) {
@@ -56,7 +54,7 @@ void check_identity(const Source& program, const Log& log, Diagnostics& diagnost
         if (same_hash(known->sha256, given.sha256)) return;
     }
     const auto namesake = std::find_if(hashed.begin(), hashed.end(), [&](const ProgramReference* known) {
-        return base_name(known->name) == given.name;
+        return file_name(known->name) == given.name;
     });
     const bool edited = namesake != hashed.end();
     const ProgramReference& ran = edited ? **namesake : *hashed.front();

@@ -11,13 +11,13 @@
 #include <charconv>
 #include <cmath>
 #include <exception>
-#include <limits>
 #include <unordered_map>
 
 #include <expat.h>
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/not_finite.h"
 #include "io/owned_columns.h"
 #include "io/text_mapping.h"
 
@@ -28,7 +28,6 @@ namespace {
 constexpr std::size_t most_signals = 64;
 constexpr std::size_t deepest = 64;  ///< nested elements; sessions have five
 constexpr double not_measured = 9.2e18;
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t piece_bytes = std::size_t{1} << 20;
 
 /// NC variables, by the last part of their name without "64" or "32" at its end.
@@ -72,7 +71,7 @@ ColumnPlan known_variable(const std::string& name) {
 
 struct Signal {
     SourceColumn column;
-    double now = not_a_number;
+    double now = missing<double>;
     std::vector<double> values;
 };
 
@@ -203,11 +202,11 @@ private:
         }
         if (signals.size() == most_signals) fail(fmt::format("more than {} signals", most_signals));
         if (!time.empty()) fail(fmt::format("signal '{}' stands behind the first record", id));
-        signals.push_back({{name, description, known_variable(name)}, not_a_number, {}});
+        signals.push_back({{name, description, known_variable(name)}, missing<double>, {}});
     }
 
     void add_record(const XML_Char** attributes) {
-        double now = not_a_number;
+        double now = missing<double>;
         for (; *attributes != nullptr; attributes += 2) {
             const std::string key = attributes[0];
             if (key == "time") {
@@ -218,7 +217,7 @@ private:
             if (found == by_id_.end())
                 fail(fmt::format("a record has a value of '{}', which no dataSignal names", key.substr(0, 40)));
             const double value = number(key, attributes[1]);
-            signals[found->second].now = std::abs(value) > not_measured ? not_a_number : value;
+            signals[found->second].now = std::abs(value) > not_measured ? missing<double> : value;
         }
         if (!std::isfinite(now)) fail("a record without 'time'");
         time.push_back(now);

@@ -41,7 +41,7 @@ struct Comment {
 };
 
 /// Where a reader of lines stands.
-struct Reader {
+struct LineReader {
     std::string_view rest;
     std::uint64_t number = 1;  ///< of the line in front
 
@@ -53,7 +53,7 @@ struct Reader {
     Comment take_comments() {
         Comment last;
         while (!rest.empty()) {
-            Reader ahead = *this;
+            LineReader ahead = *this;
             const std::string_view line = ahead.take();
             if (!is_comment(line)) break;
             if (!said_by(line).empty()) last = {line, number};
@@ -66,12 +66,12 @@ struct Reader {
 }  // namespace
 
 TextHead read_head(std::string_view text, char separator) {
-    Reader reader{text};
+    LineReader reader{text};
     if (reader.rest.starts_with("\xef\xbb\xbf")) reader.rest.remove_prefix(3);
     const Comment comment = reader.take_comments();
     TextHead head;
     head.line = reader.number;
-    Reader below = reader;
+    LineReader below = reader;
     const std::string_view line = below.take();
     head.separator = separator != '\0' ? separator : detect_separator(line);
     const std::vector<std::string> fields = split(line, head.separator);
@@ -79,7 +79,7 @@ TextHead read_head(std::string_view text, char separator) {
         (void)reader.take_comments();
         head.data_begin = text.size() - reader.rest.size();
         head.first_data_line = reader.number;
-        head.first = split(Reader(reader).take(), head.separator);
+        head.first = split(LineReader(reader).take(), head.separator);
     };
     if (has_word(fields)) {
         name_columns(fields, head);

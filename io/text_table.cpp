@@ -4,11 +4,11 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/not_finite.h"
 #include "core/parallel.h"
 #include "io/clock_time.h"
 #include "io/owned_columns.h"
@@ -17,7 +17,6 @@ namespace clsurf::io {
 namespace {
 
 constexpr std::size_t stretch_bytes = std::size_t{4} << 20;
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 /// Fields that may be missing per byte of text: a header of a million columns above empty rows would
 /// otherwise ask for any amount of memory.
 constexpr std::size_t most_missing_of_byte = 8;
@@ -50,14 +49,14 @@ bool next_field(std::string_view line, std::size_t& at, char separator, std::str
 double parse_time(std::string_view field, std::int64_t day, bool& bad) {
     const std::optional<ClockTime> time = parse_clock(field);
     bad = !time && !field.empty();
-    return time ? time->since(day) : not_a_number;
+    return time ? time->since(day) : missing<double>;
 }
 
 /// A clock without a date begins anew at midnight.
 void go_on_after_midnight(std::vector<double>& seconds) {
     constexpr double day = 86400;
     double days = 0;
-    double before = not_a_number;
+    double before = missing<double>;
     for (double& second : seconds) {
         second += days;
         if (second < before - 0.5 * day) {
@@ -131,7 +130,7 @@ void read_stretch(const Source& source, const TextPlan& plan, Stretch& stretch) 
             for (; column < plan.columns.size(); ++column) {
                 if (plan.columns[column].name.empty()) continue;
                 if (++stretch.missing > most_missing_of_byte * (stretch.end - stretch.begin)) return;
-                stretch.columns[column].push_back(not_a_number);
+                stretch.columns[column].push_back(missing<double>);
             }
         }
         ++stretch.rows;
@@ -190,7 +189,7 @@ std::vector<std::string> split(std::string_view line, char separator) {
 double parse_number(std::string_view field, bool decimal_comma, bool& bad) {
     bad = false;
     if (!field.empty() && field.front() == '+') field.remove_prefix(1);
-    if (field.empty() || field == "nan" || field == "NaN" || field == "-nan") return not_a_number;
+    if (field.empty() || field == "nan" || field == "NaN" || field == "-nan") return missing<double>;
     std::array<char, 64> buffer;
     if (decimal_comma && field.size() < buffer.size() && field.find(',') != std::string_view::npos) {
         std::copy(field.begin(), field.end(), buffer.begin());
@@ -201,7 +200,7 @@ double parse_number(std::string_view field, bool decimal_comma, bool& bad) {
     const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
     if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(value)) {
         bad = true;
-        return not_a_number;
+        return missing<double>;
     }
     return value;
 }

@@ -37,7 +37,7 @@ std::vector<double> colour_differences(const QualityReport& report, const Part& 
     return differences;
 }
 
-ExitCode run(const po::variables_map& values) {
+ExitCode run_check(const po::variables_map& values) {
     const std::string format = report_format(values);
     const Writer write = writer_of(format);
     PartOptions options = read_part_options(values);
@@ -95,7 +95,7 @@ Subcommand check_subcommand() {
                 declare_part(options);
             },
         .positional = {"PROGRAM", "LOG"},
-        .run = run,
+        .run = run_check,
     };
 }
 

@@ -19,7 +19,7 @@ void write_file(const std::string& path, std::string_view bytes) {
     file.commit();
 }
 
-ExitCode run(const po::variables_map& values) {
+ExitCode run_compare(const po::variables_map& values) {
     const std::string made = required(values, "A.png");
     const std::string reference = required(values, "B.png");
     viz::CompareRule rule;
@@ -88,7 +88,7 @@ Subcommand compare_subcommand() {
                 // clang-format on
             },
         .positional = {"A.png", "B.png"},
-        .run = run,
+        .run = run_compare,
     };
 }
 

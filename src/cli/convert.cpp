@@ -8,7 +8,7 @@
 namespace clsurf::cli {
 namespace {
 
-ExitCode run(const po::variables_map& values) {
+ExitCode run_convert(const po::variables_map& values) {
     Log log = io::open_log(required(values, "LOG"), read_log_options(values));
     print(log.diagnostics, values);
     std::string metadata = log.metadata;
@@ -45,7 +45,7 @@ Subcommand convert_subcommand() {
                 declare_log_options(options);
             },
         .positional = {"LOG"},
-        .run = run,
+        .run = run_convert,
     };
 }
 

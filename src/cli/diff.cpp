@@ -9,6 +9,7 @@
 #include "cli/look.h"
 #include "cli/runs.h"
 #include "cli/stage_clock.h"
+#include "core/file_name.h"
 #include "core/spelling.h"
 #include "io/atomic_file.h"
 #include "io/budget_file.h"
@@ -40,7 +41,7 @@ RunQuantity parse_quantity(const std::string& text) {
     throw UsageError("--color: '" + text + "' is not speed, acceleration, lag or height", did_you_mean(text, names));
 }
 
-DiffOptions read_options(const po::variables_map& values) {
+DiffOptions read_diff_options(const po::variables_map& values) {
     DiffOptions options;
     options.files.push_back(required(values, "A"));
     if (values.count("B") == 0) throw UsageError("missing argument: B");
@@ -104,21 +105,21 @@ void draw(const DiffOptions& options, const Run& a, const ClSurface& surface, co
     const ShownRange range = range_of(shown, surface, options.look, threshold);
     viz::MapTexts texts;
     texts.title =
-        fmt::format("{}: {} minus {}", shown.field.info.label, base_name(shown.run), base_name(options.files.front()));
+        fmt::format("{}: {} minus {}", shown.field.info.label, file_name(shown.run), file_name(options.files.front()));
     texts.subtitle =
-        fmt::format("{} points of {}, {} path", a.path.count, base_name(options.files.front()), name_of(a.path.role));
+        fmt::format("{} points of {}, {} path", a.path.count, file_name(options.files.front()), name_of(a.path.role));
     texts.notes = notes_of(range);
     const viz::Image image =
         viz::draw_map({panel}, camera, scale_of(shown.field.info, range, options.look), texts, options.look.look);
     output.write(
-        viz::encode_png(image, fmt::format("clsurf difference of {} and {}: {} {:g} to {:g} {}", base_name(shown.run),
-                                           base_name(options.files.front()), shown.field.info.name, range.low,
+        viz::encode_png(image, fmt::format("clsurf difference of {} and {}: {} {:g} to {:g} {}", file_name(shown.run),
+                                           file_name(options.files.front()), shown.field.info.name, range.low,
                                            range.high, shown.field.info.unit.name)));
     output.commit();
 }
 
-ExitCode run(const po::variables_map& values) {
-    const DiffOptions options = read_options(values);
+ExitCode run_diff(const po::variables_map& values) {
+    const DiffOptions options = read_diff_options(values);
     std::unique_ptr<io::AtomicFile> output;
     if (!options.output.empty()) {
         viz::preload_image_library();
@@ -214,7 +215,7 @@ Subcommand diff_subcommand() {
                 declare_look(options);
             },
         .positional = {"A", "B…"},
-        .run = run,
+        .run = run_diff,
     };
 }
 

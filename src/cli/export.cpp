@@ -80,7 +80,7 @@ void write_vtk(const std::string& path, bool hdf, const ClSurface& surface,
     file.commit();
 }
 
-ExitCode run(const po::variables_map& values) {
+ExitCode run_export(const po::variables_map& values) {
     const std::string output = required(values, "output");
     const std::vector<std::string> names =
         split_names(values.count("columns") > 0 ? values["columns"].as<std::string>() : "point,time,line,x,y,z,speed");
@@ -129,7 +129,7 @@ Subcommand export_subcommand() {
                 declare_derivative(options);
             },
         .positional = {"PROGRAM", "LOG"},
-        .run = run,
+        .run = run_export,
     };
 }
 

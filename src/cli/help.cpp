@@ -57,7 +57,7 @@ std::string vocabulary_text(const Vocabulary& vocabulary) {
     return two_columns(entries);
 }
 
-ExitCode run(const po::variables_map& values) {
+ExitCode run_help(const po::variables_map& values) {
     const bool json = read_json(values);
     if (values.count("TOPIC") == 0) {
         if (json) throw UsageError("--json needs a list: clsurf help fields --json");
@@ -172,7 +172,7 @@ Subcommand help_subcommand() {
             "fields, channels, formats, dialects, colormaps. Lists can be had as JSON.",
         .declare = [](po::options_description& options) { declare_json(options); },
         .positional = {"TOPIC"},
-        .run = run,
+        .run = run_help,
     };
 }
 

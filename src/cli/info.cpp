@@ -83,7 +83,7 @@ void judge_together(Program program, const Log& log, const std::optional<Vec3>& 
          {}});
 }
 
-ExitCode run(const po::variables_map& values) {
+ExitCode run_info(const po::variables_map& values) {
     if (values.count("FILE") == 0) throw UsageError("missing argument: FILE");
     const bool json = values.count("json") > 0;
     std::vector<std::string> objects;
@@ -143,7 +143,7 @@ Subcommand info_subcommand() {
                 declare_kinematics(options);
             },
         .positional = {"FILE…"},
-        .run = run,
+        .run = run_info,
     };
 }
 

@@ -18,7 +18,7 @@ double read_above(const po::variables_map& values, const char* name, double leas
     return value;
 }
 
-ExitCode run(const po::variables_map& values) {
+ExitCode run_intervals(const po::variables_map& values) {
     IntervalRules rules;
     rules.error = read_above(values, "error", 0, rules.error);
     rules.length_ratio = read_above(values, "length-ratio", 1, rules.length_ratio);
@@ -65,7 +65,7 @@ Subcommand intervals_subcommand() {
                 declare_program_options(options);
             },
         .positional = {"PROGRAM"},
-        .run = run,
+        .run = run_intervals,
     };
 }
 

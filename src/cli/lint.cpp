@@ -13,7 +13,7 @@ namespace {
 
 using Writer = std::string (*)(const io::ReportedLint&);
 
-ExitCode run(const po::variables_map& values) {
+ExitCode run_lint(const po::variables_map& values) {
     static const std::map<std::string, Writer, std::less<>> writers{
         {"text", io::lint_text}, {"json", io::lint_json}, {"sarif", io::lint_sarif}};
     const Writer write = writers.at(report_format(values));
@@ -57,7 +57,7 @@ Subcommand lint_subcommand() {
                 declare_program_options(options);
             },
         .positional = {"PROGRAM"},
-        .run = run,
+        .run = run_lint,
     };
 }
 

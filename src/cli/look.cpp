@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "core/file_name.h"
+
 namespace clsurf::cli {
 namespace {
 
@@ -113,7 +115,5 @@ std::vector<std::string> notes_of(const ShownRange& range) {
 std::string text_of(const po::variables_map& values, const char* name, const std::string& otherwise) {
     return values.count(name) > 0 ? values[name].as<std::string>() : otherwise;
 }
-
-std::string base_name(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
 }  // namespace clsurf::cli

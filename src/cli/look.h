@@ -28,7 +28,5 @@ void declare_look(po::options_description& options);
 
 /// An option's text, or another where it is not given.
 [[nodiscard]] std::string text_of(const po::variables_map& values, const char* name, const std::string& otherwise);
-/// A path without its folders.
-[[nodiscard]] std::string base_name(const std::string& path);
 
 }  // namespace clsurf::cli

@@ -8,7 +8,7 @@
 namespace clsurf::cli {
 namespace {
 
-ExitCode run(const po::variables_map& values) {
+ExitCode run_machine(const po::variables_map& values) {
     const bool defaults = values.count("defaults") > 0;
     if (defaults == (values.count("check") > 0)) throw UsageError("one of --defaults and --check is needed");
     if (defaults) {
@@ -42,7 +42,7 @@ Subcommand machine_subcommand() {
                 // clang-format on
             },
         .positional = {},
-        .run = run,
+        .run = run_machine,
     };
 }
 

@@ -254,7 +254,7 @@ void write_markdown(const std::filesystem::path& folder) {
     }
 }
 
-ExitCode run(const po::variables_map& values) {
+ExitCode run_manual(const po::variables_map& values) {
     const std::string form = required(values, "FORM");
     const std::filesystem::path folder = required(values, "output");
     if (form != "man" && form != "bash" && form != "markdown") {
@@ -283,7 +283,7 @@ Subcommand manual_subcommand() {
                                       "where to write; made when it is not there");
             },
         .positional = {"FORM"},
-        .run = run,
+        .run = run_manual,
         .hidden = true,
     };
 }

@@ -9,7 +9,7 @@
 namespace clsurf::cli {
 namespace {
 
-ExitCode run(const po::variables_map& values) {
+ExitCode run_moves(const po::variables_map& values) {
     Program program = io::read_program(required(values, "PROGRAM"), read_program_options(values));
     std::optional<Machine> machine;
     if (values.count("machine") > 0) {
@@ -42,7 +42,7 @@ Subcommand moves_subcommand() {
                                       "machine file with rotary axes: adds the tool axis in the workpiece");
             },
         .positional = {"PROGRAM"},
-        .run = run,
+        .run = run_moves,
     };
 }
 

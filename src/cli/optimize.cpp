@@ -8,6 +8,7 @@
 
 #include "cli/options.h"
 #include "cli/progress_bar.h"
+#include "core/file_name.h"
 #include "core/units.h"
 #include "core/version.h"
 #include "field/field_set.h"
@@ -73,13 +74,13 @@ viz::Image draw_before_and_after(const Optimized& result, const std::string& pro
         return fmt::format("{:.1f} s, {:.0f} mm/min between neighbour passes (95th percentile), {} defects",
                            run.duration, run.mismatch * seconds_per_minute, defects);
     };
-    texts.subtitle = program.substr(program.rfind('/') + 1);
+    texts.subtitle = file_name(program);
     texts.notes = {"before: " + summary(result.before, result.proof.defects_before),
                    "after: " + summary(result.after, result.proof.defects_after)};
     return viz::draw_map(panels, viz::map_camera(panels, look), scale, texts, look);
 }
 
-ExitCode run(const po::variables_map& values) {
+ExitCode run_optimize(const po::variables_map& values) {
     OptimizeRules rules;
     const std::string output_path = required(values, "output");
     if (values.count("tolerance") > 0) rules.tolerance = values["tolerance"].as<double>();
@@ -163,7 +164,7 @@ Subcommand optimize_subcommand() {
                 declare_program_options(options);
             },
         .positional = {"PROGRAM"},
-        .run = run,
+        .run = run_optimize,
     };
 }
 

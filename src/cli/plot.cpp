@@ -7,6 +7,7 @@
 
 #include "cli/fields.h"
 #include "cli/profile.h"
+#include "core/file_name.h"
 #include "io/atomic_file.h"
 #include "viz/chart.h"
 #include "viz/image_library.h"
@@ -25,7 +26,7 @@ struct PlotOptions {
     viz::ChartLook look;
 };
 
-PlotOptions read_options(const po::variables_map& values) {
+PlotOptions read_plot_options(const po::variables_map& values) {
     PlotOptions options;
     options.part = read_part_options(values);
     options.output = required(values, "output");
@@ -91,8 +92,8 @@ PointRange shown_range(const PlotOptions& options, const Part& part, const std::
     return range;
 }
 
-ExitCode run(const po::variables_map& values) {
-    PlotOptions options = read_options(values);
+ExitCode run_plot(const po::variables_map& values) {
+    PlotOptions options = read_plot_options(values);
     if (asks_for_profile(values)) return plot_profile(values, options.part, options.look, options.output);
     viz::preload_image_library();
     io::AtomicFile output(options.output);
@@ -129,10 +130,9 @@ ExitCode run(const po::variables_map& values) {
         if (!field.info.note.empty()) note += (note.empty() ? "" : "; ") + name + ": " + field.info.note;
         curves.push_back(std::move(curve));
     }
-    options.look.title = "Signals along " + options.part.log.substr(options.part.log.rfind('/') + 1);
-    options.look.subtitle = fmt::format("{} · points {} to {}, {} positions",
-                                        options.part.program.substr(options.part.program.rfind('/') + 1), range.first,
-                                        range.last, name_of(part.path.role));
+    options.look.title = "Signals along " + file_name(options.part.log);
+    options.look.subtitle = fmt::format("{} · points {} to {}, {} positions", file_name(options.part.program),
+                                        range.first, range.last, name_of(part.path.role));
     options.look.x_label = options.over_length ? "path length (mm)" : "time (s)";
     options.look.footnote = note;
     clock.begin("draw");
@@ -172,7 +172,7 @@ Subcommand plot_subcommand() {
                 declare_derivative(options);
             },
         .positional = {"PROGRAM", "LOG"},
-        .run = run,
+        .run = run_plot,
     };
 }
 

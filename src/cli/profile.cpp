@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "cli/formed.h"
+#include "core/file_name.h"
 #include "io/atomic_file.h"
 #include "viz/image_library.h"
 
@@ -66,9 +67,8 @@ ExitCode plot_profile(const po::variables_map& values, PartOptions options, viz:
     const Roughness& r = profile.roughness;
     look.title =
         fmt::format("Profile of the formed surface: Ra {:.2f} µm, Rz {:.2f} µm", r.ra * um_per_mm, r.rz * um_per_mm);
-    look.subtitle =
-        fmt::format("{} · {} · X {:g} Y {:g} to X {:g} Y {:g}", options.program.substr(options.program.rfind('/') + 1),
-                    options.log.substr(options.log.rfind('/') + 1), ends[0], ends[1], ends[2], ends[3]);
+    look.subtitle = fmt::format("{} · {} · X {:g} Y {:g} to X {:g} Y {:g}", file_name(options.program),
+                                file_name(options.log), ends[0], ends[1], ends[2], ends[3]);
     look.x_label = "along the profile (mm)";
     look.footnote = fmt::format(
         "{}, {}; {} of {:.3g} mm evaluated", to_text(tool), formed.surface().note(),

@@ -190,7 +190,7 @@ void print_matches(const std::vector<io::QueryMatch>& matches) {
     }
 }
 
-ExitCode run(const po::variables_map& values) {
+ExitCode run_query(const po::variables_map& values) {
     if (values.count("point") + values.count("at") + values.count("line") + values.count("time") == 0) {
         throw UsageError("what to look for is missing", "--point N, --at X,Y,Z, --line N or --time T");
     }
@@ -233,7 +233,7 @@ Subcommand query_subcommand() {
                 declare_derivative(options);
             },
         .positional = {"PROGRAM", "LOG"},
-        .run = run,
+        .run = run_query,
     };
 }
 

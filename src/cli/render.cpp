@@ -9,6 +9,7 @@
 #include "cli/formed.h"
 #include "cli/look.h"
 #include "cli/quality.h"
+#include "core/file_name.h"
 #include "core/spelling.h"
 #include "field/range.h"
 #include "io/atomic_file.h"
@@ -32,7 +33,7 @@ struct RenderOptions {
     std::optional<Role> swept;  ///< its positions; none: the most truthful
 };
 
-void declare(po::options_description& options) {
+void declare_render(po::options_description& options) {
     declare_part(options, true);
     declare_derivative(options);
     declare_quality(options);
@@ -66,7 +67,7 @@ void read_formed(const po::variables_map& values, RenderOptions& options) {
         throw UsageError("--style is not of the formed surface: it is drawn as one");
 }
 
-RenderOptions read_options(const po::variables_map& values) {
+RenderOptions read_render_options(const po::variables_map& values) {
     RenderOptions options;
     options.part = read_part_options(values);
     options.output = required(values, "output");
@@ -172,10 +173,10 @@ viz::MapTexts texts_of(const Shown& shown, const std::optional<Shown>& before, c
     texts.title = fmt::format("{}, {} {}", shown.field.info.label, name_of(shown.part.path.role),
                               options.shown.look.style == viz::Style::surface ? "surface" : "path");
     if (shown.relief) texts.title = fmt::format("{}, {}", shown.field.info.label, to_text(options.tool));
-    const std::string program = base_name(options.part.program);
+    const std::string program = file_name(options.part.program);
     // The captions of two panels name the logs.
     texts.subtitle = before ? fmt::format("{} · before: {} · after: {}", program, counts_of(*before), counts_of(shown))
-                            : fmt::format("{} · {} · {}", program, base_name(options.part.log), counts_of(shown));
+                            : fmt::format("{} · {} · {}", program, file_name(options.part.log), counts_of(shown));
     if (!shown.field.info.note.empty()) texts.notes.push_back(shown.field.info.note);
     if (options.defects)
         texts.notes.push_back(shown.defects.empty() ? "no defects"
@@ -222,8 +223,8 @@ void warn_of_marks_outside(const Shown& shown, const RenderOptions& options, con
     print(diagnostics, values);
 }
 
-ExitCode run(const po::variables_map& values) {
-    const RenderOptions options = read_options(values);
+ExitCode run_render(const po::variables_map& values) {
+    const RenderOptions options = read_render_options(values);
     viz::preload_image_library();
     io::AtomicFile output(options.output);  // a name that cannot be written fails before the work
     const int stages_of_a_part = options.defects ? 7 : 5;
@@ -239,9 +240,9 @@ ExitCode run(const po::variables_map& values) {
         before = prepare(other, options.field, options.defects, clock);
         if (other.formed) form(*before, options, clock);
         print(before->part.diagnostics, values);
-        panels.push_back(panel_of(*before, options, "before: " + base_name(options.before)));
+        panels.push_back(panel_of(*before, options, "before: " + file_name(options.before)));
     }
-    panels.push_back(panel_of(after, options, before ? "after: " + base_name(options.part.log) : ""));
+    panels.push_back(panel_of(after, options, before ? "after: " + file_name(options.part.log) : ""));
 
     clock.begin("choose the range");
     const viz::Camera camera = viz::map_camera(panels, options.shown.look);
@@ -260,7 +261,7 @@ ExitCode run(const po::variables_map& values) {
     clock.begin("write the picture");
     output.write(
         viz::encode_png(image, fmt::format("clsurf map of {} from {}: {} {:g} to {:g} {}",
-                                           base_name(options.part.program), base_name(options.part.log),
+                                           file_name(options.part.program), file_name(options.part.log),
                                            after.field.info.name, range.low, range.high, after.field.info.unit.name)));
     output.commit();
     return ExitCode::done;
@@ -279,9 +280,9 @@ Subcommand render_subcommand() {
             "  clsurf render part.nc run.biip -o map.png\n"
             "  clsurf render part.nc run.biip -o map.png --color acceleration --view top --range 0,800\n"
             "  clsurf render part.nc run.biip -o map.png --surface formed --tool ball:6",
-        .declare = declare,
+        .declare = declare_render,
         .positional = {"PROGRAM", "LOG"},
-        .run = run,
+        .run = run_render,
     };
 }
 

@@ -31,7 +31,7 @@ struct ReportOptions {
     std::vector<std::string> reading_options;
 };
 
-void declare(po::options_description& options) {
+void declare_report(po::options_description& options) {
     // clang-format off
     options.add_options()
         ("output,o", po::value<std::string>()->value_name("FILE"), "the page (HTML)")
@@ -58,7 +58,7 @@ std::vector<std::string> reading_options_of(const po::variables_map& values) {
     return words;
 }
 
-ReportOptions read_options(const po::variables_map& values) {
+ReportOptions read_report_options(const po::variables_map& values) {
     ReportOptions options;
     options.part = read_part_options(values);
     options.measured = take_measured_role(options.part);
@@ -190,8 +190,8 @@ io::PageRelief page_relief(const Formed& formed) {
         r.origin, r.pitch, r.columns, r.rows, r.z, formed.map.field.values, formed.range, formed.map.field.info.note};
 }
 
-ExitCode run(const po::variables_map& values) {
-    const ReportOptions options = read_options(values);
+ExitCode run_report(const po::variables_map& values) {
+    const ReportOptions options = read_report_options(values);
     viz::preload_image_library();
     io::AtomicFile output(options.output);  // a name that cannot be written fails before the work
     StageClock clock(read_common(values), options.before.empty() ? 12 : 20);
@@ -271,9 +271,9 @@ Subcommand report_subcommand() {
             "asks a server for anything. Pictures, tables and summary can be read without JavaScript.\n\n"
             "  clsurf report part.nc run.biip -o report.html\n"
             "  clsurf report part.nc run.biip -o report.html --tool ball:6 --before old.biip",
-        .declare = declare,
+        .declare = declare_report,
         .positional = {"PROGRAM", "LOG"},
-        .run = run,
+        .run = run_report,
     };
 }
 

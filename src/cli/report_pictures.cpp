@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/file_name.h"
 #include "core/units.h"
 
 namespace clsurf::cli {
@@ -30,7 +31,7 @@ viz::MapTexts texts_of(const PicturedPart& shown, const FieldInfo& info, const S
     texts.title = fmt::format("{}, {} surface", info.label, name_of(shown.part->path.role));
     const std::string& log = shown.part->log.name;
     const std::string& program = shown.part->program.main().name();
-    texts.subtitle = fmt::format("{} · {}", program.substr(program.rfind('/') + 1), log.substr(log.rfind('/') + 1));
+    texts.subtitle = fmt::format("{} · {}", file_name(program), file_name(log));
     if (!range.note.empty()) texts.notes.push_back(range.note);
     return texts;
 }

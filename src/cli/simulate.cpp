@@ -68,7 +68,7 @@ ExitCode run_five_axis(Program program, const Machine& machine, const Vec3& zero
     return ExitCode::done;
 }
 
-ExitCode run(const po::variables_map& values) {
+ExitCode run_simulate(const po::variables_map& values) {
     const std::string output = required(values, "output");
     const Machine machine =
         values.count("machine") > 0 ? io::read_machine(values["machine"].as<std::string>()) : Machine{};
@@ -136,7 +136,7 @@ Subcommand simulate_subcommand() {
                 declare_program_options(options);
             },
         .positional = {"PROGRAM"},
-        .run = run,
+        .run = run_simulate,
     };
 }
 

@@ -130,7 +130,7 @@ std::string lower_case(std::string_view name) {
     return low;
 }
 
-constexpr std::array<std::string_view, 6> axes{"x", "y", "z", "a", "b", "c"};
+constexpr std::array<std::string_view, 6> axis_names{"x", "y", "z", "a", "b", "c"};
 
 /// Clocks that do not begin with the first record: a time of day, a time since 1970.
 void settle_time_origin(Log& log, Channel& time) {
@@ -151,7 +151,7 @@ std::span<const ChannelInfo> known_channels() { return table; }
 
 bool is_known_name(std::string_view name) {
     const std::string low = lower_case(name);
-    return info_of(low) != nullptr || std::find(axes.begin(), axes.end(), low) != axes.end();
+    return info_of(low) != nullptr || std::find(axis_names.begin(), axis_names.end(), low) != axis_names.end();
 }
 
 std::string settled_name(std::string_view name) { return is_known_name(name) ? lower_case(name) : std::string(name); }
@@ -170,7 +170,7 @@ void settle_names(Log& log) {
     if (std::any_of(log.channels.begin(), log.channels.end(), [](const Channel& c) { return is_position(c.name); }))
         return;
     std::string taken;
-    for (const std::string_view axis : axes) {
+    for (const std::string_view axis : axis_names) {
         const auto found =
             std::find_if(log.channels.begin(), log.channels.end(), [&](const Channel& c) { return c.name == axis; });
         if (found == log.channels.end()) continue;

@@ -13,7 +13,7 @@ namespace clsurf {
 namespace {
 
 constexpr PointIndex sampled = 200'000;  ///< records in all
-constexpr PointIndex stretch = 1024;     ///< records in a row
+constexpr PointIndex run_length = 1024;  ///< records in a row
 constexpr double worth_offset = 0.002;   ///< [mm] between commanded and measured
 constexpr double resting_step = 1e-4;    ///< [mm] per record that feedback may move at rest
 constexpr std::size_t least_resting = 50;
@@ -65,9 +65,9 @@ private:
 void check_offset_of_axis(const Log& log, const Channel& commanded, const Channel& measured, Diagnostics& found) {
     AxisOffset axis;
     std::vector<double> c, m;
-    const PointIndex stride = std::max<PointIndex>(stretch, log.records / (sampled / stretch));
+    const PointIndex stride = std::max<PointIndex>(run_length, log.records / (sampled / run_length));
     for (PointIndex begin = 0; begin < log.records; begin += stride) {
-        const auto n = static_cast<std::size_t>(std::min(stretch, log.records - begin));
+        const auto n = static_cast<std::size_t>(std::min(run_length, log.records - begin));
         c.resize(n);
         m.resize(n);
         copy_block(commanded.values, begin, c);

@@ -3,20 +3,18 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <string>
 #include <utility>
 
 #include "core/error.h"
+#include "core/not_finite.h"
 #include "motion/junction.h"
 
 namespace clsurf {
 namespace {
 
 constexpr double reversal = 179.0 * std::numbers::pi / 180;
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
 double path_tolerance(const ProgramEvent& event, const Machine& machine) {
     const std::string& text = event.value;
     if (machine.controller.corner == CornerMode::stop || text.starts_with("G61") || text.starts_with("G60")) return 0;

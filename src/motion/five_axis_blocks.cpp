@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/not_finite.h"
 
 namespace clsurf {
 namespace {
@@ -14,8 +15,6 @@ namespace {
 constexpr double easing = 0.97;   ///< of the speed that would just hold
 constexpr double turning = 1e-9;  ///< [rad] a block that turns less does not turn
 constexpr int judged_places = 4;  ///< of a block, for a first guess of its speed
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
 std::array<AxisLimits, 5> limits_of(const Machine& machine) {
     std::array<AxisLimits, 5> limits{};
     for (std::size_t k = 0; k < 5; ++k) {

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "core/block.h"
+#include "core/not_finite.h"
 #include "motion/five_axis_blocks.h"
 #include "motion/servo.h"
 
@@ -22,8 +22,6 @@ constexpr int carry_periods = 16;         ///< over which angles make up for wha
 constexpr int patient_rounds = 8;         ///< before the tip's own jerk is lowered
 constexpr double most_lowering = 0.97;    ///< of that, in a round
 constexpr double nearly_greatest = 0.95;  ///< a rate that counts as the greatest
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
 /// Takes the samples of the tip, and makes those of the axes.
 class FiveAxisRecorder {
 public:

@@ -9,8 +9,8 @@
 namespace clsurf {
 namespace {
 
-constexpr std::size_t most_cells = 250;  ///< of a window
-constexpr double run_share = 0.85;       ///< of a window, before it is planned again
+constexpr std::size_t most_cells_of_window = 250;
+constexpr double run_share = 0.85;   ///< of a window, before it is planned again
 constexpr double rest_share = 0.25;  ///< of the jerk phase next to a rest: run as planned, as v² is no quadratic there
 constexpr double growth = 0.15;      ///< of the time from or to a rest: longest cell
 constexpr double cells_a_ramp = 5;   ///< over the time in which the jerk reaches the greatest acceleration
@@ -101,7 +101,7 @@ void Refiner::add(const Stretch& stretch) {
     if (!divided_ && waiting_.size() == 2 && cells_.empty()) divide(waiting_.front());
     divided_ = true;
     divide(waiting_.back());
-    const bool full = cells_.size() >= most_cells ||
+    const bool full = cells_.size() >= most_cells_of_window ||
                       (!cells_.empty() && kept(stretch.run).spans.back().base.block - cells_.front().block >= blocks_);
     if (full && !ends_at_rest_) solve(false);
 }

@@ -9,7 +9,7 @@ namespace clsurf {
 namespace {
 
 constexpr double periods_a_cell = 0.5;  ///< of a bent span, at the speed that it may be passed with
-constexpr int most_cells = 16;          ///< of a span
+constexpr int most_cells_of_span = 16;
 // An acceleration x′ a + x″ v² differs between two places, Δ apart, from the line through it there by at most Δ²/8 of its
 // second derivative, 5 x‴ a + x⁗ v². So much is left at the places, and they are that near to each other:
 constexpr double left_over = 0.005;  ///< of an acceleration
@@ -61,7 +61,7 @@ void ScanDriver::divide(const Span& span) {
     const double fewest = cells_.empty() ? 2 : 1;
     const int count =
         static_cast<int>(std::clamp(std::ceil(span.length / (span.cap * machine_->controller.period * periods_a_cell)),
-                                    fewest, double{most_cells}));
+                                    fewest, double{most_cells_of_span}));
     const double length = span.length / count;
     const Vec3 curving = this->curving(span);
     double steepest = 0;

@@ -10,10 +10,10 @@
 namespace clsurf {
 namespace {
 
-constexpr double least_span = 1e-9;  ///< [mm] nearer cuts are one
-constexpr double most_turn = 0.75;   ///< [rad] of a curve in one span: limits of axes change round it
-constexpr int checked_points = 5;    ///< of a span whose bounds are not at its ends
-constexpr double nearly = 1 - 1e-9;  ///< of a limit, for rounding
+constexpr double least_span = 1e-9;         ///< [mm] nearer cuts are one
+constexpr double most_turn_of_span = 0.75;  ///< [rad] of a curve in one span: limits of axes change round it
+constexpr int checked_points = 5;           ///< of a span whose bounds are not at its ends
+constexpr double nearly = 1 - 1e-9;         ///< of a limit, for rounding
 
 /// Adds factor · (a + b τ)(c + e τ)³ to a polynomial in τ.
 void add_product(std::array<Vec3, 5>& sum, const Vec3& factor, double a, double b, double c, double e) {
@@ -147,7 +147,7 @@ void PathStream::make_spans(std::int64_t element) {
         if (j->bend_width > 0) cut(j->at - j->bend_width), cut(j->at + j->bend_width);
     }
     if (!base.straight()) {
-        const int parts = static_cast<int>(std::ceil(base.turning() / most_turn));
+        const int parts = static_cast<int>(std::ceil(base.turning() / most_turn_of_span));
         for (int k = 1; k < parts; ++k) cuts_.push_back(base.length * k / parts);
     }
     std::sort(cuts_.begin(), cuts_.end());

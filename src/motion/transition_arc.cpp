@@ -12,9 +12,9 @@ namespace {
 
 constexpr double collinear = 0.01 * std::numbers::pi / 180;
 constexpr double reversal = 179.0 * std::numbers::pi / 180;
-constexpr double least_way = 1e-7;  ///< [mm] a shorter tangent is rounding
-constexpr double in_plane = 1e-9;   ///< of the chord: how far it may leave the plane of its tangents
-constexpr double most_turn = 0.9;   ///< of what a block may turn until the arc would be a half circle
+constexpr double least_way = 1e-7;    ///< [mm] a shorter tangent is rounding
+constexpr double in_plane = 1e-9;     ///< of the chord: how far it may leave the plane of its tangents
+constexpr double most_of_turn = 0.9;  ///< of what a block may turn until the arc would be a half circle
 
 /// Of a way between 0, where f is negative, and `high`, where it is not.
 template <typename F>
@@ -35,7 +35,7 @@ public:
     [[nodiscard]] double share(double deflection) const {
         const double bend = element_->second_derivative(before_ ? element_->length : 0).norm();
         const double half = 0.5 * element_->length;
-        return bend > 0 ? std::min(half, most_turn * 0.5 * (std::numbers::pi - deflection) / bend) : half;
+        return bend > 0 ? std::min(half, most_of_turn * 0.5 * (std::numbers::pi - deflection) / bend) : half;
     }
 
 private:

@@ -102,7 +102,7 @@ private:
 };
 
 /// A path, and where the tool points along it.
-struct Way {
+struct Course {
     const Toolpath& path;
     const Orientation* orientation = nullptr;
 
@@ -114,7 +114,7 @@ struct Way {
 
 /// Calls take(motion, point, how far it is) for points of `from` against `to`.
 template <typename Take>
-void compare(const Way& from, const Way& to, double step, const Take& take) {
+void compare(const Course& from, const Course& to, double step, const Take& take) {
     Walk walk(to.path, to.orientation);
     const Toolpath& path = from.path;
     for (std::int64_t i = 0; i < path.size(); ++i) {
@@ -139,7 +139,7 @@ void compare(const Way& from, const Way& to, double step, const Take& take) {
     }
 }
 
-bool is_plain(const Way& way, std::int64_t i) {
+bool is_plain(const Course& way, std::int64_t i) {
     const Motions& motions = way.path.motions();
     const auto k = static_cast<std::size_t>(i);
     const bool turns = !motions.rotary.empty() && i > 0 && !(motions.rotary[k] == motions.rotary[k - 1]);
@@ -162,7 +162,7 @@ bool same(const Motions& a, std::int64_t i, const Motions& b, std::int64_t j) {
     return arc->centre == other->centre && arc->turns == other->turns && arc->axis == other->axis;
 }
 
-LineNumber first_disorder(const Way& before, const Way& after) {
+LineNumber first_disorder(const Course& before, const Course& after) {
     const Motions &a = before.path.motions(), &b = after.path.motions();
     if (a.rotary.empty() != b.rotary.empty()) return 1;
     std::int64_t i = 0, j = 0;
@@ -181,7 +181,7 @@ LineNumber first_disorder(const Way& before, const Way& after) {
 Deviation measure_deviation(const Program& before, const Program& after, double step,
                             const Orientations& orientations) {
     const Toolpath old_path(before.motions, Vec3::Zero()), new_path(after.motions, Vec3::Zero());
-    const Way old{old_path, orientations.before}, now{new_path, orientations.after};
+    const Course old{old_path, orientations.before}, now{new_path, orientations.after};
     Deviation deviation;
     deviation.disordered = first_disorder(old, now);
     const auto take = [&](LineNumber line, const Vec3& p, const Apart& apart) {

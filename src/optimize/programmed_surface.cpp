@@ -9,7 +9,7 @@
 namespace clsurf {
 namespace {
 
-constexpr double most_points = 20e6;
+constexpr double most_laid_points = 20e6;
 constexpr double spacing_of_step_over = 0.5;  ///< how far points lie apart at most, in step-overs
 
 struct Sampled {
@@ -49,7 +49,7 @@ Sampled sample(const Toolpath& path, double spacing) {
         if (cuts(kind)) {
             // A line that hardly passes the spacing is not worth a point in its middle.
             const auto pieces =
-                static_cast<int>(std::clamp(std::floor(path.length(i) / spacing + 0.5), 1.0, most_points));
+                static_cast<int>(std::clamp(std::floor(path.length(i) / spacing + 0.5), 1.0, most_laid_points));
             for (int k = 1; k < pieces; ++k)
                 sampled.add(path.at(i, static_cast<double>(k) / pieces), static_cast<std::size_t>(i), false);
         }
@@ -83,7 +83,7 @@ ProgrammedSurface stitch_sampled(Sampled sampled, const Program& program, double
 
 ProgrammedSurface lay_out(const Program& program) {
     const Toolpath path = toolpath_of(program);
-    const double coarsest = std::max(cutting_length(path) / most_points, 1e-4);
+    const double coarsest = std::max(cutting_length(path) / most_laid_points, 1e-4);
     double spacing = std::max(coarsest, usual_length(path));
     ProgrammedSurface laid = stitch_sampled(sample(path, spacing), program, 0);
     // Passes and neighbours need points closer than passes lie; the first look only tells how close.

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "core/not_finite.h"
 #include "surface/station.h"
 
 namespace clsurf {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double steepest = 2.2, flattest = 0.45;  ///< of a phase along a pass, in phases per spacing
 constexpr double jump_play = 0.05;                 ///< of a phase that is no jump
 constexpr double fewest_taken = 0.2;  ///< of a pass's points: less in common with the passes before is no hold
@@ -19,7 +18,7 @@ class PhaseRunner {
 public:
     PhaseRunner(const ProgrammedSurface& laid, double spacing) : surface_(laid.surface) {
         phases_.spacing = spacing;
-        phases_.of_point.assign(laid.motion.size(), none);
+        phases_.of_point.assign(laid.motion.size(), missing<double>);
     }
 
     void run(const PointRange& pass) {
@@ -41,7 +40,7 @@ public:
 private:
     /// The phase beside each point, from a pass that has one already.
     void take_from_neighbours(const PointRange& pass) {
-        mine_.assign(way_.size(), none);
+        mine_.assign(way_.size(), missing<double>);
         for (std::size_t k = 0; k < mine_.size(); ++k) {
             const PointIndex i = pass.first + static_cast<PointIndex>(k);
             for (const Side side : {Side::left, Side::right}) {
@@ -71,7 +70,7 @@ private:
         }
         const double rate = gone > 0 ? turned / gone * phases_.spacing : 0;
         if (static_cast<double>(taken) < fewest_taken * static_cast<double>(mine_.size()) || std::abs(rate) < 0.1) {
-            std::fill(mine_.begin(), mine_.end(), none);
+            std::fill(mine_.begin(), mine_.end(), missing<double>);
             return 1;
         }
         const double factor = std::exp2(-std::round(std::log2(std::abs(rate))));
@@ -99,14 +98,14 @@ private:
             if (follows(last, k))
                 last = k;
             else
-                mine_[k] = none;
+                mine_[k] = missing<double>;
         }
         for (std::size_t k = best, last = best; k-- > 0;) {
             if (!known(k)) continue;
             if (follows(k, last))
                 last = k;
             else
-                mine_[k] = none;
+                mine_[k] = missing<double>;
         }
     }
 

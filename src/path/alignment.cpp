@@ -15,7 +15,7 @@ namespace clsurf {
 namespace {
 
 // Lengths in mm.
-constexpr double play = 0.05;                ///< way that the window always has
+constexpr double window_play = 0.05;         ///< way that the window always has
 constexpr double window_of_chord = 2.0;      ///< way per chord: corners are cut, the chord is shorter
 constexpr double window_of_distance = 10.0;  ///< way per distance: a foot jumps over a cut corner
 constexpr double way_penalty = 0.02;         ///< mm of distance per mm that way and chord differ
@@ -62,7 +62,8 @@ public:
             }
             way += length(m);
             // Farther than lost the walk finds nothing: a whole program would be searched for each point.
-            if (way > play + window_of_chord * chord + window_of_distance * std::min(nearest, lost_distance)) break;
+            if (way > window_play + window_of_chord * chord + window_of_distance * std::min(nearest, lost_distance))
+                break;
         }
         return best;
     }

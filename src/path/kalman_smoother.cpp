@@ -21,12 +21,12 @@ constexpr double far_away = 1e-5;  ///< relative: what is left of a start
 constexpr std::array<double, 4> greatest{0, 2e4, 1e6, 1e9};
 constexpr double least_unknown = 1e3, most_unknown = 1e6;  ///< in units of period and position_sigma
 
-constexpr std::array<double, 5> factorial{1, 1, 2, 6, 24};
+constexpr std::array<double, 5> factorials{1, 1, 2, 6, 24};
 
 RealMatrix transition() {
     RealMatrix f = RealMatrix::Zero();
     for (int i = 0; i < 4; ++i) {
-        for (int j = i; j < 4; ++j) f(i, j) = 1 / static_cast<Real>(factorial[static_cast<std::size_t>(j - i)]);
+        for (int j = i; j < 4; ++j) f(i, j) = 1 / static_cast<Real>(factorials[static_cast<std::size_t>(j - i)]);
     }
     return f;
 }
@@ -36,8 +36,8 @@ RealMatrix wandering_of_one() {
     RealMatrix q;
     for (int i = 0; i < 4; ++i) {
         for (int j = 0; j < 4; ++j) {
-            q(i, j) = 1 / static_cast<Real>(factorial[static_cast<std::size_t>(3 - i)] *
-                                            factorial[static_cast<std::size_t>(3 - j)] * (7 - i - j));
+            q(i, j) = 1 / static_cast<Real>(factorials[static_cast<std::size_t>(3 - i)] *
+                                            factorials[static_cast<std::size_t>(3 - j)] * (7 - i - j));
         }
     }
     return q;

@@ -11,7 +11,7 @@ namespace {
 
 /// [mm] A kilometre from the first point no tool ever is; grids over such places would put all that is
 /// near each other into one cell.
-constexpr double farthest = 1e6;
+constexpr double farthest_apart = 1e6;
 
 Vec3 first_finite(const Trajectory& trajectory) {
     std::array<double, 256> x, y, z;
@@ -46,7 +46,8 @@ Positions gather(const Trajectory& trajectory) {
                 const double origin = positions.origin[static_cast<Eigen::Index>(axis)];
                 for (std::size_t i = 0; i < n; ++i) {
                     const double d = scratch[axis][i] - origin;
-                    out[i] = std::abs(d) <= farthest ? static_cast<float>(d) : std::numeric_limits<float>::quiet_NaN();
+                    out[i] =
+                        std::abs(d) <= farthest_apart ? static_cast<float>(d) : std::numeric_limits<float>::quiet_NaN();
                 }
             }
         }

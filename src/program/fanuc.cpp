@@ -6,12 +6,12 @@
 
 #include <fmt/format.h>
 
+#include "core/not_finite.h"
 #include "program/interpreter_state.h"
 
 namespace clsurf {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr std::uint32_t xyz = Words::bit('X') | Words::bit('Y') | Words::bit('Z');
 constexpr int extended_systems = 6;  ///< G54.1 P1 follows G59
 constexpr double most_factor = 50;   ///< above it a factor of G51 is in thousandths
@@ -226,7 +226,7 @@ std::vector<double> Interpreter::macro_arguments(const Block& block) const {
     static constexpr std::pair<char, int> numbers[] = {
         {'A', 1},  {'B', 2},  {'C', 3},  {'I', 4},  {'J', 5},  {'K', 6},  {'D', 7},  {'E', 8},  {'F', 9},  {'H', 11},
         {'Q', 17}, {'R', 18}, {'S', 19}, {'T', 20}, {'U', 21}, {'V', 22}, {'W', 23}, {'X', 24}, {'Y', 25}, {'Z', 26}};
-    std::vector<double> arguments(33, none);
+    std::vector<double> arguments(33, missing<double>);
     for (const auto& [letter, number] : numbers) {
         if (block.words.given(letter)) arguments[static_cast<std::size_t>(number - 1)] = block.words.of(letter);
     }
@@ -362,7 +362,7 @@ double Interpreter::fanuc_parameter(int number, const Vec3& known) const {
         default: break;
     }
     if (number >= 1000 && !variables_.has(number)) unknown_parameter_ = number;
-    return none;
+    return missing<double>;
 }
 
 }  // namespace clsurf

@@ -2,12 +2,11 @@
 
 #include <cmath>
 
+#include "core/not_finite.h"
 #include "program/interpreter_state.h"
 
 namespace clsurf {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// #<_motion_mode>: the code in tenths.
 int code_of(MotionMode mode, int cycle) {
@@ -65,10 +64,10 @@ double Interpreter::parameter(int number) const {
             default: break;
         }
         if (number >= 5401 && number <= 5409) return axis_of(5401, tool_.offset, none_turned, machine_unit);
-        return none;
+        return missing<double>;
     }
     if (dialect_ == DialectId::fanuc) return fanuc_parameter(number, known);
-    return none;
+    return missing<double>;
 }
 
 /// Names of LinuxCNC, "Predefined Named Parameters"; those of what a program cannot know are missing.
@@ -77,7 +76,7 @@ double Interpreter::named_parameter(const std::string& name) const {
         unknown_name_ = name;
         return 0;
     }
-    if (dialect_ != DialectId::linuxcnc || name.size() < 2) return none;
+    if (dialect_ != DialectId::linuxcnc || name.size() < 2) return missing<double>;
     const double unit = state_.unit_mm;
     const Vec3 at = tool_position();
     const Vec3 machine = state_.to_machine(at);
@@ -137,7 +136,7 @@ double Interpreter::named_parameter(const std::string& name) const {
     for (const auto& [known, value] : modes) {
         if (name == known) return value;
     }
-    return none;
+    return missing<double>;
 }
 
 }  // namespace clsurf

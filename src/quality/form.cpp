@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/grouping.h"
+#include "core/not_finite.h"
 #include "core/parallel.h"
 #include "quality/local_quadratic.h"
 #include "quality/standing_contacts.h"
@@ -15,7 +16,6 @@ namespace {
 
 constexpr double reach = 3;              ///< step-overs round a knot that its fit looks at
 constexpr double least_spread = 0.0003;  ///< [mm] what rounding to a micrometre leaves
-constexpr float none = std::numeric_limits<float>::quiet_NaN();
 
 constexpr std::int64_t finer = 4;        ///< squares of a knot's, a side, that lie inside or not
 constexpr double sample_spacing = 0.25;  ///< step-overs along the passes
@@ -146,7 +146,7 @@ bool Form::is_inside(const Vec2& place, const Samples& samples) const {
 
 void Form::fit(std::int64_t column, std::int64_t row, const Samples& samples, LocalQuadratic& quadratic) {
     Knot& knot = knots_[static_cast<std::size_t>(row * columns_ + column)];
-    knot.fill(none);
+    knot.fill(missing<float>);
     const Vec2 here = corner_ + pitch_ * Vec2(static_cast<double>(column), static_cast<double>(row));
     constexpr std::int64_t squares =
         static_cast<std::int64_t>(reach) + 1;  // a knot stands at the corner of four of them
@@ -199,7 +199,7 @@ Form::Facet Form::at(const Vec2& place) const {
             sum.zy += w * (a[2] + a[4] * x + 2 * a[5] * y);
         }
     }
-    if (!(weights > 0)) return {none, none, none};
+    if (!(weights > 0)) return {missing<float>, missing<float>, missing<float>};
     return {sum.z / weights, sum.zx / (weights * pitch_), sum.zy / (weights * pitch_)};
 }
 

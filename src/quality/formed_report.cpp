@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "core/not_finite.h"
 #include "core/parallel.h"
 #include "core/statistics.h"
 
@@ -18,7 +18,6 @@ constexpr double passes_aside = 6.5;  ///< of a mark's profile: a mark of two pa
 constexpr double mark_within = 1.0;   ///< step-overs from the middle that the mark lies in
 constexpr std::size_t fewest_pairs = 2;   ///< of a mark's profile …
 constexpr std::size_t fewest_pieces = 4;  ///< … or pieces of one
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// Deviations of a row of a map that begins at `from`.
 std::vector<double> row_of(const FormedSurface& formed, const Vec2& from, const Vec2& along, double step,
@@ -89,7 +88,7 @@ double usual(const std::vector<double>& row) {
         if (2 * k + 1 < row.size() && std::isfinite(mean)) means.push_back(mean);
     }
     if (means.size() >= fewest_pairs) return median(means);
-    return known.size() >= fewest_pieces ? median(known) : none;
+    return known.size() >= fewest_pieces ? median(known) : missing<double>;
 }
 
 }  // namespace
@@ -122,12 +121,12 @@ double mark_depth(std::span<const double> deviation, double step, double step_ov
         const auto part = deviation.subspan(first, piece);
         const bool known = std::all_of(part.begin(), part.end(), [](double v) { return std::isfinite(v); });
         const auto [low, high] = std::minmax_element(part.begin(), part.end());
-        valleys.push_back(known ? *low : none);
-        cusps.push_back(known ? *high : none);
+        valleys.push_back(known ? *low : missing<double>);
+        cusps.push_back(known ? *high : missing<double>);
     }
     double low = usual(valleys);
     double high = usual(cusps);
-    if (!std::isfinite(low)) return none;
+    if (!std::isfinite(low)) return missing<double>;
     const double middle = 0.5 * static_cast<double>(deviation.size() - 1);
     const double valley = low;
     const double cusp = high;
@@ -142,7 +141,7 @@ double mark_depth(std::span<const double> deviation, double step, double step_ov
 
 FormedReport measure_formed(const FormedSurface& formed, const Signals& signals, const QualityReport& report) {
     FormedReport result;
-    result.marks.assign(report.defects.size(), none);
+    result.marks.assign(report.defects.size(), missing<double>);
     const double s = formed.surface().step_over;
     if (s <= 0) return result;
     result.cutoff = cutoff_for(s);

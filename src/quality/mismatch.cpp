@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/block.h"
+#include "core/not_finite.h"
 #include "core/statistics.h"
 #include "quality/median_of.h"
 #include "quality/slant.h"
@@ -15,7 +16,6 @@
 namespace clsurf {
 namespace {
 
-constexpr float none = std::numeric_limits<float>::quiet_NaN();
 constexpr std::size_t sampled_points = 50'000;
 constexpr float normal_deviation = 1.4826F;  ///< standard deviations per median absolute deviation
 constexpr float along_or_against = 0.866F;   ///< cos 30°: neighbours run along with the feed or against it
@@ -61,7 +61,7 @@ bool is_shape(float relief, const Compared& left, const Compared& right, std::sp
 }
 
 float quantile(std::vector<float>& values, double share) {
-    return values.empty() ? none : quantile_below(values, share);
+    return values.empty() ? missing<float> : quantile_below(values, share);
 }
 
 /// Evenly spaced judged points, some `sampled_points`. O(points), parallel.
@@ -185,15 +185,15 @@ Comparison Comparer::compare_at_end(PointIndex point) const {
 
 Comparison Comparer::compare_with(Peers peers, PointIndex point, int aside) const {
     Comparison result;
-    result.step.fill(none);
-    result.residual.fill(none);
+    result.step.fill(missing<float>);
+    result.residual.fill(missing<float>);
     const Station here{point, 0};
     const Eigen::Vector3f normal = signals_.normal(point);
     const Compared mine = compared_at(signals_, here, normal);
 
     std::array<std::array<Compared, passes_aside>, 2> beside_it;
     std::array<int, 2> count{0, 0};
-    float speed_step = none;
+    float speed_step = missing<float>;
     for (const Side side : {Side::left, Side::right}) {
         const auto s = static_cast<std::size_t>(side);
         Station& adjacent_place = side == Side::left ? result.beside_left : result.beside_right;

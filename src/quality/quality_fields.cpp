@@ -2,22 +2,20 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "core/block.h"
+#include "core/not_finite.h"
 
 namespace clsurf {
 namespace {
 
-constexpr float none = std::numeric_limits<float>::quiet_NaN();
-
 /// The differences to both neighbours, the larger one.
 template <typename Difference>
 float largest_beside(const ClSurface& surface, const Signals& signals, PointIndex i, Difference&& difference) {
-    float most = none;
+    float most = missing<float>;
     for (const Side side : {Side::left, Side::right}) {
         const Station at = beside(surface, {i, 0}, signals.feed(i), side);
         if (!at.exists()) continue;
@@ -100,7 +98,7 @@ Field quality_field(std::string_view name, const ClSurface& surface, const Signa
     for_each_block(count, [&](PointIndex first, PointIndex last) {
         for (PointIndex i = first; i < last; ++i) {
             const bool compared = signals[i].zone != Zone::outside;
-            const float value = compared ? row.value(surface, signals, i) : none;
+            const float value = compared ? row.value(surface, signals, i) : missing<float>;
             field.values[static_cast<std::size_t>(i)] = value;
             if (value == value) ++with[static_cast<std::size_t>(first / block_points)];
         }

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "core/block.h"
+#include "core/not_finite.h"
 #include "core/statistics.h"
 #include "field/field_set.h"
 #include "log/quantum.h"
@@ -13,12 +13,11 @@
 namespace clsurf {
 namespace {
 
-constexpr float none = std::numeric_limits<float>::quiet_NaN();
-constexpr double height_seconds = 0.015;   ///< window of the mean of lags and heights
-constexpr PointIndex feed_reach = 8;       ///< points before and after one that tell the feed there
-constexpr double least_feed = 1e-4;        ///< [mm] of way that has a direction
-constexpr float least_tilt = 0.1F;         ///< sine of the feed's angle to Z: steeper, it has no upper side
-constexpr std::int64_t samples = 200'000;  ///< that usual values are taken from
+constexpr double height_seconds = 0.015;          ///< window of the mean of lags and heights
+constexpr PointIndex feed_reach = 8;              ///< points before and after one that tell the feed there
+constexpr double least_feed = 1e-4;               ///< [mm] of way that has a direction
+constexpr float least_tilt = 0.1F;                ///< sine of the feed's angle to Z: steeper, it has no upper side
+constexpr std::int64_t sampled_points = 200'000;  ///< that usual values are taken from
 
 constexpr auto table = std::to_array<RunQuantityInfo>({
     {RunQuantity::speed, "speed", "Path speed", unit::mm_min, "mm_min"},
@@ -34,7 +33,7 @@ Vec3 feed_at(const Trajectory& path, PointIndex i) {
         const double length = chord.norm();
         if (length > least_feed) return chord / length;
     }
-    return Vec3::Constant(none);
+    return Vec3::Constant(missing<float>);
 }
 
 /// How far the measured positions trail the commanded ones [mm].
@@ -59,7 +58,7 @@ Eigen::Vector3f normal_at(const ClSurface& surface, PointIndex i, const Eigen::V
     const Eigen::Vector3f across = feed.cross(a - b);
     if (across.norm() > 0) return across.normalized();
     const Eigen::Vector3f up = Eigen::Vector3f::UnitZ() - feed.z() * feed;
-    return up.norm() > least_tilt ? Eigen::Vector3f(up.normalized()) : Eigen::Vector3f::Constant(none);
+    return up.norm() > least_tilt ? Eigen::Vector3f(up.normalized()) : Eigen::Vector3f::Constant(missing<float>);
 }
 
 /// A position between two points, from the cubic through the points round it (Catmull, Rom 1974): a
@@ -84,7 +83,7 @@ Column<float> heights_of(const Trajectory& a, const Trajectory& b, const RunAlig
     for_each_block(a.count, [&](PointIndex first, PointIndex last) {
         for (PointIndex i = first; i < last; ++i) {
             float& height = heights[static_cast<std::size_t>(i)];
-            height = none;
+            height = missing<float>;
             const Station& at = alignment.stations[static_cast<std::size_t>(i)];
             if (!at.exists()) continue;
             const Vec3 feed = feed_at(path, i);
@@ -101,7 +100,7 @@ void subtract(const Column<float>& of_b, const RunAlignment& alignment, Column<f
     for_each_block(static_cast<PointIndex>(values.size()), [&](PointIndex first, PointIndex last) {
         for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i) {
             const Station& at = alignment.stations[i];
-            values[i] = at.exists() ? interpolate(of_b, at) - values[i] : none;
+            values[i] = at.exists() ? interpolate(of_b, at) - values[i] : missing<float>;
         }
     });
 }
@@ -129,7 +128,8 @@ void smooth(Column<float>& values, const std::vector<PointRange>& stretches, Poi
             while (end <= k + reach) take(end++, +1);
             while (begin < k - reach) take(begin++, -1);
             float& value = values[static_cast<std::size_t>(stretch.first + k)];
-            if (value == value) value = known > 0 ? static_cast<float>(sum / static_cast<double>(known)) : none;
+            if (value == value)
+                value = known > 0 ? static_cast<float>(sum / static_cast<double>(known)) : missing<float>;
         }
     }
 }
@@ -138,7 +138,7 @@ float percentile_where_cut(const Column<float>& values, const Passes& passes, do
     Column<float> sampled;
     PointIndex cutting = 0;
     for (const Pass& pass : passes) cutting += pass.kind == PassKind::cut ? pass.size() : 0;
-    const PointIndex step = std::max<PointIndex>(1, cutting / samples);
+    const PointIndex step = std::max<PointIndex>(1, cutting / sampled_points);
     for (const Pass& pass : passes) {
         if (pass.kind != PassKind::cut) continue;
         for (PointIndex i = pass.first; i <= pass.last; i += step) {
@@ -164,7 +164,7 @@ void leave_out_rapids(const Passes& passes, RunDifferences& differences) {
     for (const Pass& pass : passes) {
         if (pass.kind != PassKind::rapid) continue;
         for (Column<float>& values : differences.of) {
-            if (!values.empty()) std::fill(values.begin() + pass.first, values.begin() + pass.last + 1, none);
+            if (!values.empty()) std::fill(values.begin() + pass.first, values.begin() + pass.last + 1, missing<float>);
         }
     }
 }

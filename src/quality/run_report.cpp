@@ -8,12 +8,12 @@
 namespace clsurf {
 namespace {
 
-constexpr double joined_way = 1.0;       ///< [mm] between two stretches that are one
-constexpr double least_seconds = 0.005;  ///< of a stretch …
-constexpr PointIndex least_points = 3;   ///< … and its points
-constexpr double samples = 200'000;      ///< by way, of percentiles
-constexpr std::size_t most_kept = 1000;  ///< stretches of a quantity
-constexpr double end_share = 0.1;        ///< of the way, that a drift is told from
+constexpr double joined_way = 1.0;          ///< [mm] between two stretches that are one
+constexpr double least_seconds = 0.005;     ///< of a stretch …
+constexpr PointIndex least_points = 3;      ///< … and its points
+constexpr double sampled_by_way = 200'000;  ///< by way, of percentiles
+constexpr std::size_t most_kept = 1000;     ///< stretches of a quantity
+constexpr double end_share = 0.1;           ///< of the way, that a drift is told from
 
 /// The middle value of some.
 double middle(std::vector<float> values) { return median(values); }
@@ -40,7 +40,7 @@ public:
         double sum = 0;
         double squares = 0;
         std::vector<float> sampled;
-        const double every = way_.to(static_cast<PointIndex>(values.size()) - 1) / samples;
+        const double every = way_.to(static_cast<PointIndex>(values.size()) - 1) / sampled_by_way;
         double since = every;
         for (const PointRange& stretch : differences_.alignment.stretches) {
             for (PointIndex i = stretch.first; i <= stretch.last; ++i) {

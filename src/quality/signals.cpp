@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
 #include "core/block.h"
+#include "core/not_finite.h"
 #include "core/statistics.h"
 #include "log/quantum.h"
 #include "path/way.h"
@@ -16,7 +16,6 @@
 namespace clsurf {
 namespace {
 
-constexpr float none = std::numeric_limits<float>::quiet_NaN();
 constexpr double speed_seconds = 0.010;  ///< longest window: an oscillation of 20 ms keeps four fifths of its height …
 constexpr double speed_way = 0.4;  ///< [mm] … and of fast passes one of 0.8 mm, since marks are seen by their length
 constexpr double height_seconds = 0.015;   ///< window of the mean that heights are smoothed with
@@ -65,7 +64,7 @@ public:
             const std::size_t reach = std::min({half, at, raw.size() - 1 - at});
             const std::uint32_t count = counts[at + reach + 1] - counts[at - reach];
             const bool enough = count > 0 && 2 * every * count >= 2 * reach + 1;
-            out[k] = enough ? static_cast<float>((sums[at + reach + 1] - sums[at - reach]) / count) : none;
+            out[k] = enough ? static_cast<float>((sums[at + reach + 1] - sums[at - reach]) / count) : missing<float>;
         }
     }
 
@@ -132,9 +131,9 @@ public:
             const double speed = velocity.norm();
             Sample& sample = out_[i];
             sample.speed = static_cast<float>(speed);
-            sample.lag = none;
+            sample.lag = missing<float>;
             for (Eigen::Index axis = 0; axis < 3; ++axis) {
-                sample.feed[axis] = speed > slowest ? static_cast<float>(velocity[axis] / speed) : none;
+                sample.feed[axis] = speed > slowest ? static_cast<float>(velocity[axis] / speed) : missing<float>;
                 sample.acceleration[axis] = static_cast<float>(a[static_cast<std::size_t>(axis)][k]);
             }
         }
@@ -152,7 +151,7 @@ public:
                 relief[k] = measure_relief(i, normals[k]);
             } else {
                 // Between two of them the normal hardly turns.
-                relief[k] = none;
+                relief[k] = missing<float>;
                 const PointIndex before = std::max(piece.first, i - i % relief_every);
                 if (before >= from)
                     normals[k] = normals[static_cast<std::size_t>(before - from)];
@@ -175,22 +174,23 @@ public:
 private:
     /// The normal at a point, and how far the point lies above the chord between its neighbours.
     float measure_relief(PointIndex i, Eigen::Vector3f& normal) const {
-        normal.setConstant(none);
+        normal.setConstant(missing<float>);
         const Eigen::Vector3f feed = out_.feed(i);
         const Positions& p = surface_.positions;
         const Eigen::Vector3f here = p[i];
         const Station left = beside(surface_, {i, 0}, feed, Side::left);
         const Station right = beside(surface_, {i, 0}, feed, Side::right);
-        if (!left.exists() && !right.exists()) return none;
+        if (!left.exists() && !right.exists()) return missing<float>;
         const Eigen::Vector3f a = left.exists() ? position_at(p, left) : here;
         const Eigen::Vector3f b = right.exists() ? position_at(p, right) : here;
         const Eigen::Vector3f across = a - b;
         normal = feed.cross(across).normalized();
-        if (!left.exists() || !right.exists()) return none;
+        if (!left.exists() || !right.exists()) return missing<float>;
         // Where a pass is interrupted, by an island, what lies beside is its retract or its end.
-        if (out_[left.nearest()].zone == Zone::outside || out_[right.nearest()].zone == Zone::outside) return none;
+        if (out_[left.nearest()].zone == Zone::outside || out_[right.nearest()].zone == Zone::outside)
+            return missing<float>;
         const float share = (here - b).dot(across) / across.squaredNorm();
-        if (!(share > 0.2F && share < 0.8F)) return none;
+        if (!(share > 0.2F && share < 0.8F)) return missing<float>;
         return (here - b - share * across).dot(normal);
     }
 
@@ -209,7 +209,7 @@ private:
         PointIndex m = from;
         for (PointIndex i = from; i <= to; ++i) {
             const auto k = static_cast<std::size_t>(i - from);
-            lag[k] = none;
+            lag[k] = missing<float>;
             const Vec3 here(commanded[0][k], commanded[1][k], commanded[2][k]);
             const Vec3 feed = out_.feed(i).cast<double>();
             const auto along = [&](PointIndex q) { return (at(q) - here).dot(feed); };

@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/not_finite.h"
 #include "quality/median_of.h"
 #include "quality/mismatch.h"
 
@@ -20,7 +21,6 @@ constexpr std::size_t fewest = 4;
 constexpr float corner_cosine = 0.906F;  ///< cos 25°
 constexpr float same_speed = 0.01F;      ///< of the speed: nothing that moves on from pass to pass
 constexpr float clearly_better = 0.5F;   ///< share of the disagreement straight across
-constexpr float none = std::numeric_limits<float>::quiet_NaN();
 
 /// A pass round its station: speeds at even distances along the feed of the point that is looked at.
 class Profile {
@@ -44,7 +44,7 @@ public:
         const std::vector<Station>& side = stations_[distance >= 0 ? 1 : 0];
         const float place = std::abs(distance) / spacing_;
         const auto k = static_cast<std::size_t>(place);
-        if (k + 1 >= side.size()) return none;
+        if (k + 1 >= side.size()) return missing<float>;
         const float a = speed_at(signals, side[k]);
         return a + (place - static_cast<float>(k)) * (speed_at(signals, side[k + 1]) - a);
     }
@@ -114,7 +114,7 @@ private:
 
 /// Speeds of the passes on a slant [mm along the feed per pass], and how far they are from their median.
 struct Agreement {
-    float speed = none;
+    float speed = missing<float>;
     float disagreement = std::numeric_limits<float>::infinity();
 };
 Agreement agreement(const Signals& signals, std::span<const Profile> profiles, float slant) {
