@@ -84,7 +84,7 @@ private:
             }
             if (defect.quantity == Quantity::lag) slow_for_lag(defect);
         }
-        level_speeds(run_, {rules_.step, 0}, speeds_, causes_);
+        level_speeds(run_, {rules_.step, 0, rules_.ramp}, speeds_, causes_);
     }
 
     /// A stretch and what lies within reach before and behind it.
@@ -185,17 +185,6 @@ std::vector<int> gains_of(const CuringSpeeds& cure, const JudgedRun& run, const 
     count(run, 1);
     count(cured, -1);
     return gains;
-}
-
-std::vector<std::int32_t> causes_by_motion(const CuringSpeeds& cure, const JudgedRun& run, const Program& program) {
-    std::vector<std::int32_t> causes(static_cast<std::size_t>(program.motions.size()), -1);
-    for (std::size_t i = 0; i < cure.causes.size(); ++i) {
-        if (cure.causes[i] < 0) continue;
-        for (const std::uint32_t motion : run.lines->motions_of(run.lines->line_at(static_cast<PointIndex>(i)))) {
-            if (motion < causes.size()) causes[motion] = cure.causes[i];
-        }
-    }
-    return causes;
 }
 
 }  // namespace clsurf

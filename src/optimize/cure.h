@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "machine/machine.h"
+#include "optimize/ramp.h"
 #include "optimize/run.h"
 
 namespace clsurf {
@@ -12,7 +13,8 @@ struct CureRules {
     double step = 0.02;    ///< a share: how much faster than the pass beside it a place in or next to a defect may be
     double budget = 0;     ///< [s] that may be lost
     double lag_power = 0;  ///< of the speed, that lag steps grow with
-    std::vector<Vec3> hopeless;  ///< [mm] places of defects that are let be
+    Ramp ramp{};           ///< of the machine
+    std::vector<Vec3> hopeless{};  ///< [mm] places of defects that are let be
 };
 
 /// With which power of the speed v the part of the following error grows that lies across the path and differs forth
@@ -28,15 +30,11 @@ struct CuringSpeeds {
 /// Speeds that are level within `step` about the defects of motion and lag, and so low that their lag steps
 /// keep the threshold, where that takes no more than four tenths of the speed. Defects of the programmed relief are left
 /// out, and of the others the dearest as long as the whole would lose more than the budget: by the points' own
-/// times; ramps come on top. At most ten rounds over the points, after which what is left is taken.
+/// times. At most ten rounds over the points, after which what is left is taken.
 [[nodiscard]] CuringSpeeds curing_speeds(const JudgedRun& run, const CureRules& rules);
 
 /// Per defect of a run how many defects there are fewer about the places that were slowed for it, on another run of the same
 /// path; 0 where nothing was. O(points).
 [[nodiscard]] std::vector<int> gains_of(const CuringSpeeds& cure, const JudgedRun& run, const JudgedRun& cured);
-
-/// Per motion of the program the defect that it is slowed for; −1: none.
-[[nodiscard]] std::vector<std::int32_t> causes_by_motion(const CuringSpeeds& cure, const JudgedRun& run,
-                                                         const Program& program);
 
 }  // namespace clsurf

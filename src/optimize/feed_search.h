@@ -7,6 +7,7 @@
 #include "machine/machine.h"
 #include "optimize/cure.h"
 #include "optimize/proposal.h"
+#include "optimize/ramp.h"
 
 namespace clsurf {
 
@@ -28,15 +29,14 @@ public:
     /// The same with steps that are fixed shares of the speed.
     void level(const Tried& from);
 
-    /// Round by round slower where defects are left, as long as there is time to lose.
+    /// Round by round slower where defects are left, as long as there is time to lose. Each round is a cure, the same for the
+    /// defects alone that it helped, and the last of them with feeds as high as its speeds need.
     void cure(Curing& curing, int rounds);
 
 private:
-    [[nodiscard]] Tried without_losses(const Proposal& from, const CuringSpeeds& cure, const Proposal& cured,
-                                       std::vector<Vec3>& hopeless);
-
     Prover& prover_;
     double lag_power_;
+    Ramp ramp_;
 };
 
 }  // namespace clsurf

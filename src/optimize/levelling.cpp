@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <span>
 
+#include "core/not_finite.h"
 #include "surface/station.h"
 
 namespace clsurf {
@@ -11,11 +12,69 @@ namespace {
 
 constexpr int halvings = 10;  ///< in search of a step
 
+/// Speeds of a run, brought down pass by pass to what the passes beside it and the ramps allow.
+class Leveller {
+public:
+    Leveller(const JudgedRun& run, const LevelStep& step, std::vector<float>& speeds, std::vector<std::int32_t>& causes)
+        : run_(run),
+          ratio_(static_cast<float>(1 + step.share)),
+          more_(static_cast<float>(step.speed)),
+          ramp_(step.ramp),
+          own_(compared_speeds(run)),
+          speeds_(speeds),
+          causes_(causes) {}
+
+    void sweep() {
+        const Passes& passes = run_.surface.passes;
+        for (std::size_t k = 0; k < passes.size(); ++k) level(passes[k]);
+        for (std::size_t k = passes.size(); k-- > 0;) level(passes[k]);
+    }
+
+private:
+    void level(const Pass& pass) {
+        if (pass.kind != PassKind::cut) return;
+        for (PointIndex i = pass.first; i <= pass.last; ++i) level(static_cast<std::size_t>(i));
+        const auto end = static_cast<std::size_t>(pass.last) + 1;
+        for (auto first = static_cast<std::size_t>(pass.first); first < end;) {
+            std::size_t behind = first;
+            while (behind < end && speeds_[behind] == speeds_[behind]) ++behind;
+            if (const std::size_t count = behind - first; count > 0)
+                keep_to_ramp(ramp_, run_.log.period, std::span(own_).subspan(first, count),
+                             std::span(speeds_).subspan(first, count), std::span(causes_).subspan(first, count));
+            first = behind + 1;
+        }
+    }
+
+    void level(std::size_t i) {
+        float& mine = speeds_[i];
+        std::int32_t& cause = causes_[i];
+        if (!(mine == mine)) return;
+        const auto point = static_cast<PointIndex>(i);
+        for (const Side side : {Side::left, Side::right}) {
+            const Station at = beside(run_.surface, {point, 0}, run_.signals.feed(point), side);
+            if (!at.exists()) continue;
+            const std::int32_t other_cause = causes_[static_cast<std::size_t>(at.nearest())];
+            if (cause < 0 && other_cause < 0) continue;
+            const auto j = static_cast<std::size_t>(at.point);
+            const float other = at.fraction > 0 ? speeds_[j] + at.fraction * (speeds_[j + 1] - speeds_[j]) : speeds_[j];
+            if (!(ratio_ * other + more_ < mine)) continue;
+            mine = ratio_ * other + more_;
+            if (cause < 0) cause = other_cause;
+        }
+    }
+
+    const JudgedRun& run_;
+    float ratio_, more_;
+    Ramp ramp_;
+    std::vector<float> own_;
+    std::vector<float>& speeds_;
+    std::vector<std::int32_t>& causes_;
+};
+
 }  // namespace
 
 std::vector<float> compared_speeds(const JudgedRun& run) {
-    std::vector<float> speeds(static_cast<std::size_t>(run.surface.positions.size()),
-                              std::numeric_limits<float>::quiet_NaN());
+    std::vector<float> speeds(static_cast<std::size_t>(run.surface.positions.size()), missing<float>);
     for (std::size_t i = 0; i < speeds.size(); ++i) {
         if (run.signals.samples[i].zone != Zone::outside) speeds[i] = run.signals.samples[i].speed;
     }
@@ -24,26 +83,7 @@ std::vector<float> compared_speeds(const JudgedRun& run) {
 
 void level_speeds(const JudgedRun& run, const LevelStep& step, std::vector<float>& speeds,
                   std::vector<std::int32_t>& causes) {
-    const auto ratio = static_cast<float>(1 + step.share), more = static_cast<float>(step.speed);
-    const auto level = [&](PointIndex i) {
-        float& mine = speeds[static_cast<std::size_t>(i)];
-        std::int32_t& cause = causes[static_cast<std::size_t>(i)];
-        if (!(mine == mine)) return;
-        for (const Side side : {Side::left, Side::right}) {
-            const Station at = beside(run.surface, {i, 0}, run.signals.feed(i), side);
-            if (!at.exists()) continue;
-            const std::int32_t other_cause = causes[static_cast<std::size_t>(at.nearest())];
-            if (cause < 0 && other_cause < 0) continue;
-            const auto j = static_cast<std::size_t>(at.point);
-            const float other = at.fraction > 0 ? speeds[j] + at.fraction * (speeds[j + 1] - speeds[j]) : speeds[j];
-            if (!(ratio * other + more < mine)) continue;
-            mine = ratio * other + more;
-            if (cause < 0) cause = other_cause;
-        }
-    };
-    const auto count = static_cast<PointIndex>(speeds.size());
-    for (PointIndex i = 0; i < count; ++i) level(i);
-    for (PointIndex i = count; i-- > 0;) level(i);
+    Leveller(run, step, speeds, causes).sweep();
 }
 
 std::vector<float> levelled_speeds(const JudgedRun& run, const LevelStep& step) {
@@ -53,10 +93,10 @@ std::vector<float> levelled_speeds(const JudgedRun& run, const LevelStep& step) 
     return speeds;
 }
 
-double affordable_step(const JudgedRun& run, double budget) {
+double affordable_step(const JudgedRun& run, const Ramp& ramp, double budget) {
     const std::vector<float> own = compared_speeds(run);
     const auto lost = [&](double step) {
-        const std::vector<float> speeds = levelled_speeds(run, {0, step});
+        const std::vector<float> speeds = levelled_speeds(run, {0, step, ramp});
         double sum = 0;
         for (std::size_t i = 0; i < own.size(); ++i) {
             if (speeds[i] > 0) sum += run.log.period * (own[i] / speeds[i] - 1);
@@ -71,22 +111,16 @@ double affordable_step(const JudgedRun& run, double budget) {
     return high;
 }
 
-std::vector<float> means_by_motion(const JudgedRun& run, const Program& program, const std::vector<float>& values) {
-    const auto count = static_cast<std::size_t>(program.motions.size());
-    std::vector<float> sum(count, 0);
-    std::vector<std::uint32_t> points(count, 0);
+std::vector<float> peaks_by_motion(const JudgedRun& run, const Program& program, const std::vector<float>& values) {
+    std::vector<float> peaks(static_cast<std::size_t>(program.motions.size()), missing<float>);
     for (PointIndex i = 0; i < run.surface.positions.size(); ++i) {
         const float value = values[static_cast<std::size_t>(i)];
         if (!(value == value)) continue;
         for (const std::uint32_t motion : run.lines->motions_of(run.lines->line_at(i))) {
-            if (motion >= count) continue;
-            sum[motion] += value;
-            ++points[motion];
+            if (motion < peaks.size() && !(peaks[motion] >= value)) peaks[motion] = value;
         }
     }
-    for (std::size_t i = 0; i < count; ++i)
-        sum[i] = points[i] > 0 ? sum[i] / static_cast<float>(points[i]) : std::numeric_limits<float>::quiet_NaN();
-    return sum;
+    return peaks;
 }
 
 std::vector<float> levelling_feeds(const std::vector<float>& target, const std::vector<std::uint8_t>& may_slow,

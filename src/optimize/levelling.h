@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "optimize/ramp.h"
 #include "optimize/run.h"
 
 namespace clsurf {
@@ -16,23 +17,26 @@ namespace clsurf {
 struct LevelStep {
     double share = 0;
     double speed = 0;  ///< [mm/s]
+    Ramp ramp{};       ///< … and how a pass comes back to its own speed
 };
 
 /// Lowers speeds, one a point of the run, until none is more than a step above that of the points beside it on
 /// both neighbour passes. Only points that have a cause (≥ 0; −1: none), or have one beside them, are lowered, and take over
-/// the cause: where all begin with one, speeds are levelled everywhere. Two sweeps over the passes, forth and back: O(points).
+/// the cause: where all begin with one, speeds are levelled everywhere. Before and behind a lowered place a pass keeps to the
+/// ramp, so that the next one is levelled with what the machine will do. Two sweeps over the passes, forth and back: O(points).
 void level_speeds(const JudgedRun& run, const LevelStep& step, std::vector<float>& speeds,
                   std::vector<std::int32_t>& causes);
 
 /// The greatest speeds that are level everywhere.
 [[nodiscard]] std::vector<float> levelled_speeds(const JudgedRun& run, const LevelStep& step);
 
-/// The least step [mm/s] to which all can be levelled so that no more than `budget` [s] is lost, by the points' own times: ramps come on top.
+/// The least step [mm/s] to which all can be levelled so that no more than `budget` [s] is lost, by the points' own times.
 /// Ten levellings: O(points).
-[[nodiscard]] double affordable_step(const JudgedRun& run, double budget);
+[[nodiscard]] double affordable_step(const JudgedRun& run, const Ramp& ramp, double budget);
 
-/// The means over the points of each motion of the program, of one value per point; NaN: it has no point with one.
-[[nodiscard]] std::vector<float> means_by_motion(const JudgedRun& run, const Program& program,
+/// The greatest over the points of each motion of the program, of one value per point; NaN: it has no point with one. As a feed it
+/// holds a motion to a curve that rises or falls along it; the mean would hold it below.
+[[nodiscard]] std::vector<float> peaks_by_motion(const JudgedRun& run, const Program& program,
                                                  const std::vector<float>& values);
 
 /// Feeds that hold motions to a target [mm/s]; targets and feeds of 0: none. Motions whose entry in `may_slow` is 0 get none;

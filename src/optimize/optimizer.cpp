@@ -22,10 +22,8 @@ constexpr int mixing_rounds = 3;                                     ///< … so
 constexpr double share_of_drafts = 0.35;  ///< of all runs, that points alone may take; the others seek feeds
 constexpr std::size_t most_fed = 5;       ///< drafts that feeds are sought for
 constexpr double most_behind = 0.2;       ///< the best, by score, after the first rounds: others are not cured on
-constexpr double
-    small_share = 0.3,
-    large_share =
-        0.65;  ///< of the time, for a cure that begins with the cheap defects, and for one that takes all it can
+constexpr double small_share = 0.3;       ///< of the time, for a cure that begins with the cheap defects …
+constexpr double large_share = 0.65;      ///< … and for one that takes all it can
 constexpr int first_rounds = 2, more_rounds = 8;
 
 /// The median feed of the cutting lines [mm/s].
@@ -128,7 +126,6 @@ private:
         std::vector<Fed> fed;
         for (const Tried& points : drafts) {
             if (fed.size() == most_fed) break;
-            feeds.level_in_time(points);
             fed.push_back({points, {points, small_share}});
             feeds.cure(fed.back().curing, first_rounds);
         }
@@ -139,6 +136,8 @@ private:
             if (prover_.score(*each.curing.from) < prover_.score(*prover_.best()) + most_behind)
                 feeds.cure(each.curing, more_rounds - first_rounds);
         }
+        feeds.level_in_time(prover_.best());
+        for (const Fed& each : fed) feeds.level_in_time(each.points);
         for (const Fed& each : fed) {
             Curing other{each.points, large_share};
             feeds.cure(other, more_rounds);

@@ -14,11 +14,12 @@ namespace {
 
 constexpr double interval_width =
     0.005;  ///< of the speeds in a constant-speed interval: wider, passes side by side differ by as much
-constexpr double most_run_points = 4e6;   ///< of all runs together; then what there is has to do
+constexpr double most_run_points = 8e6;   ///< of all runs together; then what there is has to do …
+constexpr double large_run = 1e6;         ///< … or half of it, where a run has so many points
 constexpr int most_in_vain = 48;          ///< proposals in a row, none of them better than the best
 constexpr double growth_weight = 0.03;    ///< of a program's growth, against shares of mismatch and defects
 constexpr double goal_of_mismatch = 0.5;  ///< share left, from which on …
-constexpr double beyond_goal = 0.3;       ///< … less mismatch counts less
+constexpr double beyond_goal = 0.1;       ///< … less mismatch counts less
 
 }  // namespace
 
@@ -36,12 +37,16 @@ Prover::Prover(const Program& program, const ReadProgram& read, const Machine& m
 
 bool Prover::has_time(double share) const {
     const auto one_run = static_cast<double>(before_.log.records);
-    return (points_ == 0 || points_ + one_run <= share * most_run_points) && in_vain_ < most_in_vain;
+    return (points_ == 0 || points_ + one_run <= share * most_points()) && in_vain_ < most_in_vain;
+}
+
+double Prover::most_points() const {
+    return most_run_points * (1 - 0.5 * std::min(1.0, static_cast<double>(before_.log.records) / large_run));
 }
 
 void Prover::allow_more_time() {
     more_time_ = rules_.more_time;
-    points_ = std::min(points_, 0.5 * most_run_points);
+    points_ = std::min(points_, 0.5 * most_points());
     in_vain_ = 0;
     if (!best_) return;
     best_->proof.reason = objection(*best_);

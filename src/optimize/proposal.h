@@ -84,6 +84,7 @@ public:
 private:
     [[nodiscard]] Proposal prove(const std::shared_ptr<const Draft>& draft, std::vector<float> targets);
     [[nodiscard]] Deviation deviation_of(const Program& changed) const;
+    [[nodiscard]] double most_points() const;
     [[nodiscard]] std::string objection(const Proposal& proposal) const;
     const Program& program_;
     const ReadProgram& read_;

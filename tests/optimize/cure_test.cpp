@@ -47,7 +47,7 @@ TEST(Levelling, TakesTheLeastStepThatABudgetPaysFor) {
         const double budget = lost(part.run, levelled_speeds(part.run, {0, wanted}));
         EXPECT_GT(budget, before) << wanted;
         before = budget;
-        const double step = affordable_step(part.run, budget);
+        const double step = affordable_step(part.run, {}, budget);
         EXPECT_NEAR(step, wanted, 0.1) << "one part in 1024 of twice the greatest difference";
         EXPECT_LE(lost(part.run, levelled_speeds(part.run, {0, step})), budget);
     }
