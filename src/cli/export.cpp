@@ -86,8 +86,9 @@ ExitCode run_export(const po::variables_map& values) {
         split_names(values.count("columns") > 0 ? values["columns"].as<std::string>() : "point,time,line,x,y,z,speed");
     if (names.empty()) throw UsageError("--columns: no names");
     const std::string ending = output.substr(std::min(output.rfind('.'), output.size()));
-    if (ending != ".csv" && ending != ".biip" && ending != ".vtp" && ending != ".vtkhdf") {
-        throw UsageError("-o: '" + output + "' must end in .csv, .biip, .vtp or .vtkhdf");
+    const bool hdf = ending == ".vtkhdf" || ending == ".hdf";
+    if (ending != ".csv" && ending != ".biip" && ending != ".vtp" && !hdf) {
+        throw UsageError("-o: '" + output + "' must end in .csv, .biip, .vtp, .vtkhdf or .hdf");
     }
     StageClock clock(read_common(values), 5);
     const Part part = load_part(read_part_options(values), clock);
@@ -103,7 +104,7 @@ ExitCode run_export(const po::variables_map& values) {
     else if (ending == ".biip")
         io::write_biip_table(output, columns, part.log.period, "{}");
     else
-        write_vtk(output, ending == ".vtkhdf", surface, columns);
+        write_vtk(output, hdf, surface, columns);
     return ExitCode::done;
 }
 
@@ -116,13 +117,14 @@ Subcommand export_subcommand() {
         .summary = "per-point columns as .csv, .biip, .vtp, .vtkhdf",
         .description =
             "The file's ending chooses the form. Columns: point, time, line, pass, confidence, x, y, z and every\n"
-            "field of `clsurf help fields`. VTK files hold the passes as polylines and the stitched surface.\n\n"
+            "field of `clsurf help fields`. VTK files hold the passes as polylines and the stitched surface;\n"
+            ".hdf is .vtkhdf by the ending that ParaView 5.11 knows.\n\n"
             "  clsurf export part.nc run.biip -o points.csv --columns line,x,y,z,speed,acceleration",
         .declare =
             [](po::options_description& options) {
                 // clang-format off
                 options.add_options()
-                    ("output,o", po::value<std::string>()->value_name("FILE"), "the file: .csv, .biip, .vtp or .vtkhdf")
+                    ("output,o", po::value<std::string>()->value_name("FILE"), "the file: .csv, .biip, .vtp, .vtkhdf or .hdf")
                     ("columns", po::value<std::string>()->value_name("A,B,…"), "what is written (default: point,time,line,x,y,z,speed)");
                 // clang-format on
                 declare_part(options);

@@ -208,6 +208,7 @@ clsurf_cli_test(NAME plot_empty_range ARGS plot ${part} ${run} -o c.png --from 5
 clsurf_cli_test(NAME export_csv ARGS export ${part} ${run} -o p.csv --columns line,x,speed FILE p.csv)
 clsurf_cli_test(NAME export_vtp ARGS export ${part} ${run} -o p.vtp FILE p.vtp)
 clsurf_cli_test(NAME export_vtkhdf ARGS export ${part} ${run} -o p.vtkhdf FILE p.vtkhdf)
+clsurf_cli_test(NAME export_hdf ARGS export ${part} ${run} -o p.hdf FILE p.hdf)
 clsurf_cli_test(NAME export_biip ARGS export ${part} ${run} -o p.biip FILE p.biip)
 clsurf_cli_test(NAME export_unknown_form ARGS export ${part} ${run} -o p.xls EXIT 2 STDERR "must end in")
 clsurf_cli_test(NAME convert ARGS convert @LOGS@/mixed.csv --period 0.001 -o m.biip FILE m.biip)
