@@ -71,8 +71,8 @@ viz::Image draw_before_and_after(const Optimized& result, const std::string& pro
     viz::MapTexts texts;
     texts.title = "Path speed before and after, simulated";
     const auto summary = [](const JudgedRun& run, std::size_t defects) {
-        return fmt::format("{:.1f} s, {:.0f} mm/min between neighbour passes (95th percentile), {} defects",
-                           run.duration, run.mismatch * seconds_per_minute, defects);
+        return fmt::format("{:.1f} s, {:.0f} mm/min between neighbour passes (95th percentile), {} defect{}",
+                           run.duration, run.mismatch * seconds_per_minute, defects, defects == 1 ? "" : "s");
     };
     texts.subtitle = file_name(program);
     texts.notes = {"before: " + summary(result.before, result.proof.defects_before),
