@@ -5,8 +5,7 @@
 #include <complex>
 #include <limits>
 #include <numbers>
-
-#include <Eigen/Dense>
+#include <utility>
 
 #include "core/vectorised.h"
 
@@ -26,27 +25,44 @@ CLSURF_VECTORISED void convolve(const double* in, const double* weights, int tap
     }
 }
 
-double factorial(int n) { return n <= 1 ? 1.0 : n * factorial(n - 1); }
-
 }  // namespace
 
 std::vector<double> derivative_weights(int points, int order, int derivative, int at) {
-    // Least squares in u = (i − at) / half, which keeps the powers near one.
+    // Powers make a worse conditioned problem the wider the window; Gram's polynomials p_k are orthogonal
+    // on the points as they are, so that the weight of point x is Σ p_k(x) p_k⁽ᵈ⁾(at) / |p_k|².
+    // p_k+1 = x p_k − b_k p_k−1 with b_k = k² (n² − k²) / (4 (4 k² − 1)), x scaled to −1 … 1.
     const double half = std::max(1.0, 0.5 * (points - 1));
-    Eigen::MatrixXd powers(points, order + 1);
-    for (int i = 0; i < points; ++i) {
-        double power = 1;
-        for (int p = 0; p <= order; ++p) {
-            powers(i, p) = power;
-            power *= (i - at) / half;
-        }
+    const auto place = [&](int i) { return (i - 0.5 * (points - 1)) / half; };
+    const double n = points, x_at = place(at);
+    const auto degree = static_cast<std::size_t>(order), taken = static_cast<std::size_t>(derivative);
+    std::vector<double> b(degree + 1, 0.0);
+    for (std::size_t k = 1; k <= degree; ++k) {
+        const auto kk = static_cast<double>(k * k);
+        b[k] = kk * (n * n - kk) / (4 * (4 * kk - 1)) / (half * half);
     }
-    // Row d of the pseudo-inverse gives coefficient d of the polynomial.
-    const Eigen::MatrixXd inverse = powers.completeOrthogonalDecomposition().pseudoInverse();
+
+    // Derivatives of p_k at the point, up to the one that is asked for, over |p_k|².
+    std::vector<double> now(taken + 1, 0.0), before(taken + 1, 0.0), next(taken + 1), share(degree + 1);
+    now[0] = 1;
+    double norm = n;
+    for (std::size_t k = 0;; ++k) {
+        if (k > 0) norm *= b[k];
+        share[k] = now[taken] / norm;
+        if (k == degree) break;
+        for (std::size_t d = 0; d <= taken; ++d)
+            next[d] = x_at * now[d] - b[k] * before[d] + (d > 0 ? static_cast<double>(d) * now[d - 1] : 0.0);
+        before.swap(now);
+        now.swap(next);
+    }
+
     std::vector<double> weights(static_cast<std::size_t>(points));
     for (int i = 0; i < points; ++i) {
-        weights[static_cast<std::size_t>(i)] =
-            inverse(derivative, i) * factorial(derivative) / std::pow(half, derivative);
+        double p = 1, last = 0, sum = 0;
+        for (std::size_t k = 0; k <= degree; ++k) {
+            sum += share[k] * p;
+            last = std::exchange(p, place(i) * p - b[k] * last);
+        }
+        weights[static_cast<std::size_t>(i)] = sum / std::pow(half, derivative);
     }
     return weights;
 }
