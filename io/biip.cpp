@@ -37,7 +37,7 @@ T get(std::span<const std::byte> bytes, std::size_t at) {
     return value;
 }
 
-std::string text_of(std::span<const std::byte> bytes) {
+std::string padded_text(std::span<const std::byte> bytes) {
     std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     const std::size_t end = text.find('\0');
     if (end != std::string::npos) text.resize(end);
@@ -85,8 +85,8 @@ public:
     [[nodiscard]] Channel channel(std::uint32_t index, PointIndex records) const {
         const std::size_t at = fixed_bytes + std::size_t{index} * entry_bytes;
         Channel channel;
-        channel.name = text_of(bytes_.subspan(at, name_bytes));
-        channel.unit = text_of(bytes_.subspan(at + name_bytes, unit_bytes));
+        channel.name = padded_text(bytes_.subspan(at, name_bytes));
+        channel.unit = padded_text(bytes_.subspan(at + name_bytes, unit_bytes));
         const auto type = get<std::uint8_t>(bytes_, at + 32);
         const auto offset = get<std::uint32_t>(bytes_, at + 36);
         if (channel.name.empty()) fail(at, fmt::format("channel {} has no name", index));
@@ -108,7 +108,7 @@ public:
 
     [[nodiscard]] std::string metadata() const {
         const std::size_t at = fixed_bytes + std::size_t{channel_count_} * entry_bytes;
-        return text_of(bytes_.subspan(at, metadata_bytes_));
+        return padded_text(bytes_.subspan(at, metadata_bytes_));
     }
     [[nodiscard]] std::uint64_t records_there() const { return (bytes_.size() - header_bytes_) / record_bytes_; }
     [[nodiscard]] std::uint64_t bytes_left() const { return (bytes_.size() - header_bytes_) % record_bytes_; }
@@ -140,18 +140,18 @@ private:
 
 void read_metadata(Log& log, const Source& source) {
     if (log.metadata.empty()) return;
-    const nlohmann::json json = parse_bounded<nlohmann::json>(log.metadata);
+    const Json json = parse_bounded(log.metadata);
     if (!json.is_object()) {
         log.diagnostics.add({Severity::warning,
                              "log.metadata",
                              Place::of_file(source.name),
-                             "the metadata is not a JSON object of at most 64 levels and is left out",
+                             "the metadata is not a JSON object of at most 64 levels and 10,000 keys and is left out",
                              {}});
         log.metadata.clear();
         return;
     }
     if (const auto programs = json.find("programs"); programs != json.end() && programs->is_array()) {
-        for (const nlohmann::json& entry : *programs) {
+        for (const Json& entry : *programs) {
             if (!entry.is_object()) continue;
             const auto text = [&](const char* key) {
                 const auto found = entry.find(key);
@@ -168,7 +168,7 @@ void read_metadata(Log& log, const Source& source) {
         Vec3 value = Vec3::Zero();
         bool numbers = true;
         for (int axis = 0; axis < 3; ++axis) {
-            const nlohmann::json& part = (*offset)[static_cast<std::size_t>(axis)];
+            const Json& part = (*offset)[static_cast<std::size_t>(axis)];
             numbers = numbers && part.is_number();
             if (part.is_number()) value[axis] = part.get<double>();
         }

@@ -4,17 +4,15 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "core/error.h"
 #include "core/not_finite.h"
+#include "io/json_value.h"
 
 namespace clsurf::io {
 namespace {
 
 constexpr std::size_t deepest = 32;  ///< levels; recordings have six
-
-using Json = nlohmann::json;
 
 Place place_of(const Source& source, std::size_t byte) {
     const std::string_view before = source.text().substr(0, byte);
@@ -31,11 +29,10 @@ public:
     explicit Reader(const Source& source) : source_(source) {}
 
     EdgeRecording read() {
-        Json::sax_parse(source_.bytes.begin(), source_.bytes.end(), this);
+        Json::sax_parse(source_.text(), this);
         if (!seen_payload_ && recording.closed)
             throw InputError(Place::of_file(source_.name), "has no 'Payload', expected a SINUMERIK Edge recording");
-        recording.about =
-            Json({{"machine", machine_}, {"started", started_}}).dump(-1, ' ', false, Json::error_handler_t::replace);
+        recording.about = dump_compact({{"machine", machine_}, {"started", started_}});
         return std::move(recording);
     }
 

@@ -2,24 +2,24 @@
 
 #include <algorithm>
 
-#include <nlohmann/json.hpp>
+#include "io/json_value.h"
 
 namespace clsurf::io {
 
 std::string listing_json(std::string_view key, std::span<const ListingRow> rows) {
     const bool has_units =
         std::any_of(rows.begin(), rows.end(), [](const ListingRow& row) { return !row.unit.empty(); });
-    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    Json list = Json::array();
     for (const ListingRow& row : rows) {
-        nlohmann::ordered_json entry;
+        Json entry;
         entry["name"] = row.name;
         if (has_units) entry["unit"] = row.unit;
         entry["summary"] = row.summary;
         list.push_back(std::move(entry));
     }
-    nlohmann::ordered_json object;
+    Json object;
     object[std::string(key)] = std::move(list);
-    return object.dump(2) + "\n";
+    return dump(object);
 }
 
 }  // namespace clsurf::io

@@ -31,16 +31,16 @@ ProgramReference identify(const Source& program) {
 }
 
 std::string with_programs(const std::string& metadata, std::span<const ProgramReference> programs) {
-    auto json = parse_bounded<nlohmann::ordered_json>(metadata);
-    if (!json.is_object()) json = nlohmann::ordered_json::object();
-    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    auto json = parse_bounded(metadata);
+    if (!json.is_object()) json = Json::object();
+    Json list = Json::array();
     for (const ProgramReference& program : programs) {
-        nlohmann::ordered_json entry{{"name", program.name}, {"sha256", program.sha256}};
+        Json entry{{"name", program.name}, {"sha256", program.sha256}};
         if (program.size) entry["size"] = *program.size;
         list.push_back(std::move(entry));
     }
     json["programs"] = std::move(list);
-    return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+    return dump_compact(json);
 }
 
 void check_identity(const Source& program, const Log& log, Diagnostics& diagnostics) {

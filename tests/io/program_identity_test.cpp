@@ -1,5 +1,6 @@
 #include "io/program_identity.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "io/sha256.h"
@@ -71,7 +72,7 @@ TEST(ProgramIdentity, KeepsTheRestOfTheMetadata) {
     EXPECT_EQ(with_programs("", {}), R"({"programs":[]})");
 }
 
-TEST(ProgramIdentity, LeavesOutMetadataThatIsNestedTooDeep) {
+TEST(ProgramIdentity, LeavesOutMetadataNestedTooDeep) {
     const ProgramReference program{"part.nc", "", {}};
     const auto nested = [](std::size_t levels) {
         return "{\"a\":" + std::string(levels, '[') + std::string(levels, ']') + "}";
@@ -80,6 +81,16 @@ TEST(ProgramIdentity, LeavesOutMetadataThatIsNestedTooDeep) {
     const std::string without = with_programs(nested(100'000), std::span(&program, 1));
     EXPECT_EQ(without.find("[[["), std::string::npos);
     EXPECT_NE(without.find("part.nc"), std::string::npos);
+}
+
+TEST(ProgramIdentity, LeavesOutMetadataOfTooManyKeys) {
+    const auto with_keys = [](int keys) {
+        std::string text = "{";
+        for (int i = 0; i < keys; ++i) text += fmt::format("{}\"k{}\":1", i > 0 ? "," : "", i);
+        return with_programs(text + "}", {});
+    };
+    EXPECT_NE(with_keys(10'000).find("k9999"), std::string::npos);
+    EXPECT_EQ(with_keys(10'001), R"({"programs":[]})");
 }
 
 }  // namespace
