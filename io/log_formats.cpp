@@ -17,7 +17,7 @@ namespace clsurf::io {
 namespace {
 
 /// One line a format. Later lines win only with a better score.
-constexpr auto table = std::to_array<LogFormat>({
+constexpr auto known_formats = std::to_array<LogFormat>({
     {"biip", "BIIP v1: self-describing fixed records (docs/formats/biip.md)", probe_biip, open_biip},
     {"layout", "foreign fixed records, described by --layout FILE", probe_layout, open_layout},
     {"halsampler", "LinuxCNC halsampler text, columns named by --mapping FILE", probe_halsampler, open_halsampler},
@@ -32,13 +32,13 @@ constexpr std::size_t head_bytes = 65536;
 
 }  // namespace
 
-std::span<const LogFormat> log_formats() { return table; }
+std::span<const LogFormat> log_formats() { return known_formats; }
 
 const LogFormat* recognise_log(const Source& source, const LogOptions& options) {
     const std::span<const std::byte> head = source.bytes.first(std::min(head_bytes, source.bytes.size()));
     const LogFormat* best = nullptr;
     int best_score = 0;
-    for (const LogFormat& format : table) {
+    for (const LogFormat& format : known_formats) {
         const int score = format.probe(head, options);
         if (score > best_score) {
             best_score = score;
@@ -60,7 +60,7 @@ Log open_log(const Source& source, const LogOptions& options) {
                              "convert it first, as with iconv -f UTF-16 -t UTF-8");
         }
         std::string names;
-        for (const LogFormat& f : table) names += (names.empty() ? "" : ", ") + std::string(f.name);
+        for (const LogFormat& f : known_formats) names += (names.empty() ? "" : ", ") + std::string(f.name);
         throw InputError(Place::of_file(source.name), "is no log of a known format (" + names + ")",
                          "a foreign binary needs --layout FILE, a text without channel names --mapping FILE");
     }

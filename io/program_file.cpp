@@ -14,7 +14,7 @@
 namespace clsurf::io {
 namespace {
 
-SourceText text_of(const Source& source) { return {source.name, source.text(), source.keep_alive}; }
+SourceText source_text(const Source& source) { return {source.name, source.text(), source.keep_alive}; }
 
 /// Subprograms stand beside the program under their name, as the controls write it.
 std::optional<SourceText> load_beside(const std::filesystem::path& folder, const std::string& name) {
@@ -27,7 +27,7 @@ std::optional<SourceText> load_beside(const std::filesystem::path& folder, const
         for (const std::string_view ending : endings) {
             const std::filesystem::path path = folder / (stem + std::string(ending));
             std::error_code error;
-            if (std::filesystem::is_regular_file(path, error)) return text_of(open_source(path.string()));
+            if (std::filesystem::is_regular_file(path, error)) return source_text(open_source(path.string()));
         }
     }
     return std::nullopt;
@@ -60,12 +60,12 @@ Program read_program(const std::string& path, const ProgramOptions& options) {
 
 Program read_program(const Source& source, const ProgramOptions& options) {
     const InterpreterOptions how = interpreter_options(source, options);
-    return parse_program(text_of(source), how);
+    return parse_program(source_text(source), how);
 }
 
 std::unique_ptr<ProgramReader> open_program(const Source& source, const ProgramOptions& options) {
     const InterpreterOptions how = interpreter_options(source, options);
-    return std::make_unique<ProgramReader>(text_of(source), how);
+    return std::make_unique<ProgramReader>(source_text(source), how);
 }
 
 }  // namespace clsurf::io

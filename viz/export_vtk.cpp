@@ -21,14 +21,14 @@
 namespace clsurf::viz {
 namespace {
 
-struct Cells {
+struct CellColumns {
     Column<std::int64_t> line_offsets, line_points;  ///< polylines of the passes
     Column<std::int64_t> triangles;                  ///< 3 points each
 };
 
 /// Every point of every pass, and the bands between neighbour passes as they are drawn, over all points.
-Cells cells_of(const ClSurface& surface) {
-    Cells cells;
+CellColumns cells_of(const ClSurface& surface) {
+    CellColumns cells;
     cells.line_offsets.push_back(0);
     for (const Pass& pass : surface.passes) {
         if (pass.kind != PassKind::cut) continue;
@@ -109,7 +109,7 @@ void put_header(hid_t group) {
 
 void write_vtp(const std::string& path, const ClSurface& surface, const std::vector<PointData>& data) {
     Column<double> xyz = points_of(surface);
-    Cells cells = cells_of(surface);
+    CellColumns cells = cells_of(surface);
     vtkNew<vtkDoubleArray> coordinates;
     coordinates->SetNumberOfComponents(3);
     coordinates->SetArray(xyz.data(), static_cast<vtkIdType>(xyz.size()), 1);
@@ -143,7 +143,7 @@ void write_vtp(const std::string& path, const ClSurface& surface, const std::vec
 
 void write_vtkhdf(const std::string& path, const ClSurface& surface, const std::vector<PointData>& data) {
     const Column<double> xyz = points_of(surface);
-    const Cells cells = cells_of(surface);
+    const CellColumns cells = cells_of(surface);
     Column<std::int64_t> connectivity = cells.line_points;
     Column<std::int64_t> offsets = cells.line_offsets;
     Column<std::uint8_t> types(cells.line_offsets.size() - 1, VTK_POLY_LINE);

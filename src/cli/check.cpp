@@ -16,10 +16,10 @@
 namespace clsurf::cli {
 namespace {
 
-using Writer = std::string (*)(const io::ReportedQuality&);
+using QualityWriter = std::string (*)(const io::ReportedQuality&);
 
-Writer writer_of(const std::string& format) {
-    static const std::map<std::string, Writer, std::less<>> writers{
+QualityWriter writer_of(const std::string& format) {
+    static const std::map<std::string, QualityWriter, std::less<>> writers{
         {"text", io::quality_text}, {"json", io::quality_json}, {"csv", io::quality_csv}, {"sarif", io::quality_sarif}};
     return writers.at(format);
 }
@@ -39,7 +39,7 @@ std::vector<double> colour_differences(const QualityReport& report, const Part& 
 
 ExitCode run_check(const po::variables_map& values) {
     const std::string format = report_format(values);
-    const Writer write = writer_of(format);
+    const QualityWriter write = writer_of(format);
     PartOptions options = read_part_options(values);
     const std::optional<Role> measured = take_measured_role(options);
     const QualityOptions quality_options = read_quality_options(values);

@@ -11,12 +11,12 @@
 namespace clsurf::cli {
 namespace {
 
-using Writer = std::string (*)(const io::ReportedLint&);
+using LintWriter = std::string (*)(const io::ReportedLint&);
 
 ExitCode run_lint(const po::variables_map& values) {
-    static const std::map<std::string, Writer, std::less<>> writers{
+    static const std::map<std::string, LintWriter, std::less<>> writers{
         {"text", io::lint_text}, {"json", io::lint_json}, {"sarif", io::lint_sarif}};
-    const Writer write = writers.at(report_format(values));
+    const LintWriter write = writers.at(report_format(values));
     LintRules rules;
     if (values.count("tolerance") > 0) {
         rules.tolerance = values["tolerance"].as<double>();

@@ -1,6 +1,8 @@
 #pragma once
 // Vectors, boxes and frames as Eigen types. Lengths in mm, directions without unit.
 
+#include <cmath>
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
@@ -9,6 +11,9 @@ namespace clsurf {
 using Vec2 = Eigen::Vector2d;
 using Vec3 = Eigen::Vector3d;
 using Box3 = Eigen::AlignedBox3d;
+
+/// Angle of a direction against the first axis, -π … π [rad].
+inline double angle_of(const Vec2& v) { return std::atan2(v.y(), v.x()); }
 
 /// Three doubles without Eigen's machinery, for columns (trivially copyable).
 struct Xyz {

@@ -16,7 +16,6 @@ namespace clsurf {
 namespace {
 
 constexpr int most_rounds = 32;
-constexpr double limit_play = 1.001;      ///< what counts as held, differentiated
 constexpr int half_width = 8;             ///< of the smoothing of angles [periods]
 constexpr int carry_periods = 16;         ///< over which angles make up for what a rounded corner skips
 constexpr int patient_rounds = 8;         ///< before the tip's own jerk is lowered

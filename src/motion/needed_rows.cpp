@@ -9,7 +9,7 @@ namespace clsurf {
 namespace {
 
 // Where a limit is broken, standing still mends it too, as J/√b grows: b may not fall to that.
-constexpr double least_share = 0.2;  ///< of a coefficient, of what it began with
+constexpr double least_coefficient = 0.2;  ///< of a coefficient, of what it began with
 // The spline holds the limits at stations; a little is left for what lies between them.
 constexpr double acceleration_share = 0.9995, jerk_share = 0.997;
 constexpr double lowering = 0.998;  ///< of a limit that is broken between its rows, besides
@@ -135,7 +135,7 @@ void SpeedProblem::add_cap(std::uint32_t number, std::size_t cell, const Three& 
     const double share = 1 / (cap * cap);
     LimitRow row;
     row.w = {weights[0] * share, weights[1] * share, weights[2] * share};
-    row.low = -least_share * dot(row.w, &value_[cell]);
+    row.low = -least_coefficient * dot(row.w, &value_[cell]);
     row.cell = static_cast<std::uint32_t>(cell);
     row.number = number;
     rows_.add(row);

@@ -142,7 +142,7 @@ PathElement element_of(MotionKind kind, const Arc* arc, const Vec3& begin, const
     const Vec2 to(end[u] - e.centre[u], end[v] - e.centre[v]);
     e.radius = from.norm();
     if (e.radius < no_way) return e;
-    double sweep = turn * (std::atan2(to.y(), to.x()) - std::atan2(from.y(), from.x()));
+    double sweep = turn * (angle_of(to) - angle_of(from));
     while (sweep <= same_angle) sweep += two_pi;
     while (sweep > two_pi + same_angle) sweep -= two_pi;
     sweep += two_pi * (std::max(1, arc->turns) - 1);

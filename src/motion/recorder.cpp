@@ -6,11 +6,6 @@
 #include <fmt/format.h>
 
 namespace clsurf {
-namespace {
-
-constexpr double limit_play = 1.001;  ///< what counts as held, differentiated
-
-}  // namespace
 
 Recorder::Recorder(const Program& program, const Machine& machine, const Vec3& start, const PointSink& sink)
     : program_(&program),

@@ -12,9 +12,9 @@ constexpr double periods_a_cell = 0.5;  ///< of a bent span, at the speed that i
 constexpr int most_cells_of_span = 16;
 // An acceleration x′ a + x″ v² differs between two places, Δ apart, from the line through it there by at most Δ²/8 of its
 // second derivative, 5 x‴ a + x⁗ v². So much is left at the places, and they are that near to each other:
-constexpr double left_over = 0.005;  ///< of an acceleration
-constexpr double least_share = 0.5;  ///< of an acceleration, whatever is left of it
-constexpr int most_parts = 8;        ///< of a cell, between its places
+constexpr double left_over = 0.005;         ///< of an acceleration
+constexpr double least_acceleration = 0.5;  ///< of an acceleration, whatever is left of it
+constexpr int most_parts = 8;               ///< of a cell, between its places
 
 }  // namespace
 
@@ -73,7 +73,7 @@ void ScanDriver::divide(const Span& span) {
     Vec3 limits;
     for (int x = 0; x < 3; ++x) {
         const double greatest = machine_->axes[static_cast<std::size_t>(x)].max_acceleration;
-        limits[x] = std::max(greatest - part * part / 8 * curving[x], least_share * greatest);
+        limits[x] = std::max(greatest - part * part / 8 * curving[x], least_acceleration * greatest);
     }
     places_.resize(parts + 1);
     places_[parts] = span.derivatives(0);

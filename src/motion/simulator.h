@@ -19,6 +19,8 @@ struct SimulatedPoint {
     Ruling limit = Ruling::none;
 };
 
+constexpr double limit_play = 1.001;  ///< a limit counts as held within this factor: values are differences
+
 /// What a run was like, measured on the points themselves by differences.
 struct SimulationSummary {
     PointIndex points = 0;
@@ -26,7 +28,7 @@ struct SimulationSummary {
     double max_speed = 0;  ///< of the path [mm/s]
     Vec3 max_axis_speed = Vec3::Zero(), max_acceleration = Vec3::Zero(), max_jerk = Vec3::Zero();
     double path_deviation = 0;           ///< greatest distance that rounding took a point from the path [mm]
-    bool limits_ok = true;               ///< no limit of an axis or the path's speed exceeded by more than 0.1 %
+    bool limits_ok = true;               ///< no limit of an axis or the path's speed exceeded by more than limit_play
     std::array<PointIndex, 10> ruled{};  ///< points by Ruling
     Diagnostics diagnostics;
 };

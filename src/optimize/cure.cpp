@@ -12,9 +12,9 @@
 namespace clsurf {
 namespace {
 
-constexpr double reach = 1;       ///< [mm] of way before and behind a defect that is levelled with it
-constexpr double lag_aim = 0.95;  ///< of the threshold, that a lag step is brought down to
-constexpr double slowest = 0.6;   ///< of its speed, to which a place is slowed at most for that
+constexpr double levelled_reach = 1;  ///< [mm] of way before and behind a defect that is levelled with it
+constexpr double lag_aim = 0.95;      ///< of the threshold, that a lag step is brought down to
+constexpr double slowest = 0.6;       ///< of its speed, to which a place is slowed at most for that
 constexpr int most_selections = 10;
 
 /// Which defect the points in each cell of space are levelled for.
@@ -69,7 +69,7 @@ private:
     [[nodiscard]] bool can_be_cured(const Defect& defect) const {
         if (defect.quantity == Quantity::relief) return false;
         return std::none_of(rules_.hopeless.begin(), rules_.hopeless.end(),
-                            [&](const Vec3& place) { return (place - defect.position).norm() < reach; });
+                            [&](const Vec3& place) { return (place - defect.position).norm() < levelled_reach; });
     }
 
     /// The speeds for the defects that are taken.
@@ -87,11 +87,11 @@ private:
         level_speeds(run_, {rules_.step, 0, rules_.ramp}, speeds_, causes_);
     }
 
-    /// A stretch and what lies within reach before and behind it.
+    /// A stretch and what lies within `levelled_reach` before and behind it.
     void mark(const PointRange& points, std::int32_t cause) {
         for (PointIndex i = points.first; i <= points.last; ++i) causes_[static_cast<std::size_t>(i)] = cause;
         const auto walk = [&](PointIndex from, PointIndex step) {
-            double left = reach;
+            double left = levelled_reach;
             for (PointIndex i = from + step; left > 0 && i >= 0 && i < run_.signals.size() &&
                                              own_[static_cast<std::size_t>(i)] == own_[static_cast<std::size_t>(i)];
                  i += step) {

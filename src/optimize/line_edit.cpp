@@ -12,8 +12,8 @@
 namespace clsurf {
 namespace {
 
-constexpr double same_place = 1e-7;  ///< [mm] a word and where its motion ends
-constexpr double same_angle = 1e-9;  ///< [rad]
+constexpr double same_coordinate = 1e-7;  ///< [mm] a word and where its motion ends
+constexpr double same_axis_angle = 1e-9;  ///< [rad]
 constexpr std::string_view letters = "XYZABC";
 constexpr std::size_t linear = 3, axes = 6;  ///< words: X, Y, Z and A, B, C behind them
 constexpr double feed_steps = 10;            ///< per unit and minute of a feed word
@@ -50,7 +50,7 @@ bool says_its_angles(const PlainLine& line, const Motions& motions, std::size_t 
     for (std::size_t a = linear; a < axes; ++a) {
         const auto axis = static_cast<int>(a - linear);
         const double expected = line.axis[a].empty() ? begin[axis] : line.value[a] * rad_per_deg;
-        if (!(std::abs(end[axis] - expected) <= same_angle)) return false;
+        if (!(std::abs(end[axis] - expected) <= same_axis_angle)) return false;
     }
     return begin == end || motions.begin_of(static_cast<std::int64_t>(i)) != motions.end[i];
 }
@@ -127,7 +127,7 @@ LineEditor::LineEditor(const Program& program, int least_decimals) : program_(&p
                 for (int axis = 0; axis < 3; ++axis) {
                     const auto a = static_cast<std::size_t>(axis);
                     const double expected = line->axis[a].empty() ? begin[axis] : line->value[a] * unit;
-                    if (!(std::abs(end[axis] - expected) <= same_place)) return false;
+                    if (!(std::abs(end[axis] - expected) <= same_coordinate)) return false;
                 }
                 return true;
             };

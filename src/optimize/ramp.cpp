@@ -7,7 +7,7 @@
 namespace clsurf {
 namespace {
 
-constexpr float rounding = 0.001F;  ///< of a speed, that peaks are not rounded for
+constexpr float speed_rounding = 0.001F;  ///< of a speed, that peaks are not rounded for
 
 class RampKeeper {
 public:
@@ -57,7 +57,7 @@ private:
         const std::size_t n = speeds_.size();
         for (std::size_t k = 0; k < n; ++k) {
             const float reached = rounded[k] + (own_[k] - own_rounded[k]);
-            if (!(reached < (1 - rounding) * speeds_[k])) continue;
+            if (!(reached < (1 - speed_rounding) * speeds_[k])) continue;
             speeds_[k] = reached;
             if (causes_[k] < 0 && k > 0) causes_[k] = causes_[k - 1];
         }

@@ -34,8 +34,8 @@ Helix make_helix(const Arc& arc, MotionKind kind, const Vec3& begin, const Vec3&
     const Vec2 to(end[h.u] - h.centre[h.u], end[h.v] - h.centre[h.v]);
     h.radius = from.norm();
     h.radius_growth = to.norm() - h.radius;
-    h.start_angle = std::atan2(from.y(), from.x());
-    double sweep = h.sign * (std::atan2(to.y(), to.x()) - h.start_angle);
+    h.start_angle = angle_of(from);
+    double sweep = h.sign * (angle_of(to) - h.start_angle);
     // A difference of rounding size is a full circle, not none.
     constexpr double same_angle = 1e-9;
     while (sweep <= same_angle) sweep += two_pi;

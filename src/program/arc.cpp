@@ -74,7 +74,7 @@ double arc_length(const Arc& arc, bool clockwise, const Vec3& begin, const Vec3&
     const Vec2 from(begin[u] - centre[u], begin[v] - centre[v]);
     const Vec2 to(end[u] - centre[u], end[v] - centre[v]);
     constexpr double two_pi = 2 * std::numbers::pi;
-    double sweep = std::atan2(to.y(), to.x()) - std::atan2(from.y(), from.x());
+    double sweep = angle_of(to) - angle_of(from);
     if (clockwise) sweep = -sweep;
     while (sweep <= 1e-9) sweep += two_pi;
     sweep += two_pi * (arc.turns - 1);

@@ -15,7 +15,6 @@ constexpr double flat_corner = 0.05;
 constexpr double no_length = 1e-9;   ///< [mm]
 constexpr double angle_play = 1e-9;  ///< [rad]
 
-double angle_of(const Vec2& v) { return std::atan2(v.y(), v.x()); }
 Vec2 left_of(const Vec2& v) { return {-v.y(), v.x()}; }
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 

@@ -12,7 +12,6 @@
 namespace clsurf {
 namespace {
 
-constexpr std::uint32_t xyz = Words::bit('X') | Words::bit('Y') | Words::bit('Z');
 constexpr int extended_systems = 6;  ///< G54.1 P1 follows G59
 constexpr double most_factor = 50;   ///< above it a factor of G51 is in thousandths
 constexpr double full_turn = 360;    ///< above it an angle of G68 is in thousandths
@@ -83,7 +82,7 @@ void Interpreter::scale_frame(const Block& block) {
 void Interpreter::mirror_frame(int code, const Block& block) {
     motion_suppressed_ = true;
     const bool on = code == 511 || code == 240;
-    const bool all = !on && (block.words.has & xyz) == 0;
+    const bool all = !on && (block.words.has & Words::xyz) == 0;
     for (int k = 0; k < 3; ++k) {
         if (!all && !block.words.given("XYZ"[k])) continue;
         mirrored_[k] = on;
@@ -128,7 +127,7 @@ bool Interpreter::apply_fanuc(int code, Block& block, std::size_t column) {
         case 80:
         case 81:
             event("high-speed", code_text(code) + words_text(block, "PQR"));
-            motion_suppressed_ = (block.words.has & xyz) == 0;
+            motion_suppressed_ = (block.words.has & Words::xyz) == 0;
             block.words.has &= ~(Words::bit('P') | Words::bit('Q') | Words::bit('R'));
             return true;
         case 100:

@@ -14,7 +14,6 @@ namespace clsurf {
 namespace {
 
 constexpr int q_variables = 100'000;  ///< Q5 is variable 100005
-constexpr std::uint32_t xyz = Words::bit('X') | Words::bit('Y') | Words::bit('Z');
 constexpr std::uint32_t ijk = Words::bit('I') | Words::bit('J') | Words::bit('K');
 
 enum FrameKind : std::size_t { datum, mirror, rotation, scaling };
@@ -202,7 +201,8 @@ void Interpreter::take_pole(const Block& block) {
         const double value = block.words.of("IJK"[k]) * state_.unit_mm;
         polar_.pole[k] = state_.incremental ? (std::isnan(here[k]) ? 0.0 : here[k]) + value : value;
     }
-    const bool alone = (block.words.has & (xyz | Words::bit('H') | Words::bit('R'))) == 0 && block.words.g_count == 0;
+    const bool alone =
+        (block.words.has & (Words::xyz | Words::bit('H') | Words::bit('R'))) == 0 && block.words.g_count == 0;
     if (alone) motion_suppressed_ = true;
 }
 
@@ -347,7 +347,7 @@ void Interpreter::put_about_pole(const Block& block, Vec3& end) {
         else
             polar_.radius = now.norm();
         const bool adds = siemens ? block.polar_angle_incremental : state_.incremental;
-        const double angle_now = std::atan2(now.y(), now.x()) * deg_per_rad;
+        const double angle_now = angle_of(now) * deg_per_rad;
         polar_.angle = angle ? *angle + (adds ? angle_now : 0.0) : angle_now;
     }
     end[u] = polar_.pole[u] + polar_.radius * std::cos(polar_.angle * rad_per_deg);

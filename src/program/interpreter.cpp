@@ -133,9 +133,8 @@ void Interpreter::run_line() {
 
 /// G0, G1 or nothing, with axis words and feed: what nearly every block of a finishing program is.
 bool Interpreter::run_plain(const Words& words) {
-    constexpr std::uint32_t axes = Words::bit('X') | Words::bit('Y') | Words::bit('Z');
-    constexpr std::uint32_t allowed = axes | Words::bit('F') | Words::bit('N');
-    if ((words.has & ~allowed) != 0 || (words.has & axes) == 0 || words.m_count != 0) return false;
+    constexpr std::uint32_t allowed = Words::xyz | Words::bit('F') | Words::bit('N');
+    if ((words.has & ~allowed) != 0 || (words.has & Words::xyz) == 0 || words.m_count != 0) return false;
     MotionMode mode = state_.motion;
     if (words.g_count == 1) {
         if (words.g[0] != 0 && words.g[0] != 10) return false;

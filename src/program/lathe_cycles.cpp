@@ -18,8 +18,6 @@ constexpr int most_cuts = 100'000;
 
 Vec2 zx(const Vec3& p) { return {p.z(), p.x()}; }
 
-double angle_of(const Vec2& v) { return std::atan2(v.y(), v.x()); }
-
 /// The profile beside itself: `distance` to its left, rounded at outside corners. Empty, with `error`
 /// set, where a tool of that radius would not pass.
 std::vector<CompensatedMove> beside(const Vec2& begin, const std::vector<CompensatedMove>& profile, bool left,

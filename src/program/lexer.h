@@ -25,6 +25,7 @@ struct Words {
     std::array<std::int32_t, most_codes> m;
 
     static constexpr std::uint32_t bit(char letter) { return 1u << (letter - 'A'); }
+    static constexpr std::uint32_t xyz = 7u << ('X' - 'A');
     [[nodiscard]] bool given(char letter) const { return (has & bit(letter)) != 0; }
     [[nodiscard]] double of(char letter) const { return value[static_cast<std::size_t>(letter - 'A')]; }
     void set(char letter, double number, std::size_t at) {

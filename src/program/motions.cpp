@@ -11,7 +11,6 @@
 namespace clsurf {
 namespace {
 
-constexpr std::uint32_t linear_axes = Words::bit('X') | Words::bit('Y') | Words::bit('Z');
 constexpr std::uint32_t rotary_axes = Words::bit('A') | Words::bit('B') | Words::bit('C');
 constexpr std::uint32_t other_axes = Words::bit('U') | Words::bit('V') | Words::bit('W');
 constexpr std::uint32_t centres = Words::bit('I') | Words::bit('J') | Words::bit('K') | Words::bit('R');
@@ -68,7 +67,7 @@ void Interpreter::put_polar(const Block& block, Vec3& end) const {
     const double radius_now = from.norm();
     if (radius_now == 0 && (state_.incremental || !block.polar_angle))
         fail("polar words (@, ^) at the origin: the angle is not known");
-    const double angle_now = std::atan2(from.y(), from.x());
+    const double angle_now = angle_of(from);
     double radius = radius_now;
     double angle = angle_now;
     if (block.polar_radius) radius = (state_.incremental ? radius_now : 0.0) + *block.polar_radius * state_.unit_mm;
@@ -100,7 +99,7 @@ Vec3 Interpreter::rotary_target(const Block& block) const {
 
 void Interpreter::move(const Block& block) {
     const bool turns_tool = take_tool_axis(block);
-    const bool axes = turns_tool || (block.words.has & (linear_axes | rotary_axes | other_axes)) != 0 ||
+    const bool axes = turns_tool || (block.words.has & (Words::xyz | rotary_axes | other_axes)) != 0 ||
                       block.polar_radius || block.polar_angle ||
                       (polar_line_ && (block.words.has & (Words::bit('R') | Words::bit('H'))) != 0);
     switch (state_.motion) {

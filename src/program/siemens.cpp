@@ -140,7 +140,7 @@ bool Interpreter::siemens_frame(const Keyword& keyword, Block& block) {
           keyword.name + words_text(block, "XYZ") + (turned ? fmt::format(" RPL={:g}", *turned) : std::string()));
     // The words belong to the frame, not to a motion.
     motion_suppressed_ = true;
-    block.words.has &= ~(Words::bit('X') | Words::bit('Y') | Words::bit('Z'));
+    block.words.has &= ~Words::xyz;
     return true;
 }
 

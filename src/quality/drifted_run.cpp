@@ -10,7 +10,7 @@
 namespace clsurf {
 namespace {
 
-constexpr double places = 20'000;
+constexpr double compared_places = 20'000;
 constexpr double clear_lead = 2.0;  ///< of the run that drifted over the next one
 
 /// The middle one of those that are known; NaN where fewer than three are.
@@ -27,7 +27,7 @@ float middle_of(std::vector<float>& values) {
 DriftFinder::DriftFinder(const ClSurface& surface) {
     const Way way(surface.positions);
     const PointIndex count = surface.positions.size();
-    const double every = count > 0 ? way.to(count - 1) / places : 0;
+    const double every = count > 0 ? way.to(count - 1) / compared_places : 0;
     double since = every;
     for (PointIndex i = 0; i < count; ++i) {
         const double step = way.step(i);

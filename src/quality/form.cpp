@@ -14,7 +14,7 @@
 namespace clsurf {
 namespace {
 
-constexpr double reach = 3;              ///< step-overs round a knot that its fit looks at
+constexpr double fit_reach = 3;          ///< step-overs round a knot that its fit looks at
 constexpr double least_spread = 0.0003;  ///< [mm] what rounding to a micrometre leaves
 
 constexpr std::int64_t finer = 4;        ///< squares of a knot's, a side, that lie inside or not
@@ -77,7 +77,7 @@ Form::Form(const FormedSurface& formed, const Box2& region) {
     knots_.resize(static_cast<std::size_t>(columns_ * rows_));
 
     Box2 wide = region;
-    const Vec2 room = Vec2::Constant((reach + 1) * pitch_);
+    const Vec2 room = Vec2::Constant((fit_reach + 1) * pitch_);
     wide.extend(Vec2(region.min() - room));
     wide.extend(Vec2(region.max() + room));
     std::vector<Vec3> found = standing_contacts(formed, wide, sample_spacing * pitch_);
@@ -120,7 +120,7 @@ bool Form::is_inside(const Vec2& place, const Samples& samples) const {
     const Vec2 at = (place - corner_) / pitch_;
     const auto column = static_cast<std::int64_t>(at.x());
     const auto row = static_cast<std::int64_t>(at.y());
-    constexpr auto rings = static_cast<std::int64_t>(reach);
+    constexpr auto rings = static_cast<std::int64_t>(fit_reach);
     for (std::int64_t ring = 0; ring <= rings; ++ring) {
         (void)samples.for_each_in_ring(column, row, ring, [&](const Vec3& p) {
             const Vec2 off = p.head<2>() - place;
@@ -132,7 +132,7 @@ bool Form::is_inside(const Vec2& place, const Samples& samples) const {
         // What lies in the rings beyond is farther away than that.
         if (std::sqrt(nearest) <= static_cast<double>(ring) * pitch_) break;
     }
-    if (!(nearest <= reach * reach * pitch_ * pitch_)) return false;
+    if (!(nearest <= fit_reach * fit_reach * pitch_ * pitch_)) return false;
     if (std::sqrt(nearest) < on_line * pitch_) return true;
     for (std::int64_t ring = 0; ring <= rings; ++ring) {
         const bool one_sided = samples.for_each_in_ring(column, row, ring, [&](const Vec3& p) {
@@ -149,7 +149,7 @@ void Form::fit(std::int64_t column, std::int64_t row, const Samples& samples, Lo
     knot.fill(missing<float>);
     const Vec2 here = corner_ + pitch_ * Vec2(static_cast<double>(column), static_cast<double>(row));
     constexpr std::int64_t squares =
-        static_cast<std::int64_t>(reach) + 1;  // a knot stands at the corner of four of them
+        static_cast<std::int64_t>(fit_reach) + 1;  // a knot stands at the corner of four of them
     double nearest = std::numeric_limits<double>::infinity();
     double base = 0;
     samples.for_each_near(column, row, squares, [&](const Vec3& p) {
@@ -163,7 +163,7 @@ void Form::fit(std::int64_t column, std::int64_t row, const Samples& samples, Lo
     samples.for_each_near(column, row, squares, [&](const Vec3& p) {
         const Vec2 off = (p.head<2>() - here) / pitch_;
         const double rise = (p.z() - base) / pitch_;
-        const double d = std::sqrt(off.squaredNorm() + rise * rise) / reach;
+        const double d = std::sqrt(off.squaredNorm() + rise * rise) / fit_reach;
         if (d >= 1) return;
         const double tricube = 1 - d * d * d;
         quadratic.add(off.x(), off.y(), p.z() - base, tricube * tricube * tricube);

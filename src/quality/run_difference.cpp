@@ -13,13 +13,13 @@
 namespace clsurf {
 namespace {
 
-constexpr double height_seconds = 0.015;          ///< window of the mean of lags and heights
-constexpr PointIndex feed_reach = 8;              ///< points before and after one that tell the feed there
-constexpr double least_feed = 1e-4;               ///< [mm] of way that has a direction
-constexpr float least_tilt = 0.1F;                ///< sine of the feed's angle to Z: steeper, it has no upper side
-constexpr std::int64_t sampled_points = 200'000;  ///< that usual values are taken from
+constexpr double height_seconds = 0.015;            ///< window of the mean of lags and heights
+constexpr PointIndex feed_reach = 8;                ///< points before and after one that tell the feed there
+constexpr double least_feed = 1e-4;                 ///< [mm] of way that has a direction
+constexpr float least_tilt = 0.1F;                  ///< sine of the feed's angle to Z: steeper, it has no upper side
+constexpr std::int64_t points_for_usual = 200'000;  ///< that usual values are taken from
 
-constexpr auto table = std::to_array<RunQuantityInfo>({
+constexpr auto quantity_table = std::to_array<RunQuantityInfo>({
     {RunQuantity::speed, "speed", "Path speed", unit::mm_min, "mm_min"},
     {RunQuantity::acceleration, "acceleration", "Acceleration", unit::mm_s2, "mm_s2"},
     {RunQuantity::lag, "lag", "Lag along the feed", unit::um, "um"},
@@ -138,7 +138,7 @@ float percentile_where_cut(const Column<float>& values, const Passes& passes, do
     Column<float> sampled;
     PointIndex cutting = 0;
     for (const Pass& pass : passes) cutting += pass.kind == PassKind::cut ? pass.size() : 0;
-    const PointIndex step = std::max<PointIndex>(1, cutting / sampled_points);
+    const PointIndex step = std::max<PointIndex>(1, cutting / points_for_usual);
     for (const Pass& pass : passes) {
         if (pass.kind != PassKind::cut) continue;
         for (PointIndex i = pass.first; i <= pass.last; i += step) {
@@ -193,7 +193,7 @@ void compare_motion(const Run& a, const Run& b, const ClSurface& surface, RunDif
 
 }  // namespace
 
-std::span<const RunQuantityInfo> run_quantity_table() { return table; }
+std::span<const RunQuantityInfo> run_quantity_table() { return quantity_table; }
 
 float RunDifferences::speed_base(PointIndex i) const {
     const float own = speed_of_a[static_cast<std::size_t>(i)];
