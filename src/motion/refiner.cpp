@@ -20,6 +20,10 @@ constexpr double most_change = 0.05;  ///< of the speed in a cell, by the jerk
 constexpr double least_cells_a_ramp = 13, least_periods = 0.4, most_periods = 3;
 // The places where a part of a span is held, by the periods that it lasts: two, three, five, nine.
 constexpr double briefest = 0.5, brief = 1, middling = 2.5;
+// A window that cannot be solved is tried with an end in its last part, so many times.
+constexpr double shortening = 0.3;
+constexpr int most_shortenings = 2;
+constexpr std::size_t fewest_cells = 8;
 constexpr double long_cruise = 20, cruise_left = 4;  ///< cells
 
 Ruling ruling_of(Row row, Ruling at_cap) {
@@ -156,7 +160,9 @@ void Refiner::add_cells(const Stretch& stretch) {
             parts_.push_back({&span, way - begin, next_way - way});
             ++open_.parts;
             open_.length += next_way - way;
-            open_end_ = {next.speed, next.acceleration};
+            open_.end = {next.speed, next.acceleration};
+            open_.end_run = stretch.run;
+            open_.end_time = next_time;
             if (open_.length >= least_time_ * std::max(next.speed, end_.speed)) close_cell();
             way = next_way;
             time = next_time;
@@ -177,10 +183,10 @@ void Refiner::close_cell() {
         add_part(part, begin, limits);
         begin += part.length;
     }
-    problem_.add_cell(open_.length, SpeedProblem::value_between(open_.length, end_, open_end_), limits);
+    problem_.add_cell(open_.length, SpeedProblem::value_between(open_.length, end_, open_.end), limits);
     for (const Station& station : stations_) problem_.add_station(station);
     cells_.push_back(open_);
-    end_ = open_end_;
+    end_ = open_.end;
     open_ = {};
 }
 
@@ -196,7 +202,7 @@ void Refiner::add_part(const CellPart& part, double begin, CellLimits& limits) {
         limits.jerk = std::min(limits.jerk, span.jerk);
         return;
     }
-    const double periods = part.length / (machine_->controller.period * std::max(end_.speed, open_end_.speed));
+    const double periods = part.length / (machine_->controller.period * std::max(end_.speed, open_.end.speed));
     const int pieces = periods < briefest ? 1 : periods < brief ? 2 : periods < middling ? 4 : 8;
     Station station;
     double curvature = 0;
@@ -221,11 +227,24 @@ void Refiner::add_part(const CellPart& part, double begin, CellLimits& limits) {
 /// Makes the window fast and runs most of it, or all.
 void Refiner::solve(bool to_the_end) {
     close_cell();
+    const auto run_most = [&] {
+        run_cells(static_cast<std::size_t>(std::ceil(run_share * static_cast<double>(cells_.size()))), false);
+    };
     if (problem_.solve(start_, end_)) {
         solved_ = cells_.size();
         waiting_.clear();
-        const auto some = static_cast<std::size_t>(std::ceil(run_share * static_cast<double>(cells_.size())));
-        run_cells(to_the_end ? cells_.size() : some, to_the_end && ends_at_rest_);
+        if (to_the_end)
+            run_cells(cells_.size(), ends_at_rest_);
+        else
+            run_most();
+        return;
+    }
+    if (solve_in_part()) {
+        solved_ = cells_.size();
+        const Cell last = cells_.back();
+        run_most();
+        wait_from(last);
+        if (to_the_end) solve(true);
         return;
     }
     // What was found before goes on to where the plan begins that was not refined.
@@ -236,6 +255,36 @@ void Refiner::solve(bool to_the_end) {
     waiting_.clear();
     parts_.clear();
     problem_.clear();
+}
+
+/// Where feeds differ from block to block the plan's speed at the end may be more than the cells next to it can come to. To an earlier
+/// place where the plan is slow there is a way.
+bool Refiner::solve_in_part() {
+    for (int k = 0; k < most_shortenings; ++k) {
+        const std::size_t fewest =
+            std::max(solved_ + fewest_cells,
+                     static_cast<std::size_t>(std::ceil((1 - shortening) * static_cast<double>(cells_.size()))));
+        if (fewest >= cells_.size()) return false;
+        std::size_t count = fewest;
+        for (std::size_t i = fewest; i < cells_.size(); ++i) {
+            if (cells_[i - 1].end.speed < cells_[count - 1].end.speed) count = i;
+        }
+        std::size_t parts = 0;
+        for (std::size_t i = 0; i < count; ++i) parts += cells_[i].parts;
+        cells_.resize(count);
+        parts_.resize(parts);
+        problem_.drop_back(count);
+        end_ = cells_.back().end;
+        if (problem_.solve(start_, end_)) return true;
+    }
+    return false;
+}
+
+/// The waiting stretches behind a cell are divided anew.
+void Refiner::wait_from(const Cell& cell) {
+    while (waiting_.front().run != cell.end_run) waiting_.erase(waiting_.begin());
+    waiting_.front().from = cell.end_time;
+    for (const Stretch& stretch : waiting_) add_cells(stretch);
 }
 
 void Refiner::run_cells(std::size_t count, bool to_rest) {

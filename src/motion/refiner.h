@@ -43,6 +43,10 @@ private:
         std::int64_t run = 0;   ///< that it begins on
         std::int64_t block = 0;
         Ruling at_cap = Ruling::feed;
+        // Where it ends in the plan.
+        KnotState end;
+        std::int64_t end_run = 0;
+        double end_time = 0;
     };
 
     [[nodiscard]] const KeptRun& kept(std::int64_t run) const {
@@ -56,6 +60,8 @@ private:
     void close_cell();
     void add_part(const CellPart& part, double begin, CellLimits& limits);
     void solve(bool to_the_end);
+    [[nodiscard]] bool solve_in_part();
+    void wait_from(const Cell& cell);
     void run_cells(std::size_t count, bool to_rest);
     void close();
     void forget_runs();
@@ -76,9 +82,8 @@ private:
     std::vector<CellPart> parts_;  ///< of the cells in turn, then of the one being made
     std::size_t solved_ = 0;       ///< first cells, whose values hold the limits
     SpeedProblem problem_;
-    KnotState start_, end_;  ///< of the cells
-    Cell open_;              ///< the cell being made
-    KnotState open_end_;
+    KnotState start_, end_;          ///< of the cells
+    Cell open_;                      ///< the cell being made
     std::vector<Station> stations_;  ///< of the cell being made
 };
 

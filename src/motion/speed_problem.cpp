@@ -12,6 +12,7 @@ constexpr double boundary_share = 0.97;  ///< of the way to a limit in one step
 // A start far from every limit, as its slacks say, converges best.
 constexpr double first_slack = 1.0;  ///< of a bound, at least
 constexpr double first_gap = 1.0;    ///< of the time
+constexpr double diverged = 1e3;     ///< of the time: a gap of a problem without a solution
 constexpr double mended = 1e-4;      ///< of a bound
 constexpr double held = 1 + 3e-4;    ///< part of a limit that counts as held
 constexpr int most_rounds = 6;       ///< with rows for what the last solution broke
@@ -54,6 +55,14 @@ void SpeedProblem::add_station(const Station& station) {
     cell.slope = cell.slope.cwiseMax(station.slope.cwiseAbs());
     cell.bend = cell.bend.cwiseMax(station.bend.cwiseAbs());
     cell.twist = cell.twist.cwiseMax(station.twist.cwiseAbs());
+}
+
+void SpeedProblem::drop_back(std::size_t left) {
+    if (left == cells_.size()) return;
+    stations_.erase(stations_.begin() + static_cast<std::ptrdiff_t>(cells_[left].first_station), stations_.end());
+    cells_.resize(left);
+    value_.resize(left + 1);
+    ruling_.resize(std::min(left, ruling_.size()));
 }
 
 void SpeedProblem::drop_front(std::size_t count) {
@@ -215,6 +224,7 @@ bool SpeedProblem::iterate() {
         assemble();
         const double gap = gap_ / time();
         if (gap < end_gap && broken_ < mended) return true;
+        if (!(gap < diverged)) return false;
         if (gap < look_at) {
             // While slacks are large, rows can join without ado.
             look_at = gap > last_look ? look_step * gap : 0;

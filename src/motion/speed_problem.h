@@ -52,6 +52,8 @@ public:
     /// faster; the values are then what they were. At least four cells.
     [[nodiscard]] bool solve(const KnotState& start, const KnotState& end);
 
+    /// Forgets all cells but the first ones.
+    void drop_back(std::size_t left);
     /// Forgets the first cells.
     void drop_front(std::size_t count);
     /// Coefficient of a cell [mm²/s²].

@@ -293,6 +293,25 @@ TEST(Simulator, ASpeedReachedOverHardlyAnyWayIsPlanned) {
     }
 }
 
+TEST(Simulator, FeedsThatDifferFromBlockToBlockAreFollowed) {
+    // 150 mm of 0.04 mm blocks, 2850 ± 150 mm/min over 63 of them: v v′ = 300 mm/s² and v² v″ = 35,000 mm/s³ follow them, and there are
+    // 2000 and 50,000. Windows of the look-ahead end anywhere on rising and falling feeds.
+    constexpr int blocks = 3750;
+    const auto feed = [](int k) { return std::round(2850 + 150 * std::sin(0.1 * k)); };
+    std::string text = "G21 G90 G94 G64 P0.005\nG0 X0\n";
+    for (int k = 0; k < blocks; ++k) text += fmt::format("G1 X{:.2f} F{}\n", 0.04 * (k + 1), feed(k));
+    const Recorded r = run(text + "M2\n", ideal());
+    constexpr LineNumber first_block = 3;
+    constexpr std::size_t ramps = 200;  // points
+    double slowest = 1;
+    for (std::size_t i = ramps; i + ramps < r.points.size(); ++i) {
+        const SimulatedPoint& p = r.points[i];
+        slowest = std::min(slowest, 60 * p.speed / feed(static_cast<int>(p.line - first_block)));
+    }
+    EXPECT_GT(slowest, 0.97);
+    EXPECT_TRUE(r.summary.limits_ok);
+}
+
 TEST(Simulator, RefusesWhatItCannotRun) {
     EXPECT_THROW(run("G1 X1 A5 F100\nM2\n", ideal()), InputError);
     EXPECT_THROW(run("G1 X1 F0\nM2\n", ideal()), InputError);
