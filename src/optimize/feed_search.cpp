@@ -11,7 +11,6 @@ namespace {
 
 constexpr std::array<double, 3> steps_between_passes{0.1, 0.05, 0.02};
 constexpr double play_of_feeds = 0.003;  ///< a motion this little too fast (a share) gets no feed
-constexpr double cure_step = 0.7;        ///< of the threshold of a speed step, that is left about defects
 constexpr int levelling_rounds = 3;      ///< with the time that there is
 constexpr double most_share = 0.65;      ///< of the time there is, that a round may reckon with: feeds hold whole lines
 constexpr double time_used = 0.95;       ///< of what is there: enough
@@ -96,7 +95,7 @@ void FeedSearch::level_in_time(const Tried& from) {
 void FeedSearch::cure(Curing& curing, int rounds) {
     const JudgedRun& before = prover_.before();
     CureRules rules;
-    rules.step = cure_step * before.report.thresholds.of[index_of(Quantity::speed)];
+    rules.step = curing.step * before.report.thresholds.of[index_of(Quantity::speed)];
     rules.lag_power = lag_power_;
     rules.ramp = ramp_;
     for (int round = 0; round < rounds && prover_.has_time(); ++round) {

@@ -13,8 +13,10 @@ namespace clsurf {
 
 /// A cure that goes on: where it has come to.
 struct Curing {
+    static constexpr double usual_step = 0.7;
     Tried from;                    ///< the last one kept
     double share = 0;              ///< of the time there is to lose, that the next round may take
+    double step = usual_step;      ///< of the threshold of a speed step, that is left about defects
     std::vector<Vec3> hopeless{};  ///< [mm] places of defects that are let be
 };
 

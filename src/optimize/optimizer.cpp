@@ -25,6 +25,8 @@ constexpr double most_behind = 0.2;       ///< the best, by score, after the fir
 constexpr double small_share = 0.3;       ///< of the time, for a cure that begins with the cheap defects …
 constexpr double large_share = 0.65;      ///< … and for one that takes all it can
 constexpr int first_rounds = 2, more_rounds = 8;
+constexpr std::array<double, 2> other_steps{0.85, 0.55};  ///< that cures are tried with as well …
+constexpr std::size_t most_cured_otherwise = 2;           ///< … for so many drafts
 
 /// The median feed of the cutting lines [mm/s].
 double usual_feed(const Program& program) {
@@ -138,6 +140,13 @@ private:
         }
         feeds.level_in_time(prover_.best());
         for (const Fed& each : fed) feeds.level_in_time(each.points);
+        for (const double step : other_steps) {
+            for (std::size_t k = 0; k < std::min(fed.size(), most_cured_otherwise); ++k) {
+                Curing other{fed[k].points, small_share, step};
+                feeds.cure(other, more_rounds);
+            }
+            cure_best(feeds, step);
+        }
         for (const Fed& each : fed) {
             Curing other{each.points, large_share};
             feeds.cure(other, more_rounds);
@@ -155,8 +164,8 @@ private:
         }
     }
 
-    void cure_best(FeedSearch& feeds) const {
-        Curing best{prover_.best(), large_share};
+    void cure_best(FeedSearch& feeds, double step = Curing::usual_step) const {
+        Curing best{prover_.best(), large_share, step};
         if (best.from->proof.accepted) feeds.cure(best, more_rounds);
     }
 
