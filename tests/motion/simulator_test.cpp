@@ -310,6 +310,7 @@ TEST(Simulator, FeedsThatDifferFromBlockToBlockAreFollowed) {
     }
     EXPECT_GT(slowest, 0.97);
     EXPECT_TRUE(r.summary.limits_ok);
+    EXPECT_EQ(r.points.back().commanded, Vec3(0.04 * blocks, 0, 0));
 }
 
 TEST(Simulator, RefusesWhatItCannotRun) {
