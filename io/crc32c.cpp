@@ -6,13 +6,13 @@ namespace clsurf::io {
 namespace {
 
 constexpr std::array<std::uint32_t, 256> make_table() {
-    std::array<std::uint32_t, 256> byte_table{};
+    std::array<std::uint32_t, 256> table{};
     for (std::uint32_t n = 0; n < 256; ++n) {
         std::uint32_t c = n;
         for (int k = 0; k < 8; ++k) c = (c & 1u) != 0 ? (c >> 1) ^ 0x82F63B78u : c >> 1;
-        byte_table[n] = c;
+        table[n] = c;
     }
-    return byte_table;
+    return table;
 }
 
 constexpr std::array<std::uint32_t, 256> byte_table = make_table();

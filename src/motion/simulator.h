@@ -19,7 +19,7 @@ struct SimulatedPoint {
     Ruling limit = Ruling::none;
 };
 
-constexpr double limit_play = 1.001;  ///< a limit counts as held within this factor: values are differences
+inline constexpr double limit_play = 1.001;  ///< a limit counts as held within this factor: values are differences
 
 /// What a run was like, measured on the points themselves by differences.
 struct SimulationSummary {

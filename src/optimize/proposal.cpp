@@ -15,7 +15,8 @@ namespace {
 constexpr double interval_width =
     0.005;  ///< of the speeds in a constant-speed interval: wider, passes side by side differ by as much
 constexpr double most_run_points = 16e6;  ///< of all runs together; then what there is has to do …
-constexpr double large_run = 1e6;         ///< … or half of it, where a run has so many points
+constexpr double large_run = 1e6;         ///< … or less, down to a share of it where a run has so many points …
+constexpr double share_of_large = 0.25;   ///< … this
 constexpr int most_in_vain = 96;          ///< proposals in a row, none of them better than the best
 constexpr double growth_weight = 0.03;    ///< of a program's growth, against shares of mismatch and defects
 constexpr double goal_of_mismatch = 0.5;  ///< share left, from which on …
@@ -41,7 +42,8 @@ bool Prover::has_time(double share) const {
 }
 
 double Prover::most_points() const {
-    return most_run_points * (1 - 0.75 * std::min(1.0, static_cast<double>(before_.log.records) / large_run));
+    const double size = std::min(1.0, static_cast<double>(before_.log.records) / large_run);
+    return most_run_points * (1 - (1 - share_of_large) * size);
 }
 
 void Prover::allow_more_time() {

@@ -28,7 +28,7 @@ struct DerivativeFilter {
 /// different periods can then be compared.
 [[nodiscard]] DerivativeFilter derivative_filter(int derivative, double period, double coarsest);
 
-/// Weights of the window's points for the value at point `at` of it, 0 … points − 1. Per period^d.
+/// Weights of the window's points for the value at point `at` of it, 0 … points − 1. Per period^d. Domain: points > order.
 [[nodiscard]] std::vector<double> derivative_weights(int points, int order, int derivative, int at);
 
 /// The weights of a filter, once for all positions in the window.
