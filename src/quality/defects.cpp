@@ -353,7 +353,7 @@ QualityReport find_defects(const ClSurface& surface, const Signals& signals, con
     for (const Pass& pass : surface.passes) report.points += pass.kind == PassKind::cut ? pass.size() : 0;
     report.compared = count_compared(surface, signals);
 
-    const FoundSuspects found = find_suspects(surface, signals, report.thresholds, period);
+    const FoundSuspects found = find_suspects(surface, signals, report.thresholds);
     const Suspects& suspects = found.suspects;
     const std::array<Family, 3> families{motion_family, lag_family, relief_family};
     std::array<std::vector<Built>, families.size()> of_family;

@@ -2,7 +2,7 @@
 // Defects: places where a pass differs from its neighbours enough to leave a mark, each with its
 // cause, depth and the program lines on both sides.
 //
-// Judged are sites, a point every few milliseconds. A site is suspect where its residual passes half
+// Judged are sites (sites.h), places every few milliseconds that stand fixed in the workpiece. A site is suspect where its residual passes half
 // the threshold, and it starts a defect where residual and step both pass it. Suspects are joined along
 // their pass, across to the neighbour and over one clean pass (the lag of a zigzag shows on every
 // second one); groups without a start are dropped. What is left is cut back on each pass to where its

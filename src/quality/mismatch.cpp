@@ -87,6 +87,16 @@ std::vector<PointIndex> sample_judged(const Signals& signals) {
 
 }  // namespace
 
+std::string_view name_of(Quantity quantity) {
+    switch (quantity) {
+        case Quantity::speed: return "speed";
+        case Quantity::acceleration: return "acceleration";
+        case Quantity::lag: return "lag";
+        case Quantity::relief: return "relief";
+    }
+    return "";
+}
+
 Compared compared_at(const Signals& signals, const Station& at, const Eigen::Vector3f& normal) {
     const Sample& a = signals[at.point];
     Compared result{a.speed, a.lag, a.relief, vector_of(a.acceleration)};
@@ -105,9 +115,9 @@ Compared compared_at(const Signals& signals, const Station& at, const Eigen::Vec
 }
 
 template <typename F>
-Station Comparer::for_each_beside(PointIndex point, Side side, int aside, float least_cosine, F&& f) const {
-    Station before{point, 0};
-    Station at = beside(surface_, before, signals_.feed(point), side);
+Station Comparer::for_each_beside(const Station& from, Side side, int aside, float least_cosine, F&& f) const {
+    Station before = from;
+    Station at = beside(surface_, before, signals_.feed(before.nearest()), side);
     const Station adjacent = at;
     for (int passes = 1; passes <= aside && at.exists(); ++passes) {
         const Eigen::Vector3f feed = signals_.feed(at.nearest());
@@ -122,30 +132,30 @@ Station Comparer::for_each_beside(PointIndex point, Side side, int aside, float 
     return adjacent;
 }
 
-void Comparer::compare_along_slant(PointIndex point, Comparison& comparison) const {
+void Comparer::compare_along_slant(const Station& here, Comparison& comparison) const {
     constexpr int aside = 3;
     std::array<Beside, 2 * aside> places;
     std::size_t count = 0;
     for (const Side side : {Side::left, Side::right}) {
-        (void)for_each_beside(point, side, aside, round_a_corner, [&](const Station& at, int passes) {
+        (void)for_each_beside(here, side, aside, round_a_corner, [&](const Station& at, int passes) {
             places[count++] = {at, side == Side::left ? passes : -passes};
         });
     }
-    const std::optional<AlongSlant> slanted = along_slant(surface_, signals_, point, std::span(places).first(count));
+    const std::optional<AlongSlant> slanted = along_slant(surface_, signals_, here, std::span(places).first(count));
     if (!slanted) return;
+    const Compared mine = compared_at(signals_, here, signals_.normal(here.nearest()));
     const float reference = std::max(slanted->speed, least_speed_);
     const auto lessen = [&](Quantity q, float residual, float step) {
         if (std::abs(residual) < std::abs(comparison.residual[index_of(q)]))
             comparison.residual[index_of(q)] = residual;
         comparison.step[index_of(q)] = std::min(comparison.step[index_of(q)], step);
     };
-    lessen(Quantity::speed, (signals_[point].speed - slanted->speed) / reference, slanted->speed_step / reference);
-    lessen(Quantity::acceleration, (signals_.acceleration(point) - slanted->acceleration).norm(),
-           slanted->acceleration_step);
-    if (slanted->corner) lessen(Quantity::relief, signals_[point].relief - slanted->relief, slanted->relief_step);
+    lessen(Quantity::speed, (mine.speed - slanted->speed) / reference, slanted->speed_step / reference);
+    lessen(Quantity::acceleration, (mine.acceleration - slanted->acceleration).norm(), slanted->acceleration_step);
+    if (slanted->corner) lessen(Quantity::relief, mine.relief - slanted->relief, slanted->relief_step);
 }
 
-Comparison Comparer::compare(PointIndex point, int aside) const { return compare_with(Peers::all, point, aside); }
+Comparison Comparer::compare(const Station& at, int aside) const { return compare_with(Peers::all, at, aside); }
 
 std::array<float, quantities> Comparer::change_nearby(PointIndex point, float reference) const {
     std::array<float, quantities> change{};
@@ -166,14 +176,15 @@ std::array<float, quantities> Comparer::change_nearby(PointIndex point, float re
     return change;
 }
 
-Comparison Comparer::compare_at_end(PointIndex point) const {
-    Comparison result = compare_with(Peers::same_way, point, passes_aside);
+Comparison Comparer::compare_at_end(const Station& here) const {
+    const PointIndex point = here.nearest();
+    Comparison result = compare_with(Peers::same_way, here, passes_aside);
     const float reference = std::max(signals_[point].speed, least_speed_);
     result.slack = change_nearby(point, reference);
     // What the others do not, it does by itself.
     std::array<float, quantities> others{};
     for (const Side side : {Side::left, Side::right}) {
-        (void)for_each_beside(point, side, passes_aside, along_or_against, [&](const Station& at, int) {
+        (void)for_each_beside(here, side, passes_aside, along_or_against, [&](const Station& at, int) {
             if (runs_against(signals_, point, at)) return;
             const std::array<float, quantities> there = change_nearby(at.nearest(), reference);
             for (std::size_t q = 0; q < quantities; ++q) others[q] = std::max(others[q], there[q]);
@@ -183,21 +194,26 @@ Comparison Comparer::compare_at_end(PointIndex point) const {
     return result;
 }
 
-Comparison Comparer::compare_with(Peers peers, PointIndex point, int aside) const {
+Comparison Comparer::compare_with(Peers peers, const Station& here, int aside) const {
     Comparison result;
     result.step.fill(missing<float>);
     result.residual.fill(missing<float>);
-    const Station here{point, 0};
+    const PointIndex point = here.nearest();
     const Eigen::Vector3f normal = signals_.normal(point);
     const Compared mine = compared_at(signals_, here, normal);
+    result.ramp = signals_[point].zone == Zone::ramp;
 
     std::array<std::array<Compared, passes_aside>, 2> beside_it;
     std::array<int, 2> count{0, 0};
     float speed_step = missing<float>;
     for (const Side side : {Side::left, Side::right}) {
         const auto s = static_cast<std::size_t>(side);
+        bool against = false;  // as in a zigzag: the next pass of this way is the second one
         Station& adjacent_place = side == Side::left ? result.beside_left : result.beside_right;
-        adjacent_place = for_each_beside(point, side, aside, along_or_against, [&](const Station& at, int) {
+        adjacent_place = for_each_beside(here, side, aside, along_or_against, [&](const Station& at, int passes) {
+            if (passes == 1) against = runs_against(signals_, point, at);
+            if ((passes == 1 || (passes == 2 && against)) && signals_[at.nearest()].zone == Zone::ramp)
+                result.ramp = true;
             if (peers == Peers::same_way && runs_against(signals_, point, at)) return;
             beside_it[s][static_cast<std::size_t>(count[s]++)] = compared_at(signals_, at, normal);
         });
@@ -263,7 +279,7 @@ Thresholds measure_thresholds(const ClSurface& surface, const Signals& signals, 
     std::vector<std::array<float, quantities>> steps(points.size());
     parallel_for(static_cast<std::int64_t>(points.size()), 4096, [&](std::int64_t first, std::int64_t last) {
         for (std::int64_t k = first; k < last; ++k)
-            steps[static_cast<std::size_t>(k)] = comparer.compare(points[static_cast<std::size_t>(k)], 1).step;
+            steps[static_cast<std::size_t>(k)] = comparer.compare({points[static_cast<std::size_t>(k)], 0}, 1).step;
     });
     const std::array<float, quantities> least{rule.speed, rule.acceleration * thresholds.usual_acceleration,
                                               std::max(rule.height, rule.lag_quanta * signals.quantum),

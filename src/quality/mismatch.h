@@ -1,5 +1,5 @@
 #pragma once
-// Mismatch: how a point differs from the places beside it on the neighbour passes.
+// Mismatch: how a place of a pass differs from the places beside it on the neighbour passes.
 //
 // Two measures for each quantity. The *step* is the largest difference to the two adjacent passes: it
 // is what shows on the part. The *residual* is the difference to the median over up to five passes on
@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string_view>
 
 #include "quality/signals.h"
 #include "surface/station.h"
@@ -18,6 +19,7 @@ namespace clsurf {
 enum class Quantity : std::uint8_t { speed, acceleration, lag, relief };
 inline constexpr std::size_t quantities = 4;
 [[nodiscard]] constexpr std::size_t index_of(Quantity q) { return static_cast<std::size_t>(q); }
+[[nodiscard]] std::string_view name_of(Quantity quantity);  ///< "speed"
 
 /// What is compared, at a place.
 struct Compared {
@@ -37,7 +39,8 @@ struct Comparison {
     std::array<float, quantities> slack{};   ///< of step and residual, where passes begin and end a little apart
     float speed_jump = 0;                    ///< residual of the speed [mm/s]
     int left = 0, right = 0;                 ///< passes that were compared with
-    Station beside_left, beside_right;       ///< on the adjacent passes
+    bool ramp = false;  ///< it lies in the ramp of its pass, of an adjacent one, or of the next of its own way
+    Station beside_left, beside_right;  ///< on the adjacent passes
 };
 
 class Comparer {
@@ -50,22 +53,22 @@ public:
         : surface_(surface), signals_(signals), least_speed_(0.25F * usual_speed) {}
 
     /// O(1): up to `aside` passes on each side. With one, the steps are the same, residuals mean little.
-    [[nodiscard]] Comparison compare(PointIndex point, int aside = passes_aside) const;
+    [[nodiscard]] Comparison compare(const Station& at, int aside = passes_aside) const;
 
-    /// Among passes of the point's own way, where all of them begin or end there. They do so a little apart,
+    /// Among passes of the place's own way, where all of them begin or end there. They do so a little apart,
     /// and change fast: as much as all of them change within half a step-over is slack.
-    [[nodiscard]] Comparison compare_at_end(PointIndex point) const;
+    [[nodiscard]] Comparison compare_at_end(const Station& at) const;
 
-    /// Where the passes round the point do one after the other what it does too, its motion is
+    /// Where the passes round a place do one after the other what it does too, its motion is
     /// compared along their slant (slant.h), in corners its relief too: they differ by the lesser of both.
-    void compare_along_slant(PointIndex point, Comparison& comparison) const;
+    void compare_along_slant(const Station& at, Comparison& comparison) const;
 
 private:
     /// What a place is compared with: all passes, or those only that run the same way, of a zigzag every
     /// second one.
     enum class Peers : std::uint8_t { all, same_way };
 
-    [[nodiscard]] Comparison compare_with(Peers peers, PointIndex point, int aside) const;
+    [[nodiscard]] Comparison compare_with(Peers peers, const Station& at, int aside) const;
 
     /// How much each quantity changes along the pass within half a step-over; speeds over `reference`.
     [[nodiscard]] std::array<float, quantities> change_nearby(PointIndex point, float reference) const;
@@ -73,7 +76,7 @@ private:
     /// f(station, passes away: from 1) for the passes on one side, at most `aside`, as long as each turns
     /// by less than the angle of that cosine from the one before. Returns the place on the adjacent pass.
     template <typename F>
-    Station for_each_beside(PointIndex point, Side side, int aside, float least_cosine, F&& f) const;
+    Station for_each_beside(const Station& from, Side side, int aside, float least_cosine, F&& f) const;
 
     const ClSurface& surface_;
     const Signals& signals_;

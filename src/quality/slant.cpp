@@ -187,12 +187,13 @@ AlongSlant summarise(const Compared& own, std::span<const Profile> profiles, F&&
 
 }  // namespace
 
-std::optional<AlongSlant> along_slant(const ClSurface& surface, const Signals& signals, PointIndex point,
+std::optional<AlongSlant> along_slant(const ClSurface& surface, const Signals& signals, const Station& here,
                                       std::span<const Beside> places) {
     if (places.empty()) return std::nullopt;
+    const PointIndex point = here.nearest();
     const Eigen::Vector3f feed = signals.feed(point);
     const Eigen::Vector3f normal = signals.normal(point);
-    const Compared own = compared_at(signals, {point, 0}, normal);
+    const Compared own = compared_at(signals, here, normal);
     const bool corner = turns(surface, signals, point, normal);
     if (!corner && (places.size() < fewest || agree_straight(signals, places))) return std::nullopt;
     std::vector<Profile> profiles;

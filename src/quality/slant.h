@@ -36,7 +36,7 @@ struct AlongSlant {
 /// the path turns on the surface by more than 25° within 1.5 step-overs: of each pass what is nearest to the point's
 /// own motion within 1.5 step-overs per pass.
 /// `places`: up to three on either side. O(points within some five step-overs of way).
-[[nodiscard]] std::optional<AlongSlant> along_slant(const ClSurface& surface, const Signals& signals, PointIndex point,
-                                                    std::span<const Beside> places);
+[[nodiscard]] std::optional<AlongSlant> along_slant(const ClSurface& surface, const Signals& signals,
+                                                    const Station& here, std::span<const Beside> places);
 
 }  // namespace clsurf

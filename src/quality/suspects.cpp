@@ -7,13 +7,11 @@
 #include <numeric>
 
 #include "core/block.h"
+#include "quality/sites.h"
 
 namespace clsurf {
 namespace {
 
-constexpr double site_seconds = 0.005;  ///< between sites at most, and less on fast passes:
-constexpr double site_length = 0.25;    ///< [mm] marks are seen by their length
-constexpr float site_way = 0.1F;        ///< step-overs
 constexpr int fewest_alike = 2;  ///< passes of the same way on each side, where two ways cannot be told from a fault
 constexpr float suspect_share = 0.5F;  ///< of a threshold
 constexpr double joined_along = 1.0;   ///< [mm] of way between suspects of one pass, or two step-overs
@@ -110,13 +108,13 @@ namespace {
 
 class SuspectFinder {
 public:
-    SuspectFinder(const ClSurface& surface, const Signals& signals, const Thresholds& thresholds, double period)
+    SuspectFinder(const ClSurface& surface, const Signals& signals, const Thresholds& thresholds)
         : surface_(surface),
           signals_(signals),
           thresholds_(thresholds),
           comparer_(surface, signals, thresholds.usual_speed),
-          stride_(stride(thresholds.usual_speed, period)),
-          judged_(static_cast<std::size_t>(signals.size() / stride_ + 1), 0) {}
+          sites_(surface, signals),
+          judged_(static_cast<std::size_t>(signals.size()), false) {}
 
     FoundSuspects find() {
         std::vector<PointIndex> frontier = judge(sites_with_step());
@@ -133,30 +131,20 @@ public:
     }
 
 private:
-    [[nodiscard]] static PointIndex stride(double usual_speed, double period) {
-        const double seconds = usual_speed > 0 ? std::min(site_seconds, site_length / usual_speed) : site_seconds;
-        return std::max<PointIndex>(1, std::lround(std::min(seconds / period, 1e6)));
-    }
-
     /// Sites whose step to an adjacent pass is half a threshold or more.
     [[nodiscard]] std::vector<PointIndex> sites_with_step() const {
         const PointIndex count = signals_.size();
-        const auto least_way = site_way * static_cast<float>(surface_.step_over);
         std::vector<std::vector<PointIndex>> of_block(
             static_cast<std::size_t>((count + block_points - 1) / block_points));
         for_each_block(count, [&](PointIndex first, PointIndex last) {
             std::vector<PointIndex>& mine = of_block[static_cast<std::size_t>(first / block_points)];
-            PointIndex before = -1;
-            for (PointIndex i = first + (stride_ - first % stride_) % stride_; i < last; i += stride_) {
-                if (signals_[i].zone == Zone::outside) continue;
-                if (before >= 0 && (surface_.positions[i] - surface_.positions[before]).norm() < least_way) continue;
-                before = i;
-                const Comparison c = comparer_.compare(i, 1);
+            sites_.for_each(first, last, [&](PointIndex i) {
+                const Comparison c = comparer_.compare(sites_.place(i), 1);
                 bool steps = false;
                 for (std::size_t q = 0; q < quantities; ++q)
                     steps = steps || c.step[q] >= suspect_share * thresholds_.of[q];
                 if (steps) mine.push_back(i);
-            }
+            });
         });
         std::vector<PointIndex> sites;
         for (const std::vector<PointIndex>& block : of_block) sites.insert(sites.end(), block.begin(), block.end());
@@ -169,8 +157,8 @@ private:
         for (const PointIndex i : points) {
             for (const Side side : {Side::left, Side::right}) {
                 if (!surface_.neighbours.has(side, i)) continue;
-                const PointIndex site = (surface_.neighbours.neighbour(side, i) + stride_ / 2) / stride_ * stride_;
-                if (site < signals_.size() && signals_[site].zone != Zone::outside) sites.push_back(site);
+                const PointIndex site = sites_.nearest(surface_.neighbours.neighbour(side, i));
+                if (site >= 0) sites.push_back(site);
             }
         }
         return sites;
@@ -186,10 +174,10 @@ private:
         const std::array zones{signals_[suspect.point].zone, signals_[c.beside_left.nearest()].zone,
                                signals_[c.beside_right.nearest()].zone};
         const auto any = [&](Zone zone) { return std::find(zones.begin(), zones.end(), zone) != zones.end(); };
-        if (!any(Zone::ramp)) return;
+        if (!c.ramp) return;
         suspect.border = any(Zone::inner);
         if (suspect.border) return;
-        const Comparison alike = comparer_.compare_at_end(suspect.point);
+        const Comparison alike = comparer_.compare_at_end(sites_.place(suspect.point));
         suspect.border = std::min(alike.left, alike.right) < fewest_alike;
         if (suspect.border) return;
         suspect.comparison = alike;
@@ -200,9 +188,9 @@ private:
     std::vector<PointIndex> judge(const std::vector<PointIndex>& sites) {
         std::vector<PointIndex> fresh;
         for (const PointIndex site : sites) {
-            std::uint8_t& judged = judged_[static_cast<std::size_t>(site / stride_)];
-            if (judged == 0) fresh.push_back(site);
-            judged = 1;
+            std::vector<bool>::reference judged = judged_[static_cast<std::size_t>(site)];
+            if (!judged) fresh.push_back(site);
+            judged = true;
         }
         constexpr std::int64_t grain = 1024;
         const auto count = static_cast<std::int64_t>(fresh.size());
@@ -211,10 +199,11 @@ private:
             for (std::int64_t k = first; k < last; ++k) {
                 Suspect suspect;
                 suspect.point = fresh[static_cast<std::size_t>(k)];
-                suspect.comparison = comparer_.compare(suspect.point);
+                const Station place = sites_.place(suspect.point);
+                suspect.comparison = comparer_.compare(place);
                 measure(suspect, thresholds_);
                 if (*std::max_element(suspect.share.begin(), suspect.share.end()) < suspect_share) continue;
-                comparer_.compare_along_slant(suspect.point, suspect.comparison);
+                comparer_.compare_along_slant(place, suspect.comparison);
                 measure(suspect, thresholds_);
                 if (*std::max_element(suspect.share.begin(), suspect.share.end()) < suspect_share) continue;
                 compare_at_end(suspect);
@@ -235,16 +224,15 @@ private:
     const Signals& signals_;
     const Thresholds& thresholds_;
     Comparer comparer_;
-    PointIndex stride_;
-    Column<std::uint8_t> judged_;  ///< by site
+    Sites sites_;
+    std::vector<bool> judged_;  ///< by point
     FoundSuspects found_;
 };
 
 }  // namespace
 
-FoundSuspects find_suspects(const ClSurface& surface, const Signals& signals, const Thresholds& thresholds,
-                            double period) {
-    return SuspectFinder(surface, signals, thresholds, period).find();
+FoundSuspects find_suspects(const ClSurface& surface, const Signals& signals, const Thresholds& thresholds) {
+    return SuspectFinder(surface, signals, thresholds).find();
 }
 
 std::vector<Suspects> group_suspects(const Suspects& suspects, const ClSurface& surface, const Way& way) {

@@ -35,12 +35,11 @@ struct FoundSuspects {
     Suspects suspects;
 };
 
-/// Sites whose residual passes half a threshold, in the order of their points. A site is a point
-/// every 5 ms, or every 0.25 mm at the usual speed, that lies a tenth of a step-over or more from the one before. Only sites with a step are
+/// Sites (sites.h) whose residual passes half a threshold, in the order of their points. Only sites with a step are
 /// looked at with all passes around, and then what lies beside a suspect: the inner passes of a band
 /// have no step of their own. O(points), parallel; the same for any number of threads.
 [[nodiscard]] FoundSuspects find_suspects(const ClSurface& surface, const Signals& signals,
-                                          const Thresholds& thresholds, double period);
+                                          const Thresholds& thresholds);
 
 /// Suspects that hang together along a pass, across to the next one or over one clean pass; each group
 /// in the order of its points, and groups in the order of their first ones. O(suspects log suspects), parallel.

@@ -26,7 +26,7 @@ std::vector<float> own_reliefs(const Height& height, double low, double high) {
     for (PointIndex i = 0; i < made.surface.positions.size(); i += 5) {
         const Vec3 p = made.surface.positions.absolute(i);
         if (p.x() < 5 || p.x() > length - 5 || p.y() < low || p.y() > high) continue;
-        const Comparison c = comparer.compare(i);
+        const Comparison c = comparer.compare({i, 0});
         if (c.left >= 2 && c.right >= 2) own.push_back(c.residual[index_of(Quantity::relief)]);
     }
     EXPECT_GT(own.size(), 100U);

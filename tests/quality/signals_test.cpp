@@ -75,7 +75,7 @@ TEST(Mismatch, OfASlowerPassIsWhatItIsSlower) {
     std::array<int, 3> seen{};
     for_each_inner(s, [&](PointIndex i) {
         const int pass = static_cast<int>(std::lround(made.surface.positions[i].y() / 0.4F));
-        const Comparison c = comparer.compare(i);
+        const Comparison c = comparer.compare({i, 0});
         if (c.left == 0 || c.right == 0) return;  // next to where the pass beside it begins
         const float step = c.step[index_of(Quantity::speed)];
         const float residual = c.residual[index_of(Quantity::speed)];
@@ -102,7 +102,7 @@ TEST(Mismatch, ThatChangesEvenlyFromPassToPassIsNobodysFault) {
     const Signals s = made.signals();
     const Comparer comparer(made.surface, s, 50);
     for_each_inner(s, [&](PointIndex i) {
-        const Comparison c = comparer.compare(i);
+        const Comparison c = comparer.compare({i, 0});
         if (c.left == 0 || c.right == 0) return;
         EXPECT_NEAR(c.residual[index_of(Quantity::speed)], 0.0F, 1e-3F) << i;
     });
