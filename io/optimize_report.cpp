@@ -1,15 +1,28 @@
 #include "io/optimize_report.h"
 
+#include <array>
+
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "io/defect_json.h"
 #include "io/json_value.h"
 
 namespace clsurf::io {
+namespace {
+
+/// How many of the defects show in each quantity best.
+std::array<std::size_t, quantities> by_quantity(const JudgedRun& run) {
+    std::array<std::size_t, quantities> counts{};
+    for (const Defect& defect : run.report.defects) ++counts[index_of(defect.quantity)];
+    return counts;
+}
+
+}  // namespace
 
 std::string optimize_text(const Optimized& r) {
     std::string text;
-    const auto row = [&](const char* name, double before, double after, int digits, const char* unit) {
+    const auto row = [&](std::string_view name, double before, double after, int digits, const char* unit) {
         const double change = before > 0 ? 100 * (after / before - 1) : 0;
         text += fmt::format("{:<28} {:>12.{}f} {:>12.{}f} {:>+8.1f} % {}\n", name, before, digits, after, digits,
                             change, unit);
@@ -27,6 +40,12 @@ std::string optimize_text(const Optimized& r) {
     row("speed mismatch, p99.9", r.before.greatest_mismatch * seconds_per_minute,
         r.after.greatest_mismatch * seconds_per_minute, 1, "mm/min");
     row("defects", static_cast<double>(r.proof.defects_before), static_cast<double>(r.proof.defects_after), 0, "");
+    const auto before = by_quantity(r.before), after = by_quantity(r.after);
+    for (std::size_t k = 0; k < quantities; ++k) {
+        if (before[k] + after[k] > 0)
+            row(fmt::format("  of {}", name_of(static_cast<Quantity>(k))), static_cast<double>(before[k]),
+                static_cast<double>(after[k]), 0, "");
+    }
     row("lines", r.proof.lines_before, r.proof.lines_after, 0, "");
     text += fmt::format("{} stretches, {} lines changed; off the programmed path by at most {:.4f} mm\n",
                         r.proof.intervals, r.proof.changed_lines, r.proof.deviation.greatest);
@@ -67,6 +86,14 @@ std::string optimize_json(const Optimized& r, const Diagnostics& diagnostics) {
               {"proof", "simulation"},
               {"log", measured_json(r.measured)},
               {"diagnostics", list(diagnostics)}};
+    for (std::size_t k = 0; k < quantities; ++k)
+        json["defects_by_quantity"][name_of(static_cast<Quantity>(k))] =
+            Json::array({by_quantity(r.before)[k], by_quantity(r.after)[k]});
+    if (r.proof.accepted) {
+        Json left = Json::array();
+        for (const Defect& defect : r.after.report.defects) left.push_back(defect_json(defect, left.size() + 1, 0));
+        json["defects_left"] = std::move(left);
+    }
     if (r.five_axes) json["tool_axis_deviation_deg"] = number(r.proof.deviation.turned * deg_per_rad);
     return dump(json);
 }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "io/defect_json.h"
 #include "io/json_value.h"
 
 namespace clsurf::io {
@@ -12,44 +13,6 @@ namespace {
 
 double um(double mm) { return mm * um_per_mm; }
 double per_minute(double per_second) { return per_second * seconds_per_minute; }
-
-/// "passes", "lines" and "points" of runs, side by side.
-void add_runs(Json& json, const std::vector<DefectRun>& runs) {
-    Json passes = Json::array();
-    Json lines = Json::array();
-    Json points = Json::array();
-    for (const DefectRun& run : runs) {
-        passes.push_back(run.pass);
-        lines.push_back(Json::array({run.first_line, run.last_line}));
-        points.push_back(Json::array({run.points.first, run.points.last}));
-    }
-    json["passes"] = std::move(passes);
-    json["lines"] = std::move(lines);
-    json["points"] = std::move(points);
-}
-
-Json defect_json(const Defect& d, std::size_t id, double scallop) {
-    Json json{{"id", id},
-              {"severity", d.severity},
-              {"cause", name_of(d.cause)},
-              {"position_mm", vector(d.position)},
-              {"bounds_mm", box(d.bounds)},
-              {"area_mm2", number(d.area)},
-              {"length_mm", number(d.length)},
-              {"depth_um", number(um(d.depth))},
-              {"depth_scallops", scallop > 0 ? number(d.depth / scallop) : Json(nullptr)},
-              {"shape", d.pit ? "pit" : "bulge"},
-              {"speed_jump_mm_min", number(per_minute(d.speed_jump))},
-              {"speed_jump_percent", number(100 * d.speed_mismatch)},
-              {"acceleration_jump_mm_s2", number(d.acceleration_jump)},
-              {"score", number(d.score)},
-              {"point", d.point}};
-    add_runs(json, d.runs);
-    Json beside;
-    add_runs(beside, d.neighbours);
-    json["neighbours"] = std::move(beside);
-    return json;
-}
 
 Json defects_json(const ReportedQuality& q) {
     Json all = Json::array();
