@@ -257,8 +257,8 @@ void Refiner::solve(bool to_the_end) {
     problem_.clear();
 }
 
-/// Where feeds differ from block to block the plan's speed at the end may be more than the cells next to it can come to. To an earlier
-/// place where the plan is slow there is a way.
+/// The plan's speed at the end may be more than the cells next to it can come to, most often where feeds differ from block to block. To
+/// an earlier place where the plan is slow there is a way.
 bool Refiner::solve_in_part() {
     for (int k = 0; k < most_shortenings; ++k) {
         const std::size_t fewest =
