@@ -98,6 +98,8 @@ void FeedSearch::cure(Curing& curing, int rounds) {
     rules.step = curing.step * before.report.thresholds.of[index_of(Quantity::speed)];
     rules.lag_power = lag_power_;
     rules.ramp = ramp_;
+    Tried last_from;
+    std::vector<float> last_targets;
     for (int round = 0; round < rounds && prover_.has_time(); ++round) {
         const Tried from = curing.from;
         rules.budget = curing.share * (prover_.longest() - from->run.duration);
@@ -110,6 +112,12 @@ void FeedSearch::cure(Curing& curing, int rounds) {
             curing.share = std::min(2 * curing.share, most_share);
             continue;
         }
+        if (from == last_from && targets == last_targets) {
+            curing.share /= 2;  // it was tried: for less time there may be another one
+            continue;
+        }
+        last_from = from;
+        last_targets = targets;
         std::vector<Tried> attempts{prover_.propose(from->draft, targets)};
         if (gives_up_losses(*from, cure, *attempts.back(), rules.hopeless) && prover_.has_time()) {
             cure = curing_speeds(from->run, rules);

@@ -18,7 +18,8 @@ constexpr std::array<double, 3> shares_of_tolerance{0.2, 0.1, 0.4};  ///< that l
 constexpr double block_reserve = 1.1;                                ///< of the way in a block time
 constexpr NeedRules worst_alone{0.5, 2, 2};                          ///< a draft that leaves the more as it is
 constexpr std::size_t most_mixed = 2;                                ///< drafts of which regions are given back …
-constexpr int mixing_rounds = 3;                                     ///< … so many times
+constexpr int mixing_rounds = 3;                                     ///< … so many times …
+constexpr int most_mixing_rounds = 6;                                ///< … or more, while the run is refused
 constexpr double share_of_drafts = 0.35;  ///< of all runs, that points alone may take; the others seek feeds
 constexpr std::size_t most_fed = 5;       ///< drafts that feeds are sought for
 constexpr double most_behind = 0.2;       ///< the best, by score, after the first rounds: others are not cured on
@@ -178,7 +179,8 @@ private:
 
     /// Round by round, motions get their old points back where a draft runs worse than the program does.
     void mix(const Drafter& drafter, Tried from, std::vector<Tried>& drafts) {
-        for (int round = 0; round < mixing_rounds && from && prover_.has_time(share_of_drafts); ++round) {
+        for (int round = 0; round < most_mixing_rounds && from && prover_.has_time(share_of_drafts); ++round) {
+            if (round >= mixing_rounds && from->proof.accepted) return;
             const std::vector<std::uint8_t> worse = worse_motions(prover_.before(), from->run, program_, {});
             std::vector<std::uint8_t> needed = from->draft->needed;
             for (std::size_t i = 0; i < needed.size(); ++i) needed[i] = needed[i] != 0 && worse[i] == 0 ? 1 : 0;
