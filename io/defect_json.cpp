@@ -20,8 +20,6 @@ void add_runs(Json& json, const std::vector<DefectRun>& runs) {
     json["points"] = std::move(points);
 }
 
-}  // namespace
-
 Json defect_json(const Defect& d, std::size_t id, double scallop) {
     Json json{{"id", id},
               {"severity", d.severity},
@@ -44,6 +42,14 @@ Json defect_json(const Defect& d, std::size_t id, double scallop) {
     add_runs(beside, d.neighbours);
     json["neighbours"] = std::move(beside);
     return json;
+}
+
+}  // namespace
+
+Json list_defects(const std::vector<Defect>& defects, double scallop) {
+    Json all = Json::array();
+    for (const Defect& defect : defects) all.push_back(defect_json(defect, all.size() + 1, scallop));
+    return all;
 }
 
 }  // namespace clsurf::io

@@ -86,14 +86,10 @@ std::string optimize_json(const Optimized& r, const Diagnostics& diagnostics) {
               {"proof", "simulation"},
               {"log", measured_json(r.measured)},
               {"diagnostics", list(diagnostics)}};
+    const auto before = by_quantity(r.before), after = by_quantity(r.after);
     for (std::size_t k = 0; k < quantities; ++k)
-        json["defects_by_quantity"][name_of(static_cast<Quantity>(k))] =
-            Json::array({by_quantity(r.before)[k], by_quantity(r.after)[k]});
-    if (r.proof.accepted) {
-        Json left = Json::array();
-        for (const Defect& defect : r.after.report.defects) left.push_back(defect_json(defect, left.size() + 1, 0));
-        json["defects_left"] = std::move(left);
-    }
+        json["defects_by_quantity"][name_of(static_cast<Quantity>(k))] = Json::array({before[k], after[k]});
+    if (r.proof.accepted) json["defects_left"] = list_defects(r.after.report.defects, 0);
     if (r.five_axes) json["tool_axis_deviation_deg"] = number(r.proof.deviation.turned * deg_per_rad);
     return dump(json);
 }

@@ -14,20 +14,13 @@ namespace {
 double um(double mm) { return mm * um_per_mm; }
 double per_minute(double per_second) { return per_second * seconds_per_minute; }
 
-Json defects_json(const ReportedQuality& q) {
-    Json all = Json::array();
-    for (std::size_t i = 0; i < q.report->defects.size(); ++i) {
-        all.push_back(defect_json(q.report->defects[i], i + 1, q.scallop));
-        if (q.formed != nullptr) all.back()["formed_um"] = number(um(q.formed->marks[i]));
-        if (i < q.colour_differences.size()) all.back()["delta_e00"] = number(q.colour_differences[i]);
+/// The defects, with what the formed surface and the colours say of each.
+Json looked_at_defects(const ReportedQuality& q) {
+    Json all = list_defects(q.report->defects, q.scallop);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (q.formed != nullptr) all[i]["formed_um"] = number(um(q.formed->marks[i]));
+        if (i < q.colour_differences.size()) all[i]["delta_e00"] = number(q.colour_differences[i]);
     }
-    return all;
-}
-
-Json expected_json(const ReportedQuality& q) {
-    Json all = Json::array();
-    for (std::size_t i = 0; i < q.report->expected.size(); ++i)
-        all.push_back(defect_json(q.report->expected[i], i + 1, q.scallop));
     return all;
 }
 
@@ -93,7 +86,9 @@ std::string quality_json(const ReportedQuality& q) {
                  {"budget", std::move(budget)},
                  {"within_budget", all_held(q.budget)}};
     if (q.formed != nullptr) add_roughness(summary, *q.formed);
-    Json json{{"defects", defects_json(q)}, {"expected", expected_json(q)}, {"summary", std::move(summary)}};
+    Json json{{"defects", looked_at_defects(q)},
+              {"expected", list_defects(q.report->expected, q.scallop)},
+              {"summary", std::move(summary)}};
     if (q.formed != nullptr) json["roughness"] = patches_json(*q.formed);
     json["diagnostics"] = list(*q.diagnostics);
     return dump(json);

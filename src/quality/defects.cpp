@@ -37,7 +37,7 @@ double plateau(const std::vector<double>& values) {
 }
 
 /// Suspects in the order of their points.
-using Sites = std::span<const Suspect* const>;
+using SuspectSpan = std::span<const Suspect* const>;
 
 /// Quantities that are grouped together.
 using Family = std::span<const Quantity>;
@@ -53,7 +53,7 @@ float largest(const std::array<float, quantities>& values, Family family) {
 
 /// The quantity that shows a group best: the first of its family that is there at all. Accelerations
 /// are the edges of something else, and speak only where nothing else does.
-Quantity main_quantity(Sites group, Family family) {
+Quantity main_quantity(SuspectSpan group, Family family) {
     for (const Quantity q : family) {
         const bool there = std::any_of(group.begin(), group.end(),
                                        [&](const Suspect* s) { return s->share[index_of(q)] >= half_of_peak; });
@@ -87,7 +87,7 @@ public:
     /// its peak there; short dips between are its own (an oscillation crosses zero).
     /// Runs that are much weaker than the strongest go to `rest`: something else, that hangs together
     /// with it by chance.
-    [[nodiscard]] Suspects core_of(Sites group, Quantity quantity, Suspects& rest) const {
+    [[nodiscard]] Suspects core_of(SuspectSpan group, Quantity quantity, Suspects& rest) const {
         const std::size_t q = index_of(quantity);
         const auto share = [q](const Suspect* s) { return s->share[q]; };
         float peak = 0;
@@ -95,7 +95,7 @@ public:
         const float enough = std::max(std::min(1.0F, half_of_peak * peak),
                                       weak_run * peak);  // a pass that is hardly suspect is not at fault
         Suspects core;
-        for_each_run(group, [&](Sites run) {
+        for_each_run(group, [&](SuspectSpan run) {
             float run_peak = 0;
             for (const Suspect* s : run) run_peak = std::max(run_peak, share(s));
             if (run_peak < enough) {
@@ -119,7 +119,7 @@ public:
     }
 
     /// The defect that the sites of a core make, in the order of their points.
-    [[nodiscard]] Defect build(Sites core, Quantity quantity, Family family) const {
+    [[nodiscard]] Defect build(SuspectSpan core, Quantity quantity, Family family) const {
         Defect defect;
         defect.quantity = quantity;
         const auto weaker = [&](const Suspect* a, const Suspect* b) {
@@ -131,7 +131,7 @@ public:
         defect.speed_beside = defect.speed - strongest.comparison.speed_jump;
         defect.position = surface_.positions.absolute(defect.point);
         for (const Suspect* s : core) defect.score = std::max(defect.score, largest(s->score, family));
-        for_each_run(core, [&](Sites run) {
+        for_each_run(core, [&](SuspectSpan run) {
             defect.runs.push_back(run_of(run.front()->pass, {run.front()->point, run.back()->point}));
         });
         measure(core, defect);
@@ -144,7 +144,7 @@ public:
 
     /// The border of the part shows what it always shows: three quarters of what starts the defect, or
     /// more, lie there.
-    [[nodiscard]] static bool at_border(Sites core, Family family) {
+    [[nodiscard]] static bool at_border(SuspectSpan core, Family family) {
         const auto starts = [&](const Suspect* s) { return largest(s->score, family) >= 1; };
         const auto all = std::count_if(core.begin(), core.end(), starts);
         return 4 * std::count_if(core.begin(), core.end(), [&](const Suspect* s) { return s->border && starts(s); }) >=
@@ -166,7 +166,7 @@ private:
 
     /// f(run) for the stretches of sites of one pass that hang together.
     template <typename F>
-    void for_each_run(Sites sites, F&& f) const {
+    void for_each_run(SuspectSpan sites, F&& f) const {
         for (std::size_t k = 0; k < sites.size();) {
             std::size_t end = k + 1;
             while (end < sites.size() && sites[end]->pass == sites[k]->pass &&
@@ -177,7 +177,7 @@ private:
         }
     }
 
-    void measure(Sites core, Defect& defect) const {
+    void measure(SuspectSpan core, Defect& defect) const {
         std::vector<double> heights;
         std::vector<double> speeds;
         std::vector<double> mismatches;
@@ -206,7 +206,7 @@ private:
     }
 
     /// The stretches beside `runs` on passes that are not at fault.
-    [[nodiscard]] std::vector<DefectRun> neighbours_of(Sites core, const std::vector<DefectRun>& runs) const {
+    [[nodiscard]] std::vector<DefectRun> neighbours_of(SuspectSpan core, const std::vector<DefectRun>& runs) const {
         std::map<std::size_t, PointRange> found;  // by pass
         for (const Suspect* s : core) {
             for (const Station& at : {s->comparison.beside_left, s->comparison.beside_right}) {
@@ -254,7 +254,7 @@ struct Built {
 
 /// A start: where a score reaches 1. In the motion, accelerations start a defect only where they are
 /// strong and change the speed by something: noise of the second derivative leaves no mark.
-bool starts_defect(Sites sites, Family family) {
+bool starts_defect(SuspectSpan sites, Family family) {
     const auto any = [&](auto&& test) { return std::any_of(sites.begin(), sites.end(), test); };
     if (family.size() == 1) return any([&](const Suspect* s) { return s->score[index_of(family.front())] >= 1; });
     return any([](const Suspect* s) { return s->score[index_of(Quantity::speed)] >= 1; }) ||
@@ -309,7 +309,7 @@ public:
     }
 
     /// At least half of the sites lie in the stretches of one that was found before.
-    [[nodiscard]] bool explain(Sites sites) const {
+    [[nodiscard]] bool explain(SuspectSpan sites) const {
         struct Inside {
             std::size_t sites = 0;
             PointIndex last = -1;  ///< that was counted

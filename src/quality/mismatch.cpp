@@ -155,7 +155,7 @@ void Comparer::compare_along_slant(const Station& here, Comparison& comparison) 
     if (slanted->corner) lessen(Quantity::relief, mine.relief - slanted->relief, slanted->relief_step);
 }
 
-Comparison Comparer::compare(const Station& at, int aside) const { return compare_with(Peers::all, at, aside); }
+Comparison Comparer::compare(const Station& here, int aside) const { return compare_with(Peers::all, here, aside); }
 
 std::array<float, quantities> Comparer::change_nearby(PointIndex point, float reference) const {
     std::array<float, quantities> change{};

@@ -53,22 +53,22 @@ public:
         : surface_(surface), signals_(signals), least_speed_(0.25F * usual_speed) {}
 
     /// O(1): up to `aside` passes on each side. With one, the steps are the same, residuals mean little.
-    [[nodiscard]] Comparison compare(const Station& at, int aside = passes_aside) const;
+    [[nodiscard]] Comparison compare(const Station& here, int aside = passes_aside) const;
 
     /// Among passes of the place's own way, where all of them begin or end there. They do so a little apart,
     /// and change fast: as much as all of them change within half a step-over is slack.
-    [[nodiscard]] Comparison compare_at_end(const Station& at) const;
+    [[nodiscard]] Comparison compare_at_end(const Station& here) const;
 
     /// Where the passes round a place do one after the other what it does too, its motion is
     /// compared along their slant (slant.h), in corners its relief too: they differ by the lesser of both.
-    void compare_along_slant(const Station& at, Comparison& comparison) const;
+    void compare_along_slant(const Station& here, Comparison& comparison) const;
 
 private:
     /// What a place is compared with: all passes, or those only that run the same way, of a zigzag every
     /// second one.
     enum class Peers : std::uint8_t { all, same_way };
 
-    [[nodiscard]] Comparison compare_with(Peers peers, const Station& at, int aside) const;
+    [[nodiscard]] Comparison compare_with(Peers peers, const Station& here, int aside) const;
 
     /// How much each quantity changes along the pass within half a step-over; speeds over `reference`.
     [[nodiscard]] std::array<float, quantities> change_nearby(PointIndex point, float reference) const;

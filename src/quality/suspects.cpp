@@ -167,17 +167,16 @@ private:
     /// Compares where passes begin or end. Beside one that goes on, and where there is no pass on one side, a
     /// difference is no surprise. Where all begin or end, the two ways of a zigzag differ by nature: there
     /// a suspect is what differs from passes of its own way.
-    void compare_at_end(Suspect& suspect) const {
+    void compare_at_end(const Station& place, Suspect& suspect) const {
         const Comparison& c = suspect.comparison;
         suspect.border = c.left == 0 || c.right == 0;
         if (suspect.border) return;
-        const std::array zones{signals_[suspect.point].zone, signals_[c.beside_left.nearest()].zone,
-                               signals_[c.beside_right.nearest()].zone};
-        const auto any = [&](Zone zone) { return std::find(zones.begin(), zones.end(), zone) != zones.end(); };
         if (!c.ramp) return;
-        suspect.border = any(Zone::inner);
+        suspect.border = signals_[suspect.point].zone == Zone::inner ||
+                         signals_[c.beside_left.nearest()].zone == Zone::inner ||
+                         signals_[c.beside_right.nearest()].zone == Zone::inner;
         if (suspect.border) return;
-        const Comparison alike = comparer_.compare_at_end(sites_.place(suspect.point));
+        const Comparison alike = comparer_.compare_at_end(place);
         suspect.border = std::min(alike.left, alike.right) < fewest_alike;
         if (suspect.border) return;
         suspect.comparison = alike;
@@ -206,7 +205,7 @@ private:
                 comparer_.compare_along_slant(place, suspect.comparison);
                 measure(suspect, thresholds_);
                 if (*std::max_element(suspect.share.begin(), suspect.share.end()) < suspect_share) continue;
-                compare_at_end(suspect);
+                compare_at_end(place, suspect);
                 if (*std::max_element(suspect.share.begin(), suspect.share.end()) < suspect_share) continue;
                 suspect.pass = pass_of(surface_.passes, suspect.point);
                 of_piece[static_cast<std::size_t>(first / grain)].push_back(suspect);
