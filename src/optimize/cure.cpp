@@ -4,8 +4,9 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numeric>
+#include <span>
 
+#include "core/parallel.h"
 #include "optimize/levelling.h"
 #include "surface/station.h"
 
@@ -15,7 +16,8 @@ namespace {
 constexpr double levelled_reach = 1;  ///< [mm] of way before and behind a defect that is levelled with it
 constexpr double lag_aim = 0.95;      ///< of the threshold, that a lag step is brought down to
 constexpr double slowest = 0.6;       ///< of its speed, to which a place is slowed at most for that
-constexpr int most_selections = 10;
+constexpr double most_levelled =
+    2;  ///< times what slowing alone costs, that a lag step may cost that is levelled as well
 
 /// Which defect the points in each cell of space are levelled for.
 class CauseMap {
@@ -53,49 +55,90 @@ private:
 
 class Cure {
 public:
-    Cure(const JudgedRun& run, const CureRules& rules) : run_(run), rules_(rules), own_(compared_speeds(run)) {}
+    Cure(const JudgedRun& run, const CureRules& rules)
+        : run_(run), rules_(rules), leveller_(run), levelled_(run.report.defects.size(), 1) {}
 
+    /// For the cheapest defects, each by what it costs alone: as many of them as the budget pays for together.
     CuringSpeeds speeds() {
-        std::vector<std::uint8_t> taken(run_.report.defects.size(), 1);
-        for (std::size_t k = 0; k < taken.size(); ++k) taken[k] = can_be_cured(run_.report.defects[k]) ? 1 : 0;
-        for (int k = 0; k < most_selections; ++k) {
-            level(taken);
-            if (!leave_out_the_dearest(taken)) break;
+        const std::vector<std::int32_t> order = by_cost();
+        std::size_t paid = 0, too_many = order.size() + 1;
+        CuringSpeeds best = level({});
+        for (std::size_t many = order.size(); paid + 1 < too_many; many = (paid + too_many) / 2) {
+            CuringSpeeds cure = level(std::span(order).first(many));
+            const bool holds = leveller_.lost(cure.speeds) <= rules_.budget;
+            (holds ? paid : too_many) = many;
+            if (holds) best = std::move(cure);
         }
-        return {std::move(speeds_), std::move(causes_)};
+        return best;
     }
 
 private:
+    /// Those that can be cured, the cheapest first.
+    [[nodiscard]] std::vector<std::int32_t> by_cost() {
+        std::vector<std::int32_t> order;
+        for (std::size_t k = 0; k < run_.report.defects.size(); ++k) {
+            if (can_be_cured(run_.report.defects[k])) order.push_back(static_cast<std::int32_t>(k));
+        }
+        std::vector<double> costs(run_.report.defects.size(), 0);
+        parallel_for(static_cast<std::int64_t>(order.size()), 1, [&](std::int64_t first, std::int64_t last) {
+            for (std::int64_t n = first; n < last; ++n) {
+                const std::int32_t k = order[static_cast<std::size_t>(n)];
+                costs[static_cast<std::size_t>(k)] = cost_alone(k);
+            }
+        });
+        std::stable_sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
+            return costs[static_cast<std::size_t>(a)] < costs[static_cast<std::size_t>(b)];
+        });
+        return order;
+    }
+
+    /// … and whether it is levelled: a lag step lies beside other slow places, which may cost much more than it does.
+    [[nodiscard]] double cost_alone(std::int32_t k) {
+        const double cost = leveller_.lost(level({&k, 1}).speeds);
+        if (run_.report.defects[static_cast<std::size_t>(k)].quantity != Quantity::lag) return cost;
+        levelled_[static_cast<std::size_t>(k)] = 0;
+        const double slowed = leveller_.lost(level({&k, 1}).speeds);
+        if (cost >= most_levelled * slowed) return slowed;
+        levelled_[static_cast<std::size_t>(k)] = 1;
+        return cost;
+    }
+
     [[nodiscard]] bool can_be_cured(const Defect& defect) const {
         if (defect.quantity == Quantity::relief) return false;
         return std::none_of(rules_.hopeless.begin(), rules_.hopeless.end(),
                             [&](const Vec3& place) { return (place - defect.position).norm() < levelled_reach; });
     }
 
-    /// The speeds for the defects that are taken.
-    void level(const std::vector<std::uint8_t>& taken) {
-        speeds_ = own_;
-        causes_.assign(own_.size(), -1);
-        for (std::size_t k = 0; k < taken.size(); ++k) {
-            const Defect& defect = run_.report.defects[k];
-            if (taken[k] == 0) continue;
+    /// The speeds for some of the defects.
+    [[nodiscard]] CuringSpeeds level(std::span<const std::int32_t> taken) const {
+        const std::size_t n = leveller_.own().size();
+        Levelling levelling{leveller_.own(), std::vector<std::int32_t>(n, -1), std::vector<std::uint8_t>(n, 0)};
+        for (const std::int32_t k : taken) {
+            const Defect& defect = run_.report.defects[static_cast<std::size_t>(k)];
             for (const auto* stretches : {&defect.runs, &defect.neighbours}) {
-                for (const DefectRun& stretch : *stretches) mark(stretch.points, static_cast<std::int32_t>(k));
+                for (const DefectRun& stretch : *stretches) mark(stretch.points, k, levelling);
             }
-            if (defect.quantity == Quantity::lag) slow_for_lag(defect);
+            if (defect.quantity == Quantity::lag) slow_for_lag(defect, levelling.speeds);
         }
-        level_speeds(run_, {rules_.step, 0, rules_.ramp}, speeds_, causes_);
+        leveller_.level({rules_.step, 0, rules_.ramp}, levelling);
+        return {std::move(levelling.speeds), std::move(levelling.causes)};
     }
 
     /// A stretch and what lies within `levelled_reach` before and behind it.
-    void mark(const PointRange& points, std::int32_t cause) {
-        for (PointIndex i = points.first; i <= points.last; ++i) causes_[static_cast<std::size_t>(i)] = cause;
+    void mark(const PointRange& points, std::int32_t cause, Levelling& levelling) const {
+        const bool levelled = levelled_[static_cast<std::size_t>(cause)] != 0;
+        const auto mark_point = [&](PointIndex i) {
+            levelling.causes[static_cast<std::size_t>(i)] = cause;
+            if (levelled) levelling.levelled[static_cast<std::size_t>(i)] = 1;
+        };
+        for (PointIndex i = points.first; i <= points.last; ++i) mark_point(i);
+        const std::vector<float>& own = leveller_.own();
         const auto walk = [&](PointIndex from, PointIndex step) {
             double left = levelled_reach;
             for (PointIndex i = from + step; left > 0 && i >= 0 && i < run_.signals.size() &&
-                                             own_[static_cast<std::size_t>(i)] == own_[static_cast<std::size_t>(i)];
+                                             own[static_cast<std::size_t>(i)] == own[static_cast<std::size_t>(i)];
                  i += step) {
-                causes_[static_cast<std::size_t>(i)] = cause;
+                mark_point(i);
                 left -= (run_.surface.positions[i] - run_.surface.positions[i - step]).norm();
             }
         };
@@ -103,15 +146,16 @@ private:
         walk(points.last, 1);
     }
 
-    void slow_for_lag(const Defect& defect) {
+    void slow_for_lag(const Defect& defect, std::vector<float>& speeds) const {
         const double most = lag_aim * run_.report.thresholds.of[index_of(Quantity::lag)];
         for (const auto* stretches : {&defect.runs, &defect.neighbours}) {
             for (const DefectRun& stretch : *stretches) {
                 for (PointIndex i = stretch.points.first; i <= stretch.points.last; ++i) {
                     const double share = std::pow(std::max(1.0, lag_step(i) / most), -1 / rules_.lag_power);
-                    float& speed = speeds_[static_cast<std::size_t>(i)];
+                    float& speed = speeds[static_cast<std::size_t>(i)];
                     if (share >= slowest)
-                        speed = std::min(speed, static_cast<float>(share) * own_[static_cast<std::size_t>(i)]);
+                        speed =
+                            std::min(speed, static_cast<float>(share) * leveller_.own()[static_cast<std::size_t>(i)]);
                 }
             }
         }
@@ -130,30 +174,10 @@ private:
         return most;
     }
 
-    /// False: the budget holds.
-    bool leave_out_the_dearest(std::vector<std::uint8_t>& taken) const {
-        std::vector<double> costs(taken.size(), 0);
-        for (std::size_t i = 0; i < own_.size(); ++i) {
-            if (causes_[i] >= 0 && speeds_[i] < own_[i])
-                costs[static_cast<std::size_t>(causes_[i])] += run_.log.period * (own_[i] / speeds_[i] - 1);
-        }
-        double sum = std::accumulate(costs.begin(), costs.end(), 0.0);
-        if (sum <= rules_.budget) return false;
-        std::vector<std::size_t> order(costs.size());
-        std::iota(order.begin(), order.end(), std::size_t{0});
-        std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return costs[a] > costs[b]; });
-        for (const std::size_t k : order) {
-            if (sum <= rules_.budget) break;
-            sum -= costs[k];
-            taken[k] = 0;
-        }
-        return true;
-    }
-
     const JudgedRun& run_;
     const CureRules& rules_;
-    std::vector<float> own_, speeds_;
-    std::vector<std::int32_t> causes_;  ///< per point the defect that it is levelled for; −1: none
+    Leveller leveller_;
+    std::vector<std::uint8_t> levelled_;  ///< per defect, whether the speeds about it are
 };
 
 }  // namespace

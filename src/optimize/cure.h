@@ -29,8 +29,8 @@ struct CuringSpeeds {
 
 /// Speeds that are level within `step` about the defects of motion and lag, and so low that their lag steps
 /// keep the threshold, where that takes no more than four tenths of the speed. Defects of the programmed relief are left
-/// out, and of the others the dearest as long as the whole would lose more than the budget: by the points' own
-/// times. At most ten rounds over the points, after which what is left is taken.
+/// out, and of the others the dearest, each by what it costs alone, as long as all together would lose more than the budget: by
+/// the points' own times. O(points · defects).
 [[nodiscard]] CuringSpeeds curing_speeds(const JudgedRun& run, const CureRules& rules);
 
 /// Per defect of a run how many defects there are fewer about the places that were slowed for it, on another run of the same

@@ -69,20 +69,22 @@ FeedSearch::FeedSearch(Prover& prover, const Machine& machine)
     : prover_(prover), lag_power_(lag_power(machine)), ramp_(ramp_of(machine)) {}
 
 void FeedSearch::level(const Tried& from) {
+    const Leveller leveller(from->run);
     for (const double step : steps_between_passes) {
         if (!prover_.has_time()) return;
         const Tried levelled =
-            prover_.propose(from->draft, lowered_targets(*from, levelled_speeds(from->run, {step, 0, ramp_})));
+            prover_.propose(from->draft, lowered_targets(*from, leveller.everywhere({step, 0, ramp_})));
         if (levelled->run.duration > prover_.longest()) return;  // lower feeds take longer still
     }
 }
 
 void FeedSearch::level_in_time(const Tried& from) {
     const double there = prover_.longest() - from->run.duration;
+    const Leveller leveller(from->run);
     double budget = most_share * there;
     for (int round = 0; round < levelling_rounds && budget > 0 && prover_.has_time(); ++round) {
         const std::vector<float> targets =
-            lowered_targets(*from, levelled_speeds(from->run, {0, affordable_step(from->run, ramp_, budget), ramp_}));
+            lowered_targets(*from, leveller.everywhere({0, leveller.affordable_step(ramp_, budget), ramp_}));
         if (targets == from->targets) return;
         const Tried levelled = prover_.propose(from->draft, targets);
         const double taken = levelled->run.duration - from->run.duration;

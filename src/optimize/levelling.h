@@ -7,6 +7,7 @@
 
 #include "optimize/ramp.h"
 #include "optimize/run.h"
+#include "surface/station.h"
 
 namespace clsurf {
 
@@ -20,19 +21,51 @@ struct LevelStep {
     Ramp ramp{};       ///< … and how a pass comes back to its own speed
 };
 
-/// Lowers speeds, one a point of the run, until none is more than a step above that of the points beside it on
-/// both neighbour passes. Only points that have a cause (≥ 0; −1: none), or have one beside them, are lowered, and take over
-/// the cause: where all begin with one, speeds are levelled everywhere. Before and behind a lowered place a pass keeps to the
-/// ramp, so that the next one is levelled with what the machine will do. Two sweeps over the passes, forth and back: O(points).
-void level_speeds(const JudgedRun& run, const LevelStep& step, std::vector<float>& speeds,
-                  std::vector<std::int32_t>& causes);
+/// Speeds on their way to be levelled; all have one entry a point.
+struct Levelling {
+    std::vector<float> speeds;         ///< [mm/s]
+    std::vector<std::int32_t> causes;  ///< what a point is lowered for, ≥ 0; −1: nothing
+    /// 1: is to be level with what lies beside it. Where neither of two points is, they may differ by as large a share as they did: beside
+    /// a lowered place there may be another slow one, which is not to be levelled with it.
+    std::vector<std::uint8_t> levelled;
+};
 
-/// The greatest speeds that are level everywhere.
-[[nodiscard]] std::vector<float> levelled_speeds(const JudgedRun& run, const LevelStep& step);
+/// Brings the speeds of a run down to what the passes beside each other and the ramps allow. Any number of times: it keeps what
+/// lies beside each point. The run must outlive it. May be used by several threads.
+class Leveller {
+public:
+    /// O(points)
+    explicit Leveller(const JudgedRun& run);
 
-/// The least step [mm/s] to which all can be levelled so that no more than `budget` [s] is lost, by the points' own times.
-/// Ten levellings: O(points).
-[[nodiscard]] double affordable_step(const JudgedRun& run, const Ramp& ramp, double budget);
+    /// compared_speeds() of the run
+    [[nodiscard]] const std::vector<float>& own() const { return own_; }
+
+    /// Lowers speeds, one a point of the run, until none is more than a step above that of the points beside it on
+    /// both neighbour passes. Only points that have a cause, or have one beside them, are lowered, and take over
+    /// the cause: where all begin with one, speeds are levelled everywhere. Before and behind a lowered place a pass keeps to the
+    /// ramp, so that the next one is levelled with what the machine will do. Two sweeps, forth and back, over the passes that have a
+    /// cause, or one beside them.
+    void level(const LevelStep& step, Levelling& levelling) const;
+
+    /// The greatest speeds that are level everywhere.
+    [[nodiscard]] std::vector<float> everywhere(const LevelStep& step) const;
+
+    /// The least step [mm/s] to which all can be levelled so that no more than `budget` [s] is lost. Ten levellings: O(points).
+    [[nodiscard]] double affordable_step(const Ramp& ramp, double budget) const;
+
+    /// What the run would take longer at such speeds [s], by the points' own times.
+    [[nodiscard]] double lost(const std::vector<float>& speeds) const;
+
+private:
+    struct Beside {
+        Station left, right;
+    };
+
+    const JudgedRun& run_;
+    std::vector<float> own_;
+    std::vector<Beside> beside_;                           ///< one entry a point
+    std::vector<std::vector<std::size_t>> passes_beside_;  ///< per pass, those that its points have beside them
+};
 
 /// The greatest over the points of each motion of the program, of one value per point; NaN: it has no point with one. As a feed it
 /// holds a motion to a curve that rises or falls along it; the mean would hold it below.

@@ -111,6 +111,12 @@ private:
     std::span<std::int32_t> causes_;
 };
 
+/// Behind how many points, of `most`, a lowered speed is back at its own for sure: twice what the machine takes from a halt.
+std::size_t recovery(const Ramp& ramp, double period, double speed, std::size_t most) {
+    const double seconds = speed / ramp.acceleration + ramp.acceleration / ramp.jerk;
+    return static_cast<std::size_t>(std::min(static_cast<double>(most), std::ceil(2 * seconds / period)));
+}
+
 }  // namespace
 
 Ramp ramp_of(const Machine& machine) {
@@ -124,9 +130,23 @@ Ramp ramp_of(const Machine& machine) {
 
 void keep_to_ramp(const Ramp& ramp, double period, std::span<const float> own, std::span<float> speeds,
                   std::span<std::int32_t> causes) {
-    const bool lowered = std::any_of(causes.begin(), causes.end(), [](std::int32_t cause) { return cause >= 0; });
-    if (!lowered || !std::isfinite(ramp.jerk) || !std::isfinite(ramp.acceleration)) return;
-    RampKeeper(ramp, period, own, speeds, causes).keep();
+    if (!std::isfinite(ramp.jerk) || !std::isfinite(ramp.acceleration)) return;
+    const auto lowered = [&](std::size_t from) {
+        while (from < own.size() && (causes[from] < 0 || !(speeds[from] < own[from]))) ++from;
+        return from;
+    };
+    std::size_t next = lowered(0);
+    if (next == own.size()) return;
+    const std::size_t reach = recovery(ramp, period, *std::max_element(own.begin(), own.end()), own.size());
+    while (next < own.size()) {
+        const std::size_t first = next - std::min(next, reach);
+        std::size_t last = next;
+        for (next = lowered(last + 1); next < own.size() && next - last <= 2 * reach; next = lowered(last + 1))
+            last = next;
+        const std::size_t count = std::min(own.size(), last + reach + 1) - first;
+        RampKeeper(ramp, period, own.subspan(first, count), speeds.subspan(first, count), causes.subspan(first, count))
+            .keep();
+    }
 }
 
 }  // namespace clsurf

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -60,6 +61,17 @@ TEST(Ramp, BendsNoSharperThanTheJerkAndRisesNoFasterThanTheAcceleration) {
         ASSERT_LE(s.speeds[i], s.own[i]);
     }
     EXPECT_LT(s.speeds[93], 44.3) << "no peak between low places seven points apart";
+}
+
+TEST(Ramp, TakesPlacesThatAreFarApartEachForItself) {
+    Stretch both(2000), left(2000), right(2000);
+    for (Stretch* s : {&both, &left}) s->lower(300, 20);
+    for (Stretch* s : {&both, &right}) s->lower(1500, 30);
+    for (Stretch* s : {&both, &left, &right}) s->keep();
+    for (std::size_t i = 0; i < both.speeds.size(); ++i)
+        ASSERT_FLOAT_EQ(both.speeds[i], std::min(left.speeds[i], right.speeds[i])) << i;
+    EXPECT_LT(both.speeds[330], 50);
+    EXPECT_EQ(both.speeds[900], 50);
 }
 
 TEST(Ramp, LetsSpeedsChangeAsTheMachineDid) {
