@@ -51,30 +51,29 @@ public:
                 while (half + 1 < window_.size() && window_[half].base.block < middle) ++half;
                 nodes.push_back(half);
             }
-            std::size_t done = 0;
+            std::size_t ran = 0, done = 0;  // runs, spans
             if (planner_.plan(window_.items(), speed, nodes)) {
                 pending_ = planner_.runs();
-                while (!pending_.empty() && pending_.front().last <= half) run_first(speed, done);
+                while (ran < pending_.size() && pending_[ran].last <= half) run(pending_[ran++], speed, done);
             } else if (pending_.empty()) {
                 throw std::logic_error(fmt::format("no plan leads from {} mm/s on in the block of line {}", speed,
                                                    window_.front().base.line));
             } else {
                 // The plan before goes on: it ends at rest, whatever comes after.
-                run_first(speed, done);
+                run(pending_[ran++], speed, done);
             }
             for (std::size_t i = 0; i < done; ++i) window_.pop_front();
-            for (Run& run : pending_) run.first -= done, run.last -= done;
+            pending_.erase(pending_.begin(), pending_.begin() + static_cast<std::ptrdiff_t>(ran));
+            for (Run& left : pending_) left.first -= done, left.last -= done;
             report();
         }
     }
 
 private:
-    void run_first(double& speed, std::size_t& done) {
-        const Run& run = pending_.front();
-        refiner_.push(run, window_.items().subspan(run.first, run.last - run.first));
-        speed = pending_.front().end_speed;
-        done = pending_.front().last;
-        pending_.erase(pending_.begin());
+    void run(const Run& next, double& speed, std::size_t& done) {
+        refiner_.push(next, window_.items().subspan(next.first, next.last - next.first));
+        speed = next.end_speed;
+        done = next.last;
     }
 
     int blocks_;
