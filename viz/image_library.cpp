@@ -34,6 +34,7 @@ const ImageLibrary& image_library() {
     return *library;
 }
 
-void preload_image_library() { (void)loading(); }
+ImageLibraryPreload::ImageLibraryPreload() { (void)loading(); }
+ImageLibraryPreload::~ImageLibraryPreload() { loading().wait(); }
 
 }  // namespace clsurf::viz

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -121,8 +122,9 @@ void draw(const DiffOptions& options, const Run& a, const ClSurface& surface, co
 ExitCode run_diff(const po::variables_map& values) {
     const DiffOptions options = read_diff_options(values);
     std::unique_ptr<io::AtomicFile> output;
+    std::optional<viz::ImageLibraryPreload> preload;
     if (!options.output.empty()) {
-        viz::preload_image_library();
+        preload.emplace();
         output =
             std::make_unique<io::AtomicFile>(options.output);  // a name that cannot be written fails before the work
     }

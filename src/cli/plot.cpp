@@ -95,7 +95,7 @@ PointRange shown_range(const PlotOptions& options, const Part& part, const std::
 ExitCode run_plot(const po::variables_map& values) {
     PlotOptions options = read_plot_options(values);
     if (asks_for_profile(values)) return plot_profile(values, options.part, options.look, options.output);
-    viz::preload_image_library();
+    const viz::ImageLibraryPreload preload;
     io::AtomicFile output(options.output);
     StageClock clock(read_common(values), 5);
     const Part part = load_part(options.part, clock);

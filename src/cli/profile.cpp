@@ -40,7 +40,7 @@ ExitCode plot_profile(const po::variables_map& values, PartOptions options, viz:
     if (!((to - from).norm() > 0 && (to - from).norm() <= longest))
         throw UsageError(fmt::format("--profile: from one place to another, at most {:g} mm apart", longest));
     const std::optional<Role> role = take_measured_role(options);
-    viz::preload_image_library();
+    const viz::ImageLibraryPreload preload;
     io::AtomicFile output(output_name);
     StageClock clock(read_common(values), 7);
     const Part part = load_part(options, clock);

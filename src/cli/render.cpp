@@ -225,7 +225,7 @@ void warn_of_marks_outside(const Shown& shown, const RenderOptions& options, con
 
 ExitCode run_render(const po::variables_map& values) {
     const RenderOptions options = read_render_options(values);
-    viz::preload_image_library();
+    const viz::ImageLibraryPreload preload;
     io::AtomicFile output(options.output);  // a name that cannot be written fails before the work
     const int stages_of_a_part = options.defects ? 7 : 5;
     StageClock clock(read_common(values), stages_of_a_part * (options.before.empty() ? 1 : 2) + 3);

@@ -192,7 +192,7 @@ io::PageRelief page_relief(const Formed& formed) {
 
 ExitCode run_report(const po::variables_map& values) {
     const ReportOptions options = read_report_options(values);
-    viz::preload_image_library();
+    const viz::ImageLibraryPreload preload;
     io::AtomicFile output(options.output);  // a name that cannot be written fails before the work
     StageClock clock(read_common(values), options.before.empty() ? 12 : 20);
     std::vector<ReportLog> logs;
