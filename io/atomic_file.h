@@ -4,18 +4,27 @@
 // be it SIGKILL, leaves nothing behind. File systems that have no nameless files (NFS, some overlays)
 // get "NAME.XXXXXX" beside the target, which is removed when it is destroyed before commit(), and stays
 // when the program is killed.
+//
+// "-", /dev/stdout, /dev/fd/N, devices and pipes are written to as they are, all at once by commit().
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
+#include "io/overwrite_guard.h"
+
 namespace clsurf::io {
+
+/// Whether an output may replace an input, as `compare --update` does.
+enum class Replaces { no_input, an_input };
 
 class AtomicFile {
 public:
-    /// Opens a file beside `path`. Throws SystemError (no such folder, not writable).
-    explicit AtomicFile(std::string path);
+    /// Opens a file beside `path`. Throws SystemError (no such folder, not writable), UsageError where `path` is
+    /// an input (io/overwrite_guard.h).
+    explicit AtomicFile(std::string path, Replaces replaces = Replaces::no_input);
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;
     ~AtomicFile();
@@ -32,10 +41,15 @@ public:
     void commit();
 
 private:
+    void open_beside();
+    void open_for_stream();
     void flush();
     void give_a_name();
+    void copy_to_stream();
 
     std::string path_;
+    std::optional<OutputClaim> claim_;
+    int stream_ = -1;        ///< of a device, a pipe or standard output; −1: a file
     std::string temporary_;  ///< a path of the file
     bool named_ = false;     ///< that path is a name in the folder
     std::string buffer_;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "io/overwrite_guard.h"
 
 namespace clsurf::io {
 namespace {
@@ -129,7 +130,11 @@ void check_mapped_files() {
 }
 
 Source map_file(const std::string& path) {
-    if (path == "-") return read_stream("<stdin>", STDIN_FILENO);
+    if (path == "-") {
+        struct stat status {};
+        if (::fstat(STDIN_FILENO, &status) == 0) guard_input("<stdin>", status);
+        return read_stream("<stdin>", STDIN_FILENO);
+    }
     const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
     if (file.get() < 0) { throw InputError(Place::of_file(path), std::string("cannot open: ") + std::strerror(errno)); }
     struct stat status {};
@@ -138,6 +143,7 @@ Source map_file(const std::string& path) {
     }
     if (S_ISDIR(status.st_mode)) throw InputError(Place::of_file(path), "is a folder, expected a file");
     if (!S_ISREG(status.st_mode)) return read_stream(path, file.get());
+    guard_input(path, status);
     const auto size = static_cast<std::size_t>(status.st_size);
     if (size == 0) return {path, {}, nullptr};
     void* address = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.get(), 0);

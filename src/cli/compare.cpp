@@ -13,8 +13,8 @@
 namespace clsurf::cli {
 namespace {
 
-void write_file(const std::string& path, std::string_view bytes) {
-    io::AtomicFile file(path);
+void write_file(const std::string& path, std::string_view bytes, io::Replaces replaces) {
+    io::AtomicFile file(path, replaces);
     file.write(bytes);
     file.commit();
 }
@@ -27,6 +27,8 @@ ExitCode run_compare(const po::variables_map& values) {
         rule.threshold = values["threshold"].as<double>();
         if (!(rule.threshold >= 0 && rule.threshold <= 1)) throw UsageError("--threshold must be 0 … 1");
     }
+    io::guard_input(made);
+    io::guard_input(reference);
     const viz::Image a = viz::read_image(made);
     const bool update = values.count("update") > 0;
     const bool missing = update && !std::filesystem::exists(reference);
@@ -50,12 +52,13 @@ ExitCode run_compare(const po::variables_map& values) {
             if (values.count("diff") > 0)
                 write_file(
                     values["diff"].as<std::string>(),
-                    viz::encode_png(viz::difference_picture(a, b), "difference of " + made + " and " + reference));
+                    viz::encode_png(viz::difference_picture(a, b), "difference of " + made + " and " + reference),
+                    io::Replaces::no_input);
         }
     }
     if (update && !report.equal) {
         const io::Source source = io::map_file(made);
-        write_file(reference, source.text());
+        write_file(reference, source.text(), io::Replaces::an_input);
         verdict += "; reference updated";
         report.equal = true;
     }

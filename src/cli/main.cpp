@@ -18,6 +18,7 @@
 #include "core/parallel.h"
 #include "core/version.h"
 #include "io/mapped_file.h"
+#include "io/overwrite_guard.h"
 
 namespace clsurf::cli {
 
@@ -66,6 +67,7 @@ int main(int argc, char** argv) {
     using clsurf::ExitCode;
     ExitCode code = ExitCode::done;
     clsurf::io::guard_mapped_files();
+    clsurf::io::guard_inputs();
     std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is a full disk: an error of write(), not an end
     try {
         code = clsurf::cli::run(std::vector<std::string>(argv + 1, argv + argc));

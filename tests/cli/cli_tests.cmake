@@ -196,7 +196,7 @@ clsurf_cli_test(NAME render_through_egl ARGS render ${part} ${run} -o map.png --
 clsurf_cli_test(NAME render_marks_outside ARGS render ${part} ${run} -o map.png --size 160x120 --box 0,-4,-10,6,4,10 --mark-point 13462 --mark-line 515 EXIT 0 FILE map.png
   STDERR "point 13462 lies outside the part that is shown" "line 515 lies outside")
 clsurf_cli_test(NAME render_nothing_shown ARGS render ${part} ${run} -o map.png --size 160x120 --box 100,100,100,101,101,101 EXIT 2 STDERR "no cutting point lies in the part that is shown")
-clsurf_cli_test(NAME output_is_a_device ARGS render ${part} ${run} -o /dev/full --size 160x120 EXIT 4 STDERR "not a regular file")
+clsurf_cli_test(NAME output_is_a_device ARGS render ${part} ${run} -o /dev/full --size 160x120 EXIT 4 STDERR "No space left on device")
 clsurf_cli_test(NAME render_one_point SETUP "echo 'G1 X1 F60' > a.nc; printf 'time,cmd.x,cmd.y,cmd.z\\n0,1,0,0\\n' > a.csv"
   ARGS render a.nc a.csv --period 0.001 -o map.png EXIT 3 STDERR "no value on any cutting point")
 clsurf_cli_test(NAME render_unknown_field ARGS render ${part} ${run} -o map.png --color sped EXIT 2 STDERR "did you mean 'speed'")
