@@ -10,6 +10,7 @@
 #include "io/html_text.h"
 #include "io/json_value.h"
 #include "io/page_pack.h"
+#include "io/quality_words.h"
 
 namespace clsurf::io {
 namespace {
@@ -73,6 +74,14 @@ std::string defect_lines(const Defect& d) {
         text += (k > 0 ? ", " : "") + lines_text(d.runs[k]);
     if (d.runs.size() > shown) text += fmt::format(" and {} more", d.runs.size() - shown);
     return text;
+}
+
+/// A bar across the page where there is no verdict.
+std::string not_judged_bar(const QualityReport& report) {
+    if (report.judgement.judged()) return {};
+    std::string text = "<p class=\"not-judged\" role=\"alert\"><b>Not judged.</b>";
+    for (const std::string& reason : report.judgement.reasons) text += " " + html(reason);
+    return text + "</p>\n";
 }
 
 std::string defects_section(const ReportPage& page) {
@@ -140,13 +149,9 @@ std::string numbers_section(const ReportPage& page) {
         text += fmt::format("<td>{}</td></tr>\n", html(info->unit.name));
     }
     text += "</tbody></table></div>\n";
-    text += fmt::format("<p>Thresholds of a defect: speed {:.1f} %, acceleration {:.0f} mm/s²",
-                        100 * report.thresholds.of[index_of(Quantity::speed)],
-                        report.thresholds.of[index_of(Quantity::acceleration)]);
-    if (report.has_lag)
-        text += fmt::format(", lag {:.1f} µm", report.thresholds.of[index_of(Quantity::lag)] * um_per_mm);
-    text += fmt::format(", relief of the passes {:.1f} µm; {}.</p>\n",
-                        report.thresholds.of[index_of(Quantity::relief)] * um_per_mm, html(report.note));
+    const std::string thresholds = thresholds_text(report);
+    if (!thresholds.empty())
+        text += fmt::format("<p>Thresholds of a defect: {}; {}.</p>\n", html(thresholds), html(report.note));
     if (page.quality.formed != nullptr && !page.quality.formed->patches.empty()) {
         const FormedReport& f = *page.quality.formed;
         text += fmt::format(
@@ -227,10 +232,14 @@ std::string page_summary(const ReportPage& page) {
         deepest = std::max(deepest, d.depth);
     }
     constexpr std::string_view severities[] = {"", "traces", "visible on a glossy surface", "can be felt", "reject"};
-    text += fact("Defects", report.step_over > 0 ? fmt::format("{}", report.defects.size()) : "–", severities[worst],
-                 worst > 2   ? "bad"
-                 : worst > 0 ? "fair"
-                             : "good");
+    const bool judged = report.judgement.judged();
+    text += fact("Defects", judged ? fmt::format("{}", report.defects.size()) : "not judged",
+                 judged                   ? severities[worst]
+                 : report.defects.empty() ? ""
+                                          : fmt::format("{} found", report.defects.size()),
+                 !judged || worst > 2 ? "bad"
+                 : worst > 0          ? "fair"
+                                      : "good");
     if (worst > 0) text += fact("Deepest", um_text(deepest) + " µm");
     for (const PagePercentiles& row : page.percentiles) {
         if (row.field == "speed_mismatch" && std::isfinite(row.of_magnitude[2]))
@@ -251,7 +260,7 @@ std::string page_summary(const ReportPage& page) {
                  page.health.has_errors() ? "bad"
                  : warnings > 0           ? "fair"
                                           : "good");
-    return text + "</dl>\n</header>\n";
+    return text + "</dl>\n" + not_judged_bar(report) + "</header>\n";
 }
 
 std::string page_sections(const ReportPage& page) {

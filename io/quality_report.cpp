@@ -7,6 +7,7 @@
 #include "core/units.h"
 #include "io/defect_json.h"
 #include "io/json_value.h"
+#include "io/quality_words.h"
 
 namespace clsurf::io {
 namespace {
@@ -51,6 +52,13 @@ Json patches_json(const FormedReport& f) {
     return all;
 }
 
+/// Why there is no verdict, a line each; empty: there is one.
+std::string not_judged_text(const QualityReport& r) {
+    std::string text;
+    for (const std::string& reason : r.judgement.reasons) text += fmt::format("NOT JUDGED: {}\n", reason);
+    return text.empty() ? text : text + "\n";
+}
+
 }  // namespace
 
 std::string quality_json(const ReportedQuality& q) {
@@ -69,7 +77,9 @@ std::string quality_json(const ReportedQuality& q) {
                     {"acceleration_mm_s2", number(quantity(r.thresholds.of, Quantity::acceleration))},
                     {"lag_um", r.has_lag ? number(um(quantity(r.thresholds.of, Quantity::lag))) : Json(nullptr)},
                     {"relief_um", number(um(quantity(r.thresholds.of, Quantity::relief)))}};
-    Json summary{{"points", r.points},
+    Json summary{{"judged", r.judgement.judged()},
+                 {"not_judged_reasons", r.judgement.reasons},
+                 {"points", r.points},
                  {"passes", r.passes},
                  {"defects", r.defects.size()},
                  {"expected", r.expected.size()},
@@ -84,7 +94,7 @@ std::string quality_json(const ReportedQuality& q) {
                  {"filter", r.note},
                  {"tool", to_text(q.tool)},
                  {"budget", std::move(budget)},
-                 {"within_budget", all_held(q.budget)}};
+                 {"within_budget", r.judgement.judged() && all_held(q.budget)}};
     if (q.formed != nullptr) add_roughness(summary, *q.formed);
     Json json{{"defects", looked_at_defects(q)},
               {"expected", list_defects(q.report->expected, q.scallop)},
@@ -113,7 +123,7 @@ std::string quality_csv(const ReportedQuality& q) {
 
 std::string quality_text(const ReportedQuality& q) {
     const QualityReport& r = *q.report;
-    std::string text;
+    std::string text = not_judged_text(r);
     const auto lines_of = [](const DefectRun& run) {
         if (run.first_line == 0) return std::string("-");
         return run.first_line == run.last_line ? fmt::format("{}", run.first_line)
@@ -146,12 +156,8 @@ std::string quality_text(const ReportedQuality& q) {
             "{}{} defects on {} passes, {:.3g} mm apart; {:.1f} % of {} cutting points compared with both neighbours\n",
             r.defects.empty() ? "" : "\n", r.defects.empty() ? "no" : fmt::format("{}", r.defects.size()), r.passes,
             r.step_over, 100 * r.coverage(), r.points);
-        text += fmt::format("thresholds: speed {:.1f} %, acceleration {:.0f} mm/s²",
-                            100 * r.thresholds.of[index_of(Quantity::speed)],
-                            r.thresholds.of[index_of(Quantity::acceleration)]);
-        if (r.has_lag) text += fmt::format(", lag {:.1f} µm", um(r.thresholds.of[index_of(Quantity::lag)]));
-        text += fmt::format(", relief of the passes {:.1f} µm; {}\n", um(r.thresholds.of[index_of(Quantity::relief)]),
-                            r.note);
+        const std::string thresholds = thresholds_text(r);
+        if (!thresholds.empty()) text += fmt::format("thresholds: {}; {}\n", thresholds, r.note);
         if (q.scallop > 0)
             text += fmt::format("scallop between clean passes with {}: {:.2f} µm\n", to_text(q.tool), um(q.scallop));
         if (q.formed != nullptr && !q.formed->patches.empty()) {
@@ -169,7 +175,9 @@ std::string quality_text(const ReportedQuality& q) {
     }
     for (const BudgetLine& line : q.budget) {
         text += fmt::format("budget {:<28} {:>10.4g} of {:<10.4g} {}\n", line.name, line.measured, line.limit,
-                            line.held ? "held" : "NOT HELD");
+                            !r.judgement.judged() ? "NOT JUDGED"
+                            : line.held           ? "held"
+                                                  : "NOT HELD");
     }
     return text;
 }

@@ -60,7 +60,19 @@ std::string quality_sarif(const ReportedQuality& q) {
         if (!related.empty()) result["relatedLocations"] = std::move(related);
         results.push_back(std::move(result));
     }
-    return sarif_text(std::move(rules), std::move(results));
+    Json notifications = Json::array();
+    if (!q.report->judgement.judged()) {
+        rules.push_back({{"id", "not_judged"}, {"shortDescription", {{"text", "The data do not allow a verdict"}}}});
+        for (const std::string& reason : q.report->judgement.reasons) {
+            notifications.push_back({{"level", "error"}, {"message", {{"text", "Not judged: " + reason}}}});
+            results.push_back({{"ruleId", "not_judged"},
+                               {"ruleIndex", rules.size() - 1},
+                               {"level", "error"},
+                               {"message", {{"text", "Not judged: " + reason}}},
+                               {"locations", Json::array({sarif_location(uri, 0, 0, "")})}});
+        }
+    }
+    return sarif_text(std::move(rules), std::move(results), std::move(notifications));
 }
 
 }  // namespace clsurf::io

@@ -17,6 +17,7 @@ namespace clsurf::io {
                                   const std::string& message);
 
 /// A log of one run with its rules and results.
-[[nodiscard]] std::string sarif_text(Json rules, Json results);
+/// `notifications`: what the tool says of the run itself, a level and a text each.
+[[nodiscard]] std::string sarif_text(Json rules, Json results, Json notifications = Json::array());
 
 }  // namespace clsurf::io

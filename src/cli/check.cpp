@@ -66,6 +66,8 @@ ExitCode run_check(const po::variables_map& values) {
     clock.end();
     if (format != "json") print(part.diagnostics, values);
     output.write(write(reported));
+    // No verdict comes before a failed one: numbers that mean nothing meet no budget and miss none.
+    if (!quality.report.judgement.judged()) return ExitCode::not_judged;
     return all_held(reported.budget) ? ExitCode::done : ExitCode::check_failed;
 }
 
@@ -79,7 +81,8 @@ Subcommand check_subcommand() {
         .description =
             "Compares every pass with the passes beside it: speed, acceleration, and where the axes run off\n"
             "the commanded path. What differs enough to leave a mark is listed, worst first, with the lines\n"
-            "at fault and how deep it will be. With a budget, exit code 1 says that it was not held.\n\n"
+            "at fault and how deep it will be. Exits with 1 if a limit of --budget is exceeded, and with 5\n"
+            "if the data do not allow a verdict: less than half of the cutting points could be compared.\n\n"
             "  clsurf check part.nc run.biip --tool ball:6\n"
             "  clsurf check part.nc run.biip --tool ball:6 --budget part.toml --format sarif -o part.sarif",
         .declare =

@@ -124,6 +124,7 @@ std::span<const ExitCodeRow> exit_codes() {
         ExitCodeRow{ExitCode::usage, "wrong options or arguments"},
         ExitCodeRow{ExitCode::bad_input, "an input that cannot be used"},
         ExitCodeRow{ExitCode::system, "the machine failed: disk, memory, graphics"},
+        ExitCodeRow{ExitCode::not_judged, "done, but not judged: the data do not allow a verdict"},
     };
     return table;
 }

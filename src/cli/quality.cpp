@@ -80,13 +80,9 @@ Quality judge(Part& part, const ClSurface& surface, std::optional<Role> wanted, 
     const PartSignals read = signals_of(part, surface, wanted);
     clock.begin("find the defects");
     quality.report = find_defects(surface, read.signals, *part.lines, part.program, part.log.period, options.rules);
-    if (surface.step_over <= 0) {
-        part.diagnostics.add({Severity::note,
-                              "quality.single-pass",
-                              Place::of_file(part.log.name),
-                              "no pass has another beside it: there is nothing to compare",
-                              {}});
-    }
+    for (const std::string& reason : quality.report.judgement.reasons)
+        part.diagnostics.add(
+            {Severity::warning, "quality.not-judged", Place::of_file(part.log.name), "not judged: " + reason, {}});
     if (!options.tool_given || surface.step_over <= 0) return quality;
     clock.begin("measure the formed surface");
     const std::unique_ptr<const UprightPart> upright = upright_part(part, wanted, options.tool);

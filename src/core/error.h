@@ -14,6 +14,7 @@ enum class ExitCode : int {
     usage = 2,         ///< wrong options or arguments
     bad_input = 3,     ///< a file that cannot be used
     system = 4,        ///< disk, memory, graphics failed us
+    not_judged = 5,    ///< done, but the data do not allow a verdict
 };
 
 /// An input that cannot be used. The diagnostic says where, what was found and what was expected.

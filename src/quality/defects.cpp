@@ -5,6 +5,8 @@
 #include <cmath>
 #include <map>
 
+#include <fmt/format.h>
+
 #include "core/parallel.h"
 #include "core/statistics.h"
 #include "path/way.h"
@@ -337,7 +339,28 @@ private:
     std::vector<Stretch> stretches_;
 };
 
+/// Refuses a verdict where too little could be compared.
+void judge_coverage(QualityReport& report) {
+    if (report.points == 0) {
+        report.judgement.refuse("The log has no cutting points.");
+    } else if (report.step_over <= 0) {
+        report.judgement.refuse("No pass has another pass beside it, so nothing could be compared.");
+    } else if (report.coverage() < least_coverage) {
+        const double percent = std::floor(1000 * report.coverage()) / 10;  // never rounded up to what is enough
+        report.judgement.refuse(
+            fmt::format("Only {:.1f} % of {} cutting points could be compared with the passes on both sides. A verdict "
+                        "needs {:.0f} %.",
+                        percent, report.points, 100 * least_coverage));
+    }
+}
+
 }  // namespace
+
+int QualityReport::worst_severity() const {
+    int worst = 0;
+    for (const Defect& defect : defects) worst = std::max(worst, defect.severity);
+    return worst;
+}
 
 QualityReport find_defects(const ClSurface& surface, const Signals& signals, const LineMap& lines,
                            const Program& program, double period, const QualityRules& rules) {
@@ -352,6 +375,7 @@ QualityReport find_defects(const ClSurface& surface, const Signals& signals, con
     report.passes = builder.cut_passes();
     for (const Pass& pass : surface.passes) report.points += pass.kind == PassKind::cut ? pass.size() : 0;
     report.compared = count_compared(surface, signals);
+    judge_coverage(report);
 
     const FoundSuspects found = find_suspects(surface, signals, report.thresholds);
     const Suspects& suspects = found.suspects;

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "path/line_map.h"
+#include "quality/judgement.h"
 #include "quality/mismatch.h"
 
 namespace clsurf {
@@ -74,12 +75,13 @@ struct QualityReport {
     std::int64_t passes = 0;  ///< cut passes
     double step_over = 0;     ///< [mm]
     bool has_lag = false;     ///< measured positions were there
+    Judgement judgement;      ///< whether the data allow a verdict
     std::string note;         ///< the windows
 
     [[nodiscard]] double coverage() const {
         return points > 0 ? static_cast<double>(compared) / static_cast<double>(points) : 0;
-    }  ///< 0 … 1
-    [[nodiscard]] int worst_severity() const { return defects.empty() ? 0 : defects.front().severity; }
+    }                                          ///< 0 … 1
+    [[nodiscard]] int worst_severity() const;  ///< 0: no defects
 };
 
 /// All discontinuities between adjacent passes. `lines` names them; `program` tells corners and point

@@ -46,7 +46,11 @@ constexpr auto limits = std::to_array<QualityLimit>({
 std::span<const QualityLimit> budget_limits() { return limits; }
 
 std::vector<BudgetLine> hold(const QualityReport& report, const QualityBudget& budget) {
-    return hold(budget_limits(), report, budget);
+    std::vector<BudgetLine> lines = hold(budget_limits(), report, budget);
+    if (!report.judgement.judged()) {
+        for (BudgetLine& line : lines) line.held = false;
+    }
+    return lines;
 }
 
 }  // namespace clsurf

@@ -23,7 +23,7 @@ struct QualityBudget {
 using QualityLimit = BudgetLimit<QualityReport, QualityBudget>;
 [[nodiscard]] std::span<const QualityLimit> budget_limits();
 
-/// Every limit that the budget sets.
+/// Every limit that the budget sets. A report that is not judged meets none of them.
 [[nodiscard]] std::vector<BudgetLine> hold(const QualityReport& report, const QualityBudget& budget);
 
 }  // namespace clsurf

@@ -184,6 +184,7 @@ clsurf_cli_test(NAME query_outside_of_calls SETUP "${nested_calls}" ARGS query n
 set(trunnion @DATA@/machines/five_axis_trunnion.toml)
 set(leaning "awk 'BEGIN { t = 20 * atan2(0, -1) / 180; print \"G21 G90 G54\\nG0 X0 Y0 Z20\\nG43.4 H1\"; for (i = 0; i < 6; ++i) { s = i % 2 ? 1 : -1; printf \"G0 X%g Y%.6f Z5 A%g C0\\nG1 Z%.6f F1200\\nX%g\\nG0 Z5\\n\", i % 2 ? 12 : 0, 0.6 * i + s * 3 * sin(t), s * 20, 3 - 3 * cos(t), i % 2 ? 0 : 12 } print \"M30\" }' > plane.nc; $CLSURF simulate plane.nc --machine ${trunnion} -o run.biip")
 clsurf_cli_test(NAME check_of_a_leaning_ball SETUP "${leaning}" ARGS check plane.nc run.biip --machine ${trunnion} --tool ball:6
+  EXIT 5  # of six passes two have one neighbour only: not enough for a verdict
   STDOUT "scallop between clean passes with ball:6: 15.0" "formed surface, .* Rz 1[45][.].. .at most 15")
 clsurf_cli_test(NAME check_of_a_leaning_bull SETUP "${leaning}" ARGS check plane.nc run.biip --machine ${trunnion} --tool bull:6,1 EXIT 2 STDERR "bull:6,1 is tilted" "--tool ball:D")
 clsurf_cli_test(NAME query_json ARGS query ${part} ${run} --point 5000 --json STDOUT "\"line\": 638" "\"confidence\": 1.0")

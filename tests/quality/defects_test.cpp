@@ -247,5 +247,31 @@ TEST(Verdict, HoldsEveryLimitThatIsSet) {
     EXPECT_EQ(lines.size(), 4U);
 }
 
+TEST(Verdict, IsNeverThatABudgetIsMetWhereNothingWasJudged) {
+    QualityReport report;
+    report.points = 100;
+    report.compared = 80;
+    QualityBudget budget;
+    budget.max_depth_um = 6;
+    EXPECT_TRUE(all_held(hold(report, budget)));
+    report.judgement.refuse("Every position is the same.");
+    report.judgement.refuse("Every position is the same.");
+    EXPECT_FALSE(report.judgement.judged());
+    EXPECT_EQ(report.judgement.reasons.size(), 1U);
+    EXPECT_FALSE(all_held(hold(report, budget)));
+}
+
+TEST(Defects, AreNotJudgedWherePassesHaveNoNeighbours) {
+    // The passes lie in pairs, far from each other: each has a neighbour on one side only.
+    planted::PlantedLog log = plane_zigzag([](int, double, double) { return 50.0; });
+    EXPECT_TRUE(planted::judge(log).judgement.judged());
+    for (std::size_t i = 0; i < log.pass.size(); ++i) {
+        for (auto* columns : {&log.commanded, &log.measured}) (*columns)[1][i] += 40.0 * (log.pass[i] / 2);
+    }
+    const QualityReport report = planted::judge(log);
+    EXPECT_LT(report.coverage(), least_coverage);
+    EXPECT_FALSE(report.judgement.judged());
+}
+
 }  // namespace
 }  // namespace clsurf

@@ -1,0 +1,26 @@
+#pragma once
+// Judgement: whether the data of a report allow a verdict at all. A report without defects says nothing where nothing could be
+// compared, so such a report is "not judged": it meets no budget, and `check` exits with its own code.
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace clsurf {
+
+/// Share of the cutting points that must be compared with the passes on both sides, 0 … 1.
+inline constexpr double least_coverage = 0.5;
+
+struct Judgement {
+    /// Why the report is not judged: whole sentences for people, with a full stop. Empty: it is judged.
+    std::vector<std::string> reasons;
+
+    [[nodiscard]] bool judged() const { return reasons.empty(); }
+    /// Adds a reason. A sentence that is already there is not repeated.
+    void refuse(std::string reason) {
+        if (std::find(reasons.begin(), reasons.end(), reason) == reasons.end()) reasons.push_back(std::move(reason));
+    }
+};
+
+}  // namespace clsurf
