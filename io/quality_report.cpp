@@ -7,6 +7,7 @@
 #include "core/units.h"
 #include "io/defect_json.h"
 #include "io/json_value.h"
+#include "io/line_ranges.h"
 #include "io/quality_words.h"
 
 namespace clsurf::io {
@@ -124,22 +125,14 @@ std::string quality_csv(const ReportedQuality& q) {
 std::string quality_text(const ReportedQuality& q) {
     const QualityReport& r = *q.report;
     std::string text = not_judged_text(r);
-    const auto lines_of = [](const DefectRun& run) {
-        if (run.first_line == 0) return std::string("-");
-        return run.first_line == run.last_line ? fmt::format("{}", run.first_line)
-                                               : fmt::format("{}-{}", run.first_line, run.last_line);
-    };
     if (!r.defects.empty()) {
         text += fmt::format("{:>3} {:>3} {:<13} {:>9} {:>10} {:>7}{} {:<28} {}\n", "no", "sev", "cause", "depth µm",
                             "speed %", "mm", q.formed != nullptr ? "  formed µm" : "", "at X Y Z [mm]", "lines");
     }
     for (std::size_t i = 0; i < r.defects.size(); ++i) {
         const Defect& d = r.defects[i];
-        std::string lines;
-        constexpr std::size_t shown = 4;
-        for (std::size_t k = 0; k < std::min(shown, d.runs.size()); ++k)
-            lines += (k > 0 ? ", " : "") + lines_of(d.runs[k]);
-        if (d.runs.size() > shown) lines += fmt::format(" and {} more", d.runs.size() - shown);
+        constexpr std::size_t most_ranges = 4;
+        const std::string lines = line_ranges(d.runs, most_ranges);
         const double percent = std::copysign(100 * d.speed_mismatch, d.speed_jump);
         const double formed = q.formed != nullptr ? um(q.formed->marks[i]) : 0;
         const std::string mark =

@@ -87,9 +87,7 @@ io::QueryMatch match_of(const Part& part, const CallChains& chains,
     match.time = part.log.time_of(point);
     match.line = lines.line_at(point);
     match.calls = chains.of(point);
-    // An aligned line is that of the motion's own file.
-    const bool own = !lines.from_log() && match.calls.subprogram;
-    match.text = own ? match.calls.subprogram->text : std::string(part.program.main().line(match.line));
+    match.text = std::string(part.program.main().line(match.line));
     match.position = part.path.at(point);
     match.distance = distance;
     match.line_points =
@@ -124,7 +122,7 @@ void check_point(const Log& log, PointIndex point) {
 
 std::vector<io::QueryMatch> find_matches(const Part& part, const po::variables_map& values) {
     std::vector<io::QueryMatch> matches;
-    const CallChains chains(part.path, part.log, part.program, *part.lines);
+    const CallChains chains(part.log, part.program, *part.lines);
     std::shared_ptr<const MotionEstimate> estimate;
     if (part.derivative == DerivativeMethod::kalman)
         estimate = estimate_motion(part, find_runs(gather(part.path), *part.lines));

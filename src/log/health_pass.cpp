@@ -86,12 +86,26 @@ struct Limits {
     double last_line = 0;  ///< of the program; infinite: not known
 };
 
+/// Points whose line is none of the program's.
+struct BadLines {
+    PointIndex count = 0, first = -1;
+    double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
+
+    void append(const BadLines& next) {
+        if (count == 0) first = next.first;
+        count += next.count;
+        low = std::min(low, next.low);
+        high = std::max(high, next.high);
+    }
+};
+
 struct BlockSummary {
     Diagnostics diagnostics;
     std::vector<ChannelRange> ranges;
     double squares = 0, worst = 0;  ///< of the clock's differences from the period
     PointIndex steps = 0;
     double highest_line = 0;
+    BadLines bad_lines;
     std::vector<LineRun> runs;  ///< the first and the last, and stuck ones between
 };
 
@@ -226,10 +240,7 @@ private:
             const double next = i + 1 < log_.records ? value(line, i + 1) : now;
             const bool known = now >= 0 && now <= limits_.last_line && now == std::floor(now);
             if (!known) {
-                warn("log.line-range", i,
-                     std::isfinite(limits_.last_line)
-                         ? fmt::format("line {} is none of the program's {:.0f} lines", now, limits_.last_line)
-                         : fmt::format("{} is no line number", now));
+                summary_.bad_lines.append({1, i, now, now});
             } else {
                 summary_.highest_line = std::max(summary_.highest_line, now);
                 // To 0 and back is a pause between blocks; to the next line and back a blend.
@@ -301,6 +312,7 @@ public:
         worst_ = std::max(worst_, block.worst);
         steps_ += block.steps;
         highest_line_ = std::max(highest_line_, block.highest_line);
+        bad_lines_.append(block.bad_lines);
         for (const LineRun& run : block.runs) {
             if (have_run_ && run.line == run_.line && run.first == run_.end) {
                 run_.append(run);
@@ -314,6 +326,7 @@ public:
 
     RecordFindings finish(bool has_line) {
         close_run();
+        note_bad_lines();
         const double rms = steps_ > 0 ? std::sqrt(squares_ / static_cast<double>(steps_)) : 0.0;
         if (rms > jitter_share * limits_.period) {
             found_.diagnostics.add({Severity::warning,
@@ -341,12 +354,27 @@ private:
              "--ignore-lines finds the lines by geometry"});
     }
 
+    void note_bad_lines() {
+        if (bad_lines_.count == 0) return;
+        std::string numbers = fmt::format("{}", bad_lines_.low);
+        if (bad_lines_.high > bad_lines_.low) numbers += fmt::format(" … {}", bad_lines_.high);
+        found_.diagnostics.add(
+            {Severity::warning, "log.line-range", Place::of_point(log_.name, bad_lines_.first),
+             std::isfinite(limits_.last_line)
+                 ? fmt::format("{} points have a line that is none of the program's {:.0f}: {}; the first is here",
+                               bad_lines_.count, limits_.last_line, numbers)
+                 : fmt::format("{} points have a line that is no line number: {}; the first is here", bad_lines_.count,
+                               numbers),
+             "another program, or another version of it?"});
+    }
+
     const Log& log_;
     Limits limits_;
     RecordFindings found_;
     double squares_ = 0, worst_ = 0;
     PointIndex steps_ = 0;
     double highest_line_ = 0;
+    BadLines bad_lines_;
     LineRun run_;
     bool have_run_ = false;
 };

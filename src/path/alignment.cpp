@@ -2,78 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "path/motion_grid.h"
+#include "path/path_walk.h"
 #include "path/toolpath.h"
 
 namespace clsurf {
 namespace {
 
 // Lengths in mm.
-constexpr double window_play = 0.05;         ///< way that the window always has
-constexpr double window_of_chord = 2.0;      ///< way per chord: corners are cut, the chord is shorter
-constexpr double window_of_distance = 10.0;  ///< way per distance: a foot jumps over a cut corner
-constexpr double way_penalty = 0.02;         ///< mm of distance per mm that way and chord differ
-constexpr double sure_distance = 0.02;       ///< a finishing tolerance: full confidence
-constexpr double off_distance = 0.1;         ///< the walk may be on the wrong way from here on
-constexpr double lost_distance = 0.5;        ///< it is
-constexpr double lost_way = 1.0;             ///< way gone off before the walk counts as lost
-constexpr double near_distance = 0.1;        ///< a new start must be this near
-constexpr PointIndex proof_points = 400;     ///< moving points over which a new start must stay near
-constexpr double first_retry = 1.0;          ///< way until a failed search is repeated; doubles
-
-/// Where the walk stands on the path.
-struct Stand {
-    std::int64_t motion = 0;
-    double fraction = 0;
-    double distance = 0;
-};
-
-class PathWalk {
-public:
-    explicit PathWalk(const Toolpath& path) : path_(path) {
-        const auto n = static_cast<std::size_t>(path.size());
-        length_.resize(n);
-        for (std::size_t i = 0; i < n; ++i) length_[i] = path.length(static_cast<std::int64_t>(i));
-    }
-
-    /// The foot of `p` at or after `from`, for a tool that moved by `chord`.
-    [[nodiscard]] Stand advance(const Stand& from, const Vec3& p, double chord) const {
-        Stand best = from;
-        double best_cost = std::numeric_limits<double>::infinity();
-        double nearest = std::numeric_limits<double>::infinity();
-        double way = -from.fraction * length(from.motion);  // to the start of motion m
-        for (std::int64_t m = from.motion; m < path_.size(); ++m) {
-            const bool moves = length(m) > 0;
-            if (moves || m == from.motion) {
-                const Foot foot = path_.foot(m, p, m == from.motion ? from.fraction : 0.0);
-                const double advance = way + foot.fraction * length(m);
-                const double cost = foot.distance + way_penalty * std::abs(advance - chord);
-                nearest = std::min(nearest, foot.distance);
-                if (cost < best_cost) {
-                    best_cost = cost;
-                    best = {m, foot.fraction, foot.distance};
-                }
-            }
-            way += length(m);
-            // Farther than lost the walk finds nothing: a whole program would be searched for each point.
-            if (way > window_play + window_of_chord * chord + window_of_distance * std::min(nearest, lost_distance))
-                break;
-        }
-        return best;
-    }
-
-private:
-    [[nodiscard]] double length(std::int64_t m) const { return length_[static_cast<std::size_t>(m)]; }
-
-    const Toolpath& path_;
-    Column<double> length_;
-};
+constexpr double sure_distance = 0.02;    ///< a finishing tolerance: full confidence
+constexpr double off_distance = 0.1;      ///< the walk may be on the wrong way from here on
+constexpr double lost_way = 1.0;          ///< way gone off before the walk counts as lost
+constexpr double near_distance = 0.1;     ///< a new start must be this near
+constexpr PointIndex proof_points = 400;  ///< moving points over which a new start must stay near
+constexpr double first_retry = 1.0;       ///< way until a failed search is repeated; doubles
 
 class Aligner {
 public:
@@ -109,7 +56,7 @@ public:
             }
             if (off_since < 0) off_since = i;
             off_way += chord;
-            if (stand.distance < lost_distance || off_way < retry_after) continue;
+            if (stand.distance < PathWalk::lost_distance || off_way < retry_after) continue;
             if (const std::optional<Rejoined> found = rejoin(off_since, i, stand.motion)) {
                 diagnostics_.add({Severity::note,
                                   "map.resumed",

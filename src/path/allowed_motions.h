@@ -5,30 +5,27 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "path/line_map.h"
-#include "path/toolpath.h"
+#include "program/program.h"
 
 namespace clsurf {
 
-/// Calls body(first, last), both inclusive, for the motions that `line` allows where `before` is the
-/// line reported before it; stops when body says true. One range for each time that the line runs.
-template <typename Body>
-void for_allowed_motions(const Toolpath& path, const LineMap& map, LineNumber before, LineNumber line, Body&& body) {
-    constexpr std::int64_t longest_merge = 1000;  // motions that a kernel makes one of
-    for (const std::uint32_t motion : map.motions_of(line)) {
-        // Back over the motions that were merged into this one, to the line reported before it.
-        std::int64_t first = std::int64_t{motion} - 1;
-        while (first > 0 && motion - first < longest_merge &&
-               path.motions().line[static_cast<std::size_t>(first)] != before) {
-            --first;
-        }
-        // A line that does not follow the one before (a loop, a jump) merged nothing.
-        if (first >= 0 && path.motions().line[static_cast<std::size_t>(first)] != before) {
-            first = std::int64_t{motion} - 1;
-        }
-        const std::int64_t last = std::min<std::int64_t>(path.size() - 1, std::int64_t{motion} + 1);
-        if (body(std::max<std::int64_t>(0, first - 1), last)) return;
-    }
+constexpr std::int64_t longest_merge = 1000;  ///< motions that a kernel makes one of
+
+/// Motions, both ends included; empty: last < first.
+struct MotionRange {
+    std::int64_t first = 0, last = -1;
+};
+
+/// Where the log was on motion `before` (−1: not known) and now reports the line of `motion`: from the motion
+/// before the last one to one behind the reported one. A line that does not follow (a jump) merged nothing.
+[[nodiscard]] inline MotionRange allowed_motions(std::int64_t before, std::int64_t motion, std::int64_t count) {
+    const bool merged = before >= 0 && before < motion && motion - before <= longest_merge;
+    const std::int64_t first = merged ? before : motion - 1;
+    return {std::max<std::int64_t>(0, first - 1), std::min(count - 1, motion + 1)};
 }
+
+/// How far the tool may leave the programmed path [mm]: the largest corner tolerance that the program gives, and
+/// where it allows blending without one, what a kernel takes at finishing feeds.
+[[nodiscard]] double corner_play(const Program& program);
 
 }  // namespace clsurf

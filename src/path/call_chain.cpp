@@ -4,44 +4,8 @@
 #include <cstdint>
 
 #include "path/program_lines.h"
-#include "path/toolpath.h"
 
 namespace clsurf {
-
-CallChains::CallChains(const Trajectory& path, const Log& log, const Program& program, const LineMap& lines)
-    : path_(&path), log_(&log), program_(&program), lines_(&lines) {
-    const Motions& motions = program.motions;
-    if (motions.call.empty() || !lines.from_log()) return;
-    std::vector<LineNumber> outermost(motions.calls.size() + 1, 0);
-    for (std::size_t k = 0; k < motions.calls.size(); ++k) {
-        const Call& call = motions.calls[k];
-        outermost[k + 1] = call.caller == 0 ? call.line : outermost[call.caller];
-    }
-    by_line_.reserve(2 * motions.kind.size());
-    for (std::size_t i = 0; i < motions.kind.size(); ++i) {
-        by_line_.emplace_back(motions.line[i], static_cast<std::int64_t>(i));
-        const LineNumber outer = outermost[motions.call[i]];
-        if (outer != 0 && outer != motions.line[i]) by_line_.emplace_back(outer, static_cast<std::int64_t>(i));
-    }
-    std::sort(by_line_.begin(), by_line_.end());
-}
-
-std::int64_t CallChains::motion_of(PointIndex point) const {
-    if (!lines_->from_log()) return lines_->motion_at(point);
-    const LineNumber line = lines_->line_at(point);
-    const Toolpath toolpath(program_->motions, path_->at(0));
-    const Vec3 position = path_->at(point);
-    std::int64_t nearest = -1;
-    double least = 0;
-    for (auto at = std::lower_bound(by_line_.begin(), by_line_.end(), std::pair(line, std::int64_t{0}));
-         at != by_line_.end() && at->first == line; ++at) {
-        const double distance = toolpath.foot(at->second, position).distance;
-        if (nearest >= 0 && !(distance < least)) continue;
-        nearest = at->second;
-        least = distance;
-    }
-    return nearest;
-}
 
 ProgramPlace CallChains::place(std::size_t file, LineNumber line) const {
     const SourceText& text = program_->files[file];
@@ -52,7 +16,7 @@ CallChain CallChains::of(PointIndex point) const {
     CallChain chain;
     const Motions& motions = program_->motions;
     if (!motions.call.empty()) {
-        if (const std::int64_t motion = motion_of(point); motion >= 0) {
+        if (const std::int64_t motion = lines_->motion_at(point); motion >= 0) {
             const auto at = static_cast<std::size_t>(motion);
             for (std::uint32_t call = motions.call[at]; call != 0; call = motions.calls[call - 1].caller) {
                 chain.calls.push_back(place(motions.calls[call - 1].file, motions.calls[call - 1].line));

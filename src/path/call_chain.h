@@ -3,11 +3,9 @@
 
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "path/line_map.h"
-#include "path/trajectory.h"
 
 namespace clsurf {
 
@@ -23,27 +21,22 @@ struct CallChain {
     std::vector<ProgramPlace> calls;         ///< that led there, the main program's first
 };
 
-/// Finds the calls of points; keeps an index of the motions.
+/// Finds the calls of points.
 class CallChains {
 public:
-    /// All must outlive it. O(motions log motions) where the program calls anything, else O(1).
-    CallChains(const Trajectory& path, const Log& log, const Program& program, const LineMap& lines);
+    /// All must outlive it.
+    CallChains(const Log& log, const Program& program, const LineMap& lines)
+        : log_(&log), program_(&program), lines_(&lines) {}
 
-    /// An aligned map knows the motion. Where the log gives lines, the motion is the nearest of those that the
-    /// line runs itself or calls; of equally near ones the first. Where it names its programs, too, the line in the
-    /// subprogram is the log's. O(motions of the line).
+    /// By the motion of the point. Where the log names its programs, the line in the subprogram is the log's.
     [[nodiscard]] CallChain of(PointIndex point) const;
 
 private:
-    [[nodiscard]] std::int64_t motion_of(PointIndex point) const;
     [[nodiscard]] ProgramPlace place(std::size_t file, LineNumber line) const;
 
-    const Trajectory* path_;
     const Log* log_;
     const Program* program_;
     const LineMap* lines_;
-    std::vector<std::pair<LineNumber, std::int64_t>>
-        by_line_;  ///< motions by their own line, and by the main program's that led to them
 };
 
 }  // namespace clsurf

@@ -3,29 +3,21 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
-#include <limits>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "core/block.h"
-#include "core/statistics.h"
 #include "path/alignment.h"
 #include "path/allowed_motions.h"
+#include "path/motion_track.h"
 #include "path/program_course.h"
 #include "path/program_lines.h"
-#include "path/toolpath.h"
 #include "path/work_offset.h"
 
 namespace clsurf {
 namespace {
 
-constexpr PointIndex checked_stretches = 64;  ///< evenly spaced over the log
-constexpr PointIndex checked_stretch = 1600;  ///< points
-/// A reported line agrees when the point lies this near to it [mm]: a corner tolerance of finishing
-/// (0.01 mm) with room for the two records by which a kernel's line leads its axes.
-constexpr double agreeing_distance = 0.05;
-constexpr double blending_distance = 1.0;  ///< [mm] G64 without a tolerance
 /// More disagreement than this among the checked points is worth a warning.
 constexpr double disagreeing_share = 0.005;
 /// Where most points are off, a work offset is looked for.
@@ -42,8 +34,13 @@ PointKind point_kind(MotionKind kind) {
 
 }  // namespace
 
-LineMap::LineMap(const ChannelView& channel, const Program& program, std::shared_ptr<const void> keep_alive)
-    : count_(channel.count), channel_(channel), keep_alive_(std::move(keep_alive)) {
+LineMap::LineMap(const ChannelView& channel, const Program& program, std::shared_ptr<const void> keep_alive,
+                 Column<std::uint32_t> motion_of_point)
+    : count_(channel.count),
+      from_log_(true),
+      channel_(channel),
+      keep_alive_(std::move(keep_alive)),
+      motion_of_point_(std::move(motion_of_point)) {
     index_lines(program);
 }
 
@@ -54,6 +51,21 @@ LineMap::LineMap(Column<std::uint32_t> motion_of_point, Column<std::uint8_t> con
     index_lines(program);
 }
 
+namespace {
+
+/// By call: the line of the main program that runs it, itself or through others.
+std::vector<LineNumber> lines_of_calls(const Motions& motions) {
+    std::vector<LineNumber> lines(motions.calls.size() + 1, 0);
+    for (std::size_t k = 0; k < motions.calls.size(); ++k) {
+        const Call& call = motions.calls[k];
+        lines[k + 1] = call.file == 0 ? call.line : lines[call.caller];
+    }
+    return lines;
+}
+
+}  // namespace
+
+/// A motion in a file of its own counts for the line of the main program that called it.
 void LineMap::index_lines(const Program& program) {
     const Motions& motions = program.motions;
     const std::size_t lines = std::size_t{program.main().line_count()} + 1;
@@ -61,45 +73,29 @@ void LineMap::index_lines(const Program& program) {
     line_of_motion_ = motions.line;
     kind_of_motion_.resize(motions.kind.size());
     first_of_line_ = Column<std::uint32_t>(lines + 1, 0);
-    const auto in_main = [&](std::size_t i) {
-        return motions.line[i] < lines && (motions.file.empty() || motions.file[i] == 0);
-    };
+    if (!motions.file.empty()) {
+        in_main_ = Column<char>(motions.kind.size(), 1);
+        const std::vector<LineNumber> line_of_call = lines_of_calls(motions);
+        for (std::size_t i = 0; i < motions.kind.size(); ++i) {
+            if (motions.file[i] == 0) continue;
+            in_main_[i] = 0;
+            line_of_motion_[i] = motions.call.empty() ? 0 : line_of_call[motions.call[i]];
+        }
+    }
+    const auto line_of = [&](std::size_t i) { return line_of_motion_[i] < lines ? line_of_motion_[i] : 0; };
     for (std::size_t i = 0; i < motions.kind.size(); ++i) {
         kind_of_motion_[i] = point_kind(motions.kind[i]);
-        if (!in_main(i)) continue;
-        const LineNumber line = motions.line[i];
+        const LineNumber line = line_of(i);
+        if (line == 0) continue;
         kind_of_line_[line] = std::max(kind_of_line_[line], kind_of_motion_[i]);
         ++first_of_line_[line + 1];
     }
-    mark_calls(motions);
     // Counting sort; a line that runs again (a loop, a subprogram) has several motions.
     for (std::size_t line = 0; line < lines; ++line) first_of_line_[line + 1] += first_of_line_[line];
     by_line_.resize(first_of_line_[lines]);
     Column<std::uint32_t> next = first_of_line_;
     for (std::size_t i = 0; i < motions.kind.size(); ++i) {
-        if (in_main(i)) by_line_[next[motions.line[i]]++] = static_cast<std::uint32_t>(i);
-    }
-}
-
-/// A line that calls a subprogram does what the subprogram does: logs of several programs report it for
-/// the time of the call. It stands between the motions of the main file round those of the subprogram.
-void LineMap::mark_calls(const Motions& motions) {
-    constexpr LineNumber nearest_lines = 100;
-    const std::size_t count = motions.file.empty() ? 0 : motions.kind.size();
-    for (std::size_t i = 0; i < count;) {
-        if (motions.file[i] == 0) {
-            ++i;
-            continue;
-        }
-        const LineNumber before = i > 0 ? motions.line[i - 1] : 0;
-        PointKind kind = PointKind::idle;
-        for (; i < count && motions.file[i] != 0; ++i) kind = std::max(kind, point_kind(motions.kind[i]));
-        const LineNumber after = i < count ? motions.line[i] : before + nearest_lines;
-        // A jump back or far ahead: the call stands near to where it was made.
-        const LineNumber end = after > before ? std::min(after, before + nearest_lines) : before + nearest_lines;
-        for (LineNumber line = before + 1; line < end && line < kind_of_line_.size(); ++line) {
-            if (first_of_line_[line + 1] == 0) kind_of_line_[line] = std::max(kind_of_line_[line], kind);
-        }
+        if (const LineNumber line = line_of(i); line != 0) by_line_[next[line]++] = static_cast<std::uint32_t>(i);
     }
 }
 
@@ -111,6 +107,12 @@ std::span<const std::uint32_t> LineMap::motions_of(LineNumber line) const {
 void LineMap::read(PointIndex begin, std::span<LineNumber> out) const {
     if (from_log()) {
         copy_block(channel_, begin, out, 0);
+        if (in_main_.empty()) return;
+        // A line of a subprogram's own file: the line of the main program that called it.
+        for (std::size_t i = 0; i < out.size(); ++i) {
+            const std::uint32_t m = motion_of_point_[static_cast<std::size_t>(begin) + i];
+            if (m != no_motion && in_main_[m] == 0) out[i] = line_of_motion_[m];
+        }
         return;
     }
     const std::uint32_t* motion = motion_of_point_.data() + begin;
@@ -118,11 +120,10 @@ void LineMap::read(PointIndex begin, std::span<LineNumber> out) const {
 }
 
 void LineMap::read_kinds(PointIndex begin, std::span<PointKind> out) const {
+    const std::uint32_t* motion = motion_of_point_.empty() ? nullptr : motion_of_point_.data() + begin;
     if (!from_log()) {
-        const std::uint32_t* motion = motion_of_point_.data() + begin;
-        for (std::size_t i = 0; i < out.size(); ++i) {
+        for (std::size_t i = 0; i < out.size(); ++i)
             out[i] = motion[i] == no_motion ? PointKind::idle : kind_of_motion_[motion[i]];
-        }
         return;
     }
     std::array<LineNumber, 1024> lines;
@@ -130,8 +131,10 @@ void LineMap::read_kinds(PointIndex begin, std::span<PointKind> out) const {
         const std::size_t n = std::min(lines.size(), out.size() - done);
         copy_block(channel_, begin + static_cast<PointIndex>(done), {lines.data(), n}, 0);
         for (std::size_t i = 0; i < n; ++i) {
+            const std::uint32_t m = motion == nullptr ? no_motion : motion[done + i];
             // A line that the program does not have is judged by info; here it cuts, so that it shows.
-            out[done + i] = lines[i] == 0                      ? PointKind::idle
+            out[done + i] = m != no_motion                     ? kind_of_motion_[m]
+                            : lines[i] == 0                    ? PointKind::idle
                             : lines[i] >= kind_of_line_.size() ? PointKind::cut
                                                                : kind_of_line_[lines[i]];
         }
@@ -142,6 +145,15 @@ LineNumber LineMap::line_at(PointIndex point) const {
     LineNumber line = 0;
     read(point, {&line, 1});
     return line;
+}
+
+std::int64_t LineMap::motion_at(PointIndex point) const {
+    if (!motion_of_point_.empty()) {
+        const std::uint32_t motion = motion_of_point_[static_cast<std::size_t>(point)];
+        return motion == no_motion ? -1 : static_cast<std::int64_t>(motion);
+    }
+    const std::span<const std::uint32_t> motions = motions_of(line_at(point));
+    return motions.empty() ? -1 : static_cast<std::int64_t>(motions.front());
 }
 
 std::vector<PointRange> LineMap::points_of(LineNumber line) const {
@@ -167,91 +179,6 @@ std::vector<PointRange> LineMap::points_of(LineNumber line) const {
 double LineMap::confidence_at(PointIndex point) const {
     if (from_log()) return line_at(point) > 0 ? 1.0 : 0.0;
     return confidence_[static_cast<std::size_t>(point)] / 255.0;
-}
-
-namespace {
-
-/// How far the tool may leave the programmed path: the largest corner tolerance that the program
-/// gives, and where it allows blending without one, what a kernel takes at finishing feeds.
-double play_of(const Program& program) {
-    double play = agreeing_distance;
-    for (const ProgramEvent& event : program.events) {
-        if (event.name != "path-mode" || !event.value.starts_with("G64")) continue;
-        const std::size_t p = event.value.find(" P");
-        play = std::max(play,
-                        p == std::string::npos ? blending_distance : std::strtod(event.value.c_str() + p + 2, nullptr));
-    }
-    return play;
-}
-
-/// Distance of a position to the motions that the reported lines allow; NaN: the line has none.
-double allowed_distance(const Toolpath& path, const LineMap& map, LineNumber before, LineNumber line,
-                        const Vec3& position) {
-    double best = std::numeric_limits<double>::quiet_NaN();
-    for_allowed_motions(path, map, before, line, [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t m = first; m <= last; ++m) {
-            const double distance = path.foot(m, position).distance;
-            if (!(best <= distance)) best = distance;
-        }
-        return best <= agreeing_distance;
-    });
-    return best;
-}
-
-}  // namespace
-
-LineAgreement check_lines(const Trajectory& path, const Program& program, const LineMap& map) {
-    LineAgreement agreement;
-    agreement.tolerance = play_of(program);
-    const Toolpath toolpath(program.motions, path.count > 0 ? path.at(0) : Vec3::Zero());
-    const PointIndex stretch = std::min(path.count, checked_stretch);
-    const PointIndex stretches = std::min<PointIndex>(checked_stretches, stretch > 0 ? path.count / stretch : 0);
-    Column<double> distances;
-    std::vector<double> x(static_cast<std::size_t>(stretch)), y(x.size()), z(x.size());
-    std::vector<LineNumber> lines(x.size());
-    for (PointIndex s = 0; s < stretches; ++s) {
-        const PointIndex begin = stretches == 1 ? 0 : (path.count - stretch) / (stretches - 1) * s;
-        path.read(begin, x, y, z);
-        map.read(begin, lines);
-        LineNumber before = 0;
-        // The first line of a stretch has no known one before it.
-        bool known = begin == 0;
-        for (std::size_t i = 1; i < x.size(); ++i) {
-            if (lines[i] != lines[i - 1]) {
-                before = lines[i - 1];
-                known = true;
-            }
-            const Vec3 p(x[i], y[i], z[i]);
-            const bool moved = (p - Vec3(x[i - 1], y[i - 1], z[i - 1])).squaredNorm() > 0;
-            if (!moved || !known || lines[i] == 0) continue;
-            const double distance = allowed_distance(toolpath, map, before, lines[i], p);
-            if (!std::isfinite(distance)) continue;
-            distances.push_back(distance);
-            if (distance > agreement.tolerance) ++agreement.disagreeing;
-            if (distance > agreement.worst_distance) {
-                agreement.worst_distance = distance;
-                agreement.worst = begin + static_cast<PointIndex>(i);
-            }
-        }
-    }
-    agreement.checked = static_cast<PointIndex>(distances.size());
-    if (distances.empty()) return agreement;
-    agreement.median_distance = quantile_below(distances, 0.5);
-    agreement.p95_distance = quantile_below(distances, 0.95);
-    return agreement;
-}
-
-double check_line_at(const Trajectory& path, const Program& program, const LineMap& map, PointIndex point) {
-    const LineNumber line = map.line_at(point);
-    PointIndex i = point;
-    while (i > 0 && point - i < checked_stretch && map.line_at(i) == line) --i;
-    const Toolpath toolpath(program.motions, path.at(0));
-    return allowed_distance(toolpath, map, map.line_at(i), line, path.at(point));
-}
-
-double off_confidence(double distance) {
-    if (!(distance == distance)) return 0.0;
-    return distance <= agreeing_distance ? 1.0 : agreeing_distance / distance;
 }
 
 namespace {
@@ -312,8 +239,11 @@ LineMap map_lines(const Trajectory& path, const Log& log, const Program& program
             note_course(path, log, program, map, diagnostics);
         return map;
     }
-    LineMap map = own.lines ? LineMap(view_of(*own.lines), program, own.lines)
-                            : LineMap(channel->values, program, log.keep_alive);
+    Column<std::uint32_t> motions;
+    if (lines_are_ambiguous(program.motions))
+        motions = track_motions(path, log, program, channel->values, corner_play(program));
+    LineMap map = own.lines ? LineMap(view_of(*own.lines), program, own.lines, std::move(motions))
+                            : LineMap(channel->values, program, log.keep_alive, std::move(motions));
     const LineAgreement agreement = check_lines(path, program, map);
     const auto more_than = [&](double share) {
         return static_cast<double>(agreement.disagreeing) > share * static_cast<double>(agreement.checked);

@@ -29,34 +29,33 @@ enum class PointKind : std::uint8_t {
 
 class LineMap {
 public:
-    /// Lines from the log's channel.
-    LineMap(const ChannelView& channel, const Program& program, std::shared_ptr<const void> keep_alive);
+    /// Lines from the log's channel. `motion_of_point`: as track_motions() has them, where a line has several
+    /// motions; else empty.
+    LineMap(const ChannelView& channel, const Program& program, std::shared_ptr<const void> keep_alive,
+            Column<std::uint32_t> motion_of_point = {});
     /// Lines from an alignment: a motion per point (no_motion: none) and a confidence of 0 … 255.
     LineMap(Column<std::uint32_t> motion_of_point, Column<std::uint8_t> confidence, const Program& program);
 
     static constexpr std::uint32_t no_motion = 0xffffffffu;
 
-    [[nodiscard]] bool from_log() const { return motion_of_point_.empty(); }
+    [[nodiscard]] bool from_log() const { return from_log_; }
     [[nodiscard]] PointIndex count() const { return count_; }
 
-    /// Lines of points [begin, begin + out.size()); 0: none.
+    /// Lines of points [begin, begin + out.size()), in the main program: for what runs in another file, the line
+    /// that called it; 0: none.
     void read(PointIndex begin, std::span<LineNumber> out) const;
     /// What these points do. Domain as read().
     void read_kinds(PointIndex begin, std::span<PointKind> out) const;
     [[nodiscard]] LineNumber line_at(PointIndex point) const;
-    /// Motions of a line in the main file, in the order in which they run.
+    /// Motions of a line of the main program, and of other files that it called, in the order in which they run.
     [[nodiscard]] std::span<const std::uint32_t> motions_of(LineNumber line) const;
-    /// What a line does: what cuts most among its motions, or among those of the subprogram that it calls.
+    /// What a line does: what cuts most among its motions.
     [[nodiscard]] PointKind kind_of(LineNumber line) const {
         return line < kind_of_line_.size() ? kind_of_line_[line] : PointKind::idle;
     }
 
-    /// The motion of a point; −1: none, or the lines are a channel's, which does not tell.
-    [[nodiscard]] std::int64_t motion_at(PointIndex point) const {
-        if (from_log()) return -1;
-        const std::uint32_t motion = motion_of_point_[static_cast<std::size_t>(point)];
-        return motion == no_motion ? -1 : static_cast<std::int64_t>(motion);
-    }
+    /// The motion of a point; −1: none. Lines of a channel: the one that the line's run is at.
+    [[nodiscard]] std::int64_t motion_at(PointIndex point) const;
 
     /// Every run of consecutive points with that line, in order. O(points).
     [[nodiscard]] std::vector<PointRange> points_of(LineNumber line) const;
@@ -66,14 +65,15 @@ public:
 
 private:
     void index_lines(const Program& program);
-    void mark_calls(const Motions& motions);
 
     PointIndex count_ = 0;
+    bool from_log_ = false;
     ChannelView channel_;
     std::shared_ptr<const void> keep_alive_;
-    Column<std::uint32_t> motion_of_point_;
+    Column<std::uint32_t> motion_of_point_;  ///< empty: each line has one motion, or none
     Column<std::uint8_t> confidence_;
-    Column<LineNumber> line_of_motion_;
+    Column<LineNumber> line_of_motion_;  ///< in the main program
+    Column<char> in_main_;               ///< by motion: it is in the main file; empty: all are
     Column<PointKind> kind_of_motion_;
     Column<PointKind> kind_of_line_;       ///< by line number
     Column<std::uint32_t> first_of_line_;  ///< by line number: where in by_line_ its motions begin

@@ -43,6 +43,10 @@ PointIndex vertical_points(const Positions& p, PointIndex from, PointIndex to, i
 /// A cutting run without its vertical approach and retract.
 void append_run(Passes& passes, const Positions& p, Pass run) {
     const PointIndex down = vertical_points(p, run.first, run.last, +1);
+    if (down > 0 && down == run.size() - 1) {  // nothing but vertical: drilling
+        append(passes, {run.first, run.last, PassKind::rapid});
+        return;
+    }
     append(passes, {run.first, run.first + down - 1, PassKind::rapid});
     run.first += down;
     if (run.size() <= 0) return;

@@ -35,7 +35,7 @@ constexpr double determined = 1e-3;     ///< of the points' directions, in the w
 /// A moving point and where it may lie.
 struct Sample {
     Vec3 position;
-    std::vector<std::pair<std::int64_t, std::int64_t>> motions;  ///< ranges, inclusive; empty: anywhere
+    MotionRange motions;  ///< empty: anywhere
 };
 
 struct Samples {
@@ -55,16 +55,16 @@ Samples take_samples(const Trajectory& path, const Toolpath& toolpath, const Lin
         const PointIndex begin = count == 1 ? 0 : (path.count - n) / (count - 1) * s;
         path.read(begin, x, y, z);
         if (map != nullptr) map->read(begin, lines);
-        LineNumber before = 0;
+        std::int64_t before = -1;
         bool known = map == nullptr || begin == 0;
         std::size_t moving = 0;
         for (std::size_t i = 1; i < x.size(); ++i) {
             const Vec3 p(x[i], y[i], z[i]);
             const Vec3 last(x[i - 1], y[i - 1], z[i - 1]);
             if (map != nullptr && lines[i] != lines[i - 1]) {
-                before = lines[i - 1];
+                before = map->motion_at(begin + static_cast<PointIndex>(i) - 1);
                 known = true;
-                const std::span<const std::uint32_t> ended = map->motions_of(before);
+                const std::span<const std::uint32_t> ended = map->motions_of(lines[i - 1]);
                 if (ended.size() == 1 && last.allFinite()) {
                     const Vec3 off = toolpath.end(ended.front()) - last;
                     for (int axis = 0; axis < 3; ++axis)
@@ -74,13 +74,12 @@ Samples take_samples(const Trajectory& path, const Toolpath& toolpath, const Lin
             if (!p.allFinite() || !((p - last).squaredNorm() > 0) || !known || (map != nullptr && lines[i] == 0))
                 continue;
             if (moving++ % every != 0) continue;
-            Sample sample{p, {}};
+            Sample sample{p, {0, -1}};
             if (map != nullptr) {
-                for_allowed_motions(toolpath, *map, before, lines[i], [&](std::int64_t first, std::int64_t end) {
-                    sample.motions.emplace_back(first, end);
-                    return false;
-                });
-                if (sample.motions.empty()) continue;
+                const std::int64_t motion = map->motion_at(begin + static_cast<PointIndex>(i));
+                if (motion < 0) continue;
+                const MotionRange range = allowed_motions(before, motion, toolpath.size());
+                sample.motions = {range.first, range.last};
             }
             samples.points.push_back(std::move(sample));
         }
@@ -165,13 +164,11 @@ private:
                 best = foot;
                 at = m;
             };
-            if (sample.motions.empty()) {
+            if (sample.motions.last < sample.motions.first) {
                 if (!grid_) grid_.emplace(path_);
                 for (const std::int64_t m : grid_->near(p, reach)) consider(m);
             } else {
-                for (const auto& [first, last] : sample.motions) {
-                    for (std::int64_t m = first; m <= last; ++m) consider(m);
-                }
+                for (std::int64_t m = sample.motions.first; m <= sample.motions.last; ++m) consider(m);
             }
             if (at < 0) continue;
             const Vec3 foot = path_.at(at, best.fraction);
