@@ -89,7 +89,8 @@ CompensatedStep CutterCompensation::line(const Vec2& from, const Vec2& to) {
 CompensatedStep CutterCompensation::arc(const Vec2& from, const Vec2& to, const Vec2& centre, bool counter_clockwise) {
     if (first_) return entry_arc(from, to, centre, counter_clockwise);
     CompensatedStep step;
-    const double programmed = (from - centre).norm();
+    // LinuxCNC counts with the radius at the end, where it differs from that at the start.
+    const double programmed = (to - centre).norm();
     if (inside(counter_clockwise) && programmed < radius_ - no_length) {
         step.error = fmt::format("the tool (radius {:.4f} mm) does not fit into an arc of radius {:.4f} mm", radius_,
                                  programmed);

@@ -119,6 +119,10 @@ void Interpreter::drill(const Stroke& stroke, double r, double bottom, double cl
                         const Vec3& rotary) {
     const int c = state_.plane_axis;
     const bool linuxcnc = dialect_ == DialectId::linuxcnc;
+    if (linuxcnc && c != 2 && (state_.cycle == 740 || state_.cycle == 840)) {
+        tap_turned(bottom, clear, rotary);
+        return;
+    }
     for (const double depth : depths) {
         go_to_level(MotionKind::feed, depth, rotary);
         if (stroke.dwells && cycle_.p > 0)
@@ -142,6 +146,23 @@ void Interpreter::drill(const Stroke& stroke, double r, double bottom, double cl
         if (state_.programmed()[c] == clear) return;
     }
     go_to_level(MotionKind::rapid, clear, rotary);
+}
+
+/// G74 and G84 outside the XY plane. LinuxCNC's interpreter (convert_cycle_g74_g84, up to 2.10) hands the axes
+/// on in another order, and the machine goes there: along X in G18, along Y to the wrong place in G19.
+void Interpreter::tap_turned(double bottom, double clear, const Vec3& rotary) {
+    const Vec3 hole = state_.position;
+    const bool zx = state_.plane_axis == 1;
+    const auto at = [&](double height) {
+        return zx ? Vec3(height, hole.z(), hole.x()) : Vec3(hole.z(), height, hole.y());
+    };
+    note(Severity::warning, "program.cycle",
+         fmt::format("G{} in {}: LinuxCNC takes the axes in a wrong order, and its motions are read as it makes them",
+                     state_.cycle / 10, zx ? "G18" : "G19"));
+    straight(MotionKind::feed, at(bottom), rotary);
+    straight(MotionKind::feed, at(clear), rotary);
+    state_.position = hole;  // what the interpreter goes on from
+    state_.position[state_.plane_axis] = clear;
 }
 
 /// Q (or I J, K) of Fanuc's boring cycles: how far the edge steps aside. Which way is a parameter of

@@ -14,6 +14,7 @@ namespace clsurf {
 
 namespace {
 
+constexpr double end_of_parameters = 5602;  ///< of LinuxCNC: the number behind the last one
 constexpr int deepest_nesting = 200;
 constexpr double vacant = std::numeric_limits<double>::quiet_NaN();  ///< of Fanuc: a variable that was never set
 class Reader {
@@ -240,7 +241,11 @@ private:
             result = variables_.read(folded_name(c_.text.substr(c_.at, end - c_.at))) ? 1 : 0;
             c_.at = end + 1;
         } else {
-            result = variables_.has(variable_number(value(), column)) ? 1 : 0;
+            // LinuxCNC's numbered parameters are all there from the start.
+            const double number = value();
+            result = dialect_ == DialectId::linuxcnc ? (number >= 1 && number < end_of_parameters ? 1 : 0)
+                     : variables_.has(variable_number(number, column)) ? 1
+                                                                       : 0;
         }
         if (!c_.take(']')) throw ReadError{"EXISTS is not closed", column, {}};
         return result;

@@ -436,11 +436,16 @@ void Interpreter::call(const std::string& name, int repeats, bool locals, const 
     const ControlKind kind = dialect_ == DialectId::linuxcnc || dialect_ == DialectId::heidenhain_iso
                                  ? ControlKind::sub
                                  : ControlKind::label;
+    const auto begin_in = [&](std::size_t file) {
+        const int begin = index(file).find(kind, name);
+        // M98 of LinuxCNC calls `O1 … M99`, as Fanuc writes it.
+        return begin < 0 && dialect_ == DialectId::linuxcnc ? index(file).find(ControlKind::label, name) : begin;
+    };
     std::size_t file = file_;
-    int at = index(file).find(kind, name);
+    int at = begin_in(file);
     for (std::size_t other = 0; at < 0 && other < program_.files.size(); ++other) {
         file = other;
-        at = index(other).find(kind, name);
+        at = begin_in(other);
     }
     LineNumber line = 1;
     if (at >= 0) {
@@ -448,7 +453,7 @@ void Interpreter::call(const std::string& name, int repeats, bool locals, const 
     } else {
         if (!load(name)) fail(fmt::format("subprogram '{}' is neither in the program nor beside it", name));
         file = loaded_.at(name);
-        const int begin = index(file).find(kind, name);
+        const int begin = begin_in(file);
         if (begin >= 0) line = indexes_[file].all()[static_cast<std::size_t>(begin)].line;
     }
     Frame frame;
@@ -517,15 +522,19 @@ void Interpreter::leave(bool from_end_of_text) {
 /// M98 P…, L5 and L5,2 of Siemens and Heidenhain.
 void Interpreter::call_from_words(const Block& block) {
     if (call_program_ == -2) fail("M98 needs the program's number (P)");
-    int repeats = block.words.given('L') ? static_cast<int>(std::clamp(block.words.of('L'), 1.0, 99999.0)) : 1;
+    const bool linuxcnc = dialect_ == DialectId::linuxcnc;
+    const double least_repeats = linuxcnc ? 0 : 1;  // L0 of LinuxCNC calls nothing
+    int repeats =
+        block.words.given('L') ? static_cast<int>(std::clamp(block.words.of('L'), least_repeats, 99999.0)) : 1;
     if (call_program_ >= 0) {
         int number = call_program_;
         // P0031234: three times program 1234, where no L says so.
-        if (!block.words.given('L') && number > 9999) {
+        if (!block.words.given('L') && number > 9999 && !linuxcnc) {
             repeats = number / 10000;
             number %= 10000;
         }
         call_program_ = -1;
+        if (repeats == 0) return;
         call(fmt::format("{}", number), repeats, false, {});
         return;
     }

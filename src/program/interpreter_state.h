@@ -244,6 +244,7 @@ private:
     void go_to_level(MotionKind kind, double height, const Vec3& rotary);
     void drill(const Stroke& stroke, double r, double bottom, double clear, const std::vector<double>& depths,
                const Vec3& rotary);
+    void tap_turned(double bottom, double clear, const Vec3& rotary);
     [[nodiscard]] Vec3 edge_shift() const;
     void step_aside(const Vec3& by, const Vec3& rotary);
     void bore_fine(double bottom, double clear, const Vec3& rotary);

@@ -205,7 +205,7 @@ void Interpreter::arc(const Block& block, bool clockwise) {
         words.turns = static_cast<int>(turns);
     }
     std::string error;
-    Arc arc = resolve_arc(words, error);
+    Arc arc = resolve_arc(words, arc_tolerance(dialect_, state_.unit_mm), error);
     if (!error.empty()) fail(error, block.words.g_count > 0 ? block.words.g_column[0] : 1);
     const std::optional<ProgramFrame::Circle> circle = state_.frame.circle(arc.axis);
     if (!circle) {

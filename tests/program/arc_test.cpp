@@ -8,6 +8,8 @@
 namespace clsurf {
 namespace {
 
+const ArcTolerance usual = arc_tolerance(DialectId::fanuc, 1);
+
 ArcWords from_to(Vec3 begin, Vec3 end, bool clockwise) {
     ArcWords words;
     words.begin = begin;
@@ -23,7 +25,7 @@ TEST(Arc, ShortArcByRadiusHasItsCentreBesideTheChord) {
     words.has_radius = true;
     words.radius = 10;
     std::string error;
-    const Arc arc = resolve_arc(words, error);
+    const Arc arc = resolve_arc(words, usual, error);
     ASSERT_EQ(error, "");
     EXPECT_NEAR(arc.centre.x, 5.0, 1e-12);
     EXPECT_NEAR(arc.centre.y, std::sqrt(75.0), 1e-12);
@@ -36,7 +38,7 @@ TEST(Arc, NegativeRadiusTakesTheLongWay) {
     words.has_radius = true;
     words.radius = -10;
     std::string error;
-    const Arc arc = resolve_arc(words, error);
+    const Arc arc = resolve_arc(words, usual, error);
     EXPECT_NEAR(arc.centre.y, -std::sqrt(75.0), 1e-12);
     EXPECT_NEAR(arc_length(arc, false, words.begin, words.end), 10 * std::numbers::pi * 5 / 3, 1e-9);
 }
@@ -46,7 +48,7 @@ TEST(Arc, HelixOfThreeTurnsIsAsLongAsItsUnrolledLine) {
     words.centre = {0, 0, 0};
     words.turns = 3;
     std::string error;
-    const Arc arc = resolve_arc(words, error);
+    const Arc arc = resolve_arc(words, usual, error);
     ASSERT_EQ(error, "");
     EXPECT_NEAR(arc_length(arc, false, words.begin, words.end), std::hypot(6 * std::numbers::pi, 6.0), 1e-9);
 }
@@ -55,8 +57,50 @@ TEST(Arc, NamesBothRadiiWhereTheyDiffer) {
     ArcWords words = from_to({5, 0, 0}, {0, 5.2, 0}, false);
     words.centre = {0, 0, 0};
     std::string error;
-    (void)resolve_arc(words, error);
+    (void)resolve_arc(words, usual, error);
     EXPECT_EQ(error, "arc radius differs: 5.0000 at the start, 5.2000 at the end");
+}
+
+/// The error of a quarter circle about 0 from a radius to another, "" where there is none.
+std::string error_of_radii(double first, double second, const ArcTolerance& tolerance) {
+    ArcWords words = from_to({first, 0, 0}, {0, second, 0}, false);
+    words.centre = {0, 0, 0};
+    std::string error;
+    (void)resolve_arc(words, tolerance, error);
+    return error;
+}
+
+TEST(Arc, RadiiMayDifferAsMuchAsTheControlTakes) {
+    // LinuxCNC: 2·√2 hundredths of a millimetre or thousandths of an inch; more up to a hundredfold of that within 0.1 %.
+    const ArcTolerance metric = arc_tolerance(DialectId::linuxcnc, 1);
+    EXPECT_EQ(error_of_radii(5, 5.028, metric), "");
+    EXPECT_NE(error_of_radii(5, 5.029, metric), "");
+    EXPECT_EQ(error_of_radii(2802, 2804.7, metric), "");
+    EXPECT_NE(error_of_radii(5000, 5002.9, metric), "");
+    const ArcTolerance inches = arc_tolerance(DialectId::linuxcnc, 25.4);
+    EXPECT_EQ(error_of_radii(5, 5.071, inches), "");
+    EXPECT_NE(error_of_radii(5, 5.073, inches), "");
+    // Siemens: 0.01 mm or 0.1 %. Heidenhain: 0.016 mm.
+    const ArcTolerance siemens = arc_tolerance(DialectId::siemens, 1);
+    EXPECT_EQ(error_of_radii(5, 5.009, siemens), "");
+    EXPECT_NE(error_of_radii(5, 5.011, siemens), "");
+    EXPECT_EQ(error_of_radii(100, 100.09, siemens), "");
+    const ArcTolerance heidenhain = arc_tolerance(DialectId::heidenhain_iso, 1);
+    EXPECT_EQ(error_of_radii(100, 100.015, heidenhain), "");
+    EXPECT_NE(error_of_radii(100, 100.017, heidenhain), "");
+    EXPECT_EQ(error_of_radii(5, 5.029, usual), "");
+    EXPECT_NE(error_of_radii(5, 5.031, usual), "");
+}
+
+TEST(Arc, SiemensMovesTheCentreSoThatOneCircleRunsThroughBothEnds) {
+    ArcWords words = from_to({5, 0, 0}, {0, 5.008, 0}, false);
+    words.centre = {0, 0, 0};
+    std::string error;
+    const Arc arc = resolve_arc(words, arc_tolerance(DialectId::siemens, 1), error);
+    ASSERT_EQ(error, "");
+    EXPECT_NEAR(std::hypot(5 - arc.centre.x, arc.centre.y), 5, 1e-12);
+    EXPECT_NEAR(std::hypot(arc.centre.x, 5.008 - arc.centre.y), 5, 1e-12);
+    EXPECT_LT(std::hypot(arc.centre.x, arc.centre.y), 0.01);
 }
 
 TEST(Arc, RefusesARadiusThatCannotReach) {
@@ -64,7 +108,7 @@ TEST(Arc, RefusesARadiusThatCannotReach) {
     words.has_radius = true;
     words.radius = 4;
     std::string error;
-    (void)resolve_arc(words, error);
+    (void)resolve_arc(words, usual, error);
     EXPECT_EQ(error, "arc radius 4.0000 is too small: the end is 10.0000 away from the start");
 }
 

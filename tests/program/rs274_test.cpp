@@ -185,5 +185,37 @@ TEST(PolarWords, NeedAnAngleAndTheirPlane) {
     EXPECT_NE(error_of("G1 F60 X1 ^5\n", "linuxcnc").find("beside X or Y"), std::string::npos);
 }
 
+TEST(Rs274, M98CallsAProgramNumberAsOftenAsLSays) {
+    // As rs274 reads it: L0 calls nothing, five digits are a number like others.
+    EXPECT_EQ(
+        motions(parse("G91\nM98 P1 L2\nM98 P1 L0\nM98 P12345\nM30\nO1\nG0 X1\nM99\nO12345\nG0 Y1\nM99\n", "linuxcnc")),
+        (Rows{"rapid 1 0 0", "rapid 2 0 0", "rapid 2 1 0"}));
+}
+
+TEST(Rs274, EveryNumberedParameterExists) {
+    EXPECT_EQ(motions(parse("#1=2\n#2=99999\nG0 X EXISTS[#77] Y EXISTS[##1] Z EXISTS[##2]\n", "linuxcnc")),
+              (Rows{"rapid 1 1 0"}));
+}
+
+TEST(Rs274, TappingOutsideTheXYPlaneGoesWhereLinuxCncTakesIt) {
+    // rs274 2.9 lists these motions.
+    EXPECT_EQ(motions(parse("G18 M3 S100\nF10\nG0 X1 Y5 Z2\nG98\nG84 X3 Z4 Y-2 R1\nG0 X0 Y0 Z0\n", "linuxcnc")),
+              (Rows{"rapid 1 5 2", "rapid 3 5 4", "rapid 3 1 4", "feed -2 4 3", "feed 5 4 3", "rapid 0 0 0"}));
+    EXPECT_EQ(motions(parse("G19 M3 S100\nF10\nG0 X5 Y4 Z3\nG98\nG84 Y7 Z9 X-1 R2\nG0 X0\n", "linuxcnc")),
+              (Rows{"rapid 5 4 3", "rapid 5 7 9", "rapid 2 7 9", "feed 9 -1 7", "feed 9 5 7", "rapid 0 7 9"}));
+}
+
+TEST(CutterCompensation, CountsWithTheRadiusAtTheEndOfAnArc) {
+    // A corner flatter than 0.05 rad between arcs, read with four digits, moves by 0.0003 in with the other radius.
+    // rs274 2.9 ends the arc at 0.4443 0.8405.
+    const Program p = parse(
+        "G20\nG41.1 D-0.15\nG1 X0.6767 Y0.2334 F8\nX0.3359 Y0.4419\nG3 X1.2281 Y1.3456 I0.2921 J0.6039\n"
+        "G2 X0.1253 Y0.9881 I-0.6093 J0\nG3 X0.7669 Y1.4548 I0.2437 J0.3394\nG40\nG1 X1 Y0\n",
+        "linuxcnc");
+    ASSERT_EQ(motions(p).size(), 8u);
+    EXPECT_NEAR(p.motions.end[5].x / 25.4, 0.4443, 6e-5);
+    EXPECT_NEAR(p.motions.end[5].y / 25.4, 0.8405, 6e-5);
+}
+
 }  // namespace
 }  // namespace clsurf
