@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "core/not_finite.h"
 #include "program/interpreter_state.h"
 
 namespace clsurf {
@@ -334,21 +335,22 @@ void Interpreter::put_about_pole(const Block& block, Vec3& end) {
         polar_.pole = state_.incremental ? from : Vec3(Vec3::Zero());
     } else {
         const bool siemens = dialect_ == DialectId::siemens;
-        const std::optional<double> angle = siemens                  ? block.polar_angle
-                                            : block.words.given('H') ? std::optional(block.words.of('H'))
-                                                                     : std::nullopt;
-        const std::optional<double> radius = siemens                  ? block.polar_radius
-                                             : block.words.given('R') ? std::optional(block.words.of('R'))
-                                                                      : std::nullopt;
+        // NaN: not given.
+        const auto word = [&](const std::optional<double>& of_siemens, char letter) {
+            if (siemens) return of_siemens.value_or(missing<double>);
+            return block.words.given(letter) ? block.words.of(letter) : missing<double>;
+        };
+        const double angle = word(block.polar_angle, 'H');
+        const double radius = word(block.polar_radius, 'R');
         const Vec2 now(from[u] - polar_.pole[u], from[v] - polar_.pole[v]);
         // What is not given stays as it is now.
-        if (radius)
-            polar_.radius = *radius * unit + (siemens && block.polar_radius_incremental ? now.norm() : 0.0);
+        if (!std::isnan(radius))
+            polar_.radius = radius * unit + (siemens && block.polar_radius_incremental ? now.norm() : 0.0);
         else
             polar_.radius = now.norm();
         const bool adds = siemens ? block.polar_angle_incremental : state_.incremental;
         const double angle_now = angle_of(now) * deg_per_rad;
-        polar_.angle = angle ? *angle + (adds ? angle_now : 0.0) : angle_now;
+        polar_.angle = std::isnan(angle) ? angle_now : angle + (adds ? angle_now : 0.0);
     }
     end[u] = polar_.pole[u] + polar_.radius * std::cos(polar_.angle * rad_per_deg);
     end[v] = polar_.pole[v] + polar_.radius * std::sin(polar_.angle * rad_per_deg);
