@@ -8,16 +8,29 @@
 namespace clsurf::io {
 
 std::string intervals_text(const ProgramIntervals& all) {
-    std::string text = fmt::format("{:>5} {:>15} {:>9} {:>12} {:>12} {:>8} {:>8} {:>8}\n", "pass", "lines", "mm",
-                                   "curvature", "greatest", "feed", "own", "planned");
+    constexpr const char* heads = "{:>5} {:>15} {:>9} {:>12} {:>12} {:>8} {:>8} {:>8}\n";
+    std::string text =
+        fmt::format(fmt::runtime(heads), "pass", "lines", "length", "curvature", "greatest", "feed", "own", "planned");
+    text += fmt::format(fmt::runtime(heads), "", "", "mm", "1/mm", "1/mm", "mm/min", "mm/min", "mm/min");
     for (const ProgramInterval& i : all.intervals) {
         text += fmt::format("{:>5} {:>15} {:>9.3f} {:>12.4f} {:>12.4f} {:>8.0f} {:>8.0f} {:>8.0f}\n", i.pass,
                             fmt::format("{}-{}", i.first_line, i.last_line), i.length, i.mean_curvature,
                             i.greatest_curvature, i.feed * seconds_per_minute, i.own_speed * seconds_per_minute,
                             i.speed * seconds_per_minute);
     }
-    text += fmt::format("\n{} intervals on {} passes; curvatures in 1/mm, speeds in mm/min\n", all.intervals.size(),
-                        all.passes);
+    text += fmt::format("\n{} intervals on {} passes\n", all.intervals.size(), all.passes);
+    return text;
+}
+
+std::string intervals_csv(const ProgramIntervals& all) {
+    std::string text =
+        "pass,first_line,last_line,length [mm],mean_curvature [1/mm],greatest_curvature [1/mm],feed [mm/min],"
+        "own_speed [mm/min],speed [mm/min]\n";
+    for (const ProgramInterval& i : all.intervals) {
+        text += fmt::format("{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n", i.pass, i.first_line, i.last_line,
+                            i.length, i.mean_curvature, i.greatest_curvature, i.feed * seconds_per_minute,
+                            i.own_speed * seconds_per_minute, i.speed * seconds_per_minute);
+    }
     return text;
 }
 

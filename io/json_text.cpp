@@ -74,10 +74,15 @@ std::string comparison_json(const ComparisonReport& r) {
                      {"threshold", number(r.threshold)}});
 }
 
-std::string files_json(const std::vector<std::string>& objects) {
+std::string list_json(const std::string& list, const std::vector<std::string>& reports) {
     Json all = Json::array();
-    for (const std::string& text : objects) all.push_back(Json::parse(text));
-    return dump(Json{{"files", std::move(all)}});
+    for (const std::string& text : reports) {
+        all.push_back(Json::parse(text));
+        all.back().erase("schema_version");  // said once, of the whole
+    }
+    Json json = all.size() == 1 ? all.front() : Json::object();
+    json[list] = std::move(all);
+    return dump(json);
 }
 
 }  // namespace clsurf::io

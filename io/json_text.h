@@ -44,7 +44,8 @@ struct ComparisonReport {
 };
 [[nodiscard]] std::string comparison_json(const ComparisonReport& report);
 
-/// {"files":[…]} of several objects' texts.
-[[nodiscard]] std::string files_json(const std::vector<std::string>& objects);
+/// One shape for one report and for many: {"<list>": […]}, and besides the keys of the report where it is the only
+/// one.
+[[nodiscard]] std::string list_json(const std::string& list, const std::vector<std::string>& reports);
 
 }  // namespace clsurf::io

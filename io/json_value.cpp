@@ -4,7 +4,13 @@
 
 namespace clsurf::io {
 
-std::string dump(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+std::string dump(const Json& report) {
+    Json versioned{{"schema_version", schema_version}};
+    versioned.update(report);
+    return dump_foreign(versioned);
+}
+
+std::string dump_foreign(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
 std::string dump_compact(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 

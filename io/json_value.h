@@ -14,8 +14,13 @@ namespace clsurf::io {
 
 using Json = nlohmann::ordered_json;
 
-/// With two blanks a level and an end of line.
-[[nodiscard]] std::string dump(const Json& json);
+/// Grows when a key changes its meaning; new keys do not change it.
+constexpr int schema_version = 2;
+
+/// A report of ours: `schema_version` first, two blanks a level, an end of line.
+[[nodiscard]] std::string dump(const Json& report);
+/// The same of a format that others define, without our version.
+[[nodiscard]] std::string dump_foreign(const Json& json);
 
 /// On one line, without blanks.
 [[nodiscard]] std::string dump_compact(const Json& json);

@@ -34,9 +34,9 @@ std::string sarif_text(Json rules, Json results, Json notifications) {
     if (!notifications.empty())
         run["invocations"] = Json::array(
             {Json{{"executionSuccessful", true}, {"toolExecutionNotifications", std::move(notifications)}}});
-    return dump(Json{{"$schema", "https://json.schemastore.org/sarif-2.1.0.json"},
-                     {"version", "2.1.0"},
-                     {"runs", Json::array({std::move(run)})}});
+    return dump_foreign(Json{{"$schema", "https://json.schemastore.org/sarif-2.1.0.json"},
+                             {"version", "2.1.0"},
+                             {"runs", Json::array({std::move(run)})}});
 }
 
 }  // namespace clsurf::io

@@ -37,12 +37,13 @@ Image read_image(const std::string& path) {
     return std::move(reading.image);
 }
 
-std::string encode_png(const Image& image, const std::string& description) {
+std::string encode_image(const Image& image, const std::string& description, std::string_view format) {
     std::string bytes;
     const auto sink = [](void* context, const void* data, std::size_t size) {
         static_cast<std::string*>(context)->assign(static_cast<const char*>(data), size);
     };
-    if (!image_library().encode_png(image.rgb.data(), image.width, image.height, description.c_str(), &bytes, sink)) {
+    if (!image_library().encode(std::string(format).c_str(), image.rgb.data(), image.width, image.height,
+                                description.c_str(), &bytes, sink)) {
         throw SystemError("the picture cannot be encoded: " + bytes);
     }
     return bytes;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "core/column.h"
 
@@ -22,8 +23,10 @@ struct Image {
 /// Throws InputError: missing, no image, larger than 2^28 pixels.
 [[nodiscard]] Image read_image(const std::string& path);
 
-/// PNG bytes; the same image always gives the same bytes. viz never writes files, the caller does.
-[[nodiscard]] std::string encode_png(const Image& image, const std::string& description);
+/// Bytes of a picture file; of "png" the same image always gives the same ones. viz never writes files, the caller
+/// does. `format`: "png", "jpeg", "tiff" or "webp"; PNG and TIFF keep every value. Throws SystemError: the
+/// installed OpenImageIO cannot write it.
+[[nodiscard]] std::string encode_image(const Image& image, const std::string& description, std::string_view format);
 
 /// The mean of each `factor` × `factor` pixels. Domain: both sizes divisible.
 [[nodiscard]] Image shrink(const Image& image, int factor);

@@ -9,9 +9,10 @@
 namespace clsurf::viz {
 
 struct ImageLibrary {
-    /// Bytes of a new PNG into `sink(context, bytes, size)`; false: `sink` got the error's text.
-    bool (*encode_png)(const std::uint8_t* rgb, int width, int height, const char* description, void* context,
-                       void (*sink)(void* context, const void* bytes, std::size_t size));
+    /// Bytes of a new picture into `sink(context, bytes, size)`; false: `sink` got the error's text. `format`:
+    /// "png", "jpeg", "tiff", "webp".
+    bool (*encode)(const char* format, const std::uint8_t* rgb, int width, int height, const char* description,
+                   void* context, void (*sink)(void* context, const void* bytes, std::size_t size));
     /// Asks for room with `take(context, width, height)`, which may refuse with nullptr, and fills it
     /// with RGB; false: `report` got the error's text.
     bool (*read)(const char* path, void* context, std::uint8_t* (*take)(void* context, int width, int height),

@@ -5,6 +5,9 @@
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
 
+#include <sys/mman.h>
+#include <unistd.h>
+
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,23 +17,73 @@
 namespace clsurf::viz {
 namespace {
 
-bool encode_png(const std::uint8_t* rgb, int width, int height, const char* description, void* context,
-                void (*sink)(void*, const void*, std::size_t)) {
-    std::vector<unsigned char> bytes;
-    OIIO::Filesystem::IOVecOutput buffer(bytes);
+/// A file in memory, for TIFF: what OpenImageIO 2.4 writes into a buffer cannot be read back.
+class MemoryFile {
+public:
+    MemoryFile() : descriptor_(::memfd_create("clsurf", MFD_CLOEXEC)) {}
+    MemoryFile(const MemoryFile&) = delete;
+    MemoryFile& operator=(const MemoryFile&) = delete;
+    ~MemoryFile() {
+        if (descriptor_ >= 0) ::close(descriptor_);
+    }
+    [[nodiscard]] std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
+    [[nodiscard]] std::vector<unsigned char> bytes() const {
+        std::vector<unsigned char> bytes(1 << 16);
+        std::size_t size = 0;
+        for (;;) {
+            const ssize_t got =
+                ::pread(descriptor_, bytes.data() + size, bytes.size() - size, static_cast<off_t>(size));
+            if (got <= 0) break;
+            size += static_cast<std::size_t>(got);
+            bytes.resize(2 * bytes.size());
+        }
+        bytes.resize(size);
+        return bytes;
+    }
+
+private:
+    int descriptor_;
+};
+
+OIIO::ImageSpec spec_of(int width, int height, const char* description) {
     OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
     spec.attribute("oiio:ColorSpace", "sRGB");
     spec.attribute("ImageDescription", description);
     spec.attribute("Software", "clsurf");
     spec.attribute("png:compressionLevel", 3);
-    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("png");
-    const bool done = output && output->set_ioproxy(&buffer) && output->open("clsurf.png", spec) &&
+    return spec;
+}
+
+/// What thin lines and text need: as little loss as the format can do.
+void set_compression(const std::string& format, OIIO::ImageSpec& spec) {
+    if (format == "jpeg") {
+        spec.attribute("Compression", "jpeg:95");
+        spec.attribute("jpeg:subsampling", "4:4:4");
+    } else if (format == "tiff") {
+        spec.attribute("Compression", "zip");
+    } else if (format == "webp") {
+        spec.attribute("Compression", "webp:100");
+    }
+}
+
+bool encode(const char* format, const std::uint8_t* rgb, int width, int height, const char* description, void* context,
+            void (*sink)(void*, const void*, std::size_t)) {
+    std::vector<unsigned char> bytes;
+    OIIO::Filesystem::IOVecOutput buffer(bytes);
+    OIIO::ImageSpec spec = spec_of(width, height, description);
+    set_compression(format, spec);
+    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
+    const bool in_memory = output && std::string_view(format) != "tiff" && output->supports("ioproxy") != 0;
+    const std::unique_ptr<MemoryFile> file = in_memory ? nullptr : std::make_unique<MemoryFile>();
+    const std::string path = file ? file->path() : std::string("clsurf.") + format;
+    const bool done = output && (!in_memory || output->set_ioproxy(&buffer)) && output->open(path, spec) &&
                       output->write_image(OIIO::TypeDesc::UINT8, rgb) && output->close();
     if (!done) {
         const std::string error = output ? output->geterror() : OIIO::geterror();
         sink(context, error.data(), error.size());
         return false;
     }
+    if (file) bytes = file->bytes();
     sink(context, bytes.data(), bytes.size());
     return true;
 }
@@ -68,7 +121,7 @@ ImageLibrary::Errors compare(const std::uint8_t* a, const std::uint8_t* b, int w
     return {result.maxerror, result.meanerror, result.PSNR};
 }
 
-constexpr ImageLibrary library{encode_png, read, compare};
+constexpr ImageLibrary library{encode, read, compare};
 
 }  // namespace
 }  // namespace clsurf::viz

@@ -16,6 +16,8 @@
 namespace clsurf::cli {
 namespace {
 
+constexpr const char* check_formats = "text|json|csv|sarif";
+
 using QualityWriter = std::string (*)(const io::ReportedQuality&);
 
 QualityWriter writer_of(const std::string& format) {
@@ -38,14 +40,13 @@ std::vector<double> colour_differences(const QualityReport& report, const Part& 
 }
 
 ExitCode run_check(const po::variables_map& values) {
-    const std::string format = report_format(values);
-    const QualityWriter write = writer_of(format);
     PartOptions options = read_part_options(values);
     const std::optional<Role> measured = take_measured_role(options);
     const QualityOptions quality_options = read_quality_options(values);
     QualityBudget budget;
     if (values.count("budget") > 0) budget = io::read_budget(values["budget"].as<std::string>());
-    ReportOutput output(values);
+    ReportOutput output(values, check_formats);
+    const QualityWriter write = writer_of(output.format());
 
     StageClock clock(read_common(values), 8);
     Part part = load_part(options, clock);
@@ -59,12 +60,12 @@ ExitCode run_check(const po::variables_map& values) {
     reported.log = part.log.name;
     reported.tool = quality_options.tool;
     reported.scallop = quality.scallop;
-    if (format == "json") reported.colour_differences = colour_differences(quality.report, part, surface);
+    if (output.format() == "json") reported.colour_differences = colour_differences(quality.report, part, surface);
     reported.formed = quality.formed ? &*quality.formed : nullptr;
     reported.budget = hold(quality.report, budget);
     reported.diagnostics = &part.diagnostics;
     clock.end();
-    if (format != "json") print(part.diagnostics, values);
+    if (output.format() != "json") print(part.diagnostics, values);
     output.write(write(reported));
     // No verdict comes before a failed one: numbers that mean nothing meet no budget and miss none.
     if (!quality.report.judgement.judged()) return ExitCode::not_judged;
@@ -90,11 +91,9 @@ Subcommand check_subcommand() {
                 declare_quality(options);
                 // clang-format off
                 options.add_options()
-                    ("budget", po::value<std::string>()->value_name("FILE"), "limits as TOML; exit code 1 where one is not held")
-                    ("format", po::value<std::string>()->value_name("text|json|csv|sarif"), "form of the report (default: text)")
-                    ("json", "the same as --format json")
-                    ("output,o", po::value<std::string>()->value_name("FILE"), "the report's file (default: standard output)");
+                    ("budget", po::value<std::string>()->value_name("FILE"), "limits as TOML; exit code 1 where one is not held");
                 // clang-format on
+                declare_report_output(options, check_formats);
                 declare_part(options);
             },
         .positional = {"PROGRAM", "LOG"},

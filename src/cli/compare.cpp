@@ -1,11 +1,12 @@
 // clsurf compare: two pictures, for snapshots in CI.
 
-#include <cstdio>
 #include <filesystem>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "cli/options.h"
+#include "cli/picture_output.h"
 #include "io/atomic_file.h"
 #include "io/json_text.h"
 #include "viz/image_compare.h"
@@ -13,8 +14,8 @@
 namespace clsurf::cli {
 namespace {
 
-void write_file(const std::string& path, std::string_view bytes, io::Replaces replaces) {
-    io::AtomicFile file(path, replaces);
+void replace_reference(const std::string& path, std::string_view bytes) {
+    io::AtomicFile file(path, io::Replaces::an_input);
     file.write(bytes);
     file.commit();
 }
@@ -29,6 +30,8 @@ ExitCode run_compare(const po::variables_map& values) {
     }
     io::guard_input(made);
     io::guard_input(reference);
+    std::optional<PictureOutput> difference;
+    if (values.count("diff") > 0) difference.emplace(values["diff"].as<std::string>(), "--diff");
     const viz::Image a = viz::read_image(made);
     const bool update = values.count("update") > 0;
     const bool missing = update && !std::filesystem::exists(reference);
@@ -49,23 +52,20 @@ ExitCode run_compare(const po::variables_map& values) {
                 fmt::format("{}: {} pixels over {:.4f}, largest error {:.4f}, mean {:.6f}, PSNR {:.1f} dB, ΔE {:.1f}",
                             c.equal ? "equal" : "different", c.pixels_over, rule.threshold, c.max_error, c.mean_error,
                             c.psnr, c.delta_e);
-            if (values.count("diff") > 0)
-                write_file(
-                    values["diff"].as<std::string>(),
-                    viz::encode_png(viz::difference_picture(a, b), "difference of " + made + " and " + reference),
-                    io::Replaces::no_input);
+            if (difference)
+                difference->write(viz::difference_picture(a, b), "difference of " + made + " and " + reference);
         }
     }
     if (update && !report.equal) {
         const io::Source source = io::map_file(made);
-        write_file(reference, source.text(), io::Replaces::an_input);
+        replace_reference(reference, source.text());
         verdict += "; reference updated";
         report.equal = true;
     }
-    if (values.count("json") > 0)
-        std::fputs(io::comparison_json(report).c_str(), stdout);
+    if (read_json(values))
+        write_to_stdout(io::comparison_json(report));
     else
-        fmt::print("{}\n", verdict);
+        write_answer(verdict + "\n", values);
     return report.equal ? ExitCode::done : ExitCode::check_failed;
 }
 

@@ -1,6 +1,7 @@
 // clsurf convert: any readable log into BIIP.
 
 #include "cli/options.h"
+#include "cli/output_format.h"
 #include "io/biip.h"
 #include "io/compressed.h"
 #include "io/program_identity.h"
@@ -9,6 +10,8 @@ namespace clsurf::cli {
 namespace {
 
 ExitCode run_convert(const po::variables_map& values) {
+    const std::string output = required(values, "output");
+    (void)output_format(output, log_formats());
     Log log = io::open_log(required(values, "LOG"), read_log_options(values));
     print(log.diagnostics, values);
     std::string metadata = log.metadata;
@@ -19,7 +22,7 @@ ExitCode run_convert(const po::variables_map& values) {
         metadata = io::with_programs(metadata, programs);
     }
     print(io::fit_biip(log), values);
-    io::write_biip(required(values, "output"), log.channels, log.records, log.period, metadata);
+    io::write_biip(output, log.channels, log.records, log.period, metadata);
     return ExitCode::done;
 }
 

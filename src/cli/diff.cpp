@@ -8,14 +8,13 @@
 #include <fmt/format.h>
 
 #include "cli/look.h"
+#include "cli/picture_output.h"
 #include "cli/runs.h"
 #include "cli/stage_clock.h"
 #include "core/file_name.h"
 #include "core/spelling.h"
-#include "io/atomic_file.h"
 #include "io/budget_file.h"
 #include "io/run_report.h"
-#include "viz/image_library.h"
 
 namespace clsurf::cli {
 namespace {
@@ -52,7 +51,7 @@ DiffOptions read_diff_options(const po::variables_map& values) {
     options.output = text_of(values, "output", "");
     options.shown = parse_quantity(text_of(values, "color", "speed"));
     options.look = read_look_options(values);
-    options.json = read_json(values);
+    options.json = read_json_beside_output(values);
     return options;
 }
 
@@ -100,7 +99,7 @@ ShownRange range_of(const DrawnDifference& shown, const ClSurface& surface, cons
 }
 
 void draw(const DiffOptions& options, const Run& a, const ClSurface& surface, const DrawnDifference& shown,
-          double threshold, io::AtomicFile& output) {
+          double threshold, PictureOutput& output) {
     const viz::MapPanel panel{&surface, &shown.field, "", {}, {}, {}};
     const viz::Camera camera = viz::map_camera({panel}, options.look.look);
     const ShownRange range = range_of(shown, surface, options.look, threshold);
@@ -112,22 +111,15 @@ void draw(const DiffOptions& options, const Run& a, const ClSurface& surface, co
     texts.notes = notes_of(range);
     const viz::Image image =
         viz::draw_map({panel}, camera, scale_of(shown.field.info, range, options.look), texts, options.look.look);
-    output.write(
-        viz::encode_png(image, fmt::format("clsurf difference of {} and {}: {} {:g} to {:g} {}", file_name(shown.run),
-                                           file_name(options.files.front()), shown.field.info.name, range.low,
-                                           range.high, shown.field.info.unit.name)));
-    output.commit();
+    output.write(image, fmt::format("clsurf difference of {} and {}: {} {:g} to {:g} {}", file_name(shown.run),
+                                    file_name(options.files.front()), shown.field.info.name, range.low, range.high,
+                                    shown.field.info.unit.name));
 }
 
 ExitCode run_diff(const po::variables_map& values) {
     const DiffOptions options = read_diff_options(values);
-    std::unique_ptr<io::AtomicFile> output;
-    std::optional<viz::ImageLibraryPreload> preload;
-    if (!options.output.empty()) {
-        preload.emplace();
-        output =
-            std::make_unique<io::AtomicFile>(options.output);  // a name that cannot be written fails before the work
-    }
+    std::optional<PictureOutput> output;
+    if (!options.output.empty()) output.emplace(options.output);
     StageClock clock(read_common(values), 3 + 2 * static_cast<int>(options.files.size()));
     Diagnostics diagnostics;
     clock.begin("read the reference");
@@ -184,7 +176,7 @@ ExitCode run_diff(const po::variables_map& values) {
         write_to_stdout(io::runs_json(reported));
     } else {
         print(diagnostics, values);
-        write_to_stdout(io::runs_text(reported));
+        write_answer(io::runs_text(reported), values);
     }
     return reported.within_budget() ? ExitCode::done : ExitCode::check_failed;
 }
@@ -209,7 +201,7 @@ Subcommand diff_subcommand() {
                 // clang-format off
                 options.add_options()
                     ("budget", po::value<std::string>()->value_name("FILE"), "limits as TOML; exit code 1 where one is not held")
-                    ("output,o", po::value<std::string>()->value_name("FILE"), "a map of the differences (PNG)")
+                    ("output,o", po::value<std::string>()->value_name("FILE"), "a map of the differences: .png, .jpg, .tif or .webp")
                     ("color", po::value<std::string>()->value_name("speed|acceleration|lag|height"), "which difference the map shows (default: speed)");
                 // clang-format on
                 declare_json(options);

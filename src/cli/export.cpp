@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "cli/fields.h"
+#include "cli/output_format.h"
 #include "core/block.h"
 #include "io/atomic_file.h"
 #include "io/export_table.h"
@@ -85,11 +86,7 @@ ExitCode run_export(const po::variables_map& values) {
     const std::vector<std::string> names =
         split_names(values.count("columns") > 0 ? values["columns"].as<std::string>() : "point,time,line,x,y,z,speed");
     if (names.empty()) throw UsageError("--columns: no names");
-    const std::string ending = output.substr(std::min(output.rfind('.'), output.size()));
-    const bool hdf = ending == ".vtkhdf" || ending == ".hdf";
-    if (ending != ".csv" && ending != ".biip" && ending != ".vtp" && !hdf) {
-        throw UsageError("-o: '" + output + "' must end in .csv, .biip, .vtp, .vtkhdf or .hdf");
-    }
+    const std::string_view format = output_format(output, table_formats()).name;
     StageClock clock(read_common(values), 5);
     const Part part = load_part(read_part_options(values), clock);
     print(part.diagnostics, values);
@@ -99,12 +96,12 @@ ExitCode run_export(const po::variables_map& values) {
     std::vector<io::ExportColumn> columns;
     Fields fields(part, surface);
     for (const std::string& name : names) columns.push_back(column_of(name, part, surface, fields));
-    if (ending == ".csv")
+    if (format == "csv")
         io::write_csv(output, columns);
-    else if (ending == ".biip")
+    else if (format == "biip")
         io::write_biip_table(output, columns, part.log.period, "{}");
     else
-        write_vtk(output, hdf, surface, columns);
+        write_vtk(output, format == "vtkhdf", surface, columns);
     return ExitCode::done;
 }
 

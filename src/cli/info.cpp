@@ -85,7 +85,8 @@ void judge_together(Program program, const Log& log, const std::optional<Vec3>& 
 
 ExitCode run_info(const po::variables_map& values) {
     if (values.count("FILE") == 0) throw UsageError("missing argument: FILE");
-    const bool json = values.count("json") > 0;
+    const bool json = read_json(values);
+    const bool quiet = read_common(values).quiet;
     std::vector<std::string> objects;
     std::optional<Program> program;
     io::Source program_source;
@@ -103,7 +104,7 @@ ExitCode run_info(const po::variables_map& values) {
             const ToolpathSummary summary = summarise(program->motions);
             if (json)
                 objects.push_back(io::program_json(*program, summary, program->diagnostics));
-            else
+            else if (!quiet)
                 print_program(*program, summary, program->diagnostics);
             continue;
         }
@@ -116,10 +117,10 @@ ExitCode run_info(const po::variables_map& values) {
         }
         if (json)
             objects.push_back(io::log_json(log, diagnostics));
-        else
+        else if (!quiet)
             print_log(log, diagnostics);
     }
-    if (json) std::fputs((objects.size() == 1 ? objects.front() : io::files_json(objects)).c_str(), stdout);
+    if (json) write_to_stdout(io::list_json("files", objects));
     return ExitCode::done;
 }
 
@@ -136,7 +137,7 @@ Subcommand info_subcommand() {
             "  clsurf info part.nc run.biip",
         .declare =
             [](po::options_description& options) {
-                options.add_options()("json", "one JSON object; of several files {\"files\": […]}");
+                options.add_options()("json", "one JSON object: {\"files\": […]}, and the keys of the file besides where it is the only one");
                 declare_program_options(options);
                 declare_log_options(options);
                 declare_work_offset(options);

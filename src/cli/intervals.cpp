@@ -3,12 +3,15 @@
 #include <cmath>
 
 #include "cli/options.h"
+#include "cli/report_output.h"
 #include "io/intervals_report.h"
 #include "io/machine_file.h"
 #include "io/program_file.h"
 
 namespace clsurf::cli {
 namespace {
+
+constexpr const char* interval_formats = "text|json|csv";
 
 double read_above(const po::variables_map& values, const char* name, double least, double otherwise) {
     if (values.count(name) == 0) return otherwise;
@@ -26,15 +29,16 @@ ExitCode run_intervals(const po::variables_map& values) {
     rules.drift_ratio = 2 * rules.curvature_ratio;
     const Machine machine =
         values.count("machine") > 0 ? io::read_machine(values["machine"].as<std::string>()) : Machine{};
+    ReportOutput output(values, interval_formats);
     const Program program = io::read_program(required(values, "PROGRAM"), read_program_options(values));
     const ProgrammedSurface laid = lay_out(program);
     rules.reach = 0.5 * laid.surface.step_over;
     const ProgramIntervals intervals = plan_intervals(program, laid, rules, machine);
-    if (read_json(values)) {
-        write_to_stdout(io::intervals_json(intervals, program.diagnostics));
+    if (output.format() == "json") {
+        output.write(io::intervals_json(intervals, program.diagnostics));
     } else {
         print(program.diagnostics, values);
-        write_to_stdout(io::intervals_text(intervals));
+        output.write(output.format() == "csv" ? io::intervals_csv(intervals) : io::intervals_text(intervals));
     }
     return ExitCode::done;
 }
@@ -61,7 +65,7 @@ Subcommand intervals_subcommand() {
                     ("curvature-ratio", po::value<double>()->value_name("RATIO"), "of the curvatures before and behind a point, likewise; twice this much inside an interval cuts it, too (default: 2)")
                     ("machine", po::value<std::string>()->value_name("FILE"), "machine file (default: that of clsurf machine --defaults)");
                 // clang-format on
-                declare_json(options);
+                declare_report_output(options, interval_formats);
                 declare_program_options(options);
             },
         .positional = {"PROGRAM"},

@@ -11,23 +11,24 @@
 namespace clsurf::cli {
 namespace {
 
+constexpr const char* lint_formats = "text|json|sarif";
+
 using LintWriter = std::string (*)(const io::ReportedLint&);
 
 ExitCode run_lint(const po::variables_map& values) {
     static const std::map<std::string, LintWriter, std::less<>> writers{
         {"text", io::lint_text}, {"json", io::lint_json}, {"sarif", io::lint_sarif}};
-    const LintWriter write = writers.at(report_format(values));
     LintRules rules;
     if (values.count("tolerance") > 0) {
         rules.tolerance = values["tolerance"].as<double>();
         if (!(rules.tolerance > 0) || !std::isfinite(rules.tolerance))
             throw UsageError("--tolerance must be above 0 mm");
     }
-    ReportOutput output(values);
+    ReportOutput output(values, lint_formats);
     const Program program = io::read_program(required(values, "PROGRAM"), read_program_options(values));
     const LintReport report = lint(program, lay_out(program), rules);
-    if (report_format(values) != "json") print(program.diagnostics, values);
-    output.write(write({&report, &program, &program.diagnostics}));
+    if (output.format() != "json") print(program.diagnostics, values);
+    output.write(writers.at(output.format())({&report, &program, &program.diagnostics}));
     return report.warnings() > 0 ? ExitCode::check_failed : ExitCode::done;
 }
 
@@ -49,11 +50,9 @@ Subcommand lint_subcommand() {
             [](po::options_description& options) {
                 // clang-format off
                 options.add_options()
-                    ("tolerance", po::value<double>()->value_name("MM"), "of the controller's path (default: what the program sets with G64 P or CYCLE832)")
-                    ("format", po::value<std::string>()->value_name("text|json|sarif"), "form of the report (default: text)")
-                    ("json", "the same as --format json")
-                    ("output,o", po::value<std::string>()->value_name("FILE"), "the report's file (default: standard output)");
+                    ("tolerance", po::value<double>()->value_name("MM"), "of the controller's path (default: what the program sets with G64 P or CYCLE832)");
                 // clang-format on
+                declare_report_output(options, lint_formats);
                 declare_program_options(options);
             },
         .positional = {"PROGRAM"},

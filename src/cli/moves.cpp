@@ -1,6 +1,10 @@
 // clsurf moves: the motions of a program as CSV.
 
+#include <optional>
+
 #include "cli/options.h"
+#include "cli/output_format.h"
+#include "io/atomic_file.h"
 #include "io/machine_file.h"
 #include "io/moves_csv.h"
 #include "io/program_file.h"
@@ -10,6 +14,12 @@ namespace clsurf::cli {
 namespace {
 
 ExitCode run_moves(const po::variables_map& values) {
+    std::optional<io::AtomicFile> output;
+    if (values.count("output") > 0) {
+        const std::string path = required(values, "output");
+        (void)output_format(path, motion_formats());
+        output.emplace(path);
+    }
     Program program = io::read_program(required(values, "PROGRAM"), read_program_options(values));
     std::optional<Machine> machine;
     if (values.count("machine") > 0) {
@@ -18,7 +28,13 @@ ExitCode run_moves(const po::variables_map& values) {
         solve_tool_axes(program, *machine);
     }
     print(program.diagnostics, values);
-    io::write_moves_csv(program.motions, machine ? &machine->kinematics : nullptr, write_to_stdout);
+    const Kinematics* const kinematics = machine ? &machine->kinematics : nullptr;
+    if (output) {
+        io::write_moves_csv(program.motions, kinematics, [&](std::string_view text) { output->write(text); });
+        output->commit();
+    } else {
+        io::write_moves_csv(program.motions, kinematics, write_to_stdout);
+    }
     return ExitCode::done;
 }
 
@@ -37,6 +53,8 @@ Subcommand moves_subcommand() {
             "of tool axes given as vectors (G43.5, A3=), and ti,tj,tk at the end is the tool axis.",
         .declare =
             [](po::options_description& options) {
+                options.add_options()("output,o", po::value<std::string>()->value_name("FILE"),
+                                      "the motions' file, .csv (default: standard output)");
                 declare_program_options(options);
                 options.add_options()("machine", po::value<std::string>()->value_name("FILE"),
                                       "machine file with rotary axes: adds the tool axis in the workpiece");

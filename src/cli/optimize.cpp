@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 
 #include "cli/options.h"
+#include "cli/output_format.h"
+#include "cli/picture_output.h"
 #include "cli/progress_bar.h"
 #include "core/file_name.h"
 #include "core/units.h"
@@ -83,6 +85,8 @@ viz::Image draw_before_and_after(const Optimized& result, const std::string& pro
 ExitCode run_optimize(const po::variables_map& values) {
     OptimizeRules rules;
     const std::string output_path = required(values, "output");
+    require_program_ending(output_path);
+    const bool json = read_json_beside_output(values);
     if (values.count("tolerance") > 0) rules.tolerance = values["tolerance"].as<double>();
     if (!(rules.tolerance > 0) || !std::isfinite(rules.tolerance)) throw UsageError("--tolerance must be above 0 mm");
     if (values.count("decimals") > 0) rules.least_decimals = values["decimals"].as<int>();
@@ -103,25 +107,23 @@ ExitCode run_optimize(const po::variables_map& values) {
         rules.zero = read_work_offset(values).value_or(known.value_or(Vec3::Zero()));
     }
     io::AtomicFile output(output_path);
-    std::unique_ptr<io::AtomicFile> picture;
-    if (values.count("picture") > 0) picture = std::make_unique<io::AtomicFile>(values["picture"].as<std::string>());
+    std::optional<PictureOutput> picture;
+    if (values.count("picture") > 0) picture.emplace(values["picture"].as<std::string>(), "--picture");
     ProgressBar bar(read_common(values));
     Diagnostics diagnostics = program.diagnostics;
     const Optimized result = optimize(
         program, [&](const std::string& text) { return read_text(source, text, options, program.dialect->name); },
         machine, rules, std::move(measured), bar.callback(), diagnostics);
     bar.clear();
-    if (read_json(values)) {
+    if (json) {
         write_to_stdout(io::optimize_json(result, diagnostics));
     } else {
         print(diagnostics, values);
-        write_to_stdout(io::optimize_text(result));
+        write_answer(io::optimize_text(result), values);
     }
     if (picture) {
-        picture->write(
-            viz::encode_png(draw_before_and_after(result, program.main().name()),
-                            fmt::format("clsurf optimize of {}: speeds before and after", program.main().name())));
-        picture->commit();
+        picture->write(draw_before_and_after(result, program.main().name()),
+                       fmt::format("clsurf optimize of {}: speeds before and after", program.main().name()));
     }
     if (!result.proof.accepted) return ExitCode::check_failed;
     output.write(result.text);
@@ -149,7 +151,7 @@ Subcommand optimize_subcommand() {
                 // clang-format off
                 options.add_options()
                     ("output,o", po::value<std::string>()->value_name("FILE"), "the new program")
-                    ("picture", po::value<std::string>()->value_name("FILE"), "speeds before and after on one scale (PNG), also where the new program is refused")
+                    ("picture", po::value<std::string>()->value_name("FILE"), "speeds before and after on one scale (.png, .jpg, .tif or .webp), also where the new program is refused")
                     ("tolerance", po::value<double>()->value_name("MM"), "how far the new path may leave the programmed one (default: 0.005)")
                     ("more-time", po::value<double>()->value_name("PERCENT"), "how much longer the new program may take, for fewer defects (default: 0)")
                     ("decimals", po::value<int>()->value_name("N"), "new coordinates have at least so many, if the controller reads them (default: as many as the program's)");

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include "cli/output_format.h"
 #include "io/machine_file.h"
 
 namespace clsurf::cli {
@@ -15,7 +16,7 @@ void declare_common(po::options_description& options) {
     // clang-format off
     options.add_options()
         ("help,h", "show this help")
-        ("quiet,q", "print errors only")
+        ("quiet,q", "print errors only; files and what --json or --format asks for are written all the same")
         ("verbose,v", "print notes and what was done")
         ("threads", po::value<int>()->value_name("N"), "threads to use (default: all cores)")
         ("progress", po::value<std::string>()->value_name("auto|always|never"), "show how far long stages are (default: auto, on a terminal)");
@@ -114,8 +115,24 @@ void declare_json(po::options_description& options) {
 
 bool read_json(const po::variables_map& values) { return values.count("json") > 0; }
 
+bool read_json_beside_output(const po::variables_map& values) {
+    const bool json = read_json(values);
+    if (json && values.count("output") > 0 && is_standard_output(values["output"].as<std::string>()))
+        throw UsageError("--json and -o both write to standard output");
+    return json;
+}
+
+void write_answer(std::string_view text, const po::variables_map& values) {
+    if (read_common(values).quiet) return;
+    if (values.count("output") > 0 && is_standard_output(values["output"].as<std::string>()))
+        std::fwrite(text.data(), 1, text.size(), stderr);
+    else
+        write_to_stdout(text);
+}
+
 std::string required(const po::variables_map& values, const char* name) {
     if (values.count(name) == 0 || values[name].as<std::string>().empty()) {
+        if (std::string_view(name) == "output") throw UsageError("no output file given", "add -o FILE");
         throw UsageError(std::string("missing argument: ") + name);
     }
     return values[name].as<std::string>();

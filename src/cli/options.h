@@ -55,6 +55,13 @@ void declare_json(po::options_description& options);
 /// A positional argument or an option that must be there; UsageError names it otherwise.
 [[nodiscard]] std::string required(const po::variables_map& values, const char* name);
 
+/// --json of a subcommand whose output is another file. Throws UsageError where both go to standard output.
+[[nodiscard]] bool read_json_beside_output(const po::variables_map& values);
+
+/// What a subcommand has to say to people: nothing with -q, and to standard error where its output goes to
+/// standard output. Throws SystemError.
+void write_answer(std::string_view text, const po::variables_map& values);
+
 /// Writes to standard output. Throws SystemError (a full disk; a closed pipe ends the program).
 void write_to_stdout(std::string_view text);
 

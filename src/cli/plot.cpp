@@ -6,11 +6,10 @@
 #include <fmt/format.h>
 
 #include "cli/fields.h"
+#include "cli/picture_output.h"
 #include "cli/profile.h"
 #include "core/file_name.h"
-#include "io/atomic_file.h"
 #include "viz/chart.h"
-#include "viz/image_library.h"
 
 namespace clsurf::cli {
 namespace {
@@ -95,8 +94,7 @@ PointRange shown_range(const PlotOptions& options, const Part& part, const std::
 ExitCode run_plot(const po::variables_map& values) {
     PlotOptions options = read_plot_options(values);
     if (asks_for_profile(values)) return plot_profile(values, options.part, options.look, options.output);
-    const viz::ImageLibraryPreload preload;
-    io::AtomicFile output(options.output);
+    PictureOutput output(options.output);
     StageClock clock(read_common(values), 5);
     const Part part = load_part(options.part, clock);
     print(part.diagnostics, values);
@@ -137,8 +135,7 @@ ExitCode run_plot(const po::variables_map& values) {
     options.look.footnote = note;
     clock.begin("draw");
     const std::span<const double> shown_x(x.data() + range.first, static_cast<std::size_t>(range.size()));
-    output.write(viz::encode_png(viz::draw_chart(shown_x, curves, cursors, options.look), options.look.title));
-    output.commit();
+    output.write(viz::draw_chart(shown_x, curves, cursors, options.look), options.look.title);
     return ExitCode::done;
 }
 
@@ -157,7 +154,7 @@ Subcommand plot_subcommand() {
             [](po::options_description& options) {
                 // clang-format off
                 options.add_options()
-                    ("output,o", po::value<std::string>()->value_name("FILE"), "the picture (PNG)")
+                    ("output,o", po::value<std::string>()->value_name("FILE"), "the picture: .png, .jpg, .tif or .webp")
                     ("fields", po::value<std::string>()->value_name("FIELD,…"), "what is drawn (default: speed; `clsurf help fields`)")
                     ("over", po::value<std::string>()->value_name("time|length"), "what x is (default: time)")
                     ("from", po::value<double>()->value_name("X"), "first x to show [s or mm]")

@@ -5,9 +5,8 @@
 #include <fmt/format.h>
 
 #include "cli/formed.h"
+#include "cli/picture_output.h"
 #include "core/file_name.h"
-#include "io/atomic_file.h"
-#include "viz/image_library.h"
 
 namespace clsurf::cli {
 
@@ -40,8 +39,7 @@ ExitCode plot_profile(const po::variables_map& values, PartOptions options, viz:
     if (!((to - from).norm() > 0 && (to - from).norm() <= longest))
         throw UsageError(fmt::format("--profile: from one place to another, at most {:g} mm apart", longest));
     const std::optional<Role> role = take_measured_role(options);
-    const viz::ImageLibraryPreload preload;
-    io::AtomicFile output(output_name);
+    PictureOutput output(output_name);
     StageClock clock(read_common(values), 7);
     const Part part = load_part(options, clock);
     print(part.diagnostics, values);
@@ -75,8 +73,7 @@ ExitCode plot_profile(const po::variables_map& values, PartOptions options, viz:
         r.sampling_lengths == 1 ? "one sampling length" : fmt::format("{} sampling lengths", r.sampling_lengths),
         r.length / r.sampling_lengths);
     clock.begin("draw");
-    output.write(viz::encode_png(viz::draw_chart(x, {whole, rough}, {}, look), look.title));
-    output.commit();
+    output.write(viz::draw_chart(x, {whole, rough}, {}, look), look.title);
     return ExitCode::done;
 }
 

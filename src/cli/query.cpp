@@ -195,11 +195,11 @@ ExitCode run_query(const po::variables_map& values) {
     StageClock clock(read_common(values), 3);
     const Part part = load_part(read_part_options(values), clock);
     const std::vector<io::QueryMatch> matches = find_matches(part, values);
-    if (values.count("json") > 0) {
-        std::fputs(io::query_json(matches, part.diagnostics).c_str(), stdout);
+    if (read_json(values)) {
+        write_to_stdout(io::query_json(matches, part.diagnostics));
     } else {
         print(part.diagnostics, values);
-        print_matches(matches);
+        if (!read_common(values).quiet) print_matches(matches);
     }
     return ExitCode::done;
 }

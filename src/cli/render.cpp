@@ -8,13 +8,12 @@
 #include "cli/fields.h"
 #include "cli/formed.h"
 #include "cli/look.h"
+#include "cli/picture_output.h"
 #include "cli/quality.h"
 #include "core/file_name.h"
 #include "core/spelling.h"
 #include "field/range.h"
-#include "io/atomic_file.h"
 #include "quality/outline.h"
-#include "viz/image_library.h"
 #include "viz/scene.h"
 
 namespace clsurf::cli {
@@ -40,7 +39,7 @@ void declare_render(po::options_description& options) {
     // clang-format off
     options.add_options()
         ("swept", po::value<std::string>()->value_name("commanded|feedback|actual"), "positions that the formed surface's tool runs along (default: actual, else feedback, else commanded)")
-        ("output,o", po::value<std::string>()->value_name("FILE"), "the picture (PNG)")
+        ("output,o", po::value<std::string>()->value_name("FILE"), "the picture: .png, .jpg, .tif or .webp")
         ("color", po::value<std::string>()->value_name("FIELD"), "what is coloured (default: speed; `clsurf help fields`)")
         ("mark-point", po::value<std::vector<long long>>()->value_name("N"), "ring a point; may be repeated")
         ("mark-line", po::value<std::vector<long long>>()->value_name("N"), "draw the points of a line bold; may be repeated")
@@ -225,8 +224,7 @@ void warn_of_marks_outside(const Shown& shown, const RenderOptions& options, con
 
 ExitCode run_render(const po::variables_map& values) {
     const RenderOptions options = read_render_options(values);
-    const viz::ImageLibraryPreload preload;
-    io::AtomicFile output(options.output);  // a name that cannot be written fails before the work
+    PictureOutput output(options.output);
     const int stages_of_a_part = options.defects ? 7 : 5;
     StageClock clock(read_common(values), stages_of_a_part * (options.before.empty() ? 1 : 2) + 3);
     Shown after = prepare(options.part, options.field, options.defects, clock);
@@ -259,11 +257,9 @@ ExitCode run_render(const po::variables_map& values) {
     const viz::Image image =
         viz::draw_map(panels, camera, scale, texts_of(after, before, options, range_notes), options.shown.look);
     clock.begin("write the picture");
-    output.write(
-        viz::encode_png(image, fmt::format("clsurf map of {} from {}: {} {:g} to {:g} {}",
-                                           file_name(options.part.program), file_name(options.part.log),
-                                           after.field.info.name, range.low, range.high, after.field.info.unit.name)));
-    output.commit();
+    output.write(image, fmt::format("clsurf map of {} from {}: {} {:g} to {:g} {}", file_name(options.part.program),
+                                    file_name(options.part.log), after.field.info.name, range.low, range.high,
+                                    after.field.info.unit.name));
     return ExitCode::done;
 }
 

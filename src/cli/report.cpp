@@ -7,6 +7,7 @@
 
 #include "cli/fields.h"
 #include "cli/formed.h"
+#include "cli/output_format.h"
 #include "cli/report_log.h"
 #include "cli/report_pictures.h"
 #include "io/atomic_file.h"
@@ -192,8 +193,9 @@ io::PageRelief page_relief(const Formed& formed) {
 
 ExitCode run_report(const po::variables_map& values) {
     const ReportOptions options = read_report_options(values);
-    const viz::ImageLibraryPreload preload;
+    (void)output_format(options.output, page_formats());
     io::AtomicFile output(options.output);  // a name that cannot be written fails before the work
+    const viz::ImageLibraryPreload preload;
     StageClock clock(read_common(values), options.before.empty() ? 12 : 20);
     std::vector<ReportLog> logs;
     logs.push_back(prepare(options.part, options, clock));

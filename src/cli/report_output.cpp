@@ -1,28 +1,55 @@
 #include "cli/report_output.h"
 
+#include <algorithm>
+#include <vector>
+
 #include "cli/options.h"
+#include "cli/vocabulary.h"
 
 namespace clsurf::cli {
+namespace {
 
-std::string report_format(const po::variables_map& values) {
-    if (values.count("format") > 0) {
-        if (values.count("json") > 0) throw UsageError("--json and --format say the same");
-        return values["format"].as<std::string>();
-    }
-    return values.count("json") > 0 ? "json" : "text";
+std::string asked_format(const po::variables_map& values) {
+    const bool json = values.count("json") > 0;
+    if (values.count("format") == 0) return json ? "json" : "";
+    if (json) throw UsageError("--json and --format say the same");
+    return values["format"].as<std::string>();
 }
 
-ReportOutput::ReportOutput(const po::variables_map& values) {
-    if (values.count("output") > 0) file_ = std::make_unique<io::AtomicFile>(values["output"].as<std::string>());
+}  // namespace
+
+void declare_report_output(po::options_description& options, const char* words) {
+    // clang-format off
+    options.add_options()
+        ("format", po::value<std::string>()->value_name(words), "form of the report (default: what the file ending says, else text)")
+        ("json", "the same as --format json")
+        ("output,o", po::value<std::string>()->value_name("FILE"), "the report's file (default: standard output); its ending chooses the form");
+    // clang-format on
+}
+
+ReportOutput::ReportOutput(const po::variables_map& values, std::string_view words)
+    : format_(asked_format(values)), quiet_(read_common(values).quiet) {
+    const std::vector<std::string> known = words_of(words);
+    std::vector<OutputFormat> formats;
+    for (const OutputFormat& format : report_formats()) {
+        if (std::find(known.begin(), known.end(), format.name) != known.end()) formats.push_back(format);
+    }
+    if (values.count("output") > 0) {
+        const std::string path = required(values, "output");
+        format_ = output_format(path, formats, format_).name;
+        file_ = std::make_unique<io::AtomicFile>(path);
+        quiet_ = false;
+    }
+    if (format_.empty()) format_ = formats.front().name;
 }
 
 void ReportOutput::write(std::string_view text) {
-    if (!file_) {
+    if (file_) {
+        file_->write(text);
+        file_->commit();
+    } else if (!quiet_ || format_ != "text") {
         write_to_stdout(text);
-        return;
     }
-    file_->write(text);
-    file_->commit();
 }
 
 }  // namespace clsurf::cli

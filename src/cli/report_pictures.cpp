@@ -23,7 +23,7 @@ std::string draw(const viz::MapPanel& panel, const ShownRange& range, const viz:
                  const viz::Look& look) {
     const viz::ColourScale scale{default_colour_map(panel.field->info), range.low, range.high, 0};
     const viz::Image image = viz::draw_map({panel}, viz::map_camera({panel}, look), scale, texts, look);
-    return viz::encode_png(image, texts.title);
+    return viz::encode_image(image, texts.title, "png");
 }
 
 viz::MapTexts texts_of(const PicturedPart& shown, const FieldInfo& info, const ShownRange& range) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "cli/options.h"
+#include "cli/output_format.h"
 #include "cli/progress_bar.h"
 #include "core/units.h"
 #include "io/compressed.h"
@@ -63,13 +64,15 @@ ExitCode run_five_axis(Program program, const Machine& machine, const Vec3& zero
         write_to_stdout(io::simulation_json(summary, machine.kinematics, diagnostics));
     } else {
         print(diagnostics, values);
-        write_to_stdout(summary_text(summary.run) + rotary_text(summary, machine.kinematics));
+        write_answer(summary_text(summary.run) + rotary_text(summary, machine.kinematics), values);
     }
     return ExitCode::done;
 }
 
 ExitCode run_simulate(const po::variables_map& values) {
     const std::string output = required(values, "output");
+    (void)output_format(output, log_formats());
+    (void)read_json_beside_output(values);
     const Machine machine =
         values.count("machine") > 0 ? io::read_machine(values["machine"].as<std::string>()) : Machine{};
     const Vec3 start = read_start(values);
@@ -103,7 +106,7 @@ ExitCode run_simulate(const po::variables_map& values) {
         write_to_stdout(io::simulation_json(summary, diagnostics));
     } else {
         print(diagnostics, values);
-        write_to_stdout(summary_text(summary));
+        write_answer(summary_text(summary), values);
     }
     return ExitCode::done;
 }

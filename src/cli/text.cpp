@@ -30,6 +30,19 @@ std::vector<std::string> wrap(std::string_view text, std::size_t width) {
     return lines;
 }
 
+std::string join_words(const std::vector<std::string_view>& words, std::string_view conjunction) {
+    std::string text;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        if (i > 0 && i + 1 == words.size()) {
+            text.append(" ").append(conjunction).append(" ");
+        } else if (i > 0) {
+            text.append(", ");
+        }
+        text.append(words[i]);
+    }
+    return text;
+}
+
 std::vector<Paragraph> paragraphs_of(std::string_view description) {
     std::vector<Paragraph> paragraphs;
     bool open = false;

@@ -15,6 +15,9 @@ namespace clsurf::cli {
 /// Words filled into lines of at most `width` columns; a longer word has a line of its own.
 [[nodiscard]] std::vector<std::string> wrap(std::string_view text, std::size_t width);
 
+/// ".png, .jpg or .jpeg"
+[[nodiscard]] std::string join_words(const std::vector<std::string_view>& words, std::string_view conjunction);
+
 /// A description as its paragraphs: filled text, or lines to be kept as they are (they begin with a
 /// space in the source, as examples do). Empty lines part paragraphs.
 struct Paragraph {

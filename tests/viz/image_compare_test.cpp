@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "support/temporary_folder.h"
+
 namespace clsurf::viz {
 namespace {
 
@@ -36,9 +38,19 @@ TEST(Compare, FailsWhereManyValuesAreTwoStepsOff) { EXPECT_FALSE(compare(grey(10
 TEST(Image, ReadsBackWhatItEncoded) {
     Image a = grey(90);
     a.rgb[3 * 5 + 1] = 200;
-    const std::string bytes = encode_png(a, "test");
-    EXPECT_EQ(bytes, encode_png(a, "test"));
+    const std::string bytes = encode_image(a, "test", "png");
+    EXPECT_EQ(bytes, encode_image(a, "test", "png"));
     EXPECT_EQ(bytes.substr(1, 3), "PNG");
+    const test::TemporaryFolder folder;
+    for (const char* format : {"png", "tiff"}) {
+        const Image back = read_image(folder.write(format, encode_image(a, "test", format)));
+        EXPECT_EQ(back.width, a.width);
+        EXPECT_TRUE(std::equal(back.rgb.begin(), back.rgb.end(), a.rgb.begin(), a.rgb.end())) << format;
+    }
+    for (const char* format : {"jpeg", "webp"}) {
+        const Image back = read_image(folder.write(format, encode_image(a, "test", format)));
+        EXPECT_LT(compare(a, back, {}).mean_error, 0.01) << format;
+    }
 }
 
 TEST(Image, ShrinksToTheMean) {

@@ -1,0 +1,27 @@
+#pragma once
+// Where a picture goes, in the form that the ending of its name stands for.
+
+#include <string>
+#include <string_view>
+
+#include "io/atomic_file.h"
+#include "viz/image.h"
+#include "viz/image_library.h"
+
+namespace clsurf::cli {
+
+class PictureOutput {
+public:
+    /// Opens the file: a name that cannot be written fails before the work. Begins to load the image library.
+    /// `option` names it in messages. Throws UsageError (the ending, a terminal, an input), SystemError.
+    explicit PictureOutput(const std::string& path, std::string_view option = "-o");
+    /// The whole picture. Throws SystemError.
+    void write(const viz::Image& image, const std::string& description);
+
+private:
+    std::string format_;
+    io::AtomicFile file_;
+    viz::ImageLibraryPreload preload_;
+};
+
+}  // namespace clsurf::cli
