@@ -1,12 +1,15 @@
 #include "cli/command_line.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <set>
 #include <string_view>
 #include <typeinfo>
+#include <utility>
 
+#include "cli/config.h"
 #include "cli/options.h"
 #include "cli/vocabulary.h"
 #include "core/spelling.h"
@@ -34,7 +37,7 @@ bool is_number(std::string_view text) {
     return error == std::errc() && end == text.data() + text.size();
 }
 
-bool is_list(const std::type_info& type) {
+bool is_list_type(const std::type_info& type) {
     return type == typeid(std::vector<std::string>) || type == typeid(std::vector<double>) ||
            type == typeid(std::vector<int>) || type == typeid(std::vector<long>) ||
            type == typeid(std::vector<long long>);
@@ -91,20 +94,20 @@ public:
         const std::string& name = option.string_key;
         const po::option_description& description = options_.find(name, false);
         const auto* typed = dynamic_cast<const po::typed_value_base*>(description.semantic().get());
-        const bool may_repeat = typed != nullptr && is_list(typed->value_type());
+        const bool may_repeat = typed != nullptr && takes_a_list(*typed);
         if (!seen_.insert(name).second && !may_repeat) { throw UsageError("--" + name + " is given more than once"); }
         if (typed == nullptr || option.value.empty()) return;
         check_taken(option);
-        for (const std::string& text : option.value) {
-            check_number(name, typed->value_type(), text);
-            check_word(name, description.format_parameter(), text);
-        }
+        check_option(option, description);
     }
 
 private:
     [[nodiscard]] UsageError unknown(const po::option& option) const {
         const std::string& token = option.original_tokens.front();
         const std::string name = token.substr(0, token.find('='));
+        if (is_number<double>(token))
+            return UsageError("a value " + quoted(token) + " without its option",
+                              "the numbers of one value are separated by commas: --at 2,-5.6,4.7");
         std::vector<std::string_view> known;
         for (const auto& other : options_.options()) known.push_back(other->long_name());
         const std::string_view nearest = nearest_word(without_dashes(name), known);
@@ -115,6 +118,63 @@ private:
     const po::options_description& options_;
     std::set<std::string> seen_;
 };
+
+// Names that people try, and what they mean where the subcommand does not have an option of that name.
+constexpr std::pair<std::string_view, std::string_view> other_names[] = {
+    {"field", "color"},   {"field", "fields"},       {"fields", "columns"},      {"colour", "color"},
+    {"cmap", "colormap"}, {"color-map", "colormap"}, {"colour-map", "colormap"}, {"colourmap", "colormap"},
+    {"out", "output"},    {"outfile", "output"},     {"resolution", "size"},     {"offset", "work-offset"},
+};
+
+// "cmap" of "--cmap=gray"; empty: the word is no long option.
+std::string name_of_long_option(const std::string& word) {
+    if (!word.starts_with("--")) return {};
+    return {word.begin() + 2, std::find(word.begin() + 2, word.end(), '=')};
+}
+
+// "--cmap=gray" becomes "--colormap=gray".
+std::vector<std::string> with_known_names(std::vector<std::string> words, const po::options_description& options) {
+    const auto has = [&](std::string_view name) { return options.find_nothrow(std::string(name), false) != nullptr; };
+    for (std::string& word : words) {
+        if (word == "--") break;
+        const std::string name = name_of_long_option(word);
+        if (name.empty() || has(name)) continue;
+        for (const auto& [other, known] : other_names) {
+            if (other != name || !has(known)) continue;
+            word = "--" + std::string(known) + word.substr(2 + name.size());
+            break;
+        }
+    }
+    return words;
+}
+
+// "--at 2 -5.6 4.7" becomes "--at 2,-5.6,4.7": as many numbers as "X,Y,Z" has.
+std::vector<std::string> join_numbers(const std::vector<std::string>& words, const po::options_description& options) {
+    std::vector<std::string> joined;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        joined.push_back(words[i]);
+        if (words[i] == "--") {
+            joined.insert(joined.end(), words.begin() + static_cast<std::ptrdiff_t>(i) + 1, words.end());
+            break;
+        }
+        const std::string name = name_of_long_option(words[i]);
+        const bool alone = !name.empty() && words[i].size() == name.size() + 2;
+        const po::option_description* option = alone ? options.find_nothrow(name, false) : nullptr;
+        if (option == nullptr || option->semantic()->max_tokens() == 0) continue;
+        const std::string value_name = option->format_parameter();
+        const auto commas = std::count(value_name.begin(), value_name.end(), ',');
+        std::string value;
+        for (std::ptrdiff_t k = 0; k <= commas && i + 1 < words.size() && is_number<double>(words[i + 1]); ++k, ++i)
+            value += (value.empty() ? "" : ",") + words[i + 1];
+        if (!value.empty()) joined.push_back(value);
+    }
+    return joined;
+}
+
+bool is_subcommand(const std::string& word) {
+    return std::any_of(subcommands().begin(), subcommands().end(),
+                       [&](const Subcommand& subcommand) { return subcommand.name == word; });
+}
 
 // Gives the words that are not options the names of the subcommand's arguments.
 void name_arguments(const Subcommand& subcommand, std::vector<po::option>& words) {
@@ -149,6 +209,42 @@ void declare_arguments(const Subcommand& subcommand, po::options_description& op
 
 }  // namespace
 
+bool takes_a_list(const po::typed_value_base& type) { return is_list_type(type.value_type()); }
+
+void check_option(const po::option& option, const po::option_description& description) {
+    const auto* typed = dynamic_cast<const po::typed_value_base*>(description.semantic().get());
+    if (typed == nullptr) return;
+    for (const std::string& text : option.value) {
+        check_number(option.string_key, typed->value_type(), text);
+        check_word(option.string_key, description.format_parameter(), text);
+    }
+}
+
+std::vector<std::string> argument_values(const Subcommand& subcommand, const po::variables_map& values) {
+    std::vector<std::string> all;
+    for (std::string name : subcommand.positional) {
+        const bool several = name.ends_with(repeats);
+        if (several) name.erase(name.size() - repeats.size());
+        if (values.count(name) == 0) continue;
+        if (several) {
+            const auto& list = values[name].as<std::vector<std::string>>();
+            all.insert(all.end(), list.begin(), list.end());
+        } else {
+            all.push_back(values[name].as<std::string>());
+        }
+    }
+    return all;
+}
+
+std::vector<std::string> subcommand_first(std::vector<std::string> words) {
+    if (!words.front().starts_with('-')) return words;
+    const auto found = std::find_if(words.begin(), words.end(), is_subcommand);
+    if (found == words.end())
+        throw UsageError("expected a subcommand, found '" + words.front() + "'", "see clsurf --help");
+    std::rotate(words.begin(), found, found + 1);
+    return words;
+}
+
 ShownOptions shown_options(const Subcommand& subcommand) {
     ShownOptions shown;
     subcommand.declare(shown.own);
@@ -156,10 +252,11 @@ ShownOptions shown_options(const Subcommand& subcommand) {
     return shown;
 }
 
-po::variables_map parse_words(const Subcommand& subcommand, const std::vector<std::string>& words) {
+po::variables_map parse_words(const Subcommand& subcommand, const std::vector<std::string>& given_words) {
     const ShownOptions shown = shown_options(subcommand);
     po::options_description options;
     options.add(shown.own).add(shown.common);
+    const std::vector<std::string> words = join_numbers(with_known_names(given_words, options), options);
 
     // Guessing from prefixes is off: a later option must not change what a script means.
     const int style = po::command_line_style::default_style & ~po::command_line_style::allow_guessing;
@@ -177,6 +274,10 @@ po::variables_map parse_words(const Subcommand& subcommand, const std::vector<st
     po::variables_map values;
     po::store(parsed, values);
     po::notify(values);
+    if (values.count("no-config") == 0 && values.count("help") == 0) {
+        const std::string config = find_config(subcommand, values);
+        if (!config.empty()) used_config() = store_config(config, options, values);
+    }
     return values;
 }
 

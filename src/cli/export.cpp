@@ -50,6 +50,7 @@ io::ExportColumn column_of(const std::string& name, const Part& part, const ClSu
             column.values[i] = static_cast<float>(part.lines->confidence_at(static_cast<PointIndex>(i)));
     } else {
         Field field = fields.get(name);
+        column.name = field.info.name;
         column.unit = std::string(field.info.unit.name);
         column.values = std::move(field.values);
         if (field.info.unit.per_inside != 1) {

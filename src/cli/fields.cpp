@@ -36,7 +36,20 @@ Field Fields::interval_field() const {
     return field;
 }
 
-Field Fields::get(std::string_view name) {
+std::string_view usual_name(std::string_view name, const Log& log) {
+    constexpr std::pair<std::string_view, std::string_view> words[] = {
+        {"mismatch", "speed_mismatch"}, {"lag", "following_error"}, {"accel", "acceleration"},
+        {"velocity", "speed"},          {"feedrate", "speed"},      {"error", "contour_error"},
+    };
+    if (log.find(name) != nullptr) return name;
+    for (const auto& [word, meant] : words) {
+        if (word == name) return meant;
+    }
+    return name;
+}
+
+Field Fields::get(std::string_view asked) {
+    const std::string_view name = usual_name(asked, part_.log);
     if (is_quality_field(name)) {
         if (!signals_)
             signals_ = std::make_unique<Signals>(std::move(signals_of(part_, surface_, std::nullopt).signals));

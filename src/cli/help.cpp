@@ -68,7 +68,7 @@ ExitCode run_help(const po::variables_map& values) {
     std::vector<std::string_view> known;
     for (const Vocabulary& vocabulary : vocabularies()) {
         known.push_back(vocabulary.name);
-        if (vocabulary.name != topic) continue;
+        if (vocabulary.name != topic && vocabulary.name != topic + "s") continue;
         write_to_stdout(json ? io::listing_json(vocabulary.name, vocabulary.rows()) : vocabulary_text(vocabulary));
         return ExitCode::done;
     }
@@ -110,6 +110,11 @@ std::vector<OptionRow> rows_of(const po::options_description& options) {
         rows.push_back(std::move(row));
     }
     return rows;
+}
+
+bool names_a_file(std::string_view value_name) {
+    return value_name.ends_with("FILE") || value_name.ends_with("FOLDER") ||
+           value_name.find('.') != std::string_view::npos || value_name == "LOG" || value_name == "PROGRAM";
 }
 
 std::string usage_of(const Subcommand& subcommand) {

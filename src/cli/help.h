@@ -21,6 +21,9 @@ struct OptionRow {
 };
 [[nodiscard]] std::vector<OptionRow> rows_of(const po::options_description& options);
 
+/// A value of that name is a file's name: "FILE", "OUT.png", "LOG".
+[[nodiscard]] bool names_a_file(std::string_view value_name);
+
 /// "clsurf moves [options] PROGRAM"
 [[nodiscard]] std::string usage_of(const Subcommand& subcommand);
 

@@ -137,7 +137,9 @@ Subcommand info_subcommand() {
             "  clsurf info part.nc run.biip",
         .declare =
             [](po::options_description& options) {
-                options.add_options()("json", "one JSON object: {\"files\": […]}, and the keys of the file besides where it is the only one");
+                options.add_options()(
+                    "json",
+                    "one JSON object: {\"files\": […]}, and the keys of the file besides where it is the only one");
                 declare_program_options(options);
                 declare_log_options(options);
                 declare_work_offset(options);

@@ -74,7 +74,7 @@ void declare_look(po::options_description& options) {
         ("range", po::value<std::string>()->value_name("auto|MIN,MAX|pLOW,pHIGH"), "values at the ends of the colours, or percentiles of the cutting points shown (default: auto, p1,p99)")
         ("colormap", po::value<std::string>()->value_name("COLORMAP|RGB,RGB,…"), "a named map (`clsurf help colormaps`) or own stops, #RRGGBB,#RRGGBB,… (default: isurface; signed fields coolwarm)")
         ("bins", po::value<int>()->value_name("N"), "colours in N steps")
-        ("size", po::value<std::string>()->value_name("WxH"), "size in pixels (default: 1600x1200)")
+        ("size", po::value<std::string>()->value_name("WxH|hd|4k"), "size in pixels (default: 1600x1200)")
         ("background", po::value<std::string>()->value_name("white|black|#RRGGBB"), "behind the map (default: white)")
         ("no-legend", "the map alone: no title, legend, axes, scale bar")
         ("gl", po::value<std::string>()->value_name("osmesa|egl"), "what draws: the processor, or a graphics card (default: osmesa)");

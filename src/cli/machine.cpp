@@ -10,12 +10,14 @@ namespace {
 
 ExitCode run_machine(const po::variables_map& values) {
     const bool defaults = values.count("defaults") > 0;
-    if (defaults == (values.count("check") > 0)) throw UsageError("one of --defaults and --check is needed");
+    const char* const checked = values.count("FILE") > 0 ? "FILE" : "check";
+    if (defaults + values.count("FILE") + values.count("check") != 1)
+        throw UsageError("one of --defaults and FILE is needed", "clsurf machine mill.toml validates a machine file");
     if (defaults) {
         write_to_stdout(io::machine_text(Machine{}));
         return ExitCode::done;
     }
-    const std::string path = values["check"].as<std::string>();
+    const std::string path = values[checked].as<std::string>();
     const Machine machine = io::read_machine(path);
     write_to_stdout(fmt::format("{}: {}: can be used\n", path, machine.name));
     return ExitCode::done;
@@ -26,22 +28,22 @@ ExitCode run_machine(const po::variables_map& values) {
 Subcommand machine_subcommand() {
     return {
         .name = "machine",
-        .arguments = "--defaults | --check FILE",
+        .arguments = "--defaults | FILE",
         .summary = "machine files: one with every key, and whether one can be used",
         .description =
             "A machine file holds the limits, the controller's settings and the servo loops of a machine,\n"
-            "for simulate.\n\n"
+            "for simulate. FILE is validated: exit code 3 and the line where it cannot be used.\n\n"
             "  clsurf machine --defaults > mill.toml\n"
-            "  clsurf machine --check mill.toml",
+            "  clsurf machine mill.toml",
         .declare =
             [](po::options_description& options) {
                 // clang-format off
                 options.add_options()
                     ("defaults", "print a machine file with every key at its default")
-                    ("check", po::value<std::string>()->value_name("FILE"), "judge a machine file; exit code 3 and the line where it cannot be used");
+                    ("check", po::value<std::string>()->value_name("FILE"), "the same as FILE alone");
                 // clang-format on
             },
-        .positional = {},
+        .positional = {"FILE"},
         .run = run_machine,
     };
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cli/command_line.h"
+#include "cli/config.h"
 #include "cli/help.h"
 #include "cli/options.h"
 #include "cli/subcommand.h"
@@ -24,13 +25,25 @@ namespace clsurf::cli {
 
 namespace {
 
+/// Which configuration is used, and for what.
+void say_config() {
+    const UsedConfig& config = used_config();
+    if (config.path.empty()) return;
+    std::string keys;
+    for (const std::string& key : config.keys) keys += (keys.empty() ? "" : ", ") + key;
+    std::fprintf(stderr, "options from %s: %s\n", config.path.c_str(),
+                 keys.empty() ? "none of use here" : keys.c_str());
+}
+
 ExitCode run(const Subcommand& subcommand, const std::vector<std::string>& words) {
     const po::variables_map values = parse_words(subcommand, words);
     if (values.count("help") > 0) {
         write_to_stdout(help_text(subcommand));
         return ExitCode::done;
     }
-    set_thread_count(read_common(values).threads);
+    const CommonOptions common = read_common(values);
+    if (common.verbose) say_config();
+    set_thread_count(common.threads);
     return subcommand.run(values);
 }
 
@@ -40,23 +53,23 @@ ExitCode run(const std::vector<std::string>& words) {
         return ExitCode::usage;
     }
     const std::string& first = words.front();
-    if (first == "--help" || first == "-h") {
+    const bool alone = words.size() == 1;
+    if (alone && (first == "--help" || first == "-h")) {
         write_to_stdout(overview_text());
         return ExitCode::done;
     }
-    if (first == "--version") {
+    if (first == "--version" || first == "version") {
         write_to_stdout("clsurf " + std::string(version) + "\n");
         return ExitCode::done;
     }
-    if (first.starts_with('-')) {
-        throw UsageError("expected a subcommand, found '" + first + "'", "see clsurf --help");
-    }
-    return run(find_subcommand(first), {words.begin() + 1, words.end()});
+    const std::vector<std::string> ordered = subcommand_first(words);
+    return run(find_subcommand(ordered.front()), {ordered.begin() + 1, ordered.end()});
 }
 
 ExitCode report(const UsageError& error) {
     std::fprintf(stderr, "clsurf: %s\n", error.what());
     if (!error.hint().empty()) std::fprintf(stderr, "    hint: %s\n", error.hint().c_str());
+    if (!used_config().keys.empty()) say_config();
     return ExitCode::usage;
 }
 

@@ -116,11 +116,6 @@ std::string joined(const std::vector<std::string>& words) {
     return text;
 }
 
-bool names_a_file(std::string_view value_name) {
-    return value_name.ends_with("FILE") || value_name.ends_with("FOLDER") ||
-           value_name.find('.') != std::string_view::npos || value_name == "LOG" || value_name == "PROGRAM";
-}
-
 /// What may follow an option: words, file names, or nothing that the shell could know.
 std::string bash_value_case(const std::string& subcommand, const OptionRow& row) {
     std::string patterns = fmt::format("{}:{}", subcommand, row.long_name);

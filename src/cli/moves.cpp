@@ -24,8 +24,12 @@ ExitCode run_moves(const po::variables_map& values) {
     std::optional<Machine> machine;
     if (values.count("machine") > 0) {
         machine = io::read_machine(values["machine"].as<std::string>());
-        if (!machine->kinematics.has_rotary()) throw UsageError("--machine: the machine has no rotary axes");
-        solve_tool_axes(program, *machine);
+        const bool rotary = machine->kinematics.has_rotary();
+        if (!rotary && given(values, "machine")) throw UsageError("--machine: the machine has no rotary axes");
+        if (rotary)
+            solve_tool_axes(program, *machine);
+        else
+            machine.reset();
     }
     print(program.diagnostics, values);
     const Kinematics* const kinematics = machine ? &machine->kinematics : nullptr;

@@ -44,9 +44,9 @@ Program read_text(const io::Source& source, const std::string& text, const io::P
 std::optional<Log> read_measured(const po::variables_map& values, bool five_axes) {
     if (values.count("log") == 0) {
         for (const char* name : {"layout", "mapping", "period"}) {
-            if (values.count(name) > 0) throw UsageError(std::string("--") + name + " is of a log: give --log");
+            if (given(values, name)) throw UsageError(std::string("--") + name + " is of a log: give --log");
         }
-        if (values.count("work-offset") > 0 && !five_axes)
+        if (given(values, "work-offset") && !five_axes)
             throw UsageError("--work-offset is of a log, or for programs on rotary axes: give --log");
         return std::nullopt;
     }

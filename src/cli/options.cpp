@@ -19,6 +19,7 @@ void declare_common(po::options_description& options) {
         ("quiet,q", "print errors only; files and what --json or --format asks for are written all the same")
         ("verbose,v", "print notes and what was done")
         ("threads", po::value<int>()->value_name("N"), "threads to use (default: all cores)")
+        ("no-config", "do not read .clsurf.toml")
         ("progress", po::value<std::string>()->value_name("auto|always|never"), "show how far long stages are (default: auto, on a terminal)");
     // clang-format on
 }
@@ -130,6 +131,10 @@ void write_answer(std::string_view text, const po::variables_map& values) {
         write_to_stdout(text);
 }
 
+bool given(const po::variables_map& values, const char* name) {
+    return values.count(name) > 0 && !values[name].defaulted();
+}
+
 std::string required(const po::variables_map& values, const char* name) {
     if (values.count(name) == 0 || values[name].as<std::string>().empty()) {
         if (std::string_view(name) == "output") throw UsageError("no output file given", "add -o FILE");
@@ -149,14 +154,18 @@ std::vector<double> parse_numbers(const std::string& text, const std::string& op
     const char* at = text.data();
     const char* const end = at + text.size();
     for (;;) {
+        while (at != end && *at == ' ') ++at;
         if (at != end && *at == '+') ++at;
         double value = 0;
         const auto read = std::from_chars(at, end, value);
         if (read.ec != std::errc() || !std::isfinite(value)) break;
         numbers.push_back(value);
         at = read.ptr;
-        if (at == end || *at != ',') break;
-        ++at;
+        // Commas, blanks, or both part them.
+        const bool blank = at != end && *at == ' ';
+        while (at != end && *at == ' ') ++at;
+        if (at == end || (*at != ',' && !blank)) break;
+        if (*at == ',') ++at;
     }
     if (at != end || numbers.empty() || (count != 0 && numbers.size() != count)) {
         throw UsageError(option + ": '" + text + "' is not " +
@@ -178,17 +187,25 @@ std::vector<std::string> split_names(const std::string& text) {
 }
 
 std::vector<double> read_size(const std::string& text) {
-    const std::size_t x = text.find('x');
-    const std::string list = x == std::string::npos ? text : text.substr(0, x) + "," + text.substr(x + 1);
-    const std::vector<double> size = parse_numbers(list, "--size", 2);
-    constexpr double least = 64;
-    constexpr double most = 8192;
-    for (const double n : size) {
-        if (n < least || n > most || n != std::floor(n)) {
-            throw UsageError("--size: '" + text + "' is not WIDTHxHEIGHT in whole pixels, 64 to 8192");
-        }
-    }
-    return size;
+    if (text == "hd") return {1920, 1080};
+    if (text == "4k") return {3840, 2160};
+    const std::size_t x = text.find_first_of("xX");
+    const auto pixels = [](std::string_view number) {
+        double value = 0;
+        const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
+        constexpr double least = 64;
+        constexpr double most = 8192;
+        const bool good = error == std::errc() && end == number.data() + number.size() && value >= least &&
+                          value <= most && value == std::floor(value);
+        return good ? value : 0.0;
+    };
+    const std::string_view all = text;
+    const double width = pixels(all.substr(0, x));
+    const double height = x == std::string::npos ? 0.0 : pixels(all.substr(x + 1));
+    if (width == 0 || height == 0)
+        throw UsageError("--size: '" + text +
+                         "' is not WIDTHxHEIGHT in whole pixels, 64 to 8192, such as 1600x1200, or hd or 4k");
+    return {width, height};
 }
 
 void print(const Diagnostics& diagnostics, const po::variables_map& values) {

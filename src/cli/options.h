@@ -52,6 +52,9 @@ void declare_simulation(po::options_description& options);
 void declare_json(po::options_description& options);
 [[nodiscard]] bool read_json(const po::variables_map& values);
 
+/// The option is on the command line, not in a configuration (cli/config.h).
+[[nodiscard]] bool given(const po::variables_map& values, const char* name);
+
 /// A positional argument or an option that must be there; UsageError names it otherwise.
 [[nodiscard]] std::string required(const po::variables_map& values, const char* name);
 
@@ -65,13 +68,13 @@ void write_answer(std::string_view text, const po::variables_map& values);
 /// Writes to standard output. Throws SystemError (a full disk; a closed pipe ends the program).
 void write_to_stdout(std::string_view text);
 
-/// Exactly `count` numbers separated by commas (0: one or more). Throws UsageError, naming `option`.
+/// Exactly `count` numbers separated by commas or blanks (0: one or more). Throws UsageError, naming `option`.
 [[nodiscard]] std::vector<double> parse_numbers(const std::string& text, const std::string& option, std::size_t count);
 
 /// Names separated by commas; empty ones are left out.
 [[nodiscard]] std::vector<std::string> split_names(const std::string& text);
 
-/// "1600x1200": two whole numbers of pixels. Throws UsageError.
+/// "1600x1200", "hd" (1920x1080), "4k" (3840x2160): two whole numbers of pixels. Throws UsageError.
 [[nodiscard]] std::vector<double> read_size(const std::string& text);
 
 /// Prints diagnostics to stderr: errors and warnings, notes with -v, nothing but errors with -q.

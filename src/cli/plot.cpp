@@ -161,7 +161,7 @@ Subcommand plot_subcommand() {
                     ("to", po::value<double>()->value_name("X"), "last x to show [s or mm]")
                     ("line", po::value<long long>()->value_name("N"), "show the points of a line and some round them; a cursor at its first point")
                     ("mark-point", po::value<std::vector<long long>>()->value_name("N"), "a cursor at a point; may be repeated")
-                    ("size", po::value<std::string>()->value_name("WxH"), "size in pixels (default: 1600x900)")
+                    ("size", po::value<std::string>()->value_name("WxH|hd|4k"), "size in pixels (default: 1600x900)")
                     ("gl", po::value<std::string>()->value_name("osmesa|egl"), "what draws: the processor, or a graphics card (default: osmesa)");
                 // clang-format on
                 declare_profile(options);

@@ -20,11 +20,11 @@ void declare_profile(po::options_description& options) {
 
 bool asks_for_profile(const po::variables_map& values) {
     const bool asked = values.count("profile") > 0;
-    if (!asked && values.count("tool") > 0)
+    if (!asked && given(values, "tool"))
         throw UsageError("--tool is of --profile only", "--profile 10,0,10,5 --tool ball:6");
     if (!asked) return false;
     for (const char* name : {"fields", "over", "from", "to", "line", "mark-point"}) {
-        if (values.count(name) > 0) throw UsageError(fmt::format("--{} is of curves, not of --profile", name));
+        if (given(values, name)) throw UsageError(fmt::format("--{} is of curves, not of --profile", name));
     }
     return true;
 }

@@ -52,7 +52,7 @@ void declare_render(po::options_description& options) {
 void read_formed(const po::variables_map& values, RenderOptions& options) {
     if (!options.part.formed) {
         for (const char* name : {"tool", "swept"}) {
-            if (values.count(name) > 0)
+            if (given(values, name))
                 throw UsageError(fmt::format("--{} is of the formed surface only", name),
                                  "--surface formed --tool ball:6");
         }
@@ -60,9 +60,9 @@ void read_formed(const po::variables_map& values, RenderOptions& options) {
     }
     options.tool = required_tool(values, "--surface formed", "--surface formed --tool ball:6");
     if (values.count("swept") > 0) options.swept = parse_role(values["swept"].as<std::string>());
-    if (values.count("color") > 0)
+    if (given(values, "color"))
         throw UsageError("--color is not of the formed surface: it shows micrometres over its form");
-    if (options.shown.look.style != viz::Style::surface)
+    if (given(values, "style") && options.shown.look.style != viz::Style::surface)
         throw UsageError("--style is not of the formed surface: it is drawn as one");
 }
 

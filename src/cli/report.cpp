@@ -49,13 +49,11 @@ void declare_report(po::options_description& options) {
 /// What `render` needs to read the same, as words of a command line.
 std::vector<std::string> reading_options_of(const po::variables_map& values) {
     std::vector<std::string> words;
-    for (const char* name : {"dialect", "tools", "layout", "mapping", "work-offset", "machine"}) {
+    for (const char* name : {"dialect", "block-delete", "tools", "layout", "mapping", "work-offset", "machine"}) {
         if (values.count(name) > 0)
             words.insert(words.end(), {fmt::format("--{}", name), values[name].as<std::string>()});
     }
-    for (const char* name : {"block-delete", "ignore-lines"}) {
-        if (values.count(name) > 0 && !values[name].defaulted()) words.push_back(fmt::format("--{}", name));
-    }
+    if (values.count("ignore-lines") > 0) words.push_back("--ignore-lines");
     return words;
 }
 
@@ -221,7 +219,8 @@ ExitCode run_report(const po::variables_map& values) {
     page.reading_options = options.reading_options;
     page.most_bytes = options.most_bytes;
     page.ranges = ranges_of(logs);
-    page.first_field = options.first_field.empty() ? shown.fields.front().info.name : options.first_field;
+    page.first_field = options.first_field.empty() ? shown.fields.front().info.name
+                                                   : std::string(usual_name(options.first_field, shown.part.log));
     if (std::none_of(shown.fields.begin(), shown.fields.end(),
                      [&](const Field& f) { return f.info.name == page.first_field; })) {
         std::vector<FieldInfo> infos;

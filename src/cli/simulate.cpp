@@ -79,8 +79,8 @@ ExitCode run_simulate(const po::variables_map& values) {
     const std::string path = required(values, "PROGRAM");
     const io::Source source = io::open_source(path);
     const bool five_axes = machine.kinematics.has_rotary();
-    const std::optional<Vec3> zero = read_work_offset(values);
-    if (zero && !five_axes)
+    const std::optional<Vec3> zero = five_axes ? read_work_offset(values) : std::nullopt;
+    if (given(values, "work-offset") && !five_axes)
         throw UsageError("--work-offset is for machines with rotary axes; positions of three are the program's");
     const auto open_log = [&] {
         const std::string metadata =

@@ -11,7 +11,8 @@ clsurf_cli_test(NAME help_channels ARGS help channels STDOUT "line +physical lin
 clsurf_cli_test(NAME help_formats ARGS help formats STDOUT "biip")
 clsurf_cli_test(NAME help_dialects_as_json ARGS help dialects --json STDOUT "\"name\": \"heidenhain-iso\"")
 clsurf_cli_test(NAME help_colormaps ARGS help colormaps STDOUT "viridis")
-clsurf_cli_test(NAME help_on_an_unknown_topic ARGS help dialect EXIT 2 STDERR "did you mean 'dialects'")
+clsurf_cli_test(NAME help_on_an_unknown_topic ARGS help dialetcs EXIT 2 STDERR "did you mean 'dialects'")
+clsurf_cli_test(NAME help_singular ARGS help colormap STDOUT "viridis")
 clsurf_cli_test(NAME unknown_subcommand ARGS rendr EXIT 2 STDERR "unknown subcommand 'rendr'" "did you mean 'render'")
 clsurf_cli_test(NAME option_before_subcommand ARGS --view top EXIT 2 STDERR "expected a subcommand, found '--view'")
 clsurf_cli_test(NAME unknown_option ARGS moves --dialekt fanuc a.nc EXIT 2 STDERR "unknown option '--dialekt'" "did you mean --dialect")
@@ -293,7 +294,7 @@ clsurf_cli_test(NAME machine_unknown_corner SETUP "printf '[controller]\\ncorner
 clsurf_cli_test(NAME machine_loop_does_not_settle SETUP "printf '[[axis]]\\nname = \"x\"\\n[axis.servo]\\nposition_gain = 300\\nvelocity_time_constant = 0.004\\n' > m.toml"
   ARGS machine --check m.toml EXIT 3 STDERR "m.toml:3" "does not settle")
 clsurf_cli_test(NAME machine_missing_file ARGS machine --check nowhere.toml EXIT 3 STDERR "nowhere.toml: error: cannot open")
-clsurf_cli_test(NAME machine_needs_one ARGS machine EXIT 2 STDERR "one of --defaults and --check")
+clsurf_cli_test(NAME machine_needs_one ARGS machine EXIT 2 STDERR "one of --defaults and FILE")
 
 clsurf_cli_test(NAME machine_five_axes ARGS machine --check @DATA@/machines/five_axis_trunnion.toml STDOUT "can be used")
 clsurf_cli_test(NAME machine_kinematics_type SETUP "printf '[kinematics]\\ntype = \"table-tabel\"\\n' > m.toml" ARGS machine --check m.toml

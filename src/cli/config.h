@@ -1,0 +1,33 @@
+#pragma once
+// .clsurf.toml: a second source of option values, after the command line. Nobody who reads options
+// needs to know it; what comes from it is "defaulted" in Boost's words (given() in cli/options.h).
+
+#include <string>
+#include <vector>
+
+#include "cli/subcommand.h"
+
+namespace clsurf::cli {
+
+constexpr const char* config_name = ".clsurf.toml";
+
+/// What was taken from a configuration.
+struct UsedConfig {
+    std::string path;               ///< empty: there is none
+    std::vector<std::string> keys;  ///< those that this subcommand took
+};
+
+/// The nearest .clsurf.toml at or above the folder of the first file that the command line names, else of the
+/// working folder; empty: none. O(depth of the folder).
+[[nodiscard]] std::string find_config(const Subcommand& subcommand, const po::variables_map& values);
+
+/// Adds what the file says and the command line does not. File names in it are relative to its folder. Keys that only
+/// other subcommands know are passed over. Throws InputError with the line: a key that none knows, a value that the
+/// option does not take.
+[[nodiscard]] UsedConfig store_config(const std::string& path, const po::options_description& options,
+                                      po::variables_map& values);
+
+/// The configuration of this run, for messages.
+[[nodiscard]] UsedConfig& used_config();
+
+}  // namespace clsurf::cli
