@@ -22,9 +22,11 @@ void add_runs(Json& json, const std::vector<DefectRun>& runs) {
 
 Json defect_json(const Defect& d, std::size_t id, double scallop) {
     Json json{{"id", id},
+              {"rank", id},
               {"severity", d.severity},
               {"cause", name_of(d.cause)},
               {"quantity", name_of(d.quantity)},
+              {"systematic", d.systematic},
               {"position_mm", vector(d.position)},
               {"bounds_mm", box(d.bounds)},
               {"area_mm2", number(d.area)},

@@ -122,9 +122,8 @@ std::string defect_list_section(const ReportPage& page) {
         text += fmt::format(
             "<tr data-defect=\"{}\"><td>{}</td><td><span class=\"severity s{}\">{}</span></td><td>{}</td><td>{:+.1f}</td>{}<td>{:+.1f}</td><td>{:.1f}</td><td>{:.2f} {:.2f} {:.2f}</td><td>{}</td></tr>\n",
             i + 1, i + 1, d.severity, d.severity, html(description_of(d.cause)), (d.pit ? -1 : 1) * d.depth * um_per_mm,
-            formed ? fmt::format("<td>{}</td>", um_text(page.quality.formed->marks[i])) : "",
-            std::copysign(100 * d.speed_mismatch, d.speed_jump), d.length, d.position.x(), d.position.y(),
-            d.position.z(), html(defect_lines(d)));
+            formed ? fmt::format("<td>{}</td>", um_text(page.quality.formed->marks[i])) : "", 100 * d.speed_mismatch,
+            d.length, d.position.x(), d.position.y(), d.position.z(), html(defect_lines(d)));
     }
     text += "</tbody></table></div>\n";
     if (report.defects.size() > defects_in_table)

@@ -133,7 +133,7 @@ std::string quality_text(const ReportedQuality& q) {
         const Defect& d = r.defects[i];
         constexpr std::size_t most_ranges = 4;
         const std::string lines = line_ranges(d.runs, most_ranges);
-        const double percent = std::copysign(100 * d.speed_mismatch, d.speed_jump);
+        const double percent = 100 * d.speed_mismatch;
         const double formed = q.formed != nullptr ? um(q.formed->marks[i]) : 0;
         const std::string mark =
             q.formed == nullptr ? "" : fmt::format(" {:>10}", formed == formed ? fmt::format("{:.1f}", formed) : "-");

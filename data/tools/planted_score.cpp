@@ -95,7 +95,7 @@ Program program_of(const PlantedLog& planted) {
     return parse_program(SourceText("planted.nc", planted.program, nullptr), {});
 }
 
-QualityReport judge(const PlantedLog& planted) {
+QualityReport judge(const PlantedLog& planted, const QualityRules& rules) {
     const Log log = as_log(planted);
     const Program program = program_of(planted);
     Diagnostics diagnostics;
@@ -105,7 +105,7 @@ QualityReport judge(const PlantedLog& planted) {
     const ClSurface surface = stitch(gather(path), lines);
     const Signals signals =
         derive_signals(surface, path, &measured, smooth_pieces(log, surface.passes), usual_end_zone(surface.step_over));
-    return find_defects(surface, signals, lines, program, log.period, {});
+    return find_defects(surface, signals, lines, program, log.period, rules);
 }
 
 Score score(const PlantedLog& planted, const QualityReport& report) {

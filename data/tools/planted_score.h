@@ -12,7 +12,7 @@ namespace clsurf::planted {
 [[nodiscard]] Program program_of(const PlantedLog& planted);
 
 /// The project's own way from a log to its report.
-[[nodiscard]] QualityReport judge(const PlantedLog& planted);
+[[nodiscard]] QualityReport judge(const PlantedLog& planted, const QualityRules& rules = {});
 
 struct Score {
     int planted = 0;   ///< defects

@@ -12,6 +12,7 @@
 #include "path/way.h"
 #include "quality/cause.h"
 #include "quality/suspects.h"
+#include "quality/systematic_lag.h"
 
 namespace clsurf {
 namespace {
@@ -23,19 +24,25 @@ constexpr double smallest_area = 1.0;      ///< squared step-overs
 constexpr float least_speed_share = 0.6F;  ///< of its threshold, for what only the acceleration shows …
 constexpr float strong_alone = 1.5F;       ///< … and of the acceleration's own
 constexpr std::size_t fewest_sites = 2;
-constexpr double effect_seconds = 0.020;  ///< by which a height may outlast the motion that makes it
+constexpr double systematic_depth = 0.99;  ///< quantile of the steps of a systematic lag
+constexpr double effect_seconds = 0.020;   ///< by which a height may outlast the motion that makes it
 
-/// The height of a plateau of values, signed: of those with the sign of the largest one. NaN are left out.
-double plateau(const std::vector<double>& values) {
+/// The largest of values; NaN are left out.
+double largest_of(const std::vector<double>& values) {
     double largest = 0;
     for (const double v : values) {
         if (std::abs(v) > std::abs(largest)) largest = v;
     }
+    return largest;
+}
+
+/// The height of a plateau of values, signed: of those with the sign of `sign`. NaN are left out.
+double plateau(const std::vector<double>& values, double sign) {
     std::vector<double> same;
     for (const double v : values) {
-        if (v * largest > 0) same.push_back(std::abs(v));
+        if (v * sign > 0) same.push_back(std::abs(v));
     }
-    return same.empty() ? 0 : std::copysign(nearest_quantile(same, shown_share), largest);
+    return same.empty() ? 0 : std::copysign(nearest_quantile(same, shown_share), sign);
 }
 
 /// Suspects in the order of their points.
@@ -64,19 +71,17 @@ Quantity main_quantity(SuspectSpan group, Family family) {
     return family.back();
 }
 
-int severity_of(double depth, float score, bool heights_known, const QualityRules& rules) {
-    if (!heights_known) return score < 1.5F ? 1 : score < 3 ? 2 : 3;
-    int severity = 1;
-    for (const double limit : rules.depth_of_severity) severity += depth >= limit ? 1 : 0;
-    // A speed step that leaves no height still shows on a glossy surface: the chips change.
-    return std::max(severity, score >= 2 ? 2 : 1);
-}
-
 class Builder {
 public:
     Builder(const ClSurface& surface, const Signals& signals, const LineMap& lines, const CauseFinder& causes,
-            const Way& way, const QualityRules& rules)
-        : surface_(surface), signals_(signals), lines_(lines), causes_(causes), way_(way), rules_(rules) {
+            const Way& way, const Thresholds& thresholds, const QualityRules& rules)
+        : surface_(surface),
+          signals_(signals),
+          lines_(lines),
+          causes_(causes),
+          way_(way),
+          thresholds_(thresholds),
+          rules_(rules) {
         std::int64_t number = 0;
         for (const Pass& pass : surface.passes) numbers_.push_back(pass.kind == PassKind::cut ? ++number : 0);
     }
@@ -139,8 +144,8 @@ public:
         measure(core, defect);
         defect.neighbours = neighbours_of(core, defect.runs);
         defect.cause = causes_.cause_of(defect, core);
-        defect.severity =
-            severity_of(defect.depth, defect.score, signals_.measured || defect.quantity == Quantity::relief, rules_);
+        const bool motion = defect.quantity == Quantity::speed || defect.quantity == Quantity::acceleration;
+        defect.severity = severity_of({defect.depth, defect.score, motion, false}, rules_.severity);
         return defect;
     }
 
@@ -151,6 +156,41 @@ public:
         const auto all = std::count_if(core.begin(), core.end(), starts);
         return 4 * std::count_if(core.begin(), core.end(), [&](const Suspect* s) { return s->border && starts(s); }) >=
                3 * all;
+    }
+
+    /// The one defect that systematic lag is.
+    [[nodiscard]] Defect build(const SystematicLag& lag) const {
+        Defect defect;
+        defect.quantity = Quantity::lag;
+        defect.cause = Cause::lag_step;
+        defect.systematic = true;
+        std::vector<double> steps;
+        const AlternatingSite* strongest = &lag.sites.front();
+        for (const AlternatingSite& site : lag.sites) {
+            steps.push_back(std::abs(site.step));
+            defect.bounds.extend(surface_.positions.absolute(site.point));
+            if (std::abs(site.step) > std::abs(strongest->step)) strongest = &site;
+        }
+        defect.point = strongest->point;
+        defect.position = surface_.positions.absolute(defect.point);
+        defect.speed = defect.speed_beside = signals_[defect.point].speed;
+        defect.depth = nearest_quantile(steps, systematic_depth);
+        defect.score = static_cast<float>(defect.depth) / thresholds_.of[index_of(Quantity::lag)];
+        for (std::size_t k = 0; k < lag.sites.size();) {
+            std::size_t end = k + 1;
+            while (end < lag.sites.size() && lag.sites[end].pass == lag.sites[k].pass &&
+                   !way_.at_least(lag.sites[end - 1].point, lag.sites[end].point, joined_))
+                ++end;
+            defect.runs.push_back(run_of(lag.sites[k].pass, {lag.sites[k].point, lag.sites[end - 1].point}));
+            k = end;
+        }
+        const double way = add_up_runs(defect);
+        double all = 0;
+        for (const Pass& pass : surface_.passes)
+            all += pass.kind == PassKind::cut ? way_.to(pass.last) - way_.to(pass.first) : 0;
+        defect.share = way / all;
+        defect.severity = severity_of({defect.depth, defect.score, false, true}, rules_.severity);
+        return defect;
     }
 
 private:
@@ -194,17 +234,27 @@ private:
             accelerations.push_back(c.step[index_of(Quantity::acceleration)]);
             defect.bounds.extend(surface_.positions.absolute(s->point));
         }
-        const double height = plateau(heights);
+        const double height = plateau(heights, largest_of(heights));
         defect.depth = std::abs(height);
         defect.pit = height < 0;
-        defect.speed_jump = plateau(speeds);
-        defect.speed_mismatch = std::abs(plateau(mismatches));
-        defect.acceleration_jump = plateau(accelerations);
+        // Both of the side on which it differs most from the neighbours: a loss of 80 % is no gain of 400 %.
+        const double side = largest_of(mismatches);
+        defect.speed_jump = plateau(speeds, side);
+        defect.speed_mismatch = plateau(mismatches, side);
+        defect.acceleration_jump = plateau(accelerations, 1);
+        (void)add_up_runs(defect);
+    }
+
+    /// Length and area of a defect from its runs. Returns the way of all runs [mm].
+    double add_up_runs(Defect& defect) const {
+        double way = 0;
         for (const DefectRun& run : defect.runs) {
             const double length = way_.to(run.points.last) - way_.to(run.points.first);
             defect.length = std::max(defect.length, length);
-            defect.area += length * surface_.step_over;
+            way += length;
         }
+        defect.area = way * surface_.step_over;
+        return way;
     }
 
     /// The stretches beside `runs` on passes that are not at fault.
@@ -236,13 +286,14 @@ private:
     const LineMap& lines_;
     const CauseFinder& causes_;
     const Way& way_;
+    const Thresholds& thresholds_;
     const QualityRules& rules_;
     double joined_ = std::max(1.0, 2 * surface_.step_over);  ///< [mm] of way between sites that hang together
     std::vector<std::int64_t> numbers_;                      ///< of the cut passes, by index
 };
 
 bool worse(const Defect& a, const Defect& b) {
-    if (a.severity != b.severity) return a.severity > b.severity;
+    if (a.score != b.score) return a.score > b.score;
     if (a.depth != b.depth) return a.depth > b.depth;
     return a.point < b.point;
 }
@@ -371,13 +422,15 @@ QualityReport find_defects(const ClSurface& surface, const Signals& signals, con
     report.thresholds = rules.fixed ? *rules.fixed : measure_thresholds(surface, signals, rules.thresholds);
     const Way way(surface.positions);
     const CauseFinder causes(surface, signals, lines, program, way);
-    const Builder builder(surface, signals, lines, causes, way, rules);
+    const Builder builder(surface, signals, lines, causes, way, report.thresholds, rules);
     report.passes = builder.cut_passes();
     for (const Pass& pass : surface.passes) report.points += pass.kind == PassKind::cut ? pass.size() : 0;
     report.compared = count_compared(surface, signals);
     judge_coverage(report);
 
-    const FoundSuspects found = find_suspects(surface, signals, report.thresholds);
+    FoundSuspects found = find_suspects(surface, signals, report.thresholds);
+    const SystematicLag systematic =
+        rules.group_systematic ? take_systematic_lag(surface, signals, way, report.thresholds, found) : SystematicLag{};
     const Suspects& suspects = found.suspects;
     const std::array<Family, 3> families{motion_family, lag_family, relief_family};
     std::array<std::vector<Built>, families.size()> of_family;
@@ -398,6 +451,7 @@ QualityReport find_defects(const ClSurface& surface, const Signals& signals, con
         if (built.border) built.defect.cause = Cause::pass_end;
         (built.border ? report.expected : report.defects).push_back(std::move(built.defect));
     }
+    if (!systematic.sites.empty()) report.defects.push_back(builder.build(systematic));
     std::sort(report.defects.begin(), report.defects.end(), worse);
     std::sort(report.expected.begin(), report.expected.end(), worse);
     return report;

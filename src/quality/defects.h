@@ -8,7 +8,8 @@
 // second one); groups without a start are dropped. What is left is cut back on each pass to where its
 // main quantity is at least half of its peak there. Motion (speed and acceleration) and heights are
 // grouped apart, so that a lag all over the part does not hide a slow pass; a height that lies where
-// the motion differs belongs to that.
+// the motion differs belongs to that. Lag that alternates with the direction of travel over a large part of the surface is one
+// defect of the whole (systematic_lag.h). What stands farthest out, in multiples of its threshold, comes first.
 
 #include <optional>
 #include <string_view>
@@ -17,6 +18,7 @@
 #include "path/line_map.h"
 #include "quality/judgement.h"
 #include "quality/mismatch.h"
+#include "quality/severity.h"
 
 namespace clsurf {
 
@@ -39,35 +41,45 @@ struct DefectRun {
     LineNumber first_line = 0, last_line = 0;  ///< of these points; 0: no line
 };
 
+/// How far the measured position of an axis trails the commanded one.
+struct AxisDelay {
+    char axis = 'x';
+    double delay = 0;  ///< [s] following error over speed
+};
+
 struct Defect {
-    int severity = 1;  ///< 1 trace, 2 visible on a glossy surface, 3 can be felt, 4 reject
+    int severity = 1;  ///< 1 to 4 (severity.h)
     Cause cause = Cause::feed_drop;
     Quantity quantity = Quantity::speed;  ///< that shows it best
-    float score = 0;                      ///< peak over threshold
-    Vec3 position = Vec3::Zero();         ///< [mm] on the CL surface: where it is strongest
-    PointIndex point = 0;                 ///< there
-    Box3 bounds;                          ///< [mm]
-    double area = 0;                      ///< [mm²]
-    double length = 0;                    ///< [mm] along the feed, of the longest run
-    double depth = 0;                     ///< [mm] ≥ 0, predicted step against the neighbours along the normal
-    bool pit = false;                     ///< below its neighbours; else a bulge, which they cut down again
-    double speed = 0;                     ///< [mm/s] where it is strongest
-    double speed_beside = 0;              ///< [mm/s] of the passes beside it, there
-    double speed_jump = 0;                ///< [mm/s] signed, against the neighbours
-    double speed_mismatch = 0;            ///< ≥ 0, the same relative to the neighbours' speed
-    double acceleration_jump = 0;         ///< [mm/s²] ≥ 0
-    std::vector<DefectRun> runs;          ///< of the passes at fault, in the order of their points
-    std::vector<DefectRun> neighbours;    ///< the clean passes beside them
+    float score = 0;                      ///< peak over threshold: how far it stands out of what the part is like
+    bool systematic = false;              ///< lag that alternates with the direction of travel (systematic_lag.h)
+    double share = 0;                     ///< of a systematic one: of the way of all cut passes, 0 … 1
+    std::vector<AxisDelay> delays;      ///< of a systematic one: the axes that differ, slowest first; empty: not known
+    Vec3 position = Vec3::Zero();       ///< [mm] on the CL surface: where it is strongest
+    PointIndex point = 0;               ///< there
+    Box3 bounds;                        ///< [mm]
+    double area = 0;                    ///< [mm²]
+    double length = 0;                  ///< [mm] along the feed, of the longest run
+    double depth = 0;                   ///< [mm] ≥ 0, predicted step against the neighbours along the normal
+    bool pit = false;                   ///< below its neighbours; else a bulge, which they cut down again
+    double speed = 0;                   ///< [mm/s] where it is strongest
+    double speed_beside = 0;            ///< [mm/s] of the passes beside it, there
+    double speed_jump = 0;              ///< [mm/s] signed, against the neighbours
+    double speed_mismatch = 0;          ///< the same relative to the neighbours' speed, ≥ −1
+    double acceleration_jump = 0;       ///< [mm/s²] ≥ 0
+    std::vector<DefectRun> runs;        ///< of the passes at fault, in the order of their points
+    std::vector<DefectRun> neighbours;  ///< the clean passes beside them
 };
 
 struct QualityRules {
     ThresholdRule thresholds;
     std::optional<Thresholds> fixed;  ///< those that another run was judged by, instead of the run's own
-    std::array<double, 3> depth_of_severity{0.002, 0.005, 0.020};  ///< [mm] where 2, 3, 4 begin
+    SeverityRule severity;
+    bool group_systematic = true;  ///< systematic lag is one defect; else each of its places is
 };
 
 struct QualityReport {
-    std::vector<Defect> defects;   ///< worst first
+    std::vector<Defect> defects;   ///< in falling order of score
     std::vector<Defect> expected;  ///< at outermost passes: what a part's border always shows
     Thresholds thresholds;
     PointIndex points = 0;    ///< of cut passes

@@ -28,7 +28,7 @@ double area(const QualityReport& r) {
 }
 double speed_mismatch(const QualityReport& r) {
     const double usual = 100.0 * r.thresholds.p99[index_of(Quantity::speed)];
-    return std::max(usual, largest(r, [](const Defect& d) { return 100.0 * d.speed_mismatch; }));
+    return std::max(usual, largest(r, [](const Defect& d) { return 100.0 * std::abs(d.speed_mismatch); }));
 }
 double coverage(const QualityReport& r) { return 100 * r.coverage(); }
 

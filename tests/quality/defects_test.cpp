@@ -220,6 +220,103 @@ TEST(Defects, OfFastPassesAreSeenByTheirLength) {
     EXPECT_EQ(score.right, score.reported);
 }
 
+/// The measured positions of some passes lifted by `height` [mm] from x = `from` to `to`, with edges of 0.5 mm.
+template <typename Taken>
+void lift(planted::PlantedLog& log, double height, double from, double to, Taken&& taken) {
+    for (std::size_t i = 0; i < log.pass.size(); ++i) {
+        if (log.pass[i] < 0 || !taken(log.pass[i])) continue;
+        const double x = log.commanded[0][i];
+        const double inside = std::clamp(2 * std::min(x - from, to - x), 0.0, 1.0);
+        log.measured[2][i] += height * inside;
+    }
+}
+
+/// A zigzag whose axes run 10 µm above the path on the way forward and as much below it on the way back, for x = 4 to 20.
+planted::PlantedLog alternating_zigzag() {
+    planted::PlantedLog log = plane_zigzag([](int, double, double) { return 50.0; });
+    lift(log, 0.010, 4, 20, [](int pass) { return pass % 2 == 0; });
+    lift(log, -0.010, 4, 20, [](int pass) { return pass % 2 == 1; });
+    return log;
+}
+
+TEST(SystematicLag, IsOneDefectOfTheWhole) {
+    const QualityReport report = planted::judge(alternating_zigzag());
+    ASSERT_EQ(report.defects.size(), 1U);
+    const Defect& lag = report.defects.front();
+    EXPECT_TRUE(lag.systematic);
+    EXPECT_EQ(lag.cause, Cause::lag_step);
+    EXPECT_NEAR(lag.depth, 0.020, 0.002);  // from one way to the other
+    EXPECT_NEAR(lag.share, 16.0 / 24.0, 0.05);
+    EXPECT_NEAR(lag.bounds.min().x(), 4, 0.5);
+    EXPECT_NEAR(lag.bounds.max().x(), 20, 0.5);
+    EXPECT_GE(lag.runs.size(), 20U);
+    EXPECT_LE(lag.severity, 3);
+}
+
+TEST(SystematicLag, LeavesALocalFaultInsideItToItself) {
+    for (const int pass : {9, 12}) {
+        planted::PlantedLog log = alternating_zigzag();
+        lift(log, 0.009, 10, 13, [pass](int p) { return p == pass; });
+        const QualityReport report = planted::judge(log);
+        ASSERT_EQ(report.defects.size(), 2U);
+        const Defect& local = report.defects[report.defects[0].systematic ? 1 : 0];
+        EXPECT_FALSE(local.systematic);
+        EXPECT_NEAR(local.depth, 0.009, 0.001);
+        EXPECT_FALSE(local.pit);
+        ASSERT_EQ(local.runs.size(), 1U);
+        EXPECT_EQ(local.runs[0].pass, pass + 1);
+        EXPECT_GE(local.bounds.min().x(), 9.5);
+        EXPECT_LE(local.bounds.max().x(), 13.5);
+    }
+}
+
+TEST(SystematicLag, IsNoFaultOfAFewPasses) {
+    // Four passes of the same way, in a clean part: a defect like others.
+    planted::PlantedLog log = plane_zigzag([](int, double, double) { return 50.0; });
+    lift(log, 0.010, 4, 20, [](int p) { return p >= 8 && p <= 14 && p % 2 == 0; });
+    const QualityReport report = planted::judge(log);
+    ASSERT_FALSE(report.defects.empty());
+    for (const Defect& defect : report.defects) EXPECT_FALSE(defect.systematic);
+}
+
+TEST(SystematicLag, MayBeLeftInItsPlaces) {
+    QualityRules rules;
+    rules.group_systematic = false;
+    const QualityReport report = planted::judge(alternating_zigzag(), rules);
+    ASSERT_FALSE(report.defects.empty());
+    for (const Defect& defect : report.defects) EXPECT_FALSE(defect.systematic);
+}
+
+TEST(Defects, AreListedByHowFarTheyStandOut) {
+    // A pass 40 % slower leaves next to no depth here, one 6 µm too deep does: the first stands out thirteen thresholds, the
+    // other four.
+    planted::PlantedLog log =
+        plane_zigzag([](int k, double x, double) { return k == 8 && x > 8 && x < 12 ? 30.0 : 50.0; });
+    lift(log, -0.006, 10, 14, [](int p) { return p == 16; });
+    const QualityReport report = planted::judge(log);
+    ASSERT_EQ(report.defects.size(), 2U);
+    EXPECT_EQ(report.defects[0].quantity, Quantity::speed);
+    EXPECT_EQ(report.defects[1].quantity, Quantity::lag);
+    EXPECT_GT(report.defects[0].score, report.defects[1].score);
+    EXPECT_LT(report.defects[0].depth, report.defects[1].depth);
+    EXPECT_NEAR(report.defects[0].speed_mismatch, -0.4, 0.02);
+    EXPECT_NEAR(report.defects[0].speed_jump, -20, 1);
+}
+
+TEST(Defects, LoseAtMostAllOfTheirSpeed) {
+    // The neighbours of this pass are slow where it is fast: three times as fast is +200 %, and nothing is −200 %.
+    const planted::PlantedLog log = plane_zigzag([](int k, double x, double) {
+        const bool odd_one = k == 12;
+        return x > 8 && x < 14 ? (odd_one ? 50.0 : 15.0) : (odd_one ? 40.0 : 50.0);
+    });
+    const QualityReport report = planted::judge(log);
+    ASSERT_FALSE(report.defects.empty());
+    for (const Defect& defect : report.defects) {
+        EXPECT_GE(defect.speed_mismatch, -1);
+        EXPECT_EQ(defect.speed_mismatch < 0, defect.speed_jump < 0);
+    }
+}
+
 TEST(Verdict, HoldsEveryLimitThatIsSet) {
     QualityReport report;
     report.points = 100;

@@ -21,3 +21,11 @@ clsurf_cli_test(NAME not_judged_on_the_page
   SETUP "${short_passes} && $CLSURF report part.nc run.biip -o page.html 2> /dev/null && grep -q 'class=.not-judged. role=.alert.><b>Not judged' page.html && (! grep -q 'speed nan' page.html)"
   ARGS check part.nc run.biip EXIT 5 FILE page.html)
 clsurf_cli_test(NAME judged_in_json ARGS check ${part} ${run} --json STDOUT "\"judged\": true" "\"not_judged_reasons\": ..,")
+
+# ---- order: what stands farthest out comes first ----
+# The five slow passes of the sample part, and then the lag of all passes as one finding.
+clsurf_cli_test(NAME slow_passes_come_first ARGS check ${part} ${run}
+  STDOUT "^ *no .* 1 +3 point_spacing .* 2 +3 point_spacing .* 3 +3 point_spacing .* 4 +[34] point_spacing .* 5 +[34] point_spacing .* 6 +3 lag_step ")
+clsurf_cli_test(NAME findings_in_falling_order_in_json
+  SETUP "$CLSURF check ${part} ${run} --json | awk '/\"expected\":/ {exit} {print}' > found && grep -oE '\"score\": [0-9.]+' found | cut -d' ' -f2 > scores && test -s scores && sort -rgc scores && grep -oE '\"rank\": [0-9]+' found | cut -d' ' -f2 > ranks && sort -gc ranks && test $(wc -l < scores) = $(tail -1 ranks) && test $(grep -c '\"systematic\": true' found) = 1"
+  ARGS --version)
