@@ -173,6 +173,7 @@ void read_metadata(Log& log, const Source& source) {
             if (part.is_number()) value[axis] = part.get<double>();
         }
         if (numbers) log.work_offset = value;
+        if (numbers && offset->size() > 3 && (*offset)[3].is_number()) log.work_rotation = (*offset)[3].get<double>();
     }
 }
 

@@ -19,6 +19,11 @@ struct LogOptions {
     std::optional<double> period;  ///< [s]; where the log has none
 };
 
+/// Whether a layout or a mapping says how the bytes are read: any file can be such a log.
+[[nodiscard]] inline bool forces_log(const LogOptions& options) {
+    return !options.layout.empty() || !options.mapping.empty();
+}
+
 struct LogFormat {
     std::string_view name;
     std::string_view summary;

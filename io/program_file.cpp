@@ -1,5 +1,6 @@
 #include "io/program_file.h"
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <string_view>
@@ -54,13 +55,48 @@ InterpreterOptions interpreter_options(const Source& source, const ProgramOption
 
 }  // namespace
 
+namespace {
+
+/// A block begins with a word (N10, G1, X-3, #1=, o100), after '/' perhaps; a comment with '(' or ';', a tape with '%'.
+bool looks_like_block(std::string_view line) {
+    const std::size_t first = line.find_first_not_of(" \t/:");
+    if (first == std::string_view::npos) return true;
+    line.remove_prefix(first);
+    if (line[0] == '(' || line[0] == ';' || line[0] == '%' || line[0] == '#') return true;
+    const bool letter = (line[0] >= 'A' && line[0] <= 'Z') || (line[0] >= 'a' && line[0] <= 'z');
+    const std::size_t value = line.find_first_not_of(" \t", 1);
+    return letter && value != std::string_view::npos &&
+           std::string_view("0123456789+-.[#<=").find(line[value]) != std::string_view::npos;
+}
+
+}  // namespace
+
+bool looks_like_program(const Source& source) {
+    constexpr std::size_t looked_at = 4096;
+    std::string_view text(reinterpret_cast<const char*>(source.bytes.data()), std::min(looked_at, source.bytes.size()));
+    std::size_t blocks = 0, lines = 0;
+    while (!text.empty()) {
+        const std::size_t end = std::min(text.find('\n'), text.size());
+        const std::string_view line = text.substr(0, end);
+        const bool is_text =
+            std::none_of(line.begin(), line.end(), [](char c) { return c >= 0 && c < ' ' && c != '\t' && c != '\r'; });
+        if (!is_text) return false;
+        ++lines;
+        blocks += looks_like_block(line) ? 1 : 0;
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    return lines > 0 && blocks * 5 > lines * 4;
+}
+
 Program read_program(const std::string& path, const ProgramOptions& options) {
     return read_program(open_source(path), options);
 }
 
 Program read_program(const Source& source, const ProgramOptions& options) {
     const InterpreterOptions how = interpreter_options(source, options);
-    return parse_program(source_text(source), how);
+    Program program = parse_program(source_text(source), how);
+    if (options.coordinates) (void)place_motions(program, {}, *options.coordinates);
+    return program;
 }
 
 std::unique_ptr<ProgramReader> open_program(const Source& source, const ProgramOptions& options) {

@@ -40,10 +40,17 @@ io::ExportColumn column_of(const std::string& name, const Part& part, const ClSu
         for (std::size_t i = 0; i < count; ++i) column.exact[i] = part.log.time_of(static_cast<PointIndex>(i));
     } else if (name == "x" || name == "y" || name == "z") {
         const auto axis = static_cast<std::size_t>(name[0] - 'x');
+        constexpr std::size_t block = 4096;
         column.unit = "mm";
         column.exact.resize(count);
-        copy_block(part.path.axes[axis], 0, column.exact);
-        for (double& v : column.exact) v += part.path.offset[static_cast<Eigen::Index>(axis)];
+        std::vector<double> others(2 * block);
+        for (std::size_t first = 0; first < count; first += block) {
+            const std::size_t n = std::min(block, count - first);
+            std::array<std::span<double>, 3> xyz;
+            for (std::size_t k = 0, other = 0; k < 3; ++k)
+                xyz[k] = std::span(k == axis ? column.exact.data() + first : others.data() + block * other++, n);
+            part.path.read(static_cast<PointIndex>(first), xyz[0], xyz[1], xyz[2]);
+        }
     } else if (name == "confidence") {
         column.values.resize(count);
         for (std::size_t i = 0; i < count; ++i)

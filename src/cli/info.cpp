@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "cli/options.h"
+#include "cli/work_frames.h"
 #include "core/units.h"
 #include "io/compressed.h"
 #include "io/json_text.h"
@@ -55,19 +56,19 @@ void print_log(const Log& log, const Diagnostics& diagnostics) {
 }
 
 /// Whether the log is one of this program: distances between the points and their lines.
-void judge_together(Program program, const Log& log, const std::optional<Vec3>& given,
+void judge_together(Program program, const Log& log, const FramePoses& given,
                     const std::shared_ptr<const Kinematics>& kinematics, Diagnostics& diagnostics) {
     const Role role = log.has(Role::commanded)  ? Role::commanded
                       : log.has(Role::feedback) ? Role::feedback
                                                 : Role::actual;
     if (!log.has(role) || log.records == 0 || program.motions.size() == 0) return;
-    const Vec3 offset = -given.value_or(log.work_offset.value_or(Vec3::Zero()));
-    const Trajectory path = reconstruct(log, role, offset, kinematics);
+    const Eigen::Isometry3d pose = place_with(program, log, given, kinematics.get(), diagnostics);
+    const Trajectory path = reconstruct(log, role, pose, kinematics);
     if (kinematics) {
         program.diagnostics = {};
-        solve_tool_axes(program, *kinematics);
+        solve_tool_axes(program, *kinematics, {}, {}, pose.linear());
         diagnostics.append(program.diagnostics);
-        make_tip_motions(program, *kinematics, offset);
+        make_tip_motions(program, *kinematics, pose);
     } else {
         note_rotary(log, role, diagnostics);
     }
@@ -97,11 +98,17 @@ ExitCode run_info(const po::variables_map& values) {
         const io::Source source = io::open_source(path);
         if (source.bytes.empty())
             throw InputError(Place::of_file(source.name), "is empty, expected a program or a log");
-        const bool is_log = io::recognise_log(source, log_options) != nullptr;
+        // A layout and a mapping say how a log is read; with them every file could be one.
+        const bool is_log = io::recognise_log(source, log_options) != nullptr &&
+                            !(io::forces_log(log_options) && io::looks_like_program(source));
         if (!is_log) {
             program_source = source;
-            program = io::read_program(source, read_program_options(values));
-            const ToolpathSummary summary = summarise(program->motions);
+            io::ProgramOptions options = read_program_options(values);
+            options.coordinates.reset();
+            program = io::read_program(source, options);
+            Program placed = *program;
+            (void)place_motions(placed);
+            const ToolpathSummary summary = summarise(placed.motions);
             if (json)
                 objects.push_back(io::program_json(*program, summary, program->diagnostics));
             else if (!quiet)

@@ -20,7 +20,9 @@ ExitCode run_moves(const po::variables_map& values) {
         (void)output_format(path, motion_formats());
         output.emplace(path);
     }
-    Program program = io::read_program(required(values, "PROGRAM"), read_program_options(values));
+    io::ProgramOptions options = read_program_options(values);
+    options.coordinates.reset();
+    Program program = io::read_program(required(values, "PROGRAM"), options);
     std::optional<Machine> machine;
     if (values.count("machine") > 0) {
         machine = io::read_machine(values["machine"].as<std::string>());

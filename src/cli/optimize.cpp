@@ -10,6 +10,7 @@
 #include "cli/output_format.h"
 #include "cli/picture_output.h"
 #include "cli/progress_bar.h"
+#include "cli/work_frames.h"
 #include "core/file_name.h"
 #include "core/units.h"
 #include "core/version.h"
@@ -30,14 +31,17 @@ namespace {
 
 /// A program's new text, read as the old one was: the same name, dialect, options and subprograms.
 Program read_text(const io::Source& source, const std::string& text, const io::ProgramOptions& options,
-                  std::string_view dialect) {
+                  std::string_view dialect, const FramePoses& poses) {
     auto bytes = std::make_shared<std::string>(text);
     io::Source changed = source;
     changed.bytes = std::as_bytes(std::span(bytes->data(), bytes->size()));
     changed.keep_alive = bytes;
     io::ProgramOptions same = options;
     same.dialect = dialect;
-    return io::read_program(changed, same);
+    same.coordinates.reset();
+    Program program = io::read_program(changed, same);
+    (void)place_motions(program, poses, Coordinates::level);
+    return program;
 }
 
 /// The recorded run of --log. Throws UsageError where its options are given without it.
@@ -50,9 +54,7 @@ std::optional<Log> read_measured(const po::variables_map& values, bool five_axes
             throw UsageError("--work-offset is of a log, or for programs on rotary axes: give --log");
         return std::nullopt;
     }
-    Log log = io::open_log(values["log"].as<std::string>(), read_log_options(values));
-    if (const std::optional<Vec3> offset = read_work_offset(values)) log.work_offset = *offset;
-    return log;
+    return io::open_log(values["log"].as<std::string>(), read_log_options(values));
 }
 
 /// Both runs side by side, speeds on one scale.
@@ -99,20 +101,27 @@ ExitCode run_optimize(const po::variables_map& values) {
         values.count("machine") > 0 ? io::read_machine(values["machine"].as<std::string>()) : Machine{};
     const io::ProgramOptions options = read_program_options(values);
     const io::Source source = io::open_source(required(values, "PROGRAM"));
-    const Program program = io::read_program(source, options);
+    io::ProgramOptions as_programmed = options;
+    as_programmed.coordinates.reset();
+    Program program = io::read_program(source, as_programmed);
     const bool five_axes = runs_on_five_axes(program, machine);
     std::optional<Log> measured = read_measured(values, five_axes);
-    if (five_axes) {
-        const std::optional<Vec3> known = measured ? measured->work_offset : std::nullopt;
-        rules.zero = read_work_offset(values).value_or(known.value_or(Vec3::Zero()));
-    }
+    FramePoses poses = read_work_offset(values);
+    if (!poses.zero && measured) poses.zero = pose_of(*measured);
+    poses.tool_by_kinematics = five_axes;
+    // Its axes along those of the machine, whose limits count.
+    const Eigen::Isometry3d zero = place_motions(program, poses, Coordinates::level);
+    if (measured) measured->work_offset = zero.translation();
+    if (measured) measured->work_rotation = 0;
+    if (five_axes) rules.zero = zero.translation();
     io::AtomicFile output(output_path);
     std::optional<PictureOutput> picture;
     if (values.count("picture") > 0) picture.emplace(values["picture"].as<std::string>(), "--picture");
     ProgressBar bar(read_common(values));
     Diagnostics diagnostics = program.diagnostics;
     const Optimized result = optimize(
-        program, [&](const std::string& text) { return read_text(source, text, options, program.dialect->name); },
+        program,
+        [&](const std::string& text) { return read_text(source, text, options, program.dialect->name, poses); },
         machine, rules, std::move(measured), bar.callback(), diagnostics);
     bar.clear();
     if (json) {

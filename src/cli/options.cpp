@@ -73,17 +73,6 @@ io::LogOptions read_log_options(const po::variables_map& values) {
     return options;
 }
 
-void declare_work_offset(po::options_description& options) {
-    options.add_options()("work-offset", po::value<std::string>()->value_name("X,Y,Z"),
-                          "machine position of the program's zero [mm] (default: what the log tells, else 0,0,0)");
-}
-
-std::optional<Vec3> read_work_offset(const po::variables_map& values) {
-    if (values.count("work-offset") == 0) return std::nullopt;
-    const std::vector<double> numbers = parse_numbers(values["work-offset"].as<std::string>(), "--work-offset", 3);
-    return Vec3(numbers[0], numbers[1], numbers[2]);
-}
-
 void declare_kinematics(po::options_description& options) {
     options.add_options()(
         "machine", po::value<std::string>()->value_name("FILE"),

@@ -35,10 +35,6 @@ void declare_program_options(po::options_description& options);
 void declare_log_options(po::options_description& options);
 [[nodiscard]] io::LogOptions read_log_options(const po::variables_map& values);
 
-/// --work-offset
-void declare_work_offset(po::options_description& options);
-[[nodiscard]] std::optional<Vec3> read_work_offset(const po::variables_map& values);
-
 /// --machine, for its kinematics
 void declare_kinematics(po::options_description& options);
 /// The kinematics of a machine file; nullptr: no file, or three axes.

@@ -1,5 +1,6 @@
 #include "cli/part.h"
 
+#include "cli/work_frames.h"
 #include "core/spelling.h"
 #include "io/compressed.h"
 #include "io/program_file.h"
@@ -55,7 +56,8 @@ PartOptions read_part_options(const po::variables_map& values) {
     options.formed = options.role_given && values["surface"].as<std::string>() == "formed";
     if (options.formed) options.role_given = false;
     if (options.role_given) options.role = parse_role(values["surface"].as<std::string>());
-    options.offset = read_work_offset(values);
+    options.poses = read_work_offset(values);
+    options.program_options.coordinates.reset();  // the log may tell where the program's zero lies
     if (values.count("derivative") > 0) {
         const std::string method = values["derivative"].as<std::string>();
         if (method != "savgol" && method != "kalman")
@@ -79,16 +81,17 @@ Part load_part(const PartOptions& options, StageClock& clock) {
     if (!options.role_given && !part.log.has(role)) {
         role = part.log.has(Role::feedback) ? Role::feedback : Role::actual;
     }
-    const Vec3 offset = -options.offset.value_or(part.log.work_offset.value_or(Vec3::Zero()));
     const std::shared_ptr<const Kinematics> kinematics = load_kinematics(options.machine);
-    part.path = reconstruct(part.log, role, offset, kinematics);
-    if (kinematics) solve_tool_axes(part.program, *kinematics);
+    const Eigen::Isometry3d pose =
+        place_with(part.program, part.log, options.poses, kinematics.get(), part.diagnostics);
+    part.path = reconstruct(part.log, role, pose, kinematics);
+    if (kinematics) solve_tool_axes(part.program, *kinematics, {}, {}, pose.linear());
     part.diagnostics.append(part.program.diagnostics);
     part.diagnostics.append(part.log.diagnostics);
     io::check_identity(program, part.log, part.diagnostics);
     clock.begin("map points to lines");
     if (kinematics) {
-        make_tip_motions(part.program, *kinematics, offset);
+        make_tip_motions(part.program, *kinematics, pose);
         note_poles(part.log, role, *kinematics, part.diagnostics);
     } else {
         note_rotary(part.log, role, part.diagnostics);

@@ -12,6 +12,7 @@
 #include "log/log.h"
 #include "path/line_map.h"
 #include "path/trajectory.h"
+#include "program/frame_placement.h"
 #include "program/program.h"
 #include "surface/cl_surface.h"
 
@@ -22,10 +23,10 @@ struct PartOptions {
     io::ProgramOptions program_options;
     io::LogOptions log_options;
     Role role = Role::commanded;
-    bool role_given = true;      ///< false: commanded where the log has it
-    bool formed = false;         ///< --surface formed
-    std::optional<Vec3> offset;  ///< [mm], workpiece = machine − offset
-    std::string machine;         ///< machine file with the kinematics; empty: three axes
+    bool role_given = true;  ///< false: commanded where the log has it
+    bool formed = false;     ///< --surface formed
+    FramePoses poses;        ///< --work-offset
+    std::string machine;     ///< machine file with the kinematics; empty: three axes
     bool use_line_channel = true;
     DerivativeMethod derivative = DerivativeMethod::savgol;
 };

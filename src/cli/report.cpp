@@ -122,7 +122,7 @@ ReportLog prepare(const PartOptions& part_options, const ReportOptions& options,
     }
     for (const Role role : {Role::commanded, Role::feedback, Role::actual}) {
         if (role != shown.part.path.role && shown.part.log.has(role))
-            shown.other_roles.push_back(reconstruct(shown.part.log, role, shown.part.path.offset));
+            shown.other_roles.push_back(reconstruct(shown.part.log, role, shown.part.path.pose()));
     }
     clock.end();
     return shown;

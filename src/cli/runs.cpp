@@ -1,6 +1,7 @@
 #include "cli/runs.h"
 
 #include "cli/part.h"
+#include "cli/work_frames.h"
 #include "io/compressed.h"
 #include "io/machine_file.h"
 #include "io/program_file.h"
@@ -10,9 +11,18 @@
 namespace clsurf::cli {
 namespace {
 
-Vec3 offset_of(const LoadedRun& run, const RunOptions& options) {
-    if (run.simulated) return Vec3::Zero();
-    return -options.offset.value_or(run.log.work_offset.value_or(Vec3::Zero()));
+/// machine = pose · workpiece. The simulated run of a program is in the workpiece's coordinates.
+Eigen::Isometry3d pose_of_run(const LoadedRun& run, const RunOptions& options) {
+    if (run.simulated) return Eigen::Isometry3d::Identity();
+    return options.poses.zero.value_or(pose_of(run.log).value_or(Eigen::Isometry3d::Identity()));
+}
+
+/// Without a pose all positions stay the machine's.
+io::ProgramOptions in_coordinates_of(const RunOptions& options, const Log& log) {
+    io::ProgramOptions program = options.program_options;
+    const bool told = options.poses.zero || log.work_offset;
+    program.coordinates = told ? Coordinates::workpiece : Coordinates::machine;
+    return program;
 }
 
 Role common_role(const LoadedRun& a, const LoadedRun& b, std::optional<Role> wanted) {
@@ -46,7 +56,7 @@ RunOptions read_run_options(const po::variables_map& values) {
     RunOptions options;
     options.program_options = read_program_options(values);
     options.log_options = read_log_options(values);
-    options.offset = read_work_offset(values);
+    options.poses = read_work_offset(values);
     if (values.count("program") > 0) options.program = values["program"].as<std::string>();
     if (values.count("machine") > 0) options.machine = values["machine"].as<std::string>();
     if (values.count("surface") > 0) options.role = parse_role(values["surface"].as<std::string>());
@@ -62,12 +72,13 @@ LoadedRun load_run(const std::string& path, const RunOptions& options) {
     run.name = path;
     const io::Source source = io::open_source(path);
     if (source.bytes.empty()) throw InputError(Place::of_file(source.name), "is empty, expected a program or a log");
-    if (io::recognise_log(source, options.log_options) != nullptr) {
+    const bool is_program = io::forces_log(options.log_options) && io::looks_like_program(source);
+    if (!is_program && io::recognise_log(source, options.log_options) != nullptr) {
         run.log = io::open_log(source, options.log_options);
     } else {
         const Machine machine = options.machine.empty() ? Machine{} : io::read_machine(options.machine);
         run.simulated = true;
-        run.program = std::make_shared<const Program>(io::read_program(source, options.program_options));
+        run.program = std::make_shared<const Program>(io::read_program(source, in_coordinates_of(options, run.log)));
         run.log = io::simulate_run(*run.program, machine, options.start, {});
     }
     if (run.log.records == 0) throw InputError(Place::of_file(path), "holds no records");
@@ -75,15 +86,15 @@ LoadedRun load_run(const std::string& path, const RunOptions& options) {
 }
 
 Run run_of(const LoadedRun& run, const LoadedRun& other, const RunOptions& options) {
-    const Vec3 offset = offset_of(run, options);
+    const Eigen::Isometry3d pose = pose_of_run(run, options);
     const auto both_have = [&](Role role) { return run.log.has(role) && other.log.has(role); };
     Run made;
     made.log = &run.log;
-    made.path = reconstruct(run.log, common_role(run, other, options.role), offset);
-    if (both_have(Role::commanded)) made.commanded = reconstruct(run.log, Role::commanded, offset);
+    made.path = reconstruct(run.log, common_role(run, other, options.role), pose);
+    if (both_have(Role::commanded)) made.commanded = reconstruct(run.log, Role::commanded, pose);
     for (const Role role : {Role::actual, Role::feedback}) {
         if (!both_have(role)) continue;
-        made.measured = reconstruct(run.log, role, offset);
+        made.measured = reconstruct(run.log, role, pose);
         if (role != made.path.role) made.truest = made.measured;
         break;
     }
@@ -95,7 +106,7 @@ std::unique_ptr<LineMap> lines_of(const LoadedRun& run, const Trajectory& path, 
     if (run.simulated) return std::make_unique<LineMap>(map_lines(path, run.log, *run.program, true, diagnostics));
     if (!options.program.empty()) {
         const io::Source source = io::open_source(options.program);
-        const Program program = io::read_program(source, options.program_options);
+        const Program program = io::read_program(source, in_coordinates_of(options, run.log));
         diagnostics.append(program.diagnostics);
         io::check_identity(source, run.log, diagnostics);
         return std::make_unique<LineMap>(map_lines(path, run.log, program, true, diagnostics));

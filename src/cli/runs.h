@@ -8,6 +8,7 @@
 #include "cli/options.h"
 #include "log/log.h"
 #include "path/line_map.h"
+#include "program/frame_placement.h"
 #include "program/program.h"
 #include "quality/run_difference.h"
 
@@ -19,8 +20,8 @@ struct RunOptions {
     std::string program;  ///< of logs; empty: their line channel is taken as it is
     std::string machine;  ///< file; empty: the default one
     Vec3 start = Vec3::Zero();
-    std::optional<Vec3> offset;  ///< [mm], workpiece = machine − offset
-    std::optional<Role> role;    ///< none: commanded where all runs have it
+    FramePoses poses;          ///< --work-offset
+    std::optional<Role> role;  ///< none: commanded where all runs have it
 };
 
 /// --program, --machine, --start, --surface, --work-offset and what logs and programs need.

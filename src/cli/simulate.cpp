@@ -5,6 +5,7 @@
 #include "cli/options.h"
 #include "cli/output_format.h"
 #include "cli/progress_bar.h"
+#include "cli/work_frames.h"
 #include "core/units.h"
 #include "io/compressed.h"
 #include "io/machine_file.h"
@@ -79,22 +80,27 @@ ExitCode run_simulate(const po::variables_map& values) {
     const std::string path = required(values, "PROGRAM");
     const io::Source source = io::open_source(path);
     const bool five_axes = machine.kinematics.has_rotary();
-    const std::optional<Vec3> zero = five_axes ? read_work_offset(values) : std::nullopt;
+    FramePoses poses = five_axes ? read_work_offset(values) : FramePoses{};
     if (given(values, "work-offset") && !five_axes)
-        throw UsageError("--work-offset is for machines with rotary axes; positions of three are the program's");
-    const auto open_log = [&] {
-        const std::string metadata =
-            zero ? fmt::format("{{\"work_offset\": [{}, {}, {}]}}", zero->x(), zero->y(), zero->z()) : "{}";
+        throw UsageError("--work-offset is for machines with rotary axes; of three the program's own offsets count");
+    const auto open_log = [&](const std::optional<Eigen::Isometry3d>& pose) {
+        const std::string metadata = pose ? fmt::format("{{\"work_offset\": [{}]}}", work_offset_text(*pose)) : "{}";
         return io::SimulatedLogWriter(output, machine,
                                       io::with_programs(metadata, std::vector<ProgramReference>{io::identify(source)}));
     };
     if (five_axes) {
-        Program program = io::read_program(source, read_program_options(values));
-        io::SimulatedLogWriter log = open_log();
-        return run_five_axis(std::move(program), machine, zero.value_or(Vec3::Zero()), start, log, values);
+        io::ProgramOptions options = read_program_options(values);
+        options.coordinates.reset();
+        Program program = io::read_program(source, options);
+        poses.tool_by_kinematics = true;
+        // With its axes along those of the machine, whose limits count.
+        const Eigen::Isometry3d pose = place_motions(program, poses, Coordinates::level);
+        const bool told = poses.zero || !pose.translation().isZero(0);
+        io::SimulatedLogWriter log = open_log(told ? std::optional(poses.zero.value_or(pose)) : std::nullopt);
+        return run_five_axis(std::move(program), machine, pose.translation(), start, log, values);
     }
     const std::unique_ptr<ProgramReader> program = io::open_program(source, read_program_options(values));
-    io::SimulatedLogWriter log = open_log();
+    io::SimulatedLogWriter log = open_log(std::nullopt);
     ProgressBar bar(read_common(values));
     const SimulationSummary summary = simulate(
         *program, machine, start, [&](std::span<const SimulatedPoint> points) { log.append(points); }, bar.callback());
@@ -123,6 +129,7 @@ Subcommand simulate_subcommand() {
             "and a look-ahead, follows it with a servo loop an axis, and writes commanded and feedback positions, line, speed,\n"
             "and in the channel limit what ruled each point: 0 at rest, 1 feed, 2 axis or path speed, 3 acceleration, 4 jerk,\n"
             "5 corner tolerance, 6 chord error, 7 the end of the look-ahead, 8 feed override, 9 block time.\n\n"
+            "Positions are those of the machine: work offsets that the program sets count, others are zero.\n"
             "With a machine file that has rotary axes the positions are those of all five, --work-offset is where the program's zero lies\n"
             "with both angles zero, and blocks that an axis cannot follow are run slower.\n\n"
             "  clsurf simulate part.nc --machine mill.toml -o run.biip\n"

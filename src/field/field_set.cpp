@@ -96,12 +96,12 @@ Plan plan_for(const FieldRow& row, const Log& log, const Trajectory& path, const
                 fmt::format("field '{}' needs {} positions, which the log does not have", row.name, name_of(role)));
         }
         const auto positions = [&](Role role) {
-            return of_axis ? tool_axes(log, role, path.kinematics) : reconstruct_like(log, role, path);
+            return of_axis ? tool_axes(log, role, path) : reconstruct_like(log, role, path);
         };
         plan.commanded = positions(Role::commanded);
         plan.measured = positions(measured);
     } else if (of_axis) {
-        plan.other = tool_axes(log, path.role, path.kinematics);
+        plan.other = tool_axes(log, path.role, path);
     } else if ((row.needs & needs::angle) != 0) {
         const char letter = row.name.back();
         if (log.find(fmt::format("{}.{}", prefix_of(path.role), letter)) == nullptr) {

@@ -43,6 +43,7 @@ struct Log {
     std::vector<Channel> channels;
     std::vector<ProgramReference> programs;
     std::string metadata;             ///< the JSON text that came with it; empty: none
+    double work_rotation = 0;         ///< of the work system about Z [deg], with work_offset
     std::optional<Vec3> work_offset;  ///< [mm], machine = workpiece + offset, where the log tells
     Diagnostics diagnostics;
     std::shared_ptr<const void> keep_alive;

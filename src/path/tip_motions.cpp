@@ -22,11 +22,12 @@ constexpr int most_chords = 2000;                 ///< of a motion
 
 class TipMaker {
 public:
-    TipMaker(Program& program, const Kinematics& kinematics, const Vec3& offset)
+    TipMaker(Program& program, const Kinematics& kinematics, const Eigen::Isometry3d& pose)
         : program_(&program),
           from_(&program.motions),
           kinematics_(&kinematics),
-          offset_(offset),
+          pose_(pose),
+          back_(pose.inverse()),
           zero_(kinematics.zero_position()),
           control_(program),
           path_(program.motions, Vec3::Constant(std::numeric_limits<double>::quiet_NaN())) {}
@@ -67,10 +68,10 @@ private:
 
     /// Tip for a programmed position of the axes, and back.
     [[nodiscard]] Vec3 tip_of(const Vec3& position, const RotaryAngles& angles) const {
-        return kinematics_->to_workpiece(position - offset_ + zero_, angles).tip + offset_;
+        return back_ * kinematics_->to_workpiece(pose_ * position + zero_, angles).tip;
     }
     [[nodiscard]] Vec3 position_of(const Vec3& tip, const RotaryAngles& angles) const {
-        return kinematics_->to_axes(tip - offset_, angles) + offset_ - zero_;
+        return back_ * (kinematics_->to_axes(pose_ * tip, angles) - zero_);
     }
 
     /// Control of the tip goes on or off: the same place now has other coordinates. Those that no word has
@@ -136,7 +137,8 @@ private:
     Program* program_;
     const Motions* from_;
     const Kinematics* kinematics_;
-    Vec3 offset_, zero_;
+    Eigen::Isometry3d pose_, back_;
+    Vec3 zero_;
     ToolCentrePoint control_;
     Toolpath path_;
     Motions to_;
@@ -149,9 +151,13 @@ private:
 
 }  // namespace
 
-void make_tip_motions(Program& program, const Kinematics& kinematics, const Vec3& offset) {
+void make_tip_motions(Program& program, const Kinematics& kinematics, const Eigen::Isometry3d& pose) {
     if (program.motions.rotary.empty() || kinematics.always_tool_centre_point || !kinematics.has_rotary()) return;
-    program.motions = TipMaker(program, kinematics, offset).make();
+    program.motions = TipMaker(program, kinematics, pose).make();
+}
+
+void make_tip_motions(Program& program, const Kinematics& kinematics, const Vec3& offset) {
+    make_tip_motions(program, kinematics, Eigen::Isometry3d(Eigen::Translation3d(-offset)));
 }
 
 void solve_tool_axes(Program& program, const Machine& machine) {
@@ -187,8 +193,8 @@ void note_missing_axes(Program& program, const Kinematics& kinematics) {
 
 }  // namespace
 
-void solve_tool_axes(Program& program, const Kinematics& kinematics, const AngleRange& tilt,
-                     const AngleRange& rotation) {
+void solve_tool_axes(Program& program, const Kinematics& kinematics, const AngleRange& tilt, const AngleRange& rotation,
+                     const Eigen::Matrix3d& turn) {
     Motions& motions = program.motions;
     if (!kinematics.has_rotary()) return;
     note_missing_axes(program, kinematics);
@@ -207,7 +213,8 @@ void solve_tool_axes(Program& program, const Kinematics& kinematics, const Angle
         }
         axes.clear();
         std::size_t last = first;
-        for (; last < motions.kind.size() && is_vector(last); ++last) axes.push_back(motions.tool_axis[last].vec());
+        for (; last < motions.kind.size() && is_vector(last); ++last)
+            axes.push_back(turn * motions.tool_axis[last].vec());
         const std::vector<RotaryAngles> found = follow_rotary(kinematics, axes, before, tilt, rotation);
         if (found.size() < axes.size()) {
             throw InputError(Place::of_line(program.main().name(), motions.line[first + found.size()]),

@@ -11,16 +11,18 @@ namespace clsurf {
 /// Motions under tool centre point control are those ways as they stand. Of all others the positions are
 /// those of the axes, less the work offset and the position of the axes with tool and angles at zero:
 /// with the rotary axes at rest a line stays a line, an arc becomes chords within 1 µm; where they turn
-/// with the others, chords of at most half a degree. `offset`: workpiece = machine + offset [mm].
+/// with the others, chords of at most half a degree. machine = pose · workpiece.
 /// Events of the program move along with the motions that they stand before. O(motions).
+void make_tip_motions(Program& program, const Kinematics& kinematics, const Eigen::Isometry3d& pose);
+/// workpiece = machine + offset [mm]
 void make_tip_motions(Program& program, const Kinematics& kinematics, const Vec3& offset);
 
 /// Sets the angles of motions whose tool axis is a vector: those solutions, within the ranges, that turn the
 /// axes least over each run of such motions; motions after it that do not name an axis leave it there. Throws
 /// InputError with the line of a tool axis out of reach. Adds `program.axis` to the program's diagnostics
-/// where an axis turns that the machine does not have. O(motions).
+/// where an axis turns that the machine does not have. `turn`: of the workpiece on the machine. O(motions).
 void solve_tool_axes(Program& program, const Kinematics& kinematics, const AngleRange& tilt = {},
-                     const AngleRange& rotation = {});
+                     const AngleRange& rotation = {}, const Eigen::Matrix3d& turn = Eigen::Matrix3d::Identity());
 /// Within the travel of the machine's axes.
 void solve_tool_axes(Program& program, const Machine& machine);
 

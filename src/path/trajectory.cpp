@@ -16,6 +16,16 @@ namespace clsurf {
 
 void Trajectory::read(PointIndex begin, std::span<double> x, std::span<double> y, std::span<double> z) const {
     const std::array<std::span<double>, 3> out{x, y, z};
+    if (!turn.isIdentity(0)) {
+        for (int axis = 0; axis < 3; ++axis) copy_block(axes[axis], begin, out[axis]);
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            const Vec3 p = turn * Vec3(x[i], y[i], z[i]) + offset;
+            x[i] = p.x();
+            y[i] = p.y();
+            z[i] = p.z();
+        }
+        return;
+    }
     for (int axis = 0; axis < 3; ++axis) {
         copy_block(axes[axis], begin, out[axis]);
         if (offset[axis] == 0.0) continue;
@@ -24,7 +34,20 @@ void Trajectory::read(PointIndex begin, std::span<double> x, std::span<double> y
 }
 
 Vec3 Trajectory::at(PointIndex point) const {
-    return Vec3(axes[0].at(point), axes[1].at(point), axes[2].at(point)) + offset;
+    const Vec3 machine(axes[0].at(point), axes[1].at(point), axes[2].at(point));
+    return turn.isIdentity(0) ? Vec3(machine + offset) : Vec3(turn * machine + offset);
+}
+
+Eigen::Isometry3d Trajectory::pose() const {
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    pose.linear() = turn.transpose();
+    pose.translation() = -(turn.transpose() * offset);
+    return pose;
+}
+
+void Trajectory::set_pose(const Eigen::Isometry3d& pose) {
+    turn = pose.linear().transpose();
+    offset = -(turn * pose.translation());
 }
 
 namespace {
@@ -114,11 +137,11 @@ void own_columns(Trajectory& trajectory, Compute&& compute) {
 
 namespace {
 
-Trajectory reconstruct_ball(const Log& log, Role role, const Vec3& offset, std::shared_ptr<const Kinematics> kinematics,
-                            double ball) {
+Trajectory reconstruct_ball(const Log& log, Role role, const Eigen::Isometry3d& pose,
+                            std::shared_ptr<const Kinematics> kinematics, double ball) {
     Trajectory trajectory = trajectory_of(log, role);
     trajectory.ball = ball;
-    trajectory.offset = offset;
+    trajectory.set_pose(pose);
     for (std::size_t axis = 0; axis < 3; ++axis) trajectory.axes[axis] = channel_of(log, role, "xyz"[axis]).values;
     if (kinematics == nullptr || !kinematics->has_rotary()) return trajectory;
     const AngleReader angles(log, role, *kinematics);
@@ -130,8 +153,8 @@ Trajectory reconstruct_ball(const Log& log, Role role, const Vec3& offset, std::
         copy_block(linear[1], first, y);
         copy_block(linear[2], first, z);
         for (std::size_t i = 0; i < x.size(); ++i) {
-            const ToolPose pose = kinematics->to_workpiece(Vec3(x[i], y[i], z[i]), {tilt[i], rotation[i]});
-            const Vec3 tip = ball > 0 ? Vec3(pose.tip + ball * (pose.axis - Vec3::UnitZ())) : pose.tip;
+            const ToolPose at = kinematics->to_workpiece(Vec3(x[i], y[i], z[i]), {tilt[i], rotation[i]});
+            const Vec3 tip = ball > 0 ? Vec3(at.tip + ball * (at.axis - Vec3::UnitZ())) : at.tip;
             x[i] = tip.x();
             y[i] = tip.y();
             z[i] = tip.z();
@@ -144,11 +167,16 @@ Trajectory reconstruct_ball(const Log& log, Role role, const Vec3& offset, std::
 }  // namespace
 
 Trajectory reconstruct(const Log& log, Role role, const Vec3& offset, std::shared_ptr<const Kinematics> kinematics) {
-    return reconstruct_ball(log, role, offset, std::move(kinematics), 0);
+    return reconstruct_ball(log, role, Eigen::Isometry3d(Eigen::Translation3d(-offset)), std::move(kinematics), 0);
+}
+
+Trajectory reconstruct(const Log& log, Role role, const Eigen::Isometry3d& pose,
+                       std::shared_ptr<const Kinematics> kinematics) {
+    return reconstruct_ball(log, role, pose, std::move(kinematics), 0);
 }
 
 Trajectory upright_ball(const Log& log, const Trajectory& like, double radius) {
-    return reconstruct_ball(log, like.role, like.offset, like.kinematics, radius);
+    return reconstruct_ball(log, like.role, like.pose(), like.kinematics, radius);
 }
 
 bool tilts(const Log& log, const Trajectory& trajectory) {
@@ -161,22 +189,23 @@ bool tilts(const Log& log, const Trajectory& trajectory) {
 }
 
 Trajectory reconstruct_like(const Log& log, Role role, const Trajectory& like) {
-    return role == like.role ? like : reconstruct_ball(log, role, like.offset, like.kinematics, like.ball);
+    return role == like.role ? like : reconstruct_ball(log, role, like.pose(), like.kinematics, like.ball);
 }
 
-Trajectory tool_axes(const Log& log, Role role, std::shared_ptr<const Kinematics> kinematics) {
+Trajectory tool_axes(const Log& log, Role role, const Trajectory& like) {
     Trajectory trajectory = trajectory_of(log, role);
-    const AngleReader angles(log, role, *kinematics);
+    const Kinematics& kinematics = *like.kinematics;
+    const AngleReader angles(log, role, kinematics);
     own_columns(trajectory, [&](PointIndex first, std::span<double> x, std::span<double> y, std::span<double> z) {
         angles.read(first, x, y);
         for (std::size_t i = 0; i < x.size(); ++i) {
-            const Vec3 axis = kinematics->axis_of({x[i], y[i]});
+            const Vec3 axis = like.turn * kinematics.axis_of({x[i], y[i]});
             x[i] = axis.x();
             y[i] = axis.y();
             z[i] = axis.z();
         }
     });
-    trajectory.kinematics = std::move(kinematics);
+    trajectory.kinematics = like.kinematics;
     return trajectory;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 // Trajectory: workpiece positions of one role, read by block. For three axes it stores nothing: it is
-// an offset over the log's columns. With rotary axes it holds the tool's tip in the workpiece, computed
+// an offset, and where the work system is turned a rotation, over the log's columns. With rotary axes it holds the tool's tip in the workpiece, computed
 // once: 24 bytes a point.
 
 #include <array>
@@ -18,7 +18,8 @@ namespace clsurf {
 struct Trajectory {
     Role role = Role::commanded;
     std::array<ChannelView, 3> axes;  ///< machine positions x, y, z, or of the tip before the offset [mm]
-    Vec3 offset = Vec3::Zero();       ///< workpiece = machine + offset [mm]
+    Vec3 offset = Vec3::Zero();       ///< workpiece = turn · machine + offset [mm]
+    Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
     PointIndex count = 0;
     double period = 0;                             ///< [s]
     std::string name;                              ///< of the log, for messages
@@ -29,12 +30,19 @@ struct Trajectory {
     /// Gathers points [begin, begin + x.size()); NaN where the log has none. All spans same size.
     void read(PointIndex begin, std::span<double> x, std::span<double> y, std::span<double> z) const;
     [[nodiscard]] Vec3 at(PointIndex point) const;
+    /// The machine's position of the workpiece's zero, and how its axes lie there.
+    [[nodiscard]] Eigen::Isometry3d pose() const;
+    /// Other such positions: machine = pose · workpiece.
+    void set_pose(const Eigen::Isometry3d& pose);
 };
 
 /// The positions of one role: work offset and tool length as `offset` [mm]; through the chain of
 /// `kinematics`, if given, from all five axes. Throws InputError when the log has no such role, or not
 /// the rotary axes that the kinematics need. With rotary axes O(points), parallel.
 [[nodiscard]] Trajectory reconstruct(const Log& log, Role role, const Vec3& offset,
+                                     std::shared_ptr<const Kinematics> kinematics = nullptr);
+/// The same with a turned work system: machine = pose · workpiece.
+[[nodiscard]] Trajectory reconstruct(const Log& log, Role role, const Eigen::Isometry3d& pose,
                                      std::shared_ptr<const Kinematics> kinematics = nullptr);
 
 /// In place of the tips of a ball of that radius [mm] those that it would have with its axis along z and the same
@@ -48,8 +56,8 @@ struct Trajectory {
 /// Another role of the same log, by the same way into the workpiece.
 [[nodiscard]] Trajectory reconstruct_like(const Log& log, Role role, const Trajectory& like);
 
-/// Unit vectors of the tool axis in the workpiece in place of positions. `kinematics` as above.
-[[nodiscard]] Trajectory tool_axes(const Log& log, Role role, std::shared_ptr<const Kinematics> kinematics);
+/// Unit vectors of the tool axis in the workpiece in place of positions. `like` has kinematics.
+[[nodiscard]] Trajectory tool_axes(const Log& log, Role role, const Trajectory& like);
 
 /// The angle of a rotary axis as the control counts it [rad], as the first of the three components.
 /// Throws InputError where the log does not have it.

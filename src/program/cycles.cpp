@@ -60,6 +60,7 @@ void Interpreter::cycle(const Block& block) {
         note(Severity::warning, "program.cycle", fmt::format("G{} without Q: read as one stroke", code / 10));
     }
 
+    state_.place(1u << state_.plane_axis, false);
     // Heights and holes count in the program's own frame.
     const Vec3 here = state_.programmed();
     const Vec3 position = here.array().isNaN().select(0.0, here);

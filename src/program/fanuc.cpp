@@ -275,7 +275,11 @@ bool Interpreter::set_fanuc_offsets(int level, const Block& block) {
             const double value = w.of("XYZ"[k]) * state_.unit_mm;
             shift[k] = adds ? shift[k] + value : value;
         }
-        state_.rebase([&] { state_.work_offsets[system].shift = shift; });
+        state_.rebase([&] {
+            WorkOffset& offset = state_.work_offsets[system];
+            offset.shift = shift;
+            if (!adds) offset.set = static_cast<std::uint8_t>(offset.set | axes_named(w));
+        });
         return true;
     }
     const bool of_tool = level == 0 || level == 1 || (level >= 10 && level <= 13);
@@ -308,7 +312,11 @@ bool Interpreter::write_parameter(int number, double value) {
     if (dialect_ != DialectId::fanuc || number < 1000) return false;
     int axis = 0;
     if (offset_of_variable(number, axis) != nullptr) {
-        state_.rebase([&] { offset_of_variable(number, axis)->shift[axis] = value * state_.unit_mm; });
+        state_.rebase([&] {
+            WorkOffset& offset = *offset_of_variable(number, axis);
+            offset.shift[axis] = value * state_.unit_mm;
+            offset.set = static_cast<std::uint8_t>(offset.set | (1u << axis));
+        });
         return true;
     }
     if (number == 3000) {

@@ -64,8 +64,20 @@ std::int64_t Interpreter::settled() const {
     return compensation_.on() ? std::min(all - 1, static_cast<std::int64_t>(open_motions_)) : all - 1;
 }
 
+std::int64_t Interpreter::place_settled(std::int64_t motions) {
+    if (motions == 0) return 0;
+    keep_ways(motions);  // as the program counts them
+    ways_kept_ = true;
+    const std::int64_t placed = placer_.place(program_.motions, program_.events, motions);
+    const std::int64_t more = placed - motions;
+    open_motions_ += static_cast<std::size_t>(more);
+    compensation_ended_ += more;
+    unread_since_ += more;
+    return placed;
+}
+
 void Interpreter::forget(std::int64_t motions) {
-    keep_ways(motions);
+    if (!std::exchange(ways_kept_, false)) keep_ways(motions);
     program_.motions.drop_front(motions);
     std::vector<ProgramEvent>& events = program_.events;
     events.erase(events.begin(), std::find_if(events.begin(), events.end(),
@@ -87,6 +99,7 @@ Program Interpreter::run() {
     m.rotary.shrink_to_fit();
     m.file.shrink_to_fit();
     m.call.shrink_to_fit();
+    m.frame.shrink_to_fit();
     return std::move(program_);
 }
 
@@ -153,6 +166,7 @@ bool Interpreter::run_plain(const Words& words) {
     if (words.given('X')) p.x() = words.of('X') * unit;
     if (words.given('Y')) p.y() = words.of('Y') * unit;
     if (words.given('Z')) p.z() = words.of('Z') * unit;
+    if ((state_.held | state_.absolute) != 0) state_.place(axes_named(words), false);
     const bool rapid = mode == MotionMode::rapid;
     push(rapid ? MotionKind::rapid : MotionKind::feed, p, state_.rotary,
          rapid ? std::numeric_limits<float>::quiet_NaN()

@@ -12,6 +12,7 @@
 #include "program/block.h"
 #include "program/control.h"
 #include "program/cutter_compensation.h"
+#include "program/frame_placement.h"
 #include "program/interpreter.h"
 #include "program/modal_state.h"
 #include "program/tool_table.h"
@@ -97,6 +98,9 @@ public:
     void forget(std::int64_t motions);
     [[nodiscard]] bool ended() const { return ended_; }
     [[nodiscard]] const Program& program() const { return program_; }
+    /// The settled motions in machine coordinates, the unknown work offsets taken as zero. At most once for each,
+    /// before they are forgotten. How many motions that makes.
+    [[nodiscard]] std::int64_t place_settled(std::int64_t motions);
 
 private:
     // interpreter.cpp: lines, calls, output
@@ -234,6 +238,7 @@ private:
     void nurbs_end();
     void flatten_bezier(const std::vector<Vec2>& control);
     void push(MotionKind kind, const Vec3& end, const Vec3& rotary, float feed);
+    void settle_work_frame();
     [[nodiscard]] float feed_for(double length);
     void cycle(const Block& block);
     void thread_cycle(const Block& block);                               ///< G76
@@ -284,6 +289,12 @@ private:
     ModalState state_;
     Variables variables_;
     CycleState cycle_;
+    FramePlacer placer_{{}, Coordinates::machine};
+    bool ways_kept_ = false;                           ///< of the settled motions, in work coordinates
+    std::uint64_t frame_changes_ = ~std::uint64_t{0};  ///< of the state when frame_ was settled
+    std::uint8_t frame_held_ = 0, frame_absolute_ = 0;
+    std::uint32_t work_frame_ = 0;  ///< index into Motions::frames
+    std::map<std::array<double, 22>, std::uint32_t> known_frames_;
     Block block_;
     Words plain_;  ///< of the line that runs, where it is plain
     ToolTable tools_;

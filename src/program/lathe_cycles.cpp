@@ -12,8 +12,8 @@
 namespace clsurf {
 namespace {
 
-constexpr double same = 1e-9;       ///< [mm]
-constexpr double no_pocket = 0.01;  ///< of this depth: joints of the profile may be that rough [mm]
+constexpr double coincident = 1e-9;  ///< [mm]
+constexpr double no_pocket = 0.01;   ///< of this depth: joints of the profile may be that rough [mm]
 constexpr int most_cuts = 100'000;
 
 Vec2 zx(const Vec3& p) { return {p.z(), p.x()}; }
@@ -62,16 +62,16 @@ std::optional<double> reach(const Vec2& first, const std::vector<CompensatedMove
     for (const CompensatedMove& move : moves) {
         const double a = from[frame.depth];
         const double b = move.end[frame.depth];
-        if ((depth - a) * (depth - b) <= same * same || std::abs(depth - b) < same) {
+        if ((depth - a) * (depth - b) <= coincident * coincident || std::abs(depth - b) < coincident) {
             if (!move.is_arc) {
-                const double part = std::abs(b - a) < same ? 0.0 : std::clamp((depth - a) / (b - a), 0.0, 1.0);
+                const double part = std::abs(b - a) < coincident ? 0.0 : std::clamp((depth - a) / (b - a), 0.0, 1.0);
                 return from[frame.feed] + part * (move.end[frame.feed] - from[frame.feed]);
             }
             const double radius = (from - move.centre).norm();
             const double off = depth - move.centre[frame.depth];
             const double half = std::sqrt(std::max(0.0, radius * radius - off * off));
-            const double low = std::min(from[frame.feed], move.end[frame.feed]) - same;
-            const double high = std::max(from[frame.feed], move.end[frame.feed]) + same;
+            const double low = std::min(from[frame.feed], move.end[frame.feed]) - coincident;
+            const double high = std::max(from[frame.feed], move.end[frame.feed]) + coincident;
             for (const double at :
                  {move.centre[frame.feed] - frame.onwards * half, move.centre[frame.feed] + frame.onwards * half}) {
                 if (at >= low && at <= high) return at;
@@ -134,7 +134,7 @@ Vec2 Interpreter::record_profile(const std::string& name, std::vector<Compensate
             move.counter_clockwise = m.kind[i] == MotionKind::ccw;
         }
         const Vec2 from = profile.empty() ? begin : profile.back().end;
-        if (move.is_arc || (move.end - from).norm() > same) profile.push_back(move);
+        if (move.is_arc || (move.end - from).norm() > coincident) profile.push_back(move);
     }
     m.kind.resize(first);
     m.end.resize(first);
@@ -188,7 +188,7 @@ void Interpreter::lathe_cycle(int code, const Block& words, std::size_t column) 
     if (code >= 720) std::swap(frame.feed, frame.depth);
     const Vec2 start = zx(called_from);
     double onwards = profile.back().end[frame.feed] - begin[frame.feed];
-    if (std::abs(onwards) < same) onwards = begin[frame.feed] - start[frame.feed];
+    if (std::abs(onwards) < coincident) onwards = begin[frame.feed] - start[frame.feed];
     frame.onwards = onwards < 0 ? -1 : 1;
     frame.outwards = start[frame.depth] < begin[frame.depth] ? -1 : 1;
     const bool left = (frame.feed == 0) == (frame.onwards * frame.outwards > 0);
@@ -223,7 +223,7 @@ void Interpreter::lathe_cycle(int code, const Block& words, std::size_t column) 
     }
     // Out again to the height of the start.
     Vec2 out = moves.back().end;
-    if ((start[frame.depth] - out[frame.depth]) * frame.outwards > same) {
+    if ((start[frame.depth] - out[frame.depth]) * frame.outwards > coincident) {
         out[frame.depth] = start[frame.depth];
         moves.push_back({out});
     }
@@ -231,7 +231,7 @@ void Interpreter::lathe_cycle(int code, const Block& words, std::size_t column) 
     if (std::abs(whole) / step > most_cuts) fail("too many cuts: I is too small", column);
     go(start);
     go(front);
-    for (int cut = 0; cut * step < std::abs(whole) - same; ++cut) {
+    for (int cut = 0; cut * step < std::abs(whole) - coincident; ++cut) {
         const double part = cut * step / std::abs(whole);
         const Vec2 entry = front + part * (first - front);
         const std::optional<double> end = reach(first, moves, frame, entry[frame.depth]);

@@ -41,6 +41,9 @@ struct Words {
     }
 };
 
+/// The axes X, Y, Z that words name, as bits: 1 X, 2 Y, 4 Z.
+[[nodiscard]] inline unsigned axes_named(const Words& words) { return words.has >> ('X' - 'A') & 7u; }
+
 /// How a block was read.
 enum class PlainResult : std::uint8_t {
     plain,    ///< all of it is in the words

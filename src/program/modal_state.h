@@ -10,6 +10,7 @@
 #include "core/geometry.h"
 #include "core/units.h"
 #include "program/program_frame.h"
+#include "program/work_frame.h"
 
 namespace clsurf {
 
@@ -34,6 +35,8 @@ struct WorkOffset {
     Vec3 shift = Vec3::Zero();   ///< [mm]
     double rotation = 0;         ///< about z [deg]
     Vec3 rotary = Vec3::Zero();  ///< A, B, C [deg]
+    std::uint8_t set = 0;        ///< what the program has set: bits as in WorkFrame
+    int measured_from = 0;       ///< not set, but read off in this system of unknown offset (G10 L20); 0: none
 };
 
 struct ModalState {
@@ -52,6 +55,8 @@ struct ModalState {
 
     Vec3 position = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< [mm], of the work system
     Vec3 rotary = Vec3::Zero();                                                ///< A, B, C [deg]
+    std::uint8_t held = 0, absolute = 0;                                       ///< axes, as in WorkFrame
+    std::uint64_t frame_changes = 0;  ///< counts what changes the way to machine coordinates
     Vec3 tool_axis =
         Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< programmed as a vector, unit; NaN: by angles
     ProgramFrame frame;                                            ///< from programmed coordinates to `position`
@@ -62,7 +67,8 @@ struct ModalState {
     Vec3 rotary_shift = Vec3::Zero();                                    ///< the same of A, B, C [deg]
     Vec3 saved_shift = Vec3::Zero(), saved_rotary_shift = Vec3::Zero();  ///< what G92.3 restores
     Vec3 tool_offset = Vec3::Zero();                                     ///< [mm]
-    Vec3 home = Vec3::Zero(), second_home = Vec3::Zero();                ///< G28, G30; machine coordinates
+    Vec3 assumed_tool = Vec3::Zero();                      ///< what of it comes from a table that nobody gave [mm]
+    Vec3 home = Vec3::Zero(), second_home = Vec3::Zero();  ///< G28, G30; machine coordinates
     Vec3 home_rotary = Vec3::Zero(), second_home_rotary = Vec3::Zero();  ///< [deg]
 
     /// Sets what lengths and feeds are counted in [mm].
@@ -91,10 +97,25 @@ struct ModalState {
     void rebase(Change&& change) {
         const Vec3 machine = to_machine(position);
         const Vec3 machine_rotary = rotary + rotary_offset();
+        const Vec3 before = position;
+        const int system_before = work_system;
         change();
         position = from_machine(machine);
         rotary = machine_rotary - rotary_offset();
+        ++frame_changes;
+        for (int axis = 0; axis < 3; ++axis) {
+            const bool stands = !std::isnan(position[axis]);
+            if (stands && (position[axis] != before[axis] || work_system != system_before))
+                held = static_cast<std::uint8_t>(held | (1u << axis));
+        }
     }
+    /// Words have placed axes: in the work system, or in machine coordinates. Bits as in WorkFrame.
+    void place(unsigned axes, bool in_machine) {
+        held = static_cast<std::uint8_t>(held & ~axes);
+        absolute = static_cast<std::uint8_t>(in_machine ? absolute | axes : absolute & ~axes);
+    }
+    /// The frame that the position counts in.
+    [[nodiscard]] WorkFrame work_frame() const;
 
     /// Turned about z by an angle [deg].
     static Vec3 rotated(const Vec3& p, double degrees) {

@@ -25,6 +25,7 @@ void Motions::drop_front(std::int64_t count) {
     drop(tool_axis);
     drop(file);
     drop(call);
+    drop(frame);
     arcs.erase(arcs.begin(),
                std::find_if(arcs.begin(), arcs.end(), [count](const Arc& arc) { return arc.motion >= count; }));
     for (Arc& arc : arcs) arc.motion -= count;

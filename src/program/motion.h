@@ -3,7 +3,7 @@
 // controller runs them (subprograms and loops unrolled).
 //
 // Positions are those of the *active work coordinate system*, in mm, as the program gives them after
-// G20/21, G90/91 and G92/G52.
+// G20/21, G90/91 and G92/G52; place_motions() (frame_placement.h) brings those of several such systems into one.
 
 #include <cstdint>
 #include <limits>
@@ -12,6 +12,7 @@
 #include "core/column.h"
 #include "core/geometry.h"
 #include "core/point.h"
+#include "program/work_frame.h"
 
 namespace clsurf {
 
@@ -46,7 +47,9 @@ struct Motions {
     Column<Xyz> tool_axis;       ///< programmed as a unit vector; NaN: by the angles; empty: always by them
     Column<std::uint16_t> file;  ///< index into Program::files; empty when all is in the main file
     Column<std::uint32_t>
-        call;                 ///< the call that runs: index into calls, from 1; 0: none; empty when nothing is called
+        call;  ///< the call that runs: index into calls, from 1; 0: none; empty when nothing is called
+    Column<std::uint32_t> frame;                 ///< index into frames; empty: all are in the first one
+    std::vector<WorkFrame> frames{WorkFrame{}};  ///< at least one
     std::vector<Call> calls;  ///< a call stands behind its caller; the same line called again is the same
     std::vector<Arc> arcs;    ///< sorted by motion
     Xyz start{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN(),
@@ -56,6 +59,10 @@ struct Motions {
     /// Where motion i begins: the end of the one before.
     [[nodiscard]] const Xyz& begin_of(std::int64_t i) const {
         return i == 0 ? start : end[static_cast<std::size_t>(i - 1)];
+    }
+    /// The frame of motion i. O(1).
+    [[nodiscard]] const WorkFrame& frame_of(std::int64_t i) const {
+        return frames[frame.empty() ? 0 : frame[static_cast<std::size_t>(i)]];
     }
     /// The arc of motion i; nullptr for anything but cw and ccw. O(log arcs).
     [[nodiscard]] const Arc* arc_of(std::int64_t i) const;

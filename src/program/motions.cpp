@@ -34,6 +34,12 @@ Vec3 Interpreter::target(const Block& block, bool machine) {
 /// The axis words in machine or in programmed coordinates.
 Vec3 Interpreter::read_axes(const Block& block, bool machine) {
     Vec3 base = machine ? state_.to_machine(state_.position) : state_.programmed();
+    constexpr unsigned all = WorkFrame::all_axes;
+    const unsigned plane = all & ~(1u << state_.plane_axis);
+    const bool by_pole = polar_.on || polar_line_ || block.polar_radius || block.polar_angle || ends_by_angle(block);
+    // A frame's turn mixes the axes.
+    const bool mixed = !machine && state_.frame.active() && axes_named(block.words) != 0;
+    state_.place(mixed ? all : axes_named(block.words) | (by_pole && !machine ? plane : 0u), machine);
     if ((polar_.on || polar_line_) && !machine) {
         put_about_pole(block, base);
         return base;
@@ -282,6 +288,12 @@ void Interpreter::push(MotionKind kind, const Vec3& end, const Vec3& rotary, flo
     m.end.push_back(Xyz(end));
     m.feed.push_back(feed);
     m.line.push_back(line_);
+    if (state_.frame_changes != frame_changes_ || state_.held != frame_held_ || state_.absolute != frame_absolute_)
+        settle_work_frame();
+    if (work_frame_ != 0 || !m.frame.empty()) {
+        if (m.frame.empty()) m.frame = Column<std::uint32_t>(m.kind.size() - 1, 0);
+        m.frame.push_back(work_frame_);
+    }
     const bool vector = (tool_centre_point_ || tilted_) && !std::isnan(state_.tool_axis.x());
     const Vec3 angles = vector ? Vec3(Vec3::Constant(std::numeric_limits<double>::quiet_NaN())) : rotary;
     if (!m.rotary.empty() || angles.squaredNorm() != 0) {

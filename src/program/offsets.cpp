@@ -16,6 +16,47 @@ bool is(const Block& block, char letter) { return block.words.given(letter); }
 
 }  // namespace
 
+WorkFrame ModalState::work_frame() const {
+    const WorkOffset offset = work_offset();
+    WorkFrame now;
+    now.local = Eigen::Translation3d(offset.shift) * Eigen::AngleAxisd(offset.rotation * rad_per_deg, Vec3::UnitZ()) *
+                Eigen::Translation3d(shift);
+    if (offset.rotation == 0) now.local.linear().setIdentity();
+    now.tool = tool_offset - assumed_tool;
+    now.rotary = rotary_offset() * rad_per_deg;
+    now.held = held;
+    now.absolute = absolute;
+    if (work_system == 0) return now;  // G500 of Siemens
+    constexpr unsigned whole = WorkFrame::all_axes | WorkFrame::rotation;
+    now.free = static_cast<std::uint8_t>(offset.set == 0 ? whole : WorkFrame::all_axes & ~unsigned{offset.set});
+    if (now.free != 0) now.system = offset.measured_from != 0 ? offset.measured_from : work_system;
+    return now;
+}
+
+/// The index of the frame that the next motion counts in; a new one where it is.
+void Interpreter::settle_work_frame() {
+    frame_changes_ = state_.frame_changes;
+    frame_held_ = state_.held;
+    frame_absolute_ = state_.absolute;
+    const WorkFrame frame = state_.work_frame();
+    std::array<double, 22> key{};
+    std::copy_n(frame.local.data(), 16, key.begin());
+    key[16] = frame.system;
+    key[17] = frame.free + 16 * frame.held + 256 * frame.absolute;
+    std::copy_n(frame.tool.data(), 3, key.begin() + 18);
+    // Rotary offsets: one number is enough to tell those apart that a program uses.
+    key[21] = frame.rotary.dot(Vec3(1, 1e-3, 1e-6));
+    std::vector<WorkFrame>& frames = program_.motions.frames;
+    const auto [known, added] = known_frames_.try_emplace(key, static_cast<std::uint32_t>(frames.size()));
+    if (added && known_frames_.size() == 1 && forgotten_ == 0 && program_.motions.kind.size() == 1) {
+        known->second = 0;
+        frames.front() = frame;
+    } else if (added) {
+        frames.push_back(frame);
+    }
+    work_frame_ = known->second;
+}
+
 void Interpreter::set_offsets(const Block& block) {
     motion_suppressed_ = true;
     const int level = is(block, 'L') ? static_cast<int>(std::clamp(block.words.of('L'), -1e6, 1e6)) : 0;
@@ -32,7 +73,17 @@ void Interpreter::set_offsets(const Block& block) {
     const Vec3 position = state_.position.array().isNaN().select(0.0, state_.position);
     state_.rebase([&] {
         WorkOffset& offset = state_.work_offsets[system];
-        if (is(block, 'R') && level == 2 && dialect_ == DialectId::linuxcnc) offset.rotation = block.words.of('R');
+        unsigned named = axes_named(block.words);
+        if (is(block, 'R') && level == 2 && dialect_ == DialectId::linuxcnc) {
+            offset.rotation = block.words.of('R');
+            named |= WorkFrame::rotation;
+        }
+        const WorkOffset active = state_.work_offset();
+        const bool measured = level == 20 && active.set == 0 && offset.set == 0 && state_.work_system != 0;
+        if (measured)
+            offset.measured_from = active.measured_from != 0 ? active.measured_from : state_.work_system;
+        else
+            offset.set = static_cast<std::uint8_t>(offset.set | named);
         Vec3 reads = position;  // L20: the present position reads as the words, in that system
         for (int axis = 0; axis < 3; ++axis) {
             const char letter = "XYZ"[axis];
@@ -133,7 +184,7 @@ void Interpreter::restore_modes(const ModalState& kept) {
     state_.retract_to_r = kept.retract_to_r;
     state_.diameter = kept.diameter;
     select_work_system(kept.work_system);
-    if (kept.tool_offset.isZero()) state_.rebase([&] { state_.tool_offset = Vec3::Zero(); });
+    if (kept.tool_offset.isZero()) state_.rebase([&] { state_.tool_offset = state_.assumed_tool = Vec3::Zero(); });
     const bool shifted = !(kept.shift.isZero() && kept.rotary_shift.isZero());
     if (!shifted && !(state_.shift.isZero() && state_.rotary_shift.isZero())) restore_shift(922);
 }
@@ -165,6 +216,7 @@ void Interpreter::set_tool(int level, const Block& block) {
     for (int axis = 0; axis < 3; ++axis) {
         if (is(block, "XYZ"[axis])) tool.offset[axis] = level == 1 ? length("XYZ"[axis]) : wanted[axis];
     }
+    tool.assumed = false;
     if (is(block, 'R')) tool.diameter = 2 * length('R');
     if (is(block, 'I')) tool.front_angle = block.words.of('I');
     if (is(block, 'J')) tool.back_angle = block.words.of('J');
@@ -238,22 +290,31 @@ void Interpreter::tool_length(int code, const Block& block) {
         }
         return offset;
     };
-    const auto table = [&](bool loaded) {
-        if (loaded) return tool_.offset;
+    const auto tool_named = [&](bool loaded) {
+        if (loaded) return tool_;
         const auto column = block.words.column['H' - 'A'];
-        return tool_of(static_cast<int>(std::clamp(std::round(block.words.of('H')), 0.0, 1e8)), column).offset;
+        return tool_of(static_cast<int>(std::clamp(std::round(block.words.of('H')), 0.0, 1e8)), column);
     };
+    const auto assumed_in = [](const Tool& tool) { return tool.assumed ? tool.offset : Vec3(Vec3::Zero()); };
     Vec3 offset = state_.tool_offset;
+    Vec3 assumed = state_.assumed_tool;
     if (code == 431) {
         motion_suppressed_ = true;
         offset = words_move(offset);
+        for (int axis = 0; axis < 3; ++axis) {
+            if (is(block, "XYZ"[axis])) assumed[axis] = 0;
+        }
     } else if (code == 490) {
-        offset = Vec3::Zero();
+        offset = assumed = Vec3::Zero();
     } else if (dialect_ == DialectId::linuxcnc && code == 430) {
-        offset = table(!is(block, 'H') || block.words.of('H') == 0);
+        const Tool tool = tool_named(!is(block, 'H') || block.words.of('H') == 0);
+        offset = tool.offset;
+        assumed = assumed_in(tool);
     } else if (dialect_ == DialectId::linuxcnc && code == 432) {
         if (!is(block, 'H')) fail("G43.2 needs the tool's number (H)");
-        offset += table(false);
+        const Tool tool = tool_named(false);
+        offset += tool.offset;
+        assumed += assumed_in(tool);
     } else if (dialect_ == DialectId::fanuc && (code == 430 || code == 440 || code == 434 || code == 435) &&
                !tools_.tools.empty()) {
         if (is(block, 'H')) length_number_ = static_cast<int>(std::clamp(std::round(block.words.of('H')), 0.0, 1e8));
@@ -261,7 +322,10 @@ void Interpreter::tool_length(int code, const Block& block) {
                  (code == 440 ? -1.0 : 1.0);
     }
     part_from_machine(offset - state_.tool_offset);
-    state_.rebase([&] { state_.tool_offset = offset; });
+    state_.rebase([&] {
+        state_.tool_offset = offset;
+        state_.assumed_tool = assumed;
+    });
     event("tool-length", code_text(code) + words_text(block, "H"));
 }
 
@@ -282,6 +346,8 @@ void Interpreter::reference(int code, const Block& block) {
         straight(MotionKind::rapid, target(block, machine_coordinates_), rotary_target(block));
     }
     // RS274: without axis words all axes go; with them only those.
+    constexpr unsigned all = WorkFrame::all_axes;
+    state_.place(named == 0 ? all : axes_named(block.words), true);
     Vec3 end = state_.position;
     Vec3 rotary = state_.rotary;
     for (int axis = 0; axis < 3; ++axis) {

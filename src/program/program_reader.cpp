@@ -21,7 +21,7 @@ ProgramReader::~ProgramReader() = default;
 
 void ProgramReader::read_piece() {
     interpreter_->forget(size_);
-    size_ = interpreter_->read_on(piece_);
+    size_ = interpreter_->place_settled(interpreter_->read_on(piece_));
     outline_.motions += size_;
     outline_.arcs = outline_.arcs || !program().motions.arcs.empty();
 }
@@ -29,7 +29,7 @@ void ProgramReader::read_piece() {
 bool ProgramReader::next_piece() {
     if (!std::exchange(first_is_read_, false)) {
         interpreter_->forget(size_);
-        size_ = interpreter_->read_on(piece_);
+        size_ = interpreter_->place_settled(interpreter_->read_on(piece_));
     }
     return size_ > 0;
 }

@@ -1,6 +1,8 @@
 #pragma once
 // ProgramReader: interprets a program while its motions are gone through, in the memory of a piece.
 //
+// Positions are those of the machine, unknown work offsets taken as zero (frame_placement.h).
+//
 // What grows with the program all the same: the places of its lines (an eighth of a byte a line), of labels,
 // loops and block numbers where it jumps, its variables, and the places that call subprograms. The ends of motions that a
 // later line may still move (cutter compensation) wait for it, which takes a block or two.

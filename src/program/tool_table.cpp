@@ -8,6 +8,7 @@ ToolTable stand_alone_tools() {
     const auto add = [&](int number, double length, double diameter) {
         Tool& tool = table.tools[number];
         tool.number = number;
+        tool.assumed = true;
         tool.offset.z() = length * mm_per_inch;
         tool.diameter = diameter * mm_per_inch;
     };

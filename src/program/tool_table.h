@@ -14,6 +14,7 @@ struct Tool {
     double diameter = 0;                     ///< [mm]
     double front_angle = 0, back_angle = 0;  ///< of a lathe tool [deg]
     int orientation = 0;                     ///< of a lathe tool, 0 … 9
+    bool assumed = false;                    ///< of a table that nobody gave: the machine's is another one
 };
 
 struct ToolTable {

@@ -170,7 +170,7 @@ clsurf_cli_test(NAME work_offset_given SETUP "${displace}" ARGS info ${part} run
   STDOUT "positions lie 0.000[0-9] mm" NO_STDOUT "displaced" "another program")
 clsurf_cli_test(NAME work_offset_given_without_lines SETUP "${displace_without_lines}"
   ARGS query ${part} run.csv --point 5000 --work-offset 312.5,-48.125,-101.3 STDOUT "^line 63[78]" "confidence 1.0")
-clsurf_cli_test(NAME work_offset_wrong ARGS info ${part} ${run} --work-offset 1,2 EXIT 2 STDERR "--work-offset: '1,2' is not 3 numbers")
+clsurf_cli_test(NAME work_offset_wrong ARGS info ${part} ${run} --work-offset 1,2 EXIT 2 STDERR "--work-offset: '1,2' is not 3 or 4 numbers")
 clsurf_cli_test(NAME info_layout ARGS info @LOGS@/petal_spiral.raw --layout @DATA@/logs/petal_spiral.layout.toml STDOUT "84271 records")
 clsurf_cli_test(NAME query_at ARGS query ${part} ${run} --at -5.87,0,2.45 STDOUT "^line 1768")
 # Line 14 runs inside O3, which line 10 of O2 calls, which line 6 called the second time.
