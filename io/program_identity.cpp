@@ -24,6 +24,23 @@ std::string size_text(const ProgramReference& program) {
 
 std::string short_hash(const ProgramReference& program) { return program.sha256.substr(0, 12) + "…"; }
 
+std::string_view text_of(const Source& program) {
+    return {reinterpret_cast<const char*>(program.bytes.data()), program.bytes.size()};
+}
+
+std::string with_line_ends(std::string_view text, std::string_view line_end) {
+    std::string changed;
+    changed.reserve(text.size() + text.size() / 16);
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '\r' && i + 1 < text.size() && text[i + 1] == '\n') continue;
+        if (text[i] == '\n')
+            changed += line_end;
+        else
+            changed += text[i];
+    }
+    return changed;
+}
+
 }  // namespace
 
 ProgramReference identify(const Source& program) {
@@ -43,15 +60,21 @@ std::string with_programs(const std::string& metadata, std::span<const ProgramRe
     return dump_compact(json);
 }
 
-void check_identity(const Source& program, const Log& log, Diagnostics& diagnostics) {
+ProgramIdentity check_identity(const Source& program, const Log& log, Diagnostics& diagnostics) {
     std::vector<const ProgramReference*> hashed;
     for (const ProgramReference& known : log.programs) {
         if (known.sha256.size() == hash_digits) hashed.push_back(&known);
     }
-    if (hashed.empty()) return;
+    if (hashed.empty()) return ProgramIdentity::unknown;
     const ProgramReference given = identify(program);
-    for (const ProgramReference* known : hashed) {
-        if (same_hash(known->sha256, given.sha256)) return;
+    const auto ran_with = [&](std::string_view hash) {
+        return std::any_of(hashed.begin(), hashed.end(),
+                           [&](const ProgramReference* known) { return same_hash(known->sha256, hash); });
+    };
+    if (ran_with(given.sha256)) return ProgramIdentity::same;
+    for (const std::string_view line_end : {"\n", "\r\n"}) {
+        const std::string text = with_line_ends(text_of(program), line_end);
+        if (ran_with(sha256(std::as_bytes(std::span(text.data(), text.size()))))) return ProgramIdentity::same;
     }
     const auto namesake = std::find_if(hashed.begin(), hashed.end(), [&](const ProgramReference* known) {
         return file_name(known->name) == given.name;
@@ -64,6 +87,7 @@ void check_identity(const Source& program, const Log& log, Diagnostics& diagnost
                      edited ? "was edited after the run" : "is another program than the one that ran", ran.name,
                      size_text(ran), short_hash(ran), size_text(given), short_hash(given)),
          "lines and points belong together only as far as the two agree: take the file that ran"});
+    return edited ? ProgramIdentity::edited : ProgramIdentity::other;
 }
 
 }  // namespace clsurf::io

@@ -6,6 +6,7 @@
 
 #include "io/mapped_file.h"
 #include "log/log.h"
+#include "path/program_match.h"
 
 namespace clsurf::io {
 
@@ -15,9 +16,9 @@ namespace clsurf::io {
 /// The metadata with `programs` set to these, the rest kept. `metadata`: a JSON object or empty.
 [[nodiscard]] std::string with_programs(const std::string& metadata, std::span<const ProgramReference> programs);
 
-/// Adds the warning `log.program` where the log names its programs by hash and `program` is none of
-/// them: edited after the run where the name is the same, another one otherwise. O(bytes) for logs
-/// that name hashes, O(1) for others.
-void check_identity(const Source& program, const Log& log, Diagnostics& diagnostics);
+/// Whether `program` is one of those that the log names by hash. A text is the same with line ends of another
+/// system (LF, CR LF). Adds the warning `log.program` where it is none of them: edited after the run where the
+/// name is the same, another one otherwise. O(bytes) for logs that name hashes, O(1) for others.
+[[nodiscard]] ProgramIdentity check_identity(const Source& program, const Log& log, Diagnostics& diagnostics);
 
 }  // namespace clsurf::io

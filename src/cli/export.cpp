@@ -52,9 +52,11 @@ io::ExportColumn column_of(const std::string& name, const Part& part, const ClSu
             part.path.read(static_cast<PointIndex>(first), xyz[0], xyz[1], xyz[2]);
         }
     } else if (name == "confidence") {
+        std::vector<double> confidences(count);
+        read_confidences(part.path, part.program, *part.lines, 0, confidences);
         column.values.resize(count);
-        for (std::size_t i = 0; i < count; ++i)
-            column.values[i] = static_cast<float>(part.lines->confidence_at(static_cast<PointIndex>(i)));
+        std::transform(confidences.begin(), confidences.end(), column.values.begin(),
+                       [](double c) { return static_cast<float>(c); });
     } else {
         Field field = fields.get(name);
         column.name = field.info.name;

@@ -28,6 +28,13 @@ void print_diagnostics(const Diagnostics& diagnostics) {
     }
 }
 
+/// Errors decide the exit code, so they are messages as well.
+void print_errors(const Diagnostics& diagnostics) {
+    for (const Diagnostic& d : diagnostics.kept()) {
+        if (d.severity == Severity::error) std::fputs(to_text(d).c_str(), stderr);
+    }
+}
+
 void print_program(const Program& program, const ToolpathSummary& s, const Diagnostics& diagnostics) {
     fmt::print("{}: program, dialect {}\n", program.main().name(), program.dialect->name);
     fmt::print("  {} lines; {} rapids, {} lines at feed, {} arcs, {} dwells\n", program.main().line_count(), s.rapids,
@@ -56,12 +63,13 @@ void print_log(const Log& log, const Diagnostics& diagnostics) {
 }
 
 /// Whether the log is one of this program: distances between the points and their lines.
-void judge_together(Program program, const Log& log, const FramePoses& given,
-                    const std::shared_ptr<const Kinematics>& kinematics, Diagnostics& diagnostics) {
+ProgramMatch judge_together(Program program, const Log& log, const FramePoses& given,
+                            const std::shared_ptr<const Kinematics>& kinematics, ProgramIdentity identity,
+                            Diagnostics& diagnostics) {
     const Role role = log.has(Role::commanded)  ? Role::commanded
                       : log.has(Role::feedback) ? Role::feedback
                                                 : Role::actual;
-    if (!log.has(role) || log.records == 0 || program.motions.size() == 0) return;
+    if (!log.has(role) || log.records == 0 || program.motions.size() == 0) return {};
     const Eigen::Isometry3d pose = place_with(program, log, given, kinematics.get(), diagnostics);
     const Trajectory path = reconstruct(log, role, pose, kinematics);
     if (kinematics) {
@@ -72,9 +80,9 @@ void judge_together(Program program, const Log& log, const FramePoses& given,
     } else {
         note_rotary(log, role, diagnostics);
     }
-    const LineMap lines = map_lines(path, log, program, true, diagnostics);
+    const LineMap lines = map_lines(path, log, program, true, diagnostics, identity);
     const LineAgreement a = check_lines(path, program, lines);
-    if (a.checked == 0) return;
+    if (a.checked == 0) return lines.match();
     diagnostics.add(
         {Severity::note,
          "map.distance",
@@ -82,6 +90,7 @@ void judge_together(Program program, const Log& log, const FramePoses& given,
          fmt::format("positions lie {:.4f} mm (median) and {:.4f} mm (95th percentile) from the lines of {}",
                      a.median_distance, a.p95_distance, program.main().name()),
          {}});
+    return lines.match();
 }
 
 ExitCode run_info(const po::variables_map& values) {
@@ -91,6 +100,7 @@ ExitCode run_info(const po::variables_map& values) {
     std::vector<std::string> objects;
     std::optional<Program> program;
     io::Source program_source;
+    bool unusable = false;
     const std::shared_ptr<const Kinematics> kinematics =
         load_kinematics(values.count("machine") > 0 ? values["machine"].as<std::string>() : std::string());
     for (const std::string& path : values["FILE"].as<std::vector<std::string>>()) {
@@ -119,16 +129,25 @@ ExitCode run_info(const po::variables_map& values) {
         Diagnostics diagnostics = log.diagnostics;
         diagnostics.append(check_health(log, program ? program->main().line_count() : 0));
         if (program) {
-            io::check_identity(program_source, log, diagnostics);
-            judge_together(*program, log, read_work_offset(values), kinematics, diagnostics);
+            const ProgramIdentity identity = io::check_identity(program_source, log, diagnostics);
+            const ProgramMatch match =
+                judge_together(*program, log, read_work_offset(values), kinematics, identity, diagnostics);
+            if (!match.foreign.empty()) {
+                diagnostics.add({values.count("force") > 0 ? Severity::warning : Severity::error, "map.foreign",
+                                 Place::of_file(log.name),
+                                 "does not belong to " + program->main().name() + ": " + match.foreign,
+                                 "--work-offset or --machine may be missing"});
+            }
         }
+        unusable = unusable || diagnostics.has_errors();
+        print_errors(diagnostics);
         if (json)
             objects.push_back(io::log_json(log, diagnostics));
         else if (!quiet)
             print_log(log, diagnostics);
     }
     if (json) write_to_stdout(io::list_json("files", objects));
-    return ExitCode::done;
+    return unusable ? ExitCode::bad_input : ExitCode::done;
 }
 
 }  // namespace
@@ -140,7 +159,8 @@ Subcommand info_subcommand() {
         .summary = "what a program or log holds, and whether it can be trusted",
         .description =
             "Programs and logs are told apart by content. A log that follows its program is judged\n"
-            "against it: wrong program, lines that do not exist, a work offset that is missing.\n\n"
+            "against it: wrong program, lines that do not exist, a work offset that is missing. Exit code 3\n"
+            "says that a log has errors or does not belong to the program.\n\n"
             "  clsurf info part.nc run.biip",
         .declare =
             [](po::options_description& options) {
@@ -150,6 +170,7 @@ Subcommand info_subcommand() {
                 declare_program_options(options);
                 declare_log_options(options);
                 declare_work_offset(options);
+                declare_force(options);
                 declare_kinematics(options);
             },
         .positional = {"FILE…"},

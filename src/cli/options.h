@@ -14,6 +14,7 @@
 #include "io/log_format.h"
 #include "io/program_file.h"
 #include "machine/kinematics.h"
+#include "path/program_match.h"
 
 namespace clsurf::cli {
 
@@ -34,6 +35,12 @@ void declare_program_options(po::options_description& options);
 /// --layout, --mapping, --period
 void declare_log_options(po::options_description& options);
 [[nodiscard]] io::LogOptions read_log_options(const po::variables_map& values);
+
+/// --force, of what takes a log that must belong to its program
+void declare_force(po::options_description& options);
+/// Throws InputError where the log does not belong to the program; with `force` it is a warning.
+void refuse_foreign(const ProgramMatch& match, const Program& program, const Log& log, bool force,
+                    Diagnostics& diagnostics);
 
 /// --machine, for its kinematics
 void declare_kinematics(po::options_description& options);

@@ -35,6 +35,7 @@ void declare_part(po::options_description& options, bool can_form) {
         ("surface", po::value<std::string>()->value_name(can_form ? "commanded|feedback|actual|formed" : "commanded|feedback|actual"),
             can_form ? "which positions (default: commanded, else what the log has), or what the tool leaves standing; that needs --tool" : "which positions (default: commanded, else what the log has)")
         ("ignore-lines", "find the lines by geometry even where the log has a line channel");
+    declare_force(options);
     // clang-format on
 }
 
@@ -52,6 +53,7 @@ PartOptions read_part_options(const po::variables_map& values) {
     options.program_options = read_program_options(values);
     options.log_options = read_log_options(values);
     options.use_line_channel = values.count("ignore-lines") == 0;
+    options.force = values.count("force") > 0;
     options.role_given = values.count("surface") > 0;
     options.formed = options.role_given && values["surface"].as<std::string>() == "formed";
     if (options.formed) options.role_given = false;
@@ -88,7 +90,7 @@ Part load_part(const PartOptions& options, StageClock& clock) {
     if (kinematics) solve_tool_axes(part.program, *kinematics, {}, {}, pose.linear());
     part.diagnostics.append(part.program.diagnostics);
     part.diagnostics.append(part.log.diagnostics);
-    io::check_identity(program, part.log, part.diagnostics);
+    const ProgramIdentity identity = io::check_identity(program, part.log, part.diagnostics);
     clock.begin("map points to lines");
     if (kinematics) {
         make_tip_motions(part.program, *kinematics, pose);
@@ -98,7 +100,8 @@ Part load_part(const PartOptions& options, StageClock& clock) {
     }
     const Trajectory mapped = reconstruct_like(part.log, mapping_role(part.log, role), part.path);
     part.lines = std::make_unique<LineMap>(
-        map_lines(mapped, part.log, part.program, options.use_line_channel, part.diagnostics));
+        map_lines(mapped, part.log, part.program, options.use_line_channel, part.diagnostics, identity));
+    refuse_foreign(part.lines->match(), part.program, part.log, options.force, part.diagnostics);
     clock.end();
     return part;
 }

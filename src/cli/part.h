@@ -28,6 +28,7 @@ struct PartOptions {
     FramePoses poses;        ///< --work-offset
     std::string machine;     ///< machine file with the kinematics; empty: three axes
     bool use_line_channel = true;
+    bool force = false;  ///< go on with a log that does not belong to the program
     DerivativeMethod derivative = DerivativeMethod::savgol;
 };
 
@@ -50,7 +51,7 @@ struct Part {
     Diagnostics diagnostics;                                 ///< of program, log and map together
 };
 
-/// Reads and maps. Throws InputError, UsageError.
+/// Reads and maps. Throws InputError (also where the log does not belong to the program, unless forced), UsageError.
 [[nodiscard]] Part load_part(const PartOptions& options, StageClock& clock);
 
 /// What derives the speeds of pieces of the part, as --derivative asks for it; nullptr: savgol. O(points).

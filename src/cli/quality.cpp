@@ -80,6 +80,7 @@ Quality judge(Part& part, const ClSurface& surface, std::optional<Role> wanted, 
     const PartSignals read = signals_of(part, surface, wanted);
     clock.begin("find the defects");
     quality.report = find_defects(surface, read.signals, *part.lines, part.program, part.log.period, options.rules);
+    for (std::string& doubt : part.lines->match().doubts()) quality.report.judgement.refuse(std::move(doubt));
     for (const std::string& reason : quality.report.judgement.reasons)
         part.diagnostics.add(
             {Severity::warning, "quality.not-judged", Place::of_file(part.log.name), "not judged: " + reason, {}});

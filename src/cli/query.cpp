@@ -92,8 +92,7 @@ io::QueryMatch match_of(const Part& part, const CallChains& chains,
     match.distance = distance;
     match.line_points =
         spread(point, part.log.records, part.log.records, [&](PointIndex i) { return lines.line_at(i) == match.line; });
-    const double off = lines.from_log() ? check_line_at(part.path, part.program, lines, point) : 0.0;
-    match.confidence = lines.confidence_at(point) * off_confidence(off);
+    read_confidences(part.path, part.program, lines, point, {&match.confidence, 1});
     // Derivatives look no farther than this kind of motion lasts.
     const auto kind_at = [&](PointIndex i) {
         PointKind kind = PointKind::idle;

@@ -50,6 +50,7 @@ void declare_runs(po::options_description& options) {
     declare_program_options(options);
     declare_log_options(options);
     declare_work_offset(options);
+    declare_force(options);
 }
 
 RunOptions read_run_options(const po::variables_map& values) {
@@ -57,6 +58,7 @@ RunOptions read_run_options(const po::variables_map& values) {
     options.program_options = read_program_options(values);
     options.log_options = read_log_options(values);
     options.poses = read_work_offset(values);
+    options.force = values.count("force") > 0;
     if (values.count("program") > 0) options.program = values["program"].as<std::string>();
     if (values.count("machine") > 0) options.machine = values["machine"].as<std::string>();
     if (values.count("surface") > 0) options.role = parse_role(values["surface"].as<std::string>());
@@ -108,8 +110,10 @@ std::unique_ptr<LineMap> lines_of(const LoadedRun& run, const Trajectory& path, 
         const io::Source source = io::open_source(options.program);
         const Program program = io::read_program(source, in_coordinates_of(options, run.log));
         diagnostics.append(program.diagnostics);
-        io::check_identity(source, run.log, diagnostics);
-        return std::make_unique<LineMap>(map_lines(path, run.log, program, true, diagnostics));
+        const ProgramIdentity identity = io::check_identity(source, run.log, diagnostics);
+        auto lines = std::make_unique<LineMap>(map_lines(path, run.log, program, true, diagnostics, identity));
+        refuse_foreign(lines->match(), program, run.log, options.force, diagnostics);
+        return lines;
     }
     Program none;
     none.files.emplace_back();

@@ -21,6 +21,7 @@ struct RunOptions {
     std::string machine;  ///< file; empty: the default one
     Vec3 start = Vec3::Zero();
     FramePoses poses;          ///< --work-offset
+    bool force = false;        ///< go on with a log that does not belong to `program`
     std::optional<Role> role;  ///< none: commanded where all runs have it
 };
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "core/statistics.h"
@@ -30,6 +31,12 @@ double allowed_distance(const Toolpath& path, std::int64_t before, std::int64_t 
         if (!(best <= distance)) best = distance;
     }
     return best;
+}
+
+/// 1 within a finishing tolerance; 0 where there is no motion.
+double off_confidence(double distance) {
+    if (!(distance == distance)) return 0.0;
+    return distance <= agreeing_distance ? 1.0 : agreeing_distance / distance;
 }
 
 }  // namespace
@@ -64,7 +71,7 @@ LineAgreement check_lines(const Trajectory& path, const Program& program, const 
         bool known = begin == 0;
         for (std::size_t i = 1; i < x.size(); ++i) {
             const PointIndex point = begin + static_cast<PointIndex>(i);
-            if (const std::int64_t now = map.motion_at(point); now != motion) {
+            if (const std::int64_t now = map.motion_at(point, lines[i]); now != motion) {
                 before = motion;
                 motion = now;
                 known = true;
@@ -89,17 +96,25 @@ LineAgreement check_lines(const Trajectory& path, const Program& program, const 
     return agreement;
 }
 
-double check_line_at(const Trajectory& path, const Program& program, const LineMap& map, PointIndex point) {
-    const std::int64_t motion = map.motion_at(point);
-    PointIndex i = point;
-    while (i > 0 && point - i < checked_stretch && map.motion_at(i) == motion) --i;
+void read_confidences(const Trajectory& path, const Program& program, const LineMap& map, PointIndex begin,
+                      std::span<double> out) {
+    if (out.empty()) return;
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = map.confidence_at(begin + static_cast<PointIndex>(i));
+    if (!map.from_log()) return;
     const Toolpath toolpath(program.motions, path.at(0));
-    return allowed_distance(toolpath, map.motion_at(i), motion, path.at(point));
-}
-
-double off_confidence(double distance) {
-    if (!(distance == distance)) return 0.0;
-    return distance <= agreeing_distance ? 1.0 : agreeing_distance / distance;
+    // Where the first point's run begins, what was reported before it is known.
+    std::int64_t motion = map.motion_at(begin);
+    PointIndex first = begin;
+    while (first > 0 && begin - first < checked_stretch && map.motion_at(first) == motion) --first;
+    std::int64_t before = map.motion_at(first);
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        const PointIndex point = begin + static_cast<PointIndex>(i);
+        if (const std::int64_t now = map.motion_at(point); now != motion) {
+            before = motion;
+            motion = now;
+        }
+        if (out[i] > 0) out[i] *= off_confidence(allowed_distance(toolpath, before, motion, path.at(point)));
+    }
 }
 
 }  // namespace clsurf

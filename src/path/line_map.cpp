@@ -10,6 +10,7 @@
 #include "core/block.h"
 #include "path/alignment.h"
 #include "path/allowed_motions.h"
+#include "path/line_edits.h"
 #include "path/motion_track.h"
 #include "path/program_course.h"
 #include "path/program_lines.h"
@@ -22,6 +23,12 @@ namespace {
 constexpr double disagreeing_share = 0.005;
 /// Where most points are off, a work offset is looked for.
 constexpr double offset_share = 0.5;
+/// A log of another program, as its hash says, may differ from this one by this much.
+constexpr double other_share = 0.05;
+/// Runs of points whose middle lies off its line: an edit may have moved the lines.
+constexpr double displaced = 0.3;
+/// A path that fits although its line numbers do not has no more points off than this.
+constexpr double fitting_share = 0.1;
 constexpr double sure_confidence = 0.9;  ///< of an aligned point
 
 PointKind point_kind(MotionKind kind) {
@@ -147,12 +154,12 @@ LineNumber LineMap::line_at(PointIndex point) const {
     return line;
 }
 
-std::int64_t LineMap::motion_at(PointIndex point) const {
+std::int64_t LineMap::motion_at(PointIndex point, LineNumber line) const {
     if (!motion_of_point_.empty()) {
         const std::uint32_t motion = motion_of_point_[static_cast<std::size_t>(point)];
         return motion == no_motion ? -1 : static_cast<std::int64_t>(motion);
     }
-    const std::span<const std::uint32_t> motions = motions_of(line_at(point));
+    const std::span<const std::uint32_t> motions = motions_of(line);
     return motions.empty() ? -1 : static_cast<std::int64_t>(motions.front());
 }
 
@@ -177,8 +184,10 @@ std::vector<PointRange> LineMap::points_of(LineNumber line) const {
 }
 
 double LineMap::confidence_at(PointIndex point) const {
-    if (from_log()) return line_at(point) > 0 ? 1.0 : 0.0;
-    return confidence_[static_cast<std::size_t>(point)] / 255.0;
+    constexpr double edited_confidence = 0.95;  // the text is not the one that ran
+    const double least = match_.edited ? edited_confidence : 1.0;
+    if (from_log()) return line_at(point) > 0 ? least : 0.0;
+    return least * confidence_[static_cast<std::size_t>(point)] / 255.0;
 }
 
 namespace {
@@ -201,17 +210,19 @@ std::string decimals(double value) {
     return text == "-0" ? "0" : text;
 }
 
-void look_for_work_offset(const Trajectory& path, const Program& program, const LineMap* map,
+/// True where an offset was found.
+bool look_for_work_offset(const Trajectory& path, const Program& program, const LineMap* map,
                           Diagnostics& diagnostics) {
     const std::optional<Vec3> shift = find_shift(path, program, map);
     constexpr double least_shift = 1e-3;  // [mm] displaced by nothing, they are off for another reason
-    if (!shift || shift->norm() < least_shift) return;
+    if (!shift || shift->norm() < least_shift) return false;
     const Vec3 offset = -(path.offset + *shift);
     diagnostics.add({Severity::warning, "map.work-offset", Place::of_file(path.name),
                      fmt::format("the positions lie parallel to the programmed path, displaced by X {} Y {} Z {} mm",
                                  decimals(-shift->x()), decimals(-shift->y()), decimals(-shift->z())),
                      fmt::format("--work-offset {},{},{} brings them onto it", decimals(offset.x()),
                                  decimals(offset.y()), decimals(offset.z()))});
+    return true;
 }
 
 ChannelView view_of(const Column<LineNumber>& lines) {
@@ -224,43 +235,143 @@ ChannelView view_of(const Column<LineNumber>& lines) {
             0.0};
 }
 
+/// Puts the lines of a log and a program together.
+class LineMapper {
+public:
+    LineMapper(const Trajectory& path, const Log& log, const Program& program, ProgramIdentity identity,
+               Diagnostics& diagnostics)
+        : path_(path), log_(log), program_(program), identity_(identity), diagnostics_(diagnostics) {
+        match_.edited = identity == ProgramIdentity::edited || identity == ProgramIdentity::other;
+    }
+
+    LineMap by_geometry() {
+        LineMap map = align_lines(path_, program_, diagnostics_);
+        const double off = off_share(map);
+        const bool explained = off > offset_share && look_for_work_offset(path_, program_, nullptr, diagnostics_);
+        const double foreign_at = identity_ == ProgramIdentity::other ? other_share : offset_share;
+        if (identity_ != ProgramIdentity::same && !explained && off > foreign_at)
+            match_.foreign = fmt::format("{:.0f} % of its points lie off the programmed path", 100 * off);
+        if (off <= offset_share) match_.missing = note_course(path_, log_, program_, map, diagnostics_);
+        return finish(std::move(map));
+    }
+
+    LineMap by_channel(const Channel& channel, const ProgramLines& own) {
+        LineMap map = own.lines ? reported(channel.values, view_of(*own.lines), own.lines)
+                                : reported(channel.values, channel.values, log_.keep_alive);
+        const bool lines_off = identity_ != ProgramIdentity::same && displaced_share(path_, program_, map) > displaced;
+        if (match_.edited || lines_off) {
+            if (std::optional<LineMap> moved = look_for_edits(channel, own)) {
+                map = std::move(*moved);
+            } else if (lines_off) {
+                if (std::optional<LineMap> found = fitting_geometry()) return finish(std::move(*found));
+            }
+        }
+        const LineAgreement agreement = check_lines(path_, program_, map);
+        if (share_of(agreement) > disagreeing_share) note_disagreement(agreement);
+        const bool explained =
+            share_of(agreement) > offset_share && look_for_work_offset(path_, program_, &map, diagnostics_);
+        const double foreign_at = identity_ == ProgramIdentity::other ? other_share : offset_share;
+        if (identity_ != ProgramIdentity::same && !explained && share_of(agreement) > foreign_at) {
+            match_.foreign = fmt::format("{:.0f} % of {} checked points lie farther than {} mm from their lines",
+                                         100 * share_of(agreement), agreement.checked, agreement.tolerance);
+        }
+        if (share_of(agreement) <= offset_share) match_.missing = note_course(path_, log_, program_, map, diagnostics_);
+        return finish(std::move(map));
+    }
+
+private:
+    static double share_of(const LineAgreement& a) {
+        return a.checked > 0 ? static_cast<double>(a.disagreeing) / static_cast<double>(a.checked) : 0.0;
+    }
+
+    LineMap finish(LineMap map) {
+        map.set_match(std::move(match_));
+        return map;
+    }
+
+    /// `numbers`: of the file that runs; `lines`: of the main program.
+    LineMap reported(const ChannelView& numbers, const ChannelView& lines, std::shared_ptr<const void> keep_alive) {
+        Column<std::uint32_t> motions;
+        if (lines_are_ambiguous(program_.motions))
+            motions = track_motions(path_, log_, program_, numbers, corner_play(program_));
+        return {lines, program_, std::move(keep_alive), std::move(motions)};
+    }
+
+    /// The log's lines where they stand in the text that was edited after the run.
+    std::optional<LineMap> look_for_edits(const Channel& channel, const ProgramLines& own) {
+        Diagnostics of_alignment;
+        const LineMap aligned = align_lines(path_, program_, of_alignment);
+        if (off_share(aligned) > offset_share) return std::nullopt;
+        const ChannelView lines = own.lines ? view_of(*own.lines) : channel.values;
+        std::optional<LineEdits> edits = find_line_edits(path_, program_, lines, aligned);
+        if (!edits) return std::nullopt;
+        if (edits->shifts.empty()) {
+            if (match_.edited)
+                diagnostics_.add({Severity::note,
+                                  "map.edited",
+                                  Place::of_file(program_.main().name()),
+                                  "no line moved by the edit: the log's line numbers hold",
+                                  {}});
+            return std::nullopt;
+        }
+        match_.edited = true;
+        diagnostics_.add({Severity::warning,
+                          "map.edited",
+                          Place::of_file(program_.main().name()),
+                          fmt::format("{} since the run; the log's line numbers were moved accordingly", edits->text()),
+                          {}});
+        auto moved = std::make_shared<const Column<LineNumber>>(std::move(edits->lines));
+        if (!own.lines) return reported(view_of(*moved), view_of(*moved), moved);
+        // Numbers of the main program are moved, those of other files stay.
+        Column<LineNumber> numbers(moved->size());
+        copy_block(channel.values, 0, {numbers.data(), numbers.size()}, 0);
+        for (std::size_t i = 0; i < numbers.size(); ++i) {
+            if (numbers[i] == (*own.lines)[i]) numbers[i] = (*moved)[i];
+        }
+        return reported(view_of(numbers), view_of(*moved), moved);
+    }
+
+    /// Where the log's numbers mean nothing in this program (block numbers, other lines), but its path fits.
+    std::optional<LineMap> fitting_geometry() {
+        Diagnostics of_alignment;
+        LineMap map = align_lines(path_, program_, of_alignment);
+        if (off_share(map) > fitting_share) return std::nullopt;
+        diagnostics_.add({Severity::warning,
+                          "map.line-numbers",
+                          Place::of_file(log_.name),
+                          "the log's line numbers do not fit the program, its path does: lines are found by geometry",
+                          {}});
+        match_.edited = true;
+        match_.missing = note_course(path_, log_, program_, map, diagnostics_);
+        return map;
+    }
+
+    void note_disagreement(const LineAgreement& agreement) {
+        diagnostics_.add({Severity::warning, "map.disagreement", Place::of_point(log_.name, agreement.worst),
+                          fmt::format("{} of {} checked points are farther than {} mm from the line that the log "
+                                      "gives them: median {:.4f} mm, worst {:.3f} mm",
+                                      agreement.disagreeing, agreement.checked, agreement.tolerance,
+                                      agreement.median_distance, agreement.worst_distance),
+                          "another program, another version of it, or another work offset?"});
+    }
+
+    const Trajectory& path_;
+    const Log& log_;
+    const Program& program_;
+    ProgramIdentity identity_;
+    Diagnostics& diagnostics_;
+    ProgramMatch match_;
+};
+
 }  // namespace
 
 LineMap map_lines(const Trajectory& path, const Log& log, const Program& program, bool use_channel,
-                  Diagnostics& diagnostics) {
+                  Diagnostics& diagnostics, ProgramIdentity identity) {
+    LineMapper mapper(path, log, program, identity, diagnostics);
     const Channel* channel = use_channel ? log.find("line") : nullptr;
-    ProgramLines own;
-    if (channel != nullptr) own = lines_of_program(log, program, diagnostics);
-    if (channel == nullptr || !own.known) {
-        LineMap map = align_lines(path, program, diagnostics);
-        if (off_share(map) > offset_share)
-            look_for_work_offset(path, program, nullptr, diagnostics);
-        else
-            note_course(path, log, program, map, diagnostics);
-        return map;
-    }
-    Column<std::uint32_t> motions;
-    if (lines_are_ambiguous(program.motions))
-        motions = track_motions(path, log, program, channel->values, corner_play(program));
-    LineMap map = own.lines ? LineMap(view_of(*own.lines), program, own.lines, std::move(motions))
-                            : LineMap(channel->values, program, log.keep_alive, std::move(motions));
-    const LineAgreement agreement = check_lines(path, program, map);
-    const auto more_than = [&](double share) {
-        return static_cast<double>(agreement.disagreeing) > share * static_cast<double>(agreement.checked);
-    };
-    if (more_than(disagreeing_share)) {
-        diagnostics.add({Severity::warning, "map.disagreement", Place::of_point(log.name, agreement.worst),
-                         fmt::format("{} of {} checked points are farther than {} mm from the line that the log "
-                                     "gives them: median {:.4f} mm, worst {:.3f} mm",
-                                     agreement.disagreeing, agreement.checked, agreement.tolerance,
-                                     agreement.median_distance, agreement.worst_distance),
-                         "another program, another version of it, or another work offset?"});
-    }
-    if (more_than(offset_share))
-        look_for_work_offset(path, program, &map, diagnostics);
-    else
-        note_course(path, log, program, map, diagnostics);
-    return map;
+    if (channel == nullptr) return mapper.by_geometry();
+    const ProgramLines own = lines_of_program(log, program, diagnostics);
+    return own.known ? mapper.by_channel(*channel, own) : mapper.by_geometry();
 }
 
 }  // namespace clsurf

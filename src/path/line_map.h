@@ -15,6 +15,7 @@
 #include "core/diagnostic.h"
 #include "core/point.h"
 #include "log/log.h"
+#include "path/program_match.h"
 #include "path/trajectory.h"
 #include "program/program.h"
 
@@ -55,18 +56,26 @@ public:
     }
 
     /// The motion of a point; −1: none. Lines of a channel: the one that the line's run is at.
-    [[nodiscard]] std::int64_t motion_at(PointIndex point) const;
+    [[nodiscard]] std::int64_t motion_at(PointIndex point) const { return motion_at(point, line_at(point)); }
+    /// The same where the line of the point is known.
+    [[nodiscard]] std::int64_t motion_at(PointIndex point, LineNumber line) const;
 
     /// Every run of consecutive points with that line, in order. O(points).
     [[nodiscard]] std::vector<PointRange> points_of(LineNumber line) const;
 
-    /// Aligned maps: how sure the line of a point is, 0 … 1. From a log: 1 where a line is given.
+    /// How sure the line of a point is, 0 … 1, by what gave it: a log's line is certain unless the program was
+    /// edited. confidences() adds what the geometry says.
     [[nodiscard]] double confidence_at(PointIndex point) const;
+
+    /// Whether the log belongs to the program.
+    [[nodiscard]] const ProgramMatch& match() const { return match_; }
+    void set_match(ProgramMatch match) { match_ = std::move(match); }
 
 private:
     void index_lines(const Program& program);
 
     PointIndex count_ = 0;
+    ProgramMatch match_;
     bool from_log_ = false;
     ChannelView channel_;
     std::shared_ptr<const void> keep_alive_;
@@ -96,18 +105,18 @@ struct LineAgreement {
 /// changes the number where a blend begins, and reports the last line of those that it merged.
 [[nodiscard]] LineAgreement check_lines(const Trajectory& path, const Program& program, const LineMap& map);
 
-/// How far a point lies from what its line allows [mm], as check_lines() has it; NaN: no line.
-[[nodiscard]] double check_line_at(const Trajectory& path, const Program& program, const LineMap& map,
-                                   PointIndex point);
-
-/// Confidence in a line whose point lies `distance` [mm] off it: 1 within a finishing tolerance.
-[[nodiscard]] double off_confidence(double distance);
+/// How sure the lines of points [begin, begin + out.size()) are, 0 … 1: as confidence_at() has it, and less where a
+/// point is off what its line allows by more than a finishing tolerance. O(points).
+void read_confidences(const Trajectory& path, const Program& program, const LineMap& map, PointIndex begin,
+                      std::span<double> out);
 
 /// The lines of a log: its channel where it has one (and `use_channel`), an alignment otherwise. Where
-/// the log names several programs, lines of the others are not taken for this one's.
+/// the log names several programs, lines of the others are not taken for this one's. Where the program was edited
+/// after the run (`identity`, or lines that lie beside their motions all along), the log's lines are moved to where
+/// they stand now (path/line_edits.h). match() of the result says whether the log belongs to the program.
 /// Adds diagnostics `map.…` about disagreement; where most points are off by the same translation,
 /// `map.work-offset` with the offset that brings them onto the path.
 [[nodiscard]] LineMap map_lines(const Trajectory& path, const Log& log, const Program& program, bool use_channel,
-                                Diagnostics& diagnostics);
+                                Diagnostics& diagnostics, ProgramIdentity identity = ProgramIdentity::unknown);
 
 }  // namespace clsurf

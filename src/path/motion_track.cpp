@@ -184,10 +184,10 @@ private:
     }
 
     /// To the motions that the line allows where the walk was on `from` before.
-    double allowed_distance(std::int64_t from, const Stretch& stretch, const Vec3& p) {
-        const MotionRange range = allowed_motions(from, stretch.first, toolpath_.size());
+    double allowed_distance(std::int64_t from, const Stretch& of, const Vec3& p) {
+        const MotionRange range = allowed_motions(from, of.first, toolpath_.size());
         const std::int64_t last =
-            std::max<std::int64_t>(range.last, std::min<std::int64_t>(stretch.last, stretch.first + group_window));
+            std::max<std::int64_t>(range.last, std::min<std::int64_t>(of.last, of.first + group_window));
         double best = std::numeric_limits<double>::infinity();
         for (std::int64_t m = range.first; m <= last && !(best <= tolerance_); ++m) {
             best = std::min(best, toolpath_.foot(m, p).distance);

@@ -40,7 +40,7 @@ std::string warning_of(const Source& program, const std::vector<ProgramReference
     log.name = "run.biip";
     log.programs = programs;
     Diagnostics found;
-    check_identity(program, log, found);
+    (void)check_identity(program, log, found);
     return found.empty() ? "" : found.kept().front().text;
 }
 
@@ -55,6 +55,14 @@ TEST(ProgramIdentity, IsQuietWhereTheProgramRanOrNothingIsKnown) {
     EXPECT_EQ(warning_of(program, {ran}), "");
     EXPECT_EQ(warning_of(program, {{"part.nc", "", {}}}), "");
     EXPECT_EQ(warning_of(program, {}), "");
+}
+
+TEST(ProgramIdentity, LineEndsOfAnotherSystemAreTheSameProgram) {
+    const Source unix_text = made("part.nc", "G1 X1\nX2\n");
+    const Source dos_text = made("part.nc", "G1 X1\r\nX2\r\n");
+    EXPECT_EQ(warning_of(dos_text, {identify(unix_text)}), "");
+    EXPECT_EQ(warning_of(unix_text, {identify(dos_text)}), "");
+    EXPECT_NE(warning_of(made("part.nc", "G1 X1\r\nX3\r\n"), {identify(unix_text)}), "");
 }
 
 TEST(ProgramIdentity, TellsAnEditedProgramFromAnotherOne) {
