@@ -132,7 +132,7 @@ ExitCode run_info(const po::variables_map& values) {
             const ProgramIdentity identity = io::check_identity(program_source, log, diagnostics);
             const ProgramMatch match =
                 judge_together(*program, log, read_work_offset(values), kinematics, identity, diagnostics);
-            if (!match.foreign.empty()) {
+            if (!match.foreign.empty() && (kinematics || diagnostics.count("path.rotary") == 0)) {
                 diagnostics.add({values.count("force") > 0 ? Severity::warning : Severity::error, "map.foreign",
                                  Place::of_file(log.name),
                                  "does not belong to " + program->main().name() + ": " + match.foreign,

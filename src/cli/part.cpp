@@ -23,6 +23,13 @@ namespace {
 /// The role that lines are found by: what was commanded, where it is there.
 Role mapping_role(const Log& log, Role shown) { return log.has(Role::commanded) ? Role::commanded : shown; }
 
+/// Without the machine's kinematics the path of a five-axis log does not tell whether it belongs to the program.
+void forget_path(LineMap& lines) {
+    ProgramMatch match = lines.match();
+    match.foreign.clear();
+    lines.set_match(std::move(match));
+}
+
 }  // namespace
 
 void declare_part(po::options_description& options, bool can_form) {
@@ -101,6 +108,7 @@ Part load_part(const PartOptions& options, StageClock& clock) {
     const Trajectory mapped = reconstruct_like(part.log, mapping_role(part.log, role), part.path);
     part.lines = std::make_unique<LineMap>(
         map_lines(mapped, part.log, part.program, options.use_line_channel, part.diagnostics, identity));
+    if (!kinematics && part.diagnostics.count("path.rotary") > 0) forget_path(*part.lines);
     refuse_foreign(part.lines->match(), part.program, part.log, options.force, part.diagnostics);
     clock.end();
     return part;

@@ -223,7 +223,10 @@ private:
             std::int64_t agreeing =
                 std::count_if(first, last, [&](const LineVote& v) { return v.shift == after + bias; });
             for (auto at = first;; ++at) {
-                if (agreeing > best) {
+                // Deleted lines lie before the shift.
+                const bool room = at == last || edits_.shifts[k].by > 0 ||
+                                  std::int64_t{at->line} + edits_.shifts[k].by >= std::int64_t{gaps_[k].first};
+                if (room && agreeing > best) {
                     best = agreeing;
                     best_at = at;
                 }
@@ -232,7 +235,7 @@ private:
             }
         }
         if (best_at != last) edits_.shifts[k].before = best_at->line;
-        if (best_at != first) gaps_[k].first = std::prev(best_at)->line + 1;
+        if (best_at != first && edits_.shifts[k].by > 0) gaps_[k].first = std::prev(best_at)->line + 1;
         gaps_[k].last = edits_.shifts[k].before - 1;
     }
 

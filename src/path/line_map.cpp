@@ -23,6 +23,7 @@ namespace {
 constexpr double disagreeing_share = 0.005;
 /// Where most points are off, a work offset is looked for.
 constexpr double offset_share = 0.5;
+constexpr PointIndex least_checked = 10;  ///< points that can tell a foreign log
 /// A log of another program, as its hash says, may differ from this one by this much.
 constexpr double other_share = 0.05;
 /// Runs of points whose middle lies off its line: an edit may have moved the lines.
@@ -271,7 +272,8 @@ public:
         const bool explained =
             share_of(agreement) > offset_share && look_for_work_offset(path_, program_, &map, diagnostics_);
         const double foreign_at = identity_ == ProgramIdentity::other ? other_share : offset_share;
-        if (identity_ != ProgramIdentity::same && !explained && share_of(agreement) > foreign_at) {
+        if (identity_ != ProgramIdentity::same && !explained && agreement.checked >= least_checked &&
+            share_of(agreement) > foreign_at) {
             match_.foreign = fmt::format("{:.0f} % of {} checked points lie farther than {} mm from their lines",
                                          100 * share_of(agreement), agreement.checked, agreement.tolerance);
         }

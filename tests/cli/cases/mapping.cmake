@@ -14,15 +14,15 @@ clsurf_cli_test(NAME foreign_log_in_info ARGS info ${zigzag} ${uneven_log} EXIT 
 clsurf_cli_test(NAME foreign_log_forced ARGS check ${zigzag} ${uneven_log} --force EXIT 5
   STDOUT "NOT JUDGED: The log does not belong to this program" STDERR "warning: does not belong to")
 clsurf_cli_test(NAME info_of_a_log_without_positions EXIT 3
-  SETUP "printf '[[channel]]\\ncolumn = \"a\"\\nname = \"cmd.x\"\\nunit = \"mm\"\\n' > map.toml; (echo a; seq 1 50) > run.csv"
-  ARGS info run.csv --mapping map.toml --period 0.001 STDOUT "error: .*no role has x, y and z")
+  SETUP "printf '[log]\\nformat = \"csv\"\\nperiod_s = 0.001\\n[[column]]\\nfrom = 1\\nname = \"cmd.x\"\\nunit = \"mm\"\\n' > map.toml; (echo a; seq 1 50) > run.csv"
+  ARGS info run.csv --mapping map.toml STDOUT "error: .*no role has x, y and z")
 
 # ---- an edited program ----
 set(insert_comment "sed '5i (a comment)' ${uneven} > bottle_uneven.nc")
 clsurf_cli_test(NAME comment_inserted_after_the_run SETUP "${insert_comment}" ARGS query bottle_uneven.nc ${uneven_log} --at 2.0,-5.6,4.7
   STDOUT "^line 569: X2.013" "confidence 0[.]95" STDERR "was edited after the run" "1 line inserted before line [5-7] since the run")
 clsurf_cli_test(NAME lines_deleted_after_the_run SETUP "sed '1000,1011d' ${uneven} > bottle_uneven.nc" ARGS query bottle_uneven.nc ${uneven_log} --point 20000 --json
-  STDOUT "\"confidence\": 0[.]95" STDERR "12 lines deleted before line 101[0-9]")
+  STDOUT "\"confidence\": 0[.]95" "12 lines deleted before line 101[23]")
 clsurf_cli_test(NAME feed_changed_after_the_run SETUP "sed 's/F3000/F2500/' ${uneven} > bottle_uneven.nc" ARGS query bottle_uneven.nc ${uneven_log} --at 2.0,-5.6,4.7
   STDOUT "^line 568: X2.013" "confidence 0[.]95")
 clsurf_cli_test(NAME crlf_is_the_same_program SETUP "sed 's/$/\\r/' ${uneven} > bottle_uneven.nc" ARGS info bottle_uneven.nc ${uneven_log}
@@ -42,4 +42,4 @@ endforeach()
 clsurf_cli_test(NAME truncated_log_is_not_judged SETUP "head -c 300000 @LOGS@/bottle_uneven.biip > run.biip" ARGS check ${uneven} run.biip EXIT 5
   STDOUT "NOT JUDGED: The log lacks 88 % of the program's motions")
 clsurf_cli_test(NAME lines_of_another_program_are_one_finding ARGS info ${uneven} @LOGS@/bottle_zigzag.biip EXIT 3
-  STDOUT "points have a line that is none of the program's 3716: 3717 … 3939")
+  STDOUT "points have a line that is none of the program's 3716: 3718 … 3938")
