@@ -14,7 +14,7 @@ clsurf_cli_test(NAME foreign_log_in_info ARGS info ${zigzag} ${uneven_log} EXIT 
 clsurf_cli_test(NAME foreign_log_forced ARGS check ${zigzag} ${uneven_log} --force EXIT 5
   STDOUT "NOT JUDGED: The log does not belong to this program" STDERR "warning: does not belong to")
 clsurf_cli_test(NAME info_of_a_log_without_positions EXIT 3
-  SETUP "printf '[log]\\nformat = \"csv\"\\nperiod_s = 0.001\\n[[column]]\\nfrom = 1\\nname = \"cmd.x\"\\nunit = \"mm\"\\n' > map.toml; (echo a; seq 1 50) > run.csv"
+  SETUP "printf '[log]\\nformat = \"delimited\"\\nperiod_s = 0.001\\n[[column]]\\nfrom = \"a\"\\nname = \"cmd.x\"\\nunit = \"mm\"\\n' > map.toml; (echo a; seq 1 50) > run.csv"
   ARGS info run.csv --mapping map.toml STDOUT "error: .*no role has x, y and z")
 
 # ---- an edited program ----
