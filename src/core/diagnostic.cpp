@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/printable_text.h"
+
 namespace clsurf {
 namespace {
 
@@ -16,10 +18,14 @@ std::string source_and_caret(const Place& where) {
     // A long line is shown around the place.
     const std::size_t from = column >= shown_source_bytes - 10 ? column - shown_source_bytes / 2 : std::size_t{0};
     std::size_t caret = 0;
-    for (std::size_t i = from; i < where.source.size() && i < from + shown_source_bytes; ++i) {
-        const auto byte = static_cast<unsigned char>(where.source[i]);
-        if (i == column) caret = line.size();
-        line += byte < 0x20 || byte == 0x7f ? ' ' : where.source[i];
+    for (std::size_t i = from; i < where.source.size() && i < from + shown_source_bytes;) {
+        const std::size_t size = printable_bytes(where.source, i);
+        if (i <= column && column < i + std::max<std::size_t>(size, 1)) caret = line.size();
+        if (size > 0)
+            line += where.source.substr(i, size);
+        else
+            line += static_cast<unsigned char>(where.source[i]) < 0x20 ? ' ' : '?';
+        i += std::max<std::size_t>(size, 1);
     }
     if (column >= from + line.size()) caret = line.size();
     std::string text = "    " + line + "\n";
@@ -93,11 +99,11 @@ std::vector<Diagnostic> Diagnostics::summary() const {
 
 std::string to_text(const Diagnostic& diagnostic) {
     std::string text;
-    const std::string where = diagnostic.where.text();
+    const std::string where = printable(diagnostic.where.text());
     if (!where.empty()) text += where + ": ";
-    text += std::string(name_of(diagnostic.severity)) + ": " + diagnostic.text + "\n";
+    text += std::string(name_of(diagnostic.severity)) + ": " + printable(diagnostic.text) + "\n";
     if (!diagnostic.where.source.empty()) text += source_and_caret(diagnostic.where);
-    if (!diagnostic.hint.empty()) text += "    hint: " + diagnostic.hint + "\n";
+    if (!diagnostic.hint.empty()) text += "    hint: " + printable(diagnostic.hint) + "\n";
     return text;
 }
 
