@@ -19,6 +19,7 @@ std::string program_json(const Program& program, const ToolpathSummary& s, const
               {"lines", program.main().line_count()},
               {"motions", {{"rapid", s.rapids}, {"feed", s.feeds}, {"arc", s.arcs}, {"dwell", s.dwells}}},
               {"cutting_length_mm", number(s.cutting_length)}};
+    if (!program.dialect_guessed_from.empty()) json["dialect_guessed_from"] = program.dialect_guessed_from;
     json["bounds_mm"] = box(s.bounds);
     json["diagnostics"] = list(diagnostics);
     return dump(json);

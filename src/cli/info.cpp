@@ -6,6 +6,7 @@
 
 #include "cli/options.h"
 #include "cli/work_frames.h"
+#include "core/printable_text.h"
 #include "core/units.h"
 #include "io/compressed.h"
 #include "io/json_text.h"
@@ -36,7 +37,9 @@ void print_errors(const Diagnostics& diagnostics) {
 }
 
 void print_program(const Program& program, const ToolpathSummary& s, const Diagnostics& diagnostics) {
-    fmt::print("{}: program, dialect {}\n", program.main().name(), program.dialect->name);
+    const std::string& guessed = program.dialect_guessed_from;
+    fmt::print("{}: program, dialect {}{}\n", program.main().name(), program.dialect->name,
+               guessed.empty() ? std::string() : fmt::format(" (a guess: {})", printable(guessed)));
     fmt::print("  {} lines; {} rapids, {} lines at feed, {} arcs, {} dwells\n", program.main().line_count(), s.rapids,
                s.feeds, s.arcs, s.dwells);
     fmt::print("  {:.1f} mm at feed", s.cutting_length);

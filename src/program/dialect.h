@@ -22,7 +22,4 @@ struct Dialect {
 /// The dialect of that name, or nullptr.
 [[nodiscard]] const Dialect* find_dialect(std::string_view name);
 
-/// The dialect that the text looks most like; `fanuc` when nothing tells.
-[[nodiscard]] const Dialect& detect_dialect(std::string_view text);
-
 }  // namespace clsurf

@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/printable_text.h"
+#include "program/dialect_guess.h"
 #include "program/interpreter_state.h"
 
 namespace clsurf {
@@ -17,6 +19,12 @@ namespace {
 constexpr std::size_t shown_line_bytes = 4000;  ///< of a source line in a message
 constexpr std::size_t shown_text_bytes = 400;   ///< of a message, which may name a word of any length
 
+/// "0 BEGIN PGM NAME MM" as the first block: where it begins, else npos.
+std::size_t begin_of_klartext(std::string_view text) {
+    const std::size_t at = text.find_first_not_of("0123456789 \t\r\n\xef\xbb\xbf");
+    return at != std::string_view::npos && text.substr(at).starts_with("BEGIN PGM ") ? at : std::string_view::npos;
+}
+
 }  // namespace
 
 Interpreter::Interpreter(SourceText text, const InterpreterOptions& options)
@@ -24,7 +32,13 @@ Interpreter::Interpreter(SourceText text, const InterpreterOptions& options)
       variables_([this](int number) { return parameter(number); },
                  [this](const std::string& name) { return named_parameter(name); },
                  [this](int number, double value) { return write_parameter(number, value); }) {
-    program_.dialect = options.dialect != nullptr ? options.dialect : &detect_dialect(text.text());
+    if (options.dialect != nullptr) {
+        program_.dialect = options.dialect;
+    } else {
+        const DialectGuess guess = guess_dialect(text.text(), text.name());
+        program_.dialect = guess.dialect;
+        program_.dialect_guessed_from = guess.reason;
+    }
     dialect_ = program_.dialect->id;
     program_.files.push_back(std::move(text));
     // A line makes 100 chords of a spline at most, and a few motions besides.
@@ -45,6 +59,12 @@ Interpreter::Interpreter(SourceText text, const InterpreterOptions& options)
     if (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff")) {
         throw InputError(Place::of_file(program_.main().name()), "is UTF-16 text, expected ASCII or UTF-8",
                          "convert it first, as with iconv -f UTF-16 -t UTF-8");
+    }
+    if (const std::size_t at = begin_of_klartext(bytes); at != std::string_view::npos) {
+        const auto line = 1 + std::count(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+        throw InputError(Place::of_line(program_.main().name(), static_cast<std::uint64_t>(line)),
+                         "is Heidenhain's Klartext (BEGIN PGM), which is not read",
+                         "let the postprocessor or the programming station write DIN/ISO");
     }
 }
 
@@ -211,7 +231,12 @@ void Interpreter::run_block(std::string_view line) {
 void Interpreter::fail(const std::string& what, std::size_t column, const std::string& hint) const {
     Place place = Place::of_line(program_.files[file_].name(), line_, static_cast<std::uint32_t>(column));
     place.source = std::string(current_.substr(0, shown_line_bytes));
-    throw InputError(std::move(place), what.substr(0, shown_text_bytes), hint);
+    std::string advice = hint;
+    if (!program_.dialect_guessed_from.empty()) {
+        advice += fmt::format("{}read as {}, a guess ({}); --dialect names another", advice.empty() ? "" : "; ",
+                              program_.dialect->name, program_.dialect_guessed_from);
+    }
+    throw InputError(std::move(place), printable(what.substr(0, shown_text_bytes)), printable(advice));
 }
 
 void Interpreter::note(Severity severity, const char* code, const std::string& text, std::size_t column) {
@@ -219,7 +244,7 @@ void Interpreter::note(Severity severity, const char* code, const std::string& t
     if (program_.diagnostics.count(code) < Diagnostics::kept_of_a_code) {
         place.source = std::string(current_.substr(0, shown_line_bytes));
     }
-    program_.diagnostics.add({severity, code, std::move(place), text.substr(0, shown_text_bytes), {}});
+    program_.diagnostics.add({severity, code, std::move(place), printable(text.substr(0, shown_text_bytes)), {}});
 }
 
 void Interpreter::event(const std::string& name, const std::string& value) {

@@ -3,7 +3,9 @@
 // parse_program(), not changed afterwards.
 
 #include <cstdint>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,13 +43,14 @@ private:
 struct ProgramEvent {
     std::int64_t motion = 0;  ///< takes effect before this motion
     LineNumber line = 0;
-    std::string name;   ///< "path-mode", "high-speed", "spindle", "tool", "end", …
-    std::string value;  ///< "G64 P0.005 Q0", "CYCLE832(0.02,1,1)", "S12000 M3"
+    std::string name;                   ///< "path-mode", "high-speed", "spindle", "tool", "end", …
+    std::string value;                  ///< "G64 P0.005 Q0", "CYCLE832(0.02,1,1)", "S12000 M3"
 };
 
 struct Program {
     std::vector<SourceText> files;  ///< files[0] is the main program
     const Dialect* dialect = nullptr;
+    std::string dialect_guessed_from;  ///< "'#<' in line 11, the ending .ngc"; empty: the dialect was given
     Motions motions;
     std::vector<ProgramEvent> events;
     Diagnostics diagnostics;

@@ -123,7 +123,7 @@ TEST(Interpreter, ReadsSiemensWords) {
 }
 
 TEST(Interpreter, ReportsUnknownWordsWithTheirPlace) {
-    const Program p = parse("G0 X1\nG777 X2\n", "fanuc");
+    const Program p = parse("G0 X1\nG777 P2\n", "fanuc");
     ASSERT_EQ(p.diagnostics.count("program.unknown-word"), 1u);
     EXPECT_EQ(p.diagnostics.kept()[0].where.text(), "test.nc:2:1");
 }
@@ -161,13 +161,6 @@ TEST(Interpreter, SurvivesBrokenBlocks) {
             }
         }
     }
-}
-
-TEST(Dialect, IsDetectedFromItsWords) {
-    EXPECT_EQ(detect_dialect("N10 TRAORI\nN20 CYCLE832(0.01,1,1)\n").name, "siemens");
-    EXPECT_EQ(detect_dialect("o<x> sub\n#<a>=1\no<x> endsub\n").name, "linuxcnc");
-    EXPECT_EQ(detect_dialect("%X G71 *\nN10 G0 X1*\nN20 G1 X2*\nN30 X3*\n").name, "heidenhain-iso");
-    EXPECT_EQ(detect_dialect("O1000\nG90 G54 G0 X0\n").name, "fanuc");
 }
 
 TEST(Program, ReadsARealFiveAxisProgram) {
