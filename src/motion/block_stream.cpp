@@ -1,7 +1,6 @@
 #include "motion/block_stream.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -15,23 +14,9 @@ namespace clsurf {
 namespace {
 
 constexpr double reversal = 179.0 * std::numbers::pi / 180;
-double path_tolerance(const ProgramEvent& event, const Machine& machine) {
-    const std::string& text = event.value;
-    if (machine.controller.corner == CornerMode::stop || text.starts_with("G61") || text.starts_with("G60")) return 0;
-    const std::size_t p = text.find('P');
-    if (p != std::string::npos) {
-        double value = 0;
-        const char* first = text.data() + p + 1;
-        while (first < text.data() + text.size() && (*first == ' ' || *first == '=')) ++first;
-        const auto read = std::from_chars(first, text.data() + text.size(), value);
-        if (read.ec == std::errc() && value > 0) return value;
-    }
-    return machine.controller.tolerance;
-}
-
 bool stops_between(const PathElement& before, const PathElement& after) {
     const double turning = deflection(before.tangent(before.length).normalized(), after.tangent(0).normalized());
-    if (turning > reversal) return true;
+    if (before.stops || turning > reversal) return true;
     if (before.tolerance > 0 && after.tolerance > 0) return false;
     // On an exact path only what is straight on, with no jump of curvature, is passed without a stop.
     const double bend = (after.second_derivative(0) - before.second_derivative(before.length)).norm();
@@ -42,7 +27,7 @@ bool stops_between(const PathElement& before, const PathElement& after) {
 
 BlockStream::BlockStream(MotionSource& source, const Machine& machine, const Vec3& start)
     : source_(&source), machine_(&machine), at_(start) {
-    tolerance_ = machine.controller.corner == CornerMode::stop ? 0 : machine.controller.tolerance;
+    take(PathMode{});
     // Where the program itself says where it begins, the axes stand there.
     const Xyz& known = source.program().motions.start;
     if (known.x == known.x) at_.x() = known.x;
@@ -50,9 +35,16 @@ BlockStream::BlockStream(MotionSource& source, const Machine& machine, const Vec
     if (known.z == known.z) at_.z() = known.z;
 }
 
+void BlockStream::take(const PathMode& mode) {
+    const ControllerSettings& controller = machine_->controller;
+    const bool rounded = mode.block_end == BlockEnd::rounded && controller.corner != CornerMode::stop;
+    tolerance_ = !rounded ? 0 : std::isfinite(mode.tolerance) ? mode.tolerance : controller.tolerance;
+    stops_ = mode.block_end == BlockEnd::exact_stop;
+}
+
 void BlockStream::follow_events(std::int64_t motion) {
     events_.pass(source_->program().events, motion, [&](const ProgramEvent& event) {
-        if (event.name == "path-mode") tolerance_ = path_tolerance(event, *machine_);
+        if (event.path_mode) take(*event.path_mode);
     });
 }
 
@@ -111,6 +103,7 @@ bool BlockStream::read(PathElement& element) {
         element.block = blocks_++;
         element.block_length = element.length;
         element.tolerance = tolerance_;
+        element.stops = stops_;
         element.feed = infinite;
         if (kind != MotionKind::rapid) {
             element.feed = motions.feed[i];

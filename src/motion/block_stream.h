@@ -48,6 +48,7 @@ private:
     [[nodiscard]] bool at_a_motion();
     [[nodiscard]] bool turns(const Motions& motions, std::size_t motion);
     void follow_events(std::int64_t motion);
+    void take(const PathMode& mode);
     void take_dwell();
 
     MotionSource* source_;
@@ -58,6 +59,7 @@ private:
     std::int64_t blocks_ = 0;
     Xyz rotary_;            ///< of the last motion [rad]
     double tolerance_ = 0;  ///< in force; 0: exact path
+    bool stops_ = false;    ///< at the end of every block
     bool waiting_ = false;  ///< an element is read that begins the next section
     PathElement waiting_element_, last_;
     bool begun_ = false;  ///< last_ is of this section

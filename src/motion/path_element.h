@@ -33,6 +33,7 @@ struct PathElement {
     // Of the block that the element stands for.
     double feed = 0;       ///< asked speed [mm/s]; infinite for a rapid
     double tolerance = 0;  ///< of what rounds its ends [mm]; 0: exact path
+    bool stops = false;    ///< comes to rest at its end (exact stop)
     LineNumber line = 0;
     std::int64_t block = 0;                                           ///< number of the block, of those with a way
     double block_length = 0;                                          ///< [mm]

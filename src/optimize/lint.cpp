@@ -34,17 +34,6 @@ constexpr std::array<RuleText, lint_rules> rule_texts{{
     {LintRule::start_point, "start-point", "The pass begins or ends out of line with its neighbours"},
 }};
 
-/// The number behind a letter or an opening bracket of a word such as "G64 P0.01", "CYCLE832(0.02,1)".
-std::optional<double> number_after(std::string_view text, char mark) {
-    std::size_t at = text.find(mark, 1);
-    if (at == std::string_view::npos) return std::nullopt;
-    at = text.find_first_not_of(" =", at + 1);
-    if (at == std::string_view::npos) return std::nullopt;
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data() + at, text.data() + text.size(), value);
-    return error == std::errc() ? std::optional(value) : std::nullopt;
-}
-
 class Linter {
 public:
     Linter(const Program& program, const ProgrammedSurface& laid, const LintRules& rules)
@@ -328,10 +317,9 @@ std::size_t LintReport::warnings() const {
 double programmed_tolerance(const Program& program) {
     double least = 0;
     for (const ProgramEvent& event : program.events) {
-        std::optional<double> value;
-        if (event.name == "path-mode" && event.value.starts_with("G64")) value = number_after(event.value, 'P');
-        if (event.name == "high-speed" && event.value.starts_with("CYCLE832")) value = number_after(event.value, '(');
-        if (value && *value > 0 && (least == 0 || *value < least)) least = *value;
+        if (!event.path_mode || event.path_mode->block_end != BlockEnd::rounded) continue;
+        const double tolerance = event.path_mode->tolerance;
+        if (std::isfinite(tolerance) && (least == 0 || tolerance < least)) least = tolerance;
     }
     return least;
 }

@@ -1,7 +1,6 @@
 // How well lines and geometry fit: check_lines() and what goes with it (path/line_map.h).
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <span>
 #include <vector>
@@ -44,10 +43,9 @@ double off_confidence(double distance) {
 double corner_play(const Program& program) {
     double play = agreeing_distance;
     for (const ProgramEvent& event : program.events) {
-        if (event.name != "path-mode" || !event.value.starts_with("G64")) continue;
-        const std::size_t p = event.value.find(" P");
-        play = std::max(play,
-                        p == std::string::npos ? blending_distance : std::strtod(event.value.c_str() + p + 2, nullptr));
+        if (!event.path_mode || event.path_mode->block_end != BlockEnd::rounded) continue;
+        const double tolerance = event.path_mode->tolerance;
+        if (!std::isnan(tolerance)) play = std::max(play, std::min(tolerance, blending_distance));
     }
     return play;
 }

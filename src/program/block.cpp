@@ -412,6 +412,8 @@ private:
             put(letter, evaluate(c_, variables_, dialect_), column);
             return;
         }
+        if (id.starts_with("PO["))
+            throw ReadError{"polynomials (PO) are not read", column, "let the CAM system write lines"};
         std::optional<bool> increment;
         if (id == "RP") {
             block_.polar_radius = coordinate(increment);
@@ -423,8 +425,9 @@ private:
             block_.polar_angle_incremental = increment.value_or(false);
             return;
         }
-        static constexpr std::array<std::string_view, 14> of_blocks{"AR",  "RPL", "I1",  "J1",   "K1", "RND", "RNDM",
-                                                                    "CHR", "CHF", "ANG", "DISR", "A3", "B3",  "C3"};
+        static constexpr auto of_blocks =
+            std::to_array<std::string_view>({"AR", "RPL", "I1", "J1", "K1", "RND", "RNDM", "CHR", "CHF", "ANG", "DISR",
+                                             "A3", "B3", "C3", "CTOL", "OTOL", "ATOL"});
         const bool of_block = std::find(of_blocks.begin(), of_blocks.end(), id) != of_blocks.end();
         const double value = of_block ? coordinate(increment) : evaluate(c_, variables_, dialect_);
         if (id == "CR") {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -18,14 +20,10 @@ struct NotedCode {
 };
 constexpr auto noted_everywhere = std::to_array<NotedCode>({
     {400, "cutter-compensation"},
-    {610, "path-mode"},
-    {611, "path-mode"},
-    {640, "path-mode"},
     {960, "spindle-mode"},
     {970, "spindle-mode"},
     {80, "unused"},
     {130, "unused"},
-
 });
 bool is(const Block& block, char letter) { return block.words.given(letter); }
 /// G0 to G3, or a thread.
@@ -34,6 +32,34 @@ bool names_motion(const Block& block) {
     return std::any_of(first, first + block.words.g_count, [](std::int32_t code) {
         return code <= 30 || (code >= 330 && code <= 350) || code == 3310 || code == 3320;
     });
+}
+
+bool names_axes(const Block& block) {
+    constexpr std::uint32_t axes = Words::xyz | Words::bit('A') | Words::bit('B') | Words::bit('C') | Words::bit('U') |
+                                   Words::bit('V') | Words::bit('W');
+    return (block.words.has & axes) != 0 || block.polar_radius || block.polar_angle;
+}
+
+/// G codes of curves, which move axes in the blocks after theirs as well.
+bool is_motion_elsewhere(int code, DialectId dialect) {
+    static constexpr auto curves = std::to_array<int>({52, 53, 61, 62, 63});
+    // G6.2 of Heidenhain would be its G06.
+    return dialect != DialectId::heidenhain_iso && std::find(curves.begin(), curves.end(), code) != curves.end();
+}
+
+/// "X1=" of siemens: an axis of the machine by its name.
+bool is_numbered_axis(std::string_view word) {
+    return word.size() > 2 && word.back() == '=' &&
+           std::string_view("XYZABCUVW").find(word.front()) != std::string::npos &&
+           word.find_first_not_of("0123456789", 1) == word.size() - 1;
+}
+
+/// Where an unknown code is known.
+std::string hint_of_code(int code, DialectId dialect) {
+    if ((code == 50 || code == 51 || code == 52 || code == 53) && dialect != DialectId::linuxcnc)
+        return fmt::format("{} is a spline of linuxcnc: --dialect linuxcnc", code_text(code));
+    if (code == 61 || code == 62 || code == 63) return "NURBS are not read: let the CAM system write lines and arcs";
+    return {};
 }
 
 constexpr auto cycle_codes = std::to_array<int>({730, 740, 760, 810, 820, 830, 840, 850, 860, 870, 880, 890, 843});
@@ -94,6 +120,7 @@ void Interpreter::execute(Block& block) {
     if (macro_call(block)) return;
     for (const Keyword& keyword : block.keywords) { apply_keyword(keyword, block); }
     if (ended_) return;
+    contour_tolerance(block);
     change_tool(block);
     settle_codes(block);
     take_pole(block);
@@ -117,6 +144,7 @@ void Interpreter::execute(Block& block) {
     if (!motion_suppressed_) move(block);
     if (dialect_ == DialectId::linuxcnc) read_machine_position(block);
     report_unused(block);
+    if (std::exchange(path_mode_returns_, false)) set_path_mode("path-mode", "as it was", state_.path_mode);
     if (stops) {
         for (int i = 0; i < block.words.m_count; ++i) {
             const int code = block.words.m[static_cast<std::size_t>(i)];
@@ -151,7 +179,7 @@ void Interpreter::settle_codes(Block& block) {
 
 void Interpreter::apply_code(int code, Block& block, std::size_t column) {
     refuse_in_compensation(code, block, column);
-    if (apply_of_dialect(code, block, column)) return;
+    if (apply_path_mode(code, block, column) || apply_of_dialect(code, block, column)) return;
     apply_common(code, block, column);
 }
 
@@ -245,7 +273,17 @@ void Interpreter::apply_common(int code, Block& block, std::size_t column) {
         block.words.has &= ~(Words::bit('P') | Words::bit('Q'));
         return;
     }
+    if (is_motion_elsewhere(code, dialect_) || names_axes(block))
+        refuse_motion(code_text(code), block, column, hint_of_code(code, dialect_));
     note(Severity::warning, "program.unknown-word", code_text(code) + " is not known", column);
+}
+
+/// A word whose motion would be read as another one, or not at all.
+void Interpreter::refuse_motion(const std::string& word, const Block& block, std::size_t column,
+                                const std::string& hint) const {
+    fail(fmt::format("{} is not known in {}{}", word, program_.dialect->name,
+                     names_axes(block) ? ", and its block moves axes" : ", and moves axes"),
+         column, hint);
 }
 
 bool Interpreter::apply_of_dialect(int code, Block& block, std::size_t column) {
@@ -404,6 +442,7 @@ void Interpreter::report_idle(const Block& block) {
 void Interpreter::report_unused(const Block& block) {
     report_idle(block);
     for (const UnknownWord& word : block.unknown) {
+        if (is_numbered_axis(word.text)) refuse_motion(word.text, block, word.column);
         note(Severity::warning, "program.unknown-word", "'" + word.text + "' is not known", word.column);
     }
     for (const NamedWord& word : block.named) {

@@ -19,6 +19,12 @@ constexpr std::size_t argument_count = 26;
 
 double factor_of(double value) { return std::abs(value) > most_factor ? value / 1000 : value; }
 
+/// G7.1 C0 ends the interpolation on a cylinder.
+bool has_rotary_word(const Block& block) {
+    return std::any_of(std::begin("ABC"), std::end("ABC") - 1,
+                       [&](char letter) { return block.words.given(letter) && block.words.of(letter) != 0; });
+}
+
 bool has_code(const Block& block, int code) {
     const auto* first = block.words.g.data();
     return std::find(first, first + block.words.g_count, code) != first + block.words.g_count;
@@ -116,16 +122,39 @@ bool Interpreter::apply_fanuc(int code, Block& block, std::size_t column) {
         case 32:
         case 23:
         case 33:
-        case 62:
-        case 12:
-            note(Severity::warning, "program.unknown-word",
-                 code_text(code) + " (involute, exponential or NURBS) is not carried out", column);
+        case 12: refuse_motion(code_text(code), block, column, "involutes and exponential curves are not read");
+        case 71:
+        case 121:
+        case 1070:
+        case 1120:
+            if ((code == 71 || code == 1070) && !has_rotary_word(block)) {
+                motion_suppressed_ = true;
+                return true;
+            }
+            refuse_motion(
+                code_text(code), block, column,
+                "cylindrical and polar coordinate interpolation are not read: X, Y and C mean something else there");
+        case 131:
+        case 1130: return true;
+        case 270:
+        case 290:
+        case 600:
+            // Return check, return from the reference point, approach from one direction: a rapid to the end.
+            straight(MotionKind::rapid, target(block, machine_coordinates_), rotary_target(block));
+            motion_suppressed_ = true;
+            event("mode", code_text(code));
+            return true;
+        case 310:  // skip
+            probe(target(block, machine_coordinates_), rotary_target(block));
             motion_suppressed_ = true;
             return true;
         case 50:
         case 51:
         case 80:
         case 81:
+            if (code < 80 && (block.words.has & Words::xyz) != 0)
+                refuse_motion(code_text(code), block, column,
+                              code_text(code) + " with coordinates is a spline of linuxcnc: --dialect linuxcnc");
             event("high-speed", code_text(code) + words_text(block, "PQR"));
             motion_suppressed_ = (block.words.has & Words::xyz) == 0;
             block.words.has &= ~(Words::bit('P') | Words::bit('Q') | Words::bit('R'));
@@ -204,8 +233,7 @@ bool Interpreter::apply_fanuc(int code, Block& block, std::size_t column) {
             return true;
         default: break;
     }
-    static constexpr auto noted =
-        std::to_array<int>({71, 220, 230, 260, 405, 534, 535, 545, 620, 630, 601, 121, 131, 125, 135});
+    static constexpr auto noted = std::to_array<int>({220, 230, 260, 405, 534, 535, 545, 620, 630, 601, 125, 135});
     if (std::find(noted.begin(), noted.end(), code) != noted.end()) {
         event("mode", code_text(code) + words_text(block, "PQHDR"));
         motion_suppressed_ = code == 220;

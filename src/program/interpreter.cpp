@@ -55,6 +55,21 @@ Interpreter::Interpreter(SourceText text, const InterpreterOptions& options)
         state_.retract_to_r = true;
         program_.motions.start = Xyz(0, 0, 0);
     }
+    if (dialect_ == DialectId::siemens) {
+        // The kinds of machining of CYCLE832.
+        for (const auto& [name, kind] : {std::pair{"_OFF", 0},
+                                         {"_FINISH", 1},
+                                         {"_SEMIFIN", 2},
+                                         {"_ROUGH", 3},
+                                         {"_PRECISION", 4},
+                                         {"_ORI_FINISH", 11},
+                                         {"_ORI_SEMIFIN", 12},
+                                         {"_ORI_ROUGH", 13},
+                                         {"_ORI_PRECISION", 14},
+                                         {"_TOP_SURFACE_SMOOTH_OFF", 0},
+                                         {"_TOP_SURFACE_SMOOTH_ON", 1000}})
+            variables_.set(name, kind);
+    }
     const std::string_view bytes = program_.main().text();
     if (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff")) {
         throw InputError(Place::of_file(program_.main().name()), "is UTF-16 text, expected ASCII or UTF-8",
@@ -248,7 +263,7 @@ void Interpreter::note(Severity severity, const char* code, const std::string& t
 }
 
 void Interpreter::event(const std::string& name, const std::string& value) {
-    program_.events.push_back({program_.motions.size(), line_, name, value});
+    program_.events.push_back({program_.motions.size(), line_, name, value, {}});
 }
 
 Program parse_program(SourceText text, const InterpreterOptions& options) {

@@ -127,8 +127,16 @@ private:
     void apply_m(int code, const Block& block);
     void apply_keyword(const Keyword& keyword, Block& block);
     void dwell(const Block& block);
+    [[noreturn]] void refuse_motion(const std::string& word, const Block& block, std::size_t column,
+                                    const std::string& hint = {}) const;
     void report_unused(const Block& block);
     void report_idle(const Block& block);
+
+    // path_modes.cpp
+    void set_path_mode(const std::string& name, const std::string& value, const PathMode& mode, bool once = false);
+    bool apply_path_mode(int code, Block& block, std::size_t column);
+    void high_speed_settings(const Keyword& keyword);  ///< CYCLE832
+    void contour_tolerance(const Block& block);        ///< CTOL=
 
     // fanuc.cpp
     bool apply_fanuc(int code, Block& block, std::size_t column);
@@ -231,6 +239,7 @@ private:
     void move(const Block& block);
     void straight(MotionKind kind, const Vec3& end, const Vec3& rotary);
     void arc(const Block& block, bool clockwise);
+    void refuse_turns(const Block& block) const;
     void push_arc(Arc arc, bool clockwise, const Vec3& begin, const Vec3& end, const Vec3& rotary);
     void probe(const Vec3& end, const Vec3& rotary);
     void spline(const Block& block);
@@ -337,7 +346,9 @@ private:
     bool machine_coordinates_ = false;  ///< G53, SUPA
     bool motion_suppressed_ = false;    ///< the axis words belong to G10, G92, G28 …
     int call_program_ = -1;
-    ModalCall modal_call_;  ///< G66, MCALL
+    bool path_mode_returns_ = false;  ///< G9: the mode in force comes back behind the block
+    double contour_tolerance_ = std::numeric_limits<double>::quiet_NaN();  ///< CTOL, CYCLE832 [mm]; NaN: the machine's
+    ModalCall modal_call_;                                                 ///< G66, MCALL
     PolarState polar_;
     FanucFrame fanuc_frame_;
     Vec3 local_zero_ = Vec3::Zero(), mirror_at_ = Vec3::Zero();  ///< G52, G51.1 [mm]

@@ -9,6 +9,7 @@
 
 #include "core/geometry.h"
 #include "core/units.h"
+#include "program/program.h"
 #include "program/program_frame.h"
 #include "program/work_frame.h"
 
@@ -52,6 +53,7 @@ struct ModalState {
     double spindle = 0;         ///< 1/min
     bool retract_to_r = false;  ///< G99
     bool diameter = false;      ///< G7: X is a diameter
+    PathMode path_mode;
 
     Vec3 position = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< [mm], of the work system
     Vec3 rotary = Vec3::Zero();                                                ///< A, B, C [deg]

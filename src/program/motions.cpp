@@ -17,6 +17,8 @@ constexpr std::uint32_t centres = Words::bit('I') | Words::bit('J') | Words::bit
 constexpr int most_turns = 100'000;
 /// Pieces that a curve is flattened to: chords within 1 µm of it for curves of finishing size.
 constexpr int curve_pieces = 100;
+constexpr int least_nurbs_order = 3;  ///< LinuxCNC reads a smaller L as 3
+constexpr int most_nurbs_order = 20;
 constexpr double probe_retreat_mm = 0.254;  ///< 0.01 inch
 constexpr int first_probed_parameter = 5061, probe_result_parameter = 5070;
 
@@ -210,6 +212,7 @@ void Interpreter::arc(const Block& block, bool clockwise) {
             fail("P of an arc must be a whole number of turns, 1 or more");
         words.turns = static_cast<int>(turns);
     }
+    refuse_turns(block);
     std::string error;
     Arc arc = resolve_arc(words, arc_tolerance(dialect_, state_.unit_mm), error);
     if (!error.empty()) fail(error, block.words.g_count > 0 ? block.words.g_column[0] : 1);
@@ -227,6 +230,20 @@ void Interpreter::arc(const Block& block, bool clockwise) {
         compensated_arc(arc, clockwise, end, rotary_target(block));
     } else {
         push_arc(arc, clockwise, begin, end, rotary_target(block));
+    }
+}
+
+/// Turns as another dialect gives them, or as a spiral: P, L and Q beside an arc.
+void Interpreter::refuse_turns(const Block& block) const {
+    if (block.words.m_count > 0 || (dialect_ != DialectId::fanuc && dialect_ != DialectId::siemens)) return;
+    const bool fanuc = dialect_ == DialectId::fanuc;
+    for (const char letter : std::string_view(fanuc ? "PLQ" : "P")) {
+        if (!block.words.given(letter)) continue;
+        fail(fmt::format("{} beside an arc is not known in {}", letter, program_.dialect->name),
+             block.words.column[static_cast<std::size_t>(letter - 'A')],
+             !fanuc          ? "turns are TURN= in siemens, P in linuxcnc (--dialect linuxcnc)"
+             : letter == 'P' ? "turns are P in linuxcnc: --dialect linuxcnc"
+                             : "spirals of several turns are not read");
     }
 }
 
@@ -267,7 +284,8 @@ void Interpreter::probe(const Vec3& end, const Vec3& rotary) {
         variables_.set(first_probed_parameter + 3 + axis, rotary[axis]);
     }
     variables_.set(probe_result_parameter, 0);
-    state_.position = way.norm() > 0 ? Vec3(end - probe_retreat_mm * way.normalized()) : end;
+    const double retreat = dialect_ == DialectId::linuxcnc ? probe_retreat_mm : 0;
+    state_.position = way.norm() > 0 ? Vec3(end - retreat * way.normalized()) : end;
     state_.rotary = rotary;
     event("probe", fmt::format("{:.4f} {:.4f} {:.4f}", end.x(), end.y(), end.z()));
 }
@@ -361,17 +379,27 @@ void Interpreter::flatten_bezier(const std::vector<Vec2>& control) {
     }
 }
 
+/// A point of G5.2 with its weight. The first one is where the tool stands; its weight is the P of a block
+/// without X and Y.
 void Interpreter::nurbs_point(const Block& block) {
-    if (nurbs_.empty()) {
-        nurbs_order_ = block.words.given('L') ? static_cast<int>(std::clamp(block.words.of('L'), 0.0, 1e6)) : 3;
-        if (nurbs_order_ < 2 || nurbs_order_ > 20) fail("the order of a spline (L) is 2 … 20");
-        const Vec3 p = state_.position;
-        nurbs_.emplace_back(p.x(), p.y(), block.words.given('P') ? block.words.of('P') : 1.0);
-    }
-    if (!block.words.given('X') && !block.words.given('Y')) return;
-    const Vec3 end = target(block, false);
-    const double weight = block.words.given('P') ? block.words.of('P') : 1.0;
+    const Words& w = block.words;
+    if (state_.plane_axis != 2) fail("G5.2 needs the XY plane (G17)");
+    if (w.given('X') != w.given('Y')) fail("a point of G5.2 needs both X and Y");
+    constexpr std::uint32_t others = Words::bit('Z') | Words::bit('A') | Words::bit('B') | Words::bit('C');
+    if ((w.has & others) != 0) fail("a spline (G5.2) moves X and Y alone");
+    const bool is_point = w.given('X');
+    const double weight = w.given('P') ? w.of('P') : 1.0;
     if (!(weight > 0)) fail("a weight (P) must be greater than 0");
+    if (nurbs_.empty()) {
+        nurbs_order_ = least_nurbs_order;
+        nurbs_.emplace_back(state_.position.x(), state_.position.y(), is_point ? 1.0 : weight);
+    } else if (!is_point && w.given('P')) {
+        fail("P without X and Y is the weight of the first point alone", w.column['P' - 'A']);
+    }
+    if (w.given('L')) nurbs_order_ = static_cast<int>(std::clamp(w.of('L'), double(least_nurbs_order), 1e6));
+    if (nurbs_order_ > most_nurbs_order) fail(fmt::format("the order of a spline (L) is at most {}", most_nurbs_order));
+    if (!is_point) return;
+    const Vec3 end = target(block, false);
     nurbs_.emplace_back(end.x(), end.y(), weight);
 }
 

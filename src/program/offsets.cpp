@@ -183,6 +183,7 @@ void Interpreter::restore_modes(const ModalState& kept) {
     state_.spindle = kept.spindle;
     state_.retract_to_r = kept.retract_to_r;
     state_.diameter = kept.diameter;
+    set_path_mode("path-mode", "as it was", kept.path_mode);
     select_work_system(kept.work_system);
     if (kept.tool_offset.isZero()) state_.rebase([&] { state_.tool_offset = state_.assumed_tool = Vec3::Zero(); });
     const bool shifted = !(kept.shift.isZero() && kept.rotary_shift.isZero());

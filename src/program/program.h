@@ -39,12 +39,26 @@ private:
     LineNumber line_count_ = 0;
 };
 
+/// How the tool passes from one block to the next.
+enum class BlockEnd : std::uint8_t {
+    rounded,     ///< corners may be cut within a tolerance: G64, G642, CYCLE832
+    exact_path,  ///< through every corner, without a stop where the path goes straight on: G61 of linuxcnc
+    exact_stop,  ///< at rest at the end of every block: G60, G9, G61.1, G61 of fanuc
+};
+
+struct PathMode {
+    BlockEnd block_end = BlockEnd::rounded;
+    /// Of rounded corners [mm]. NaN: the machine's own; infinite: as far off as the speed takes (G64 without P).
+    double tolerance = std::numeric_limits<double>::quiet_NaN();
+};
+
 /// Something besides motion that the program asks for, in order: modes, spindle, tool.
 struct ProgramEvent {
     std::int64_t motion = 0;  ///< takes effect before this motion
     LineNumber line = 0;
     std::string name;                   ///< "path-mode", "high-speed", "spindle", "tool", "end", …
     std::string value;                  ///< "G64 P0.005 Q0", "CYCLE832(0.02,1,1)", "S12000 M3"
+    std::optional<PathMode> path_mode;  ///< of those that set it, whatever their name
 };
 
 struct Program {

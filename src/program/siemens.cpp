@@ -14,9 +14,8 @@ namespace {
 
 /// Codes that are kept as an event and change no motion, in tenths.
 constexpr auto noted_codes = std::to_array<int>({
-    90,   250,  260,  270,  330,  340,  350,  500,  600,  601,  602,  603,  2500, 4500, 4510,
-    4600, 4610, 4620, 6010, 6020, 6030, 620,  621,  630,  641,  6410, 6420, 6430, 6440, 6450,
-    3310, 3320, 1400, 1410, 1420, 1430, 3400, 3410, 4000, 5000, 5100, 9610, 9710, 9730,
+    270, 330,  340,  350,  500,  2500, 4500, 4510, 4600, 4610, 4620, 6010, 6020, 6030, 620,  621,
+    630, 3310, 3320, 1400, 1410, 1420, 1430, 3400, 3410, 4000, 5000, 5100, 9610, 9710, 9730,
 });
 /// Soft approach and retract: the way there is not carried out.
 constexpr auto approach_codes = std::to_array<int>({1470, 1480, 2470, 2480, 3470, 3480});
@@ -53,6 +52,11 @@ bool Interpreter::apply_siemens(int code, Block& block, std::size_t column) {
         case 590:
             note(Severity::warning, "program.frame",
                  code_text(code) + " is not carried out, positions are read as programmed", column);
+            motion_suppressed_ = true;
+            return true;
+        case 250:
+        case 260:  // limits of the work area or of the spindle
+            event("mode", code_text(code));
             motion_suppressed_ = true;
             return true;
         case 740:
@@ -236,7 +240,7 @@ void Interpreter::apply_keyword(const Keyword& keyword, Block& block) {
         return;
     }
     if (name == "CYCLE832") {
-        event("high-speed", text());
+        high_speed_settings(keyword);
         return;
     }
     if (name == "MCALL") {
@@ -285,8 +289,8 @@ void Interpreter::apply_keyword(const Keyword& keyword, Block& block) {
         return;
     }
     if (contains(curve_words, name)) {
-        note(Severity::warning, "program.spline", name + ": its points are read as straight lines", keyword.column);
-        return;
+        refuse_motion(name, block, keyword.column,
+                      "splines and polynomials are not read: let the CAM system write lines");
     }
     if (contains(noted_words, name) || name.starts_with("COMP") || name.ends_with("=")) {
         event("mode", text());

@@ -116,9 +116,8 @@ std::string parts_of_limits(const SimulationSummary& s, const Machine& machine) 
 double greatest_tolerance(const Program& program, const Machine& machine) {
     double greatest = machine.controller.tolerance;
     for (const ProgramEvent& event : program.events) {
-        const std::size_t p = event.value.find('P');
-        if (event.name == "path-mode" && p != std::string::npos)
-            greatest = std::max(greatest, std::stod(event.value.substr(p + 1)));
+        if (event.path_mode && std::isfinite(event.path_mode->tolerance))
+            greatest = std::max(greatest, event.path_mode->tolerance);
     }
     return greatest;
 }

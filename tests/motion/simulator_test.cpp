@@ -143,6 +143,37 @@ TEST(Simulator, ExactPathStopsAtEveryCorner) {
     EXPECT_EQ(r.summary.path_deviation, 0);
 }
 
+TEST(Simulator, ExactStopRestsAtTheEndOfEveryBlock) {
+    // Straight on: an exact path goes through, an exact stop rests; G9 does so once.
+    const auto rests = [](const std::string& text, const char* dialect) {
+        const Recorded r = run_program(program_of(text, dialect), ideal());
+        int count = 0;
+        for (std::size_t i = 1; i + 1 < r.points.size(); ++i) {
+            const double x = r.points[i].commanded.x();
+            const bool at_end = std::abs(x - 2) < 1e-9 || std::abs(x - 4) < 1e-9;
+            if (at_end && std::abs(r.points[i - 1].commanded.x() - x) < 1e-4) ++count;
+        }
+        return count;
+    };
+    const std::string line = "G1 X2 F6000\nX4\nX6\nM2\n";
+    EXPECT_EQ(rests("G64\n" + line, "linuxcnc"), 0);
+    EXPECT_EQ(rests("G61\n" + line, "linuxcnc"), 0);
+    EXPECT_EQ(rests("G61.1\n" + line, "linuxcnc"), 2);
+    EXPECT_EQ(rests("G0 X0 Y0 Z0\nG60\n" + line, "siemens"), 2);
+    EXPECT_EQ(rests("G0 X0 Y0 Z0\nG64\nG1 X2 F6000\nX4 G9\nX6\nM2\n", "siemens"), 1);
+}
+
+TEST(Simulator, Cycle832GivesTheToleranceOfCorners) {
+    const auto deviation = [](const std::string& modes) {
+        const std::string text = "DEF REAL _TOL=0.05\nG0 X0 Y0 Z0\n" + modes + "G1 X10 F3000\nY10\nM30\n";
+        return run_program(program_of(text, "siemens"), ideal()).summary.path_deviation;
+    };
+    EXPECT_NEAR(deviation("CYCLE832(_TOL,_FINISH,1)\n"), 0.05, 0.01);
+    EXPECT_LE(deviation("CYCLE832(_TOL/10,1,1)\n"), 0.005);
+    EXPECT_EQ(deviation("CYCLE832(_TOL,_FINISH,1)\nG60\n"), 0);
+    EXPECT_EQ(deviation("CYCLE832(_TOL,_FINISH,1)\nCYCLE832()\n"), deviation(""));
+}
+
 TEST(Simulator, DwellsTakeTheirTime) {
     const double with = run("G1 X1 F600\nG4 P0.5\nX2\nM2\n", ideal()).summary.duration;
     const double stopping = run("G61\nG1 X1 F600\nX1 Y0.0000001\nX2 Y0\nM2\n", ideal()).summary.duration;

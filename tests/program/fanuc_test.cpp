@@ -180,10 +180,10 @@ TEST(FanucBlocks, NameWordsThatAStraightMotionDoesNotUse) {
 }
 
 TEST(FanucModes, AreNotedAndTheRestReported) {
-    const Program p = parse("G5.1 Q1 R1\nG08 P1\nG0 X1 Y0 Z0\nG2.2 X1 Y1 R1 F60\nG68.3 X0 Y0 Z0 R0\nX5 ,R2\n", "fanuc");
+    const Program p = parse("G5.1 Q1 R1\nG08 P1\nG0 X1 Y0 Z0\nG187 P1\nG68.3 X0 Y0 Z0 R0\nX5 ,R2\n", "fanuc");
     EXPECT_EQ(p.events.at(0).name, "high-speed");
     EXPECT_EQ(p.diagnostics.count("program.rotation"), 1u);
-    EXPECT_EQ(p.diagnostics.count("program.unknown-word"), 2u);  // the involute, ,R2
+    EXPECT_EQ(p.diagnostics.count("program.unknown-word"), 2u);  // G187, ,R2
     EXPECT_EQ(p.diagnostics.kept()[0].where.text(), "test.nc:4:1");
 }
 

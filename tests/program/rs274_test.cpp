@@ -217,5 +217,29 @@ TEST(CutterCompensation, CountsWithTheRadiusAtTheEndOfAnArc) {
     EXPECT_NEAR(p.motions.end[5].y / 25.4, 0.8405, 6e-5);
 }
 
+TEST(Rs274, EachPointOfASplineHasItsOwnWeight) {
+    // Order 3 with three points is a rational parabola: ((1−t)² w0 P0 + 2 t (1−t) w1 P1 + t² w2 P2) / (the weights alone).
+    // At t = 0.2 with weights 1, 2, 1: (0.64 + 0.08, 0.64) / 1.32. P in the block of the first point given is its own,
+    // the first of all is where the tool stands.
+    const Rows second = motions(parse("F60\nG5.2 X1 Y1 P2 L3\nX2 Y0 P1\nG5.3\n", "linuxcnc"));
+    ASSERT_EQ(second.size(), 25u);
+    EXPECT_EQ(second[4], "spline 0.5455 0.4848 0");
+    EXPECT_EQ(second[24], "spline 2 0 0");
+    // With weights 3, 1, 1: (0.32 + 0.08, 0.32) / 2.28. P alone is the weight of the first.
+    const Rows first = motions(parse("F60\nG5.2 P3\nX1 Y1 P1\nX2 Y0\nG5.3\n", "linuxcnc"));
+    ASSERT_EQ(first.size(), 25u);
+    EXPECT_EQ(first[4], "spline 0.1754 0.1404 0");
+    // LinuxCNC reads an order below 3 as 3.
+    EXPECT_EQ(motions(parse("F60\nG5.2 X1 Y1 P2 L2\nX2 Y0 P1\nG5.3\n", "linuxcnc"))[4], "spline 0.5455 0.4848 0");
+}
+
+TEST(Rs274, SplinesRefuseWhatLinuxCncRefuses) {
+    EXPECT_NE(error_of("F60\nG5.2 X1 P2\n", "linuxcnc").find("test.nc:2: error: a point of G5.2 needs both X and Y"),
+              std::string::npos);
+    EXPECT_NE(error_of("F60\nG5.2 X1 Y1\nP2\n", "linuxcnc").find("test.nc:3:1: error: P without X and Y"),
+              std::string::npos);
+    EXPECT_NE(error_of("F60\nG5.2 X1 Y1 Z2\n", "linuxcnc").find("moves X and Y alone"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace clsurf

@@ -243,9 +243,8 @@ TEST(SiemensVariables, AreNumbersArraysAndTheControls) {
 
 TEST(SiemensModes, AreNotedOrHalveDiameters) {
     EXPECT_EQ(rows("G0 X0 Y0 Z0\nDIAMON\nX10\nDIAMOF\nX10\n"), (Rows{"rapid 0 0 0", "rapid 5 0 0", "rapid 10 0 0"}));
-    const Program p = parse("G0 X1 FNORM STOPRE\nMSG(\"ROUGH (1)\")\nG642 SOFT\nX2 RND=2\nASPLINE X3\n", "siemens");
+    const Program p = parse("G0 X1 FNORM STOPRE\nMSG(\"ROUGH (1)\")\nG642 SOFT\nX2 RND=2\nX3\n", "siemens");
     EXPECT_EQ(p.diagnostics.count("program.corner"), 1u);
-    EXPECT_EQ(p.diagnostics.count("program.spline"), 1u);
     EXPECT_EQ(p.diagnostics.count("program.unknown-word"), 0u);
     EXPECT_EQ(p.motions.size(), 3);
 }
