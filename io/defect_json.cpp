@@ -1,6 +1,9 @@
 #include "io/defect_json.h"
 
+#include <string>
+
 #include "core/units.h"
+#include "io/quality_words.h"
 
 namespace clsurf::io {
 namespace {
@@ -20,25 +23,37 @@ void add_runs(Json& json, const std::vector<DefectRun>& runs) {
     json["points"] = std::move(points);
 }
 
+/// What a systematic lag has besides.
+void add_systematic(Json& json, const Defect& d) {
+    constexpr double ms_per_s = 1e3;
+    json["share_percent"] = number(100 * d.share, 1);
+    Json axes = Json::array();
+    for (const AxisDelay& a : d.delays)
+        axes.push_back({{"axis", std::string(1, a.axis)}, {"delay_ms", number(ms_per_s * a.delay, 3)}});
+    json["axes"] = std::move(axes);
+}
+
 Json defect_json(const Defect& d, std::size_t id, double scallop) {
     Json json{{"id", id},
               {"rank", id},
+              {"score", number(static_cast<double>(d.score), 2)},
               {"severity", d.severity},
               {"cause", name_of(d.cause)},
               {"quantity", name_of(d.quantity)},
               {"systematic", d.systematic},
+              {"text", sentence_of(d)},
               {"position_mm", vector(d.position)},
               {"bounds_mm", box(d.bounds)},
-              {"area_mm2", number(d.area)},
-              {"length_mm", number(d.length)},
-              {"depth_um", number(d.depth * um_per_mm)},
-              {"depth_scallops", scallop > 0 ? number(d.depth / scallop) : Json(nullptr)},
-              {"shape", d.pit ? "pit" : "bulge"},
-              {"speed_jump_mm_min", number(d.speed_jump * seconds_per_minute)},
-              {"speed_jump_percent", number(100 * d.speed_mismatch)},
-              {"acceleration_jump_mm_s2", number(d.acceleration_jump)},
-              {"score", number(d.score)},
+              {"area_mm2", number(d.area, 4)},
+              {"length_mm", number(d.length, 3)},
+              {"depth_um", number(d.depth * um_per_mm, 2)},
+              {"depth_scallops", scallop > 0 ? number(d.depth / scallop, 2) : Json(nullptr)},
+              {"shape", shape_of(d)},
+              {"speed_jump_mm_min", number(d.speed_jump * seconds_per_minute, 1)},
+              {"speed_jump_percent", number(100 * d.speed_mismatch, 1)},
+              {"acceleration_jump_mm_s2", number(d.acceleration_jump, 1)},
               {"point", d.point}};
+    if (d.systematic) add_systematic(json, d);
     add_runs(json, d.runs);
     Json beside;
     add_runs(beside, d.neighbours);

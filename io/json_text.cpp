@@ -46,16 +46,16 @@ std::string query_json(const std::vector<QueryMatch>& matches, const Diagnostics
         Json calls = Json::array();
         for (const ProgramPlace& call : m.calls.calls) calls.push_back(place_json(call));
         all.push_back({{"point", m.point},
-                       {"time_s", number(m.time)},
+                       {"time_s", number(m.time, 6)},
                        {"line", m.line},
                        {"text", m.text},
                        {"subprogram", m.calls.subprogram ? place_json(*m.calls.subprogram) : Json()},
                        {"calls", std::move(calls)},
                        {"position_mm", vector(m.position)},
-                       {"speed_mm_min", number(m.speed * seconds_per_minute)},
-                       {"acceleration_mm_s2", number(m.acceleration)},
-                       {"confidence", number(m.confidence)},
-                       {"distance_mm", number(m.distance)},
+                       {"speed_mm_min", number(m.speed * seconds_per_minute, 2)},
+                       {"acceleration_mm_s2", number(m.acceleration, 2)},
+                       {"confidence", number(m.confidence, 3)},
+                       {"distance_mm", number(m.distance, 4)},
                        {"line_points", Json::array({m.line_points.first, m.line_points.last})}});
         if (m.speed_uncertainty)
             all.back()["speed_uncertainty_mm_min"] = number(*m.speed_uncertainty * seconds_per_minute);

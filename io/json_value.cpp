@@ -31,7 +31,18 @@ Json parse_bounded(std::string_view text) {
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-Json vector(const Vec3& v) { return Json::array({number(v.x()), number(v.y()), number(v.z())}); }
+Json number(double value, int decimals) {
+    const double scale = std::pow(10.0, decimals);
+    const double rounded = std::round(value * scale) / scale;
+    return number(std::isfinite(rounded) ? rounded + 0.0 : value);
+}
+
+Json vector(const Vec3& v) {
+    constexpr int decimals = 5;
+    return Json::array({number(v.x(), decimals), number(v.y(), decimals), number(v.z(), decimals)});
+}
+
+Json exact_vector(const Vec3& v) { return Json::array({number(v.x()), number(v.y()), number(v.z())}); }
 
 Json box(const Box3& b) { return b.isEmpty() ? Json(nullptr) : Json::array({vector(b.min()), vector(b.max())}); }
 

@@ -33,7 +33,13 @@ constexpr int schema_version = 2;
 /// JSON has no NaN and no infinity.
 [[nodiscard]] Json number(double value);
 
+/// The same with so many decimals: as many as mean something. Never -0.
+[[nodiscard]] Json number(double value, int decimals);
+
+/// A place [mm], to a hundredth of a micrometre.
 [[nodiscard]] Json vector(const Vec3& v);
+/// All digits: directions, and what other numbers are counted from.
+[[nodiscard]] Json exact_vector(const Vec3& v);
 
 [[nodiscard]] Json box(const Box3& b);
 

@@ -6,6 +6,7 @@
 
 #include "core/block.h"
 #include "core/units.h"
+#include "io/quality_words.h"
 
 namespace clsurf::io {
 namespace {
@@ -155,7 +156,7 @@ Json surface_json(Blocks& blocks, const std::string& base, const ReportPage& pag
               {"records", s.log->records},
               {"period_s", s.log->period},
               {"step_over_mm", surface.step_over},
-              {"origin_mm", vector(surface.positions.origin)},
+              {"origin_mm", exact_vector(surface.positions.origin)},
               {"position_quantum_mm", position_quantum},
               {"time_quantum_s", time_quantum},
               {"points", s.kept->all},
@@ -234,10 +235,11 @@ Json defects_json(const ReportPage& page) {
         all.push_back({{"id", i + 1},
                        {"severity", d.severity},
                        {"cause", name_of(d.cause)},
-                       {"text", description_of(d.cause)},
+                       {"text", sentence_of(d)},
                        {"position_mm", vector(d.position)},
                        {"bounds_mm", box(d.bounds)},
-                       {"depth_um", number((d.pit ? -1 : 1) * d.depth * um_per_mm)},
+                       {"depth_um", number(d.depth * um_per_mm, 2)},
+                       {"shape", shape_of(d)},
                        {"point", d.point},
                        {"runs", runs_json(d.runs)},
                        {"neighbours", runs_json(d.neighbours)},
@@ -248,7 +250,7 @@ Json defects_json(const ReportPage& page) {
 
 void add_relief(Blocks& blocks, Json& manifest, const PageRelief& relief) {
     constexpr double quantum_um = 1e-2;
-    manifest["relief"] = {{"origin_mm", vector(relief.origin)},
+    manifest["relief"] = {{"origin_mm", exact_vector(relief.origin)},
                           {"pitch_mm", relief.pitch},
                           {"columns", relief.columns},
                           {"rows", relief.rows},

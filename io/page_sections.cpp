@@ -84,18 +84,26 @@ std::string not_judged_bar(const QualityReport& report) {
     return text + "</p>\n";
 }
 
+/// "1 trace (in the data, hardly on the part), 2 visible (…), …".
+std::string severities_text() {
+    std::string text;
+    for (int k = 1; k <= severities; ++k)
+        text += fmt::format("{}{} {} ({})", k > 1 ? ", " : "", k, name_of_severity(k), meaning_of_severity(k));
+    return text;
+}
+
 std::string defects_section(const ReportPage& page) {
     const QualityReport& report = *page.quality.report;
     std::string text = "<section id=\"defects\"><h2>Defects</h2>\n";
     if (report.step_over <= 0)
         return text + "<p>No pass has another beside it: there is nothing to compare.</p></section>\n";
     text += fmt::format(
-        "<p>{} on {} passes, {:.3g} mm apart. A defect is a place where a pass differs from those beside it enough to leave a mark.</p>\n",
-        report.defects.empty() ? "None" : fmt::format("{} found", report.defects.size()), report.passes,
-        report.step_over);
+        "<p><b>{}</b> {} passes, {:.3g} mm apart. A defect is a place where a pass differs from its neighbours enough to leave a mark.</p>\n",
+        html(verdict_of(report)), report.passes, report.step_over);
     if (!report.defects.empty()) {
-        text +=
-            "<p><a href=\"#defect-list\">All are listed below</a>, the worst first. Severity: 1 a trace, 2 visible on a glossy surface, 3 can be felt, 4 reject.</p>\n<div class=\"pictures\">\n";
+        text += fmt::format(
+            "<p><a href=\"#defect-list\">All are listed below</a>; what stands out most comes first. Severity: {}.</p>\n<div class=\"pictures\">\n",
+            severities_text());
         for (const PageDefect& defect : page.defects) {
             if (defect.picture) text += picture_html(*defect.picture);
         }
@@ -114,20 +122,21 @@ std::string defect_list_section(const ReportPage& page) {
     if (report.defects.empty()) return "";
     const bool formed = page.quality.formed != nullptr;
     std::string text = fmt::format(
-        "<section id=\"defect-list\"><h2>All defects</h2>\n<div class=\"wide\"><table><thead><tr><th>No</th><th>Severity</th><th>Cause</th><th>Depth [µm]</th>{}<th>Speed [%]</th>"
+        "<section id=\"defect-list\"><h2>All defects</h2>\n<div class=\"wide\"><table><thead><tr><th>Rank</th><th>Severity</th><th>Finding</th><th>Times the threshold</th><th>Depth [µm]</th>{}<th>Speed [%]</th>"
         "<th>Length [mm]</th><th>X Y Z [mm]</th><th>Lines</th></tr></thead><tbody>\n",
         formed ? "<th>Formed [µm]</th>" : "");
     for (std::size_t i = 0; i < std::min(defects_in_table, report.defects.size()); ++i) {
         const Defect& d = report.defects[i];
         text += fmt::format(
-            "<tr data-defect=\"{}\"><td>{}</td><td><span class=\"severity s{}\">{}</span></td><td>{}</td><td>{:+.1f}</td>{}<td>{:+.1f}</td><td>{:.1f}</td><td>{:.2f} {:.2f} {:.2f}</td><td>{}</td></tr>\n",
-            i + 1, i + 1, d.severity, d.severity, html(description_of(d.cause)), (d.pit ? -1 : 1) * d.depth * um_per_mm,
+            "<tr data-defect=\"{}\"><td>{}</td><td><span class=\"severity s{}\">{}</span> {}</td><td>{}</td><td>{:.1f}</td><td>{:.1f} {}</td>{}<td>{:+.1f}</td><td>{:.1f}</td><td>{:.2f} {:.2f} {:.2f}</td><td>{}</td></tr>\n",
+            i + 1, i + 1, d.severity, d.severity, name_of_severity(d.severity), html(sentence_of(d)), d.score,
+            d.depth * um_per_mm, shape_of(d),
             formed ? fmt::format("<td>{}</td>", um_text(page.quality.formed->marks[i])) : "", 100 * d.speed_mismatch,
             d.length, d.position.x(), d.position.y(), d.position.z(), html(defect_lines(d)));
     }
     text += "</tbody></table></div>\n";
     if (report.defects.size() > defects_in_table)
-        text += fmt::format("<p>The table stops at the worst {}; <code>clsurf check</code> lists all.</p>\n",
+        text += fmt::format("<p>The table stops at the first {}; <code>clsurf check</code> lists all.</p>\n",
                             defects_in_table);
     return text + "</section>\n";
 }
@@ -230,11 +239,10 @@ std::string page_summary(const ReportPage& page) {
         worst = std::max(worst, d.severity);
         deepest = std::max(deepest, d.depth);
     }
-    constexpr std::string_view severities[] = {"", "traces", "visible on a glossy surface", "can be felt", "reject"};
     const bool judged = report.judgement.judged();
     text += fact("Defects", judged ? fmt::format("{}", report.defects.size()) : "not judged",
-                 judged                   ? severities[worst]
-                 : report.defects.empty() ? ""
+                 judged                   ? worst > 0 ? name_of_severity(worst) : std::string_view()
+                                   : report.defects.empty() ? ""
                                           : fmt::format("{} found", report.defects.size()),
                  !judged || worst > 2 ? "bad"
                  : worst > 0          ? "fair"

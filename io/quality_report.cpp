@@ -1,6 +1,7 @@
 #include "io/quality_report.h"
 
 #include <algorithm>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -20,14 +21,14 @@ double per_minute(double per_second) { return per_second * seconds_per_minute; }
 Json looked_at_defects(const ReportedQuality& q) {
     Json all = list_defects(q.report->defects, q.scallop);
     for (std::size_t i = 0; i < all.size(); ++i) {
-        if (q.formed != nullptr) all[i]["formed_um"] = number(um(q.formed->marks[i]));
-        if (i < q.colour_differences.size()) all[i]["delta_e00"] = number(q.colour_differences[i]);
+        if (q.formed != nullptr) all[i]["formed_um"] = number(um(q.formed->marks[i]), 2);
+        if (i < q.colour_differences.size()) all[i]["delta_e00"] = number(q.colour_differences[i], 1);
     }
     return all;
 }
 
 void add_roughness(Json& summary, const FormedReport& f) {
-    const auto known = [&](double mm) { return f.patches.empty() ? Json(nullptr) : number(um(mm)); };
+    const auto known = [&](double mm) { return f.patches.empty() ? Json(nullptr) : number(um(mm), 3); };
     summary["ra_um"] = known(f.ra);
     summary["rz_um"] = known(f.rz);
     summary["rz_most_um"] = known(f.patches.empty() ? 0 : f.patches[f.roughest].profile.rz);
@@ -43,21 +44,67 @@ Json patches_json(const FormedReport& f) {
     for (const RoughPatch& patch : f.patches) {
         all.push_back({{"point", patch.point},
                        {"position_mm", vector(patch.contact)},
-                       {"ra_um", number(um(patch.profile.ra))},
-                       {"rq_um", number(um(patch.profile.rq))},
-                       {"rz_um", number(um(patch.profile.rz))},
-                       {"sa_um", number(um(patch.area.sa))},
-                       {"sq_um", number(um(patch.area.sq))},
-                       {"sz_um", number(um(patch.area.sz))}});
+                       {"ra_um", number(um(patch.profile.ra), 3)},
+                       {"rq_um", number(um(patch.profile.rq), 3)},
+                       {"rz_um", number(um(patch.profile.rz), 3)},
+                       {"sa_um", number(um(patch.area.sa), 3)},
+                       {"sq_um", number(um(patch.area.sq), 3)},
+                       {"sz_um", number(um(patch.area.sz), 3)}});
     }
     return all;
 }
 
-/// Why there is no verdict, a line each; empty: there is one.
-std::string not_judged_text(const QualityReport& r) {
+/// The verdict, and what stands out most.
+std::string verdict_text(const QualityReport& r) {
     std::string text;
-    for (const std::string& reason : r.judgement.reasons) text += fmt::format("NOT JUDGED: {}\n", reason);
-    return text.empty() ? text : text + "\n";
+    if (r.judgement.judged()) {
+        text = verdict_of(r) + "\n";
+    } else {
+        for (const std::string& reason : r.judgement.reasons) text += fmt::format("NOT JUDGED: {}\n", reason);
+    }
+    if (r.defects.empty()) return text;
+    constexpr std::size_t most_ranges = 3;
+    const Defect& worst = r.defects.front();
+    return text +
+           fmt::format("Stands out most: {}, lines {}.\n\n", sentence_of(worst), line_ranges(worst.runs, most_ranges));
+}
+
+/// Few enough to fit beside the numbers.
+std::string lines_column(const Defect& d) {
+    constexpr std::size_t widest = 21;
+    std::string text;
+    for (std::size_t shown = 3; shown > 0; --shown) {
+        text = line_ranges(d.runs, shown);
+        if (text.size() <= widest) break;
+    }
+    return text;
+}
+
+/// A row each, at most 120 columns wide.
+std::string defects_table(const ReportedQuality& q) {
+    const QualityReport& r = *q.report;
+    if (r.defects.empty()) return {};
+    const bool formed = q.formed != nullptr;
+    std::string text =
+        fmt::format("{:>4} {:<8} {:<13} {:>7} {:>7} {:>14} {:>7}{}  {:<22} {}\n", "rank", "severity", "cause", "times",
+                    "speed", "depth", "length", formed ? "  formed" : "", "X Y Z", "lines");
+    text += fmt::format("{:>4} {:<8} {:<13} {:>7} {:>7} {:>14} {:>7}{}  {:<22}\n", "", "", "", "limit", "[%]", "[µm]",
+                        "[mm]", formed ? "    [µm]" : "", "[mm]");
+    for (std::size_t i = 0; i < r.defects.size(); ++i) {
+        const Defect& d = r.defects[i];
+        const double mark = formed && !d.systematic ? um(q.formed->marks[i]) : std::numeric_limits<double>::quiet_NaN();
+        const std::string depth = d.systematic         ? fmt::format("±{:.1f}", um(d.depth))
+                                  : um(d.depth) < 0.05 ? "0.0"
+                                                       : fmt::format("{:.1f} {}", um(d.depth), shape_of(d));
+        text += fmt::format(
+            "{:>4} {:<8} {:<13} {:>7.1f} {:>+7.1f} {:>14} {:>7.1f}{}  {:<22} {}\n", i + 1, name_of_severity(d.severity),
+            name_of(d.cause), d.score, 100 * d.speed_mismatch + 0.0, depth, d.length,
+            !formed        ? ""
+            : mark == mark ? fmt::format(" {:>7.1f}", mark)
+                           : "       -",
+            fmt::format("{:.2f} {:.2f} {:.2f}", d.position.x(), d.position.y(), d.position.z()), lines_column(d));
+    }
+    return text + "\n";
 }
 
 }  // namespace
@@ -68,29 +115,30 @@ std::string quality_json(const ReportedQuality& q) {
     for (const BudgetLine& line : q.budget) {
         budget.push_back({{"name", line.name},
                           {"limit", number(line.limit)},
-                          {"measured", number(line.measured)},
+                          {"measured", number(line.measured, 3)},
                           {"held", line.held}});
     }
     const auto quantity = [&](const std::array<float, quantities>& values, Quantity which) {
         return static_cast<double>(values[index_of(which)]);
     };
-    Json thresholds{{"speed_percent", number(100 * quantity(r.thresholds.of, Quantity::speed))},
-                    {"acceleration_mm_s2", number(quantity(r.thresholds.of, Quantity::acceleration))},
-                    {"lag_um", r.has_lag ? number(um(quantity(r.thresholds.of, Quantity::lag))) : Json(nullptr)},
-                    {"relief_um", number(um(quantity(r.thresholds.of, Quantity::relief)))}};
+    Json thresholds{{"speed_percent", number(100 * quantity(r.thresholds.of, Quantity::speed), 3)},
+                    {"acceleration_mm_s2", number(quantity(r.thresholds.of, Quantity::acceleration), 2)},
+                    {"lag_um", r.has_lag ? number(um(quantity(r.thresholds.of, Quantity::lag)), 3) : Json(nullptr)},
+                    {"relief_um", number(um(quantity(r.thresholds.of, Quantity::relief)), 3)}};
     Json summary{{"judged", r.judgement.judged()},
                  {"not_judged_reasons", r.judgement.reasons},
+                 {"verdict", verdict_of(r)},
                  {"points", r.points},
                  {"passes", r.passes},
                  {"defects", r.defects.size()},
                  {"expected", r.expected.size()},
                  {"worst_severity", r.worst_severity()},
-                 {"scallop_um", number(um(q.scallop))},
-                 {"step_over_mm", number(r.step_over)},
-                 {"coverage_percent", number(100 * r.coverage())},
+                 {"scallop_um", number(um(q.scallop), 3)},
+                 {"step_over_mm", number(r.step_over, 4)},
+                 {"coverage_percent", number(100 * r.coverage(), 2)},
                  {"measured_positions", r.has_lag},
-                 {"speed_mismatch_p99_percent", number(100 * quantity(r.thresholds.p99, Quantity::speed))},
-                 {"acceleration_mismatch_p99_mm_s2", number(quantity(r.thresholds.p99, Quantity::acceleration))},
+                 {"speed_mismatch_p99_percent", number(100 * quantity(r.thresholds.p99, Quantity::speed), 3)},
+                 {"acceleration_mismatch_p99_mm_s2", number(quantity(r.thresholds.p99, Quantity::acceleration), 2)},
                  {"thresholds", std::move(thresholds)},
                  {"filter", r.note},
                  {"tool", to_text(q.tool)},
@@ -108,15 +156,16 @@ std::string quality_json(const ReportedQuality& q) {
 std::string quality_csv(const ReportedQuality& q) {
     std::string text =
         "id,severity,cause,pass,first_line,last_line,first_point,last_point,x [mm],y [mm],z [mm],depth [µm],shape,"
-        "speed jump [mm/min],acceleration jump [mm/s²],length [mm],area [mm²],score\n";
+        "speed jump [mm/min],acceleration jump [mm/s²],length [mm],area [mm²],score,speed jump [%],quantity,systematic\n";
     for (std::size_t i = 0; i < q.report->defects.size(); ++i) {
         const Defect& d = q.report->defects[i];
         for (const DefectRun& run : d.runs) {
             text += fmt::format(
-                "{},{},{},{},{},{},{},{},{:.4f},{:.4f},{:.4f},{:.3f},{},{:.1f},{:.1f},{:.3f},{:.4f},{:.2f}\n", i + 1,
-                d.severity, name_of(d.cause), run.pass, run.first_line, run.last_line, run.points.first,
-                run.points.last, d.position.x(), d.position.y(), d.position.z(), um(d.depth), d.pit ? "pit" : "bulge",
-                per_minute(d.speed_jump), d.acceleration_jump, d.length, d.area, d.score);
+                "{},{},{},{},{},{},{},{},{:.4f},{:.4f},{:.4f},{:.3f},{},{:.1f},{:.1f},{:.3f},{:.4f},{:.2f},{:.1f},{},{}\n",
+                i + 1, d.severity, name_of(d.cause), run.pass, run.first_line, run.last_line, run.points.first,
+                run.points.last, d.position.x(), d.position.y(), d.position.z(), um(d.depth), shape_of(d),
+                per_minute(d.speed_jump), d.acceleration_jump, d.length, d.area, d.score, 100 * d.speed_mismatch,
+                name_of(d.quantity), d.systematic);
         }
     }
     return text;
@@ -124,31 +173,14 @@ std::string quality_csv(const ReportedQuality& q) {
 
 std::string quality_text(const ReportedQuality& q) {
     const QualityReport& r = *q.report;
-    std::string text = not_judged_text(r);
-    if (!r.defects.empty()) {
-        text += fmt::format("{:>3} {:>3} {:<13} {:>9} {:>10} {:>7}{} {:<28} {}\n", "no", "sev", "cause", "depth µm",
-                            "speed %", "mm", q.formed != nullptr ? "  formed µm" : "", "at X Y Z [mm]", "lines");
-    }
-    for (std::size_t i = 0; i < r.defects.size(); ++i) {
-        const Defect& d = r.defects[i];
-        constexpr std::size_t most_ranges = 4;
-        const std::string lines = line_ranges(d.runs, most_ranges);
-        const double percent = 100 * d.speed_mismatch;
-        const double formed = q.formed != nullptr ? um(q.formed->marks[i]) : 0;
-        const std::string mark =
-            q.formed == nullptr ? "" : fmt::format(" {:>10}", formed == formed ? fmt::format("{:.1f}", formed) : "-");
-        text += fmt::format("{:>3} {:>3} {:<13} {:>8} {:>9} {:>7}{} {:<28} {}\n", i + 1, d.severity, name_of(d.cause),
-                            fmt::format("{:+.1f}", d.pit ? -um(d.depth) : um(d.depth)), fmt::format("{:+.1f}", percent),
-                            fmt::format("{:.1f}", d.length), mark,
-                            fmt::format("{:.2f} {:.2f} {:.2f}", d.position.x(), d.position.y(), d.position.z()), lines);
-    }
+    std::string text = verdict_text(r) + defects_table(q);
     if (r.passes < 2 || r.step_over <= 0) {
         text += "no adjacent passes: nothing to compare\n";
     } else {
         text += fmt::format(
-            "{}{} defects on {} passes, {:.3g} mm apart; {:.1f} % of {} cutting points compared with both neighbours\n",
-            r.defects.empty() ? "" : "\n", r.defects.empty() ? "no" : fmt::format("{}", r.defects.size()), r.passes,
-            r.step_over, 100 * r.coverage(), r.points);
+            "{} {} on {} passes, {:.3g} mm apart; {:.1f} % of {} cutting points compared with both neighbours\n",
+            r.defects.size(), r.defects.size() == 1 ? "defect" : "defects", r.passes, r.step_over, 100 * r.coverage(),
+            r.points);
         const std::string thresholds = thresholds_text(r);
         if (!thresholds.empty()) text += fmt::format("thresholds: {}; {}\n", thresholds, r.note);
         if (q.scallop > 0)

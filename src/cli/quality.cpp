@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "path/pieces.h"
+#include "quality/axis_delay.h"
 #include "quality/scallop.h"
 
 namespace clsurf::cli {
@@ -81,6 +82,7 @@ Quality judge(Part& part, const ClSurface& surface, std::optional<Role> wanted, 
     clock.begin("find the defects");
     quality.report = find_defects(surface, read.signals, *part.lines, part.program, part.log.period, options.rules);
     for (std::string& doubt : part.lines->match().doubts()) quality.report.judgement.refuse(std::move(doubt));
+    if (read.measured) explain_systematic_lag(quality.report, part.path, *read.measured, read.signals);
     for (const std::string& reason : quality.report.judgement.reasons)
         part.diagnostics.add(
             {Severity::warning, "quality.not-judged", Place::of_file(part.log.name), "not judged: " + reason, {}});

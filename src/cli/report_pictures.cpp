@@ -61,7 +61,7 @@ io::PagePicture picture_of_part(const PicturedPart& shown, const std::string& na
     look.gl = shown.gl;
     const viz::MapPanel panel{shown.surface, &shown.fields[k], "", {}, {}, shown.outlines, nullptr};
     const FieldInfo& info = shown.fields[k].info;
-    return {info.label, shown.outlines.empty() ? "" : "Defects are outlined, 1 the worst.",
+    return {info.label, shown.outlines.empty() ? "" : "Defects are outlined; 1 stands out most.",
             draw(panel, shown.ranges[k], texts_of(shown, info, shown.ranges[k]), look)};
 }
 
@@ -86,7 +86,7 @@ io::PagePicture picture_of_defect(const PicturedPart& shown, std::size_t defect)
     texts.notes.clear();
     const LineNumber first = d.runs.empty() ? 0 : d.runs.front().first_line;
     return {fmt::format("Defect {}", defect + 1),
-            fmt::format("{}, {:+.1f} µm{}", description_of(d.cause), (d.pit ? -1 : 1) * d.depth * um_per_mm,
+            fmt::format("{}, depth {:.1f} µm{}", description_of(d.cause), d.depth * um_per_mm,
                         first > 0 ? fmt::format(", from line {}", first) : ""),
             draw(panel, shown.ranges[k], texts, look)};
 }

@@ -63,13 +63,13 @@ std::string_view name_of(Cause cause) {
 
 std::string_view description_of(Cause cause) {
     switch (cause) {
-        case Cause::feed_drop: return "runs at another speed than the passes beside it";
-        case Cause::oscillation: return "its speed swings about that of the passes beside it";
-        case Cause::lag_step: return "the axes run off the commanded path otherwise than beside it";
-        case Cause::point_spacing: return "the program's points lie otherwise than on the passes beside it";
-        case Cause::corner: return "the programmed path turns there";
-        case Cause::reversal: return "an axis turns back there";
-        case Cause::pass_end: return "the pass begins or ends there";
+        case Cause::feed_drop: return "runs at a different speed than the neighbouring passes";
+        case Cause::oscillation: return "its speed oscillates about that of the neighbouring passes";
+        case Cause::lag_step: return "axis lag differs from the neighbouring passes";
+        case Cause::point_spacing: return "programmed points are spaced differently from the neighbouring passes";
+        case Cause::corner: return "the programmed path turns here";
+        case Cause::reversal: return "an axis reverses here";
+        case Cause::pass_end: return "the pass begins or ends here";
     }
     return "";
 }

@@ -24,8 +24,9 @@ constexpr double smallest_area = 1.0;      ///< squared step-overs
 constexpr float least_speed_share = 0.6F;  ///< of its threshold, for what only the acceleration shows …
 constexpr float strong_alone = 1.5F;       ///< … and of the acceleration's own
 constexpr std::size_t fewest_sites = 2;
-constexpr double systematic_depth = 0.99;  ///< quantile of the steps of a systematic lag
-constexpr double effect_seconds = 0.020;   ///< by which a height may outlast the motion that makes it
+constexpr std::size_t most_systematic_runs = 300;  ///< that are listed: the longest
+constexpr double systematic_depth = 0.99;          ///< quantile of the steps of a systematic lag
+constexpr double effect_seconds = 0.020;           ///< by which a height may outlast the motion that makes it
 
 /// The largest of values; NaN are left out.
 double largest_of(const std::vector<double>& values) {
@@ -189,6 +190,7 @@ public:
         for (const Pass& pass : surface_.passes)
             all += pass.kind == PassKind::cut ? way_.to(pass.last) - way_.to(pass.first) : 0;
         defect.share = way / all;
+        keep_longest(most_systematic_runs, defect.runs);
         defect.severity = severity_of({defect.depth, defect.score, false, true}, rules_.severity);
         return defect;
     }
@@ -243,6 +245,20 @@ private:
         defect.speed_mismatch = plateau(mismatches, side);
         defect.acceleration_jump = plateau(accelerations, 1);
         (void)add_up_runs(defect);
+    }
+
+    /// In the order of their points.
+    void keep_longest(std::size_t most, std::vector<DefectRun>& runs) const {
+        if (runs.size() <= most) return;
+        const auto length = [&](const DefectRun& run) { return way_.to(run.points.last) - way_.to(run.points.first); };
+        std::nth_element(runs.begin(), runs.begin() + static_cast<std::ptrdiff_t>(most), runs.end(),
+                         [&](const DefectRun& a, const DefectRun& b) {
+                             const double in_a = length(a), in_b = length(b);
+                             return in_a != in_b ? in_a > in_b : a.points.first < b.points.first;
+                         });
+        runs.resize(most);
+        std::sort(runs.begin(), runs.end(),
+                  [](const DefectRun& a, const DefectRun& b) { return a.points.first < b.points.first; });
     }
 
     /// Length and area of a defect from its runs. Returns the way of all runs [mm].

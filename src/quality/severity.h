@@ -15,7 +15,7 @@ inline constexpr int severities = 4;
 
 struct SeverityRule {
     std::array<double, 3> depth{0.002, 0.005, 0.020};  ///< [mm] where 2, 3, 4 begin …
-    std::array<float, 3> stands_out{1, 1.5F, 3};       ///< … for a score of so much at least
+    std::array<float, 3> stands_out{1, 1.5F, 6};       ///< … for a score of so much at least
     std::array<float, 2> motion{2, 15};                ///< score of a motion where 2, 3 begin, whatever the depth
     int most_systematic = 3;  ///< what all passes share is a machine to be tuned, no part to be rejected
 };

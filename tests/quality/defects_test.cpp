@@ -11,6 +11,7 @@
 #include "io/program_file.h"
 #include "path/pieces.h"
 #include "planted_score.h"
+#include "quality/axis_delay.h"
 #include "quality/verdict.h"
 
 namespace clsurf {
@@ -285,6 +286,56 @@ TEST(SystematicLag, MayBeLeftInItsPlaces) {
     const QualityReport report = planted::judge(alternating_zigzag(), rules);
     ASSERT_FALSE(report.defects.empty());
     for (const Defect& defect : report.defects) EXPECT_FALSE(defect.systematic);
+}
+
+TEST(SystematicLag, NamesTheAxesThatDiffer) {
+    // A zigzag over a slope: X trails by 0.4 ms, Z by 1.8 ms. Speeds are even, so that an axis is where it was to be before.
+    planted::Recipe recipe = planted::random_recipe(3, Shape::zigzag, true, false);
+    recipe.noise = 0;
+    planted::PlantedLog planted = planted::make_planted_log(recipe);
+    constexpr std::array<double, 3> delays{0.0004, 0.0004, 0.0018};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::vector<double>& commanded = planted.commanded[axis];
+        for (std::size_t i = 2; i + 2 < commanded.size(); ++i)
+            planted.measured[axis][i] =
+                commanded[i] - delays[axis] * (commanded[i + 2] - commanded[i - 2]) / (4 * recipe.period);
+    }
+    const Log log = planted::as_log(planted);
+    const Program program = planted::program_of(planted);
+    Diagnostics diagnostics;
+    const Trajectory path = reconstruct(log, Role::commanded, Vec3::Zero());
+    const Trajectory measured = reconstruct(log, Role::feedback, Vec3::Zero());
+    const LineMap lines = map_lines(path, log, program, true, diagnostics);
+    const ClSurface surface = stitch(gather(path), lines);
+    const Signals signals =
+        derive_signals(surface, path, &measured, smooth_pieces(log, surface.passes), usual_end_zone(surface.step_over));
+    QualityReport report = find_defects(surface, signals, lines, program, log.period, {});
+    explain_systematic_lag(report, path, measured, signals);
+    const auto lag =
+        std::find_if(report.defects.begin(), report.defects.end(), [](const Defect& d) { return d.systematic; });
+    ASSERT_NE(lag, report.defects.end());
+    ASSERT_EQ(lag->delays.size(), 2U);
+    EXPECT_EQ(lag->delays[0].axis, 'z');
+    EXPECT_NEAR(lag->delays[0].delay, 0.0018, 1e-4);
+    EXPECT_EQ(lag->delays[1].axis, 'x');
+    EXPECT_NEAR(lag->delays[1].delay, 0.0004, 1e-4);
+}
+
+TEST(Severity, ComesFromDepthAndFromHowFarItStandsOut) {
+    const SeverityRule rule;
+    const auto of = [&](double depth, float score, bool motion, bool systematic = false) {
+        return severity_of({depth, score, motion, systematic}, rule);
+    };
+    EXPECT_EQ(of(0.0015, 1.2F, false), 1);
+    EXPECT_EQ(of(0.003, 1.2F, false), 2);
+    EXPECT_EQ(of(0.008, 1.2F, false), 2);  // deep, but hardly more than the part itself
+    EXPECT_EQ(of(0.008, 2, false), 3);
+    EXPECT_EQ(of(0.030, 2, false), 3);
+    EXPECT_EQ(of(0.030, 7, false), 4);
+    EXPECT_EQ(of(0.030, 7, false, true), 3);
+    EXPECT_EQ(of(0, 2.5F, true), 2);
+    EXPECT_EQ(of(0, 20, true), 3);
+    EXPECT_EQ(of(0, 20, false), 1);
 }
 
 TEST(Defects, AreListedByHowFarTheyStandOut) {

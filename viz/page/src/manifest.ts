@@ -41,7 +41,8 @@ export interface Defect {
     text: string;
     position_mm: [number, number, number];
     bounds_mm: [[number, number, number], [number, number, number]];
-    depth_um: number | null;
+    depth_um: number | null; // without a sign: `shape` is pit, bulge or alternating
+    shape: string;
     point: number;
     runs: DefectRun[];
     neighbours: DefectRun[];

@@ -55,7 +55,7 @@ export class TreePane {
         const { defects } = this.manifest;
         const list = element('div', { class: 'list' });
         defects.slice(0, 500).forEach((defect, k) => {
-            const depth = defect.depth_um === null ? '' : `${defect.depth_um > 0 ? '+' : ''}${defect.depth_um.toFixed(1)} µm`;
+            const depth = defect.depth_um === null ? '' : `${defect.depth_um.toFixed(1)} µm ${defect.shape}`;
             const button = element(
                 'button',
                 { class: 'item', 'data-choice': `defect-${k}`, title: defect.text },
