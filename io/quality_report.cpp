@@ -136,6 +136,7 @@ std::string quality_json(const ReportedQuality& q) {
                  {"scallop_um", number(um(q.scallop), 3)},
                  {"step_over_mm", number(r.step_over, 4)},
                  {"coverage_percent", number(100 * r.coverage(), 2)},
+                 {"not_finishing_percent", number(100 * r.not_finishing_share(), 2)},
                  {"measured_positions", r.has_lag},
                  {"speed_mismatch_p99_percent", number(100 * quantity(r.thresholds.p99, Quantity::speed), 3)},
                  {"acceleration_mismatch_p99_mm_s2", number(quantity(r.thresholds.p99, Quantity::acceleration), 2)},
@@ -181,6 +182,10 @@ std::string quality_text(const ReportedQuality& q) {
             "{} {} on {} passes, {:.3g} mm apart; {:.1f} % of {} cutting points compared with both neighbours\n",
             r.defects.size(), r.defects.size() == 1 ? "defect" : "defects", r.passes, r.step_over, 100 * r.coverage(),
             r.points);
+        if (r.not_finishing > 0)
+            text += fmt::format(
+                "{:.1f} % of all cutting points belong to pockets, drilling or single contours: not finishing passes\n",
+                100 * r.not_finishing_share());
         const std::string thresholds = thresholds_text(r);
         if (!thresholds.empty()) text += fmt::format("thresholds: {}; {}\n", thresholds, r.note);
         if (q.scallop > 0)

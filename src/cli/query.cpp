@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 
@@ -9,6 +10,7 @@
 
 #include "cli/part.h"
 #include "core/block.h"
+#include "core/file_name.h"
 #include "core/units.h"
 #include "io/json_text.h"
 
@@ -119,6 +121,39 @@ void check_point(const Log& log, PointIndex point) {
         throw UsageError(fmt::format("point {}: the log has points 0 … {}", point, log.records - 1));
 }
 
+struct PlaceInFile {
+    std::size_t file = 0;  ///< index into Program::files
+    LineNumber line = 0;
+};
+
+/// "N": a line of the main program; "FILE:N": of that file, with or without its folder.
+PlaceInFile read_line(const std::string& text, const Program& program) {
+    const std::size_t colon = text.rfind(':');
+    const std::string number = colon == std::string::npos ? text : text.substr(colon + 1);
+    PlaceInFile place;
+    if (colon != std::string::npos) {
+        const std::string name = text.substr(0, colon);
+        std::string known;
+        for (; place.file < program.files.size(); ++place.file) {
+            const std::string& path = program.files[place.file].name();
+            if (path == name || file_name(path) == name) break;
+            known += (known.empty() ? "" : ", ") + file_name(path);
+        }
+        if (place.file == program.files.size())
+            throw UsageError("--line " + text + ": the program has no file '" + name + "', only " + known);
+    }
+    const SourceText& file = program.files[place.file];
+    const char* const end = number.data() + number.size();
+    const auto [stop, error] = std::from_chars(number.data(), end, place.line);
+    if (error == std::errc::invalid_argument || stop != end)
+        throw UsageError("--line: '" + number + "' is not a whole number", "--line N, or --line FILE:N");
+    if (error != std::errc() || place.line < 1 || place.line > file.line_count()) {
+        throw UsageError(fmt::format("--line {}: {} has lines 1 … {}", text,
+                                     place.file == 0 ? "the program" : file.name(), file.line_count()));
+    }
+    return place;
+}
+
 std::vector<io::QueryMatch> find_matches(const Part& part, const po::variables_map& values) {
     std::vector<io::QueryMatch> matches;
     const CallChains chains(part.log, part.program, *part.lines);
@@ -153,13 +188,11 @@ std::vector<io::QueryMatch> find_matches(const Part& part, const po::variables_m
         matches.push_back(match_of(part, chains, estimate, point, 0));
     }
     if (values.count("line") > 0) {
-        const long long line = values["line"].as<long long>();
-        if (line < 1 || line > part.program.main().line_count()) {
-            throw UsageError(
-                fmt::format("--line {}: the program has lines 1 … {}", line, part.program.main().line_count()));
-        }
-        for (const PointRange& range : part.lines->points_of(static_cast<LineNumber>(line)))
-            matches.push_back(match_of(part, chains, estimate, range.first, 0));
+        const PlaceInFile place = read_line(values["line"].as<std::string>(), part.program);
+        const std::vector<PointRange> ranges = place.file == 0
+                                                   ? part.lines->points_of(place.line)
+                                                   : points_of(part.program, *part.lines, place.file, place.line);
+        for (const PointRange& range : ranges) matches.push_back(match_of(part, chains, estimate, range.first, 0));
     }
     return matches;
 }
@@ -222,7 +255,7 @@ Subcommand query_subcommand() {
                     ("point", po::value<long long>()->value_name("N"), "the point of that number, from 0")
                     ("at", po::value<std::string>()->value_name("X,Y,Z"), "the point nearest to a place on the workpiece [mm]")
                     ("nearest", po::value<int>()->value_name("K"), "with --at: the K nearest points")
-                    ("line", po::value<long long>()->value_name("N"), "every run of points of that line; the first point of each")
+                    ("line", po::value<std::string>()->value_name("N|FILE:N"), "every run of points of that line, of the program or of a file that it calls; the first point of each")
                     ("time", po::value<double>()->value_name("T"), "the point nearest to that time [s]")
                     ("json", "one JSON object");
                 // clang-format on

@@ -7,6 +7,22 @@
 
 namespace clsurf {
 
+std::vector<PointRange> points_of(const Program& program, const LineMap& lines, std::size_t file, LineNumber line) {
+    const Motions& motions = program.motions;
+    std::vector<PointRange> ranges;
+    for (PointIndex point = 0; point < lines.count(); ++point) {
+        const std::int64_t motion = lines.motion_at(point);
+        if (motion < 0) continue;
+        const auto m = static_cast<std::size_t>(motion);
+        if (motions.line[m] != line || (motions.file.empty() ? 0 : motions.file[m]) != file) continue;
+        if (!ranges.empty() && ranges.back().last == point - 1)
+            ranges.back().last = point;
+        else
+            ranges.push_back({point, point});
+    }
+    return ranges;
+}
+
 ProgramPlace CallChains::place(std::size_t file, LineNumber line) const {
     const SourceText& text = program_->files[file];
     return {text.name(), line, std::string(text.line(line))};

@@ -21,6 +21,11 @@ struct CallChain {
     std::vector<ProgramPlace> calls;         ///< that led there, the main program's first
 };
 
+/// Every run of consecutive points that are on that line of a file of the program, in order. `file`: index into
+/// Program::files. O(points).
+[[nodiscard]] std::vector<PointRange> points_of(const Program& program, const LineMap& lines, std::size_t file,
+                                                LineNumber line);
+
 /// Finds the calls of points.
 class CallChains {
 public:

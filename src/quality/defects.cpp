@@ -408,6 +408,12 @@ private:
 
 /// Refuses a verdict where too little could be compared.
 void judge_coverage(QualityReport& report) {
+    if (report.not_finishing_share() > 1 - least_coverage) {
+        report.judgement.refuse(fmt::format(
+            "{:.0f} % of the cutting points belong to no finishing passes, so nothing could be compared with them.",
+            100 * report.not_finishing_share()));
+    }
+    if (report.points == 0 && report.not_finishing > 0) return;
     if (report.points == 0) {
         report.judgement.refuse("The log has no cutting points.");
     } else if (report.step_over <= 0) {
@@ -441,6 +447,7 @@ QualityReport find_defects(const ClSurface& surface, const Signals& signals, con
     const Builder builder(surface, signals, lines, causes, way, report.thresholds, rules);
     report.passes = builder.cut_passes();
     for (const Pass& pass : surface.passes) report.points += pass.kind == PassKind::cut ? pass.size() : 0;
+    report.not_finishing = surface.not_finishing;
     report.compared = count_compared(surface, signals);
     judge_coverage(report);
 

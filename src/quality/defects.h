@@ -82,17 +82,22 @@ struct QualityReport {
     std::vector<Defect> defects;   ///< in falling order of score
     std::vector<Defect> expected;  ///< at outermost passes: what a part's border always shows
     Thresholds thresholds;
-    PointIndex points = 0;    ///< of cut passes
-    PointIndex compared = 0;  ///< of them, with a neighbour on both sides and away from the ends
-    std::int64_t passes = 0;  ///< cut passes
-    double step_over = 0;     ///< [mm]
-    bool has_lag = false;     ///< measured positions were there
-    Judgement judgement;      ///< whether the data allow a verdict
-    std::string note;         ///< the windows
+    PointIndex points = 0;         ///< of cut passes
+    PointIndex compared = 0;       ///< of them, with a neighbour on both sides and away from the ends
+    PointIndex not_finishing = 0;  ///< cutting points of pockets, drilling, single contours: left out
+    std::int64_t passes = 0;       ///< cut passes
+    double step_over = 0;          ///< [mm]
+    bool has_lag = false;          ///< measured positions were there
+    Judgement judgement;           ///< whether the data allow a verdict
+    std::string note;              ///< the windows
 
     [[nodiscard]] double coverage() const {
         return points > 0 ? static_cast<double>(compared) / static_cast<double>(points) : 0;
-    }                                          ///< 0 … 1
+    }  ///< 0 … 1
+    /// Of all cutting points, those that belong to no finishing pass, 0 … 1.
+    [[nodiscard]] double not_finishing_share() const {
+        return not_finishing > 0 ? static_cast<double>(not_finishing) / static_cast<double>(points + not_finishing) : 0;
+    }
     [[nodiscard]] int worst_severity() const;  ///< 0: no defects
 };
 

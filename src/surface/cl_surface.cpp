@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "path/step_over.h"
+#include "surface/finishing.h"
 
 namespace clsurf {
 namespace {
@@ -89,6 +90,51 @@ Passes cut_at_returns(const Passes& passes, const Adjacency& neighbours, const J
     return turns;
 }
 
+void stitch_runs(ClSurface& surface, const Passes& runs, const Way& way, double step_over) {
+    surface.step_over = step_over > 0 ? step_over : estimate_step_over(surface.positions, runs, way);
+    surface.jogs.clear();
+    if (surface.step_over <= 0) {
+        surface.passes = runs;
+        surface.neighbours = find_neighbours(surface.positions, runs, way, 0);
+        return;
+    }
+    const Passes passes = find_passes(surface.positions, way, runs, surface.step_over);
+    surface.neighbours = find_neighbours(surface.positions, passes, way, surface.step_over);
+    surface.passes =
+        cut_at_returns(passes, surface.neighbours, JogFinder(surface.positions, way, surface.step_over), surface.jogs);
+}
+
+/// The runs again, without the passes that are no finishing passes; counts their points.
+Passes without_other_cutting(const ClSurface& surface, const Passes& runs, PointIndex& left_out) {
+    const std::vector<bool> finishing = find_finishing_passes(surface);
+    Passes rest;
+    const auto append = [&](Pass piece) {
+        if (piece.size() <= 0) return;
+        if (!rest.empty() && rest.back().kind == piece.kind)
+            rest.back().last = piece.last;
+        else
+            rest.push_back(piece);
+    };
+    std::size_t k = 0;
+    for (const Pass& run : runs) {
+        if (run.kind != PassKind::cut) {
+            append(run);
+            continue;
+        }
+        PointIndex next = run.first;
+        for (; k < surface.passes.size() && surface.passes[k].first <= run.last; ++k) {
+            const Pass& pass = surface.passes[k];
+            if (pass.kind != PassKind::cut || pass.last < run.first || finishing[k]) continue;
+            append({next, pass.first - 1, PassKind::cut});
+            append({pass.first, pass.last, PassKind::rapid});
+            left_out += pass.size();
+            next = pass.last + 1;
+        }
+        append({next, run.last, PassKind::cut});
+    }
+    return rest;
+}
+
 }  // namespace
 
 ClSurface stitch(Positions positions, const LineMap& lines, double step_over) {
@@ -96,16 +142,10 @@ ClSurface stitch(Positions positions, const LineMap& lines, double step_over) {
     surface.positions = std::move(positions);
     const Passes runs = find_runs(surface.positions, lines);
     const Way way(surface.positions);
-    surface.step_over = step_over > 0 ? step_over : estimate_step_over(surface.positions, runs, way);
-    if (surface.step_over <= 0) {
-        surface.passes = runs;
-        surface.neighbours = find_neighbours(surface.positions, runs, way, 0);
-        return surface;
-    }
-    const Passes passes = find_passes(surface.positions, way, runs, surface.step_over);
-    surface.neighbours = find_neighbours(surface.positions, passes, way, surface.step_over);
-    surface.passes =
-        cut_at_returns(passes, surface.neighbours, JogFinder(surface.positions, way, surface.step_over), surface.jogs);
+    stitch_runs(surface, runs, way, step_over);
+    if (surface.step_over <= 0) return surface;
+    const Passes finishing = without_other_cutting(surface, runs, surface.not_finishing);
+    if (surface.not_finishing > 0) stitch_runs(surface, finishing, way, step_over);
     return surface;
 }
 

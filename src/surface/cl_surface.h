@@ -19,6 +19,8 @@ struct ClSurface {
     std::vector<PointRange> jogs;  ///< steps sideways from one closed loop to the next, in order
     Adjacency neighbours;
     double step_over = 0;  ///< [mm]; 0: a single pass, no neighbours
+    /// Points that cut and belong to no finishing pass (surface/finishing.h); among the passes they count as rapid.
+    PointIndex not_finishing = 0;
 };
 
 /// The parts of ranges, which rise, between steps sideways and inside them.
@@ -46,7 +48,7 @@ private:
     std::size_t next_ = 0;
 };
 
-/// Stitches the runs of a trajectory into a surface. `step_over` [mm], 0: estimated. O(points).
+/// Stitches the runs of a trajectory into a surface; what is no finishing pass is left out. `step_over` [mm], 0: estimated. O(points).
 [[nodiscard]] ClSurface stitch(Positions positions, const LineMap& lines, double step_over = 0);
 
 }  // namespace clsurf

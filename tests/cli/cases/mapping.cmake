@@ -43,3 +43,30 @@ clsurf_cli_test(NAME truncated_log_is_not_judged SETUP "head -c 300000 @LOGS@/bo
   STDOUT "NOT JUDGED: The log lacks 88 % of the program's motions")
 clsurf_cli_test(NAME lines_of_another_program_are_one_finding ARGS info ${uneven} @LOGS@/bottle_zigzag.biip EXIT 3
   STDOUT "points have a line that is none of the program's 3716: 3718 … 3938")
+
+# ---- subprograms in files of their own ----
+set(rib "printf 'G21 G90 G17\\nG0 X0 Y0 Z5\\nG1 Z0 F600\\no<rib> call [1]\\nG1 X0 Y2\\no<rib> call [3]\\nM2\\n' > part.ngc"
+  "printf 'o<rib> sub\\nG1 X0 Y[#1] F3000\\nX20 Y[#1]\\nX20 Y[#1+0.5]\\no<rib> endsub\\nM2\\n' > rib.ngc"
+  "$CLSURF simulate part.ngc --dialect linuxcnc -o run.biip > /dev/null")
+list(JOIN rib " && " rib)
+clsurf_cli_test(NAME line_of_a_file_that_is_called SETUP "${rib}" ARGS query part.ngc run.biip --dialect linuxcnc --line rib.ngc:3
+  STDOUT "line 4: o<rib> call .1.*in .*rib.ngc line 3: X20 Y.#1.*called by part.ngc line 4: o<rib> call .1.*confidence 1[.]00.*line 6: o<rib> call .3")
+clsurf_cli_test(NAME line_that_calls_a_file SETUP "${rib}" ARGS query part.ngc run.biip --dialect linuxcnc --line 6 --json
+  STDOUT "\"line\": 6" "\"file\": \"[^\"]*rib.ngc\"" "\"line\": 2")
+clsurf_cli_test(NAME line_of_no_file SETUP "${rib}" ARGS query part.ngc run.biip --dialect linuxcnc --line web.ngc:3 EXIT 2 STDERR "no file 'web.ngc'" "rib.ngc")
+clsurf_cli_test(NAME line_beyond_a_called_file SETUP "${rib}" ARGS query part.ngc run.biip --dialect linuxcnc --line rib.ngc:30 EXIT 2 STDERR "rib.ngc has lines 1 … 6")
+clsurf_cli_test(NAME line_that_is_no_number SETUP "${rib}" ARGS query part.ngc run.biip --dialect linuxcnc --line six EXIT 2 STDERR "'six' is not a whole number")
+
+# ---- what is no finishing pass ----
+# Forty passes of 30 mm side by side, then three levels of a square pocket and two drilled holes.
+set(with_pocket "(printf 'G21 G90 G17\\nG0 X0 Y0 Z5\\nG1 Z0 F600\\nF3000\\n' && seq 0 2 38 | awk '{printf \"G1 Y%.1f\\nX30\\nY%.1f\\nX0\\n\", $1/5, ($1+1)/5}'"
+  "seq 1 3 | awk '{printf \"G0 Z5\\nG0 X60 Y0\\nG1 Z-%d\\nX75\\nY15\\nX60\\nY0\\n\", $1}'"
+  "printf 'G0 Z5\\nG81 X100 Y0 Z-8 R2 F300\\nX110\\nG80\\nM30\\n') > part.nc" "$CLSURF simulate part.nc --dialect fanuc -o run.biip > /dev/null")
+list(JOIN with_pocket " && " with_pocket)
+clsurf_cli_test(NAME pocket_is_no_finishing_pass SETUP "${with_pocket}" ARGS check part.nc run.biip --dialect fanuc
+  STDOUT "on 40 passes" "1[0-9][.][0-9] % of all cutting points belong to pockets, drilling or single contours")
+# A square wall of twelve levels, 0.3 mm apart, is finished.
+set(waterlines "(printf 'G21 G90 G17\\nG0 X0 Y0 Z5\\nG1 Z0 F600\\nF3000\\n' && seq 1 12 | awk '{printf \"G1 Z-%.1f\\nX20\\nY20\\nX0\\nY0\\n\", $1*0.3}' && echo M30) > part.nc"
+  "$CLSURF simulate part.nc -o run.biip > /dev/null")
+list(JOIN waterlines " && " waterlines)
+clsurf_cli_test(NAME waterlines_are_finishing_passes SETUP "${waterlines}" ARGS check part.nc run.biip --json STDOUT "\"not_finishing_percent\": 0[.]0," "\"judged\": true")
