@@ -80,10 +80,13 @@ Subcommand check_subcommand() {
         .arguments = "PROGRAM LOG",
         .summary = "adjacent-path discontinuities and predicted marks, with lines, causes and micrometres",
         .description =
-            "Compares every pass with the passes beside it: speed, acceleration, and where the axes run off\n"
-            "the commanded path. What differs enough to leave a mark is listed, worst first, with the lines\n"
-            "at fault and how deep it will be. Exits with 1 if a limit of --budget is exceeded, and with 5\n"
-            "if the data do not allow a verdict: less than half of the cutting points could be compared.\n\n"
+            "Compares every pass with its neighbours: speed, acceleration, and where the axes run off the commanded\n"
+            "path. Begins with a verdict, and lists what differs enough to leave a mark, what stands out most first,\n"
+            "with the lines at fault and the predicted depth. Severity: 1 trace (in the data, hardly on the part),\n"
+            "2 visible (on a polished or glossy surface), 3 distinct (on any finished surface), 4 reject (too deep to\n"
+            "polish out). A speed below that of the neighbours is negative; depths have no sign but a shape, pit or\n"
+            "bulge. Exits with 1 if a limit of --budget is exceeded, and with 5 if the data do not allow a verdict:\n"
+            "less than half of the cutting points could be compared, for example.\n\n"
             "  clsurf check part.nc run.biip --tool ball:6\n"
             "  clsurf check part.nc run.biip --tool ball:6 --budget part.toml --format sarif -o part.sarif",
         .declare =

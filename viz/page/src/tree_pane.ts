@@ -6,6 +6,8 @@ import type { State, Store } from './store';
 import type { Surface } from './surface';
 
 const mostPasses = 1000;
+/** Below its neighbours, above them, or both in turn. */
+const shapeSigns: Record<string, string> = { pit: '▾ ', bulge: '▴ ', alternating: '± ' };
 
 export class TreePane {
     readonly element = element('nav', { class: 'tree', 'aria-label': 'what is loaded' });
@@ -55,7 +57,7 @@ export class TreePane {
         const { defects } = this.manifest;
         const list = element('div', { class: 'list' });
         defects.slice(0, 500).forEach((defect, k) => {
-            const depth = defect.depth_um === null ? '' : `${defect.depth_um.toFixed(1)} µm ${defect.shape}`;
+            const depth = defect.depth_um === null ? '' : `${shapeSigns[defect.shape] ?? ''}${defect.depth_um.toFixed(1)} µm`;
             const button = element(
                 'button',
                 { class: 'item', 'data-choice': `defect-${k}`, title: defect.text },
