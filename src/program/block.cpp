@@ -447,6 +447,8 @@ private:
                    id == "P") {
             block_.keywords.push_back({id + "=", std::to_string(value), true, column});  // S1=, M2=
         } else {
+            // Declared nowhere in the program: a variable of the control, which has this value from now on.
+            if (id.size() > 1 && id.find('[') == std::string::npos) variables_.set(id, value);
             block_.unknown.push_back({id + "=", column});
         }
     }

@@ -328,9 +328,11 @@ private:
     }
 
     void long_word(const std::string& name, bool has_number, bool first, std::size_t begin) {
+        const std::size_t end = at_;
         skip_blanks();
         const char next = peek();
         const std::string_view shown = text_.substr(begin, name.size());
+        const std::string_view numbered = text_.substr(begin, end - begin);
         if (name == "GOTO") {
             const bool to_block = has_number || next == '#' || next == '[';
             sign(to_block ? fanuc : siemens, to_block ? 8 : 4, shown);
@@ -345,7 +347,7 @@ private:
             if (name == row.word && !has_number) sign(row.dialect, row.weight, shown);
         }
         for (const WordSign& row : numbered_word_signs) {
-            if (name == row.word && has_number) sign(row.dialect, row.weight, shown);
+            if (name == row.word && has_number) sign(row.dialect, row.weight, numbered);
         }
     }
 

@@ -61,7 +61,14 @@ bool Interpreter::apply_path_mode(int code, Block& block, std::size_t column) {
 
 /// CYCLE832(tolerance, kind of machining, …): kind 0 (_OFF), or no tolerance, gives the machine its own back.
 void Interpreter::high_speed_settings(const Keyword& keyword) {
-    const std::vector<std::optional<double>> values = arguments_of(keyword);
+    std::vector<std::optional<double>> values;
+    try {
+        values = arguments_of(keyword);
+    } catch (const ReadError& error) {
+        // A variable that the control alone knows: no axis moves by it.
+        note(Severity::warning, "program.variable", error.what + ": the machine's own tolerance is taken",
+             error.column);
+    }
     const double tolerance = values.empty() ? 0 : values[0].value_or(0) * state_.unit_mm;
     const double kind = values.size() > 1 ? values[1].value_or(1) : 1;
     const bool off = !(tolerance > 0) || std::fmod(std::round(kind), 10) == 0;

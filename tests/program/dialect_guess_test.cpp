@@ -38,6 +38,7 @@ TEST(DialectGuess, SeesMacrosAndModesOfFanuc) {
 
 TEST(DialectGuess, SeesAssignmentsLabelsAndTitlesOfSiemens) {
     EXPECT_EQ(guess("%_N_PART_MPF\nG0 X0\n"), "siemens");
+    EXPECT_EQ(guess_dialect("G0 X0\nCYCLE832(0.01,1)\n").reason, "'CYCLE832' in line 2");
     EXPECT_EQ(guess("R1=5\nG0 X=R1\n"), "siemens");
     EXPECT_EQ(guess("START:\nG0 X0\nGOTOB START\n"), "siemens");
     EXPECT_EQ(guess("G60\nG601\nG0 X0\n"), "siemens");

@@ -57,9 +57,12 @@ TEST(PathModes, Cycle832TakesVariablesExpressionsAndNames) {
     EXPECT_EQ(modes(program, "siemens"),
               (Rows{"0 rounded 20000", "0 rounded 40000", "0 rounded 10000", "0 stop -", "0 rounded own",
                     "0 rounded 50000", "0 rounded 50000", "0 rounded own"}));
-    EXPECT_NE(
-        error_of("CYCLE832(_NOWHERE,1)\n", "siemens").find("CYCLE832: '_NOWHERE' is neither a function nor a variable"),
-        std::string::npos);
+    // A variable of the control: with a value from the program it is one, without it the machine's own tolerance counts.
+    EXPECT_EQ(modes("_CAMTOL=0.03\nCYCLE832(_CAMTOL,1)\nCYCLE832(_NOWHERE,1)\n", "siemens"),
+              (Rows{"0 rounded 30000", "0 rounded own"}));
+    const Program unknown = parse("G0 X1\nCYCLE832(_NOWHERE,1)\n", "siemens");
+    ASSERT_EQ(unknown.diagnostics.count("program.variable"), 1u);
+    EXPECT_EQ(unknown.diagnostics.kept()[0].where.text(), "test.nc:2:1");
 }
 
 TEST(PathModes, CtolReplacesTheTolerance) {
