@@ -22,6 +22,7 @@ constexpr float along_play = 0.35F;         ///< how far a foot may lie along th
 constexpr float steep_share = 0.12F;        ///< squared cosine to the horizontal below which a neighbour is above
 constexpr float direction_chord = 0.75F;    ///< way of the chords that give the feed direction
 constexpr double grid_cell = 4.0;
+constexpr double grid_records = 1.5;  ///< no less than so many records of usual length: cells hold a point of each pass
 constexpr float search_again = 0.25F;      ///< way without a neighbour after which it is sought anew
 constexpr float own_way = 1.7F;            ///< the way to a neighbour is this many distances or more
 constexpr float running_along = 0.8660F;   ///< cos 30°
@@ -41,10 +42,15 @@ struct Across {
     Vec3f chord = Vec3f::Zero();  ///< along the feed
     float chord_squared = 0;
 
-    /// Left and right: by the horizontal part, and on steep walls (where neighbours lie above each
-    /// other) by the upward part.
-    [[nodiscard]] Side side_of(const Vec3f& q) const {
+    /// From here to a place, without what lies along the feed.
+    [[nodiscard]] Vec3f aside(const Vec3f& q) const {
         const Vec3f d = q - here;
+        return d - d.dot(chord) / chord_squared * chord;
+    }
+
+    /// Left and right of a way that leads aside: by its horizontal part, and on steep walls (where neighbours lie
+    /// above each other) by the upward part.
+    [[nodiscard]] Side side_of(const Vec3f& d) const {
         const float left = chord.x() * d.y() - chord.y() * d.x();  // d · (z × chord)
         const float horizontal = chord.x() * chord.x() + chord.y() * chord.y();
         if (left * left > steep_share * d.squaredNorm() * horizontal) return left > 0 ? Side::left : Side::right;
@@ -106,13 +112,13 @@ private:
             Follower& f = followers[static_cast<std::size_t>(side)];
             if (f.point >= 0) {
                 f.point = cross(across, f.point, f.pass, f.direction);
-                if (!valid(across, f.point, side) || !elsewhere(i, f.point)) {
+                if (!valid(across, f.point, f.pass, side) || !elsewhere(i, f.point)) {
                     f.point = -1;
                     f.since = search_again;  // seek at once
                 }
             }
             const float usual = usual_neighbour * step_over_;
-            const bool wanted = f.point < 0 || (p_[f.point] - across.here).squaredNorm() > usual * usual;
+            const bool wanted = f.point < 0 || across.aside(p_[f.point]).squaredNorm() > usual * usual;
             search = search || (wanted && f.since >= search_again);
         }
         if (!search) return;
@@ -147,16 +153,25 @@ private:
         return n;
     }
 
-    [[nodiscard]] bool valid(const Across& across, PointIndex n, Side side) const {
+    /// `n` is next to where its pass crosses the plane, beside the point, on that side. Records may be farther apart than
+    /// passes are: what counts is how far away the pass is, not its point.
+    [[nodiscard]] bool valid(const Across& across, PointIndex n, const PointRange& pass, Side side) const {
         const Vec3f d = p_[n] - across.here;
         const float along = d.dot(across.chord);
         const float play = along_play * step_over_;
-        if (along * along > play * play * across.chord_squared) return false;
-        const float squared = d.squaredNorm() / (step_over_ * step_over_);
+        if (along * along > play * play * across.chord_squared && !crosses(across, n, along, pass)) return false;
+        const Vec3f aside = across.aside(p_[n]);
+        const float squared = aside.squaredNorm() / (step_over_ * step_over_);
         if (!(squared > nearest_neighbour * nearest_neighbour && squared < farthest_neighbour * farthest_neighbour)) {
             return false;
         }
-        return across.side_of(p_[n]) == side;
+        return across.side_of(aside) == side;
+    }
+
+    /// One of the steps from and to `n`, which lies `along` the feed (times the chord), crosses the plane.
+    [[nodiscard]] bool crosses(const Across& across, PointIndex n, float along, const PointRange& pass) const {
+        const auto over = [&](PointIndex k) { return (p_[k] - across.here).dot(across.chord) * along <= 0; };
+        return (n > pass.first && over(n - 1)) || (n < pass.last && over(n + 1));
     }
 
     /// The neighbour is another part of the way: the way to it is much longer than the distance.
@@ -183,7 +198,7 @@ private:
         // A follower that is not lost gives way only to a nearer neighbour.
         std::array<float, 2> best{1e30F, 1e30F};
         for (std::size_t s = 0; s < 2; ++s) {
-            if (followers[s].point >= 0) best[s] = (p_[followers[s].point] - across.here).norm() - 0.1F * step_over_;
+            if (followers[s].point >= 0) best[s] = across.aside(p_[followers[s].point]).norm() - 0.1F * step_over_;
         }
         std::array<Follower, 2> found;
         grid_.for_each_near(across.here, [&](const WayGrid::Entry& entry) {
@@ -191,11 +206,12 @@ private:
                                   passes_[static_cast<std::size_t>(entry.pass)].last};
             int direction = 1;
             const PointIndex n = cross(across, entry.point, pass, direction);
-            const Side side = across.side_of(p_[n]);
+            const Vec3f aside = across.aside(p_[n]);
+            const Side side = across.side_of(aside);
             const auto s = static_cast<std::size_t>(side);
-            const float distance = (p_[n] - across.here).norm();
+            const float distance = aside.norm();
             if (distance >= best[s]) return;
-            if (!valid(across, n, side) || !parallel(across, n, pass)) return;
+            if (!valid(across, n, pass, side) || !parallel(across, n, pass)) return;
             if (!elsewhere(i, n)) return;
             best[s] = distance;
             found[s] = {n, pass, 0, direction};
@@ -212,6 +228,18 @@ private:
     float step_over_;
     Adjacency& out_;
 };
+
+/// Mean way of a record on cut passes [mm].
+double record_length(const Passes& passes, const Way& way) {
+    double length = 0;
+    PointIndex records = 0;
+    for (const Pass& pass : passes) {
+        if (pass.kind != PassKind::cut) continue;
+        length += way.to(pass.last) - way.to(pass.first);
+        records += pass.size() - 1;
+    }
+    return records > 0 ? length / static_cast<double>(records) : 0;
+}
 
 struct Part {
     std::size_t pass = 0;
@@ -232,8 +260,9 @@ Adjacency find_neighbours(const Positions& positions, const Passes& passes, cons
             parts.push_back({pass, first, std::min(piece.last, first + part_points - 1)});
         }
     }
-    const WayGrid grid(positions, step_over > 0 ? passes : Passes(), way,
-                       grid_cell * (step_over > 0 ? step_over : 1.0));
+    const double cell =
+        std::max(grid_cell * (step_over > 0 ? step_over : 1.0), grid_records * record_length(passes, way));
+    const WayGrid grid(positions, step_over > 0 ? passes : Passes(), way, cell);
     parallel_for(static_cast<std::int64_t>(parts.size()), 1, [&](std::int64_t from, std::int64_t to) {
         for (std::int64_t k = from; k < to; ++k) {
             const Part& part = parts[static_cast<std::size_t>(k)];

@@ -1,8 +1,8 @@
 #pragma once
 // Adjacency: for each cutting point its neighbours on the passes to its left and right.
 //
-// A neighbour is where the way crosses the plane through the point normal to the feed, beside it
-// within 0.2 … 4 step-overs (steep flanks) and running along with it or against it (within 30°). Consecutive
+// A neighbour is the point next to where the way crosses the plane through the point normal to the feed, beside it
+// within 0.2 … 4 step-overs (steep flanks) and running along with it or against it (within 30°), however far apart the records are. Consecutive
 // points have consecutive neighbours, so the neighbour's pass is walked along with the own one, and
 // a grid of sparse points is asked only where the walk is lost. Adjacency is a relation between
 // points, not between pass numbers: a spiral is its own neighbour.

@@ -32,6 +32,24 @@ TEST(Adjacency, FindsBothNeighboursOfAZigzagBesideThePoint) {
     EXPECT_GT(checked, 4000);
 }
 
+TEST(Adjacency, RecordsMayBeFartherApartThanPasses) {
+    // 250 mm/s at a period of 4 ms, passes 0.3 mm apart; and three times as fast.
+    for (const double record : {1.0, 3.0}) {
+        const Positions p = test::zigzag(15, 80, 0.3, record);
+        const Adjacency a = neighbours_of(p, 0.3);
+        for (PointIndex i = 0; i < p.size(); ++i) {
+            const bool inner = p[i].x() > 4 && p[i].x() < 76 && p[i].y() > 0.2F && p[i].y() < 4.1F;
+            if (!inner) continue;
+            for (const Side side : {Side::left, Side::right}) {
+                ASSERT_TRUE(a.has(side, i)) << i;
+                const Eigen::Vector3f d = p[a.neighbour(side, i)] - p[i];
+                EXPECT_LE(std::abs(d.x()), 0.51F * static_cast<float>(record));
+                EXPECT_NEAR(std::abs(d.y()), 0.3F, 1e-4F);
+            }
+        }
+    }
+}
+
 TEST(Adjacency, ASpiralIsItsOwnNeighbour) {
     const Positions p = test::spiral(10, 15, 0.3, 0.05);
     const Adjacency a = neighbours_of(p, 0.3);
