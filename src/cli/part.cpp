@@ -116,7 +116,8 @@ Part load_part(const PartOptions& options, StageClock& clock) {
 
 std::shared_ptr<const MotionEstimate> estimate_motion(const Part& part, const Passes& pieces) {
     if (part.derivative == DerivativeMethod::savgol) return nullptr;
-    return std::make_shared<const MotionEstimate>(part.log, part.path, smooth_pieces(part.log, pieces));
+    return std::make_shared<const MotionEstimate>(part.log, part.path,
+                                                  split_at_standstills(smooth_pieces(part.log, pieces), part.path));
 }
 
 ClSurface stitch(const Part& part) { return clsurf::stitch(gather(part.path), *part.lines); }

@@ -49,7 +49,9 @@ void read(const Trajectory& path, PointIndex first, PointIndex last, std::array<
 }  // namespace
 
 FieldSet::FieldSet(const Log& log, const Trajectory& path, const Passes& passes, Derivation derivation)
-    : log_(log), path_(path), pieces_(smooth_pieces(log, passes)), derivation_(std::move(derivation)) {}
+    : log_(log), path_(path), pieces_(smooth_pieces(log, passes)), derivation_(std::move(derivation)) {
+    if (derivation_.coarsest_period == 0) pieces_ = split_at_standstills(pieces_, path);
+}
 
 namespace {
 

@@ -21,13 +21,15 @@ struct Derivation {
     /// Derivatives by a Kalman smoother, those of angles and tool axes apart; nullptr: all by least squares
     /// over a window.
     std::shared_ptr<const MotionEstimate> estimate;
-    double coarsest_period = 0;  ///< [s] of another log whose fields are to be compared; 0: none
+    /// [s] of another log whose fields are to be compared; 0: none. Windows then reach over standstills: a pause takes no
+    /// way, and only what they see of it shows at the places beside it.
+    double coarsest_period = 0;
 };
 
 class FieldSet {
 public:
     /// `log`, `path` and `passes` must outlive it. Derivatives are taken inside pieces of `passes`;
-    /// neighbouring turns of a spiral count as one piece.
+    /// neighbouring turns of a spiral count as one piece, and where the tool stands a piece ends.
     FieldSet(const Log& log, const Trajectory& path, const Passes& passes, Derivation derivation = {});
 
     /// The table or the log has a field of that name.

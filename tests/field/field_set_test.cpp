@@ -1,5 +1,6 @@
 #include "field/field_set.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -45,6 +46,41 @@ struct Circle {
         return FieldSet(log, path, passes).get(name);
     }
 };
+
+TEST(FieldSet, ShowsNoMotionBeforeTheToolStarts) {
+    // It rests, starts with 800 mm/s², runs at 40 mm/s, and stops as it started. Positions of 0.1 µm.
+    constexpr double acceleration = 800, top = 40, rest = 0.2, ramp = top / acceleration, run = 0.3;
+    std::vector<double> columns[3];
+    double x = 0, v = 0;
+    std::vector<double> speeds;
+    for (int i = 0; i < 1000; ++i) {
+        const double t = i * period - rest;
+        const double wanted = std::clamp(acceleration * std::min(t, 2 * ramp + run - t), 0.0, top);
+        x += 0.5 * (v + wanted) * period;
+        v = wanted;
+        speeds.push_back(v);
+        columns[0].push_back(std::round(x * 1e4) / 1e4);
+        columns[1].push_back(0);
+        columns[2].push_back(0);
+    }
+    Log log;
+    log.period = period;
+    log.records = 1000;
+    for (int k = 0; k < 3; ++k)
+        log.channels.push_back({std::string("cmd.") + "xyz"[k], "mm",
+                                ChannelView{reinterpret_cast<const std::byte*>(columns[k].data()), 8, 1000,
+                                            ScalarType::f64, false, 1, 0}});
+    Passes passes;
+    passes.push_back({0, 999, PassKind::cut});
+    const Trajectory path = reconstruct(log, Role::commanded, Vec3::Zero());
+    const Field speed_there = FieldSet(log, path, passes).get("speed");
+    for (std::size_t i = 0; i < 1000; ++i) {
+        if (speeds[i] == 0 && i != 200 && i != 600) {
+            EXPECT_NEAR(speed_there.values[i], 0, 1e-9) << i;
+        }
+        EXPECT_NEAR(speed_there.values[i], speeds[i], 2) << i;  // the corners of the ramps are rounded
+    }
+}
 
 TEST(FieldSet, KnowsTheSpeedAndAccelerationOfACircle) {
     Circle circle;
