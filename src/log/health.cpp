@@ -43,6 +43,14 @@ double check_period(const Log& log, Diagnostics& found) {
     return measured;
 }
 
+void check_coarse(const Log& log, double period, Diagnostics& found) {
+    if (period <= longest_judged_period) return;
+    found.add(
+        {Severity::warning, "log.coarse", Place::of_file(log.name),
+         fmt::format("a record every {:.4g} ms: marks last some hundredths of a second and do not show", 1e3 * period),
+         fmt::format("record every {:g} ms or faster", 1e3 * longest_judged_period)});
+}
+
 void check_ranges(const Log& log, const std::vector<ChannelRange>& ranges, Diagnostics& found) {
     for (std::size_t c = 0; c < ranges.size(); ++c) {
         const Channel& channel = log.channels[c];
@@ -98,6 +106,8 @@ Diagnostics check_health(const Log& log, LineNumber program_lines) {
     check_ranges(log, records.ranges, found);
     check_offset(log, found);
     check_quantum(log, found);
+    check_coarse(log, period, found);
+    check_placeholders(log, found);
     return found;
 }
 

@@ -5,6 +5,9 @@
 
 namespace clsurf {
 
+/// Between records [s]; a speed is a fit over five of them, and marks last some hundredths of a second.
+inline constexpr double longest_judged_period = 0.020;
+
 /// Findings of one pass over the records (O(records · channels), parallel):
 /// - log.time-gap, log.time-back: records lost, a clock that goes back or stands still
 /// - log.jitter: the clock's steps differ by more than 5 % of a period, rms
@@ -18,6 +21,10 @@ namespace clsurf {
 /// - log.period: the clock's step is not the stated period
 /// - log.offset: feedback differs from commanded by a constant, which is no lag
 /// - log.quantum: positions come in steps
+///
+/// Findings that make marks invisible (`check` does not judge then):
+/// - log.coarse: records come too seldom
+/// - log.placeholder: a position that stands where none was recorded
 ///
 /// And log.missing-channel, log.empty. `program_lines`: lines of the program that ran, 0: not known.
 [[nodiscard]] Diagnostics check_health(const Log& log, LineNumber program_lines);

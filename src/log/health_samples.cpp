@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "core/statistics.h"
+#include "log/placeholder.h"
 #include "log/quantum.h"
 
 namespace clsurf {
@@ -95,6 +97,22 @@ void check_offset(const Log& log, Diagnostics& found) {
             const Channel* measured = log.find(fmt::format("{}.{}", prefix_of(role), axis));
             if (commanded != nullptr && measured != nullptr) check_offset_of_axis(log, *commanded, *measured, found);
         }
+    }
+}
+
+void check_placeholders(const Log& log, Diagnostics& found) {
+    for (const Role role : {Role::commanded, Role::feedback, Role::actual}) {
+        if (!log.has(role)) continue;
+        const auto axis = [&](char letter) { return log.find(fmt::format("{}.{}", prefix_of(role), letter))->values; };
+        const std::optional<Placeholder> placeholder = find_placeholder({axis('x'), axis('y'), axis('z')});
+        if (!placeholder) continue;
+        const auto& [x, y, z] = placeholder->position;
+        found.add(
+            {Severity::warning, "log.placeholder", Place::of_point(log.name, placeholder->first),
+             fmt::format(
+                 "the {} position jumps to X{:g} Y{:g} Z{:g} and back {} times, here for the first time, over up to {:.1f} mm: a placeholder, speeds and marks are not to be trusted",
+                 name_of(role), x, y, z, placeholder->times, placeholder->farthest),
+             "leave these records out"});
     }
 }
 

@@ -12,4 +12,7 @@ void check_offset(const Log& log, Diagnostics& found);
 /// log.quantum: the step of each axis, where nearly all differences are whole multiples of it.
 void check_quantum(const Log& log, Diagnostics& found);
 
+/// Adds log.placeholder, for each role that has x, y and z. O(records), parallel.
+void check_placeholders(const Log& log, Diagnostics& found);
+
 }  // namespace clsurf

@@ -105,6 +105,39 @@ TEST(Health, CountsTheRecordsMissingInAGap) {
     expect_says(d, "5 records are missing: a step of 0.012000 s");
 }
 
+TEST(Health, KnowsAPlaceholderByItsReturn) {
+    Made made;
+    for (const std::size_t at : {1000, 1500, 2200, 3100}) {
+        for (std::size_t i = at; i < at + 3; ++i) {
+            made["cmd.x"][i] = 198;
+            made["cmd.y"][i] = 158;
+            made["cmd.z"][i] = 119;
+        }
+    }
+    const Diagnostics found = made.check();
+    EXPECT_EQ(found.count("log.placeholder"), 1U);
+    for (const Diagnostic& d : found.kept()) {
+        if (d.code != "log.placeholder") continue;
+        EXPECT_EQ(d.where.number, 1000U);
+        expect_says(d, "jumps to X198 Y158 Z119 and back 4 times");
+    }
+}
+
+TEST(Health, DoesNotTakeOneSpikeForAPlaceholder) {
+    Made made;
+    made["cmd.x"][1000] += 50;
+    made["cmd.y"][1000] += 50;
+    EXPECT_EQ(made.check().count("log.placeholder"), 0U);
+}
+
+TEST(Health, SaysThatARecordEveryTenthOfASecondShowsNoMarks) {
+    Made made;
+    made.stated_period = 0.1;
+    for (std::size_t i = 0; i < made.size(); ++i) made["time"][i] = 0.1 * static_cast<double>(i);
+    const Diagnostic d = only(made.check(), "log.coarse");
+    expect_says(d, "a record every 100 ms");
+}
+
 TEST(Health, DoesNotCallTheWayOfAGapAJump) {
     Made made;
     for (auto& [name, values] : made.columns) values.erase(values.begin() + 1000, values.begin() + 1040);
