@@ -336,7 +336,7 @@ std::string_view name_of(Shape shape) {
 }
 
 std::string_view name_of(Kind kind) {
-    constexpr std::array<std::string_view, 3> names{"speed", "oscillation", "lag"};
+    constexpr std::array<std::string_view, 4> names{"speed", "oscillation", "lag", "offset"};
     return names[static_cast<std::size_t>(kind)];
 }
 
@@ -380,7 +380,8 @@ Recipe random_recipe(std::uint64_t seed, Shape shape, bool clean, bool hard) {
         switch (d.kind) {
             case Kind::speed: d.amplitude = hard ? uniform(g, 0.05, 0.10) : uniform(g, 0.10, 0.40); break;
             case Kind::oscillation: d.amplitude = hard ? uniform(g, 0.05, 0.10) : uniform(g, 0.12, 0.25); break;
-            case Kind::lag: d.amplitude = sign * (hard ? uniform(g, 0.002, 0.003) : uniform(g, 0.003, 0.010)); break;
+            case Kind::lag:
+            case Kind::offset: d.amplitude = sign * (hard ? uniform(g, 0.002, 0.003) : uniform(g, 0.003, 0.010)); break;
         }
         r.defects.push_back(d);
     }

@@ -18,7 +18,7 @@ namespace clsurf::planted {
 
 enum class Shape : std::uint8_t { zigzag, one_way, loops, spiral };
 enum class Surface : std::uint8_t { transition, dome, wave };
-enum class Kind : std::uint8_t { speed, oscillation, lag };
+enum class Kind : std::uint8_t { speed, oscillation, lag, offset };
 
 [[nodiscard]] std::string_view name_of(Shape shape);
 [[nodiscard]] std::string_view name_of(Kind kind);
@@ -29,8 +29,9 @@ struct Defect {
     int every = 1;            ///< 2: on every second of these passes
     double from = 0, to = 0;  ///< [mm] along the pass, counted where the passes begin: full amplitude
     double edge = 0.5;        ///< [mm] raised-cosine edges outside
-    double amplitude = 0;     ///< speed, oscillation: share of the speed; lag: [mm], + above the surface
-    double wave = 1.0;        ///< [mm] of an oscillation
+    double amplitude =
+        0;              ///< speed, oscillation: share of the speed, + slower; lag, offset of the points: [mm], + above
+    double wave = 1.0;  ///< [mm] of an oscillation
 };
 
 struct Recipe {
@@ -60,6 +61,7 @@ struct PlantedLog {
     std::vector<double> commanded[3], measured[3];
     std::vector<std::uint32_t> line;
     std::vector<int> pass;                       ///< −1: link
+    std::vector<double> speed;                   ///< [mm/s] as planned; empty: not kept
     std::vector<std::vector<PointIndex>> truth;  ///< points of each defect at half amplitude or more
 };
 

@@ -2,7 +2,9 @@
 //
 //   clsurf_planted score [CASES [SEED [hard]]]   a line per shape: recall, precision, places, lines, depths
 //   clsurf_planted curve [CASES [SEED]]          recall against amplitude
-//   clsurf_planted write SHAPE SEED PREFIX [hard]       PREFIX.nc and PREFIX.biip, what is planted on stdout
+//   clsurf_planted kinds [CASES [SEED [NAME]]]   a line per kind of log (kinds.h), one case in four clean
+//   clsurf_planted write SHAPE SEED PREFIX [hard]       PREFIX.nc and PREFIX.biip, what is planted on stdout; SHAPE
+//                                                or the name of a kind, with `hard` then a clean one
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +19,7 @@
 #include "core/statistics.h"
 #include "io/atomic_file.h"
 #include "io/biip.h"
+#include "kinds.h"
 #include "planted_score.h"
 
 namespace clsurf::planted {
@@ -33,8 +36,9 @@ double percentile(std::vector<double> values, double share) {
 void print(std::string_view name, const Score& s, const Score& clean) {
     fmt::print(
         "{:<8} recall {:.3f} ({} of {})  precision {:.3f} ({} of {})  clean: {} false in {} points  place {}  lines {}  cause {}  depth error p50 {:.1f} % p95 {:.1f} %\n",
-        name, s.recall(), s.found, s.planted, s.precision(), s.right, s.reported, clean.reported, clean.points,
-        s.placed, s.lined, s.named, 100 * percentile(s.depth_errors, 0.5), 100 * percentile(s.depth_errors, 0.95));
+        name, s.recall(), s.found, s.planted, s.precision(), s.right, s.reported - s.natural,
+        clean.reported - clean.natural, clean.points, s.placed, s.lined, s.named, 100 * percentile(s.depth_errors, 0.5),
+        100 * percentile(s.depth_errors, 0.95));
 }
 
 int score_shapes(int cases, std::uint64_t seed, bool hard) {
@@ -93,11 +97,64 @@ int print_curve(int cases, std::uint64_t seed) {
     return 0;
 }
 
-int write(const std::string& shape, std::uint64_t seed, const std::string& prefix, bool hard) {
+/// Scores of one kind: of logs with faults, and of clean ones.
+struct KindScore {
+    Score planted, clean;
+    double coverage = 1;  ///< the least
+};
+
+KindScore score_kind(const LogKind& kind, int cases, std::uint64_t seed) {
+    KindScore sum;
+    for (int k = 0; k < cases; ++k) {
+        const bool clean = k % 4 == 3;
+        const std::uint64_t own = seed + static_cast<std::uint64_t>(k);
+        const PlantedLog log = make_log_of_kind(kind, own, clean);
+        const QualityReport report = judge(log);
+        const Score one = score(log, report);
+        (clean ? sum.clean : sum.planted) += one;
+        sum.coverage = std::min(sum.coverage, report.coverage());
+        if (one.found == one.planted && one.right + one.natural == one.reported && one.signed_right == one.found)
+            continue;
+        fmt::print("  {} seed {}{}: found {} of {}, sign {}, right {} of {}, natural {}, coverage {:.0f} %\n",
+                   kind.name, own, clean ? " (clean)" : "", one.found, one.planted, one.signed_right, one.right,
+                   one.reported, one.natural, 100 * report.coverage());
+    }
+    return sum;
+}
+
+int score_kinds(int cases, std::uint64_t seed, const std::string& wanted) {
+    KindScore all;
+    for (const LogKind& kind : log_kinds()) {
+        if (!kind.name.starts_with(wanted)) continue;
+        const KindScore one = score_kind(kind, cases, seed);
+        fmt::print("| {} | {:.3f} ({} of {}) | {:.3f} ({} of {}) | {} | {} in {} | {} | {:.0f} % |\n", kind.name,
+                   one.planted.recall(), one.planted.found, one.planted.planted, one.planted.precision(),
+                   one.planted.right, one.planted.reported - one.planted.natural, one.planted.signed_right,
+                   one.clean.reported - one.clean.natural, one.clean.points, one.planted.natural + one.clean.natural,
+                   100 * one.coverage);
+        std::fflush(stdout);
+        all.planted += one.planted;
+        all.clean += one.clean;
+    }
+    print("all", all.planted, all.clean);
+    return all.planted.recall() >= 0.97 && all.planted.precision() >= 0.97 && all.clean.reported == all.clean.natural
+               ? 0
+               : 1;
+}
+
+PlantedLog log_to_write(const std::string& shape, std::uint64_t seed, bool hard) {
+    for (const LogKind& kind : log_kinds()) {
+        if (kind.name == shape) return make_log_of_kind(kind, seed, hard);
+    }
     const auto* found =
         std::find_if(std::begin(shapes), std::end(shapes), [&](Shape s) { return name_of(s) == shape; });
-    if (found == std::end(shapes)) throw std::invalid_argument("SHAPE is zigzag, one-way, loops or spiral");
-    const PlantedLog log = make_planted_log(random_recipe(seed, *found, false, hard));
+    if (found == std::end(shapes))
+        throw std::invalid_argument("SHAPE is zigzag, one-way, loops, spiral or the name of a kind");
+    return make_planted_log(random_recipe(seed, *found, false, hard));
+}
+
+int write(const std::string& shape, std::uint64_t seed, const std::string& prefix, bool hard) {
+    const PlantedLog log = log_to_write(shape, seed, hard);
     io::AtomicFile program(prefix + ".nc");
     program.write(log.program);
     program.commit();
@@ -122,13 +179,15 @@ int run(const std::vector<std::string>& words) {
     if (!words.empty() && words[0] == "score")
         return score_shapes(count(1, 20), static_cast<std::uint64_t>(count(2, 1)),
                             !words.empty() && words.back() == "hard");
+    if (!words.empty() && words[0] == "kinds")
+        return score_kinds(count(1, 4), static_cast<std::uint64_t>(count(2, 1)), words.size() > 3 ? words[3] : "");
     if (!words.empty() && words[0] == "curve")
         return print_curve(count(1, 16), static_cast<std::uint64_t>(count(2, 1)));
     const bool hard = !words.empty() && words.back() == "hard";
     if (words.size() >= 4 && words[0] == "write")
         return write(words[1], static_cast<std::uint64_t>(count(2, 1)), words[3], hard);
     std::fputs(
-        "usage: clsurf_planted score [CASES [SEED [hard]]] | curve [CASES [SEED]] | write SHAPE SEED PREFIX [hard]\n",
+        "usage: clsurf_planted score [CASES [SEED [hard]]] | curve [CASES [SEED]] | kinds [CASES [SEED [NAME]]] | write SHAPE SEED PREFIX [hard]\n",
         stderr);
     return 2;
 }

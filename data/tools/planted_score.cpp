@@ -15,6 +15,7 @@ namespace {
 constexpr double found_within = 0.2;  ///< [mm]
 constexpr double true_within = 0.8;   ///< [mm]
 constexpr double share_enough = 0.3;
+constexpr double planned_enough = 0.05;
 
 /// Points by cell, for a yes or no within a radius.
 class Near {
@@ -67,7 +68,45 @@ std::vector<PointIndex> points_of(const clsurf::Defect& defect) {
 }
 
 Cause cause_of(Kind kind) {
-    return kind == Kind::speed ? Cause::feed_drop : kind == Kind::oscillation ? Cause::oscillation : Cause::lag_step;
+    switch (kind) {
+        case Kind::speed: return Cause::feed_drop;
+        case Kind::oscillation: return Cause::oscillation;
+        case Kind::lag: return Cause::lag_step;
+        case Kind::offset: return Cause::point_spacing;
+    }
+    return Cause::feed_drop;
+}
+
+/// How much the plan differs at a place from the nearest point of another pass, relative to the faster one; 0 where it is not kept.
+double planned_difference(const PlantedLog& log, const Near& points, PointIndex here) {
+    if (log.speed.empty()) return 0;
+    const auto k = static_cast<std::size_t>(here);
+    double nearest = 1.6 * log.recipe.step_over, difference = 0;
+    for (std::size_t i = 0; i < log.line.size(); ++i) {
+        if (log.pass[i] == log.pass[k] || log.pass[i] < 0) continue;
+        const double distance = (points.at(static_cast<PointIndex>(i)) - points.at(here)).norm();
+        if (distance >= nearest) continue;
+        nearest = distance;
+        difference = std::abs(log.speed[i] - log.speed[k]) / std::max(log.speed[i], log.speed[k]);
+    }
+    return difference;
+}
+
+/// A quarter of the points or more differ so. Some twenty of them are looked at.
+bool differs_by_plan(const PlantedLog& log, const Near& near, const std::vector<PointIndex>& points) {
+    const std::size_t every = std::max<std::size_t>(1, points.size() / 20);
+    std::size_t looked = 0, differ = 0;
+    for (std::size_t k = 0; k < points.size(); k += every) {
+        ++looked;
+        differ += planned_difference(log, near, points[k]) >= planned_enough ? 1 : 0;
+    }
+    return 4 * differ >= looked;
+}
+
+bool right_sign(const Defect& planted, const clsurf::Defect& found) {
+    if (planted.kind == Kind::oscillation) return true;
+    if (planted.kind == Kind::speed) return (planted.amplitude > 0) == (found.speed_jump < 0);
+    return (planted.amplitude > 0) != found.pit;
 }
 
 /// The lines at both ends of each planted stretch are those of a reported run on that pass, ±1.
@@ -120,7 +159,10 @@ Score score(const PlantedLog& planted, const QualityReport& report) {
     for (const clsurf::Defect& defect : report.defects) {
         const std::vector<PointIndex> points = points_of(defect);
         flagged.insert(flagged.end(), points.begin(), points.end());
-        if (near_truth.share(points) >= share_enough) ++result.right;
+        if (near_truth.share(points) >= share_enough)
+            ++result.right;
+        else if (differs_by_plan(planted, near_truth, points))
+            ++result.natural;
     }
     const Near near_flagged(planted, flagged, found_within);
     for (std::size_t d = 0; d < planted.truth.size(); ++d) {
@@ -141,6 +183,7 @@ Score score(const PlantedLog& planted, const QualityReport& report) {
         if (near_place.has(best->position)) ++result.placed;
         if (lines_match(planted, truth, *best)) ++result.lined;
         if (best->cause == cause_of(planted.recipe.defects[d].kind)) ++result.named;
+        if (right_sign(planted.recipe.defects[d], *best)) ++result.signed_right;
         if (planted.recipe.defects[d].kind == Kind::lag) {
             const double wanted = planted.recipe.defects[d].amplitude;
             const double got = best->pit ? -best->depth : best->depth;
@@ -155,10 +198,12 @@ Score& Score::operator+=(const Score& other) {
     found += other.found;
     reported += other.reported;
     right += other.right;
+    natural += other.natural;
     points += other.points;
     placed += other.placed;
     lined += other.lined;
     named += other.named;
+    signed_right += other.signed_right;
     depth_errors.insert(depth_errors.end(), other.depth_errors.begin(), other.depth_errors.end());
     return *this;
 }

@@ -19,15 +19,22 @@ struct Score {
     int found = 0;     ///< with a flagged point within 0.2 mm of 30 % of their points
     int reported = 0;  ///< regions
     int right = 0;     ///< with 30 % of their points within 0.8 mm of a planted one
+    int natural =
+        0;  ///< others, where the plan itself differs from that of the nearest pass by 5 % of the speed or more at a quarter of the points
     PointIndex points = 0;
     std::vector<double> depth_errors;  ///< relative, of lag defects found
     int placed = 0;                    ///< found with the position within a step-over of a planted point
     int lined = 0;                     ///< found with the planted lines inside the reported ones, ±1
     int named = 0;                     ///< found under their cause
+    int signed_right = 0;  ///< found by one that is slower or faster, above or below, as it is; swings are either
 
     Score& operator+=(const Score& other);
     [[nodiscard]] double recall() const { return planted > 0 ? static_cast<double>(found) / planted : 1.0; }
-    [[nodiscard]] double precision() const { return reported > 0 ? static_cast<double>(right) / reported : 1.0; }
+    /// Of the regions that are no differences of the plan.
+    [[nodiscard]] double precision() const {
+        const int judged = reported - natural;
+        return judged > 0 ? static_cast<double>(right) / judged : 1.0;
+    }
 };
 
 [[nodiscard]] Score score(const PlantedLog& planted, const QualityReport& report);

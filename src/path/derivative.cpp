@@ -86,6 +86,15 @@ DerivativeFilter derivative_filter(int derivative, double period, double coarses
     return filter;
 }
 
+double DerivativeFilter::step_response() const {
+    double sum = 0, most = 0;
+    for (const double weight : derivative_weights(points, order, derivative, points / 2)) {
+        sum += weight;
+        most = std::max(most, std::abs(sum));
+    }
+    return most * std::pow(period, -derivative);
+}
+
 double DerivativeFilter::bandwidth() const {
     const int middle_point = points / 2;
     const std::vector<double> weights = derivative_weights(points, order, derivative, middle_point);

@@ -16,6 +16,8 @@ struct DerivativeFilter {
     int derivative = 1;  ///< 1, 2, 3; 0: the smoothed value itself
     double period = 0;   ///< [s]
 
+    /// The most that the derivative is off where a position is rounded to another of its steps within the window, per mm of step [1/s^d].
+    [[nodiscard]] double step_response() const;
     /// Frequency at which the filter gives 1/√2 of the true derivative [Hz].
     [[nodiscard]] double bandwidth() const;
 };

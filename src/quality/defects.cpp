@@ -10,7 +10,10 @@
 #include "core/parallel.h"
 #include "core/statistics.h"
 #include "path/way.h"
+#include "quality/border.h"
 #include "quality/cause.h"
+#include "quality/explanations.h"
+#include "quality/opposites.h"
 #include "quality/suspects.h"
 #include "quality/systematic_lag.h"
 
@@ -75,16 +78,36 @@ Quantity main_quantity(SuspectSpan group, Family family) {
 class Builder {
 public:
     Builder(const ClSurface& surface, const Signals& signals, const LineMap& lines, const CauseFinder& causes,
-            const Way& way, const Thresholds& thresholds, const QualityRules& rules)
+            const Way& way, double joined, const Thresholds& thresholds, const QualityRules& rules)
         : surface_(surface),
           signals_(signals),
           lines_(lines),
           causes_(causes),
           way_(way),
           thresholds_(thresholds),
-          rules_(rules) {
+          rules_(rules),
+          joined_(joined) {
         std::int64_t number = 0;
         for (const Pass& pass : surface.passes) numbers_.push_back(pass.kind == PassKind::cut ? ++number : 0);
+    }
+
+    /// Sets of sites that each make a defect: what hangs together and differs in one direction.
+    [[nodiscard]] std::vector<Suspects> parts_of(const Suspects& sites, Quantity quantity) const {
+        std::vector<Suspects> parts;
+        for (Suspects& core : regroup(sites)) {
+            std::vector<Suspects> signs = split_opposites(core, quantity, signals_, way_, joined_);
+            if (signs.size() == 1) {
+                parts.push_back(std::move(core));
+                continue;
+            }
+            for (const Suspects& sign : signs) {
+                for (Suspects& part : regroup(sign)) parts.push_back(std::move(part));
+            }
+        }
+        return parts;
+    }
+    [[nodiscard]] std::vector<Suspects> regroup(const Suspects& sites) const {
+        return group_suspects(sites, surface_, way_, joined_);
     }
 
     [[nodiscard]] std::int64_t cut_passes() const {
@@ -148,15 +171,6 @@ public:
         const bool motion = defect.quantity == Quantity::speed || defect.quantity == Quantity::acceleration;
         defect.severity = severity_of({defect.depth, defect.score, motion, false}, rules_.severity);
         return defect;
-    }
-
-    /// The border of the part shows what it always shows: three quarters of what starts the defect, or
-    /// more, lie there.
-    [[nodiscard]] static bool at_border(SuspectSpan core, Family family) {
-        const auto starts = [&](const Suspect* s) { return largest(s->score, family) >= 1; };
-        const auto all = std::count_if(core.begin(), core.end(), starts);
-        return 4 * std::count_if(core.begin(), core.end(), [&](const Suspect* s) { return s->border && starts(s); }) >=
-               3 * all;
     }
 
     /// The one defect that systematic lag is.
@@ -304,8 +318,8 @@ private:
     const Way& way_;
     const Thresholds& thresholds_;
     const QualityRules& rules_;
-    double joined_ = std::max(1.0, 2 * surface_.step_over);  ///< [mm] of way between sites that hang together
-    std::vector<std::int64_t> numbers_;                      ///< of the cut passes, by index
+    double joined_;                      ///< [mm] of way between sites that hang together
+    std::vector<std::int64_t> numbers_;  ///< of the cut passes, by index
 };
 
 bool worse(const Defect& a, const Defect& b) {
@@ -318,7 +332,7 @@ bool worse(const Defect& a, const Defect& b) {
 struct Built {
     Defect defect;
     Suspects core;
-    bool border = false;
+    bool expected = false;
 };
 
 /// A start: where a score reaches 1. In the motion, accelerations start a defect only where they are
@@ -331,15 +345,16 @@ bool starts_defect(SuspectSpan sites, Family family) {
             any([](const Suspect* s) { return s->share[index_of(Quantity::speed)] >= least_speed_share; }));
 }
 
-/// The defects of one family of quantities.
-std::vector<Built> build_family(const Suspects& suspects, Family family, const ClSurface& surface, const Way& way,
-                                const Builder& builder) {
+/// The defects of one family of quantities, of an area of `smallest` [mm²] or more, at the border of the part or away from
+/// it: what is expected there must not swallow what lies beside it.
+std::vector<Built> build_family(const Suspects& suspects, Family family, bool at_border, double smallest,
+                                const Border& border, const Builder& builder) {
     Suspects mine;
     for (const Suspect* s : suspects) {
-        if (largest(s->share, family) >= half_of_peak) mine.push_back(s);
+        if (s->border == at_border && largest(s->share, family) >= half_of_peak) mine.push_back(s);
     }
     std::vector<Built> built;
-    std::vector<Suspects> groups = group_suspects(mine, surface, way);
+    std::vector<Suspects> groups = builder.regroup(mine);
     for (std::size_t g = 0; g < groups.size(); ++g) {
         const Suspects group = std::move(groups[g]);
         if (!starts_defect(group, family)) continue;
@@ -348,63 +363,18 @@ std::vector<Built> build_family(const Suspects& suspects, Family family, const C
         Suspects rest;
         const Suspects strong_sites = builder.core_of(group, quantity, rest);
         if (rest.size() < group.size()) {
-            for (Suspects& left : group_suspects(rest, surface, way)) groups.push_back(std::move(left));
+            for (Suspects& left : builder.regroup(rest)) groups.push_back(std::move(left));
         }
-        for (Suspects& core : group_suspects(strong_sites, surface, way)) {
+        for (Suspects& core : builder.parts_of(strong_sites, quantity)) {
             if (core.size() < fewest_sites || !starts_defect(core, family)) continue;
             Defect defect = builder.build(core, quantity, family);
-            if (defect.area < smallest_area * surface.step_over * surface.step_over) continue;
-            const bool border = Builder::at_border(core, family);
-            built.push_back({std::move(defect), std::move(core), border});
+            if (defect.area < smallest) continue;
+            const bool expected = at_border ? !border.stands_out(core, quantity) : border.has_flank(core, quantity);
+            built.push_back({std::move(defect), std::move(core), expected});
         }
     }
     return built;
 }
-
-/// Heights that lie where the motion differs are its effect. Runs of what was found before, so that
-/// one is found by a point in O(log runs).
-class Explanations {
-public:
-    /// `room`: points round a run that are its own too.
-    Explanations(std::span<const Built> found, PointIndex room) {
-        for (std::size_t k = 0; k < found.size(); ++k) {
-            for (const DefectRun& run : found[k].defect.runs)
-                stretches_.push_back({run.points.first - room, run.points.last + room, 0, k});
-        }
-        std::sort(stretches_.begin(), stretches_.end(),
-                  [](const Stretch& a, const Stretch& b) { return a.first < b.first; });
-        PointIndex farthest = 0;
-        for (Stretch& s : stretches_) s.farthest = farthest = std::max(farthest, s.last);
-    }
-
-    /// At least half of the sites lie in the stretches of one that was found before.
-    [[nodiscard]] bool explain(SuspectSpan sites) const {
-        struct Inside {
-            std::size_t sites = 0;
-            PointIndex last = -1;  ///< that was counted
-        };
-        std::map<std::size_t, Inside> inside;
-        for (const Suspect* s : sites) {
-            auto at = std::upper_bound(stretches_.begin(), stretches_.end(), s->point,
-                                       [](PointIndex p, const Stretch& b) { return p < b.first; });
-            while (at != stretches_.begin() && (--at)->farthest >= s->point) {
-                Inside& in = inside[at->found];
-                if (at->last < s->point || in.last == s->point) continue;
-                in.last = s->point;
-                if (2 * ++in.sites >= sites.size()) return true;
-            }
-        }
-        return false;
-    }
-
-private:
-    struct Stretch {
-        PointIndex first, last;
-        PointIndex farthest;  ///< last of this one and all before
-        std::size_t found;
-    };
-    std::vector<Stretch> stretches_;
-};
 
 /// Refuses a verdict where too little could be compared.
 void judge_coverage(QualityReport& report) {
@@ -427,6 +397,14 @@ void judge_coverage(QualityReport& report) {
     }
 }
 
+/// Says so where it is the records that are too few to tell passes apart. `record` [mm]: way of one.
+void judge_records(double record, QualityReport& report) {
+    if (report.step_over <= 0 || report.coverage() >= least_coverage || !(record > report.step_over)) return;
+    report.judgement.refuse(fmt::format(
+        "Records are {:.2f} mm apart at the usual speed and passes {:.2f} mm: which pass lies beside a point cannot be told.",
+        record, report.step_over));
+}
+
 }  // namespace
 
 int QualityReport::worst_severity() const {
@@ -444,35 +422,44 @@ QualityReport find_defects(const ClSurface& surface, const Signals& signals, con
     report.thresholds = rules.fixed ? *rules.fixed : measure_thresholds(surface, signals, rules.thresholds);
     const Way way(surface.positions);
     const CauseFinder causes(surface, signals, lines, program, way);
-    const Builder builder(surface, signals, lines, causes, way, report.thresholds, rules);
+    const double joined = joined_along(surface, report.thresholds.usual_speed * period);
+    const Builder builder(surface, signals, lines, causes, way, joined, report.thresholds, rules);
     report.passes = builder.cut_passes();
     for (const Pass& pass : surface.passes) report.points += pass.kind == PassKind::cut ? pass.size() : 0;
     report.not_finishing = surface.not_finishing;
     report.compared = count_compared(surface, signals);
+    for (const std::string& reason : signals.unfit) report.judgement.refuse(reason);
     judge_coverage(report);
+    judge_records(report.thresholds.usual_speed * period, report);
 
     FoundSuspects found = find_suspects(surface, signals, report.thresholds);
-    const SystematicLag systematic =
-        rules.group_systematic ? take_systematic_lag(surface, signals, way, report.thresholds, found) : SystematicLag{};
+    const SystematicLag systematic = rules.group_systematic
+                                         ? take_systematic_lag(surface, signals, way, report.thresholds, joined, found)
+                                         : SystematicLag{};
     const Suspects& suspects = found.suspects;
+    const double smallest = smallest_area * surface.step_over * surface.step_over;
     const std::array<Family, 3> families{motion_family, lag_family, relief_family};
-    std::array<std::vector<Built>, families.size()> of_family;
-    parallel_for(families.size(), 1, [&](std::int64_t first, std::int64_t last) {
+    const Border border(surface, signals, way, suspects, joined);
+    std::array<std::vector<Built>, 2 * families.size()> of_family;  // away from the border and at it
+    parallel_for(of_family.size(), 1, [&](std::int64_t first, std::int64_t last) {
         for (auto k = static_cast<std::size_t>(first); k < static_cast<std::size_t>(last); ++k) {
-            of_family[k] = build_family(suspects, families[k], surface, way, builder);
+            of_family[k] = build_family(suspects, families[k / 2], k % 2 == 1, smallest, border, builder);
         }
     });
-    std::vector<Built> all = std::move(of_family[0]);
+    std::vector<Built> all;
     const PointIndex room = std::lround(std::min(effect_seconds / period, 1e6));
-    for (std::size_t k = 1; k < families.size(); ++k) {
-        const Explanations before(all, room);
-        for (Built& height : of_family[k]) {
-            if (!before.explain(height.core)) all.push_back(std::move(height));
+    for (std::size_t family = 0; family < families.size(); ++family) {
+        Explanations before;
+        for (const Built& built : all) before.add(built.defect.runs, room);
+        for (std::size_t k = 2 * family; k < 2 * family + 2; ++k) {
+            for (Built& built : of_family[k]) {
+                if (!before.explain(built.core)) all.push_back(std::move(built));
+            }
         }
     }
     for (Built& built : all) {
-        if (built.border) built.defect.cause = Cause::pass_end;
-        (built.border ? report.expected : report.defects).push_back(std::move(built.defect));
+        if (built.expected) built.defect.cause = Cause::pass_end;
+        (built.expected ? report.expected : report.defects).push_back(std::move(built.defect));
     }
     if (!systematic.sites.empty()) report.defects.push_back(builder.build(systematic));
     std::sort(report.defects.begin(), report.defects.end(), worse);

@@ -25,11 +25,45 @@ constexpr float slack_step_overs = 0.5F;     ///< along the feed between the end
 constexpr float shape_left = 0.35F;          ///< of a relief: more is left of it beside it where it is the part's own
 constexpr float shape_beside = 0.6F;         ///< of the largest relief around: a smaller one lies beside an edge
 
+/// a · x + b · y.
+Compared mixed(float a, const Compared& x, float b, const Compared& y) {
+    return {a * x.speed + b * y.speed, a * x.lag + b * y.lag, a * x.relief + b * y.relief,
+            a * x.acceleration + b * y.acceleration};
+}
+
+/// What a place should have by the one pass on its one side and three on the other: the mean of both sides, and two ways in which the
+/// three go on. Each is exact where all change evenly; of a fault of one pass their median has half at most, and that
+/// only where it is the next one of the three.
+template <std::size_t n>
+std::array<Compared, 3> expected_from_three(const Compared& one, const std::array<Compared, n>& others) {
+    return {mixed(0.5F, one, 0.5F, others[0]), mixed(2, others[0], -1, others[1]), mixed(3, others[1], -2, others[2])};
+}
+
+/// What is compared, where there is nothing.
+Compared no_pass() {
+    return {missing<float>, missing<float>, missing<float>, Eigen::Vector3f::Constant(missing<float>)};
+}
+
 bool runs_against(const Signals& signals, PointIndex point, const Station& at) {
     return signals.feed(at.nearest()).dot(signals.feed(point)) < 0;
 }
 
 float larger(float a, float b) { return !(a == a) || b > a ? b : a; }
+
+/// The step from a pass to the one beside it, less what goes on from there to the next: what changes evenly from pass to pass
+/// is no step. `next` NaN: there is none.
+float step_beyond_trend(float own, float adjacent, float next) {
+    const float step = own - adjacent, trend = adjacent - next;
+    if (!(trend * step > 0)) return std::abs(step);
+    return std::max(0.0F, std::abs(step) - std::abs(trend));
+}
+float step_beyond_trend(const Eigen::Vector3f& own, const Eigen::Vector3f& adjacent, const Eigen::Vector3f& next) {
+    const Eigen::Vector3f step = own - adjacent;
+    const float along = step.dot(adjacent - next);
+    const float length = step.norm();
+    if (!(along > 0)) return length;
+    return std::max(0.0F, length - along / length);
+}
 
 /// How much a signal changes over two periods at a point: commanded and measured positions of a
 /// record may be taken a period apart, on each of two passes.
@@ -205,7 +239,6 @@ Comparison Comparer::compare_with(Peers peers, const Station& here, int aside) c
 
     std::array<std::array<Compared, passes_aside>, 2> beside_it;
     std::array<int, 2> count{0, 0};
-    float speed_step = missing<float>;
     for (const Side side : {Side::left, Side::right}) {
         const auto s = static_cast<std::size_t>(side);
         bool against = false;  // as in a zigzag: the next pass of this way is the second one
@@ -221,12 +254,15 @@ Comparison Comparer::compare_with(Peers peers, const Station& here, int aside) c
         const Compared& adjacent = beside_it[s][0];
         const auto widen = [&](Quantity q, float difference) {
             float& step = result.step[index_of(q)];
+            float& lesser = result.lesser_step[index_of(q)];
+            lesser = step == step ? std::min(step, difference) : difference;
             step = larger(step, difference);
         };
-        speed_step = larger(speed_step, std::abs(mine.speed - adjacent.speed));
-        widen(Quantity::acceleration, (mine.acceleration - adjacent.acceleration).norm());
-        widen(Quantity::lag, std::abs(mine.lag - adjacent.lag));
-        widen(Quantity::relief, std::abs(mine.relief - adjacent.relief));
+        const Compared next = count[s] > 1 ? beside_it[s][1] : no_pass();
+        widen(Quantity::speed, step_beyond_trend(mine.speed, adjacent.speed, next.speed));
+        widen(Quantity::acceleration, step_beyond_trend(mine.acceleration, adjacent.acceleration, next.acceleration));
+        widen(Quantity::lag, step_beyond_trend(mine.lag, adjacent.lag, next.lag));
+        widen(Quantity::relief, step_beyond_trend(mine.relief, adjacent.relief, next.relief));
     }
     result.left = count[0];
     result.right = count[1];
@@ -238,19 +274,27 @@ Comparison Comparer::compare_with(Peers peers, const Station& here, int aside) c
     for (std::size_t s = 0; s < 2; ++s) {
         for (int k = 0; k < (even > 0 ? even : count[s]); ++k) all[n++] = beside_it[s][static_cast<std::size_t>(k)];
     }
-    const std::span<const Compared> places(all.data(), n);
+    const std::span<const Compared> reliefs(all.data(), n);
+    // Of one pass on either side the median would be their mean, half of whatever one of them has.
+    std::array<Compared, 3> three;
+    std::span<const Compared> places = reliefs;
+    if (even == 1 && std::max(count[0], count[1]) >= 3) {
+        three = expected_from_three(beside_it[count[0] == 1 ? 0 : 1][0], beside_it[count[0] == 1 ? 1 : 0]);
+        places = three;
+    }
     const float usual = median_of(places, fewest_passes, [](const Compared& v) { return v.speed; });
     const float reference = std::max(usual == usual ? usual : mine.speed, least_speed_);
-    result.step[index_of(Quantity::speed)] = speed_step / reference;
+    result.step[index_of(Quantity::speed)] /= reference;
+    result.lesser_step[index_of(Quantity::speed)] /= reference;
     result.play[index_of(Quantity::speed)] = change_of_two_periods(signals_, &Sample::speed, point) / reference;
     if (signals_.measured) result.play[index_of(Quantity::lag)] = change_of_two_periods(signals_, &Sample::lag, point);
     result.speed_jump = mine.speed - usual;
     result.residual[index_of(Quantity::speed)] = result.speed_jump / reference;
     result.residual[index_of(Quantity::lag)] =
         mine.lag - median_of(places, fewest_passes, [](const Compared& v) { return v.lag; });
-    const float usual_relief = median_of(places, fewest_passes, [](const Compared& v) { return v.relief; });
+    const float usual_relief = median_of(reliefs, fewest_passes, [](const Compared& v) { return v.relief; });
     result.residual[index_of(Quantity::relief)] =
-        even > 0 && is_shape(mine.relief, beside_it[0][0], beside_it[1][0], places) ? 0 : mine.relief - usual_relief;
+        even > 0 && is_shape(mine.relief, beside_it[0][0], beside_it[1][0], reliefs) ? 0 : mine.relief - usual_relief;
     Eigen::Vector3f consensus;
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
         consensus[axis] = median_of(places, fewest_passes, [axis](const Compared& v) { return v.acceleration[axis]; });
@@ -275,15 +319,20 @@ Thresholds measure_thresholds(const ClSurface& surface, const Signals& signals, 
     }
     thresholds.usual_acceleration = quantile(values, 0.99);
 
-    const Comparer comparer(surface, signals, thresholds.usual_speed);
+    const std::array<float, quantities> least{
+        larger(rule.speed, signals.speed_noise / thresholds.usual_speed),
+        std::max(rule.acceleration * thresholds.usual_acceleration, signals.acceleration_noise),
+        std::max(rule.height, rule.lag_quanta * signals.quantum),
+        std::max(rule.height, rule.relief_quanta * signals.quantum)};
+    thresholds.least_speed =
+        std::max(rule.least_speed * thresholds.usual_speed, signals.speed_noise / least[index_of(Quantity::speed)]);
+
+    const Comparer comparer(surface, signals, thresholds.least_speed);
     std::vector<std::array<float, quantities>> steps(points.size());
     parallel_for(static_cast<std::int64_t>(points.size()), 4096, [&](std::int64_t first, std::int64_t last) {
         for (std::int64_t k = first; k < last; ++k)
             steps[static_cast<std::size_t>(k)] = comparer.compare({points[static_cast<std::size_t>(k)], 0}, 1).step;
     });
-    const std::array<float, quantities> least{rule.speed, rule.acceleration * thresholds.usual_acceleration,
-                                              std::max(rule.height, rule.lag_quanta * signals.quantum),
-                                              std::max(rule.height, rule.relief_quanta * signals.quantum)};
     for (std::size_t q = 0; q < quantities; ++q) {
         values.clear();
         for (const auto& step : steps) {

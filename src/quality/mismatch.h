@@ -1,8 +1,8 @@
 #pragma once
 // Mismatch: how a place of a pass differs from the places beside it on the neighbour passes.
 //
-// Two measures for each quantity. The *step* is the largest difference to the two adjacent passes: it
-// is what shows on the part. The *residual* is the difference to the median over up to five passes on
+// Two measures for each quantity. The *step* is the largest difference to the two adjacent passes, less what goes on from them to
+// the next ones: it is what shows on the part. The *residual* is the difference to the median over up to five passes on
 // each side: it tells which of the two passes is at fault, and it is nothing where all passes change
 // together. Accelerations are compared as vectors in the workpiece frame: along the path, one pass of
 // a zigzag brakes where the next one speeds up.
@@ -33,12 +33,13 @@ struct Compared {
 
 /// Speeds relative to that of the neighbours, accelerations [mm/s²], heights [mm].
 struct Comparison {
-    std::array<float, quantities> step;      ///< ≥ 0; NaN: not known
-    std::array<float, quantities> residual;  ///< signed; of the acceleration the length; NaN: not known
-    std::array<float, quantities> play{};    ///< of the step, where log and place agree to a period only
-    std::array<float, quantities> slack{};   ///< of step and residual, where passes begin and end a little apart
-    float speed_jump = 0;                    ///< residual of the speed [mm/s]
-    int left = 0, right = 0;                 ///< passes that were compared with
+    std::array<float, quantities> step;           ///< ≥ 0; NaN: not known
+    std::array<float, quantities> lesser_step{};  ///< the smaller one of both sides: of a band's edge it is nothing
+    std::array<float, quantities> residual;       ///< signed; of the acceleration the length; NaN: not known
+    std::array<float, quantities> play{};         ///< of the step, where log and place agree to a period only
+    std::array<float, quantities> slack{};        ///< of step and residual, where passes begin and end a little apart
+    float speed_jump = 0;                         ///< residual of the speed [mm/s]
+    int left = 0, right = 0;                      ///< passes that were compared with
     bool ramp = false;  ///< it lies in the ramp of its pass, of an adjacent one, or of the next of its own way
     Station beside_left, beside_right;  ///< on the adjacent passes
 };
@@ -47,10 +48,9 @@ class Comparer {
 public:
     static constexpr int passes_aside = 5;
 
-    /// Both must outlive it. `usual_speed` [mm/s]: speeds below a quarter of it are not compared
-    /// relative to themselves.
-    Comparer(const ClSurface& surface, const Signals& signals, float usual_speed)
-        : surface_(surface), signals_(signals), least_speed_(0.25F * usual_speed) {}
+    /// Both must outlive it. `least_speed` [mm/s]: speeds below it are not compared relative to themselves.
+    Comparer(const ClSurface& surface, const Signals& signals, float least_speed)
+        : surface_(surface), signals_(signals), least_speed_(least_speed) {}
 
     /// O(1): up to `aside` passes on each side. With one, the steps are the same, residuals mean little.
     [[nodiscard]] Comparison compare(const Station& here, int aside = passes_aside) const;
@@ -90,16 +90,19 @@ struct Thresholds {
     std::array<float, quantities> spread{};  ///< robust standard deviation of the steps
     std::array<float, quantities> p99{};     ///< 99th percentile of the steps
     float usual_speed = 0;                   ///< [mm/s] 95th percentile of the judged points
+    float least_speed = 0;                   ///< [mm/s] slower, differences are relative to this
     float usual_acceleration = 0;            ///< [mm/s²] 99th percentile
 };
 
 struct ThresholdRule {
-    float speed = 0.03F;             ///< least threshold, relative to the neighbours' speed
-    float acceleration = 0.15F;      ///< least threshold, relative to the usual acceleration
-    float height = 0.0015F;          ///< least threshold [mm] …
-    float lag_quanta = 1.5F;         ///< … and in steps of the positions: all of a pass may be rounded the same way,
-    float relief_quanta = 2.4F;      ///< and a relief hangs on three passes
-    float spreads = 6;               ///< above the median; a part's own scatter is no defect …
+    float speed = 0.03F;  ///< least threshold, relative to the neighbours' speed
+    float acceleration =
+        0.15F;  ///< least threshold, relative to the usual acceleration; neither is less than rounding makes
+    float least_speed = 0.25F;   ///< of the usual speed, and no less than where rounding alone reaches the threshold
+    float height = 0.0015F;      ///< least threshold [mm] …
+    float lag_quanta = 1.5F;     ///< … and in steps of the positions: all of a pass may be rounded the same way,
+    float relief_quanta = 2.4F;  ///< and a relief hangs on three passes
+    float spreads = 6;           ///< above the median; a part's own scatter is no defect …
     float acceleration_spreads = 9;  ///< (the length of a vector of noise reaches farther)
     float most = 3;                  ///< … but at most so many times the least one: a bad part must not hide itself
 };

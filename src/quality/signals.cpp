@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "core/block.h"
 #include "core/not_finite.h"
 #include "core/statistics.h"
+#include "log/health.h"
+#include "log/placeholder.h"
 #include "log/quantum.h"
 #include "path/way.h"
 #include "surface/station.h"
@@ -18,10 +21,12 @@ namespace {
 
 constexpr double speed_seconds = 0.010;  ///< longest window: an oscillation of 20 ms keeps four fifths of its height …
 constexpr double speed_way = 0.4;  ///< [mm] … and of fast passes one of 0.8 mm, since marks are seen by their length
-constexpr double height_seconds = 0.015;   ///< window of the mean that heights are smoothed with
-constexpr PointIndex relief_every = 3;     ///< points: normals and reliefs are those of every third
-constexpr double longest_lag = 0.1;        ///< [s] that the measured position may come after the commanded one
-constexpr PointIndex shortest_reach = 64;  ///< points
+constexpr double speed_steps = 150;         ///< steps of the positions, of way: rounding is then 1 % of the speed …
+constexpr double acceleration_windows = 2;  ///< … and accelerations of slow passes are taken over twice the way
+constexpr double height_window = 0.015;     ///< window of the mean that heights are smoothed with
+constexpr PointIndex relief_every = 3;      ///< points: normals and reliefs are those of every third
+constexpr double longest_lag = 0.1;         ///< [s] that the measured position may come after the commanded one
+constexpr PointIndex shortest_reach = 64;   ///< points
 constexpr PointIndex longest_reach = 4096;
 constexpr PointIndex lead = 16;         ///< points that it may come before: logs that were put together
 constexpr float farthest_lag = 2.0F;    ///< step-overs; farther, the paths have nothing to do with each other
@@ -32,6 +37,24 @@ constexpr float slowest = 1e-3F;        ///< [mm/s]; slower, the feed has no dir
 
 int window_points(double seconds, double period, int least) {
     return std::max(least, static_cast<int>(std::lround(std::min(seconds / period, 2000.0))) | 1);
+}
+
+/// The window of the speed [s] for a usual speed [mm/s] and positions that come in steps of `quantum` [mm].
+double speed_window(double usual_speed, double quantum) {
+    const double rounded = usual_speed > 0 ? std::min(speed_steps * quantum, speed_way) / usual_speed : 0;
+    return std::max(std::min(speed_seconds, speed_way / usual_speed), rounded);
+}
+
+DerivativeFilter speed_filter(double usual_speed, double quantum, double period) {
+    return {window_points(speed_window(usual_speed, quantum), period, 5), 2, 1, period};
+}
+
+DerivativeFilter acceleration_filter(double usual_speed, double quantum, double period) {
+    DerivativeFilter filter = derivative_filter(2, period);
+    const double seconds = acceleration_windows * speed_window(usual_speed, quantum);
+    if (seconds > acceleration_windows * speed_seconds)
+        filter.points = std::max(filter.points, window_points(seconds, period, 5));
+    return filter;
 }
 
 using Axes = std::array<std::vector<double>, 3>;
@@ -89,18 +112,23 @@ void for_each_stretch(PointIndex count, const std::vector<PointRange>& pieces, F
 
 class Deriver {
 public:
+    /// `usual_speed` [mm/s]; `quantum` [mm] of the path's positions.
     Deriver(const ClSurface& surface, const Trajectory& path, const Trajectory* measured, double usual_speed,
-            Signals& out)
+            double quantum, Signals& out)
         : surface_(surface),
           path_(path),
           measured_(measured),
           out_(out),
-          speed_({window_points(std::min(speed_seconds, speed_way / usual_speed), path.period, 5), 2, 1, path.period}),
-          acceleration_(derivative_filter(2, path.period)),
-          smoother_(window_points(height_seconds, path.period, 1)),
+          speed_(speed_filter(usual_speed, quantum, path.period)),
+          acceleration_(acceleration_filter(usual_speed, quantum, path.period)),
+          smoother_(window_points(height_window, path.period, 1)),
           reach_(std::clamp(static_cast<PointIndex>(std::lround(std::min(longest_lag / path.period, 1e6))),
                             shortest_reach, longest_reach)) {}
 
+    void note_noise(double quantum, Signals& signals) const {
+        signals.speed_noise = static_cast<float>(2 * quantum * speed_.filter().step_response());
+        signals.acceleration_noise = static_cast<float>(2 * quantum * acceleration_.filter().step_response());
+    }
     void note_windows(Signals& signals) const {
         const auto note = [&](std::string_view what, int points) {
             return fmt::format("{} over {} points ({:.3g} ms)", what, points, 1e3 * points * path_.period);
@@ -312,6 +340,28 @@ double usual_end_zone(double step_over) {
     return std::max(least, step_overs * step_over);
 }
 
+namespace {
+
+std::vector<std::string> reasons_against(const Trajectory& path) {
+    std::vector<std::string> reasons;
+    if (path.period > longest_judged_period) {
+        reasons.push_back(
+            fmt::format("A record comes every {:.4g} ms. Marks last some hundredths of a second: they show in "
+                        "records every {:g} ms or faster.",
+                        1e3 * path.period, 1e3 * longest_judged_period));
+    }
+    if (const std::optional<Placeholder> placeholder = find_placeholder(path.axes)) {
+        const auto& [x, y, z] = placeholder->position;
+        reasons.push_back(
+            fmt::format("The log's position jumps to X{:g} Y{:g} Z{:g} and back {} times, over up to {:.1f} mm: "
+                        "a placeholder for positions that were not recorded.",
+                        x, y, z, placeholder->times, placeholder->farthest));
+    }
+    return reasons;
+}
+
+}  // namespace
+
 Signals derive_signals(const ClSurface& surface, const Trajectory& path, const Trajectory* measured,
                        const std::vector<PointRange>& smooth, double end_zone) {
     Signals signals;
@@ -322,11 +372,12 @@ Signals derive_signals(const ClSurface& surface, const Trajectory& path, const T
         cutter.cut(piece, [&](const PointRange& part, bool) { pieces.push_back(part); });
     signals.samples.resize(static_cast<std::size_t>(path.count));
     signals.measured = measured != nullptr;
-    for (const Trajectory* role : {&path, measured}) {
-        if (role != nullptr) signals.quantum = std::max(signals.quantum, quantum_of_axes(*role));
-    }
-    const Deriver deriver(surface, path, measured, usual_speed_of(surface, path.period), signals);
+    const float quantum = quantum_of_axes(path);
+    signals.quantum = measured != nullptr ? std::max(quantum, quantum_of_axes(*measured)) : quantum;
+    const Deriver deriver(surface, path, measured, usual_speed_of(surface, path.period), quantum, signals);
     deriver.note_windows(signals);
+    signals.unfit = reasons_against(path);
+    deriver.note_noise(quantum, signals);
     for_each_stretch(path.count, pieces, [&](PointRange piece, PointIndex first, PointIndex last) {
         deriver.derive_motion(piece, first, last);
     });

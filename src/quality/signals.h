@@ -40,6 +40,10 @@ struct Signals {
     Column<Sample> samples;  ///< one per point
     bool measured = false;   ///< there is a lag
     float quantum = 0;       ///< [mm] coarsest step in which the positions come; 0: none seen
+    /// What the rounding of the positions alone makes of two passes, at most: differences of speed [mm/s] and
+    /// acceleration [mm/s²] along an axis.
+    float speed_noise = 0, acceleration_noise = 0;
+    std::vector<std::string> unfit;  ///< why the data cannot show marks, as sentences; empty: they can
     std::string speed_note, acceleration_note, height_note;  ///< the windows, "speed over 11 points (11 ms)"
 
     [[nodiscard]] PointIndex size() const { return static_cast<PointIndex>(samples.size()); }

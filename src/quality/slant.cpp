@@ -12,15 +12,16 @@
 namespace clsurf {
 namespace {
 
-constexpr float steepest = 1.5F;        ///< step-overs along the feed per pass: an edge at 34° to the feed
-constexpr float sampled_every = 0.25F;  ///< step-overs
-constexpr int tries = 24;               ///< slants on either side of the straight one …
-constexpr int halvings = 3;             ///< … and how often their distance is halved round the best
-constexpr int most_passes = 3;          ///< on either side
-constexpr std::size_t fewest = 4;
-constexpr float corner_cosine = 0.906F;  ///< cos 25°
-constexpr float same_speed = 0.01F;      ///< of the speed: nothing that moves on from pass to pass
-constexpr float clearly_better = 0.5F;   ///< share of the disagreement straight across
+constexpr float steepest = 1.5F;               ///< step-overs along the feed per pass: an edge at 34° to the feed
+constexpr float sampled_every = 0.25F;         ///< step-overs
+constexpr int tries = 24;                      ///< slants on either side of the straight one …
+constexpr int halvings = 3;                    ///< … and how often their distance is halved round the best
+constexpr int most_passes = 3;                 ///< on either side
+constexpr std::size_t fewest = 4;              ///< passes, with some on either side …
+constexpr std::size_t fewest_of_one_side = 3;  ///< … and at a border
+constexpr float corner_cosine = 0.906F;        ///< cos 25°
+constexpr float same_speed = 0.01F;            ///< of the speed: nothing that moves on from pass to pass
+constexpr float clearly_better = 0.5F;         ///< share of the disagreement straight across
 
 /// A pass round its station: speeds at even distances along the feed of the point that is looked at.
 class Profile {
@@ -131,31 +132,6 @@ Agreement agreement(const Signals& signals, std::span<const Profile> profiles, f
     return result;
 }
 
-/// Within the slants' reach the path turns on the surface, about its normal, by more than a corner's angle.
-bool turns(const ClSurface& surface, const Signals& signals, PointIndex point, const Eigen::Vector3f& normal) {
-    const Positions& p = surface.positions;
-    const auto step_over = static_cast<float>(surface.step_over);
-    const auto along_surface = [&](PointIndex i) {
-        const Eigen::Vector3f feed = signals.feed(i);
-        return Eigen::Vector3f(feed - feed.dot(normal) * normal);
-    };
-    const Eigen::Vector3f here = along_surface(point);
-    for (const PointIndex step : {-1, 1}) {
-        float way = 0, looked = 0;
-        for (PointIndex i = point + step;
-             i >= 0 && i < p.size() && signals[i].zone != Zone::outside && way < steepest * step_over; i += step) {
-            way += (p[i] - p[i - step]).norm();
-            if (way < looked) continue;
-            looked = way + sampled_every * step_over;
-            const Eigen::Vector3f there = along_surface(i);
-            const float dot = there.dot(here);
-            if (dot < 0 || dot * dot < corner_cosine * corner_cosine * there.squaredNorm() * here.squaredNorm())
-                return true;
-        }
-    }
-    return false;
-}
-
 /// Straight across the feed the passes hardly differ.
 bool agree_straight(const Signals& signals, std::span<const Beside> places) {
     const auto [low, high] = std::minmax_element(places.begin(), places.end(), [&](const Beside& a, const Beside& b) {
@@ -187,6 +163,31 @@ AlongSlant summarise(const Compared& own, std::span<const Profile> profiles, F&&
 
 }  // namespace
 
+bool turns_on_surface(const ClSurface& surface, const Signals& signals, PointIndex point) {
+    const Eigen::Vector3f normal = signals.normal(point);
+    const Positions& p = surface.positions;
+    const auto step_over = static_cast<float>(surface.step_over);
+    const auto along_surface = [&](PointIndex i) {
+        const Eigen::Vector3f feed = signals.feed(i);
+        return Eigen::Vector3f(feed - feed.dot(normal) * normal);
+    };
+    const Eigen::Vector3f here = along_surface(point);
+    for (const PointIndex step : {-1, 1}) {
+        float way = 0, looked = 0;
+        for (PointIndex i = point + step;
+             i >= 0 && i < p.size() && signals[i].zone != Zone::outside && way < steepest * step_over; i += step) {
+            way += (p[i] - p[i - step]).norm();
+            if (way < looked) continue;
+            looked = way + sampled_every * step_over;
+            const Eigen::Vector3f there = along_surface(i);
+            const float dot = there.dot(here);
+            if (dot < 0 || dot * dot < corner_cosine * corner_cosine * there.squaredNorm() * here.squaredNorm())
+                return true;
+        }
+    }
+    return false;
+}
+
 std::optional<AlongSlant> along_slant(const ClSurface& surface, const Signals& signals, const Station& here,
                                       std::span<const Beside> places) {
     if (places.empty()) return std::nullopt;
@@ -194,8 +195,10 @@ std::optional<AlongSlant> along_slant(const ClSurface& surface, const Signals& s
     const Eigen::Vector3f feed = signals.feed(point);
     const Eigen::Vector3f normal = signals.normal(point);
     const Compared own = compared_at(signals, here, normal);
-    const bool corner = turns(surface, signals, point, normal);
-    if (!corner && (places.size() < fewest || agree_straight(signals, places))) return std::nullopt;
+    const bool corner = turns_on_surface(surface, signals, point);
+    const bool one_sided = places.front().passes * places.back().passes > 0;
+    if (!corner && (places.size() < (one_sided ? fewest_of_one_side : fewest) || agree_straight(signals, places)))
+        return std::nullopt;
     std::vector<Profile> profiles;
     profiles.reserve(places.size());
     for (const Beside& place : places) profiles.emplace_back(surface, signals, place, feed);

@@ -31,8 +31,11 @@ struct AlongSlant {
     float speed_step = 0, acceleration_step = 0, relief_step = 0;
 };
 
+/// Within 1.5 step-overs the path turns on the surface, about its normal, by more than 25°.
+[[nodiscard]] bool turns_on_surface(const ClSurface& surface, const Signals& signals, PointIndex point);
+
 /// The slant on which the passes beside a point agree best among themselves, whatever the point itself
-/// does. Nothing where they agree straight across the feed about as well, or are fewer than four. Where
+/// does. Nothing where they agree straight across the feed about as well, or are fewer than four, or three on one side alone. Where
 /// the path turns on the surface by more than 25° within 1.5 step-overs: of each pass what is nearest to the point's
 /// own motion within 1.5 step-overs per pass.
 /// `places`: up to three on either side. O(points within some five step-overs of way).

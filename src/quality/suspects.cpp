@@ -8,13 +8,13 @@
 
 #include "core/block.h"
 #include "quality/sites.h"
+#include "quality/slant.h"
 
 namespace clsurf {
 namespace {
 
 constexpr int fewest_alike = 2;  ///< passes of the same way on each side, where two ways cannot be told from a fault
 constexpr float suspect_share = 0.5F;  ///< of a threshold
-constexpr double joined_along = 1.0;   ///< [mm] of way between suspects of one pass, or two step-overs
 constexpr float joined_beside = 1.0F;  ///< step-overs along the feed between suspects of two passes
 
 /// How far residual and step pass the thresholds, together.
@@ -112,7 +112,7 @@ public:
         : surface_(surface),
           signals_(signals),
           thresholds_(thresholds),
-          comparer_(surface, signals, thresholds.usual_speed),
+          comparer_(surface, signals, thresholds.least_speed),
           sites_(surface, signals),
           judged_(static_cast<std::size_t>(signals.size()), false) {}
 
@@ -206,6 +206,7 @@ private:
                 measure(suspect, thresholds_);
                 if (*std::max_element(suspect.share.begin(), suspect.share.end()) < suspect_share) continue;
                 compare_at_end(place, suspect);
+                suspect.turns = suspect.border && turns_on_surface(surface_, signals_, suspect.point);
                 if (*std::max_element(suspect.share.begin(), suspect.share.end()) < suspect_share) continue;
                 suspect.pass = pass_of(surface_.passes, suspect.point);
                 of_piece[static_cast<std::size_t>(first / grain)].push_back(suspect);
@@ -234,13 +235,18 @@ FoundSuspects find_suspects(const ClSurface& surface, const Signals& signals, co
     return SuspectFinder(surface, signals, thresholds).find();
 }
 
-std::vector<Suspects> group_suspects(const Suspects& suspects, const ClSurface& surface, const Way& way) {
+double joined_along(const ClSurface& surface, double record) {
+    constexpr double least = 1.0;  // [mm]
+    constexpr double step_overs = 2, records = 2.5;
+    return std::max({least, step_overs * surface.step_over, records * record});
+}
+
+std::vector<Suspects> group_suspects(const Suspects& suspects, const ClSurface& surface, const Way& way, double along) {
     const auto count = static_cast<std::int64_t>(suspects.size());
     std::vector<PointIndex> points;  // side by side, to be searched
     points.reserve(suspects.size());
     for (const Suspect* s : suspects) points.push_back(s->point);
     Groups groups(suspects.size());
-    const double along = std::max(joined_along, 2 * surface.step_over);
     const float beside = joined_beside * static_cast<float>(surface.step_over);
     /// Joins a suspect with those of another pass round a point of it. `hint`: where the last one was.
     const auto join_near = [&](std::size_t k, PointIndex point, std::size_t& hint) {

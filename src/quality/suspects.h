@@ -14,6 +14,7 @@ struct Suspect {
     PointIndex point = 0;
     std::size_t pass = 0;  ///< index into surface.passes
     bool border = false;   ///< no pass on one side, or one begins or ends there: the difference is expected
+    bool turns = false;    ///< at a border: the path turns there
     std::array<float, quantities> share{};  ///< |residual| over threshold
     std::array<float, quantities> score{};  ///< the same, where the step passes it too; from 1 on a defect starts
     Comparison comparison;
@@ -41,8 +42,13 @@ struct FoundSuspects {
 [[nodiscard]] FoundSuspects find_suspects(const ClSurface& surface, const Signals& signals,
                                           const Thresholds& thresholds);
 
-/// Suspects that hang together along a pass, across to the next one or over one clean pass; each group
+/// How much way [mm] may lie between suspects of one pass that belong together: a millimetre, two step-overs or two records, with room.
+/// `record`: the way of one at the usual speed.
+[[nodiscard]] double joined_along(const ClSurface& surface, double record);
+
+/// Suspects that hang together along a pass (`along`: joined_along()), across to the next one or over one clean pass; each group
 /// in the order of its points, and groups in the order of their first ones. O(suspects log suspects), parallel.
-[[nodiscard]] std::vector<Suspects> group_suspects(const Suspects& suspects, const ClSurface& surface, const Way& way);
+[[nodiscard]] std::vector<Suspects> group_suspects(const Suspects& suspects, const ClSurface& surface, const Way& way,
+                                                   double along);
 
 }  // namespace clsurf

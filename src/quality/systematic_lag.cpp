@@ -224,14 +224,14 @@ std::size_t index_by_point(const Suspects& suspects, PointIndex point) {
 }  // namespace
 
 SystematicLag take_systematic_lag(const ClSurface& surface, const Signals& signals, const Way& way,
-                                  const Thresholds& thresholds, FoundSuspects& found) {
+                                  const Thresholds& thresholds, double along, FoundSuspects& found) {
     SystematicLag result;
     if (!signals.measured) return result;
     const std::vector<Candidate> candidates = find_candidates(LagComparer(surface, signals), thresholds, found);
     Suspects suspects;
     for (const Candidate& candidate : candidates) suspects.push_back(candidate.suspect);
     std::vector<std::size_t> wide;  // candidates of wide regions
-    for (const Suspects& region : group_suspects(suspects, surface, way)) {
+    for (const Suspects& region : group_suspects(suspects, surface, way, along)) {
         std::vector<std::size_t> members;
         for (const Suspect* s : region) members.push_back(index_by_point(suspects, s->point));
         if (is_wide(members, candidates)) wide.insert(wide.end(), members.begin(), members.end());
@@ -243,8 +243,7 @@ SystematicLag take_systematic_lag(const ClSurface& surface, const Signals& signa
         if (std::abs(c.lag.alternating) >= threshold)
             result.sites.push_back({c.suspect->point, c.suspect->pass, c.lag.alternating});
     }
-    const double joined = std::max(1.0, 2 * surface.step_over);
-    if (way_of(result.sites, way, joined) < least_share * cut_way(surface, way)) {
+    if (way_of(result.sites, way, along) < least_share * cut_way(surface, way)) {
         result.sites.clear();
         return result;
     }

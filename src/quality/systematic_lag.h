@@ -28,9 +28,9 @@ struct SystematicLag {
 };
 
 /// Finds where the lag of `found` alternates over a large part of the surface, and takes the alternating part out of the suspects
-/// there: their lag shares, scores and residuals are then those against the passes of the same direction.
+/// there: their lag shares, scores and residuals are then those against the passes of the same direction. `along`: joined_along().
 /// O(suspects log suspects), parallel; the same for any number of threads.
 [[nodiscard]] SystematicLag take_systematic_lag(const ClSurface& surface, const Signals& signals, const Way& way,
-                                                const Thresholds& thresholds, FoundSuspects& found);
+                                                const Thresholds& thresholds, double along, FoundSuspects& found);
 
 }  // namespace clsurf

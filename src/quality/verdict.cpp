@@ -32,7 +32,7 @@ double speed_mismatch(const QualityReport& r) {
 }
 double coverage(const QualityReport& r) { return 100 * r.coverage(); }
 
-constexpr auto limits = std::to_array<QualityLimit>({
+constexpr auto quality_limits = std::to_array<QualityLimit>({
     {"max_depth_um", &QualityBudget::max_depth_um, depth},
     {"max_defects", &QualityBudget::max_defects, count},
     {"max_severity", &QualityBudget::max_severity, severity},
@@ -43,7 +43,7 @@ constexpr auto limits = std::to_array<QualityLimit>({
 
 }  // namespace
 
-std::span<const QualityLimit> budget_limits() { return limits; }
+std::span<const QualityLimit> budget_limits() { return quality_limits; }
 
 std::vector<BudgetLine> hold(const QualityReport& report, const QualityBudget& budget) {
     std::vector<BudgetLine> lines = hold(budget_limits(), report, budget);

@@ -1,5 +1,6 @@
 #include "path/derivative.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <random>
@@ -17,6 +18,18 @@ std::vector<double> derive(const std::vector<double>& samples, int derivative) {
     std::vector<double> out(samples.size());
     d.apply(samples, 0, {0, static_cast<PointIndex>(samples.size()) - 1}, 0, out);
     return out;
+}
+
+TEST(Derivative, OfAStepIsAtMostTheStepResponse) {
+    std::vector<double> step(200, 0.0);
+    for (std::size_t i = 100; i < step.size(); ++i) step[i] = 0.001;
+    for (const int derivative : {1, 2, 3}) {
+        const std::vector<double> d = derive(step, derivative);
+        double most = 0;
+        for (const double value : d) most = std::max(most, std::abs(value));
+        const double response = derivative_filter(derivative, period).step_response();
+        EXPECT_NEAR(most, 0.001 * response, 1e-9 * response);
+    }
 }
 
 TEST(Derivative, IsExactOnPolynomialsOfItsOrderUpToTheEnds) {

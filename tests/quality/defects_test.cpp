@@ -94,6 +94,28 @@ TEST(Defects, DoNotDependOnWhereTheRecordBegins) {
     }
 }
 
+TEST(Defects, AreNotJudgedOnDataThatCannotShowThem) {
+    const auto reasons = [](const planted::PlantedLog& log) { return planted::judge(log).judgement.reasons; };
+    planted::PlantedLog log = planted::make_planted_log(planted::random_recipe(5, Shape::zigzag, false, false));
+    EXPECT_TRUE(reasons(log).empty());
+    // The same position stands for some that were not recorded.
+    planted::PlantedLog with_placeholder = log;
+    for (const std::size_t at : {1000, 2000, 3000}) {
+        for (const std::size_t i : {at, at + 1}) {
+            with_placeholder.commanded[0][i] = 198;
+            with_placeholder.commanded[1][i] = 158;
+            with_placeholder.commanded[2][i] = 119;
+        }
+    }
+    const std::vector<std::string> why = reasons(with_placeholder);
+    ASSERT_EQ(why.size(), 1U);
+    EXPECT_NE(why.front().find("jumps to X198 Y158"), std::string::npos) << why.front();
+    // A record every 100 ms.
+    log.recipe.period = 0.1;
+    ASSERT_EQ(reasons(log).size(), 1U);
+    EXPECT_EQ(reasons(log).front().find("A record comes every 100 ms."), 0U);
+}
+
 TEST(Defects, OfARecordedPartAreWhereTheProgramHasThem) {
     // Five passes of the sample have a stretch of points 0.02 mm apart, where the kernel falls from
     // 3000 to some 600 mm/min (data/programs/README.md).

@@ -21,7 +21,7 @@ std::vector<float> own_reliefs(const Height& height, double low, double high) {
         return Vec3(flat.x(), flat.y(), height(flat.x(), flat.y()));
     });
     const Signals signals = made.signals();
-    const Comparer comparer(made.surface, signals, 50);
+    const Comparer comparer(made.surface, signals, 12.5);
     std::vector<float> own;
     for (PointIndex i = 0; i < made.surface.positions.size(); i += 5) {
         const Vec3 p = made.surface.positions.absolute(i);
