@@ -1,5 +1,7 @@
 // clsurf simulate: the controller stood in for.
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "cli/options.h"
@@ -84,7 +86,13 @@ ExitCode run_simulate(const po::variables_map& values) {
     if (given(values, "work-offset") && !five_axes)
         throw UsageError("--work-offset is for machines with rotary axes; of three the program's own offsets count");
     const auto open_log = [&](const std::optional<Eigen::Isometry3d>& pose) {
-        const std::string metadata = pose ? fmt::format("{{\"work_offset\": [{}]}}", work_offset_text(*pose)) : "{}";
+        std::string metadata = "{}";
+        if (pose) {
+            const Vec3 t = pose->translation();
+            const double turn = std::atan2(pose->linear()(1, 0), pose->linear()(0, 0)) * deg_per_rad;
+            metadata = fmt::format("{{\"work_offset\": [{}, {}, {}{}]}}", t.x(), t.y(), t.z(),
+                                   turn == 0 ? "" : fmt::format(", {}", turn));
+        }
         return io::SimulatedLogWriter(output, machine,
                                       io::with_programs(metadata, std::vector<ProgramReference>{io::identify(source)}));
     };

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "cli/options.h"
-#include "core/units.h"
+#include "path/work_offset.h"
 
 namespace clsurf::cli {
 namespace {
@@ -31,12 +31,24 @@ Eigen::Isometry3d pose_from(const std::string& text) {
     return clsurf::pose_of(Vec3(numbers[0], numbers[1], numbers[2]), numbers.size() > 3 ? numbers[3] : 0.0);
 }
 
-/// To a micrometre or a thousandth of a degree, as offsets are entered: "12.5", "-3".
-std::string decimals(double value) {
-    std::string text = fmt::format("{:.3f}", value);
-    text.resize(text.find_last_not_of('0') + 1);
-    if (text.back() == '.') text.pop_back();
-    return text == "-0" ? "0" : text;
+/// The program sets its offsets itself. Some controllers record positions of the machine, others those of the work
+/// system: the path says which.
+Eigen::Isometry3d own_or_none(const Program& program, const Log& log, const Eigen::Isometry3d& own,
+                              Diagnostics& diagnostics) {
+    const Eigen::Isometry3d none = Eigen::Isometry3d::Identity();
+    for (const Role role : {Role::commanded, Role::feedback, Role::actual}) {
+        if (!log.has(role)) continue;
+        const double with = share_on_path(reconstruct(log, role, own), program);
+        const double without = share_on_path(reconstruct(log, role, none), program);
+        if (!(without > with)) return own;
+        diagnostics.add(
+            {Severity::note, "map.coordinates", Place::of_file(log.name),
+             fmt::format("positions are read as those of the work system, without the offset {} that {} sets",
+                         pose_numbers(own), program.main().name()),
+             fmt::format("--work-offset {} reads them as the machine's", pose_numbers(own))});
+        return none;
+    }
+    return own;
 }
 
 }  // namespace
@@ -71,6 +83,7 @@ Eigen::Isometry3d place_with(Program& program, const Log& log, FramePoses given,
                              Diagnostics& diagnostics) {
     if (!given.zero) given.zero = pose_of(log);
     given.tool_by_kinematics = kinematics != nullptr;
+    given.starts_anywhere = true;
     const std::vector<int> unknown = unknown_systems(program.motions);
     if (unknown.size() > 1) {
         std::string names;
@@ -87,15 +100,9 @@ Eigen::Isometry3d place_with(Program& program, const Log& log, FramePoses given,
                              "--work-offset G55:X,Y,Z says where one of them lies"});
         }
     }
-    return place_motions(program, given);
-}
-
-std::string work_offset_text(const Eigen::Isometry3d& pose) {
-    const Vec3 t = pose.translation();
-    std::string text = fmt::format("{},{},{}", decimals(t.x()), decimals(t.y()), decimals(t.z()));
-    const double turn = std::atan2(pose.linear()(1, 0), pose.linear()(0, 0)) * deg_per_rad;
-    if (decimals(turn) != "0") text += "," + decimals(turn);
-    return text;
+    const Eigen::Isometry3d pose = place_motions(program, given);
+    if (given.zero || kinematics != nullptr || pose.matrix().isIdentity(0)) return pose;
+    return own_or_none(program, log, pose, diagnostics);
 }
 
 }  // namespace clsurf::cli

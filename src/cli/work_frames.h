@@ -21,12 +21,10 @@ void declare_work_offset(po::options_description& options);
 [[nodiscard]] std::optional<Eigen::Isometry3d> pose_of(const Log& log);
 
 /// Brings a program, read with its motions as programmed, into the coordinates of the workpiece. `given` goes before
-/// what the log tells, that before the program's own offsets. Returns machine = pose · workpiece. Adds
+/// what the log tells, that before the program's own offsets, which count unless the path fits better without
+/// (`map.coordinates`). Returns machine = pose · workpiece. Adds
 /// `program.work-offset` where the program cuts in several systems whose offsets are not known.
 [[nodiscard]] Eigen::Isometry3d place_with(Program& program, const Log& log, FramePoses given,
                                            const Kinematics* kinematics, Diagnostics& diagnostics);
-
-/// The numbers of --work-offset for a pose: "12.5,-3,0" or "12.5,-3,0,17.5".
-[[nodiscard]] std::string work_offset_text(const Eigen::Isometry3d& pose);
 
 }  // namespace clsurf::cli

@@ -7,6 +7,7 @@
 
 #include "core/units.h"
 #include "program/feed_per_minute.h"
+#include "program/frame_placement.h"
 #include "program/lexer.h"
 
 namespace clsurf {
@@ -59,6 +60,11 @@ bool says_its_angles(const PlainLine& line, const Motions& motions, std::size_t 
 std::string_view line_end_of(std::string_view text) {
     const std::size_t end = text.find('\n');
     return end != std::string_view::npos && end > 0 && text[end - 1] == '\r' ? "\r\n" : "\n";
+}
+
+/// A point of the path as the words of a motion count it: in the motion's work system.
+Vec3 in_words(const Motions& motions, std::int64_t motion, const Vec3& p) {
+    return apply(motions.frame_of(motion).placed.inverse(), p);
 }
 
 }  // namespace
@@ -122,7 +128,9 @@ LineEditor::LineEditor(const Program& program, int least_decimals) : program_(&p
             if (!cuts_in_a_line(motions, i) || !in_main(i) || motions_of_line[motions.line[i]] != 1) continue;
             const std::optional<PlainLine> line = read_plain_line(main.line(motions.line[i]));
             if (!line || !says_its_angles(*line, motions, i)) continue;
-            const Vec3 end = motions.end[i].vec(), begin = motions.begin_of(static_cast<std::int64_t>(i)).vec();
+            const auto motion = static_cast<std::int64_t>(i);
+            const Vec3 end = in_words(motions, motion, motions.end[i].vec()),
+                       begin = in_words(motions, motion, motions.begin_of(motion).vec());
             const auto says = [&](double unit) {
                 for (int axis = 0; axis < 3; ++axis) {
                     const auto a = static_cast<std::size_t>(axis);
@@ -185,7 +193,7 @@ std::size_t LineEditor::replace(std::int64_t first, std::int64_t last, const std
         return axis < linear ? number_text(position[k] / unit_, decimals_)
                              : number_text(turned[k] * deg_per_rad, turn_decimals_);
     };
-    const Vec3 begin = motions.begin_of(first).vec();
+    const Vec3 begin = in_words(motions, first, motions.begin_of(first).vec());
     for (std::size_t a = 0; a < used; ++a) modal[a] = text_of(a, begin, angles_before(motions, first));
     const bool numbered = numbers.size() == old_lines;
     bool code_written = false;
@@ -200,9 +208,10 @@ std::size_t LineEditor::replace(std::int64_t first, std::int64_t last, const std
         if (numbered && (k + 1 < old_lines || is_last)) text += is_last ? numbers.back() : numbers[k];
         if (code_everywhere || !code_written) text += first_code;
         bool moves = false;
+        const Vec3 position = in_words(motions, first, points[k]);
         std::array<std::string, axes> now;
         for (std::size_t a = 0; a < used; ++a) {
-            now[a] = text_of(a, points[k], angles.empty() ? Vec3::Zero() : angles[k].programmed);
+            now[a] = text_of(a, position, angles.empty() ? Vec3::Zero() : angles[k].programmed);
             moves = moves || (a < linear && now[a] != modal[a]);
         }
         if (!moves) continue;  // nearer to the point before than the decimals tell

@@ -24,6 +24,13 @@ struct MotionRange {
     return {std::max<std::int64_t>(0, first - 1), std::min(count - 1, motion + 1)};
 }
 
+/// Where the motions begin that a kernel may have merged into the one before `before`, which a blend begins on: lines
+/// went from `earlier` to `before` at once. −1: not known.
+[[nodiscard]] inline std::int64_t begin_of_merge(std::int64_t earlier, std::int64_t before) {
+    const bool merged = earlier >= 0 && before - earlier > 1 && before - earlier <= longest_merge;
+    return merged ? earlier : before;
+}
+
 /// How far the tool may leave the programmed path [mm]: the largest corner tolerance that the program gives, and
 /// where it allows blending without one, what a kernel takes at finishing feeds.
 [[nodiscard]] double corner_play(const Program& program);

@@ -44,7 +44,8 @@ double corner_play(const Program& program) {
     double play = agreeing_distance;
     for (const ProgramEvent& event : program.events) {
         if (!event.path_mode || event.path_mode->block_end != BlockEnd::rounded) continue;
-        const double tolerance = event.path_mode->tolerance;
+        // What a corner may lose, and what merging short blocks may add.
+        const double tolerance = event.path_mode->tolerance + event.path_mode->merging_tolerance;
         if (!std::isnan(tolerance)) play = std::max(play, std::min(tolerance, blending_distance));
     }
     return play;
@@ -63,13 +64,14 @@ LineAgreement check_lines(const Trajectory& path, const Program& program, const 
         const PointIndex begin = stretches == 1 ? 0 : (path.count - stretch) / (stretches - 1) * s;
         path.read(begin, x, y, z);
         map.read(begin, lines);
-        std::int64_t before = -1;
+        std::int64_t earlier = -1, before = -1;
         std::int64_t motion = map.motion_at(begin);
         // The first line of a stretch has no known one before it.
         bool known = begin == 0;
         for (std::size_t i = 1; i < x.size(); ++i) {
             const PointIndex point = begin + static_cast<PointIndex>(i);
             if (const std::int64_t now = map.motion_at(point, lines[i]); now != motion) {
+                earlier = before;
                 before = motion;
                 motion = now;
                 known = true;
@@ -77,7 +79,7 @@ LineAgreement check_lines(const Trajectory& path, const Program& program, const 
             const Vec3 p(x[i], y[i], z[i]);
             const bool moved = (p - Vec3(x[i - 1], y[i - 1], z[i - 1])).squaredNorm() > 0;
             if (!moved || !known || lines[i] == 0) continue;
-            const double distance = allowed_distance(toolpath, before, motion, p);
+            const double distance = allowed_distance(toolpath, begin_of_merge(earlier, before), motion, p);
             if (!std::isfinite(distance)) continue;
             distances.push_back(distance);
             if (distance > agreement.tolerance) ++agreement.disagreeing;

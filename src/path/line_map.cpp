@@ -203,29 +203,6 @@ double off_share(const LineMap& map) {
     return all > 0 ? static_cast<double>(off) / static_cast<double>(all) : 0.0;
 }
 
-/// To a micrometre, as offsets are entered: "12.5", "-3".
-std::string decimals(double value) {
-    std::string text = fmt::format("{:.3f}", value);
-    text.resize(text.find_last_not_of('0') + 1);
-    if (text.back() == '.') text.pop_back();
-    return text == "-0" ? "0" : text;
-}
-
-/// True where an offset was found.
-bool look_for_work_offset(const Trajectory& path, const Program& program, const LineMap* map,
-                          Diagnostics& diagnostics) {
-    const std::optional<Vec3> shift = find_shift(path, program, map);
-    constexpr double least_shift = 1e-3;  // [mm] displaced by nothing, they are off for another reason
-    if (!shift || shift->norm() < least_shift) return false;
-    const Vec3 offset = -(path.offset + *shift);
-    diagnostics.add({Severity::warning, "map.work-offset", Place::of_file(path.name),
-                     fmt::format("the positions lie parallel to the programmed path, displaced by X {} Y {} Z {} mm",
-                                 decimals(-shift->x()), decimals(-shift->y()), decimals(-shift->z())),
-                     fmt::format("--work-offset {},{},{} brings them onto it", decimals(offset.x()),
-                                 decimals(offset.y()), decimals(offset.z()))});
-    return true;
-}
-
 ChannelView view_of(const Column<LineNumber>& lines) {
     return {reinterpret_cast<const std::byte*>(lines.data()),
             sizeof(LineNumber),
@@ -248,7 +225,7 @@ public:
     LineMap by_geometry() {
         LineMap map = align_lines(path_, program_, diagnostics_);
         const double off = off_share(map);
-        const bool explained = off > offset_share && look_for_work_offset(path_, program_, nullptr, diagnostics_);
+        const bool explained = off > offset_share && note_pose(path_, program_, nullptr, diagnostics_);
         const double foreign_at = identity_ == ProgramIdentity::other ? other_share : offset_share;
         if (identity_ != ProgramIdentity::same && !explained && off > foreign_at)
             match_.foreign = fmt::format("{:.0f} % of its points lie off the programmed path", 100 * off);
@@ -269,8 +246,7 @@ public:
         }
         const LineAgreement agreement = check_lines(path_, program_, map);
         if (share_of(agreement) > disagreeing_share) note_disagreement(agreement);
-        const bool explained =
-            share_of(agreement) > offset_share && look_for_work_offset(path_, program_, &map, diagnostics_);
+        const bool explained = share_of(agreement) > offset_share && note_pose(path_, program_, &map, diagnostics_);
         const double foreign_at = identity_ == ProgramIdentity::other ? other_share : offset_share;
         if (identity_ != ProgramIdentity::same && !explained && agreement.checked >= least_checked &&
             share_of(agreement) > foreign_at) {

@@ -166,8 +166,22 @@ Eigen::Isometry3d FramePlacer::offset_of(const WorkFrame& frame) const {
     return offset;
 }
 
+void FramePlacer::forget_start(Motions& motions) {
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    motions.start = Xyz(unknown, unknown, unknown);
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto until = std::min(motions.programmed_from[static_cast<std::size_t>(axis)], motions.size());
+        for (std::int64_t i = 0; i < until; ++i) {
+            Vec3 end = motions.end[static_cast<std::size_t>(i)].vec();
+            end[axis] = unknown;
+            motions.end[static_cast<std::size_t>(i)] = Xyz(end);
+        }
+    }
+}
+
 void FramePlacer::begin(Motions& motions) {
     begun_ = true;
+    if (poses_.starts_anywhere) forget_start(motions);
     first_ = first_frame(motions);
     const WorkFrame& first = motions.frames[first_];
     const auto tool = [&](const WorkFrame& frame) {

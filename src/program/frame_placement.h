@@ -28,6 +28,8 @@ struct FramePoses {
     std::map<int, Eigen::Isometry3d> systems;
     /// The chain of the rotary axes accounts for the tool's length: the pose is without it.
     bool tool_by_kinematics = false;
+    /// The machine may stand anywhere before the program: coordinates that it has not set are NaN, not LinuxCNC's 0.
+    bool starts_anywhere = false;
 };
 
 /// Goes along the motions of a program, a piece at a time.
@@ -45,6 +47,7 @@ public:
 
 private:
     void begin(Motions& motions);
+    static void forget_start(Motions& motions);
     void follow_frames(Motions& motions);
     [[nodiscard]] Eigen::Isometry3d offset_of(const WorkFrame& frame) const;
     void place_by_axis(Motions& motions, std::int64_t i);

@@ -201,7 +201,7 @@ bool Interpreter::run_plain(const Words& words) {
     if (words.given('X')) p.x() = words.of('X') * unit;
     if (words.given('Y')) p.y() = words.of('Y') * unit;
     if (words.given('Z')) p.z() = words.of('Z') * unit;
-    if ((state_.held | state_.absolute) != 0) state_.place(axes_named(words), false);
+    if ((state_.held | state_.absolute | state_.unplaced) != 0) state_.place(axes_named(words), false);
     const bool rapid = mode == MotionMode::rapid;
     push(rapid ? MotionKind::rapid : MotionKind::feed, p, state_.rotary,
          rapid ? std::numeric_limits<float>::quiet_NaN()

@@ -58,7 +58,8 @@ struct ModalState {
     Vec3 position = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< [mm], of the work system
     Vec3 rotary = Vec3::Zero();                                                ///< A, B, C [deg]
     std::uint8_t held = 0, absolute = 0;                                       ///< axes, as in WorkFrame
-    std::uint64_t frame_changes = 0;  ///< counts what changes the way to machine coordinates
+    std::uint8_t unplaced = WorkFrame::all_axes;  ///< axes that no word has placed since the program began
+    std::uint64_t frame_changes = 0;              ///< counts what changes the way to machine coordinates
     Vec3 tool_axis =
         Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< programmed as a vector, unit; NaN: by angles
     ProgramFrame frame;                                            ///< from programmed coordinates to `position`
@@ -114,6 +115,7 @@ struct ModalState {
     /// Words have placed axes: in the work system, or in machine coordinates. Bits as in WorkFrame.
     void place(unsigned axes, bool in_machine) {
         held = static_cast<std::uint8_t>(held & ~axes);
+        unplaced = static_cast<std::uint8_t>(unplaced & ~axes);
         absolute = static_cast<std::uint8_t>(in_machine ? absolute | axes : absolute & ~axes);
     }
     /// The frame that the position counts in.

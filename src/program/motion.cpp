@@ -26,6 +26,7 @@ void Motions::drop_front(std::int64_t count) {
     drop(file);
     drop(call);
     drop(frame);
+    for (std::int64_t& from : programmed_from) from = std::max<std::int64_t>(0, from - count);
     arcs.erase(arcs.begin(),
                std::find_if(arcs.begin(), arcs.end(), [count](const Arc& arc) { return arc.motion >= count; }));
     for (Arc& arc : arcs) arc.motion -= count;

@@ -5,6 +5,7 @@
 // Positions are those of the *active work coordinate system*, in mm, as the program gives them after
 // G20/21, G90/91 and G92/G52; place_motions() (frame_placement.h) brings those of several such systems into one.
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -50,6 +51,9 @@ struct Motions {
         call;  ///< the call that runs: index into calls, from 1; 0: none; empty when nothing is called
     Column<std::uint32_t> frame;                 ///< index into frames; empty: all are in the first one
     std::vector<WorkFrame> frames{WorkFrame{}};  ///< at least one
+    /// Index of the first motion for which X, Y, Z have been programmed; before it they stand where the program finds
+    /// the machine, whatever `start` says.
+    std::array<std::int64_t, 3> programmed_from{};
     std::vector<Call> calls;  ///< a call stands behind its caller; the same line called again is the same
     std::vector<Arc> arcs;    ///< sorted by motion
     Xyz start{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN(),

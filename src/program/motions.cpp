@@ -308,6 +308,9 @@ void Interpreter::push(MotionKind kind, const Vec3& end, const Vec3& rotary, flo
     m.line.push_back(line_);
     if (state_.frame_changes != frame_changes_ || state_.held != frame_held_ || state_.absolute != frame_absolute_)
         settle_work_frame();
+    for (unsigned axis = 0; state_.unplaced != 0 && axis < 3; ++axis) {
+        if ((state_.unplaced >> axis & 1) != 0) m.programmed_from[axis] = m.size();
+    }
     if (work_frame_ != 0 || !m.frame.empty()) {
         if (m.frame.empty()) m.frame = Column<std::uint32_t>(m.kind.size() - 1, 0);
         m.frame.push_back(work_frame_);

@@ -56,7 +56,9 @@ bool Interpreter::apply_path_mode(int code, Block& block, std::size_t column) {
     }
     if (code != 640) return false;
     const double tolerance = block.words.given('P') ? block.words.of('P') * state_.unit_mm : 0;
-    return set({BlockEnd::rounded, tolerance > 0 ? tolerance : unlimited});
+    // LinuxCNC: without Q the blocks are merged within P.
+    const double merging = block.words.given('Q') ? block.words.of('Q') * state_.unit_mm : tolerance;
+    return set({BlockEnd::rounded, tolerance > 0 ? tolerance : unlimited, merging});
 }
 
 /// CYCLE832(tolerance, kind of machining, …): kind 0 (_OFF), or no tolerance, gives the machine its own back.

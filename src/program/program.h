@@ -50,6 +50,7 @@ struct PathMode {
     BlockEnd block_end = BlockEnd::rounded;
     /// Of rounded corners [mm]. NaN: the machine's own; infinite: as far off as the speed takes (G64 without P).
     double tolerance = std::numeric_limits<double>::quiet_NaN();
+    double merging_tolerance = 0;  ///< [mm] of short blocks that become one before corners are rounded (Q of G64)
 };
 
 /// Something besides motion that the program asks for, in order: modes, spindle, tool.

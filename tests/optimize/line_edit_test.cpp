@@ -4,6 +4,8 @@
 
 #include "optimize/line_edit.h"
 #include "optimize/parts.h"
+#include "program/frame_placement.h"
+#include "program/interpreter.h"
 
 namespace clsurf {
 namespace {
@@ -52,6 +54,21 @@ TEST(LineEditor, LeavesLinesWithMoreInThemAlone) {
     EXPECT_EQ(editable(read_text("G0 X0 Y0 Z0\nG1 X1 F100\nX2\nG93 X3 F2\nX4\nG95 X5 F0.1\nX6\nG94 X7 F100\nX8\n")),
               (std::vector<std::int64_t>{2, 8}))
         << "F counts something else than lengths per minute";
+}
+
+// Turned by 90° and 100 away: X 1.5 of the work system is Y 1.5 of the machine, where the points come from.
+TEST(LineEditor, WritesInTheFrameThatIsActive) {
+    InterpreterOptions options;
+    options.dialect = find_dialect("linuxcnc");
+    const auto text = std::make_shared<std::string>(
+        "G21 G90\nG10 L2 P2 X100 Y0 Z0 R90\nG55 G0 X0 Y0 Z0\nG1 X1.000 F600\nX2.000\nX3.000\nM2\n");
+    Program program = parse_program(SourceText("part.ngc", *text, text), options);
+    place_motions(program, {}, Coordinates::machine);
+    EXPECT_EQ(editable(program), (std::vector<std::int64_t>{2, 3}));
+    LineEditor editor(program);
+    EXPECT_EQ(editor.replace(2, 3, {Vec3(100, 1.5, 0), Vec3(99.75, 2.25, 0), Vec3(100, 3, 0)}), 3u);
+    const std::string written = editor.text("");
+    EXPECT_NE(written.find("X1.000 F600\nX1.500\nX2.250Y0.250\nX3.000Y0.000\nM2"), std::string::npos) << written;
 }
 
 // Three lines become four: the words of an old point stay as they are, others have the finest decimals of the program.

@@ -1,10 +1,11 @@
-// Recorded logs, displaced by a known translation that the log does not tell.
+// Recorded logs, displaced and turned by a known pose that the log does not tell.
 #include "path/work_offset.h"
 
 #include <gtest/gtest.h>
 
 #include "io/log_format.h"
 #include "io/program_file.h"
+#include "program/frame_placement.h"
 
 namespace clsurf {
 namespace {
@@ -13,17 +14,27 @@ struct Sample {
     const char *program, *log;
 };
 
-/// The positions lie where `trajectory.offset` puts them: zero is right, −displaced is given.
+/// The positions lie where the trajectory's pose puts them; the identity is right.
 const Vec3 displaced(312.5, -48.125, -101.3);
+
+Eigen::Isometry3d turned_by(double degrees) { return pose_of(displaced, degrees); }
+
+/// How far the found pose brings a point 100 mm from the zero from where it belongs [mm].
+double error_of(const Eigen::Isometry3d& found, const Eigen::Isometry3d& put) {
+    const Eigen::Isometry3d left = found * put;
+    return left.translation().norm() + 100 * (left.linear() - Eigen::Matrix3d::Identity()).norm();
+}
 
 struct Displaced {
     Program program;
     Log log;
+    Eigen::Isometry3d put;
     Trajectory path;
-    explicit Displaced(const Sample& sample)
+    explicit Displaced(const Sample& sample, double degrees = 0)
         : program(io::read_program(std::string(SAMPLE_DATA "/programs/") + sample.program)),
           log(io::open_log(std::string(SAMPLE_LOGS "/") + sample.log, {})),
-          path(reconstruct(log, Role::commanded, displaced)) {}
+          put(turned_by(degrees)),
+          path(reconstruct(log, Role::commanded, Eigen::Isometry3d(put.inverse()))) {}
     /// Only the points from `first` on, `count` of them.
     void cut(PointIndex first, PointIndex count) {
         for (ChannelView& axis : path.axes) {
@@ -37,26 +48,52 @@ struct Displaced {
 class WorkOffset : public testing::TestWithParam<Sample> {};
 
 TEST_P(WorkOffset, IsFoundFromTheLinesOfTheLog) {
-    const Displaced made(GetParam());
-    const LineMap map(made.log.find("line")->values, made.program, made.log.keep_alive);
-    const std::optional<Vec3> shift = find_shift(made.path, made.program, &map);
-    ASSERT_TRUE(shift);
-    EXPECT_LT((*shift + displaced).norm(), 1e-3) << (*shift + displaced).transpose();
+    for (const double degrees : {0.0, 17.5, -133.0}) {
+        const Displaced made(GetParam(), degrees);
+        const LineMap map(made.log.find("line")->values, made.program, made.log.keep_alive);
+        const std::optional<Eigen::Isometry3d> pose = find_pose(made.path, made.program, &map);
+        ASSERT_TRUE(pose) << degrees;
+        EXPECT_LT(error_of(*pose, made.put), degrees == 0 ? 1e-3 : 5e-3) << degrees;
+    }
 }
 
 TEST_P(WorkOffset, IsFoundByGeometryAlone) {
-    const Displaced made(GetParam());
-    const std::optional<Vec3> shift = find_shift(made.path, made.program, nullptr);
-    ASSERT_TRUE(shift);
-    EXPECT_LT((*shift + displaced).norm(), 2e-3) << (*shift + displaced).transpose();
+    for (const double degrees : {0.0, 17.5, -133.0}) {
+        const Displaced made(GetParam(), degrees);
+        const std::optional<Eigen::Isometry3d> pose = find_pose(made.path, made.program, nullptr);
+        ASSERT_TRUE(pose) << degrees;
+        EXPECT_LT(error_of(*pose, made.put), degrees == 0 ? 2e-3 : 5e-3) << degrees;
+    }
+}
+
+TEST_P(WorkOffset, IsFoundFromAPartOfTheLog) {
+    // The middle half, in which neither end says where the program begins.
+    Displaced made(GetParam(), 17.5);
+    const LineMap map(made.log.find("line")->values, made.program, made.log.keep_alive);
+    const Column<LineNumber> lines = [&] {
+        Column<LineNumber> all(static_cast<std::size_t>(made.path.count / 2));
+        for (std::size_t i = 0; i < all.size(); ++i)
+            all[i] = map.line_at(made.path.count / 4 + static_cast<PointIndex>(i));
+        return all;
+    }();
+    made.cut(made.path.count / 4, made.path.count / 2);
+    ChannelView view;
+    view.first = reinterpret_cast<const std::byte*>(lines.data());
+    view.stride = sizeof(LineNumber);
+    view.count = made.path.count;
+    view.type = ScalarType::u32;
+    const LineMap of_part(view, made.program, made.log.keep_alive);
+    const std::optional<Eigen::Isometry3d> pose = find_pose(made.path, made.program, &of_part);
+    ASSERT_TRUE(pose);
+    EXPECT_LT(error_of(*pose, made.put), 1e-2);
 }
 
 TEST_P(WorkOffset, OfALogInPlaceIsNone) {
     Displaced made(GetParam());
-    made.path.offset = Vec3::Zero();
-    const std::optional<Vec3> shift = find_shift(made.path, made.program, nullptr);
-    ASSERT_TRUE(shift);
-    EXPECT_LT(shift->norm(), 2e-3);
+    made.path.set_pose(Eigen::Isometry3d::Identity());
+    const std::optional<Eigen::Isometry3d> pose = find_pose(made.path, made.program, nullptr);
+    ASSERT_TRUE(pose);
+    EXPECT_LT(error_of(*pose, Eigen::Isometry3d::Identity()), 2e-3);
 }
 
 INSTANTIATE_TEST_SUITE_P(Recorded, WorkOffset,
@@ -68,9 +105,9 @@ INSTANTIATE_TEST_SUITE_P(Recorded, WorkOffset,
 
 TEST(WorkOffsetRefused, ForAnotherProgram) {
     Displaced made({"petal_loops_g64.ngc", "bottle_uneven.biip"});
-    EXPECT_FALSE(find_shift(made.path, made.program, nullptr));
+    EXPECT_FALSE(find_pose(made.path, made.program, nullptr));
     const LineMap map(made.log.find("line")->values, made.program, made.log.keep_alive);
-    EXPECT_FALSE(find_shift(made.path, made.program, &map));
+    EXPECT_FALSE(find_pose(made.path, made.program, &map));
 }
 
 TEST(WorkOffsetRefused, WhereNothingDeterminesIt) {
@@ -78,16 +115,16 @@ TEST(WorkOffsetRefused, WhereNothingDeterminesIt) {
     Displaced made({"bottle_uneven.nc", "bottle_uneven.biip"});
     const LineMap map(made.log.find("line")->values, made.program, made.log.keep_alive);
     made.cut(0, made.path.count / 2);
-    const std::optional<Vec3> blind = find_shift(made.path, made.program, nullptr);
-    const double off = blind ? (*blind + displaced).norm() : 0.0;
+    const std::optional<Eigen::Isometry3d> blind = find_pose(made.path, made.program, nullptr);
+    const double off = blind ? error_of(*blind, made.put) : 0.0;
     EXPECT_LT(off, 2e-3) << "a wrong offset is worse than none";
-    const std::optional<Vec3> seeing = find_shift(made.path, made.program, &map);
+    const std::optional<Eigen::Isometry3d> seeing = find_pose(made.path, made.program, &map);
     ASSERT_TRUE(seeing);
-    EXPECT_LT((*seeing + displaced).norm(), 1e-3);
+    EXPECT_LT(error_of(*seeing, made.put), 1e-3);
     // One straight line: nothing tells where along it.
     made = Displaced({"transition_g61.nc", "transition_g61.biip"});
     made.cut(5000, 120);
-    EXPECT_FALSE(find_shift(made.path, made.program, nullptr));
+    EXPECT_FALSE(find_pose(made.path, made.program, nullptr));
 }
 
 }  // namespace

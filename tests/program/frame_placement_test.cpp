@@ -102,6 +102,13 @@ TEST(WorkFrames, APoseFromOutsideMovesOnlyWhatTheProgramLeavesOpen) {
               (Rows{"rapid 0 0 400", "rapid 1 1 400", "rapid 1 1 5", "feed 1 1 0", "feed 2 1 0"}));
 }
 
+TEST(WorkFrames, AMachineMayStandAnywhereBeforeTheProgram) {
+    FramePoses poses;
+    poses.starts_anywhere = true;
+    EXPECT_EQ(on_workpiece("G21 G90\nG0 Z5\nG0 X0\nY0\nG1 Z0 F100\nX2\nM2\n", "linuxcnc", poses),
+              (Rows{"rapid nan nan 5", "rapid 0 nan 5", "rapid 0 0 5", "feed 0 0 0", "feed 2 0 0"}));
+}
+
 TEST(WorkFrames, ASystemOfItsOwnPoseIsNamed) {
     FramePoses poses;
     poses.zero = pose_of(Vec3(10, 0, 0), 0);
