@@ -42,8 +42,7 @@ Json defect_json(const Defect& d, std::size_t id, double scallop) {
               {"quantity", name_of(d.quantity)},
               {"systematic", d.systematic},
               {"text", sentence_of(d)},
-              {"position_mm", vector(d.position)},
-              {"bounds_mm", box(d.bounds)},
+              {"bounds_mm", box(d.contact_bounds.isEmpty() ? d.bounds : d.contact_bounds)},
               {"area_mm2", number(d.area, 4)},
               {"length_mm", number(d.length, 3)},
               {"depth_um", number(d.depth * um_per_mm, 2)},
@@ -54,6 +53,7 @@ Json defect_json(const Defect& d, std::size_t id, double scallop) {
               {"acceleration_jump_mm_s2", number(d.acceleration_jump, 1)},
               {"point", d.point}};
     if (d.systematic) add_systematic(json, d);
+    add_place(json, d.place);
     add_runs(json, d.runs);
     Json beside;
     add_runs(beside, d.neighbours);

@@ -51,12 +51,13 @@ std::string query_json(const std::vector<QueryMatch>& matches, const Diagnostics
                        {"text", m.text},
                        {"subprogram", m.calls.subprogram ? place_json(*m.calls.subprogram) : Json()},
                        {"calls", std::move(calls)},
-                       {"position_mm", vector(m.position)},
                        {"speed_mm_min", number(m.speed * seconds_per_minute, 2)},
                        {"acceleration_mm_s2", number(m.acceleration, 2)},
                        {"confidence", number(m.confidence, 3)},
                        {"distance_mm", number(m.distance, 4)},
                        {"line_points", Json::array({m.line_points.first, m.line_points.last})}});
+        add_place(all.back(), m.place);
+        if (m.pass) all.back()["pass"] = *m.pass;
         if (m.speed_uncertainty)
             all.back()["speed_uncertainty_mm_min"] = number(*m.speed_uncertainty * seconds_per_minute);
         if (m.acceleration_uncertainty)

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/cutter_place.h"
 #include "core/diagnostic.h"
 #include "core/geometry.h"
 #include "core/point.h"
@@ -21,10 +22,11 @@ struct QueryMatch {
     PointIndex point = 0;
     double time = 0;  ///< [s]
     LineNumber line = 0;
-    std::string text;                                                   ///< of the line
-    Vec3 position = Vec3::Zero();                                       ///< [mm]
-    double speed = 0;                                                   ///< [mm/s]
-    double acceleration = 0;                                            ///< [mm/s²]
+    std::string text;  ///< of the line
+    CutterPlace place;
+    std::optional<std::int64_t> pass;  ///< number of the cut pass, from 1, where it was found by place
+    double speed = 0;                  ///< [mm/s]
+    double acceleration = 0;           ///< [mm/s²]
     std::optional<double> speed_uncertainty, acceleration_uncertainty;  ///< standard deviations, where known
     double confidence = 0;                                              ///< 0 … 1
     double distance = 0;     ///< [mm] to the asked position; 0 where none was asked

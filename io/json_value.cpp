@@ -46,6 +46,12 @@ Json exact_vector(const Vec3& v) { return Json::array({number(v.x()), number(v.y
 
 Json box(const Box3& b) { return b.isEmpty() ? Json(nullptr) : Json::array({vector(b.min()), vector(b.max())}); }
 
+void add_place(Json& json, const CutterPlace& place) {
+    json["position_mm"] = vector(place.position());
+    json["tip_mm"] = vector(place.tip);
+    if (place.contact) json["contact_mm"] = vector(*place.contact);
+}
+
 Json list(const Diagnostics& diagnostics) {
     Json all = Json::array();
     for (const Diagnostic& d : diagnostics.summary()) {

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/cutter_place.h"
 #include "core/diagnostic.h"
 #include "core/geometry.h"
 
@@ -42,6 +43,10 @@ constexpr int schema_version = 2;
 [[nodiscard]] Json exact_vector(const Vec3& v);
 
 [[nodiscard]] Json box(const Box3& b);
+
+/// Adds "position_mm" (the contact point where it is known, else the tip), "tip_mm" and, where it is known,
+/// "contact_mm" to an object.
+void add_place(Json& json, const CutterPlace& place);
 
 [[nodiscard]] Json list(const Diagnostics& diagnostics);
 

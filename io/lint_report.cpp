@@ -55,16 +55,17 @@ std::string lines_text(LineNumber first, LineNumber last) {
 
 Json finding_json(const LintFinding& f) {
     const Shown shown = shown_of(f.rule);
-    return {{"rule", name_of(f.rule)},
-            {"severity", name_of(f.severity)},
-            {"lines", Json::array({f.first_line, f.last_line})},
-            {"beside_lines", f.beside_first > 0 ? Json::array({f.beside_first, f.beside_last}) : Json(nullptr)},
-            {"pass", f.pass > 0 ? Json(f.pass) : Json(nullptr)},
-            {"position_mm", vector(f.position)},
-            {"found", number(f.found * shown.factor)},
-            {"expected", number(f.expected * shown.factor)},
-            {"unit", shown.unit},
-            {"text", message_of(f)}};
+    Json json{{"rule", name_of(f.rule)},
+              {"severity", name_of(f.severity)},
+              {"lines", Json::array({f.first_line, f.last_line})},
+              {"beside_lines", f.beside_first > 0 ? Json::array({f.beside_first, f.beside_last}) : Json(nullptr)},
+              {"pass", f.pass > 0 ? Json(f.pass) : Json(nullptr)},
+              {"found", number(f.found * shown.factor)},
+              {"expected", number(f.expected * shown.factor)},
+              {"unit", shown.unit},
+              {"text", message_of(f)}};
+    add_place(json, f.place);
+    return json;
 }
 
 }  // namespace

@@ -236,7 +236,7 @@ Json defects_json(const ReportPage& page) {
                        {"severity", d.severity},
                        {"cause", name_of(d.cause)},
                        {"text", sentence_of(d)},
-                       {"position_mm", vector(d.position)},
+                       {"position_mm", vector(d.place.tip)},
                        {"bounds_mm", box(d.bounds)},
                        {"depth_um", number(d.depth * um_per_mm, 2)},
                        {"shape", shape_of(d)},

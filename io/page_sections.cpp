@@ -132,7 +132,7 @@ std::string defect_list_section(const ReportPage& page) {
             i + 1, i + 1, d.severity, d.severity, name_of_severity(d.severity), html(sentence_of(d)), d.score,
             d.depth * um_per_mm, shape_of(d),
             formed ? fmt::format("<td>{}</td>", um_text(page.quality.formed->marks[i])) : "", 100 * d.speed_mismatch,
-            d.length, d.position.x(), d.position.y(), d.position.z(), html(defect_lines(d)));
+            d.length, d.place.position().x(), d.place.position().y(), d.place.position().z(), html(defect_lines(d)));
     }
     text += "</tbody></table></div>\n";
     if (report.defects.size() > defects_in_table)
@@ -164,7 +164,7 @@ std::string numbers_section(const ReportPage& page) {
         const FormedReport& f = *page.quality.formed;
         text += fmt::format(
             "<p>Formed surface with {}, {} patches: Ra {:.2f}, Rz {:.2f} (at most {:.2f}), Sa {:.2f}, Sz {:.2f} µm, cut-off {:g} mm.</p>\n",
-            html(to_text(page.quality.tool)), f.patches.size(), f.ra * um_per_mm, f.rz * um_per_mm,
+            html(to_text(*page.quality.tool)), f.patches.size(), f.ra * um_per_mm, f.rz * um_per_mm,
             f.patches[f.roughest].profile.rz * um_per_mm, f.sa * um_per_mm, f.sz * um_per_mm, f.cutoff);
     } else {
         text += "<p>Roughness is not known without the tool: <code>--tool ball:D</code>.</p>\n";
@@ -255,7 +255,7 @@ std::string page_summary(const ReportPage& page) {
     }
     if (page.quality.formed != nullptr && !page.quality.formed->patches.empty()) {
         text += fact("Roughness", fmt::format("Rz {:.2f} µm", page.quality.formed->rz * um_per_mm),
-                     fmt::format("Ra {:.2f} µm, {}", page.quality.formed->ra * um_per_mm, to_text(page.quality.tool)));
+                     fmt::format("Ra {:.2f} µm, {}", page.quality.formed->ra * um_per_mm, to_text(*page.quality.tool)));
     }
     std::size_t warnings = 0;
     for (const Diagnostic& d : page.health.kept()) warnings += d.severity == Severity::note ? 0 : 1;

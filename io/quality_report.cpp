@@ -14,6 +14,9 @@
 namespace clsurf::io {
 namespace {
 
+/// What the coordinates of a place are of.
+std::string_view place_word(const CutterPlace& place) { return place.contact ? "contact" : "tool tip"; }
+
 double um(double mm) { return mm * um_per_mm; }
 double per_minute(double per_second) { return per_second * seconds_per_minute; }
 
@@ -87,11 +90,13 @@ std::string defects_table(const ReportedQuality& q) {
     const bool formed = q.formed != nullptr;
     std::string text =
         fmt::format("{:>4} {:<8} {:<13} {:>7} {:>7} {:>14} {:>7}{}  {:<22} {}\n", "rank", "severity", "cause", "times",
-                    "speed", "depth", "length", formed ? "  formed" : "", "X Y Z", "lines");
+                    "speed", "depth", "length", formed ? "  formed" : "",
+                    fmt::format("{} X Y Z", place_word(r.defects.front().place)), "lines");
     text += fmt::format("{:>4} {:<8} {:<13} {:>7} {:>7} {:>14} {:>7}{}  {:<22}\n", "", "", "", "limit", "[%]", "[µm]",
                         "[mm]", formed ? "    [µm]" : "", "[mm]");
     for (std::size_t i = 0; i < r.defects.size(); ++i) {
         const Defect& d = r.defects[i];
+        const Vec3& at = d.place.position();
         const double mark = formed && !d.systematic ? um(q.formed->marks[i]) : std::numeric_limits<double>::quiet_NaN();
         const std::string depth = d.systematic         ? fmt::format("±{:.1f}", um(d.depth))
                                   : um(d.depth) < 0.05 ? "0.0"
@@ -102,7 +107,7 @@ std::string defects_table(const ReportedQuality& q) {
             !formed        ? ""
             : mark == mark ? fmt::format(" {:>7.1f}", mark)
                            : "       -",
-            fmt::format("{:.2f} {:.2f} {:.2f}", d.position.x(), d.position.y(), d.position.z()), lines_column(d));
+            fmt::format("{:.2f} {:.2f} {:.2f}", at.x(), at.y(), at.z()), lines_column(d));
     }
     return text + "\n";
 }
@@ -142,7 +147,7 @@ std::string quality_json(const ReportedQuality& q) {
                  {"acceleration_mismatch_p99_mm_s2", number(quantity(r.thresholds.p99, Quantity::acceleration), 2)},
                  {"thresholds", std::move(thresholds)},
                  {"filter", r.note},
-                 {"tool", to_text(q.tool)},
+                 {"tool", q.tool ? Json(to_text(*q.tool)) : Json(nullptr)},
                  {"budget", std::move(budget)},
                  {"within_budget", r.judgement.judged() && all_held(q.budget)}};
     if (q.formed != nullptr) add_roughness(summary, *q.formed);
@@ -157,16 +162,17 @@ std::string quality_json(const ReportedQuality& q) {
 std::string quality_csv(const ReportedQuality& q) {
     std::string text =
         "id,severity,cause,pass,first_line,last_line,first_point,last_point,x [mm],y [mm],z [mm],depth [µm],shape,"
-        "speed jump [mm/min],acceleration jump [mm/s²],length [mm],area [mm²],score,speed jump [%],quantity,systematic\n";
+        "speed jump [mm/min],acceleration jump [mm/s²],length [mm],area [mm²],score,speed jump [%],quantity,systematic,place\n";
     for (std::size_t i = 0; i < q.report->defects.size(); ++i) {
         const Defect& d = q.report->defects[i];
+        const Vec3& at = d.place.position();
         for (const DefectRun& run : d.runs) {
             text += fmt::format(
-                "{},{},{},{},{},{},{},{},{:.4f},{:.4f},{:.4f},{:.3f},{},{:.1f},{:.1f},{:.3f},{:.4f},{:.2f},{:.1f},{},{}\n",
+                "{},{},{},{},{},{},{},{},{:.4f},{:.4f},{:.4f},{:.3f},{},{:.1f},{:.1f},{:.3f},{:.4f},{:.2f},{:.1f},{},{},{}\n",
                 i + 1, d.severity, name_of(d.cause), run.pass, run.first_line, run.last_line, run.points.first,
-                run.points.last, d.position.x(), d.position.y(), d.position.z(), um(d.depth), shape_of(d),
+                run.points.last, at.x(), at.y(), at.z(), um(d.depth), shape_of(d),
                 per_minute(d.speed_jump), d.acceleration_jump, d.length, d.area, d.score, 100 * d.speed_mismatch,
-                name_of(d.quantity), d.systematic);
+                name_of(d.quantity), d.systematic, place_word(d.place));
         }
     }
     return text;
@@ -189,7 +195,7 @@ std::string quality_text(const ReportedQuality& q) {
         const std::string thresholds = thresholds_text(r);
         if (!thresholds.empty()) text += fmt::format("thresholds: {}; {}\n", thresholds, r.note);
         if (q.scallop > 0)
-            text += fmt::format("scallop between clean passes with {}: {:.2f} µm\n", to_text(q.tool), um(q.scallop));
+            text += fmt::format("scallop between clean passes with {}: {:.2f} µm\n", to_text(*q.tool), um(q.scallop));
         if (q.formed != nullptr && !q.formed->patches.empty()) {
             const FormedReport& f = *q.formed;
             const RoughPatch& roughest = f.patches[f.roughest];

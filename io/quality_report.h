@@ -1,6 +1,7 @@
 #pragma once
 // The predictor's report as JSON, CSV, SARIF 2.1.0 and as a table for people.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,7 @@ struct ReportedQuality {
     const QualityReport* report = nullptr;
     const Program* program = nullptr;
     std::string log;  ///< its name
-    CuttingTool tool;
+    std::optional<CuttingTool> tool;
     double scallop = 0;                      ///< [mm] between clean passes; 0: not known
     std::vector<double> colour_differences;  ///< ΔE00 of each defect's speed and that beside it, in the map of speeds
     const FormedReport* formed = nullptr;    ///< nullptr: the tool is not known

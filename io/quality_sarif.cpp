@@ -27,18 +27,19 @@ Json location(const std::string& uri, const DefectRun& run, const std::string& m
 }
 
 std::string message_of(const Defect& d) {
-    return fmt::format("{} at X {:.2f} Y {:.2f} Z {:.2f} mm. Severity {} ({}), {:.1f} times the threshold.",
-                       sentence_of(d), d.position.x(), d.position.y(), d.position.z(), d.severity,
+    const Vec3& at = d.place.position();
+    return fmt::format("{} at the {} X {:.2f} Y {:.2f} Z {:.2f} mm. Severity {} ({}), {:.1f} times the threshold.",
+                       sentence_of(d), d.place.contact ? "contact point" : "tool tip", at.x(), at.y(), at.z(), d.severity,
                        name_of_severity(d.severity), d.score);
 }
 
 std::string markdown_of(const Defect& d) {
+    const Vec3& at = d.place.position();
     return fmt::format(
         "**{}** (severity {}, {:.1f} × threshold): {}\n\n| depth | speed | length | place [mm] |\n|---|---|---|---|\n"
         "| {:.1f} µm {} | {:+.1f} % ({:+.0f} mm/min) | {:.1f} mm | X {:.2f} Y {:.2f} Z {:.2f} |\n",
         name_of_severity(d.severity), d.severity, d.score, sentence_of(d), d.depth * um_per_mm, shape_of(d),
-        100 * d.speed_mismatch, d.speed_jump * seconds_per_minute, d.length, d.position.x(), d.position.y(),
-        d.position.z());
+        100 * d.speed_mismatch, d.speed_jump * seconds_per_minute, d.length, at.x(), at.y(), at.z());
 }
 
 /// The same on every run of the program: what, on which pass, and about where, in cells of 5 mm.
@@ -47,8 +48,8 @@ std::string fingerprint_of(const Defect& d, std::map<std::string, int>& seen) {
     const auto coarse = [](double mm) { return static_cast<long>(std::floor(mm / cell)); };
     std::string text = d.systematic ? std::string(rule_of(d).id)
                                     : fmt::format("{}/{}/{}/{}/{}/{}", name_of(d.cause), name_of(d.quantity),
-                                                  d.runs.empty() ? 0 : d.runs.front().pass, coarse(d.position.x()),
-                                                  coarse(d.position.y()), coarse(d.position.z()));
+                                                  d.runs.empty() ? 0 : d.runs.front().pass, coarse(d.place.tip.x()),
+                                                  coarse(d.place.tip.y()), coarse(d.place.tip.z()));
     const int number = ++seen[text];
     return number == 1 ? text : fmt::format("{}/{}", text, number);
 }
@@ -100,6 +101,7 @@ std::string quality_sarif(const ReportedQuality& q) {
               {"shape", shape_of(d)},
               {"speed_jump_percent", number(100 * d.speed_mismatch, 1)},
               {"log", q.log}}}};
+        add_place(result["properties"], d.place);
         Json related = related_locations(uri, d);
         if (!related.empty()) result["relatedLocations"] = std::move(related);
         results.push_back(std::move(result));

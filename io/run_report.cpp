@@ -44,7 +44,6 @@ Json stretch_json(const RunDifferenceStretch& d, std::size_t id) {
               {"unit", info.unit.name},
               {"peak", shown(d.peak)},
               {"mean", shown(d.mean)},
-              {"position_mm", vector(d.position)},
               {"lines", Json::array({d.first_line, d.last_line})},
               {"points", Json::array({d.points.first, d.points.last})},
               {"points_of_run", Json::array({d.points_of_b.first, d.points_of_b.last})},
@@ -52,6 +51,7 @@ Json stretch_json(const RunDifferenceStretch& d, std::size_t id) {
               {"length_mm", number(d.length)},
               {"time_s", number(d.time)},
               {"score", number(d.score)}};
+    add_place(json, d.place);
     if (d.quantity == RunQuantity::speed) {
         json["peak_percent"] = number(100 * d.relative_peak);
         json["mean_percent"] = number(100 * d.relative_mean);
@@ -117,7 +117,9 @@ std::string run_text(const ReportedRun& run, const std::string& reference) {
             relative ? fmt::format("{:+.1f} %", 100 * d.relative_peak)
                      : fmt::format("{:+.2f} {}", d.peak * u, info.unit.name),
             relative ? fmt::format("{:+.1f} %", 100 * d.relative_mean) : fmt::format("{:+.2f}", d.mean * u), d.length,
-            d.time, fmt::format("{:.2f} {:.2f} {:.2f}", d.position.x(), d.position.y(), d.position.z()), lines_of(d));
+            d.time,
+            fmt::format("{:.2f} {:.2f} {:.2f}", d.place.position().x(), d.place.position().y(), d.place.position().z()),
+            lines_of(d));
     }
     if (r.stretches.size() > shown_stretches)
         text += fmt::format("and {} more: --json lists them\n", r.stretches.size() - shown_stretches);

@@ -39,6 +39,7 @@ public:
             at = next;
         }
         if (seen != 0 && (seen & Words::bit('T')) == 0) fail("a tool needs its number (T)", 0);
+        if (at < text_.size()) tool.remark = std::string(text_.substr(at + 1));
         return seen != 0;
     }
 

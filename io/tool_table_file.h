@@ -4,7 +4,7 @@
 //     T1 P1 D6.0 Z12.3 ; ball nose
 //
 // T: number. P: pocket. D: diameter. X Y Z: what G43 takes off. I J: front and back angle [deg],
-// Q: orientation, of a lathe tool. Lengths are mm. Source: LinuxCNC, "Tool Table Format".
+// Q: orientation, of a lathe tool. Lengths are mm. The remark may tell the tool's shape (quality/tool.h). Source: LinuxCNC, "Tool Table Format".
 
 #include "io/mapped_file.h"
 #include "program/tool_table.h"

@@ -180,7 +180,7 @@ Score score(const PlantedLog& planted, const QualityReport& report) {
             }
         }
         const Near near_place(planted, truth, planted.recipe.step_over);
-        if (near_place.has(best->position)) ++result.placed;
+        if (near_place.has(best->place.tip)) ++result.placed;
         if (lines_match(planted, truth, *best)) ++result.lined;
         if (best->cause == cause_of(planted.recipe.defects[d].kind)) ++result.named;
         if (right_sign(planted.recipe.defects[d], *best)) ++result.signed_right;

@@ -42,7 +42,6 @@ std::vector<double> colour_differences(const QualityReport& report, const Part& 
 ExitCode run_check(const po::variables_map& values) {
     PartOptions options = read_part_options(values);
     const std::optional<Role> measured = take_measured_role(options);
-    const QualityOptions quality_options = read_quality_options(values);
     QualityBudget budget;
     if (values.count("budget") > 0) budget = io::read_budget(values["budget"].as<std::string>());
     ReportOutput output(values, check_formats);
@@ -52,13 +51,13 @@ ExitCode run_check(const po::variables_map& values) {
     Part part = load_part(options, clock);
     clock.begin("stitch the surface");
     const ClSurface surface = stitch(part);
-    const Quality quality = judge(part, surface, measured, quality_options, clock);
+    const Quality quality = judge(part, surface, measured, {}, clock);
 
     io::ReportedQuality reported;
     reported.report = &quality.report;
     reported.program = &part.program;
     reported.log = part.log.name;
-    reported.tool = quality_options.tool;
+    reported.tool = part.tool;
     reported.scallop = quality.scallop;
     if (output.format() == "json") reported.colour_differences = colour_differences(quality.report, part, surface);
     reported.formed = quality.formed ? &*quality.formed : nullptr;
@@ -91,7 +90,7 @@ Subcommand check_subcommand() {
             "  clsurf check part.nc run.biip --tool ball:6 --budget part.toml --format sarif -o part.sarif",
         .declare =
             [](po::options_description& options) {
-                declare_quality(options);
+                declare_tool(options);
                 // clang-format off
                 options.add_options()
                     ("budget", po::value<std::string>()->value_name("FILE"), "limits as TOML; exit code 1 where one is not held");

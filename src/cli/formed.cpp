@@ -90,11 +90,6 @@ private:
 
 }  // namespace
 
-CuttingTool required_tool(const po::variables_map& values, const std::string& what, const std::string& example) {
-    if (values.count("tool") == 0) throw UsageError(what + " needs to know the tool", "say it with --tool: " + example);
-    return parse_tool(values["tool"].as<std::string>());
-}
-
 FormedPart::FormedPart(const Part& part, const ClSurface& surface, std::optional<Role> role, const CuttingTool& tool,
                        StageClock& clock) {
     clock.begin("sweep the tool");

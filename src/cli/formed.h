@@ -28,10 +28,6 @@ private:
     std::optional<FormedSurface> formed_;
 };
 
-/// --tool, or a UsageError that says what needs it, with an example.
-[[nodiscard]] CuttingTool required_tool(const po::variables_map& values, const std::string& what,
-                                        const std::string& example);
-
 /// What a map of the formed surface is drawn from.
 struct FormedMap {
     viz::Relief relief;

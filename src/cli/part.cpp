@@ -1,10 +1,16 @@
 #include "cli/part.h"
 
+#include <charconv>
+
+#include <fmt/format.h>
+
 #include "cli/work_frames.h"
 #include "core/spelling.h"
 #include "io/compressed.h"
+#include "io/log_tool.h"
 #include "io/program_file.h"
 #include "io/program_identity.h"
+#include "io/tool_table_file.h"
 #include "path/pieces.h"
 #include "path/tip_motions.h"
 
@@ -19,6 +25,33 @@ Role parse_role(const std::string& text) {
 }
 
 namespace {
+
+/// The tool that the log's metadata name, else the program's tool table, where all of its tools in use have one shape.
+std::optional<CuttingTool> recorded_tool(const Part& part, const std::string& tool_table) {
+    if (const std::string recorded = io::tool_of_metadata(part.log.metadata); !recorded.empty()) {
+        try {
+            return parse_tool(recorded);
+        } catch (const UsageError& error) {
+            throw InputError(Place::of_file(part.log.name), fmt::format("its metadata: {}", error.what()));
+        }
+    }
+    if (tool_table.empty()) return std::nullopt;
+    const ToolTable table = io::read_tool_table(io::open_source(tool_table));
+    std::optional<CuttingTool> known;
+    for (const ProgramEvent& event : part.program.events) {
+        if (event.name != "tool" || !event.value.starts_with("T")) continue;
+        int number = 0;
+        const char* end = event.value.data() + event.value.size();
+        if (std::from_chars(event.value.data() + 1, end, number).ec != std::errc()) return std::nullopt;
+        if (number == 0) continue;
+        const Tool* row = table.find(number);
+        const std::optional<CuttingTool> tool =
+            row != nullptr ? tool_of_remark(row->remark, row->diameter) : std::nullopt;
+        if (!tool || (known && *known != *tool)) return std::nullopt;
+        known = tool;
+    }
+    return known;
+}
 
 /// The role that lines are found by: what was commanded, where it is there.
 Role mapping_role(const Log& log, Role shown) { return log.has(Role::commanded) ? Role::commanded : shown; }
@@ -46,6 +79,18 @@ void declare_part(po::options_description& options, bool can_form) {
     // clang-format on
 }
 
+void declare_tool(po::options_description& options) {
+    // clang-format off
+    options.add_options()
+        ("tool", po::value<std::string>()->value_name("ball:D|bull:D,R|flat:D|none"), "the tool, diameter and corner radius in mm; places are then contact points on the part, without it the tool tip (default: what the log's metadata or --tools tell)");
+    // clang-format on
+}
+
+CuttingTool required_tool(const Part& part, const std::string& what, const std::string& example) {
+    if (!part.tool) throw UsageError(what + " needs to know the tool", "say it with --tool: " + example);
+    return *part.tool;
+}
+
 void declare_derivative(po::options_description& options) {
     // clang-format off
     options.add_options()
@@ -61,6 +106,11 @@ PartOptions read_part_options(const po::variables_map& values) {
     options.log_options = read_log_options(values);
     options.use_line_channel = values.count("ignore-lines") == 0;
     options.force = values.count("force") > 0;
+    if (values.count("tool") > 0) {
+        const std::string tool = values["tool"].as<std::string>();
+        options.no_tool = tool == "none";
+        if (!options.no_tool) options.tool = parse_tool(tool);
+    }
     options.role_given = values.count("surface") > 0;
     options.formed = options.role_given && values["surface"].as<std::string>() == "formed";
     if (options.formed) options.role_given = false;
@@ -110,6 +160,8 @@ Part load_part(const PartOptions& options, StageClock& clock) {
         map_lines(mapped, part.log, part.program, options.use_line_channel, part.diagnostics, identity));
     if (!kinematics && part.diagnostics.count("path.rotary") > 0) forget_path(*part.lines);
     refuse_foreign(part.lines->match(), part.program, part.log, options.force, part.diagnostics);
+    part.tool = options.tool;
+    if (!part.tool && !options.no_tool) part.tool = recorded_tool(part, options.program_options.tools);
     clock.end();
     return part;
 }

@@ -14,6 +14,7 @@
 #include "path/trajectory.h"
 #include "program/frame_placement.h"
 #include "program/program.h"
+#include "quality/tool.h"
 #include "surface/cl_surface.h"
 
 namespace clsurf::cli {
@@ -28,13 +29,17 @@ struct PartOptions {
     FramePoses poses;        ///< --work-offset
     std::string machine;     ///< machine file with the kinematics; empty: three axes
     bool use_line_channel = true;
-    bool force = false;  ///< go on with a log that does not belong to the program
+    bool force = false;               ///< go on with a log that does not belong to the program
+    std::optional<CuttingTool> tool;  ///< --tool
+    bool no_tool = false;             ///< --tool none: whatever the log or the tool table tell
     DerivativeMethod derivative = DerivativeMethod::savgol;
 };
 
 /// --dialect, --block-delete, --tools, --layout, --mapping, --period, --surface, --work-offset, --machine, --ignore-lines.
 /// `can_form`: --surface may be `formed` too.
 void declare_part(po::options_description& options, bool can_form = false);
+/// --tool.
+void declare_tool(po::options_description& options);
 /// --derivative, of what shows fields.
 void declare_derivative(po::options_description& options);
 [[nodiscard]] PartOptions read_part_options(const po::variables_map& values);
@@ -48,11 +53,15 @@ struct Part {
     Trajectory path;  ///< of the role that is shown
     std::unique_ptr<LineMap> lines;
     DerivativeMethod derivative = DerivativeMethod::savgol;  ///< of fields
+    std::optional<CuttingTool> tool;                         ///< as --tool, the log or the tool table tells it
     Diagnostics diagnostics;                                 ///< of program, log and map together
 };
 
 /// Reads and maps. Throws InputError (also where the log does not belong to the program, unless forced), UsageError.
 [[nodiscard]] Part load_part(const PartOptions& options, StageClock& clock);
+
+/// The tool of a part, or a UsageError that says what needs it, with an example.
+[[nodiscard]] CuttingTool required_tool(const Part& part, const std::string& what, const std::string& example);
 
 /// What derives the speeds of pieces of the part, as --derivative asks for it; nullptr: savgol. O(points).
 [[nodiscard]] std::shared_ptr<const MotionEstimate> estimate_motion(const Part& part, const Passes& pieces);

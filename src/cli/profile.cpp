@@ -15,7 +15,7 @@ void declare_profile(po::options_description& options) {
     options.add_options()
         ("profile", po::value<std::string>()->value_name("X0,Y0,X1,Y1"), "instead of curves, a cut across the formed surface from one place to another [mm], with Ra and Rz; needs --tool");
     // clang-format on
-    declare_quality(options);
+    declare_tool(options);
 }
 
 bool asks_for_profile(const po::variables_map& values) {
@@ -31,7 +31,6 @@ bool asks_for_profile(const po::variables_map& values) {
 
 ExitCode plot_profile(const po::variables_map& values, PartOptions options, viz::ChartLook look,
                       const std::string& output_name) {
-    const CuttingTool tool = required_tool(values, "--profile", "--profile 10,0,10,5 --tool ball:6");
     const std::vector<double> ends = parse_numbers(values["profile"].as<std::string>(), "--profile", 4);
     const Vec2 from(ends[0], ends[1]);
     const Vec2 to(ends[2], ends[3]);
@@ -43,6 +42,7 @@ ExitCode plot_profile(const po::variables_map& values, PartOptions options, viz:
     StageClock clock(read_common(values), 7);
     const Part part = load_part(options, clock);
     print(part.diagnostics, values);
+    const CuttingTool tool = required_tool(part, "--profile", "--profile 10,0,10,5 --tool ball:6");
     clock.begin("stitch the surface");
     const ClSurface surface = stitch(part);
     const FormedPart formed(part, surface, role, tool, clock);

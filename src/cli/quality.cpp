@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "cli/contacts.h"
 #include "path/pieces.h"
 #include "quality/axis_delay.h"
 #include "quality/scallop.h"
@@ -28,20 +29,6 @@ PartSignals signals_along(const Log& log, const Trajectory& path, const ClSurfac
 }
 
 }  // namespace
-
-void declare_quality(po::options_description& options) {
-    // clang-format off
-    options.add_options()
-        ("tool", po::value<std::string>()->value_name("ball:D|bull:D,R|flat:D"), "the tool, diameter and corner radius in mm; tells scallop, roughness and how deep marks are once the neighbours have cut");
-    // clang-format on
-}
-
-QualityOptions read_quality_options(const po::variables_map& values) {
-    QualityOptions options;
-    options.tool_given = values.count("tool") > 0;
-    if (options.tool_given) options.tool = parse_tool(values["tool"].as<std::string>());
-    return options;
-}
 
 std::optional<Role> take_measured_role(PartOptions& options) {
     if (!options.role_given) return std::nullopt;
@@ -74,27 +61,47 @@ std::unique_ptr<const UprightPart> upright_part(const Part& part, std::optional<
     return upright;
 }
 
-Quality judge(Part& part, const ClSurface& surface, std::optional<Role> wanted, const QualityOptions& options,
+QualityReport find_part_defects(Part& part, const ClSurface& surface, const PartSignals& read,
+                                const QualityRules& rules, StageClock& clock) {
+    clock.begin("find the defects");
+    QualityReport report = find_defects(surface, read.signals, *part.lines, part.program, part.log.period, rules);
+    for (std::string& doubt : part.lines->match().doubts()) report.judgement.refuse(std::move(doubt));
+    if (read.measured) explain_systematic_lag(report, part.path, *read.measured, read.signals);
+    for (const std::string& reason : report.judgement.reasons)
+        part.diagnostics.add(
+            {Severity::warning, "quality.not-judged", Place::of_file(part.log.name), "not judged: " + reason, {}});
+    return report;
+}
+
+Quality judge(Part& part, const ClSurface& surface, std::optional<Role> wanted, const QualityRules& rules,
               StageClock& clock) {
     Quality quality;
     clock.begin("derive the signals");
     const PartSignals read = signals_of(part, surface, wanted);
-    clock.begin("find the defects");
-    quality.report = find_defects(surface, read.signals, *part.lines, part.program, part.log.period, options.rules);
-    for (std::string& doubt : part.lines->match().doubts()) quality.report.judgement.refuse(std::move(doubt));
-    if (read.measured) explain_systematic_lag(quality.report, part.path, *read.measured, read.signals);
-    for (const std::string& reason : quality.report.judgement.reasons)
-        part.diagnostics.add(
-            {Severity::warning, "quality.not-judged", Place::of_file(part.log.name), "not judged: " + reason, {}});
-    if (!options.tool_given || surface.step_over <= 0) return quality;
+    quality.report = find_part_defects(part, surface, read, rules, clock);
+    if (!part.tool || surface.step_over <= 0) return quality;
+    const CuttingTool tool = *part.tool;
     clock.begin("measure the formed surface");
-    const std::unique_ptr<const UprightPart> upright = upright_part(part, wanted, options.tool);
+    const PartContacts contacts(part, surface, tool);
+    contacts.locate(quality.report);
+    if (tool.kind != ToolKind::ball && tilts(part.log, part.path)) {
+        part.diagnostics.add(
+            {Severity::warning,
+             "quality.tilted-tool",
+             Place::of_file(part.log.name),
+             to_text(tool) + " is tilted: the formed surface and its roughness are known of balls only",
+             {}});
+        return quality;
+    }
+    const std::unique_ptr<const UprightPart> upright = upright_part(part, wanted, tool);
     const ToolRun run = upright ? upright->run() : ToolRun{part.path, surface, read};
     const double step_over = run.surface.step_over;
-    if (options.tool.kind == ToolKind::ball && step_over > 0 && step_over < 2 * options.tool.radius) {
-        quality.scallop = scallop_height(options.tool.radius, step_over, std::numeric_limits<double>::infinity());
+    if (tool.kind == ToolKind::ball && step_over > 0 && step_over < 2 * tool.radius) {
+        quality.scallop = scallop_height(tool.radius, step_over, std::numeric_limits<double>::infinity());
     }
-    quality.formed = measure_formed(run.formed(options.tool), run.read.signals, quality.report);
+    quality.formed = measure_formed(run.formed(tool), run.read.signals, quality.report);
+    for (RoughPatch& patch : quality.formed->patches)
+        patch.contact = contacts.place(patch.point).contact.value_or(patch.contact);
     return quality;
 }
 

@@ -7,19 +7,8 @@
 #include "cli/part.h"
 #include "quality/defects.h"
 #include "quality/formed_report.h"
-#include "quality/tool.h"
 
 namespace clsurf::cli {
-
-struct QualityOptions {
-    CuttingTool tool;
-    bool tool_given = false;
-    QualityRules rules;
-};
-
-/// --tool.
-void declare_quality(po::options_description& options);
-[[nodiscard]] QualityOptions read_quality_options(const po::variables_map& values);
 
 /// What the predictor reads of a part.
 struct PartSignals {
@@ -69,8 +58,12 @@ struct Quality {
 /// heights are measured from. Returns that role, or the most truthful one where none is named.
 [[nodiscard]] std::optional<Role> take_measured_role(PartOptions& options);
 
-/// The whole of it. Adds diagnostics `quality.…` to the part's.
+/// The defects alone, at tool tips. Adds diagnostics `quality.…` to the part's.
+[[nodiscard]] QualityReport find_part_defects(Part& part, const ClSurface& surface, const PartSignals& read,
+                                              const QualityRules& rules, StageClock& clock);
+
+/// The whole of it, at contact points where the tool is known. Adds diagnostics `quality.…` to the part's.
 [[nodiscard]] Quality judge(Part& part, const ClSurface& surface, std::optional<Role> measured,
-                            const QualityOptions& options, StageClock& clock);
+                            const QualityRules& rules, StageClock& clock);
 
 }  // namespace clsurf::cli

@@ -1,15 +1,15 @@
 // clsurf query: which line, which point, what happened there.
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "cli/contacts.h"
 #include "cli/part.h"
-#include "core/block.h"
 #include "core/file_name.h"
 #include "core/units.h"
 #include "io/json_text.h"
@@ -19,45 +19,92 @@ namespace {
 
 constexpr PointIndex window = 256;  ///< points to each side that the derivatives may look at
 
-struct Candidate {
-    double squared;
-    PointIndex point;
-    friend bool operator<(const Candidate& a, const Candidate& b) {
-        return a.squared != b.squared ? a.squared < b.squared : a.point < b.point;
+constexpr int most_nearest = 100'000;
+
+/// A part and, where the tool is known, its contact points.
+struct QueriedPart {
+    const Part& part;
+    const CallChains chains;
+    std::shared_ptr<const MotionEstimate> estimate;
+    std::optional<ClSurface> surface;  ///< where places are asked for, or contact points
+    std::unique_ptr<const PartContacts> contacts;
+
+    QueriedPart(const Part& queried, bool needs_surface) : part(queried), chains(part.log, part.program, *part.lines) {
+        if (part.derivative == DerivativeMethod::kalman)
+            estimate = estimate_motion(part, find_runs(gather(part.path), *part.lines));
+        if (needs_surface || part.tool) surface = stitch(part);
+        if (part.tool) contacts = std::make_unique<const PartContacts>(part, *surface, *part.tool);
+    }
+    QueriedPart(const QueriedPart&) = delete;
+    QueriedPart& operator=(const QueriedPart&) = delete;
+
+    [[nodiscard]] CutterPlace place(PointIndex point) const {
+        return contacts ? contacts->place(point) : CutterPlace{part.path.at(point), std::nullopt};
     }
 };
 
-/// The `count` points nearest to a position, nearest first. O(points), parallel.
-std::vector<Candidate> nearest_points(const Trajectory& path, const Vec3& at, std::size_t count) {
-    const auto blocks = static_cast<std::size_t>((path.count + block_points - 1) / block_points);
-    std::vector<std::vector<Candidate>> of_block(blocks);
-    for_each_block(path.count, [&](PointIndex first, PointIndex last) {
-        std::vector<Candidate>& best = of_block[static_cast<std::size_t>(first / block_points)];
-        constexpr PointIndex step = 2048;
-        std::array<std::array<double, step>, 3> p;
-        for (PointIndex begin = first; begin < last; begin += step) {
-            const auto n = static_cast<std::size_t>(std::min(step, last - begin));
-            path.read(begin, {p[0].data(), n}, {p[1].data(), n}, {p[2].data(), n});
-            for (std::size_t i = 0; i < n; ++i) {
-                const double dx = p[0][i] - at.x();
-                const double dy = p[1][i] - at.y();
-                const double dz = p[2][i] - at.z();
-                const double squared = dx * dx + dy * dy + dz * dz;
-                if (best.size() == count && !(squared < best.front().squared)) continue;
-                if (!(squared == squared)) continue;
-                best.push_back({squared, begin + static_cast<PointIndex>(i)});
-                std::push_heap(best.begin(), best.end());
-                if (best.size() <= count) continue;
-                std::pop_heap(best.begin(), best.end());
-                best.pop_back();
-            }
+/// "X,Y,Z" or "X,Y", also with blanks.
+WantedPlace parse_place(std::string text) {
+    std::string commas;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] != ' ' && text[i] != '\t') {
+            commas += text[i];
+        } else if (!commas.empty() && commas.back() != ',') {
+            const std::size_t next = text.find_first_not_of(" \t", i);
+            if (next != std::string::npos && text[next] != ',') commas += ',';
         }
-    });
-    std::vector<Candidate> all;
-    for (const std::vector<Candidate>& block : of_block) all.insert(all.end(), block.begin(), block.end());
-    std::sort(all.begin(), all.end());
-    if (all.size() > count) all.resize(count);
-    return all;
+    }
+    WantedPlace wanted;
+    const std::vector<double> numbers = parse_numbers(commas, "--at", 0);
+    if (numbers.size() != 2 && numbers.size() != 3)
+        throw UsageError(fmt::format("--at: '{}' is not a place", text),
+                         "--at X,Y,Z, or --at X,Y for what lies topmost there");
+    wanted.from_above = numbers.size() == 2;
+    wanted.at = Vec3(numbers[0], numbers[1], wanted.from_above ? 0 : numbers[2]);
+    return wanted;
+}
+
+/// Pieces of passes with one line each.
+Passes cut_by_lines(const Part& part, const Passes& passes) {
+    Passes pieces;
+    for (const Pass& pass : passes) {
+        Pass piece{pass.first, pass.first, pass.kind};
+        LineNumber line = part.lines->line_at(pass.first);
+        for (PointIndex i = pass.first + 1; i <= pass.last; ++i) {
+            const LineNumber now = part.lines->line_at(i);
+            if (now != line) {
+                pieces.push_back(piece);
+                piece.first = i;
+                line = now;
+            }
+            piece.last = i;
+        }
+        pieces.push_back(piece);
+    }
+    return pieces;
+}
+
+/// The nearest point of each of the nearest passes, or of each of the nearest lines where there is one pass only.
+std::vector<FoundPlace> find_nearest(const QueriedPart& queried, const WantedPlace& wanted) {
+    const Part& part = queried.part;
+    if (queried.contacts) {
+        std::vector<FoundPlace> found = queried.contacts->find(wanted);
+        if (!found.empty()) return found;
+    }
+    const ClSurface& surface = *queried.surface;
+    if (surface.step_over > 0) return find_places(part.path, surface.passes, nullptr, surface.step_over, wanted);
+    return find_places(part.path, cut_by_lines(part, surface.passes), nullptr, 0, wanted);
+}
+
+/// The number of the cut pass that a point lies on.
+std::optional<std::int64_t> pass_at(const Passes& passes, PointIndex point) {
+    std::int64_t number = 0;
+    for (const Pass& pass : passes) {
+        if (pass.kind == PassKind::cut) ++number;
+        if (point >= pass.first && point <= pass.last)
+            return pass.kind == PassKind::cut ? std::optional(number) : std::nullopt;
+    }
+    return std::nullopt;
 }
 
 PointIndex point_at_time(const Log& log, double time) {
@@ -81,17 +128,17 @@ PointRange spread(PointIndex point, PointIndex count, PointIndex reach, Same&& s
     return range;
 }
 
-io::QueryMatch match_of(const Part& part, const CallChains& chains,
-                        const std::shared_ptr<const MotionEstimate>& estimate, PointIndex point, double distance) {
+io::QueryMatch match_of(const QueriedPart& queried, PointIndex point) {
+    const Part& part = queried.part;
     io::QueryMatch match;
     const LineMap& lines = *part.lines;
     match.point = point;
     match.time = part.log.time_of(point);
     match.line = lines.line_at(point);
-    match.calls = chains.of(point);
+    match.calls = queried.chains.of(point);
     match.text = std::string(part.program.main().line(match.line));
-    match.position = part.path.at(point);
-    match.distance = distance;
+    match.place = queried.place(point);
+    if (queried.surface) match.pass = pass_at(queried.surface->passes, point);
     match.line_points =
         spread(point, part.log.records, part.log.records, [&](PointIndex i) { return lines.line_at(i) == match.line; });
     read_confidences(part.path, part.program, lines, point, {&match.confidence, 1});
@@ -105,11 +152,11 @@ io::QueryMatch match_of(const Part& part, const CallChains& chains,
     const PointRange piece = spread(point, part.log.records, window, [&](PointIndex i) { return kind_at(i) == kind; });
     Passes local;
     local.push_back({piece.first, piece.last, PassKind::cut});
-    const FieldSet fields(part.log, part.path, local, {estimate, 0});
+    const FieldSet fields(part.log, part.path, local, {queried.estimate, 0});
     const auto value = [&](std::string_view name) { return fields.values(name, {point, point}).front(); };
     match.speed = value("speed");
     match.acceleration = value("acceleration");
-    if (estimate) {
+    if (queried.estimate) {
         match.speed_uncertainty = value("speed_uncertainty");
         match.acceleration_uncertainty = value("acceleration_uncertainty");
     }
@@ -156,26 +203,24 @@ PlaceInFile read_line(const std::string& text, const Program& program) {
 
 std::vector<io::QueryMatch> find_matches(const Part& part, const po::variables_map& values) {
     std::vector<io::QueryMatch> matches;
-    const CallChains chains(part.log, part.program, *part.lines);
-    std::shared_ptr<const MotionEstimate> estimate;
-    if (part.derivative == DerivativeMethod::kalman)
-        estimate = estimate_motion(part, find_runs(gather(part.path), *part.lines));
-    std::size_t nearest = 1;
+    std::optional<WantedPlace> wanted;
+    if (values.count("at") > 0) wanted = parse_place(values["at"].as<std::string>());
     if (values.count("nearest") > 0) {
         const int k = values["nearest"].as<int>();
-        if (k < 1 || k > 100'000) throw UsageError("--nearest must be 1 … 100000");
-        if (values.count("at") == 0) throw UsageError("--nearest goes with --at");
-        nearest = static_cast<std::size_t>(k);
+        if (k < 1 || k > most_nearest) throw UsageError(fmt::format("--nearest must be 1 … {}", most_nearest));
+        if (!wanted) throw UsageError("--nearest goes with --at");
+        wanted->pieces = static_cast<std::size_t>(k);
     }
+    const QueriedPart queried(part, wanted.has_value());
     if (values.count("point") > 0) {
         const PointIndex point = values["point"].as<long long>();
         check_point(part.log, point);
-        matches.push_back(match_of(part, chains, estimate, point, 0));
+        matches.push_back(match_of(queried, point));
     }
-    if (values.count("at") > 0) {
-        const std::vector<double> at = parse_numbers(values["at"].as<std::string>(), "--at", 3);
-        for (const Candidate& c : nearest_points(part.path, Vec3(at[0], at[1], at[2]), nearest)) {
-            matches.push_back(match_of(part, chains, estimate, c.point, std::sqrt(c.squared)));
+    if (wanted) {
+        for (const FoundPlace& found : find_nearest(queried, *wanted)) {
+            matches.push_back(match_of(queried, found.point));
+            matches.back().distance = found.distance;
         }
     }
     if (values.count("time") > 0) {
@@ -185,14 +230,14 @@ std::vector<io::QueryMatch> find_matches(const Part& part, const po::variables_m
             throw UsageError(fmt::format("--time {:g}: the log lasts from 0 to {:.6f} s", time,
                                          part.log.time_of(part.log.records - 1)));
         }
-        matches.push_back(match_of(part, chains, estimate, point, 0));
+        matches.push_back(match_of(queried, point));
     }
     if (values.count("line") > 0) {
         const PlaceInFile place = read_line(values["line"].as<std::string>(), part.program);
         const std::vector<PointRange> ranges = place.file == 0
                                                    ? part.lines->points_of(place.line)
                                                    : points_of(part.program, *part.lines, place.file, place.line);
-        for (const PointRange& range : ranges) matches.push_back(match_of(part, chains, estimate, range.first, 0));
+        for (const PointRange& range : ranges) matches.push_back(match_of(queried, range.first));
     }
     return matches;
 }
@@ -207,8 +252,13 @@ void print_matches(const std::vector<io::QueryMatch>& matches) {
                        m.calls.subprogram->text);
         for (auto call = m.calls.calls.rbegin(); call != m.calls.calls.rend(); ++call)
             fmt::print("    called by {} line {}: {}\n", call->file, call->line, call->text);
-        fmt::print("  point {} at {:.3f} s, X {:.4f} Y {:.4f} Z {:.4f} mm", m.point, m.time, m.position.x(),
-                   m.position.y(), m.position.z());
+        const auto text = [](const Vec3& p) {
+            return fmt::format("X {:.4f} Y {:.4f} Z {:.4f} mm", p.x(), p.y(), p.z());
+        };
+        fmt::print("  point {} at {:.3f} s", m.point, m.time);
+        if (m.pass) fmt::print(", pass {}", *m.pass);
+        if (m.place.contact) fmt::print(", contact {}", text(*m.place.contact));
+        fmt::print(", tool tip {}", text(m.place.tip));
         if (m.distance > 0) fmt::print(", {:.4f} mm away", m.distance);
         const auto known = [](const std::optional<double>& sigma, double factor) {
             return sigma ? fmt::format(" ±{:.2g}", *sigma * factor) : std::string();
@@ -246,20 +296,21 @@ Subcommand query_subcommand() {
         .description =
             "Finds points by number, place, line or time and says which line of the program made them;\n"
             "inside a subprogram also its own line, and the calls that led there.\n\n"
-            "  clsurf query part.nc run.biip --at 12.5,-3.0,1.2\n"
+            "  clsurf query part.nc run.biip --at 12.5,-3.0,1.2 --tool ball:6\n"
             "  clsurf query part.nc run.biip --line 1204 --json",
         .declare =
             [](po::options_description& options) {
                 // clang-format off
                 options.add_options()
                     ("point", po::value<long long>()->value_name("N"), "the point of that number, from 0")
-                    ("at", po::value<std::string>()->value_name("X,Y,Z"), "the point nearest to a place on the workpiece [mm]")
-                    ("nearest", po::value<int>()->value_name("K"), "with --at: the K nearest points")
+                    ("at", po::value<std::string>()->value_name("X,Y[,Z]"), "the point nearest to a place on the part [mm]: among contact points where the tool is known, else among tool tips; X,Y: what lies topmost there")
+                    ("nearest", po::value<int>()->value_name("K"), "with --at: the nearest point of each of the K nearest passes (of lines, where there is one pass)")
                     ("line", po::value<std::string>()->value_name("N|FILE:N"), "every run of points of that line, of the program or of a file that it calls; the first point of each")
                     ("time", po::value<double>()->value_name("T"), "the point nearest to that time [s]")
                     ("json", "one JSON object");
                 // clang-format on
                 declare_part(options);
+                declare_tool(options);
                 declare_derivative(options);
             },
         .positional = {"PROGRAM", "LOG"},

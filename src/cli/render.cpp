@@ -28,14 +28,13 @@ struct RenderOptions {
     std::vector<PointIndex> points;
     std::vector<LineNumber> lines;
     bool defects = false;
-    CuttingTool tool;           ///< of the formed surface
     std::optional<Role> swept;  ///< its positions; none: the most truthful
 };
 
 void declare_render(po::options_description& options) {
     declare_part(options, true);
     declare_derivative(options);
-    declare_quality(options);
+    declare_tool(options);
     // clang-format off
     options.add_options()
         ("swept", po::value<std::string>()->value_name("commanded|feedback|actual"), "positions that the formed surface's tool runs along (default: actual, else feedback, else commanded)")
@@ -51,14 +50,10 @@ void declare_render(po::options_description& options) {
 
 void read_formed(const po::variables_map& values, RenderOptions& options) {
     if (!options.part.formed) {
-        for (const char* name : {"tool", "swept"}) {
-            if (given(values, name))
-                throw UsageError(fmt::format("--{} is of the formed surface only", name),
-                                 "--surface formed --tool ball:6");
-        }
+        if (given(values, "swept"))
+            throw UsageError("--swept is of the formed surface only", "--surface formed --tool ball:6");
         return;
     }
-    options.tool = required_tool(values, "--surface formed", "--surface formed --tool ball:6");
     if (values.count("swept") > 0) options.swept = parse_role(values["swept"].as<std::string>());
     if (given(values, "color"))
         throw UsageError("--color is not of the formed surface: it shows micrometres over its form");
@@ -101,7 +96,8 @@ void form(Shown& shown, const RenderOptions& options, StageClock& clock) {
     viz::MapPanel panel;
     panel.surface = &shown.surface;
     const viz::Camera camera = viz::map_camera({panel}, options.shown.look);
-    const FormedPart formed(shown.part, shown.surface, options.swept, options.tool, clock);
+    const CuttingTool tool = required_tool(shown.part, "--surface formed", "--surface formed --tool ball:6");
+    const FormedPart formed(shown.part, shown.surface, options.swept, tool, clock);
     FormedMap map = make_formed_map(formed, options.shown.look.box, camera);
     clock.end();
     shown.field = std::move(map.field);
@@ -113,9 +109,11 @@ void form(Shown& shown, const RenderOptions& options, StageClock& clock) {
 std::vector<viz::OutlineMark> outline_defects(Part& part, const ClSurface& surface, StageClock& clock) {
     std::vector<viz::OutlineMark> outlines;
     const auto add = [&](const ClSurface& judged, std::optional<Role> measured) {
-        const Quality quality = judge(part, judged, measured, {}, clock);
-        for (std::size_t i = 0; i < quality.report.defects.size(); ++i) {
-            outlines.push_back({outlines_of(quality.report.defects[i], judged), fmt::format("{}", i + 1)});
+        clock.begin("derive the signals");
+        const PartSignals read = signals_of(part, judged, measured);
+        const QualityReport report = find_part_defects(part, judged, read, {}, clock);
+        for (std::size_t i = 0; i < report.defects.size(); ++i) {
+            outlines.push_back({outlines_of(report.defects[i], judged), fmt::format("{}", i + 1)});
         }
     };
     if (part.path.role == Role::commanded || !part.log.has(Role::commanded)) {
@@ -171,7 +169,7 @@ viz::MapTexts texts_of(const Shown& shown, const std::optional<Shown>& before, c
     viz::MapTexts texts;
     texts.title = fmt::format("{}, {} {}", shown.field.info.label, name_of(shown.part.path.role),
                               options.shown.look.style == viz::Style::surface ? "surface" : "path");
-    if (shown.relief) texts.title = fmt::format("{}, {}", shown.field.info.label, to_text(options.tool));
+    if (shown.relief) texts.title = fmt::format("{}, {}", shown.field.info.label, to_text(*shown.part.tool));
     const std::string program = file_name(options.part.program);
     // The captions of two panels name the logs.
     texts.subtitle = before ? fmt::format("{} · before: {} · after: {}", program, counts_of(*before), counts_of(shown))

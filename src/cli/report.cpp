@@ -24,7 +24,6 @@ constexpr int relief_pixels = 700;  ///< of the formed surface across the page
 struct ReportOptions {
     PartOptions part;
     std::optional<Role> measured;
-    QualityOptions quality;
     std::string before, output, gl;
     std::vector<std::string> fields;  ///< empty: the usual ones
     std::string first_field;
@@ -42,7 +41,7 @@ void declare_report(po::options_description& options) {
         ("max-size", po::value<double>()->value_name("MB"), "most that the file may have; points are left out where it needs more (default: 30)")
         ("gl", po::value<std::string>()->value_name("osmesa|egl"), "what draws the pictures: the processor, or a graphics card (default: osmesa)");
     // clang-format on
-    declare_quality(options);
+    declare_tool(options);
     declare_part(options);
 }
 
@@ -61,7 +60,6 @@ ReportOptions read_report_options(const po::variables_map& values) {
     ReportOptions options;
     options.part = read_part_options(values);
     options.measured = take_measured_role(options.part);
-    options.quality = read_quality_options(values);
     options.output = required(values, "output");
     if (values.count("before") > 0) options.before = values["before"].as<std::string>();
     options.gl = values.count("gl") > 0 ? values["gl"].as<std::string>() : "osmesa";
@@ -111,7 +109,7 @@ ReportLog prepare(const PartOptions& part_options, const ReportOptions& options,
     shown.part = load_part(part_options, clock);
     clock.begin("stitch the surface");
     shown.surface = stitch(shown.part);
-    shown.quality = judge(shown.part, shown.surface, options.measured, options.quality, clock);
+    shown.quality = judge(shown.part, shown.surface, options.measured, {}, clock);
     clock.begin("compute the fields");
     Fields fields(shown.part, shown.surface);
     const bool usual = options.fields.empty();
@@ -154,7 +152,7 @@ struct Formed {
 };
 
 Formed form(const ReportLog& shown, const ReportOptions& options, StageClock& clock) {
-    const FormedPart formed(shown.part, shown.surface, options.measured, options.quality.tool, clock);
+    const FormedPart formed(shown.part, shown.surface, options.measured, *shown.part.tool, clock);
     viz::MapPanel panel;
     panel.surface = &shown.surface;
     viz::Look look;
@@ -230,7 +228,7 @@ ExitCode run_report(const po::variables_map& values) {
     page.quality.report = &shown.quality.report;
     page.quality.program = &shown.part.program;
     page.quality.log = shown.part.log.name;
-    page.quality.tool = options.quality.tool;
+    page.quality.tool = shown.part.tool;
     page.quality.scallop = shown.quality.scallop;
     page.quality.formed = shown.quality.formed ? &*shown.quality.formed : nullptr;
     page.health = shown.part.diagnostics;
@@ -244,10 +242,10 @@ ExitCode run_report(const po::variables_map& values) {
     }
     page.colour_maps = page_colour_maps();
     std::optional<Formed> formed;
-    if (options.quality.tool_given && shown.surface.step_over > 0) {
+    if (shown.part.tool && shown.surface.step_over > 0) {
         formed = form(shown, options, clock);
         page.relief = page_relief(*formed);
-        page.formed_options = {"--surface", "formed", "--tool", to_text(options.quality.tool)};
+        page.formed_options = {"--surface", "formed", "--tool", to_text(*shown.part.tool)};
         if (options.measured)
             page.formed_options.insert(page.formed_options.end(), {"--swept", std::string(name_of(*options.measured))});
     }

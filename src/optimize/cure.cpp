@@ -106,7 +106,7 @@ private:
     [[nodiscard]] bool can_be_cured(const Defect& defect) const {
         if (defect.quantity == Quantity::relief) return false;
         return std::none_of(rules_.hopeless.begin(), rules_.hopeless.end(),
-                            [&](const Vec3& place) { return (place - defect.position).norm() < levelled_reach; });
+                            [&](const Vec3& place) { return (place - defect.place.tip).norm() < levelled_reach; });
     }
 
     /// The speeds for some of the defects.
@@ -202,7 +202,7 @@ std::vector<int> gains_of(const CuringSpeeds& cure, const JudgedRun& run, const 
     std::vector<int> gains(run.report.defects.size(), 0);
     const auto count = [&](const JudgedRun& of, int each) {
         for (const Defect& defect : of.report.defects) {
-            if (const std::int32_t cause = map.near(defect.position); cause >= 0)
+            if (const std::int32_t cause = map.near(defect.place.tip); cause >= 0)
                 gains[static_cast<std::size_t>(cause)] += each;
         }
     };

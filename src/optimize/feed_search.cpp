@@ -57,7 +57,7 @@ bool gives_up_losses(const Proposal& from, const CuringSpeeds& cure, const Propo
     std::size_t lost = 0;
     for (const std::size_t k : tried) {
         if (gains[k] > 0) continue;
-        hopeless.push_back(from.run.report.defects[k].position);
+        hopeless.push_back(from.run.report.defects[k].place.tip);
         ++lost;
     }
     return lost > 0 && lost < tried.size();

@@ -126,7 +126,7 @@ private:
                 }
                 good = 0;
                 if (size++ == 0) {
-                    finding = {rule, Severity::warning, line(i), line(i), 0, 0, pass.number, Vec3::Zero(), 0, 0};
+                    finding = {rule, Severity::warning, line(i), line(i), 0, 0, pass.number, {}, 0, 0};
                     finding.beside_first = finding.beside_last = m->beside >= 0 ? line(m->beside) : 0;
                 }
                 finding.last_line = line(i);
@@ -139,7 +139,7 @@ private:
                     worst = distance;
                     finding.found = m->found;
                     finding.expected = m->expected;
-                    finding.position = at(i);
+                    finding.place.tip = at(i);
                 }
             }
             close();
@@ -207,9 +207,16 @@ private:
         });
         if (report_.chord_error > 0 && report_.tolerance > rules_.most_tolerance_ratio * report_.chord_error) {
             const ProgrammedPass& first = passes_.front();
-            report_.findings.push_back({LintRule::chord_error, Severity::note, line(first.ends[1]),
-                                        line(passes_.back().ends.back()), 0, 0, 0, at(first.ends[0]),
-                                        report_.chord_error, report_.tolerance / rules_.most_tolerance_ratio});
+            report_.findings.push_back({LintRule::chord_error,
+                                        Severity::note,
+                                        line(first.ends[1]),
+                                        line(passes_.back().ends.back()),
+                                        0,
+                                        0,
+                                        0,
+                                        {at(first.ends[0]), {}},
+                                        report_.chord_error,
+                                        report_.tolerance / rules_.most_tolerance_ratio});
         }
     }
 
@@ -262,8 +269,16 @@ private:
             if (std::abs(end.residual) <= limit) continue;
             const PointIndex point = end.begins ? end.pass->ends.front() : end.pass->ends.back();
             const LineNumber number = end.begins ? line(end.pass->ends[1]) : line(point);
-            report_.findings.push_back({LintRule::start_point, Severity::warning, number, number, end.beside,
-                                        end.beside, end.pass->number, at(point), std::abs(end.residual), limit});
+            report_.findings.push_back({LintRule::start_point,
+                                        Severity::warning,
+                                        number,
+                                        number,
+                                        end.beside,
+                                        end.beside,
+                                        end.pass->number,
+                                        {at(point), {}},
+                                        std::abs(end.residual),
+                                        limit});
         }
     }
 

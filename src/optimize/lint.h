@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/cutter_place.h"
 #include "optimize/programmed_surface.h"
 
 namespace clsurf {
@@ -30,7 +31,7 @@ struct LintFinding {
     LineNumber first_line = 0, last_line = 0;
     LineNumber beside_first = 0, beside_last = 0;  ///< lines of a neighbour pass at that place; 0: none
     std::int64_t pass = 0;                         ///< number of the cut pass, from 1; 0: none
-    Vec3 position = Vec3::Zero();                  ///< [mm] where it is worst
+    CutterPlace place;                             ///< where it is worst
     double found = 0, expected = 0;  ///< mm, or mm/s for feeds: the worst value and what it is measured by
 };
 

@@ -2,6 +2,7 @@
 // ToolTable: lengths and diameters of tools, as a controller keeps them beside its programs.
 
 #include <map>
+#include <string>
 
 #include "core/geometry.h"
 #include "core/units.h"
@@ -15,6 +16,7 @@ struct Tool {
     double front_angle = 0, back_angle = 0;  ///< of a lathe tool [deg]
     int orientation = 0;                     ///< of a lathe tool, 0 … 9
     bool assumed = false;                    ///< of a table that nobody gave: the machine's is another one
+    std::string remark{};                    ///< what stands behind ';'
 };
 
 struct ToolTable {

@@ -27,10 +27,15 @@ double depth_inside(const CuttingTool& tool, const Vec3& off) {
 }
 
 Vec3 contact_offset(const CuttingTool& tool, const Vec3& normal) {
-    const double tilt = std::hypot(normal.x(), normal.y());
+    return contact_offset(tool, normal, Vec3::UnitZ());
+}
+
+Vec3 contact_offset(const CuttingTool& tool, const Vec3& normal, const Vec3& axis) {
+    const Vec3 aside = normal - normal.dot(axis) * axis;
+    const double tilt = aside.norm();
     const double bottom = tool.radius - tool.corner;
-    Vec3 offset = tool.corner * (Vec3::UnitZ() - normal);
-    if (bottom > 0 && tilt > level) offset -= bottom / tilt * Vec3(normal.x(), normal.y(), 0);
+    Vec3 offset = tool.corner * (axis - normal);
+    if (bottom > 0 && tilt > level) offset -= bottom / tilt * aside;
     return offset;
 }
 

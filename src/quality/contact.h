@@ -19,6 +19,8 @@ namespace clsurf {
 /// c ẑ − (R − c) n_xy/|n_xy| − c n with radius R and corner radius c. Where the normal is the axis, a
 /// flat bottom touches with all of itself: its middle, the tip, is given.
 [[nodiscard]] Vec3 contact_offset(const CuttingTool& tool, const Vec3& normal);
+/// The same of a tool whose axis is any unit vector `axis`, normal · axis ≥ 0.
+[[nodiscard]] Vec3 contact_offset(const CuttingTool& tool, const Vec3& normal, const Vec3& axis);
 
 /// The larger radius [mm] of the two in which the tool is curved where it touches: c + (R − c)/sin θ,
 /// θ between normal and axis; infinite for a flat bottom on a level surface.

@@ -160,7 +160,7 @@ public:
         defect.point = strongest.point;
         defect.speed = signals_[strongest.point].speed;
         defect.speed_beside = defect.speed - strongest.comparison.speed_jump;
-        defect.position = surface_.positions.absolute(defect.point);
+        defect.place.tip = surface_.positions.absolute(defect.point);
         for (const Suspect* s : core) defect.score = std::max(defect.score, largest(s->score, family));
         for_each_run(core, [&](SuspectSpan run) {
             defect.runs.push_back(run_of(run.front()->pass, {run.front()->point, run.back()->point}));
@@ -187,7 +187,7 @@ public:
             if (std::abs(site.step) > std::abs(strongest->step)) strongest = &site;
         }
         defect.point = strongest->point;
-        defect.position = surface_.positions.absolute(defect.point);
+        defect.place.tip = surface_.positions.absolute(defect.point);
         defect.speed = defect.speed_beside = signals_[defect.point].speed;
         defect.depth = nearest_quantile(steps, systematic_depth);
         defect.score = static_cast<float>(defect.depth) / thresholds_.of[index_of(Quantity::lag)];

@@ -15,6 +15,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/cutter_place.h"
 #include "path/line_map.h"
 #include "quality/judgement.h"
 #include "quality/mismatch.h"
@@ -55,9 +56,10 @@ struct Defect {
     bool systematic = false;              ///< lag that alternates with the direction of travel (systematic_lag.h)
     double share = 0;                     ///< of a systematic one: of the way of all cut passes, 0 … 1
     std::vector<AxisDelay> delays;      ///< of a systematic one: the axes that differ, slowest first; empty: not known
-    Vec3 position = Vec3::Zero();       ///< [mm] on the CL surface: where it is strongest
+    CutterPlace place;                  ///< where it is strongest; the contact where the tool is known
     PointIndex point = 0;               ///< there
-    Box3 bounds;                        ///< [mm]
+    Box3 bounds;                        ///< [mm] of tips
+    Box3 contact_bounds;                ///< [mm] of contact points; empty: not known
     double area = 0;                    ///< [mm²]
     double length = 0;                  ///< [mm] along the feed, of the longest run
     double depth = 0;                   ///< [mm] ≥ 0, predicted step against the neighbours along the normal

@@ -9,6 +9,7 @@
 
 #include "core/parallel.h"
 #include "quality/contact.h"
+#include "quality/contact_points.h"
 #include "quality/swept_segment.h"
 
 namespace clsurf {
@@ -31,17 +32,6 @@ int smoother_points(double period) {
 }
 
 Eigen::Vector2f flat(const Eigen::Vector3f& v) { return v.head<2>(); }
-
-/// Whether a link stays where it can cut: no higher than its ends.
-bool is_low(const Positions& p, const Pass& link, double step_over) {
-    const auto before = static_cast<std::size_t>(std::max<PointIndex>(0, link.first - 1));
-    const auto after = static_cast<std::size_t>(std::min(p.size() - 1, link.last + 1));
-    const float most = std::max(p.z[before], p.z[after]) + static_cast<float>(step_over);
-    for (PointIndex i = link.first; i <= link.last; ++i) {
-        if (!(p.z[static_cast<std::size_t>(i)] <= most)) return false;
-    }
-    return true;
-}
 
 }  // namespace
 
@@ -89,7 +79,7 @@ FormedSurface::FormedSurface(const ClSurface& surface, const Signals& signals, R
         while (pass != surface.passes.end() && pass->last < piece.first) ++pass;
         if (pass == surface.passes.end()) break;
         if (pass->kind == PassKind::cut ||
-            (pass->kind == PassKind::link && is_low(surface.positions, *pass, surface.step_over)))
+            (pass->kind == PassKind::link && stays_low(surface.positions, *pass, surface.step_over)))
             pieces_.push_back(piece);
     }
     cut_stretches();

@@ -27,7 +27,7 @@ double height(const RunReport& report) { return um_per_mm * most<RunQuantity::he
 double time(const RunReport& report) { return 100 * std::abs(report.time_of_b - report.time) / report.time; }
 double aligned(const RunReport& report) { return 100 * report.aligned / report.way; }
 
-constexpr auto limits = std::to_array<RunBudgetLimit>({
+constexpr auto run_limits = std::to_array<RunBudgetLimit>({
     {"max_speed_difference_percent", &RunBudget::max_speed_difference_percent, speed},
     {"max_acceleration_difference_mm_s2", &RunBudget::max_acceleration_difference_mm_s2,
      most<RunQuantity::acceleration>},
@@ -39,7 +39,7 @@ constexpr auto limits = std::to_array<RunBudgetLimit>({
 
 }  // namespace
 
-std::span<const RunBudgetLimit> run_budget_limits() { return limits; }
+std::span<const RunBudgetLimit> run_budget_limits() { return run_limits; }
 
 std::vector<BudgetLine> hold(const RunReport& report, const RunBudget& budget) {
     return hold(run_budget_limits(), report, budget);

@@ -13,7 +13,7 @@
 namespace clsurf {
 namespace {
 
-constexpr double height_seconds = 0.015;            ///< window of the mean of lags and heights
+constexpr double smoothing_seconds = 0.015;            ///< window of the mean of lags and heights
 constexpr PointIndex feed_reach = 8;                ///< points before and after one that tell the feed there
 constexpr double least_feed = 1e-4;                 ///< [mm] of way that has a direction
 constexpr float least_tilt = 0.1F;                  ///< sine of the feed's angle to Z: steeper, it has no upper side
@@ -212,7 +212,7 @@ RunDifferences compare_runs(const Run& a, const ClSurface& surface, const Run& b
         out.alignment = align_runs(surface.positions, path_b);
     }
     compare_motion(a, b, surface, out);
-    const auto window = std::max<PointIndex>(1, std::lround(std::min(height_seconds / a.log->period, 1e6)));
+    const auto window = std::max<PointIndex>(1, std::lround(std::min(smoothing_seconds / a.log->period, 1e6)));
     float lag_quantum = 0;
     if (a.commanded && a.measured && b.commanded && b.measured) {
         Column<float>& lag = out.of[index_of(RunQuantity::lag)];

@@ -164,7 +164,7 @@ private:
         d.relative_mean /= weights;
         d.peak = values[static_cast<std::size_t>(d.point)];
         if (q == RunQuantity::speed) d.relative_peak = d.peak / differences_.speed_base(d.point);
-        d.position = a_.path.at(d.point);
+        d.place.tip = a_.path.at(d.point);
         d.time = time_of_b(points) - (a_.log->time_of(points.last) - a_.log->time_of(points.first));
         if (lines_ != nullptr) {
             d.first_line = lines_->line_at(points.first);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/cutter_place.h"
 #include "path/line_map.h"
 #include "quality/run_difference.h"
 
@@ -16,7 +17,7 @@ struct RunDifferenceStretch {
     RunQuantity quantity = RunQuantity::speed;
     PointRange points, points_of_b;
     PointIndex point = 0;                         ///< of A, where it is greatest
-    Vec3 position = Vec3::Zero();                 ///< [mm] there
+    CutterPlace place;                            ///< of A there
     double peak = 0, mean = 0;                    ///< B − A, inside units; the mean by way
     double relative_peak = 0, relative_mean = 0;  ///< of a speed: to A's
     double length = 0;                            ///< [mm]

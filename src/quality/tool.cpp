@@ -1,5 +1,7 @@
 #include "quality/tool.h"
 
+#include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <vector>
@@ -46,6 +48,26 @@ CuttingTool parse_tool(std::string_view text) {
     if (!(numbers[1] > 0 && numbers[1] < radius))
         return fail("the corner radius must lie between 0 and half the diameter");
     return {ToolKind::bull, radius, numbers[1]};
+}
+
+std::optional<CuttingTool> tool_of_remark(std::string_view remark, double diameter) {
+    std::optional<CuttingTool> by_word;
+    while (!remark.empty()) {
+        const std::size_t end = std::min(remark.find_first_of(" \t\r()"), remark.size());
+        std::string word(remark.substr(0, end));
+        remark.remove_prefix(std::min(end + 1, remark.size()));
+        for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        const auto is_any = [&](std::initializer_list<std::string_view> words) {
+            return std::find(words.begin(), words.end(), word) != words.end();
+        };
+        const std::string kind = word.substr(0, word.find(':'));
+        if (word.size() > kind.size() && (kind == "ball" || kind == "bull" || kind == "flat")) return parse_tool(word);
+        if (!(diameter > 0)) continue;
+        if (is_any({"ball", "ballnose", "ball-nose", "ball-end"}))
+            by_word = CuttingTool{ToolKind::ball, 0.5 * diameter, 0.5 * diameter};
+        if (is_any({"flat", "endmill"}) && !by_word) by_word = CuttingTool{ToolKind::flat, 0.5 * diameter, 0};
+    }
+    return by_word;
 }
 
 std::string to_text(const CuttingTool& tool) {

@@ -1,6 +1,8 @@
 #pragma once
 // Tool: the cutting edge's outline, as far as the formed surface needs it.
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -18,6 +20,9 @@ struct CuttingTool {
 
 /// "ball:D", "bull:D,R", "flat:D" [mm]. Throws UsageError.
 [[nodiscard]] CuttingTool parse_tool(std::string_view text);
+/// The tool that a row of a tool table describes: its remark has a word as parse_tool() reads it ("ball:6"),
+/// or one of the words "ball", "ballnose", "flat", "endmill" beside a diameter [mm]. Nothing: it tells no shape.
+[[nodiscard]] std::optional<CuttingTool> tool_of_remark(std::string_view remark, double diameter);
 /// The same back, "ball:6".
 [[nodiscard]] std::string to_text(const CuttingTool& tool);
 

@@ -140,7 +140,7 @@ TEST(Levelling, LeavesOtherSlowPlacesBesideALoweredOne) {
 TEST(Cure, LetsHopelessPlacesBe) {
     const SlowStretch part;
     CureRules rules{.step = 0.1, .budget = 1e9, .lag_power = 3, .hopeless = {}};
-    for (const Defect& defect : part.run.report.defects) rules.hopeless.push_back(defect.position);
+    for (const Defect& defect : part.run.report.defects) rules.hopeless.push_back(defect.place.tip);
     EXPECT_EQ(Leveller(part.run).lost(curing_speeds(part.run, rules).speeds), 0);
 }
 

@@ -205,7 +205,7 @@ TEST(Defects, AreNotWhatAllPassesDoOneAfterTheOther) {
     // A pass that does not slow down with the others is one, where they do.
     const QualityReport report = planted::judge(slow_along_an_edge(12));
     EXPECT_TRUE(std::any_of(report.defects.begin(), report.defects.end(), [](const Defect& d) {
-        return std::abs(d.position.y() - 3.6) < 1e-3 && std::abs(d.position.x() - 11.6) < 1 && d.speed_jump > 5;
+        return std::abs(d.place.tip.y() - 3.6) < 1e-3 && std::abs(d.place.tip.x() - 11.6) < 1 && d.speed_jump > 5;
     }));
 }
 
@@ -214,8 +214,8 @@ TEST(Defects, AreNotHowPassesBeginAndEnd) {
     for (const double share : {-0.2, 0.2}) {
         const QualityReport report = planted::judge(unlike_ramps(share));
         ASSERT_EQ(report.defects.size(), 1U) << share;
-        EXPECT_NEAR(report.defects[0].position.y(), 12 * apart, 1e-3);
-        EXPECT_NEAR(report.defects[0].position.x(), 4, 1.5);
+        EXPECT_NEAR(report.defects[0].place.tip.y(), 12 * apart, 1e-3);
+        EXPECT_NEAR(report.defects[0].place.tip.x(), 4, 1.5);
         // Against its own way: 50 mm/s at x = 4. The other one is still at 66.7.
         EXPECT_NEAR(report.defects[0].speed_jump, 50 * share, 1);
     }

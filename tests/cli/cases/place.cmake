@@ -1,0 +1,51 @@
+# Places on the part: contact points go in and come out where the tool is known, tool tips where it is not.
+
+# The contact points of check's own patches, put back to query.
+set(put_back "import json, subprocess, sys"
+  "clsurf, tool, files = sys.argv[1], sys.argv[2], sys.argv[3:]"
+  "ask = lambda *words: json.loads(subprocess.run([clsurf, *words], stdout=subprocess.PIPE, check=True).stdout)"
+  "patches = ask('check', *files, '--tool', tool, '--json')['roughness']"
+  "match = lambda place: ask('query', *files, '--tool', tool, '--json', '--at', ','.join(map(str, place)))['matches'][0]"
+  "found = [match(p['position_mm'])['point'] == p['point'] for p in patches]"
+  "print(len(found), 'asked', sum(found), 'found')")
+string(REPLACE ";" "\n" put_back "${put_back}")
+foreach(name bottle_uneven planted_loops planted_zigzag)
+  clsurf_cli_test(NAME contacts_of_${name}_put_back
+    SETUP "cat > put_back.py <<'END'
+${put_back}
+END
+[ \"$(/usr/bin/python3 put_back.py $CLSURF ball:6 @DATA@/programs/${name}.nc @LOGS@/${name}.biip)\" = '24 asked 24 found' ]"
+    ARGS --version)
+endforeach()
+
+# This log's metadata name the tool, ball:6.
+set(bottle @DATA@/programs/bottle_uneven.nc @LOGS@/bottle_uneven.biip)
+clsurf_cli_test(NAME query_by_a_place_on_the_part ARGS query ${bottle} --point 5000 STDOUT "contact X .* tool tip X")
+clsurf_cli_test(NAME query_without_a_tool_says_tool_tip ARGS query ${bottle} --tool none --point 5000 STDOUT "tool tip X " NO_STDOUT "contact")
+clsurf_cli_test(NAME query_json_has_tip_and_contact ARGS query ${bottle} --tool ball:6 --point 5000 --json
+  STDOUT "\"position_mm\"" "\"tip_mm\"" "\"contact_mm\"")
+clsurf_cli_test(NAME query_json_without_a_tool ARGS query ${bottle} --tool none --point 5000 --json STDOUT "\"tip_mm\"" NO_STDOUT "contact_mm")
+clsurf_cli_test(NAME query_place_with_blanks ARGS query ${bottle} --tool none --at "2 -5.6 4.7" STDOUT "^line 568")
+clsurf_cli_test(NAME query_place_with_commas_and_blanks ARGS query ${bottle} --tool none --at "2, -5.6, 4.7" STDOUT "^line 568")
+clsurf_cli_test(NAME query_place_of_one_number ARGS query ${bottle} --at 2 EXIT 2 STDERR "'2' is not a place" "--at X,Y,Z")
+clsurf_cli_test(NAME query_five_passes ARGS query ${bottle} --tool none --at "2 -5.6 4.7" --nearest 3 --json STDOUT "\"line\": 568.*\"line\": .*\"line\": ")
+# A ramp of 30° milled by a ball of 6 mm: the contact lies 1.5 mm from the tip in Y.
+set(ramp "awk 'BEGIN { print \"G21 G90 G54\\nG0 X0 Y0 Z20\"; for (i = 0; i < 21; ++i) printf \"G1 X%g Y%.4f Z%.6f F1200\\nX%g\\n\", i % 2 ? 20 : 0, 0.3 * i, 0.3 * i * sin(0.5236) / cos(0.5236), i % 2 ? 0 : 20; print \"M30\" }' > ramp.nc; $CLSURF simulate ramp.nc -o ramp.biip")
+foreach(place "10,4.5,2.134" "10,4.5")
+  string(MAKE_C_IDENTIFIER "query_on_a_ramp_${place}" name)
+  clsurf_cli_test(NAME ${name} SETUP "${ramp}" ARGS query ramp.nc ramp.biip --tool ball:6 --at ${place} STDOUT "tool tip X 9[.]99.* Y 3[.]0000")
+endforeach()
+clsurf_cli_test(NAME query_on_a_ramp_without_the_tool SETUP "${ramp}" ARGS query ramp.nc ramp.biip --at 10,4.5 STDOUT "tool tip X .* Y 4[.]5000")
+# The tool from the table's remark.
+clsurf_cli_test(NAME query_by_the_tool_table
+  SETUP "${ramp}; sed -i 's/G21/T7 M6 G21/' ramp.nc; echo 'T7 P1 D6 ; ball nose' > tool.tbl"
+  ARGS query ramp.nc ramp.biip --tools tool.tbl --at 10,4.5 STDOUT "contact X 9[.]99.* tool tip X 9[.]99.* Y 3[.]0000")
+clsurf_cli_test(NAME query_by_a_bad_tool ARGS query ${bottle} --tool cone:6 --point 1 EXIT 2 STDERR "cone:6.*not a ball, bull or flat tool")
+# A ball that leans by 20° to either side in turn stands beside its contact: the plane's Y names the pass.
+set(leaning_ball "awk 'BEGIN { t = 20 * atan2(0, -1) / 180; print \"G21 G90 G54\\nG0 X0 Y0 Z20\\nG43.4 H1\"; for (i = 0; i < 6; ++i) { s = i % 2 ? 1 : -1; printf \"G0 X%g Y%.6f Z5 A%g C0\\nG1 Z%.6f F1200\\nX%g\\nG0 Z5\\n\", i % 2 ? 12 : 0, 0.6 * i + s * 3 * sin(t), s * 20, 3 - 3 * cos(t), i % 2 ? 0 : 12 } print \"M30\" }' > plane.nc; $CLSURF simulate plane.nc --machine @DATA@/machines/five_axis_trunnion.toml -o run.biip")
+clsurf_cli_test(NAME query_under_a_leaning_ball SETUP "${leaning_ball}" ARGS query plane.nc run.biip --machine @DATA@/machines/five_axis_trunnion.toml --tool ball:6 --at 6,1.2,0 STDOUT "pass 3, contact X .* Y 1[.](199|200)")
+clsurf_cli_test(NAME check_says_contact ARGS check ${bottle} --tool ball:6 STDOUT "contact X Y Z mm")
+clsurf_cli_test(NAME check_says_tool_tip ARGS check ${bottle} --tool none STDOUT "tool tip X Y Z mm")
+clsurf_cli_test(NAME check_json_has_tip_and_contact ARGS check ${bottle} --tool ball:6 --json STDOUT "\"tip_mm\"" "\"contact_mm\"")
+clsurf_cli_test(NAME sarif_says_contact_point ARGS check ${bottle} --tool ball:6 --format sarif STDOUT "at the contact point X" "\"contact_mm\"")
+clsurf_cli_test(NAME sarif_says_tool_tip ARGS check ${bottle} --tool none --format sarif STDOUT "at the tool tip X" NO_STDOUT "contact")
