@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 namespace clsurf::viz {
 namespace {
@@ -38,13 +39,38 @@ void fit(Frame& frame, const Curve& curve) {
     frame.y_high = high + room;
 }
 
+/// A footnote broken at blanks into lines of at most `ems` times the height of its letters, four at most.
+std::vector<std::string> lines_of(const std::string& note, double ems) {
+    constexpr double em_of_letter = 0.52;  // most letters are narrower
+    constexpr std::size_t most_lines = 4;
+    const auto room = static_cast<std::size_t>(std::max(20.0, ems / em_of_letter));
+    std::vector<std::string> lines;
+    std::string_view rest = note;
+    while (!rest.empty() && lines.size() < most_lines) {
+        std::size_t end = rest.size();
+        if (end > room) {
+            end = rest.rfind(' ', room);
+            if (end == std::string_view::npos || end == 0) end = room;
+        }
+        lines.emplace_back(rest.substr(0, end));
+        rest.remove_prefix(std::min(rest.size(), end + (end < rest.size() && rest[end] == ' ' ? 1 : 0)));
+    }
+    if (!rest.empty()) lines.back() += " …";
+    return lines;
+}
+
 void add_grid(Sheet& sheet, const Frame& f, double text, bool x_labels) {
-    const std::vector<double> ys =
-        nice_ticks(f.y_low, f.y_high, std::max(2, static_cast<int>(f.rect.height / (3 * text))));
+    // One tick alone, such as 0, tells no scale.
+    std::vector<double> ys;
+    for (int wanted = std::max(2, static_cast<int>(f.rect.height / (3 * text))); ys.size() < 2 && wanted < 10; ++wanted)
+        ys = nice_ticks(f.y_low, f.y_high, wanted);
     const double y_step = ys.size() > 1 ? ys[1] - ys[0] : 1;
+    double labelled = -std::numeric_limits<double>::infinity();
     for (const double y : ys) {
         const Vec2 p = f.at(f.x_low, y);
         sheet.lines.push_back({{p, {f.rect.x + f.rect.width, p.y()}}, 1, grid_colour, true});
+        if (p.y() - labelled < 1.05 * text) continue;  // numbers one over the other cannot be read
+        labelled = p.y();
         sheet.texts.push_back(
             {f.rect.x - 0.5 * text, p.y(), tick_text(y, y_step), text, Align::right, false, ink_colour});
     }
@@ -102,12 +128,17 @@ Image draw_chart(std::span<const double> x, const std::vector<Curve>& curves, co
     const double left = 6.5 * text;
     const double right = 1.5 * text;
     const double top = 4.6 * text;
-    const double bottom = 5.2 * text;
+    const std::vector<std::string> notes = lines_of(look.footnote, (look.width - 2 * text) / (0.85 * text));
+    const double below = 1.1 * text * (notes.empty() ? 0.0 : static_cast<double>(notes.size() - 1));
+    const double bottom = 5.2 * text + below;
     const double gap = 2.4 * text;
     sheet.texts.push_back({text, look.height - 1.4 * text, look.title, 1.4 * text, Align::left, true, ink_colour});
     sheet.texts.push_back({text, look.height - 3.0 * text, look.subtitle, text, Align::left, false, {95, 95, 100}});
-    sheet.texts.push_back({left, 2.6 * text, look.x_label, text, Align::left, true, ink_colour});
-    sheet.texts.push_back({text, 1.0 * text, look.footnote, 0.85 * text, Align::left, false, {95, 95, 100}});
+    sheet.texts.push_back({left, 2.6 * text + below, look.x_label, text, Align::left, true, ink_colour});
+    for (std::size_t k = 0; k < notes.size(); ++k) {
+        const double y = 1.0 * text + below - 1.1 * text * static_cast<double>(k);
+        sheet.texts.push_back({text, y, notes[k], 0.85 * text, Align::left, false, {95, 95, 100}});
+    }
     const auto count = static_cast<double>(curves.size());
     const double each = (look.height - top - bottom - gap * count) / count;
     for (std::size_t k = 0; k < curves.size(); ++k) {

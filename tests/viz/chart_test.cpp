@@ -24,5 +24,17 @@ TEST(ThinCurve, KeepsEveryExtremeOfEveryColumn) {
     for (std::size_t i = 1; i < thin.size(); ++i) EXPECT_LT(thin[i - 1].x(), thin[i].x());
 }
 
+TEST(Chart, BreaksAFootnoteBeforeTheEdge) {
+    ChartLook look;
+    look.width = 640;
+    look.height = 480;
+    for (int k = 0; k < 40; ++k) look.footnote += "window of 21 ms; ";
+    const std::vector<double> x{0, 1, 2};
+    const Image image = draw_chart(x, {{"speed", {1, 2, 3}}}, {}, look);
+    int ink = 0;
+    for (int y = 0; y < image.height; ++y) ink += image.pixel(image.width - 2, y)[0] < 200 ? 1 : 0;
+    EXPECT_EQ(ink, 0);
+}
+
 }  // namespace
 }  // namespace clsurf::viz
