@@ -101,7 +101,7 @@ private:
         return both;
     }
 
-    /// Runs of a pass's ends for which `measure` has a value; the farthest from 1 is told.
+    /// Runs of a pass's ends for which `measure` has a value. Told are the values farthest from 1, of spacings the medians.
     struct Measured {
         double found = 0, expected = 0;
         PointIndex beside = -1;
@@ -112,7 +112,15 @@ private:
             LintFinding finding;
             std::size_t good = 0, size = 0;
             double worst = 0;
+            std::vector<double> found, expected;
             const auto close = [&] {
+                // One pair of points that nearly coincide says little of a stretch.
+                if (rule == LintRule::point_spacing && size > 0) {
+                    finding.found = median(found);
+                    finding.expected = median(expected);
+                }
+                found.clear();
+                expected.clear();
                 if (size >= (rule == LintRule::point_spacing ? fewest_uneven : 1)) report_.findings.push_back(finding);
                 size = 0;
                 worst = 0;
@@ -130,6 +138,8 @@ private:
                     finding.beside_first = finding.beside_last = m->beside >= 0 ? line(m->beside) : 0;
                 }
                 finding.last_line = line(i);
+                found.push_back(m->found);
+                expected.push_back(m->expected);
                 if (m->beside >= 0) {
                     finding.beside_first = std::min(finding.beside_first, line(m->beside));
                     finding.beside_last = std::max(finding.beside_last, line(m->beside));

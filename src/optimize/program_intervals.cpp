@@ -52,6 +52,7 @@ private:
             points.push_back(p);
             ends.push_back(end);
         }
+        add_beginning(pass, points, ends);
         const std::size_t first = result_.intervals.size();
         for (const SpeedInterval& piece : divide(points, rules_)) {
             ProgramInterval interval;
@@ -78,6 +79,26 @@ private:
                 ramp(before, here.speed) + ramp(here.speed, after) > here.length)
                 here.speed = std::max(before, after);
         }
+    }
+
+    /// A pass begins where its first motion ends, or inside it: that motion belongs to it from its own beginning on, unless
+    /// it comes from elsewhere (a plunge).
+    void add_beginning(const ProgrammedPass& pass, std::vector<Vec3>& points, std::vector<PointIndex>& ends) const {
+        constexpr double straight_on = 0.7;  // cosine
+        const std::uint32_t motion = laid_.motion_of(pass.ends.front());
+        const MotionKind kind = motions_.kind[motion];
+        if (motion == 0 || points.size() < 2 || kind == MotionKind::rapid || kind == MotionKind::dwell) return;
+        const Vec3 start = path_.end(motion - 1);
+        const Vec3 before = points[0] - start, after = points[1] - points[0];
+        if (!(before.norm() > 0) || !(before.dot(after) > straight_on * before.norm() * after.norm())) return;
+        const PointIndex front = pass.points.first - 1;
+        if (!laid_.ends_motion(pass.ends.front())) {
+            points.front() = start;
+            ends.front() = front;
+            return;
+        }
+        points.insert(points.begin(), start);
+        ends.insert(ends.begin(), front);
     }
 
     [[nodiscard]] double ramp(double from, double to) const {

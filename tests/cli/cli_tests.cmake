@@ -396,7 +396,7 @@ endforeach()
 
 # ---- what hurts in a program, and its repair ----
 set(uneven @DATA@/programs/bottle_uneven.nc)
-clsurf_cli_test(NAME lint_finds_crowded_points ARGS lint @DATA@/programs/petal_zigzag_irregular.ngc EXIT 1 STDOUT "points 0.010 mm apart on pass 7" "point-spacing" "4[0-9][0-9] findings|findings on 121 passes")
+clsurf_cli_test(NAME lint_finds_crowded_points ARGS lint @DATA@/programs/petal_zigzag_irregular.ngc EXIT 1 STDOUT "points 0.040 mm apart on pass 7, 0.990 mm" "point-spacing" "4[0-9][0-9] findings|findings on 121 passes")
 clsurf_cli_test(NAME lint_json ARGS lint ${uneven} --json EXIT 1 STDOUT "\"by_rule\"" "\"step_over_mm\": 0.4" "\"tolerance_um\": 5")
 clsurf_cli_test(NAME lint_sarif ARGS lint ${uneven} --format sarif -o part.sarif EXIT 1 FILE part.sarif)
 clsurf_cli_test(NAME lint_of_a_clean_program SETUP "printf 'G0 X0 Y0 Z0\nG1 X10 F600\nX20\n' > a.nc" ARGS lint a.nc STDOUT "nothing found" "no adjacent passes")
