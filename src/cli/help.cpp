@@ -7,6 +7,7 @@
 
 #include "cli/command_line.h"
 #include "cli/options.h"
+#include "cli/terminal.h"
 #include "cli/text.h"
 #include "cli/vocabulary.h"
 #include "core/spelling.h"
@@ -15,7 +16,7 @@
 namespace clsurf::cli {
 namespace {
 
-constexpr std::size_t width = 80;         // columns of a help text
+constexpr std::size_t least_right = 24;   // columns of a description on a narrow terminal
 constexpr std::size_t widest_names = 30;  // wider ones have a line of their own
 
 struct Entry {
@@ -25,8 +26,9 @@ struct Entry {
 /// Two columns, the right one filled.
 std::string two_columns(const std::vector<Entry>& entries) {
     std::size_t left = 0;
+    const std::size_t widest = std::min(widest_names, help_columns() / 3 + 4);
     for (const Entry& entry : entries) {
-        if (columns_of(entry.left) <= widest_names) left = std::max(left, columns_of(entry.left));
+        if (columns_of(entry.left) <= widest) left = std::max(left, columns_of(entry.left));
     }
     const std::string indent(left + 4, ' ');
     std::string text;
@@ -34,7 +36,8 @@ std::string two_columns(const std::vector<Entry>& entries) {
         text += "  " + entry.left;
         std::string gap =
             columns_of(entry.left) > left ? "\n" + indent : std::string(left + 2 - columns_of(entry.left), ' ');
-        for (const std::string& line : wrap(entry.right, width - indent.size())) {
+        for (const std::string& line :
+             wrap(entry.right, std::max(help_columns(), indent.size() + least_right) - indent.size())) {
             text += gap + line;
             gap = "\n" + indent;
         }
@@ -112,6 +115,21 @@ std::vector<OptionRow> rows_of(const po::options_description& options) {
     return rows;
 }
 
+std::vector<OptionRow> all_rows(const Subcommand& subcommand) {
+    const ShownOptions shown = shown_options(subcommand);
+    std::vector<OptionRow> rows = rows_of(shown.own);
+    for (OptionRow& row : rows_of(shown.common)) rows.push_back(std::move(row));
+    return rows;
+}
+
+std::vector<const Subcommand*> shown_subcommands() {
+    std::vector<const Subcommand*> shown;
+    for (const Subcommand& subcommand : subcommands()) {
+        if (!subcommand.hidden) shown.push_back(&subcommand);
+    }
+    return shown;
+}
+
 bool names_a_file(std::string_view value_name) {
     return value_name.ends_with("FILE") || value_name.ends_with("FOLDER") ||
            value_name.find('.') != std::string_view::npos || value_name == "LOG" || value_name == "PROGRAM";
@@ -161,7 +179,7 @@ std::string help_text(const Subcommand& subcommand) {
         if (paragraph.literal) {
             text += paragraph.text;
         } else {
-            for (const std::string& line : wrap(paragraph.text, width)) text += line + "\n";
+            for (const std::string& line : wrap(paragraph.text, help_columns())) text += line + "\n";
         }
     }
     const ShownOptions shown = shown_options(subcommand);

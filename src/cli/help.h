@@ -24,6 +24,11 @@ struct OptionRow {
 /// A value of that name is a file's name: "FILE", "OUT.png", "LOG".
 [[nodiscard]] bool names_a_file(std::string_view value_name);
 
+/// Those of a subcommand and those that all have.
+[[nodiscard]] std::vector<OptionRow> all_rows(const Subcommand& subcommand);
+/// Those that are no tools of the build.
+[[nodiscard]] std::vector<const Subcommand*> shown_subcommands();
+
 /// "clsurf moves [options] PROGRAM"
 [[nodiscard]] std::string usage_of(const Subcommand& subcommand);
 

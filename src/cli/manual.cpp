@@ -1,11 +1,13 @@
-// clsurf manual: man pages, bash completion and docs/reference, written from the tables that the
+// clsurf manual: man pages, completion and docs/reference, written from the tables that the
 // program itself uses. A test compares docs/reference with what this writes.
 
+#include <algorithm>
 #include <filesystem>
 
 #include <fmt/format.h>
 
 #include "cli/command_line.h"
+#include "cli/completion.h"
 #include "cli/help.h"
 #include "cli/options.h"
 #include "cli/text.h"
@@ -16,20 +18,7 @@
 namespace clsurf::cli {
 namespace {
 
-std::vector<OptionRow> all_rows(const Subcommand& subcommand) {
-    const ShownOptions shown = shown_options(subcommand);
-    std::vector<OptionRow> rows = rows_of(shown.own);
-    for (OptionRow& row : rows_of(shown.common)) rows.push_back(std::move(row));
-    return rows;
-}
-
-std::vector<const Subcommand*> shown_subcommands() {
-    std::vector<const Subcommand*> shown;
-    for (const Subcommand& subcommand : subcommands()) {
-        if (!subcommand.hidden) shown.push_back(&subcommand);
-    }
-    return shown;
-}
+constexpr std::string_view manual_forms = "man|bash|zsh|fish|markdown";
 
 void write_file(const std::filesystem::path& path, const std::string& text) {
     io::AtomicFile file(path.string());
@@ -108,76 +97,6 @@ void write_man(const std::filesystem::path& folder) {
     }
 }
 
-// ---- bash completion ----
-
-std::string joined(const std::vector<std::string>& words) {
-    std::string text;
-    for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
-    return text;
-}
-
-/// What may follow an option: words, file names, or nothing that the shell could know.
-std::string bash_value_case(const std::string& subcommand, const OptionRow& row) {
-    std::string patterns = fmt::format("{}:{}", subcommand, row.long_name);
-    if (!row.short_name.empty()) patterns += fmt::format("|{}:{}", subcommand, row.short_name);
-    const std::vector<std::string> words = words_of(row.value_name);
-    if (!words.empty()) return fmt::format("        {}) words=\"{}\" ;;\n", patterns, joined(words));
-    return fmt::format("        {}) {} ;;\n", patterns, names_a_file(row.value_name) ? "files=1" : "return");
-}
-
-std::string bash_completion() {
-    std::string names;
-    std::string values;
-    std::string options;
-    for (const Subcommand* subcommand : shown_subcommands()) {
-        const std::string name(subcommand->name);
-        names += (names.empty() ? "" : " ") + name;
-        std::string all;
-        for (const OptionRow& row : all_rows(*subcommand)) {
-            all += (all.empty() ? "" : " ") + row.long_name;
-            if (!row.value_name.empty()) values += bash_value_case(name, row);
-        }
-        options += fmt::format("        {}) words=\"{}\" ;;\n", name, all);
-    }
-    std::string topics = names;
-    for (const Vocabulary& vocabulary : vocabularies()) topics += fmt::format(" {}", vocabulary.name);
-    return fmt::format(R"(# bash completion for clsurf {version}; written by `clsurf manual bash`
-_clsurf() {{
-    local current=${{COMP_WORDS[COMP_CWORD]}} previous=${{COMP_WORDS[COMP_CWORD-1]}}
-    local subcommand=${{COMP_WORDS[1]}} words="" files=""
-    COMPREPLY=()
-    # Bash parts --option=value into three words.
-    if [[ $current == "=" ]]; then current=""
-    elif [[ $previous == "=" ]]; then previous=${{COMP_WORDS[COMP_CWORD-2]}}
-    fi
-    if [[ $COMP_CWORD -eq 1 ]]; then
-        COMPREPLY=($(compgen -W "{names} --help --version" -- "$current"))
-        return
-    fi
-    case $subcommand:$previous in
-{values}    esac
-    if [[ -z $words$files ]]; then
-        if [[ $current == -* ]]; then
-            case $subcommand in
-{options}            esac
-        elif [[ $subcommand == help ]]; then words="{topics}"
-        else files=1
-        fi
-    fi
-    if [[ -n $files ]]; then
-        compopt -o filenames
-        local IFS=$'\n'
-        COMPREPLY=($(compgen -f -- "$current"))
-    else
-        COMPREPLY=($(compgen -W "$words" -- "$current"))
-    fi
-}}
-complete -F _clsurf clsurf
-)",
-                       fmt::arg("version", version), fmt::arg("names", names), fmt::arg("values", values),
-                       fmt::arg("options", options), fmt::arg("topics", topics));
-}
-
 // ---- docs/reference ----
 
 constexpr std::string_view written_by =
@@ -252,14 +171,16 @@ void write_markdown(const std::filesystem::path& folder) {
 ExitCode run_manual(const po::variables_map& values) {
     const std::string form = required(values, "FORM");
     const std::filesystem::path folder = required(values, "output");
-    if (form != "man" && form != "bash" && form != "markdown") {
-        throw UsageError("'" + form + "' is not man, bash or markdown");
-    }
+    const std::vector<std::string> forms = words_of(manual_forms);
+    if (std::find(forms.begin(), forms.end(), form) == forms.end())
+        throw UsageError("'" + form + "' is not one of " + std::string(manual_forms));
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error) throw SystemError("cannot make folder '" + folder.string() + "': " + error.message());
     if (form == "man") write_man(folder);
     if (form == "bash") write_file(folder / "clsurf", bash_completion());
+    if (form == "zsh") write_file(folder / "_clsurf", zsh_completion());
+    if (form == "fish") write_file(folder / "clsurf.fish", fish_completion());
     if (form == "markdown") write_markdown(folder);
     return ExitCode::done;
 }
@@ -269,8 +190,8 @@ ExitCode run_manual(const po::variables_map& values) {
 Subcommand manual_subcommand() {
     return {
         .name = "manual",
-        .arguments = "man|bash|markdown",
-        .summary = "man pages, bash completion or docs/reference, written from the option tables",
+        .arguments = manual_forms,
+        .summary = "man pages, completion or docs/reference, written from the option tables",
         .description = "A tool of the build. Files that a folder holds already are replaced.",
         .declare =
             [](po::options_description& options) {
