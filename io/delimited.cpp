@@ -29,7 +29,11 @@ Log open_text(const Source& source, const LogOptions& options, const char* forma
 
 int probe_delimited(std::span<const std::byte> head, const LogOptions& options) {
     if (head.empty() || !is_text(head)) return 0;
-    if (!options.mapping.empty()) return 60;
+    // A program beside the log is not what the mapping describes.
+    if (!options.mapping.empty()) {
+        const std::vector<std::string> first = read_head(text_of(head)).first;
+        return std::any_of(first.begin(), first.end(), is_value) ? 60 : 0;
+    }
     // A header that names a position by its role, or all three of them without.
     std::size_t axes = 0;
     for (const ColumnPlan& column : read_head(text_of(head)).columns) {

@@ -76,6 +76,13 @@ std::string comparison_json(const ComparisonReport& r) {
                      {"threshold", number(r.threshold)}});
 }
 
+std::string table_json(const std::string& file, const ForeignTable& table) {
+    return dump(Json{{"kind", "table"},
+                     {"file", file},
+                     {"columns", table.titles},
+                     {"suggested_mapping", suggest_mapping(table, file)}});
+}
+
 std::string list_json(const std::string& list, const std::vector<std::string>& reports) {
     Json all = Json::array();
     for (const std::string& text : reports) {

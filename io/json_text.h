@@ -10,6 +10,7 @@
 #include "core/diagnostic.h"
 #include "core/geometry.h"
 #include "core/point.h"
+#include "io/foreign_content.h"
 #include "log/log.h"
 #include "path/call_chain.h"
 #include "path/toolpath_summary.h"
@@ -45,6 +46,9 @@ struct ComparisonReport {
     std::int64_t pixels_over = 0;
 };
 [[nodiscard]] std::string comparison_json(const ComparisonReport& report);
+
+/// A table that is not recognised as a log.
+[[nodiscard]] std::string table_json(const std::string& file, const ForeignTable& table);
 
 /// One shape for one report and for many: {"<list>": […]}, and besides the keys of the report where it is the only
 /// one.

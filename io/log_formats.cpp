@@ -6,6 +6,7 @@
 #include "io/compressed.h"
 #include "io/delimited.h"
 #include "io/edge_json.h"
+#include "io/foreign_content.h"
 #include "io/halscope.h"
 #include "io/log_format.h"
 #include "io/record_layout.h"
@@ -27,6 +28,22 @@ constexpr auto known_formats = std::to_array<LogFormat>({
     {"sinumerik-xml", "SINUMERIK Operate trace session (XML)", probe_sinumerik_xml, open_sinumerik_xml},
     {"delimited", "CSV or TSV with a header of channel names, or with --mapping FILE", probe_delimited, open_delimited},
 });
+
+/// A lathe has no Y; a typing error in a mapping looks the same.
+void note_still_axes(Log& log) {
+    for (const Role role : {Role::commanded, Role::feedback, Role::actual}) {
+        if (!log.has(role)) continue;
+        for (const char* axis : {".x", ".y", ".z"}) {
+            const std::string name = std::string(prefix_of(role)) + axis;
+            if (log.find(name) != nullptr) continue;
+            log.diagnostics.add({Severity::warning,
+                                 "log.axis-missing",
+                                 Place::of_file(log.name),
+                                 "no channel '" + name + "': that axis is taken to stand at 0",
+                                 {}});
+        }
+    }
+}
 
 constexpr std::size_t head_bytes = 65536;
 
@@ -59,6 +76,11 @@ Log open_log(const Source& source, const LogOptions& options) {
             throw InputError(Place::of_file(source.name), "is UTF-16 text, expected ASCII or UTF-8",
                              "convert it first, as with iconv -f UTF-16 -t UTF-8");
         }
+        if (const std::optional<ForeignTable> table = recognise_table(source))
+            throw InputError(Place::of_file(source.name),
+                             "is a table of " + describe(*table) + "; no name is that of a position",
+                             "it needs --mapping FILE; clsurf info --suggest-mapping " + source.name +
+                                 " -o mapping.toml writes one to start from");
         std::string names;
         for (const LogFormat& f : known_formats) names += (names.empty() ? "" : ", ") + std::string(f.name);
         throw InputError(Place::of_file(source.name), "is no log of a known format (" + names + ")",
@@ -67,6 +89,7 @@ Log open_log(const Source& source, const LogOptions& options) {
     Log log = format->open(source, options);
     settle_names(log);
     settle_units(log);
+    note_still_axes(log);
     if (!(log.period > 0)) log.period = log.measured_period();
     if (!(log.period > 0)) {
         throw InputError(Place::of_file(source.name), "the sampling period is not known: no rising channel 'time'",

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/spelling.h"
 #include "io/compressed.h"
+#include "io/foreign_content.h"
 #include "io/tool_table_file.h"
 #include "program/interpreter.h"
 
@@ -50,6 +51,7 @@ InterpreterOptions interpreter_options(const Source& source, const ProgramOption
     const std::filesystem::path folder = std::filesystem::path(source.name).parent_path();
     options.load = [folder](const std::string& name) { return load_beside(folder.empty() ? "." : folder, name); };
     if (source.bytes.empty()) throw InputError(Place::of_file(source.name), "is empty, expected an NC program");
+    require_program_text(source);
     return options;
 }
 

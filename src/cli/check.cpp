@@ -8,15 +8,28 @@
 #include "cli/part.h"
 #include "cli/quality.h"
 #include "cli/report_output.h"
+#include "core/units.h"
 #include "field/range.h"
 #include "io/budget_file.h"
+#include "io/joined_reports.h"
+#include "io/json_text.h"
 #include "io/quality_report.h"
+#include "quality/severity.h"
 #include "viz/colour_difference.h"
 
 namespace clsurf::cli {
 namespace {
 
 constexpr const char* check_formats = "text|json|csv|sarif";
+
+/// By name and by number (quality/severity.h).
+constexpr const char* severity_words = "trace|visible|distinct|reject|1|2|3|4";
+
+int severity_of(const std::string& word) {
+    int severity = 1;
+    while (severity < severities && word != name_of_severity(severity) && word != std::to_string(severity)) ++severity;
+    return severity;
+}
 
 using QualityWriter = std::string (*)(const io::ReportedQuality&);
 
@@ -39,14 +52,14 @@ std::vector<double> colour_differences(const QualityReport& report, const Part& 
     return differences;
 }
 
-ExitCode run_check(const po::variables_map& values) {
-    PartOptions options = read_part_options(values);
-    const std::optional<Role> measured = take_measured_role(options);
-    QualityBudget budget;
-    if (values.count("budget") > 0) budget = io::read_budget(values["budget"].as<std::string>());
-    ReportOutput output(values, check_formats);
-    const QualityWriter write = writer_of(output.format());
+/// One log's report, and what it comes to.
+struct Checked {
+    std::string text;
+    ExitCode code = ExitCode::done;
+};
 
+Checked check_log(const PartOptions& options, std::optional<Role> measured, const QualityBudget& budget,
+                  const std::string& format, const po::variables_map& values) {
     StageClock clock(read_common(values), 8);
     Part part = load_part(options, clock);
     clock.begin("stitch the surface");
@@ -59,16 +72,64 @@ ExitCode run_check(const po::variables_map& values) {
     reported.log = part.log.name;
     reported.tool = part.tool;
     reported.scallop = quality.scallop;
-    if (output.format() == "json") reported.colour_differences = colour_differences(quality.report, part, surface);
+    if (format == "json") reported.colour_differences = colour_differences(quality.report, part, surface);
     reported.formed = quality.formed ? &*quality.formed : nullptr;
     reported.budget = hold(quality.report, budget);
     reported.diagnostics = &part.diagnostics;
     clock.end();
-    if (output.format() != "json") print(part.diagnostics, values);
-    output.write(write(reported));
+    if (format != "json") print(part.diagnostics, values);
     // No verdict comes before a failed one: numbers that mean nothing meet no budget and miss none.
-    if (!quality.report.judgement.judged()) return ExitCode::not_judged;
-    return all_held(reported.budget) ? ExitCode::done : ExitCode::check_failed;
+    const ExitCode code = !quality.report.judgement.judged() ? ExitCode::not_judged
+                          : all_held(reported.budget)        ? ExitCode::done
+                                                             : ExitCode::check_failed;
+    return {writer_of(format)(reported), code};
+}
+
+/// The limits of --budget, and those of the command line, which come first.
+QualityBudget read_limits(const po::variables_map& values) {
+    QualityBudget budget;
+    if (values.count("budget") > 0) budget = io::read_budget(values["budget"].as<std::string>());
+    if (values.count("fail-on") > 0)
+        budget.max_severity = severity_of(values["fail-on"].as<std::string>()) - 1.0;  // those below do not fail
+    if (values.count("max-depth") > 0)
+        budget.max_depth_um = um_per_mm * parse_length(values["max-depth"].as<std::string>(), "--max-depth");
+    return budget;
+}
+
+/// The reports of several logs as one.
+std::string joined(const std::vector<std::string>& logs, const std::vector<std::string>& texts,
+                   const std::string& format) {
+    if (format == "json") return io::list_json("logs", texts);
+    if (texts.size() == 1) return texts.front();
+    if (format == "sarif") return io::joined_sarif(logs, texts);
+    std::string all;
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+        if (format == "csv")
+            all += io::csv_with_column("log", logs[i], texts[i], i == 0);
+        else
+            all += fmt::format("{}{}:\n{}", i == 0 ? "" : "\n", logs[i], texts[i]);
+    }
+    return all;
+}
+
+ExitCode run_check(const po::variables_map& values) {
+    PartOptions options = read_part_options(values);
+    const std::optional<Role> measured = take_measured_role(options);
+    const QualityBudget budget = read_limits(values);
+    const std::vector<std::string> logs = values["LOG"].as<std::vector<std::string>>();
+    if (logs.size() > 1 && options.program == "-")
+        throw UsageError("the program of several logs cannot come from standard input");
+    ReportOutput output(values, check_formats);
+    std::vector<std::string> texts;
+    ExitCode worst = ExitCode::done;
+    for (const std::string& log : logs) {
+        options.log = log;
+        Checked checked = check_log(options, measured, budget, output.format(), values);
+        texts.push_back(std::move(checked.text));
+        worst = std::max(worst, checked.code);
+    }
+    output.write(joined(logs, texts, output.format()));
+    return worst;
 }
 
 }  // namespace
@@ -76,7 +137,7 @@ ExitCode run_check(const po::variables_map& values) {
 Subcommand check_subcommand() {
     return {
         .name = "check",
-        .arguments = "PROGRAM LOG",
+        .arguments = "PROGRAM LOG…",
         .summary = "adjacent-path discontinuities and predicted marks, with lines, causes and micrometres",
         .description =
             "Compares every pass with its neighbours: speed, acceleration, and where the axes run off the commanded\n"
@@ -84,21 +145,25 @@ Subcommand check_subcommand() {
             "with the lines at fault and the predicted depth. Severity: 1 trace (in the data, hardly on the part),\n"
             "2 visible (on a polished or glossy surface), 3 distinct (on any finished surface), 4 reject (too deep to\n"
             "polish out). A speed below that of the neighbours is negative; depths have no sign but a shape, pit or\n"
-            "bulge. Exits with 1 if a limit of --budget is exceeded, and with 5 if the data do not allow a verdict:\n"
-            "less than half of the cutting points could be compared, for example.\n\n"
+            "bulge. Exits with 1 if a limit of --budget, --fail-on or --max-depth is exceeded, and with 5 if the data do not\n"
+            "allow a verdict: less than half of the cutting points could be compared, for example. Several logs of the\n"
+            "program are checked one after the other; the exit code is the highest.\n\n"
             "  clsurf check part.nc run.biip --tool ball:6\n"
+            "  clsurf check part.nc monday.biip friday.biip --fail-on distinct --max-depth 5um -q\n"
             "  clsurf check part.nc run.biip --tool ball:6 --budget part.toml --format sarif -o part.sarif",
         .declare =
             [](po::options_description& options) {
                 declare_tool(options);
                 // clang-format off
                 options.add_options()
-                    ("budget", po::value<std::string>()->value_name("FILE"), "limits as TOML; exit code 1 where one is not held");
+                    ("budget", po::value<std::string>()->value_name("FILE"), "limits as TOML; exit code 1 where one is exceeded")
+                    ("fail-on", po::value<std::string>()->value_name(severity_words), "exit code 1 where a defect has this severity or a higher one")
+                    ("max-depth", po::value<std::string>()->value_name("LENGTH"), "exit code 1 where a defect is deeper: 5um, 0.005mm");
                 // clang-format on
                 declare_report_output(options, check_formats);
                 declare_part(options);
             },
-        .positional = {"PROGRAM", "LOG"},
+        .positional = {"PROGRAM", "LOG…"},
         .run = run_check,
     };
 }

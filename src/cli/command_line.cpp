@@ -209,6 +209,8 @@ void declare_arguments(const Subcommand& subcommand, po::options_description& op
 
 }  // namespace
 
+bool is_a_number(const std::string& text) { return is_number<double>(text); }
+
 bool takes_a_list(const po::typed_value_base& type) { return is_list_type(type.value_type()); }
 
 void check_option(const po::option& option, const po::option_description& description) {

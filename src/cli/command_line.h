@@ -27,6 +27,8 @@ struct ShownOptions {
 
 /// Checks the values of one option: numbers that are numbers, words that are in the list. Throws UsageError.
 void check_option(const po::option& option, const po::option_description& description);
+/// A finite number, with a sign or without.
+[[nodiscard]] bool is_a_number(const std::string& text);
 /// The option may be repeated.
 [[nodiscard]] bool takes_a_list(const po::typed_value_base& type);
 /// The words that are not options, in order.

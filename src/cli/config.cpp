@@ -47,7 +47,10 @@ po::option option_of(const io::ConfigEntry& entry, const po::option_description&
             if (value != "-") value = (folder / value).lexically_normal().string();
         }
     }
-    if (option.value.size() > 1 && (typed == nullptr || !takes_a_list(*typed))) {
+    // [312.5, 48, -101] is one "X,Y,Z", whether the option may be repeated or not.
+    const bool one_value = description.format_parameter().find(',') != std::string::npos &&
+                           std::all_of(option.value.begin(), option.value.end(), is_a_number);
+    if (option.value.size() > 1 && (one_value || typed == nullptr || !takes_a_list(*typed))) {
         std::string joined;
         for (const std::string& value : option.value) joined += (joined.empty() ? "" : ",") + value;
         option.value = {joined};

@@ -98,7 +98,7 @@ ExitCode run_export(const po::variables_map& values) {
     if (names.empty()) throw UsageError("--columns: no names");
     const std::string_view format = output_format(output, table_formats()).name;
     StageClock clock(read_common(values), 5);
-    const Part part = load_part(read_part_options(values), clock);
+    const Part part = load_part(read_part_or_log_options(values), clock);
     print(part.diagnostics, values);
     clock.begin("stitch the surface");
     const ClSurface surface = stitch(part);
@@ -120,12 +120,12 @@ ExitCode run_export(const po::variables_map& values) {
 Subcommand export_subcommand() {
     return {
         .name = "export",
-        .arguments = "PROGRAM LOG -o FILE",
+        .arguments = "[PROGRAM] LOG -o FILE",
         .summary = "per-point columns as .csv, .biip, .vtp, .vtkhdf",
         .description =
             "The file's ending chooses the form. Columns: point, time, line, pass, confidence, x, y, z and every\n"
             "field of `clsurf help fields`. VTK files hold the passes as polylines and the stitched surface;\n"
-            ".hdf is .vtkhdf by the ending that ParaView 5.11 knows.\n\n"
+            ".hdf is .vtkhdf by the ending that ParaView 5.11 knows. Without a program, lines are those of the log.\n\n"
             "  clsurf export part.nc run.biip -o points.csv --columns line,x,y,z,speed,acceleration",
         .declare =
             [](po::options_description& options) {

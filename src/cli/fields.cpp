@@ -21,6 +21,7 @@ const FieldInfo& interval_info() {
 }  // namespace
 
 Field Fields::interval_field() const {
+    if (part_.program.motions.size() == 0) throw UsageError("the field 'interval' needs the program: PROGRAM LOG");
     const ProgrammedSurface laid = lay_out(part_.program);
     IntervalRules rules;
     rules.reach = 0.5 * laid.surface.step_over;

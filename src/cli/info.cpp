@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/info_table.h"
 #include "cli/options.h"
 #include "cli/work_frames.h"
 #include "core/printable_text.h"
@@ -98,6 +99,7 @@ ProgramMatch judge_together(Program program, const Log& log, const FramePoses& g
 
 ExitCode run_info(const po::variables_map& values) {
     if (values.count("FILE") == 0) throw UsageError("missing argument: FILE");
+    if (suggest_mapping_asked(values)) return ExitCode::done;
     const bool json = read_json(values);
     const bool quiet = read_common(values).quiet;
     std::vector<std::string> objects;
@@ -114,6 +116,10 @@ ExitCode run_info(const po::variables_map& values) {
         // A layout and a mapping say how a log is read; with them every file could be one.
         const bool is_log = io::recognise_log(source, log_options) != nullptr &&
                             !(io::forces_log(log_options) && io::looks_like_program(source));
+        if (!is_log && report_table(source, values, objects)) {
+            unusable = true;
+            continue;
+        }
         if (!is_log) {
             program_source = source;
             io::ProgramOptions options = read_program_options(values);
@@ -163,13 +169,16 @@ Subcommand info_subcommand() {
         .description =
             "Programs and logs are told apart by content. A log that follows its program is judged\n"
             "against it: wrong program, lines that do not exist, a work offset that is missing. Exit code 3\n"
-            "says that a log has errors or does not belong to the program.\n\n"
-            "  clsurf info part.nc run.biip",
+            "says that a log has errors or does not belong to the program.\n"
+            "A table whose columns are not known is listed, with a mapping file to start from, and exit code 3.\n\n"
+            "  clsurf info part.nc run.biip\n"
+            "  clsurf info --suggest-mapping own.csv -o mapping.toml",
         .declare =
             [](po::options_description& options) {
                 options.add_options()(
                     "json",
                     "one JSON object: {\"files\": […]}, and the keys of the file besides where it is the only one");
+                declare_suggestion(options);
                 declare_program_options(options);
                 declare_log_options(options);
                 declare_work_offset(options);

@@ -15,6 +15,7 @@
 #include "cli/help.h"
 #include "cli/options.h"
 #include "cli/subcommand.h"
+#include "cli/terminal.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/version.h"
@@ -67,8 +68,8 @@ ExitCode run(const std::vector<std::string>& words) {
 }
 
 ExitCode report(const UsageError& error) {
-    std::fprintf(stderr, "clsurf: %s\n", error.what());
-    if (!error.hint().empty()) std::fprintf(stderr, "    hint: %s\n", error.hint().c_str());
+    write_message("clsurf: error: " + std::string(error.what()) + "\n");
+    if (!error.hint().empty()) write_message("    hint: " + error.hint() + "\n");
     if (!used_config().keys.empty()) say_config();
     return ExitCode::usage;
 }
@@ -93,10 +94,10 @@ int main(int argc, char** argv) {
     } catch (const boost::program_options::error& error) {
         code = clsurf::cli::report(clsurf::cli::to_usage_error(error));
     } catch (const clsurf::InputError& error) {
-        std::fputs(error.what(), stderr);
+        clsurf::cli::write_message(error.what());
         code = ExitCode::bad_input;
     } catch (const clsurf::SystemError& error) {
-        std::fprintf(stderr, "clsurf: %s\n", error.what());
+        clsurf::cli::write_message("clsurf: error: " + std::string(error.what()) + "\n");
         code = ExitCode::system;
     } catch (const std::bad_alloc&) {
         std::fputs("clsurf: out of memory\n", stderr);

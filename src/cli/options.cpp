@@ -8,6 +8,8 @@
 #include <cstring>
 
 #include "cli/output_format.h"
+#include "cli/terminal.h"
+#include "core/units.h"
 #include "io/machine_file.h"
 
 namespace clsurf::cli {
@@ -146,6 +148,23 @@ std::string required(const po::variables_map& values, const char* name) {
     return values[name].as<std::string>();
 }
 
+std::string first_value(const po::variables_map& values, const char* name) {
+    if (values.count(name) > 0) {
+        if (const auto* list = boost::any_cast<std::vector<std::string>>(&values[name].value())) return list->front();
+    }
+    return required(values, name);
+}
+
+double parse_length(const std::string& text, const std::string& option) {
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const std::string_view unit(end, static_cast<std::size_t>(text.data() + text.size() - end));
+    const bool micro = unit == "um" || unit == "µm";
+    if (error != std::errc() || !(value >= 0) || !std::isfinite(value) || (!micro && unit != "mm"))
+        throw UsageError(option + ": '" + text + "' is not a length with its unit, such as 5um or 0.005mm");
+    return micro ? value / um_per_mm : value;
+}
+
 void write_to_stdout(std::string_view text) {
     if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) {
         throw SystemError(std::string("cannot write to standard output: ") + std::strerror(errno));
@@ -217,7 +236,7 @@ void print(const Diagnostics& diagnostics, const po::variables_map& values) {
         const bool shown = diagnostic.severity == Severity::error ||
                            (diagnostic.severity == Severity::warning && !common.quiet) ||
                            (diagnostic.severity == Severity::note && common.verbose);
-        if (shown) std::fputs(to_text(diagnostic).c_str(), stderr);
+        if (shown) write_message(to_text(diagnostic));
     }
 }
 

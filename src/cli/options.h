@@ -68,6 +68,12 @@ void declare_json(po::options_description& options);
 /// standard output. Throws SystemError.
 void write_answer(std::string_view text, const po::variables_map& values);
 
+/// required() of an argument that may be repeated: the first.
+[[nodiscard]] std::string first_value(const po::variables_map& values, const char* name);
+
+/// "5um", "0.005mm" → [mm]. Throws UsageError, naming `option`.
+[[nodiscard]] double parse_length(const std::string& text, const std::string& option);
+
 /// Writes to standard output. Throws SystemError (a full disk; a closed pipe ends the program).
 void write_to_stdout(std::string_view text);
 

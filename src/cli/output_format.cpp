@@ -26,6 +26,8 @@ constexpr std::array report_table{OutputFormat{"text", ".txt"}, OutputFormat{"js
                                   OutputFormat{"csv", ".csv"}, OutputFormat{"sarif", ".sarif .sarif.json"}};
 constexpr std::array motion_table{OutputFormat{"csv", ".csv"}};
 
+constexpr std::array mapping_table{OutputFormat{"toml", ".toml"}};
+
 constexpr OutputFormats all_kinds[] = {picture_table, page_table, log_table, column_table, report_table};
 
 std::vector<std::string_view> endings_of(const OutputFormat& format) {
@@ -77,6 +79,7 @@ OutputFormats page_formats() { return page_table; }
 OutputFormats log_formats() { return log_table; }
 OutputFormats table_formats() { return column_table; }
 OutputFormats report_formats() { return report_table; }
+OutputFormats mapping_formats() { return mapping_table; }
 OutputFormats motion_formats() { return motion_table; }
 
 std::string endings_of(OutputFormats formats) {

@@ -20,9 +20,10 @@ using OutputFormats = std::span<const OutputFormat>;
 [[nodiscard]] OutputFormats picture_formats();  ///< those that viz::encode_image() writes
 [[nodiscard]] OutputFormats page_formats();
 [[nodiscard]] OutputFormats log_formats();
-[[nodiscard]] OutputFormats table_formats();   ///< of per-point columns
-[[nodiscard]] OutputFormats report_formats();  ///< text, json, csv, sarif
-[[nodiscard]] OutputFormats motion_formats();  ///< rows a motion, as CSV
+[[nodiscard]] OutputFormats table_formats();    ///< of per-point columns
+[[nodiscard]] OutputFormats report_formats();   ///< text, json, csv, sarif
+[[nodiscard]] OutputFormats mapping_formats();  ///< mapping files
+[[nodiscard]] OutputFormats motion_formats();   ///< rows a motion, as CSV
 
 /// ".png, .jpg or .jpeg"
 [[nodiscard]] std::string endings_of(OutputFormats formats);

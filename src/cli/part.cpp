@@ -98,10 +98,20 @@ void declare_derivative(po::options_description& options) {
     // clang-format on
 }
 
+PartOptions read_part_or_log_options(const po::variables_map& values) {
+    if (values.count("LOG") > 0) return read_part_options(values);
+    const std::string log = required(values, "PROGRAM");
+    po::variables_map alone = values;
+    alone.insert({"LOG", po::variable_value(log, false)});
+    PartOptions options = read_part_options(alone);
+    options.program.clear();
+    return options;
+}
+
 PartOptions read_part_options(const po::variables_map& values) {
     PartOptions options;
     options.program = required(values, "PROGRAM");
-    options.log = required(values, "LOG");
+    options.log = first_value(values, "LOG");
     options.program_options = read_program_options(values);
     options.log_options = read_log_options(values);
     options.use_line_channel = values.count("ignore-lines") == 0;
@@ -127,7 +137,43 @@ PartOptions read_part_options(const po::variables_map& values) {
     return options;
 }
 
+std::unique_ptr<LineMap> lines_without_program(const Log& log, PointIndex count) {
+    static constexpr LineNumber no_line = 0xffffffffU;  // that no program has
+    Program none;
+    none.files.emplace_back();
+    if (const Channel* channel = log.find("line"))
+        return std::make_unique<LineMap>(channel->values, none, log.keep_alive);
+    ChannelView everywhere;
+    everywhere.first = reinterpret_cast<const std::byte*>(&no_line);
+    everywhere.count = count;
+    everywhere.type = ScalarType::u32;
+    return std::make_unique<LineMap>(everywhere, none, nullptr);
+}
+
+namespace {
+
+Part load_log_alone(const PartOptions& options, StageClock& clock) {
+    Part part;
+    part.derivative = options.derivative;
+    clock.begin("open the log");
+    part.program.files.emplace_back();
+    part.log = io::open_log(options.log, options.log_options);
+    if (part.log.records == 0) throw InputError(Place::of_file(part.log.name), "holds no records");
+    Role role = options.role;
+    if (!options.role_given && !part.log.has(role)) role = part.log.has(Role::feedback) ? Role::feedback : Role::actual;
+    const Eigen::Isometry3d pose =
+        options.poses.zero.value_or(pose_of(part.log).value_or(Eigen::Isometry3d::Identity()));
+    part.path = reconstruct(part.log, role, pose, load_kinematics(options.machine));
+    part.diagnostics.append(part.log.diagnostics);
+    part.lines = lines_without_program(part.log, part.path.count);
+    clock.end();
+    return part;
+}
+
+}  // namespace
+
 Part load_part(const PartOptions& options, StageClock& clock) {
+    if (options.program.empty()) return load_log_alone(options, clock);
     Part part;
     part.derivative = options.derivative;
     clock.begin("read the program");

@@ -43,6 +43,8 @@ void declare_tool(po::options_description& options);
 /// --derivative, of what shows fields.
 void declare_derivative(po::options_description& options);
 [[nodiscard]] PartOptions read_part_options(const po::variables_map& values);
+/// The same where a log may come alone, as the only argument: `program` is empty then.
+[[nodiscard]] PartOptions read_part_or_log_options(const po::variables_map& values);
 
 /// "commanded", "feedback" or "actual". Throws UsageError.
 [[nodiscard]] Role parse_role(const std::string& text);
@@ -57,7 +59,12 @@ struct Part {
     Diagnostics diagnostics;                                 ///< of program, log and map together
 };
 
-/// Reads and maps. Throws InputError (also where the log does not belong to the program, unless forced), UsageError.
+/// What the points of a log belong to without its program: the lines of its channel, or none; all cut but where that
+/// channel says that no block is active.
+[[nodiscard]] std::unique_ptr<LineMap> lines_without_program(const Log& log, PointIndex count);
+
+/// Reads and maps. Without a program the lines are those of the log's channel. Throws InputError (also where the log does not
+/// belong to the program, unless forced), UsageError.
 [[nodiscard]] Part load_part(const PartOptions& options, StageClock& clock);
 
 /// The tool of a part, or a UsageError that says what needs it, with an example.

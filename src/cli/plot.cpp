@@ -27,7 +27,7 @@ struct PlotOptions {
 
 PlotOptions read_plot_options(const po::variables_map& values) {
     PlotOptions options;
-    options.part = read_part_options(values);
+    options.part = read_part_or_log_options(values);
     options.output = required(values, "output");
     options.fields = split_names(values.count("fields") > 0 ? values["fields"].as<std::string>() : "speed");
     if (options.fields.empty() || options.fields.size() > 8)
@@ -129,8 +129,9 @@ ExitCode run_plot(const po::variables_map& values) {
         curves.push_back(std::move(curve));
     }
     options.look.title = "Signals along " + file_name(options.part.log);
-    options.look.subtitle = fmt::format("{} · points {} to {}, {} positions", file_name(options.part.program),
-                                        range.first, range.last, name_of(part.path.role));
+    options.look.subtitle =
+        fmt::format("{}{}points {} to {}, {} positions", file_name(options.part.program),
+                    options.part.program.empty() ? "" : " · ", range.first, range.last, name_of(part.path.role));
     options.look.x_label = options.over_length ? "path length (mm)" : "time (s)";
     options.look.footnote = note;
     clock.begin("draw");
@@ -144,10 +145,11 @@ ExitCode run_plot(const po::variables_map& values) {
 Subcommand plot_subcommand() {
     return {
         .name = "plot",
-        .arguments = "PROGRAM LOG -o curve.png",
+        .arguments = "[PROGRAM] LOG -o curve.png",
         .summary = "signal curves over time or path length",
         .description =
-            "One chart a field, stacked, every extreme kept however long the log is.\n\n"
+            "One chart a field, stacked, every extreme kept however long the log is. A log can be plotted without its\n"
+            "program, but for --profile. --profile prints Ra and Rz, too.\n\n"
             "  clsurf plot part.nc run.biip -o curve.png --fields speed,acceleration --line 1204\n"
             "  clsurf plot part.nc run.biip -o cut.png --profile 10,0,10,5 --tool ball:6",
         .declare =
@@ -165,6 +167,7 @@ Subcommand plot_subcommand() {
                     ("gl", po::value<std::string>()->value_name("osmesa|egl"), "what draws: the processor, or a graphics card (default: osmesa)");
                 // clang-format on
                 declare_profile(options);
+                declare_json(options);
                 declare_part(options);
                 declare_derivative(options);
             },

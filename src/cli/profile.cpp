@@ -7,6 +7,7 @@
 #include "cli/formed.h"
 #include "cli/picture_output.h"
 #include "core/file_name.h"
+#include "io/profile_report.h"
 
 namespace clsurf::cli {
 
@@ -22,6 +23,7 @@ bool asks_for_profile(const po::variables_map& values) {
     const bool asked = values.count("profile") > 0;
     if (!asked && given(values, "tool"))
         throw UsageError("--tool is of --profile only", "--profile 10,0,10,5 --tool ball:6");
+    if (!asked && given(values, "json")) throw UsageError("--json is of --profile: curves are only drawn");
     if (!asked) return false;
     for (const char* name : {"fields", "over", "from", "to", "line", "mark-point"}) {
         if (given(values, name)) throw UsageError(fmt::format("--{} is of curves, not of --profile", name));
@@ -31,6 +33,8 @@ bool asks_for_profile(const po::variables_map& values) {
 
 ExitCode plot_profile(const po::variables_map& values, PartOptions options, viz::ChartLook look,
                       const std::string& output_name) {
+    const bool json = read_json_beside_output(values);
+    if (options.program.empty()) throw UsageError("--profile needs the program: PROGRAM LOG");
     const std::vector<double> ends = parse_numbers(values["profile"].as<std::string>(), "--profile", 4);
     const Vec2 from(ends[0], ends[1]);
     const Vec2 to(ends[2], ends[3]);
@@ -41,7 +45,7 @@ ExitCode plot_profile(const po::variables_map& values, PartOptions options, viz:
     PictureOutput output(output_name);
     StageClock clock(read_common(values), 7);
     const Part part = load_part(options, clock);
-    print(part.diagnostics, values);
+    if (!json) print(part.diagnostics, values);
     const CuttingTool tool = required_tool(part, "--profile", "--profile 10,0,10,5 --tool ball:6");
     clock.begin("stitch the surface");
     const ClSurface surface = stitch(part);
@@ -74,6 +78,12 @@ ExitCode plot_profile(const po::variables_map& values, PartOptions options, viz:
         r.length / r.sampling_lengths);
     clock.begin("draw");
     output.write(viz::draw_chart(x, {whole, rough}, {}, look), look.title);
+    clock.end();
+    const io::ProfileReport report{from, to, profile.step * static_cast<double>(profile.count), r};
+    if (json)
+        write_to_stdout(io::profile_json(report, part.diagnostics));
+    else
+        write_answer(io::profile_text(report), values);
     return ExitCode::done;
 }
 

@@ -244,7 +244,7 @@ std::vector<io::QueryMatch> find_matches(const Part& part, const po::variables_m
 
 void print_matches(const std::vector<io::QueryMatch>& matches) {
     if (matches.empty())
-        std::puts("no point: a comment, a setting, or a line that the controller merged with the next one");
+        std::puts("the line has no logged points: a comment, a setting, or merged with the next block");
     for (const io::QueryMatch& m : matches) {
         fmt::print("line {}: {}\n", m.line, m.text);
         if (m.calls.subprogram)
@@ -283,7 +283,7 @@ ExitCode run_query(const po::variables_map& values) {
         print(part.diagnostics, values);
         if (!read_common(values).quiet) print_matches(matches);
     }
-    return ExitCode::done;
+    return matches.empty() ? ExitCode::check_failed : ExitCode::done;
 }
 
 }  // namespace
@@ -295,7 +295,7 @@ Subcommand query_subcommand() {
         .summary = "which line, which point, what happened there",
         .description =
             "Finds points by number, place, line or time and says which line of the program made them;\n"
-            "inside a subprogram also its own line, and the calls that led there.\n\n"
+            "exits with 1 if there are none. Of points in a subprogram it also names the subprogram's line and the calls.\n\n"
             "  clsurf query part.nc run.biip --at 12.5,-3.0,1.2 --tool ball:6\n"
             "  clsurf query part.nc run.biip --line 1204 --json",
         .declare =

@@ -48,9 +48,13 @@ void declare_report(po::options_description& options) {
 /// What `render` needs to read the same, as words of a command line.
 std::vector<std::string> reading_options_of(const po::variables_map& values) {
     std::vector<std::string> words;
-    for (const char* name : {"dialect", "block-delete", "tools", "layout", "mapping", "work-offset", "machine"}) {
+    for (const char* name : {"dialect", "block-delete", "tools", "layout", "mapping", "machine"}) {
         if (values.count(name) > 0)
             words.insert(words.end(), {fmt::format("--{}", name), values[name].as<std::string>()});
+    }
+    if (values.count("work-offset") > 0) {
+        for (const std::string& offset : values["work-offset"].as<std::vector<std::string>>())
+            words.insert(words.end(), {"--work-offset", offset});
     }
     if (values.count("ignore-lines") > 0) words.push_back("--ignore-lines");
     return words;

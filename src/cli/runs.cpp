@@ -34,9 +34,6 @@ Role common_role(const LoadedRun& a, const LoadedRun& b, std::optional<Role> wan
                      "has no positions of a kind that " + a.name + " has too: commanded, feedback or actual");
 }
 
-/// A line number that no program has.
-constexpr LineNumber no_line = 0xffffffffU;
-
 }  // namespace
 
 void declare_runs(po::options_description& options) {
@@ -115,15 +112,7 @@ std::unique_ptr<LineMap> lines_of(const LoadedRun& run, const Trajectory& path, 
         refuse_foreign(lines->match(), program, run.log, options.force, diagnostics);
         return lines;
     }
-    Program none;
-    none.files.emplace_back();
-    if (const Channel* channel = run.log.find("line"))
-        return std::make_unique<LineMap>(channel->values, none, run.log.keep_alive);
-    ChannelView everywhere;
-    everywhere.first = reinterpret_cast<const std::byte*>(&no_line);
-    everywhere.count = path.count;
-    everywhere.type = ScalarType::u32;
-    return std::make_unique<LineMap>(everywhere, none, nullptr);
+    return lines_without_program(run.log, path.count);
 }
 
 }  // namespace clsurf::cli

@@ -33,7 +33,9 @@ const Channel* Log::find(std::string_view channel) const {
 
 bool Log::has(Role role) const {
     const std::string prefix(prefix_of(role));
-    return find(prefix + ".x") != nullptr && find(prefix + ".y") != nullptr && find(prefix + ".z") != nullptr;
+    int axes = 0;
+    for (const char* axis : {".x", ".y", ".z"}) axes += find(prefix + axis) != nullptr ? 1 : 0;
+    return axes >= 2;
 }
 
 double Log::time_of(PointIndex point) const {

@@ -61,6 +61,18 @@ const Channel& channel_of(const Log& log, Role role, char letter) {
                      "`clsurf info` lists the channels that the log has");
 }
 
+/// A linear axis; where the role has the other two only (a lathe), it stands at 0.
+ChannelView linear_axis(const Log& log, Role role, char letter) {
+    static constexpr double zero = 0;
+    const std::string name = std::string(prefix_of(role)) + "." + letter;
+    if (log.find(name) != nullptr || !log.has(role)) return channel_of(log, role, letter).values;
+    ChannelView still;
+    still.first = reinterpret_cast<const std::byte*>(&zero);
+    still.count = log.records;
+    still.type = ScalarType::f64;
+    return still;
+}
+
 Trajectory trajectory_of(const Log& log, Role role) {
     Trajectory trajectory;
     trajectory.role = role;
@@ -142,7 +154,7 @@ Trajectory reconstruct_ball(const Log& log, Role role, const Eigen::Isometry3d& 
     Trajectory trajectory = trajectory_of(log, role);
     trajectory.ball = ball;
     trajectory.set_pose(pose);
-    for (std::size_t axis = 0; axis < 3; ++axis) trajectory.axes[axis] = channel_of(log, role, "xyz"[axis]).values;
+    for (std::size_t axis = 0; axis < 3; ++axis) trajectory.axes[axis] = linear_axis(log, role, "xyz"[axis]);
     if (kinematics == nullptr || !kinematics->has_rotary()) return trajectory;
     const AngleReader angles(log, role, *kinematics);
     const std::array<ChannelView, 3> linear = trajectory.axes;
