@@ -26,8 +26,10 @@ constexpr double offset_share = 0.5;
 constexpr PointIndex least_checked = 10;  ///< points that can tell a foreign log
 /// A log of another program, as its hash says, may differ from this one by this much.
 constexpr double other_share = 0.05;
-/// Runs of points whose middle lies off its line: an edit may have moved the lines.
-constexpr double displaced = 0.3;
+/// Runs of points whose middle lies off its line: an edit may have moved the lines behind it.
+constexpr double displaced = 0.02;
+/// So many that the lines mean nothing where no edit explains them.
+constexpr double all_displaced = 0.3;
 /// A path that fits although its line numbers do not has no more points off than this.
 constexpr double fitting_share = 0.1;
 constexpr double sure_confidence = 0.9;  ///< of an aligned point
@@ -236,11 +238,11 @@ public:
     LineMap by_channel(const Channel& channel, const ProgramLines& own) {
         LineMap map = own.lines ? reported(channel.values, view_of(*own.lines), own.lines)
                                 : reported(channel.values, channel.values, log_.keep_alive);
-        const bool lines_off = identity_ != ProgramIdentity::same && displaced_share(path_, program_, map) > displaced;
-        if (match_.edited || lines_off) {
+        const double off_line = identity_ == ProgramIdentity::same ? 0.0 : displaced_share(path_, program_, map);
+        if (match_.edited || off_line > displaced) {
             if (std::optional<LineMap> moved = look_for_edits(channel, own)) {
                 map = std::move(*moved);
-            } else if (lines_off) {
+            } else if (off_line > all_displaced) {
                 if (std::optional<LineMap> found = fitting_geometry()) return finish(std::move(*found));
             }
         }

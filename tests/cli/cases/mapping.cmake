@@ -31,6 +31,10 @@ clsurf_cli_test(NAME crlf_is_the_same_program SETUP "sed 's/$/\\r/' ${uneven} > 
 clsurf_cli_test(NAME lines_inserted_without_a_hash SETUP "sed -e '3000i (a)' -e '3000i (b)' @DATA@/programs/petal_spiral.ngc > petal_spiral.ngc"
   ARGS query petal_spiral.ngc @LOGS@/petal_spiral.raw --layout @DATA@/logs/petal_spiral.layout.toml --point 70000
   STDOUT "confidence 0[.]95" STDERR "2 lines inserted before line 300[0-9]")
+# Only the last part of the lines is displaced.
+clsurf_cli_test(NAME lines_deleted_near_the_end_without_a_hash SETUP "sed '11323,11327d' @DATA@/programs/petal_spiral.ngc > petal_spiral.ngc"
+  ARGS query petal_spiral.ngc @LOGS@/petal_spiral.raw --layout @DATA@/logs/petal_spiral.layout.toml --point 83000
+  STDOUT "confidence 0[.]95" STDERR "5 lines deleted before line 113[23][0-9]")
 
 # ---- a log that ends early ----
 foreach(subcommand "check" "render -o out.png --size 160x120" "report -o out.html")
