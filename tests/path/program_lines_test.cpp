@@ -123,7 +123,7 @@ TEST(ProgramCourse, FindsALogThatBeginsInTheMiddle) {
     run(r, 50, 80);
     const Diagnostics found = course_of(r);
     ASSERT_EQ(found.count("map.begins-inside"), 1u);
-    EXPECT_NE(found.kept()[0].text.find("begins at line 50, with 49 %"), std::string::npos) << found.kept()[0].text;
+    EXPECT_NE(found.kept()[0].text.find("begins at line 50: 49 %"), std::string::npos) << found.kept()[0].text;
     EXPECT_EQ(found.count("map.ends-early"), 1u);
 }
 
