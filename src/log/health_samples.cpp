@@ -102,8 +102,10 @@ void check_offset(const Log& log, Diagnostics& found) {
 
 void check_placeholders(const Log& log, Diagnostics& found) {
     for (const Role role : {Role::commanded, Role::feedback, Role::actual}) {
-        if (!log.has(role)) continue;
-        const auto axis = [&](char letter) { return log.find(fmt::format("{}.{}", prefix_of(role), letter))->values; };
+        const std::string prefix(prefix_of(role));
+        if (!log.has(role) || log.find(prefix + ".y") == nullptr)
+            continue;  // a lathe's log shows no marks between passes
+        const auto axis = [&](char letter) { return log.find(fmt::format("{}.{}", prefix, letter))->values; };
         const std::optional<Placeholder> placeholder = find_placeholder({axis('x'), axis('y'), axis('z')});
         if (!placeholder) continue;
         const auto& [x, y, z] = placeholder->position;

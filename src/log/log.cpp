@@ -1,6 +1,7 @@
 #include "log/log.h"
 
 #include <algorithm>
+#include <array>
 
 #include "core/statistics.h"
 
@@ -32,10 +33,12 @@ const Channel* Log::find(std::string_view channel) const {
 }
 
 bool Log::has(Role role) const {
-    const std::string prefix(prefix_of(role));
-    int axes = 0;
-    for (const char* axis : {".x", ".y", ".z"}) axes += find(prefix + axis) != nullptr ? 1 : 0;
-    return axes >= 2;
+    const auto has_axis = [&](Role of, const char* axis) { return find(std::string(prefix_of(of)) + axis) != nullptr; };
+    if (!has_axis(role, ".x") || !has_axis(role, ".z")) return false;
+    if (has_axis(role, ".y")) return true;
+    // A lathe: no role has a Y. Where another role has one, this one's is missing.
+    return std::ranges::none_of(std::array{Role::commanded, Role::feedback, Role::actual},
+                                [&](Role other) { return has_axis(other, ".y"); });
 }
 
 double Log::time_of(PointIndex point) const {

@@ -50,7 +50,7 @@ struct Log {
 
     /// The channel of that name, or nullptr.
     [[nodiscard]] const Channel* find(std::string_view channel) const;
-    /// All three linear axes of the role are there.
+    /// All three linear axes of the role are there; or X and Z, where no role has a Y (a lathe).
     [[nodiscard]] bool has(Role role) const;
     /// Time of a point since the first record [s]: the channel `time`, or index · period.
     [[nodiscard]] double time_of(PointIndex point) const;
