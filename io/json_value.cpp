@@ -1,8 +1,44 @@
 #include "io/json_value.h"
 
+#include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <cstring>
 
 namespace clsurf::io {
+namespace {
+
+/// The library's Grisu2 now and then prints more digits than a number needs (-1.2088699999999999): such numbers, of
+/// sixteen digits and more, are written again with as many as it takes to read them back.
+std::string with_shortest_numbers(const std::string& json) {
+    constexpr std::string_view number_characters = "+-.0123456789eE";
+    constexpr std::size_t suspicious = 17;  // characters: sixteen digits and the point
+    std::string text;
+    text.reserve(json.size());
+    for (std::size_t at = 0; at < json.size();) {
+        const std::size_t begin = at;
+        if (json[at] == '"') {
+            for (++at; at < json.size() && json[at] != '"'; ++at) at += json[at] == '\\' ? 1 : 0;
+            ++at;
+        } else if (json[at] == '-' || (json[at] >= '0' && json[at] <= '9')) {
+            at = std::min(json.find_first_not_of(number_characters, at), json.size());
+            const bool real = std::memchr(json.data() + begin, '.', at - begin) != nullptr;
+            double value = 0;
+            if (real && at - begin >= suspicious &&
+                std::from_chars(json.data() + begin, json.data() + at, value).ec == std::errc()) {
+                char shortest[32];
+                text.append(shortest, std::to_chars(shortest, shortest + sizeof shortest, value).ptr);
+                continue;
+            }
+        } else {
+            at = std::min(json.find_first_of("\"-0123456789", at), json.size());
+        }
+        text.append(json, begin, at - begin);
+    }
+    return text;
+}
+
+}  // namespace
 
 std::string dump(const Json& report) {
     Json versioned{{"schema_version", schema_version}};
@@ -10,7 +46,9 @@ std::string dump(const Json& report) {
     return dump_foreign(versioned);
 }
 
-std::string dump_foreign(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+std::string dump_foreign(const Json& json) {
+    return with_shortest_numbers(json.dump(2, ' ', false, Json::error_handler_t::replace)) + "\n";
+}
 
 std::string dump_compact(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
