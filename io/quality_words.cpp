@@ -14,7 +14,7 @@ namespace {
 
 constexpr double least_depth = 1e-4;  ///< [mm] that is worth a word beside a change of speed
 
-std::string um_text(double mm) { return fmt::format("{:.1f} µm", mm * um_per_mm); }
+std::string with_um(double mm) { return fmt::format("{:.1f} µm", mm * um_per_mm); }
 
 /// "pass 14", "passes 12 and 13", "12 passes from 3 to 57".
 std::string passes_text(const Defect& d) {
@@ -63,18 +63,18 @@ std::string motion_text(const Defect& d) {
 std::string height_text(const Defect& d) {
     const std::string_view where = d.pit ? "below" : "above";
     if (d.quantity == Quantity::relief)
-        return fmt::format("the program has {} {} {} the neighbours", passes_text(d), um_text(d.depth), where);
+        return fmt::format("the program has {} {} {} the neighbours", passes_text(d), with_um(d.depth), where);
     const std::string_view when = d.cause == Cause::corner     ? " in a corner"
                                   : d.cause == Cause::reversal ? " after an axis reverses"
                                                                : "";
-    return fmt::format("axis lag on {} differs from the neighbours by {} ({} them){}", passes_text(d), um_text(d.depth),
+    return fmt::format("axis lag on {} differs from the neighbours by {} ({} them){}", passes_text(d), with_um(d.depth),
                        where, when);
 }
 
 std::string systematic_text(const Defect& d) {
     std::string text = fmt::format(
         "axes lag, forward against backward: neighbouring passes differ by up to ±{} on {:.0f} % of the part",
-        um_text(d.depth), 100 * d.share);
+        with_um(d.depth), 100 * d.share);
     if (d.delays.size() < 2) return text + "; servo gains or feed-forward of the axes differ, or an axis has backlash";
     std::string axes;
     for (std::size_t k = d.delays.size(); k-- > 0;) {
@@ -120,13 +120,13 @@ double size_of(const Defect& d) { return d.quantity == Quantity::speed ? std::ab
 
 std::string kind_text(const Kind& kind) {
     const Defect& d = *kind.most;
-    if (d.systematic) return fmt::format("{} (±{} on {:.0f} % of the part)", kind.one, um_text(d.depth), 100 * d.share);
+    if (d.systematic) return fmt::format("{} (±{} on {:.0f} % of the part)", kind.one, with_um(d.depth), 100 * d.share);
     const std::string count =
         kind.count == 1 ? fmt::format("1 {}", kind.one) : fmt::format("{} {}", kind.count, kind.many);
     if (d.quantity == Quantity::acceleration) return count;
     if (d.quantity == Quantity::speed)
         return fmt::format("{} ({}{:+.0f} %)", count, kind.count > 1 ? "up to " : "", 100 * d.speed_mismatch);
-    return fmt::format("{} ({}{})", count, kind.count > 1 ? "up to " : "", um_text(d.depth));
+    return fmt::format("{} ({}{})", count, kind.count > 1 ? "up to " : "", with_um(d.depth));
 }
 
 /// The kinds of a report's defects, in the order of their first ones.
@@ -154,7 +154,7 @@ std::string sentence_of(const Defect& d) {
     std::string text = motion ? motion_text(d) : height_text(d);
     text += fmt::format(" over {:.1f} mm", d.length);
     if (motion && d.cause == Cause::point_spacing) text += " (programmed points are spaced differently)";
-    if (motion && d.depth >= least_depth) text += fmt::format("; predicted {} of {}", shape_of(d), um_text(d.depth));
+    if (motion && d.depth >= least_depth) text += fmt::format("; predicted {} of {}", shape_of(d), with_um(d.depth));
     return capitalised(text);
 }
 

@@ -11,9 +11,9 @@ clsurf_cli_test(NAME words_other_names_mean_the_same
 clsurf_cli_test(NAME words_other_fields ARGS export ${part} ${run} -o p.csv --fields accel,lag,mismatch FILE p.csv)
 clsurf_cli_test(NAME words_a_channel_keeps_its_name SETUP "printf 'time,cmd.x,cmd.y,cmd.z,lag\\n0,0,0,0,7\\n0.001,1,0,0,7\\n0.002,2,0,0,7\\n' > a.csv; echo 'G1 X2 F60000' > a.nc"
   ARGS export a.nc a.csv -o - --columns lag STDOUT "lag[^a-z]*7")
-clsurf_cli_test(NAME words_place_with_blanks ARGS query ${part} ${run} --at "-5.87 0 2.45" STDOUT "^line 1768")
-clsurf_cli_test(NAME words_place_as_words ARGS query ${part} ${run} --at -5.87 0 2.45 STDOUT "^line 1768")
-clsurf_cli_test(NAME words_place_before_the_files ARGS query --at -5.87 0 2.45 ${part} ${run} STDOUT "^line 1768")
+clsurf_cli_test(NAME words_place_with_blanks ARGS query ${part} ${run} --at "-5.87 0 2.45" --tool none STDOUT "^line 1768")
+clsurf_cli_test(NAME words_place_as_words ARGS query ${part} ${run} --at -5.87 0 2.45 --tool none STDOUT "^line 1768")
+clsurf_cli_test(NAME words_place_before_the_files ARGS query --at -5.87 0 2.45 ${part} ${run} --tool none STDOUT "^line 1768")
 clsurf_cli_test(NAME words_number_without_an_option ARGS query ${part} ${run} -5.6 EXIT 2 STDERR "a value '-5.6' without its option" "--at 2,-5.6,4.7")
 clsurf_cli_test(NAME words_machine ARGS machine @DATA@/machines/three_axis_mill.toml STDOUT "can be used")
 clsurf_cli_test(NAME words_no_output ARGS render ${part} ${run} EXIT 2 STDERR "no output file given" "hint: add -o FILE")

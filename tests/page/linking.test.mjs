@@ -21,7 +21,7 @@ test('a place that is clicked shows its line, as query says', async () => {
         assert.equal(await chosenLine(page), match.line);
         assert.ok((await page.textContent('.program .row.chosen code')).includes(match.text.trim()));
         const place = shown['X Y Z'].split(/\s+/).map(Number);
-        match.position_mm.forEach((c, k) => assert.ok(Math.abs(c - place[k]) < 2e-4, `${place} is not ${match.position_mm}`));
+        match.tip_mm.forEach((c, k) => assert.ok(Math.abs(c - place[k]) < 2e-4, `${place} is not ${match.tip_mm}`));
         assert.ok(Math.abs(Number(shown['Path speed']) - match.speed_mm_min) < 0.2);
         assert.ok(Math.abs(Number(shown.Time) - match.time_s) < 1e-4);
     }

@@ -19,11 +19,11 @@ clsurf_cli_test(NAME info_of_a_log_without_positions EXIT 3
 
 # ---- an edited program ----
 set(insert_comment "sed '5i (a comment)' ${uneven} > bottle_uneven.nc")
-clsurf_cli_test(NAME comment_inserted_after_the_run SETUP "${insert_comment}" ARGS query bottle_uneven.nc ${uneven_log} --at 2.0,-5.6,4.7
+clsurf_cli_test(NAME comment_inserted_after_the_run SETUP "${insert_comment}" ARGS query bottle_uneven.nc ${uneven_log} --at 2.0,-5.6,4.7 --tool none
   STDOUT "^line 569: X2.013" "confidence 0[.]95" STDERR "was edited after the run" "1 line inserted before line [5-7] since the run")
 clsurf_cli_test(NAME lines_deleted_after_the_run SETUP "sed '1000,1011d' ${uneven} > bottle_uneven.nc" ARGS query bottle_uneven.nc ${uneven_log} --point 20000 --json
   STDOUT "\"confidence\": 0[.]95" "12 lines deleted before line 101[23]")
-clsurf_cli_test(NAME feed_changed_after_the_run SETUP "sed 's/F3000/F2500/' ${uneven} > bottle_uneven.nc" ARGS query bottle_uneven.nc ${uneven_log} --at 2.0,-5.6,4.7
+clsurf_cli_test(NAME feed_changed_after_the_run SETUP "sed 's/F3000/F2500/' ${uneven} > bottle_uneven.nc" ARGS query bottle_uneven.nc ${uneven_log} --at 2.0,-5.6,4.7 --tool none
   STDOUT "^line 568: X2.013" "confidence 0[.]95")
 clsurf_cli_test(NAME crlf_is_the_same_program SETUP "sed 's/$/\\r/' ${uneven} > bottle_uneven.nc" ARGS info bottle_uneven.nc ${uneven_log}
   STDOUT "positions lie" NO_STDOUT "edited" "another program")
