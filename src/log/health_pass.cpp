@@ -112,8 +112,10 @@ struct BlockSummary {
 /// Which channels of a log mean what.
 struct Meanings {
     std::optional<std::size_t> time, line;
-    std::vector<std::array<std::size_t, 3>> roles;  ///< x, y, z of each complete role
-    std::vector<bool> read;                         ///< channels that are looked at
+    /// Channels of x, y, z; a lathe has no y.
+    using Axes = std::array<std::optional<std::size_t>, 3>;
+    std::vector<Axes> roles;  ///< those that the log has
+    std::vector<bool> read;   ///< channels that are looked at
 
     explicit Meanings(const Log& log) : read(log.channels.size()) {
         const auto index_of = [&](const std::string& name) -> std::optional<std::size_t> {
@@ -126,7 +128,7 @@ struct Meanings {
         for (const Role role : {Role::commanded, Role::feedback, Role::actual}) {
             if (!log.has(role)) continue;
             const std::string prefix(prefix_of(role));
-            roles.push_back({*index_of(prefix + ".x"), *index_of(prefix + ".y"), *index_of(prefix + ".z")});
+            roles.push_back({index_of(prefix + ".x"), index_of(prefix + ".y"), index_of(prefix + ".z")});
         }
         for (std::size_t c = 0; c < read.size(); ++c) {
             read[c] = is_real(log.channels[c]) || is_position(log.channels[c]) || c == time || c == line;
@@ -169,10 +171,12 @@ private:
         return values_[channel][static_cast<std::size_t>(i - window_)];
     }
     /// From the record before to i [mm]; 0 before the first record, NaN where a value is missing.
-    [[nodiscard]] Vec3 step(const std::array<std::size_t, 3>& axes, PointIndex i) const {
+    [[nodiscard]] Vec3 step(const Meanings::Axes& axes, PointIndex i) const {
         if (i < 1 || i >= log_.records) return Vec3::Zero();
-        return {value(axes[0], i) - value(axes[0], i - 1), value(axes[1], i) - value(axes[1], i - 1),
-                value(axes[2], i) - value(axes[2], i - 1)};
+        const auto along = [&](std::optional<std::size_t> axis) {
+            return axis ? value(*axis, i) - value(*axis, i - 1) : 0.0;
+        };
+        return {along(axes[0]), along(axes[1]), along(axes[2])};
     }
     void warn(const char* code, PointIndex point, std::string text) {
         summary_.diagnostics.add({Severity::warning, code, Place::of_point(log_.name, point), std::move(text), {}});
@@ -214,7 +218,7 @@ private:
 
     /// A jump is a step longer than any machine's acceleration allows, beside short ones; one that
     /// comes back with the next record is a spike and counts once.
-    void look_at_steps(const std::array<std::size_t, 3>& axes) {
+    void look_at_steps(const Meanings::Axes& axes) {
         const double limit_squared = limits_.jump * limits_.jump;
         for (PointIndex i = std::max<PointIndex>(1, begin_); i < end_; ++i) {
             const Vec3 here = step(axes, i);
@@ -224,7 +228,7 @@ private:
             const double last_length = step(axes, i - 1).norm();
             const bool comes_back = here.dot(next) < -0.5 * length * next.norm();
             if (!(length > jump_factor * last_length) || !(length > jump_factor * next.norm() || comes_back)) continue;
-            std::string role = log_.channels[axes[0]].name;
+            std::string role = log_.channels[*axes[0]].name;
             role.resize(role.find('.'));
             warn("log.jump", i,
                  fmt::format("the position {} jumps by {:.3f} mm in one period; the step before it is {:.3f} mm{}",
@@ -264,8 +268,8 @@ private:
         run_.end = i + 1;
         if (meanings_.roles.empty()) return;
         const auto& axes = meanings_.roles.front();
-        const double x = value(axes[0], i);
-        const double y = value(axes[1], i);
+        const double x = value(*axes[0], i);
+        const double y = value(axes[1] ? *axes[1] : *axes[2], i);  // of a lathe the plane of X and Z
         if (!std::isfinite(x + y)) return;
         if (!started_) {
             heading_.restart(x, y);
