@@ -223,7 +223,7 @@ TEST(Health, NamesWhatTheLogDoesNotHave) {
     expect_says(only(made.check(), "log.missing-channel"), "no feedback positions");
     made.columns.erase("cmd.y");
     EXPECT_FALSE(made.check().has_errors()) << "a lathe";
-    made.columns.erase("cmd.x");
+    made.columns.erase("cmd.z");
     EXPECT_TRUE(made.check().has_errors());
 }
 
