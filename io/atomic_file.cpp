@@ -17,6 +17,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/file_name.h"
 #include "io/mapped_file.h"
 
 namespace clsurf::io {
@@ -35,11 +36,6 @@ void write_all(int descriptor, std::string_view bytes, const std::string& path) 
         if (wrote < 0) fail(path, "cannot write");
         bytes.remove_prefix(static_cast<std::size_t>(wrote));
     }
-}
-
-std::string folder_of(const std::string& path) {
-    const std::size_t slash = path.rfind('/');
-    return slash == std::string::npos ? std::string(".") : path.substr(0, slash + 1);
 }
 
 /// The descriptor that a name stands for: "-", "/dev/stdout", "/dev/fd/3". −1: it is a name in a folder.

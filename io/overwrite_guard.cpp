@@ -53,11 +53,6 @@ std::optional<Inode> inode_at(const std::string& path) {
     return inode_of(status);
 }
 
-std::string folder_of(const std::string& path) {
-    const std::size_t slash = path.rfind('/');
-    return slash == std::string::npos ? std::string(".") : path.substr(0, slash + 1);
-}
-
 [[noreturn]] void refuse(const Output& output, const std::string& input) {
     throw UsageError(
         output.path == input
