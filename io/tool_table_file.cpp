@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "program/lexer.h"
+#include "program/text/lexer.h"
 
 namespace clsurf::io {
 namespace {

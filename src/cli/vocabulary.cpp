@@ -6,7 +6,7 @@
 #include "cli/fields.h"
 #include "io/log_format.h"
 #include "log/channel.h"
-#include "program/dialect.h"
+#include "program/dialects/dialect.h"
 #include "viz/colour_map.h"
 
 namespace clsurf::cli {

@@ -8,7 +8,7 @@
 #include "core/units.h"
 #include "program/feed_per_minute.h"
 #include "program/frame_placement.h"
-#include "program/lexer.h"
+#include "program/text/lexer.h"
 
 namespace clsurf {
 namespace {

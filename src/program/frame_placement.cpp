@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "program/arc.h"
+#include "program/interpret/arc.h"
 
 namespace clsurf {
 namespace {

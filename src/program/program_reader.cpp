@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "program/interpreter_state.h"
+#include "program/interpret/interpreter_state.h"
 
 namespace clsurf {
 

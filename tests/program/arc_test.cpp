@@ -1,4 +1,4 @@
-#include "program/arc.h"
+#include "program/interpret/arc.h"
 
 #include <cmath>
 #include <numbers>

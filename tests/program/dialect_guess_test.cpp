@@ -1,4 +1,4 @@
-#include "program/dialect_guess.h"
+#include "program/dialects/dialect_guess.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "program/lexer.h"
+#include "program/text/lexer.h"
 
 #include <charconv>
 #include <random>

@@ -1,0 +1,220 @@
+// Drilling cycles and hole patterns of SINUMERIK as motions.
+// Facts: Siemens, SINUMERIK 840D/840Di/810D, Programming Guide "Cycles", chapters 2 and 3.
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "program/interpret/interpreter_state.h"
+
+namespace clsurf {
+namespace {
+
+constexpr double chip_break_mm = 1;  ///< back between pecks
+constexpr double shallow_mm = 30;    ///< up to this depth the lead distance is the next value
+constexpr double shallow_lead_mm = 0.6;
+constexpr double lead_share = 50;  ///< deeper: depth / 50, at most 7 mm
+constexpr double most_lead_mm = 7;
+constexpr int most_holes = 100'000;
+constexpr std::size_t most_pecks = 1'000'000;
+
+/// Places of a cycle's parameters.
+constexpr std::size_t rtp = 0, rfp = 1, sdis = 2, dp = 3, dpr = 4, dtb = 5;
+
+bool drills(const std::string& name) {
+    static constexpr std::string_view names[] = {"CYCLE81", "CYCLE82", "CYCLE83", "CYCLE84", "CYCLE840",
+                                                 "CYCLE85", "CYCLE86", "CYCLE87", "CYCLE88", "CYCLE89"};
+    return std::find(std::begin(names), std::end(names), name) != std::end(names);
+}
+
+bool is_cycle(const std::string& name) {
+    // With a number: SLOT_A is a program of somebody's own.
+    for (const std::string_view begin : {"CYCLE", "HOLES", "POCKET", "SLOT"}) {
+        if (name.starts_with(begin) && name.size() > begin.size() && is_digit(name[begin.size()])) return true;
+    }
+    return name == "LONGHOLE";
+}
+
+/// The strokes of deep-hole drilling: the first, then each by `damp` less, then `damp` itself, the
+/// last two shared evenly; all the same where `damp` is 0, by that factor where it is negative.
+std::vector<double> strokes(double whole, double first, double damp) {
+    std::vector<double> depths;  // of each stroke's end
+    double left = whole;
+    double step = std::min(first, whole);
+    while (left > 1e-9 && depths.size() < most_pecks) {
+        if (damp > 0 && !depths.empty()) {
+            step = step - damp > damp ? step - damp : damp;
+            if (step == damp && left > damp && left <= 2 * damp) step = left / 2;
+        } else if (damp < 0 && !depths.empty()) {
+            step *= -damp;
+            if (step < whole * 1e-3) step = left;
+        }
+        step = std::min(step, left);
+        left -= step;
+        depths.push_back(whole - left);
+    }
+    return depths;
+}
+
+}  // namespace
+
+/// True: the word was a cycle, carried out or reported.
+bool Interpreter::siemens_cycle(const Keyword& keyword) {
+    const std::string& name = keyword.name;
+    if (!is_cycle(name) || name == "CYCLE800" || name == "CYCLE832") return false;
+    const std::vector<std::optional<double>> given = arguments_of(keyword);
+    std::vector<double> values;
+    for (const std::optional<double>& value : given)
+        values.push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
+    if (drills(name)) {
+        drill_siemens(name, values);
+        return true;
+    }
+    if (name == "HOLES1" || name == "HOLES2" || name == "CYCLE801") {
+        hole_pattern(name, values, keyword.column);
+        return true;
+    }
+    note(Severity::warning, "program.cycle", name + " is not carried out", keyword.column);
+    return true;
+}
+
+void Interpreter::drill_siemens(const std::string& name, const std::vector<double>& values) {
+    const auto value = [&](std::size_t k, double otherwise) {
+        return k < values.size() && !std::isnan(values[k]) ? values[k] : otherwise;
+    };
+    const double unit = state_.unit_mm;
+    const double reference = value(rfp, 0) * unit;
+    const double clear = value(rtp, 0) * unit;
+    const double r = reference + value(sdis, 0) * unit;
+    const double relative = value(dpr, 0) * unit;
+    if (relative == 0 && std::isnan(value(dp, std::numeric_limits<double>::quiet_NaN())))
+        fail(name + " needs its depth (DP or DPR)");
+    const double bottom = relative != 0 ? reference - std::abs(relative) : value(dp, 0) * unit;
+    if (r < bottom) fail(fmt::format("{}: the reference plane ({:g}) is below the bottom ({:g})", name, r, bottom));
+    const Vec3 rotary = state_.rotary;
+    const auto seconds = [&](double dwell) {
+        return dwell >= 0 || state_.spindle <= 0 ? std::abs(dwell) : -dwell * seconds_per_minute / state_.spindle;
+    };
+    cycle_.p = name == "CYCLE81" || name == "CYCLE87" ? 0 : seconds(value(name == "CYCLE83" ? std::size_t{8} : dtb, 0));
+    const double feed = state_.feed;
+    go_to_level(MotionKind::rapid, r, rotary);
+    if (name == "CYCLE83") {
+        const double whole = reference - bottom;
+        const double first_absolute = value(5, std::numeric_limits<double>::quiet_NaN());
+        const double first = value(6, 0) != 0             ? std::abs(value(6, 0)) * unit
+                             : std::isnan(first_absolute) ? whole
+                                                          : reference - first_absolute * unit;
+        if (!(first > 0)) fail("CYCLE83: the first depth (FDEP, FDPR) lies above the reference plane");
+        const double damp = value(7, 0) < 0 ? value(7, 0) : value(7, 0) * unit;
+        peck_siemens(reference, r, strokes(whole, first, damp), value(11, 0) == 0, seconds(value(9, 0)), rotary);
+        go_to_level(MotionKind::rapid, clear, rotary);
+        return;
+    }
+    const bool feeds_out = name == "CYCLE84" || name == "CYCLE840" || name == "CYCLE85" || name == "CYCLE89";
+    if (name == "CYCLE85" && value(6, 0) > 0) state_.feed = value(6, 0);
+    go_to_level(MotionKind::feed, bottom, rotary);
+    if (cycle_.p > 0) push(MotionKind::dwell, state_.position, state_.rotary, static_cast<float>(cycle_.p));
+    if (name == "CYCLE85" && value(7, 0) > 0) state_.feed = value(7, 0);
+    if (name == "CYCLE86") {
+        Vec3 aside = Vec3::Zero();
+        const int c = state_.plane_axis;
+        aside[(c + 1) % 3] = value(7, 0) * unit;
+        aside[(c + 2) % 3] = value(8, 0) * unit;
+        if (!aside.isZero()) step_aside(aside, rotary);
+        go_to_level(MotionKind::rapid, r, rotary);
+        go_to_level(MotionKind::rapid, clear, rotary);
+        if (!aside.isZero()) step_aside(-aside, rotary);
+        return;
+    }
+    if (feeds_out) go_to_level(MotionKind::feed, r, rotary);
+    state_.feed = feed;
+    go_to_level(MotionKind::rapid, clear, rotary);
+}
+
+/// Deep holes: chips broken by going back a little, or taken out to the reference plane.
+void Interpreter::peck_siemens(double reference, double r, const std::vector<double>& depths, bool breaks_chips,
+                               double dwell_above, const Vec3& rotary) {
+    const double whole = depths.empty() ? 0 : depths.back();
+    const double lead = whole <= shallow_mm ? shallow_lead_mm : std::min(whole / lead_share, most_lead_mm);
+    for (std::size_t k = 0; k < depths.size(); ++k) {
+        go_to_level(MotionKind::feed, reference - depths[k], rotary);
+        if (cycle_.p > 0) push(MotionKind::dwell, state_.position, state_.rotary, static_cast<float>(cycle_.p));
+        if (k + 1 == depths.size()) return;
+        if (breaks_chips) {
+            go_to_level(MotionKind::feed, reference - depths[k] + chip_break_mm, rotary);
+            continue;
+        }
+        go_to_level(MotionKind::rapid, r, rotary);
+        if (dwell_above > 0) push(MotionKind::dwell, state_.position, state_.rotary, static_cast<float>(dwell_above));
+        go_to_level(MotionKind::rapid, reference - depths[k] + lead, rotary);
+    }
+}
+
+/// HOLES1 (row), HOLES2 (circle), CYCLE801 (grid): the modal cycle at every place.
+void Interpreter::hole_pattern(const std::string& name, const std::vector<double>& values, std::size_t column) {
+    const auto value = [&](std::size_t k) { return k < values.size() && !std::isnan(values[k]) ? values[k] : 0.0; };
+    const double unit = state_.unit_mm;
+    const Vec2 origin = Vec2(value(0), value(1)) * unit;
+    const auto turned = [](double angle) { return Vec2(std::cos(angle * rad_per_deg), std::sin(angle * rad_per_deg)); };
+    const auto count = [&](std::size_t k) {
+        return static_cast<int>(std::clamp(value(k), 0.0, static_cast<double>(most_holes)));
+    };
+    std::vector<Vec2> holes;
+    if (name == "HOLES1") {
+        const Vec2 along = turned(value(2));
+        for (int k = 0; k < count(5); ++k) holes.push_back(origin + (value(3) + k * value(4)) * unit * along);
+    } else if (name == "HOLES2") {
+        const int number = count(5);
+        const double between = value(4) != 0 ? value(4) : 360.0 / std::max(1, number);
+        for (int k = 0; k < number; ++k) holes.push_back(origin + value(2) * unit * turned(value(3) + k * between));
+    } else {
+        const Vec2 along = turned(value(2));
+        const Vec2 across(-along.y(), along.x());
+        if (static_cast<double>(count(5)) * count(6) > most_holes)
+            fail(fmt::format("{}: more than {} holes", name, most_holes), column);
+        for (int j = 0; j < count(6); ++j) {  // back and forth
+            for (int i = 0; i < count(5); ++i)
+                holes.push_back(origin + (j % 2 == 0 ? i : count(5) - 1 - i) * value(3) * unit * along +
+                                j * value(4) * unit * across);
+        }
+    }
+    if (holes.empty()) note(Severity::warning, "program.cycle", name + " has no holes", column);
+    if (modal_call_.active && !drills(modal_call_.name)) {
+        note(Severity::warning, "program.cycle", name + ": " + modal_call_.name + " is not called at its places",
+             column);
+    }
+    const int c = state_.plane_axis;
+    const Vec3 here = state_.programmed();
+    for (const Vec2& hole : holes) {
+        Vec3 end = state_.programmed();
+        end = end.array().isNaN().select(0.0, end);
+        end[(c + 1) % 3] = hole.x();
+        end[(c + 2) % 3] = hole.y();
+        if (std::isnan(here[c]) && !modal_call_.active) end[c] = here[c];
+        straight(MotionKind::rapid, state_.frame.to_work(end), state_.rotary);
+        if (modal_call_.active && drills(modal_call_.name)) drill_siemens(modal_call_.name, modal_call_.arguments);
+    }
+}
+
+/// The modal cycle or subprogram after a block that moved.
+void Interpreter::run_modal_call() {
+    const ModalCall called = modal_call_;
+    if (dialect_ == DialectId::fanuc) {
+        call(called.name, called.repeats, true, called.arguments);
+        return;
+    }
+    if (drills(called.name)) {
+        drill_siemens(called.name, called.arguments);
+        return;
+    }
+    if (is_cycle(called.name)) {
+        note(Severity::warning, "program.cycle", "MCALL " + called.name + ": the cycle is not carried out");
+        return;
+    }
+    if (!call_siemens(called.name, Keyword{called.name, {}, false, called.column}, 1)) {
+        fail(fmt::format("subprogram '{}' is neither in the program nor beside it", called.name));
+    }
+}
+
+}  // namespace clsurf

@@ -1,0 +1,134 @@
+#include "program/interpret/arc.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+
+namespace clsurf {
+namespace {
+
+constexpr double same_point = 1e-9;  ///< [mm]
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+/// Siemens, alarm 14040: the centre may turn about the start by the root of 0.001 [rad].
+constexpr double most_turn_of_centre = 0.0316227766;
+
+/// The centre of the circle of the start's radius through both ends, on the side of the programmed one.
+Vec2 centre_on_bisector(const Vec2& from, const Vec2& to, const Vec2& programmed) {
+    const Vec2 chord = to - from;
+    const double half = 0.5 * chord.norm();
+    if (half < same_point) return programmed;
+    const double radius = (programmed - from).norm();
+    const Vec2 left(-chord.y() / (2 * half), chord.x() / (2 * half));
+    const double height = std::sqrt(std::max(0.0, radius * radius - half * half));
+    const Vec2 middle = 0.5 * (from + to);
+    return middle + std::copysign(height, (programmed - middle).dot(left)) * left;
+}
+
+}  // namespace
+
+ArcTolerance arc_tolerance(DialectId dialect, double unit_mm) {
+    const bool inches = unit_mm != 1;
+    switch (dialect) {
+        case DialectId::linuxcnc: {
+            // src/emc/rs274ngc/interp_internal.hh: CENTER_ARC_RADIUS_TOLERANCE_INCH and _MM, RADIUS_TOLERANCE_INCH.
+            const double absolute = 2 * std::numbers::sqrt2 * (inches ? 0.001 * mm_per_inch : 0.01);
+            return {.absolute = absolute, .relative = 1e-3, .most = 100 * absolute, .reach = 5e-5 * mm_per_inch};
+        }
+        case DialectId::siemens:
+            // The defaults of MD21000 CIRCLE_ERROR_CONST and MD21010 CIRCLE_ERROR_FACTOR.
+            return {.absolute = 0.01,
+                    .relative = 1e-3,
+                    .most = unlimited,
+                    .reach = 0.005,
+                    .relative_reach = 1e-3,
+                    .moves_centre = true};
+        case DialectId::heidenhain_iso:
+            // The greatest value of MP7431 and of circleDeviation.
+            return {.absolute = 0.016, .relative = 0, .most = unlimited, .reach = 0.005, .relative_reach = 1e-3};
+        case DialectId::fanuc: break;
+    }
+    // Parameter 3410 is each machine's own.
+    return {.absolute = 0.03, .relative = 1e-3, .most = 0.5, .reach = 0.005, .relative_reach = 1e-3};
+}
+
+Arc resolve_arc(const ArcWords& words, const ArcTolerance& tolerance, std::string& error) {
+    const int u = (words.axis + 1) % 3;
+    const int v = (words.axis + 2) % 3;
+    Arc arc;
+    arc.axis = static_cast<std::uint8_t>(words.axis);
+    arc.turns = words.turns;
+    const Vec2 from(words.begin[u], words.begin[v]);
+    const Vec2 to(words.end[u], words.end[v]);
+    Vec2 centre;
+    if (words.has_radius) {
+        const Vec2 chord = to - from;
+        const double half = 0.5 * chord.norm();
+        const double radius = std::abs(words.radius);
+        if (half < same_point) {
+            error = "an arc by radius cannot end where it starts: a full circle needs its centre";
+            return arc;
+        }
+        if (half - radius > std::max(tolerance.reach, tolerance.relative_reach * radius)) {
+            error =
+                fmt::format("arc radius {:.4f} is too small: the end is {:.4f} away from the start", radius, 2 * half);
+            return arc;
+        }
+        const double height = std::sqrt(std::max(0.0, radius * radius - half * half));
+        // Left of the chord for a short counter-clockwise arc.
+        const double sign = (words.clockwise ? -1.0 : 1.0) * (words.radius < 0 ? -1.0 : 1.0);
+        const Vec2 left(-chord.y() / (2 * half), chord.x() / (2 * half));
+        centre = 0.5 * (from + to) + sign * height * left;
+    } else {
+        centre = Vec2(words.centre[u], words.centre[v]);
+        const double at_start = (from - centre).norm();
+        const double at_end = (to - centre).norm();
+        const double difference = std::abs(at_start - at_end);
+        const bool wrong =
+            difference > tolerance.most ||
+            (difference > tolerance.absolute && difference > tolerance.relative * std::max(at_start, at_end));
+        if (wrong) {
+            error = fmt::format("arc radius differs: {:.4f} at the start, {:.4f} at the end", at_start, at_end);
+            return arc;
+        }
+        if (at_start < same_point) {
+            error = "arc of radius zero";
+            return arc;
+        }
+        if (tolerance.moves_centre) {
+            const Vec2 programmed = centre;
+            centre = centre_on_bisector(from, to, programmed);
+            const double moved = (centre - programmed).norm();
+            if (moved > most_turn_of_centre * at_start) {
+                error =
+                    fmt::format("the arc's centre is {:.4f} away from the centre of a circle through both ends", moved);
+                return arc;
+            }
+        }
+    }
+    Vec3 at = words.begin;
+    at[u] = centre.x();
+    at[v] = centre.y();
+    arc.centre = Xyz(at);
+    return arc;
+}
+
+double arc_length(const Arc& arc, bool clockwise, const Vec3& begin, const Vec3& end) {
+    const int u = (arc.axis + 1) % 3;
+    const int v = (arc.axis + 2) % 3;
+    const Vec3 centre = arc.centre.vec();
+    const Vec2 from(begin[u] - centre[u], begin[v] - centre[v]);
+    const Vec2 to(end[u] - centre[u], end[v] - centre[v]);
+    constexpr double two_pi = 2 * std::numbers::pi;
+    double sweep = angle_of(to) - angle_of(from);
+    if (clockwise) sweep = -sweep;
+    while (sweep <= 1e-9) sweep += two_pi;
+    sweep += two_pi * (arc.turns - 1);
+    return std::hypot(0.5 * (from.norm() + to.norm()) * sweep, end[arc.axis] - begin[arc.axis]);
+}
+
+}  // namespace clsurf

@@ -1,0 +1,190 @@
+// Cutter compensation as the interpreter runs it: when it begins and ends, and what it forbids.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "program/interpret/interpreter_state.h"
+
+namespace clsurf {
+namespace {
+
+/// Codes that have no meaning, or another, while the path is not the programmed one.
+constexpr auto forbidden = std::to_array<int>({
+    50,  51,  52,  280, 281, 300, 301, 330, 331, 382, 383, 384, 385, 430, 431, 432,
+    490, 520, 530, 540, 550, 560, 570, 580, 590, 591, 592, 593, 700, 710, 711, 712,
+    720, 721, 722, 730, 740, 760, 810, 820, 830, 840, 850, 860, 870, 880, 890, 920,
+});
+constexpr std::array<int, 3> plane_codes{190, 180, 170};  ///< by axis of rotation
+constexpr int most_orientation = 9;
+
+Vec2 in_plane(const Vec3& p, int axis) { return {p[(axis + 1) % 3], p[(axis + 2) % 3]}; }
+
+Vec3 from_plane(const Vec2& p, double along, int axis) {
+    Vec3 q;
+    q[(axis + 1) % 3] = p.x();
+    q[(axis + 2) % 3] = p.y();
+    q[axis] = along;
+    return q;
+}
+
+}  // namespace
+
+void Interpreter::start_compensation(int code, const Block& block, std::size_t column) {
+    if (compensation_.on()) fail("cutter compensation is on already: G40 first", column);
+    if (state_.plane_axis == 0) fail("cutter compensation needs the XY or the XZ plane (G17, G18)", column);
+    double diameter = tool_.diameter;
+    if (code == 411 || code == 421) {
+        if (!block.words.given('D')) fail(code_text(code) + " needs the tool's diameter (D)", column);
+        diameter = block.words.of('D') * state_.unit_mm;
+        const double orientation = block.words.given('L') ? block.words.of('L') : 0;
+        if (!(orientation >= 0 && orientation <= most_orientation)) fail("a tool's orientation (L) is 0 … 9", column);
+    } else if (block.words.given('D') && block.words.of('D') != 0) {
+        diameter = tool_of(static_cast<int>(std::clamp(std::round(block.words.of('D')), 0.0, 1e6)), column).diameter;
+    }
+    if (diameter == 0) {
+        note(Severity::warning, "program.cutter-compensation",
+             code_text(code) + ": the tool has no diameter, the path is read as programmed", column);
+    }
+    compensation_.start(code == 410 || code == 411, 0.5 * diameter);
+    event("cutter-compensation", fmt::format("{} D{:g}", code_text(code), diameter));
+}
+
+/// G41 and G42 of the controls: Fanuc's D is a row of the table, the others take the tool in the
+/// spindle. Mirroring turns the side round.
+void Interpreter::compensate_by_table(int code, const Block& block, std::size_t column) {
+    if (tools_.tools.empty()) {
+        note(Severity::warning, "program.cutter-compensation",
+             code_text(code) +
+                 ": the path is read as programmed, without cutter compensation (--tools gives the diameters)",
+             column);
+        return;
+    }
+    double diameter = tool_.diameter;
+    if (dialect_ == DialectId::fanuc) {
+        if (block.words.given('D'))
+            radius_number_ = static_cast<int>(std::clamp(std::round(block.words.of('D')), 0.0, 1e6));
+        diameter = tool_of(radius_number_, column).diameter;
+    }
+    if (compensation_.on()) stop_compensation();
+    if (diameter == 0) {
+        note(Severity::warning, "program.cutter-compensation",
+             code_text(code) + ": the tool has no diameter, the path is read as programmed", column);
+    }
+    const std::optional<ProgramFrame::Circle> circle = state_.frame.circle(state_.plane_axis);
+    if (!circle) fail("cutter compensation in a tilted or unevenly scaled frame is not supported", column);
+    compensation_.start((code == 410) != circle->reversed, 0.5 * diameter);
+    enters_beside_ = true;
+    event("cutter-compensation", fmt::format("{} D{:g}", code_text(code), diameter));
+}
+
+/// The controls go to the point beside the begin of the first compensated motion: the ends of the
+/// motions since G41 are moved there when that one is known.
+void Interpreter::enter_compensation(const Vec2& direction) {
+    const int axis = state_.plane_axis;
+    const Vec2 beside = compensation_.enter_beside(in_plane(state_.position, axis), direction);
+    Motions& m = program_.motions;
+    for (std::size_t i = open_motions_; i < m.end.size() && entry_programmed_; ++i)
+        m.end[i] = Xyz(from_plane(beside, m.end[i].vec()[axis], axis));
+    enters_beside_ = entry_programmed_ = false;
+}
+
+void Interpreter::stop_compensation() {
+    enters_beside_ = entry_programmed_ = false;
+    const std::string error = compensation_.finish();
+    if (!error.empty()) fail(error);
+    if (compensation_.entered()) {
+        compensation_ended_ = program_.motions.size();
+        part_from_machine(tool_position() - state_.position);
+    }
+    compensation_.stop();
+    event("cutter-compensation", "G40");
+}
+
+void Interpreter::refuse_in_compensation(int code, const Block& block, std::size_t column) const {
+    if (!compensation_.on() || dialect_ != DialectId::linuxcnc) return;
+    const bool other_plane = std::find(plane_codes.begin(), plane_codes.end(), code) != plane_codes.end() &&
+                             plane_codes[static_cast<std::size_t>(state_.plane_axis)] != code;
+    const bool system_moves =
+        code == 100 && block.words.given('L') && (block.words.of('L') == 2 || block.words.of('L') == 20);
+    if (other_plane || system_moves || std::find(forbidden.begin(), forbidden.end(), code) != forbidden.end()) {
+        fail(code_text(code) + " cannot be used while cutter compensation is on", column);
+    }
+}
+
+Vec3 Interpreter::tool_position() const {
+    if (!compensation_.entered()) return state_.position;
+    return from_plane(compensation_.centre(), state_.position[state_.plane_axis], state_.plane_axis);
+}
+
+void Interpreter::compensated_straight(MotionKind kind, const Vec3& end, const Vec3& rotary) {
+    if (!compensation_.active()) {
+        straight(kind, end, rotary);
+        return;
+    }
+    const int axis = state_.plane_axis;
+    if (enters_beside_) {
+        const Vec2 way = in_plane(end, axis) - in_plane(state_.position, axis);
+        if (!entry_programmed_ || way.isZero()) {
+            if (!entry_programmed_) open_motions_ = program_.motions.end.size();
+            entry_programmed_ = entry_programmed_ || !way.isZero();
+            if (!entry_programmed_) open_motions_ = program_.motions.end.size() + 1;
+            straight(kind, end, rotary);
+            return;
+        }
+        enter_compensation(way.normalized());
+    }
+    push_compensated(compensation_.line(in_plane(state_.position, axis), in_plane(end, axis)), kind, end, rotary);
+}
+
+void Interpreter::compensated_arc(const Arc& arc, bool clockwise, const Vec3& end, const Vec3& rotary) {
+    const int axis = state_.plane_axis;
+    if (enters_beside_) {
+        const Vec2 out = in_plane(state_.position, axis) - in_plane(arc.centre.vec(), axis);
+        const Vec2 tangent = clockwise ? Vec2(out.y(), -out.x()) : Vec2(-out.y(), out.x());
+        if (!entry_programmed_) fail("cutter compensation must begin with a straight motion");
+        enter_compensation(tangent.normalized());
+    }
+    const CompensatedStep step = compensation_.arc(in_plane(state_.position, axis), in_plane(end, axis),
+                                                   in_plane(arc.centre.vec(), axis), !clockwise);
+    push_compensated(step, MotionKind::feed, end, rotary, arc);
+}
+
+/// The motions of a step: along the axis of the plane only the last of them moves. `arc` gives turns.
+void Interpreter::push_compensated(const CompensatedStep& step, MotionKind kind, const Vec3& end, const Vec3& rotary,
+                                   Arc arc) {
+    if (!step.error.empty()) fail(step.error);
+    const int axis = state_.plane_axis;
+    Motions& m = program_.motions;
+    if (step.moves_corner) {
+        for (std::size_t i = open_motions_; i < m.end.size(); ++i) {
+            m.end[i] = Xyz(from_plane(step.corner, m.end[i].vec()[axis], axis));
+        }
+    }
+    const double level = state_.position[axis];
+    const bool along_axis = in_plane(end, axis) == in_plane(state_.position, axis) && !step.moves.back().is_arc;
+    if (!along_axis) open_motions_ = m.end.size() + step.moves.size() - 1;
+    Vec3 from = step.moves_corner ? from_plane(step.corner, level, axis) : tool_position();
+    if (!m.end.empty()) from = m.end.back().vec();
+    for (std::size_t i = 0; i < step.moves.size(); ++i) {
+        const CompensatedMove& move = step.moves[i];
+        const bool last = i + 1 == step.moves.size();
+        const Vec3 to = from_plane(move.end, last ? end[axis] : level, axis);
+        const Vec3& turned = last ? rotary : state_.rotary;
+        if (move.is_arc && kind != MotionKind::rapid) {
+            Arc around;
+            around.axis = static_cast<std::uint8_t>(axis);
+            around.centre = Xyz(from_plane(move.centre, level, axis));
+            around.turns = last ? arc.turns : 1;
+            push_arc(around, !move.counter_clockwise, from, to, turned);
+        } else {
+            straight(kind, to, turned);
+        }
+        from = to;
+    }
+    state_.position = end;
+}
+
+}  // namespace clsurf

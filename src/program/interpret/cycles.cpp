@@ -1,0 +1,229 @@
+// Canned cycles G73 … G89 as motions. Rules: RS274/NGC, section 3.5.16; LinuxCNC, "Canned cycles";
+// Fanuc, operator's manual of the series 30i, "Canned cycle for drilling".
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "program/interpret/interpreter_state.h"
+
+namespace clsurf {
+namespace {
+
+constexpr double peck_clearance_mm = 0.254;  ///< 0.010 inch, as RS274/NGC has it; Fanuc keeps it in a parameter
+constexpr int most_pecks = 1'000'000;
+
+/// What a cycle does between R and Z.
+Stroke stroke_of(int code, bool linuxcnc) {
+    switch (code) {
+        case 730: return {.pecks = true, .breaks_chips = true};
+        case 820: return {.dwells = true};
+        case 830: return {.pecks = true};
+        case 740:
+        case 840:
+        case 842:
+        case 843: return {.dwells = !linuxcnc, .feeds_out = true};
+        case 850: return {.feeds_out = true};
+        case 860:
+        case 880: return {.dwells = true};
+        case 890: return {.dwells = true, .feeds_out = true};
+        default: return {};
+    }
+}
+
+}  // namespace
+
+void Interpreter::cycle(const Block& block) {
+    const int code = state_.cycle;
+    const bool linuxcnc = dialect_ == DialectId::linuxcnc;
+    if (code == 760 && linuxcnc) {
+        thread_cycle(block);
+        return;
+    }
+    const bool from_below = code == 870;
+    const bool fine_bore = code == 760;
+    const Stroke stroke = stroke_of(code, linuxcnc);
+    const double unit = state_.unit_mm;
+    const int c = state_.plane_axis;  // the drilling axis
+    const char depth_letter = "XYZ"[c];
+    const auto word = [&](char letter, double& kept) {
+        if (block.words.given(letter)) kept = block.words.of(letter);
+    };
+    word('R', cycle_.r);
+    word(depth_letter, cycle_.z);
+    word('Q', cycle_.q);
+    if (block.words.given('P')) cycle_.p = block.words.of('P') * (dialect_ == DialectId::fanuc ? 0.001 : 1.0);
+    for (int k = 0; k < 3; ++k) word("IJK"[k], cycle_.ijk[k]);
+    if (stroke.pecks && !(cycle_.q > 0)) {
+        if (linuxcnc) fail(fmt::format("G{} needs Q greater than 0", code / 10));
+        note(Severity::warning, "program.cycle", fmt::format("G{} without Q: read as one stroke", code / 10));
+    }
+
+    state_.place(1u << state_.plane_axis, false);
+    // Heights and holes count in the program's own frame.
+    const Vec3 here = state_.programmed();
+    const Vec3 position = here.array().isNaN().select(0.0, here);
+    // Increments of R count from where the first cycle began, whichever level the tool is at now.
+    if (std::isnan(cycle_.initial)) cycle_.initial = position[c];
+    const double r = cycle_.r * unit + (state_.incremental ? cycle_.initial : 0.0);
+    const double bottom = cycle_.z * unit + (state_.incremental ? r : 0.0);
+    if (r < bottom && (linuxcnc || !from_below))
+        fail(fmt::format("the cycle's R ({:g}) is below its bottom ({:g})", r, bottom));
+    int repeats = 1;
+    for (const char letter : {'L', 'K'}) {
+        if (letter == 'K' && (dialect_ != DialectId::fanuc || from_below)) continue;
+        if (block.words.given(letter)) repeats = static_cast<int>(std::clamp(block.words.of(letter), 0.0, 1e6));
+    }
+    const Vec3 rotary = rotary_target(block);
+    // Up to R at once where the cycles began below it, even if the tool has come up since.
+    if (linuxcnc && cycle_.initial < r) go_to_level(MotionKind::rapid, r, rotary);
+    const double clear = state_.retract_to_r && !(from_below && !linuxcnc) ? r : std::max(r, cycle_.initial);
+    std::vector<double> depths;
+    if (stroke.pecks && cycle_.q > 0) {
+        const double peck = cycle_.q * unit;
+        if ((r - bottom) / peck > most_pecks) fail("too many pecks: Q is too small");
+        for (double depth = r - peck; depth > bottom; depth -= peck) depths.push_back(depth);
+    }
+    for (int k = 0; k < repeats; ++k) {
+        Vec3 hole = machine_coordinates_ ? state_.frame.to_programmed(target(block, true)) : read_axes(block, false);
+        const double now = state_.programmed()[c];
+        // RS274 climbs before it crosses; Fanuc crosses at the level where it is.
+        hole[c] = now < clear && linuxcnc ? clear : now;
+        straight(MotionKind::rapid, state_.frame.to_work(hole), rotary);
+        if (from_below && !linuxcnc) {
+            bore_back_shifted(r, bottom, clear, rotary);
+            continue;
+        }
+        go_to_level(MotionKind::rapid, r, rotary);
+        if (from_below) {
+            bore_back(r, bottom, clear, rotary);
+            continue;
+        }
+        if (fine_bore) {
+            bore_fine(bottom, clear, rotary);
+            continue;
+        }
+        drill(stroke, r, bottom, clear, depths, rotary);
+    }
+}
+
+void Interpreter::go_to_level(MotionKind kind, double height, const Vec3& rotary) {
+    const Vec3 now = state_.programmed();
+    Vec3 end = now.array().isNaN().select(0.0, now);
+    end[state_.plane_axis] = height;
+    straight(kind, state_.frame.to_work(end), rotary);
+}
+
+/// From R down by way of the depths, and out.
+void Interpreter::drill(const Stroke& stroke, double r, double bottom, double clear, const std::vector<double>& depths,
+                        const Vec3& rotary) {
+    const int c = state_.plane_axis;
+    const bool linuxcnc = dialect_ == DialectId::linuxcnc;
+    if (linuxcnc && c != 2 && (state_.cycle == 740 || state_.cycle == 840)) {
+        tap_turned(bottom, clear, rotary);
+        return;
+    }
+    for (const double depth : depths) {
+        go_to_level(MotionKind::feed, depth, rotary);
+        if (stroke.dwells && cycle_.p > 0)
+            push(MotionKind::dwell, state_.position, state_.rotary, static_cast<float>(cycle_.p));
+        if (!stroke.breaks_chips) go_to_level(MotionKind::rapid, r, rotary);
+        go_to_level(MotionKind::rapid, depth + peck_clearance_mm, rotary);
+    }
+    go_to_level(MotionKind::feed, bottom, rotary);
+    if (stroke.dwells && (linuxcnc || cycle_.p > 0))
+        push(MotionKind::dwell, state_.position, state_.rotary, static_cast<float>(cycle_.p));
+    if (state_.cycle == 880 && linuxcnc) {
+        // The operator takes the tool out by hand: no motion of the program.
+        event("stop", "G88");
+        state_.position[c] = clear;
+        return;
+    }
+    if (stroke.feeds_out) {
+        // Feeds end at R; but LinuxCNC runs at feed all the way, except in G85.
+        const bool all_the_way = linuxcnc && state_.cycle != 850;
+        go_to_level(MotionKind::feed, all_the_way ? clear : r, rotary);
+        if (state_.programmed()[c] == clear) return;
+    }
+    go_to_level(MotionKind::rapid, clear, rotary);
+}
+
+/// G74 and G84 outside the XY plane. LinuxCNC's interpreter (convert_cycle_g74_g84, up to 2.10) hands the axes
+/// on in another order, and the machine goes there: along X in G18, along Y to the wrong place in G19.
+void Interpreter::tap_turned(double bottom, double clear, const Vec3& rotary) {
+    const Vec3 hole = state_.position;
+    const bool zx = state_.plane_axis == 1;
+    const auto at = [&](double height) {
+        return zx ? Vec3(height, hole.z(), hole.x()) : Vec3(hole.z(), height, hole.y());
+    };
+    note(Severity::warning, "program.cycle",
+         fmt::format("G{} in {}: LinuxCNC takes the axes in a wrong order, and its motions are read as it makes them",
+                     state_.cycle / 10, zx ? "G18" : "G19"));
+    straight(MotionKind::feed, at(bottom), rotary);
+    straight(MotionKind::feed, at(clear), rotary);
+    state_.position = hole;  // what the interpreter goes on from
+    state_.position[state_.plane_axis] = clear;
+}
+
+/// Q (or I J, K) of Fanuc's boring cycles: how far the edge steps aside. Which way is a parameter of
+/// the control; without I J K along the plane's first axis.
+Vec3 Interpreter::edge_shift() const {
+    const int c = state_.plane_axis;
+    Vec3 aside = cycle_.ijk * state_.unit_mm;
+    aside[c] = 0;
+    if (aside.isZero()) aside[(c + 1) % 3] = cycle_.q * state_.unit_mm;
+    return aside;
+}
+
+void Interpreter::step_aside(const Vec3& by, const Vec3& rotary) {
+    straight(MotionKind::rapid, state_.frame.to_work(state_.programmed() + by), rotary);
+}
+
+/// G76 of Fanuc: down with feed, aside, and out without touching.
+void Interpreter::bore_fine(double bottom, double clear, const Vec3& rotary) {
+    go_to_level(MotionKind::feed, bottom, rotary);
+    if (cycle_.p > 0) push(MotionKind::dwell, state_.position, state_.rotary, static_cast<float>(cycle_.p));
+    const Vec3 aside = edge_shift();
+    step_aside(aside, rotary);
+    go_to_level(MotionKind::rapid, clear, rotary);
+    step_aside(-aside, rotary);
+}
+
+/// G87 of Fanuc: aside, below the hole to R, back to its middle, up to Z with feed, and out the same way.
+void Interpreter::bore_back_shifted(double r, double top, double clear, const Vec3& rotary) {
+    const Vec3 aside = edge_shift();
+    step_aside(aside, rotary);
+    go_to_level(MotionKind::rapid, r, rotary);
+    step_aside(-aside, rotary);
+    go_to_level(MotionKind::feed, top, rotary);
+    if (cycle_.p > 0) push(MotionKind::dwell, state_.position, state_.rotary, static_cast<float>(cycle_.p));
+    step_aside(aside, rotary);
+    go_to_level(MotionKind::rapid, clear, rotary);
+    step_aside(-aside, rotary);
+}
+
+/// G87, back boring: in beside the hole, below it to its middle, up to K with feed, and out the same way.
+void Interpreter::bore_back(double r, double bottom, double clear, const Vec3& rotary) {
+    const int c = state_.plane_axis;
+    Vec3 aside = cycle_.ijk * state_.unit_mm;
+    const double top = aside[c] + (state_.incremental ? bottom : 0.0);
+    aside[c] = 0;
+    const Vec3 hole = state_.position;
+    const auto to = [&](MotionKind kind, const Vec3& beside, double height) {
+        Vec3 end = hole + beside;
+        end[c] = height;
+        straight(kind, end, rotary);
+    };
+    const Vec3 middle = Vec3::Zero();
+    to(MotionKind::rapid, aside, r);
+    to(MotionKind::rapid, aside, bottom);
+    to(MotionKind::rapid, middle, bottom);
+    to(MotionKind::feed, middle, top);
+    to(MotionKind::feed, middle, bottom);
+    to(MotionKind::rapid, aside, bottom);
+    to(MotionKind::rapid, aside, clear);
+    to(MotionKind::rapid, middle, clear);
+}
+
+}  // namespace clsurf

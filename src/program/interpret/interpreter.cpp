@@ -1,0 +1,273 @@
+#include "program/interpreter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/printable_text.h"
+#include "program/dialects/dialect_guess.h"
+#include "program/interpret/interpreter_state.h"
+
+namespace clsurf {
+namespace {
+
+constexpr std::size_t shown_line_bytes = 4000;  ///< of a source line in a message
+constexpr std::size_t shown_text_bytes = 400;   ///< of a message, which may name a word of any length
+
+/// "0 BEGIN PGM NAME MM" as the first block: where it begins, else npos.
+std::size_t begin_of_klartext(std::string_view text) {
+    const std::size_t at = text.find_first_not_of("0123456789 \t\r\n\xef\xbb\xbf");
+    return at != std::string_view::npos && text.substr(at).starts_with("BEGIN PGM ") ? at : std::string_view::npos;
+}
+
+}  // namespace
+
+Interpreter::Interpreter(SourceText text, const InterpreterOptions& options)
+    : options_(options),
+      variables_([this](int number) { return parameter(number); },
+                 [this](const std::string& name) { return named_parameter(name); },
+                 [this](int number, double value) { return write_parameter(number, value); }) {
+    if (options.dialect != nullptr) {
+        program_.dialect = options.dialect;
+    } else {
+        const DialectGuess guess = guess_dialect(text.text(), text.name());
+        program_.dialect = guess.dialect;
+        program_.dialect_guessed_from = guess.reason;
+    }
+    dialect_ = program_.dialect->id;
+    program_.files.push_back(std::move(text));
+    // A line makes 100 chords of a spline at most, and a few motions besides.
+    constexpr std::uint64_t most_of_a_line = 200;
+    constexpr std::uint64_t most_numbers = 0xfffffff0u;
+    most_motions_ = std::min(most_numbers, options_.most_repeated + most_of_a_line * program_.main().line_count());
+    indexes_.resize(1);
+    indexed_.resize(1);
+    // RS274's interpreter starts at its origin and retracts to R; the other controls stand wherever they stand.
+    if (options.tools) tools_ = *options.tools;
+    if (dialect_ == DialectId::linuxcnc) {
+        if (!options.tools) tools_ = stand_alone_tools();
+        state_.position = Vec3::Zero();
+        state_.retract_to_r = true;
+        program_.motions.start = Xyz(0, 0, 0);
+    }
+    if (dialect_ == DialectId::siemens) {
+        // The kinds of machining of CYCLE832.
+        for (const auto& [name, kind] : {std::pair{"_OFF", 0},
+                                         {"_FINISH", 1},
+                                         {"_SEMIFIN", 2},
+                                         {"_ROUGH", 3},
+                                         {"_PRECISION", 4},
+                                         {"_ORI_FINISH", 11},
+                                         {"_ORI_SEMIFIN", 12},
+                                         {"_ORI_ROUGH", 13},
+                                         {"_ORI_PRECISION", 14},
+                                         {"_TOP_SURFACE_SMOOTH_OFF", 0},
+                                         {"_TOP_SURFACE_SMOOTH_ON", 1000}})
+            variables_.set(name, kind);
+    }
+    const std::string_view bytes = program_.main().text();
+    if (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff")) {
+        throw InputError(Place::of_file(program_.main().name()), "is UTF-16 text, expected ASCII or UTF-8",
+                         "convert it first, as with iconv -f UTF-16 -t UTF-8");
+    }
+    if (const std::size_t at = begin_of_klartext(bytes); at != std::string_view::npos) {
+        const auto line = 1 + std::count(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+        throw InputError(Place::of_line(program_.main().name(), static_cast<std::uint64_t>(line)),
+                         "is Heidenhain's Klartext (BEGIN PGM), which is not read",
+                         "let the postprocessor or the programming station write DIN/ISO");
+    }
+}
+
+std::int64_t Interpreter::read_on(std::int64_t motions) {
+    if (!ended_) {
+        while (!ended_ && settled() < motions) run_line();
+        if (ended_ && !nurbs_.empty())
+            note(Severity::warning, "program.open-spline", "a spline is not closed at the end");
+    }
+    return settled();
+}
+
+std::int64_t Interpreter::settled() const {
+    const std::int64_t all = program_.motions.size();
+    if (ended_ || all == 0) return all;
+    // The next motion begins where the last one ends.
+    return compensation_.on() ? std::min(all - 1, static_cast<std::int64_t>(open_motions_)) : all - 1;
+}
+
+std::int64_t Interpreter::place_settled(std::int64_t motions) {
+    if (motions == 0) return 0;
+    keep_ways(motions);  // as the program counts them
+    ways_kept_ = true;
+    const std::int64_t placed = placer_.place(program_.motions, program_.events, motions);
+    const std::int64_t more = placed - motions;
+    open_motions_ += static_cast<std::size_t>(more);
+    compensation_ended_ += more;
+    unread_since_ += more;
+    return placed;
+}
+
+void Interpreter::forget(std::int64_t motions) {
+    if (!std::exchange(ways_kept_, false)) keep_ways(motions);
+    program_.motions.drop_front(motions);
+    std::vector<ProgramEvent>& events = program_.events;
+    events.erase(events.begin(), std::find_if(events.begin(), events.end(),
+                                              [motions](const ProgramEvent& e) { return e.motion >= motions; }));
+    for (ProgramEvent& e : events) e.motion -= motions;
+    forgotten_ += static_cast<std::uint64_t>(motions);
+    open_motions_ -= std::min(open_motions_, static_cast<std::size_t>(motions));
+    compensation_ended_ -= motions;
+    unread_since_ -= motions;
+}
+
+Program Interpreter::run() {
+    (void)read_on(std::numeric_limits<std::int64_t>::max());
+    Motions& m = program_.motions;
+    m.kind.shrink_to_fit();
+    m.end.shrink_to_fit();
+    m.feed.shrink_to_fit();
+    m.line.shrink_to_fit();
+    m.rotary.shrink_to_fit();
+    m.file.shrink_to_fit();
+    m.call.shrink_to_fit();
+    m.frame.shrink_to_fit();
+    return std::move(program_);
+}
+
+std::string_view Interpreter::next_line() {
+    const std::string_view text = program_.files[file_].text();
+    const char* begin = text.data() + next_byte_;
+    const std::size_t left = text.size() - next_byte_;
+    const void* end = std::memchr(begin, '\n', left);
+    const std::size_t size = end == nullptr ? left : static_cast<std::size_t>(static_cast<const char*>(end) - begin);
+    next_byte_ += size + (end == nullptr ? 0 : 1);
+    line_ = next_line_++;
+    return {begin, size};
+}
+
+void Interpreter::go_to(std::size_t file, LineNumber line) {
+    file_ = file;
+    next_line_ = line;
+    const SourceText& text = program_.files[file];
+    next_byte_ = line > text.line_count() ? text.text().size()
+                                          : static_cast<std::size_t>(text.line(line).data() - text.text().data());
+}
+
+void Interpreter::run_line() {
+    if (next_line_ == behind_section_) {
+        next_of_section();
+        return;
+    }
+    if (next_byte_ >= program_.files[file_].text().size()) {
+        leave(true);
+        return;
+    }
+    current_ = next_line();
+    if (read_plain(current_, plain_) == PlainResult::plain) {
+        if (run_plain(plain_)) return;
+        if (dialect_ != DialectId::siemens && dialect_ != DialectId::heidenhain_iso) {
+            block_.clear();
+            block_.words = plain_;
+            execute(block_);
+            return;
+        }
+    }
+    run_block(current_);
+}
+
+/// G0, G1 or nothing, with axis words and feed: what nearly every block of a finishing program is.
+bool Interpreter::run_plain(const Words& words) {
+    constexpr std::uint32_t allowed = Words::xyz | Words::bit('F') | Words::bit('N');
+    if ((words.has & ~allowed) != 0 || (words.has & Words::xyz) == 0 || words.m_count != 0) return false;
+    MotionMode mode = state_.motion;
+    if (words.g_count == 1) {
+        if (words.g[0] != 0 && words.g[0] != 10) return false;
+        mode = words.g[0] == 0 ? MotionMode::rapid : MotionMode::feed;
+    } else if (words.g_count != 0) {
+        return false;
+    }
+    const bool ordinary = (mode == MotionMode::rapid || mode == MotionMode::feed) && !state_.incremental &&
+                          state_.feed_mode == FeedMode::per_minute && !modal_call_.active && !polar_.on &&
+                          !state_.frame.active() && nurbs_.empty() && !state_.diameter && !compensation_.on();
+    if (!ordinary) return false;
+    state_.motion = mode;
+    const double unit = state_.unit_mm;
+    if (words.given('F')) state_.feed = words.of('F');
+    Vec3& p = state_.position;
+    if (words.given('X')) p.x() = words.of('X') * unit;
+    if (words.given('Y')) p.y() = words.of('Y') * unit;
+    if (words.given('Z')) p.z() = words.of('Z') * unit;
+    if ((state_.held | state_.absolute | state_.unplaced) != 0) state_.place(axes_named(words), false);
+    const bool rapid = mode == MotionMode::rapid;
+    push(rapid ? MotionKind::rapid : MotionKind::feed, p, state_.rotary,
+         rapid ? std::numeric_limits<float>::quiet_NaN()
+               : static_cast<float>(state_.feed * state_.feed_unit_mm / seconds_per_minute));
+    return true;
+}
+
+void Interpreter::run_block(std::string_view line) {
+    try {
+        const Statement statement = clean_line(line, dialect_);
+        if (statement.open_comment) note(Severity::warning, "program.open-comment", "'(' is not closed");
+        if (statement.tape_mark && !statement.title.empty()) {
+            heidenhain_title(statement.title);
+            return;
+        }
+        if (statement.tape_mark) {
+            // The second % ends the tape; "%name" of other controls is a title.
+            const bool alone = line.find_first_not_of("% \t\r") == std::string_view::npos;
+            if (tape_began_ && alone && file_ == 0) ended_ = true;
+            tape_began_ = true;
+            return;
+        }
+        if (statement.deleted && options_.block_delete) return;
+        if (statement.text.empty()) return;
+        if (!control(statement)) {
+            Cursor cursor{statement.text, 0};
+            read_block(cursor, variables_, dialect_, state_.least_increment(), block_);
+            execute(block_);
+        }
+        if (!unknown_name_.empty()) {
+            note(Severity::warning, "program.variable", unknown_name_ + " of the control is not known: read as 0");
+            unknown_name_.clear();
+        }
+        if (unknown_parameter_ != 0) {
+            note(Severity::warning, "program.variable",
+                 fmt::format("#{} of the control is not known: read as vacant", unknown_parameter_));
+            unknown_parameter_ = 0;
+        }
+    } catch (const ReadError& error) { fail(error.what, error.column, error.hint); }
+}
+
+void Interpreter::fail(const std::string& what, std::size_t column, const std::string& hint) const {
+    Place place = Place::of_line(program_.files[file_].name(), line_, static_cast<std::uint32_t>(column));
+    place.source = std::string(current_.substr(0, shown_line_bytes));
+    std::string advice = hint;
+    if (!program_.dialect_guessed_from.empty()) {
+        advice += fmt::format("{}read as {}, a guess ({}); --dialect names another", advice.empty() ? "" : "; ",
+                              program_.dialect->name, program_.dialect_guessed_from);
+    }
+    throw InputError(std::move(place), printable(what.substr(0, shown_text_bytes)), printable(advice));
+}
+
+void Interpreter::note(Severity severity, const char* code, const std::string& text, std::size_t column) {
+    Place place = Place::of_line(program_.files[file_].name(), line_, static_cast<std::uint32_t>(column));
+    if (program_.diagnostics.count(code) < Diagnostics::kept_of_a_code) {
+        place.source = std::string(current_.substr(0, shown_line_bytes));
+    }
+    program_.diagnostics.add({severity, code, std::move(place), printable(text.substr(0, shown_text_bytes)), {}});
+}
+
+void Interpreter::event(const std::string& name, const std::string& value) {
+    program_.events.push_back({program_.motions.size(), line_, name, value, {}});
+}
+
+Program parse_program(SourceText text, const InterpreterOptions& options) {
+    return Interpreter(std::move(text), options).run();
+}
+
+}  // namespace clsurf

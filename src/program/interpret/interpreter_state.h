@@ -1,0 +1,370 @@
+#pragma once
+// What the parts of the interpreter share (interpreter.cpp: lines and calls; codes.cpp: what words
+// mean; fanuc.cpp, siemens.cpp, heidenhain.cpp: what they mean there; cycles.cpp: canned cycles;
+// flow.cpp: control statements). Not for other rooms.
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "program/frame_placement.h"
+#include "program/interpret/arc.h"
+#include "program/interpret/cutter_compensation.h"
+#include "program/interpret/modal_state.h"
+#include "program/interpreter.h"
+#include "program/text/block.h"
+#include "program/text/control.h"
+#include "program/tool_table.h"
+
+namespace clsurf {
+
+/// A call that is running: where it goes on afterwards.
+struct Frame {
+    std::size_t file = 0;
+    LineNumber line = 0;         ///< the calling line
+    std::size_t start_file = 0;  ///< of the subprogram, for repeats
+    LineNumber start_line = 0;
+    std::uint32_t call = 0;                 ///< that ran before it: index into Motions::calls, from 1
+    int repeats = 0;                        ///< still to do after this one
+    bool locals = false;                    ///< a set of local variables was pushed
+    std::map<LineNumber, double> counters;  ///< of the repeat and for loops of the caller
+};
+
+struct CycleState {
+    double r = 0, z = 0, q = 0;  ///< sticky words, as programmed
+    Vec3 ijk = Vec3::Zero();     ///< of G87: the way aside, and the height to bore to, as programmed
+    double p = 0;                ///< dwell [s]
+    double initial = std::numeric_limits<double>::quiet_NaN();  ///< level where the cycle began [mm]
+};
+
+/// Lines that Siemens' REPEAT runs once more.
+struct Section {
+    LineNumber begin = 0, end = 0;
+    double left = 0;        ///< times still to begin
+    std::size_t level = 0;  ///< of calls
+    LineNumber back = 0;    ///< the line of REPEAT
+};
+
+/// What a cycle does between R and its bottom.
+struct Stroke {
+    bool dwells = false, feeds_out = false, pecks = false, breaks_chips = false;
+};
+
+/// Fanuc's G66 and Siemens' MCALL: called after every block that moves, at the level of calls where
+/// it was given.
+struct ModalCall {
+    bool active = false;
+    std::string name;
+    int repeats = 1;
+    std::vector<double> arguments;  ///< NaN: not given
+    std::size_t level = 0;          ///< of calls
+    std::size_t column = 0;
+};
+
+/// Polar coordinates of Fanuc's G16, Siemens' RP= AP= and Heidenhain's G10 … G13.
+struct PolarState {
+    bool on = false;           ///< G16
+    Vec3 pole = Vec3::Zero();  ///< [mm], programmed coordinates
+    double radius = 0;         ///< [mm]
+    double angle = 0;          ///< [deg]
+};
+
+/// Fanuc's parts of the frame: local zero, then rotation, then scaling, then mirroring.
+struct FanucFrame {
+    ProgramFrame local, rotation, scaling, mirror;
+    double angle = 0;  ///< of the rotation [deg]
+};
+
+/// Heidenhain's parts of the frame, and in which order they came.
+struct HeidenhainFrames {
+    std::array<ProgramFrame, 4> frame;
+    std::vector<std::size_t> order;
+};
+/// How arcs are given: usually, or as Heidenhain's G05, by Siemens' CIP, or by its CT and Heidenhain's G06.
+enum class ArcKind : std::uint8_t { usual, by_radius, by_points, tangential };
+
+class Interpreter {
+public:
+    /// Throws InputError (UTF-16).
+    Interpreter(SourceText text, const InterpreterOptions& options);
+    /// All of the program.
+    Program run();
+
+    /// Runs lines until so many motions of program() are settled, or to the end. How many are: what comes
+    /// later neither changes them nor looks back at them.
+    [[nodiscard]] std::int64_t read_on(std::int64_t motions);
+    /// Takes the first settled motions, and events before them, out of program().
+    void forget(std::int64_t motions);
+    [[nodiscard]] bool ended() const { return ended_; }
+    [[nodiscard]] const Program& program() const { return program_; }
+    /// The settled motions in machine coordinates, the unknown work offsets taken as zero. At most once for each,
+    /// before they are forgotten. How many motions that makes.
+    [[nodiscard]] std::int64_t place_settled(std::int64_t motions);
+
+private:
+    // interpreter.cpp: lines, calls, output
+    [[nodiscard]] std::int64_t settled() const;
+    void run_line();
+    void run_block(std::string_view line);
+    bool run_plain(const Words& words);
+    [[nodiscard]] std::string_view next_line();
+    void go_to(std::size_t file, LineNumber line);  ///< the next line read is `line`
+    [[noreturn]] void fail(const std::string& what, std::size_t column = 0, const std::string& hint = {}) const;
+    void note(Severity severity, const char* code, const std::string& text, std::size_t column = 0);
+    void event(const std::string& name, const std::string& value);
+
+    // parameters.cpp: of the control; NaN: an ordinary variable
+    [[nodiscard]] double parameter(int number) const;
+    [[nodiscard]] double named_parameter(const std::string& name) const;
+
+    // codes.cpp: what words mean
+    void execute(Block& block);
+    void settle_codes(Block& block);
+    void apply_code(int code, Block& block, std::size_t column);
+    void apply_common(int code, Block& block, std::size_t column);
+    bool apply_of_dialect(int code, Block& block, std::size_t column);
+    void apply_m(int code, const Block& block);
+    void apply_keyword(const Keyword& keyword, Block& block);
+    void dwell(const Block& block);
+    [[noreturn]] void refuse_motion(const std::string& word, const Block& block, std::size_t column,
+                                    const std::string& hint = {}) const;
+    void report_unused(const Block& block);
+    void report_idle(const Block& block);
+
+    // path_modes.cpp
+    void set_path_mode(const std::string& name, const std::string& value, const PathMode& mode, bool once = false);
+    bool apply_path_mode(int code, Block& block, std::size_t column);
+    void high_speed_settings(const Keyword& keyword);  ///< CYCLE832
+    void contour_tolerance(const Block& block);        ///< CTOL=
+
+    // fanuc.cpp
+    bool apply_fanuc(int code, Block& block, std::size_t column);
+    [[nodiscard]] Vec3 frame_centre(const Block& block, const Vec3& now) const;
+    void settle_fanuc_frame();
+    void rotate_frame(const Block& block, std::size_t column);  ///< G68
+    void scale_frame(const Block& block);                       ///< G51
+    void mirror_frame(int code, const Block& block);            ///< G50.1, G51.1
+    void local_zero(const Block& block);                        ///< G52
+    [[nodiscard]] long macro_program(const Block& block, int code, std::size_t column) const;
+    [[nodiscard]] std::vector<double> macro_arguments(const Block& block) const;
+    bool macro_call(const Block& block);                    ///< G65
+    bool set_fanuc_offsets(int level, const Block& block);  ///< G10; true: a work offset
+    [[nodiscard]] WorkOffset* offset_of_variable(int number, int& axis);
+    bool write_parameter(int number, double value);
+    [[nodiscard]] double fanuc_parameter(int number, const Vec3& known) const;
+
+    [[nodiscard]] bool is_data_end(const Block& block);  ///< G11
+
+    // siemens.cpp, siemens_cycles.cpp
+    bool apply_siemens(int code, Block& block, std::size_t column);
+    void set_pole(int code, const Block& block);                 ///< G110 … G112
+    bool siemens_frame(const Keyword& keyword, Block& block);    ///< true: the keyword was one
+    [[nodiscard]] bool ends_by_angle(const Block& block) const;  ///< ANG=
+    void end_by_angle(const Block& block, Vec3& end) const;
+    [[nodiscard]] std::vector<std::optional<double>> arguments_of(const Keyword& keyword) const;
+    bool call_siemens(const std::string& name, const Keyword& keyword, int repeats);
+    void start_modal_call(const Keyword& called);
+    bool siemens_cycle(const Keyword& keyword);
+    void drill_siemens(const std::string& name, const std::vector<double>& values);
+    void peck_siemens(double reference, double r, const std::vector<double>& depths, bool breaks_chips,
+                      double dwell_above, const Vec3& rotary);
+    void hole_pattern(const std::string& name, const std::vector<double>& values, std::size_t column);
+
+    // heidenhain.cpp
+    bool apply_heidenhain(int code, Block& block, std::size_t column);
+    void set_heidenhain_frame(std::size_t kind, const ProgramFrame& frame);
+    static bool take_mention(char letter, Block& block);
+    void heidenhain_title(const std::string& title);  ///< %NAME G71
+    void count_in_inches(bool inches);                ///< G70, G71
+    void take_pole(const Block& block);
+    bool arc_of_heidenhain(const Block& block, ArcWords& words);
+    bool q_function(std::string_view text);  ///< D00 … D13
+    bool call_label(std::string_view text);  ///< L5,3
+
+    // tangential_arc.cpp
+    void arc_along_tangent(ArcWords& words) const;
+    [[nodiscard]] Vec2 end_tangent(int u, int v) const;
+    [[nodiscard]] Vec3 way_at_end(std::int64_t motion) const;
+    void keep_ways(std::int64_t motions);
+
+    // tool_axis.cpp: five axes
+    void control_tool_centre_point(bool on, const std::string& text);
+    bool take_tool_axis(const Block& block);
+
+    // tilted_plane.cpp: CYCLE800, G68.2
+    void begin_tilted_plane(const std::string& text);
+    void end_tilted_plane(const std::string& text);
+    void turn_to_plane(const Vec3& axis, bool keeps_tip, const std::string& text);
+    void swivel(const Keyword& keyword);                      ///< CYCLE800
+    void tilt_plane(const Block& block, std::size_t column);  ///< G68.2
+
+    // offsets.cpp: work systems, tools, reference points
+    void set_offsets(const Block& block);          ///< G10
+    void set_tool(int level, const Block& block);  ///< G10 L1, L10, L11
+    void shift_position(const Block& block);       ///< G92
+    void restore_shift(int code);                  ///< G92.1 … G92.3
+    void keep_modes(int code);                     ///< M70 … M73
+    void restore_modes(const ModalState& kept);
+    void keep_reference(int code);  ///< G28.1, G30.1
+    void select_work_system(int number);
+    void select_feed_mode(FeedMode mode);
+    void change_tool(const Block& block);  ///< T, M6, M61
+    void part_from_machine(const Vec3& by);
+    void read_machine_position(const Block& block);
+    [[nodiscard]] Tool tool_of(int number, std::size_t column);
+    void tool_length(int code, const Block& block);
+    void reference(int code, const Block& block);  ///< G28, G30
+
+    // compensated_motions.cpp: G40 … G42
+    void start_compensation(int code, const Block& block, std::size_t column);
+    void compensate_by_table(int code, const Block& block, std::size_t column);
+    void enter_compensation(const Vec2& direction);
+    void stop_compensation();
+    void refuse_in_compensation(int code, const Block& block, std::size_t column) const;
+    [[nodiscard]] Vec3 tool_position() const;  ///< where the motions end: not as programmed under G41 and G42
+    void compensated_straight(MotionKind kind, const Vec3& end, const Vec3& rotary);
+    void compensated_arc(const Arc& arc, bool clockwise, const Vec3& end, const Vec3& rotary);
+    void push_compensated(const CompensatedStep& step, MotionKind kind, const Vec3& end, const Vec3& rotary,
+                          Arc arc = {});
+
+    // motions.cpp
+    [[nodiscard]] Vec3 target(const Block& block, bool machine);
+    [[nodiscard]] Vec3 read_axes(const Block& block, bool machine);
+    void put_about_pole(const Block& block, Vec3& end);  ///< G16, RP= AP=, G10 … G13
+    bool arc_of_dialect(const Block& block, ArcWords& words);
+    void flatten_arc(const Arc& arc, bool clockwise, const Vec3& begin, const Vec3& end, const Vec3& rotary);
+    void put_polar(const Block& block, Vec3& end) const;
+    [[nodiscard]] Vec3 rotary_target(const Block& block) const;
+    void move(const Block& block);
+    void straight(MotionKind kind, const Vec3& end, const Vec3& rotary);
+    void arc(const Block& block, bool clockwise);
+    void refuse_turns(const Block& block) const;
+    void push_arc(Arc arc, bool clockwise, const Vec3& begin, const Vec3& end, const Vec3& rotary);
+    void probe(const Vec3& end, const Vec3& rotary);
+    void spline(const Block& block);
+    void nurbs_point(const Block& block);
+    void nurbs_end();
+    void flatten_bezier(const std::vector<Vec2>& control);
+    void push(MotionKind kind, const Vec3& end, const Vec3& rotary, float feed);
+    void settle_work_frame();
+    [[nodiscard]] float feed_for(double length);
+    void cycle(const Block& block);
+    void thread_cycle(const Block& block);                               ///< G76
+    void tap(const Vec3& end, const Vec3& rotary);                       ///< G33.1
+    void lathe_cycle(int code, const Block& words, std::size_t column);  ///< G70 … G72
+    [[nodiscard]] Vec2 record_profile(const std::string& name, std::vector<CompensatedMove>& profile);
+    void follow(const std::vector<CompensatedMove>& moves);  ///< with feed, in the XZ plane
+    void go_to_level(MotionKind kind, double height, const Vec3& rotary);
+    void drill(const Stroke& stroke, double r, double bottom, double clear, const std::vector<double>& depths,
+               const Vec3& rotary);
+    void tap_turned(double bottom, double clear, const Vec3& rotary);
+    [[nodiscard]] Vec3 edge_shift() const;
+    void step_aside(const Vec3& by, const Vec3& rotary);
+    void bore_fine(double bottom, double clear, const Vec3& rotary);
+    void bore_back_shifted(double r, double top, double clear, const Vec3& rotary);
+    void bore_back(double r, double bottom, double clear, const Vec3& rotary);
+
+    // flow.cpp: control statements; true: the line was one
+    bool control(const Statement& statement);
+    [[nodiscard]] bool branch_taken(const Control& branch) const;
+    void siemens_definition(const std::string& statement);
+    void call(const std::string& name, int repeats, bool locals, const std::vector<double>& arguments);
+    void call_from_words(const Block& block);  ///< M98, G65, L…
+    void repeat_from(LineNumber begin, double times);
+    void jump_to(const std::string& label, int direction, bool may_miss);
+    void choose(const std::string& text, std::size_t begin);  ///< CASE
+    void repeat_lines(const Control& repeat, const std::string& text);
+    void next_of_section();
+    void watch_section();
+    void run_modal_call();
+    void leave(bool from_end_of_text);
+    void count_jump();
+    [[nodiscard]] std::uint32_t call_from_here();
+    [[nodiscard]] const ControlIndex& index(std::size_t file);
+    [[nodiscard]] LineNumber find_block(double number, LineNumber line, int direction);
+    [[nodiscard]] bool load(const std::string& name);  ///< false: no such file
+
+    InterpreterOptions options_;
+    std::uint64_t most_motions_ = 0, forgotten_ = 0;
+    std::vector<Vec3>
+        forgotten_ways_;  ///< of the motions forgotten the last, and the last that is not parallel to it [mm]
+    Program program_;
+    DialectId dialect_;
+    std::vector<ControlIndex> indexes_;
+    std::vector<bool> indexed_;
+    std::map<std::string, std::size_t> loaded_;    ///< files of subprograms, by the name they were called by
+    std::map<std::size_t, BlockNumbers> numbers_;  ///< of files in which a jump went to a block number
+    ModalState state_;
+    Variables variables_;
+    CycleState cycle_;
+    FramePlacer placer_{{}, Coordinates::machine};
+    bool ways_kept_ = false;                           ///< of the settled motions, in work coordinates
+    std::uint64_t frame_changes_ = ~std::uint64_t{0};  ///< of the state when frame_ was settled
+    std::uint8_t frame_held_ = 0, frame_absolute_ = 0;
+    std::uint32_t work_frame_ = 0;  ///< index into Motions::frames
+    std::map<std::array<double, 22>, std::uint32_t> known_frames_;
+    Block block_;
+    Words plain_;  ///< of the line that runs, where it is plain
+    ToolTable tools_;
+    int next_tool_ = 0;  ///< of the T word
+    Tool tool_;          ///< in the spindle
+    CutterCompensation compensation_;
+    std::size_t open_motions_ = 0;               ///< the first motion whose end an inside corner may still move
+    bool enters_beside_ = false;                 ///< G41 of the controls: where the entry ends, the next motion tells
+    bool entry_programmed_ = false;              ///< the entry move has been read
+    int length_number_ = 0, radius_number_ = 0;  ///< Fanuc's H and D
+    bool tool_centre_point_ = false;             ///< G43.4, TRAORI, M128
+    std::string tool_centre_point_text_;         ///< what switched it on
+    bool axis_words_ = false;                    ///< G43.5: I J K are the tool axis
+    bool tilted_ = false;                        ///< CYCLE800, G68.2: positions are those of the tip, too
+    ProgramFrame swivel_;                        ///< of CYCLE800; TRANS, ROT … count in it
+    bool feed_missed_ = false;                   ///< a cutting motion without feed has been reported
+    std::int64_t compensation_ended_ = -1;       ///< motions before G40: the next one is a straight one
+    std::int64_t unread_since_ = -1;             ///< motions before the position and the machine parted
+    Vec3 unread_ = Vec3::Zero();                 ///< from the position as it reads to the last motion's end [mm]
+
+    // Where it reads.
+    std::size_t file_ = 0;
+    LineNumber line_ = 0;  ///< of the block that runs
+    LineNumber next_line_ = 1;
+    std::size_t next_byte_ = 0;
+    std::string_view current_;  ///< text of the line that runs
+    std::vector<Frame> frames_;
+    std::vector<Section> sections_;
+    LineNumber behind_section_ = 0;  ///< the line to stop before; 0: none
+    std::uint32_t call_ = 0;         ///< that runs: index into Motions::calls, from 1; 0: the main program
+    std::map<std::array<std::uint32_t, 3>, std::uint32_t> known_calls_;  ///< by caller, file and line
+    std::vector<std::optional<ModalState>> kept_modes_{1};               ///< by level of calls: what M70 and M73 kept
+    std::vector<bool> restores_modes_{false};                            ///< M73: they come back on return
+    std::map<LineNumber, double> counters_;
+    std::uint64_t jumps_ = 0;
+    bool ended_ = false;
+    bool tape_began_ = false;
+
+    // Per block.
+    bool machine_coordinates_ = false;  ///< G53, SUPA
+    bool motion_suppressed_ = false;    ///< the axis words belong to G10, G92, G28 …
+    int call_program_ = -1;
+    bool path_mode_returns_ = false;  ///< G9: the mode in force comes back behind the block
+    double contour_tolerance_ = std::numeric_limits<double>::quiet_NaN();  ///< CTOL, CYCLE832 [mm]; NaN: the machine's
+    ModalCall modal_call_;                                                 ///< G66, MCALL
+    PolarState polar_;
+    FanucFrame fanuc_frame_;
+    Vec3 local_zero_ = Vec3::Zero(), mirror_at_ = Vec3::Zero();  ///< G52, G51.1 [mm]
+    std::array<bool, 3> mirrored_{};
+    bool data_entry_ = false;  ///< G10 L50 … G11: lines are parameters of the control
+    HeidenhainFrames heidenhain_frames_;
+    Vec3 datum_ = Vec3::Zero();  ///< Heidenhain's G54 [mm]
+    double turned_by_ = 0;       ///< its G73 [deg]
+    ArcKind arc_kind_ = ArcKind::usual;
+    bool polar_line_ = false;  ///< its G10 … G16: R and H give the end
+    bool last_clockwise_ = false;
+    mutable std::string unknown_name_;   ///< of a variable of the control that the block has read
+    mutable int unknown_parameter_ = 0;  ///< that the block has read
+    std::vector<Vec3> nurbs_;            ///< x, y, weight
+    int nurbs_order_ = 3;
+    Vec2 spline_out_ = Vec2::Zero();  ///< P Q of the cubic spline before
+};
+
+}  // namespace clsurf

@@ -1,0 +1,255 @@
+// Turning cycles of LinuxCNC: G70 finishes, G71 and G72 rough a profile that a subprogram describes.
+// Rules: LinuxCNC, "G70 Lathe finishing cycle", "G71 G72 Lathe roughing cycles".
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "program/interpret/interpreter_state.h"
+
+namespace clsurf {
+namespace {
+
+constexpr double coincident = 1e-9;  ///< [mm]
+constexpr double no_pocket = 0.01;   ///< of this depth: joints of the profile may be that rough [mm]
+constexpr int most_cuts = 100'000;
+
+Vec2 zx(const Vec3& p) { return {p.z(), p.x()}; }
+
+/// The profile beside itself: `distance` to its left, rounded at outside corners. Empty, with `error`
+/// set, where a tool of that radius would not pass.
+std::vector<CompensatedMove> beside(const Vec2& begin, const std::vector<CompensatedMove>& profile, bool left,
+                                    double distance, Vec2& first, std::string& error) {
+    first = begin;
+    if (distance == 0) return profile;
+    CutterCompensation track;
+    track.start(left, distance);
+    std::vector<CompensatedMove> moves;
+    Vec2 from = begin;
+    for (const CompensatedMove& move : profile) {
+        if (moves.empty()) {
+            Vec2 tangent = move.end - from;
+            if (move.is_arc) {
+                const Vec2 out = from - move.centre;
+                tangent = move.counter_clockwise ? Vec2(-out.y(), out.x()) : Vec2(out.y(), -out.x());
+            }
+            first = track.enter_beside(from, tangent.normalized());
+        }
+        const CompensatedStep step =
+            move.is_arc ? track.arc(from, move.end, move.centre, move.counter_clockwise) : track.line(from, move.end);
+        error = step.error;
+        if (!error.empty()) return {};
+        if (step.moves_corner && !moves.empty()) moves.back().end = step.corner;
+        moves.insert(moves.end(), step.moves.begin(), step.moves.end());
+        from = move.end;
+    }
+    return moves;
+}
+
+/// A roughing cut's frame: along `feed` (0 z, 1 x) the tool cuts, along `depth` it goes in.
+struct Frame2 {
+    int feed = 0, depth = 1;
+    double onwards = 1;   ///< sign along feed
+    double outwards = 1;  ///< sign along depth, from the profile to the start
+};
+
+/// Where the profile first reaches a depth, seen along the cut.
+std::optional<double> reach(const Vec2& first, const std::vector<CompensatedMove>& moves, const Frame2& frame,
+                            double depth) {
+    Vec2 from = first;
+    for (const CompensatedMove& move : moves) {
+        const double a = from[frame.depth];
+        const double b = move.end[frame.depth];
+        if ((depth - a) * (depth - b) <= coincident * coincident || std::abs(depth - b) < coincident) {
+            if (!move.is_arc) {
+                const double part = std::abs(b - a) < coincident ? 0.0 : std::clamp((depth - a) / (b - a), 0.0, 1.0);
+                return from[frame.feed] + part * (move.end[frame.feed] - from[frame.feed]);
+            }
+            const double radius = (from - move.centre).norm();
+            const double off = depth - move.centre[frame.depth];
+            const double half = std::sqrt(std::max(0.0, radius * radius - off * off));
+            const double low = std::min(from[frame.feed], move.end[frame.feed]) - coincident;
+            const double high = std::max(from[frame.feed], move.end[frame.feed]) + coincident;
+            for (const double at :
+                 {move.centre[frame.feed] - frame.onwards * half, move.centre[frame.feed] + frame.onwards * half}) {
+                if (at >= low && at <= high) return at;
+            }
+            return move.end[frame.feed];
+        }
+        from = move.end;
+    }
+    return std::nullopt;
+}
+
+/// Whether it goes onwards and outwards all the way: no pockets.
+bool rises(const Vec2& first, const std::vector<CompensatedMove>& moves, const Frame2& frame) {
+    Vec2 from = first;
+    for (const CompensatedMove& move : moves) {
+        const Vec2 way = move.end - from;
+        if (way[frame.feed] * frame.onwards < -no_pocket || way[frame.depth] * frame.outwards < -no_pocket)
+            return false;
+        if (move.is_arc) {
+            // Monotone arcs stay in one quadrant about their centre.
+            const double middle = 0.5 * (angle_of(from - move.centre) + angle_of(move.end - move.centre));
+            const Vec2 out = (from - move.centre).norm() * Vec2(std::cos(middle), std::sin(middle));
+            const Vec2 half = move.centre + ((out.dot(0.5 * (from + move.end) - move.centre) < 0) ? Vec2(-out) : out);
+            for (const int axis : {0, 1}) {
+                const double low = std::min(from[axis], move.end[axis]) - no_pocket;
+                const double high = std::max(from[axis], move.end[axis]) + no_pocket;
+                if (half[axis] < low || half[axis] > high) return false;
+            }
+        }
+        from = move.end;
+    }
+    return true;
+}
+
+}  // namespace
+
+/// Runs the profile's subprogram and takes its motions away again: the end of the first is where the
+/// profile begins, the others are its elements.
+Vec2 Interpreter::record_profile(const std::string& name, std::vector<CompensatedMove>& profile) {
+    const ModalState state = state_;
+    const Block block = block_;
+    const LineNumber line = line_;
+    const std::string_view current = current_;
+    Motions& m = program_.motions;
+    const auto first = static_cast<std::size_t>(m.size());
+    const std::size_t first_arc = m.arcs.size();
+    const std::size_t first_event = program_.events.size();
+    call(name, 1, true, {});
+    const std::size_t depth = frames_.size();
+    while (!ended_ && frames_.size() >= depth) run_line();
+    line_ = line;
+    current_ = current;
+    if (m.kind.size() < first + 2) fail("the profile has no motion after its first point");
+    const Vec2 begin = zx(m.end[first].vec());
+    for (std::size_t i = first + 1; i < m.kind.size(); ++i) {
+        CompensatedMove move{zx(m.end[i].vec())};
+        if (const Arc* arc = m.arc_of(static_cast<std::int64_t>(i))) {
+            move.centre = zx(arc->centre.vec());
+            move.is_arc = true;
+            move.counter_clockwise = m.kind[i] == MotionKind::ccw;
+        }
+        const Vec2 from = profile.empty() ? begin : profile.back().end;
+        if (move.is_arc || (move.end - from).norm() > coincident) profile.push_back(move);
+    }
+    m.kind.resize(first);
+    m.end.resize(first);
+    m.feed.resize(first);
+    m.line.resize(first);
+    if (!m.rotary.empty()) m.rotary.resize(first);
+    if (!m.file.empty()) m.file.resize(first);
+    if (!m.call.empty()) m.call.resize(first);
+    m.arcs.resize(first_arc);
+    for (std::size_t i = first_event; i < program_.events.size(); ++i) program_.events[i].motion = m.size();
+    state_ = state;
+    block_ = block;
+    machine_coordinates_ = false;
+    motion_suppressed_ = true;  // the axis words of the cycle are its own, not those of a motion
+    if (profile.empty()) fail("the profile has no way");
+    return begin;
+}
+
+void Interpreter::follow(const std::vector<CompensatedMove>& moves) {
+    for (const CompensatedMove& move : moves) {
+        const Vec3 end(move.end.y(), state_.position.y(), move.end.x());
+        if (!move.is_arc) {
+            straight(MotionKind::feed, end, state_.rotary);
+            continue;
+        }
+        Arc arc;
+        arc.axis = 1;
+        arc.centre = Xyz(move.centre.y(), state_.position.y(), move.centre.x());
+        push_arc(arc, !move.counter_clockwise, state_.position, end, state_.rotary);
+    }
+}
+
+void Interpreter::lathe_cycle(int code, const Block& words, std::size_t column) {
+    if (state_.plane_axis != 1) fail(code_text(code) + " needs the XZ plane (G18)", column);
+    if (!words.words.given('Q')) fail(code_text(code) + " needs its profile's subprogram (Q)", column);
+    const auto word = [&](char letter, double otherwise) {
+        return words.words.given(letter) ? words.words.of(letter) : otherwise;
+    };
+    const double distance = word('D', 0) * state_.unit_mm;
+    const double step = word('I', 1) * state_.unit_mm;
+    const double retract = word('R', 0.5) * state_.unit_mm;
+    const int passes = static_cast<int>(std::clamp(word('P', 1), 1.0, 1e4));
+    const bool finishes = code == 700;
+    if (!(distance >= 0)) fail("D of a lathe cycle must not be negative", column);
+    if (!finishes && !(step > 0)) fail("I of a roughing cycle must be greater than 0", column);
+    const Vec3 called_from = target(words, false);
+    std::vector<CompensatedMove> profile;
+    const Vec2 begin = record_profile(fmt::format("{}", std::lround(words.words.of('Q'))), profile);
+
+    Frame2 frame;
+    if (code >= 720) std::swap(frame.feed, frame.depth);
+    const Vec2 start = zx(called_from);
+    double onwards = profile.back().end[frame.feed] - begin[frame.feed];
+    if (std::abs(onwards) < coincident) onwards = begin[frame.feed] - start[frame.feed];
+    frame.onwards = onwards < 0 ? -1 : 1;
+    frame.outwards = start[frame.depth] < begin[frame.depth] ? -1 : 1;
+    const bool left = (frame.feed == 0) == (frame.onwards * frame.outwards > 0);
+    const auto go = [&](const Vec2& to, MotionKind kind = MotionKind::rapid) {
+        straight(kind, Vec3(to.y(), called_from.y(), to.x()), state_.rotary);
+    };
+    // A start beyond the profile's begin cuts from there.
+    Vec2 front = start;
+    if ((begin[frame.feed] - start[frame.feed]) * frame.onwards < 0) front[frame.feed] = begin[frame.feed];
+    const auto contour = [&](double off, Vec2& first) {
+        std::string error;
+        std::vector<CompensatedMove> moves = beside(begin, profile, left, off, first, error);
+        if (!error.empty()) fail(error, column);
+        return moves;
+    };
+    Vec2 first;
+    if (finishes) {
+        go(start);
+        for (int pass = passes - 1; pass >= 0; --pass) {
+            const std::vector<CompensatedMove> moves = contour(distance * pass / passes, first);
+            go(front);
+            go(first);
+            follow(moves);
+        }
+        return;
+    }
+    std::vector<CompensatedMove> moves = contour(distance, first);
+    if (!rises(first, moves, frame)) {
+        note(Severity::warning, "program.cycle",
+             code_text(code) + ": the profile has pockets, roughing it is not carried out", column);
+        return;
+    }
+    // Out again to the height of the start.
+    Vec2 out = moves.back().end;
+    if ((start[frame.depth] - out[frame.depth]) * frame.outwards > coincident) {
+        out[frame.depth] = start[frame.depth];
+        moves.push_back({out});
+    }
+    const double whole = start[frame.depth] - first[frame.depth];
+    if (std::abs(whole) / step > most_cuts) fail("too many cuts: I is too small", column);
+    go(start);
+    go(front);
+    for (int cut = 0; cut * step < std::abs(whole) - coincident; ++cut) {
+        const double part = cut * step / std::abs(whole);
+        const Vec2 entry = front + part * (first - front);
+        const std::optional<double> end = reach(first, moves, frame, entry[frame.depth]);
+        if (!end) continue;
+        go(entry);
+        Vec2 at = entry;
+        at[frame.feed] = *end;
+        go(at, MotionKind::feed);
+        const double off = std::min(retract, 0.5 * std::abs(*end - entry[frame.feed]));
+        at[frame.feed] -= frame.onwards * off;
+        at[frame.depth] += frame.outwards * off;
+        go(at);
+        at[frame.feed] = entry[frame.feed] + frame.onwards * off;
+        go(at);
+        go(entry);
+    }
+    go(first);
+    follow(moves);
+}
+
+}  // namespace clsurf

@@ -1,0 +1,440 @@
+// Blocks that move: targets, lines, arcs, splines.
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "program/feed_per_minute.h"
+#include "program/interpret/interpreter_state.h"
+
+namespace clsurf {
+namespace {
+
+constexpr std::uint32_t rotary_axes = Words::bit('A') | Words::bit('B') | Words::bit('C');
+constexpr std::uint32_t other_axes = Words::bit('U') | Words::bit('V') | Words::bit('W');
+constexpr std::uint32_t centres = Words::bit('I') | Words::bit('J') | Words::bit('K') | Words::bit('R');
+constexpr int most_turns = 100'000;
+/// Pieces that a curve is flattened to: chords within 1 µm of it for curves of finishing size.
+constexpr int curve_pieces = 100;
+constexpr int least_nurbs_order = 3;  ///< LinuxCNC reads a smaller L as 3
+constexpr int most_nurbs_order = 20;
+constexpr double probe_retreat_mm = 0.254;  ///< 0.01 inch
+constexpr int first_probed_parameter = 5061, probe_result_parameter = 5070;
+
+bool names_motion(const Block& block) {
+    const auto* first = block.words.g.data();
+    return std::any_of(first, first + block.words.g_count, [](std::int32_t code) { return code == 0 || code == 10; });
+}
+
+}  // namespace
+
+Vec3 Interpreter::target(const Block& block, bool machine) {
+    return machine ? state_.from_machine(read_axes(block, true)) : state_.frame.to_work(read_axes(block, false));
+}
+
+/// The axis words in machine or in programmed coordinates.
+Vec3 Interpreter::read_axes(const Block& block, bool machine) {
+    Vec3 base = machine ? state_.to_machine(state_.position) : state_.programmed();
+    constexpr unsigned all = WorkFrame::all_axes;
+    const unsigned plane = all & ~(1u << state_.plane_axis);
+    const bool by_pole = polar_.on || polar_line_ || block.polar_radius || block.polar_angle || ends_by_angle(block);
+    // A frame's turn mixes the axes.
+    const bool mixed = !machine && state_.frame.active() && axes_named(block.words) != 0;
+    state_.place(mixed ? all : axes_named(block.words) | (by_pole && !machine ? plane : 0u), machine);
+    if ((polar_.on || polar_line_) && !machine) {
+        put_about_pole(block, base);
+        return base;
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        const char letter = "XYZ"[axis];
+        if (!block.words.given(letter)) continue;
+        const double value = block.words.of(letter) * state_.unit_mm * (axis == 0 && state_.diameter ? 0.5 : 1.0);
+        const std::uint32_t bit = Words::bit(letter);
+        const bool incremental =
+            !machine && (state_.incremental ? (block.absolute & bit) == 0 : (block.incremental & bit) != 0);
+        // Before the first motion an increment counts from the control's own zero.
+        const double from = std::isnan(base[axis]) ? 0.0 : base[axis];
+        base[axis] = incremental ? from + value : value;
+    }
+    if (ends_by_angle(block)) end_by_angle(block, base);
+    if (block.polar_radius || block.polar_angle) {
+        if (dialect_ == DialectId::linuxcnc)
+            put_polar(block, base);
+        else
+            put_about_pole(block, base);
+    }
+    return base;
+}
+
+/// LinuxCNC's polar words: @ radius, ^ angle about the work origin.
+void Interpreter::put_polar(const Block& block, Vec3& end) const {
+    if (block.words.given('X') || block.words.given('Y')) fail("polar words (@, ^) cannot stand beside X or Y");
+    if (state_.plane_axis != 2) fail("polar words (@, ^) need the XY plane (G17)");
+    const Vec2 from(end.x(), end.y());
+    const double radius_now = from.norm();
+    if (radius_now == 0 && (state_.incremental || !block.polar_angle))
+        fail("polar words (@, ^) at the origin: the angle is not known");
+    const double angle_now = angle_of(from);
+    double radius = radius_now;
+    double angle = angle_now;
+    if (block.polar_radius) radius = (state_.incremental ? radius_now : 0.0) + *block.polar_radius * state_.unit_mm;
+    if (block.polar_angle) angle = (state_.incremental ? angle_now : 0.0) + *block.polar_angle * rad_per_deg;
+    end.x() = radius * std::cos(angle);
+    end.y() = radius * std::sin(angle);
+}
+
+Vec3 Interpreter::rotary_target(const Block& block) const {
+    const bool machine = machine_coordinates_ && dialect_ == DialectId::linuxcnc;
+    Vec3 target = state_.rotary;
+    for (int axis = 0; axis < 3; ++axis) {
+        const char letter = "ABC"[axis];
+        if (!block.words.given(letter)) continue;
+        const std::uint32_t bit = Words::bit(letter);
+        if (machine) {
+            target[axis] = block.words.of(letter) - state_.rotary_offset()[axis];
+            continue;
+        }
+        const bool incremental = state_.incremental ? (block.absolute & bit) == 0 : (block.incremental & bit) != 0;
+        if (incremental && std::isnan(target[axis])) {
+            fail(fmt::format("an increment of {}: its angle is not known after a tool axis given as a vector", letter),
+                 block.words.column[static_cast<std::size_t>(letter - 'A')]);
+        }
+        target[axis] = (incremental ? target[axis] : 0.0) + block.words.of(letter);
+    }
+    return target;
+}
+
+void Interpreter::move(const Block& block) {
+    const bool turns_tool = take_tool_axis(block);
+    const bool axes = turns_tool || (block.words.has & (Words::xyz | rotary_axes | other_axes)) != 0 ||
+                      block.polar_radius || block.polar_angle ||
+                      (polar_line_ && (block.words.has & (Words::bit('R') | Words::bit('H'))) != 0);
+    switch (state_.motion) {
+        case MotionMode::none:
+            if (!axes) return;
+            if (dialect_ == DialectId::linuxcnc) fail("axis words without a motion mode (G80 is active)");
+            note(Severity::warning, "program.no-motion-mode", "axis words without a motion mode are read as G1");
+            state_.motion = MotionMode::feed;
+            straight(MotionKind::feed, target(block, machine_coordinates_), rotary_target(block));
+            return;
+        case MotionMode::probe:
+            if (axes) probe(target(block, machine_coordinates_), rotary_target(block));
+            return;
+        case MotionMode::rapid:
+        case MotionMode::feed:
+        case MotionMode::thread:
+            // RS274 makes a motion of no length of a G0 or G1 that stands alone.
+            if (!axes && !(dialect_ == DialectId::linuxcnc && names_motion(block))) return;
+            compensated_straight(state_.motion == MotionMode::rapid ? MotionKind::rapid : MotionKind::feed,
+                                 target(block, machine_coordinates_), rotary_target(block));
+            return;
+        case MotionMode::tap:
+            if (axes) tap(target(block, machine_coordinates_), rotary_target(block));
+            return;
+        case MotionMode::cw:
+        case MotionMode::ccw:
+            if (axes || (block.words.has & centres) != 0 || !block.named.empty())
+                arc(block, state_.motion == MotionMode::cw);
+            return;
+        case MotionMode::cubic_spline:
+        case MotionMode::quadratic_spline:
+            if (axes) spline(block);
+            return;
+        case MotionMode::nurbs: nurbs_point(block); return;
+        case MotionMode::cycle:
+            if (axes) cycle(block);
+            return;
+    }
+}
+
+void Interpreter::select_feed_mode(FeedMode mode) {
+    if (mode == state_.feed_mode) return;
+    state_.feed_mode = mode;
+    const bool per_minute = mode == FeedMode::per_minute;
+    event(std::string(feed_mode_event), per_minute                       ? std::string(feed_per_minute)
+                                        : mode == FeedMode::inverse_time ? "G93"
+                                                                         : "G95");
+}
+
+float Interpreter::feed_for(double length) {
+    switch (state_.feed_mode) {
+        case FeedMode::per_minute: return static_cast<float>(state_.feed * state_.feed_unit_mm / seconds_per_minute);
+        case FeedMode::per_revolution:
+            return static_cast<float>(state_.feed * state_.feed_unit_mm * state_.spindle / seconds_per_minute);
+        case FeedMode::inverse_time: return static_cast<float>(length * state_.feed / seconds_per_minute);
+    }
+    return 0;
+}
+
+void Interpreter::straight(MotionKind kind, const Vec3& end, const Vec3& rotary) {
+    const Vec3 from = state_.position.array().isNaN().select(end, state_.position);
+    const float feed =
+        kind == MotionKind::rapid ? std::numeric_limits<float>::quiet_NaN() : feed_for((end - from).norm());
+    push(kind, end, rotary, feed);
+}
+
+void Interpreter::arc(const Block& block, bool clockwise) {
+    if (compensation_ended_ == program_.motions.size())
+        fail("the first motion after cutter compensation (G40) must be a straight one");
+    ArcWords words;
+    // In programmed coordinates; the frame takes the arc as a whole.
+    words.begin = state_.programmed();
+    words.begin = words.begin.array().isNaN().select(0.0, words.begin);
+    words.end = machine_coordinates_ ? state_.frame.to_programmed(target(block, true)) : read_axes(block, false);
+    words.end = words.end.array().isNaN().select(words.begin, words.end);
+    words.axis = state_.plane_axis;
+    words.clockwise = clockwise;
+    const bool heidenhain = dialect_ == DialectId::heidenhain_iso;
+    if (arc_of_dialect(block, words)) {
+        clockwise = words.clockwise;
+    } else if (block.words.given('R')) {
+        words.has_radius = true;
+        words.radius = block.words.of('R') * state_.unit_mm;
+    } else {
+        words.centre = words.begin;
+        bool any = false;
+        for (int k = 0; k < 3; ++k) {
+            const char letter = "IJK"[k];
+            if (k == words.axis || !block.words.given(letter)) continue;
+            any = true;
+            const std::uint32_t bit = Words::bit(letter);
+            const bool absolute = state_.centre_absolute || heidenhain || (block.absolute & bit) != 0;
+            const double value = block.words.of(letter) * state_.unit_mm;
+            words.centre[k] = absolute ? value : words.begin[k] + value;
+        }
+        if (!any) fail("an arc needs its centre (I, J, K) or its radius (R)");
+    }
+    words.turns = 1 + block.extra_turns;
+    if (dialect_ == DialectId::linuxcnc && block.words.given('P')) {
+        const double turns = block.words.of('P');
+        if (!(turns >= 1 && turns <= most_turns) || turns != std::round(turns))
+            fail("P of an arc must be a whole number of turns, 1 or more");
+        words.turns = static_cast<int>(turns);
+    }
+    refuse_turns(block);
+    std::string error;
+    Arc arc = resolve_arc(words, arc_tolerance(dialect_, state_.unit_mm), error);
+    if (!error.empty()) fail(error, block.words.g_count > 0 ? block.words.g_column[0] : 1);
+    const std::optional<ProgramFrame::Circle> circle = state_.frame.circle(arc.axis);
+    if (!circle) {
+        flatten_arc(arc, clockwise, words.begin, words.end, rotary_target(block));
+        return;
+    }
+    const Vec3 begin = state_.frame.to_work(words.begin);
+    const Vec3 end = state_.frame.to_work(words.end);
+    arc.centre = Xyz(state_.frame.to_work(arc.centre.vec()));
+    arc.axis = static_cast<std::uint8_t>(circle->axis);
+    clockwise = clockwise != circle->reversed;
+    if (compensation_.active()) {
+        compensated_arc(arc, clockwise, end, rotary_target(block));
+    } else {
+        push_arc(arc, clockwise, begin, end, rotary_target(block));
+    }
+}
+
+/// Turns as another dialect gives them, or as a spiral: P, L and Q beside an arc.
+void Interpreter::refuse_turns(const Block& block) const {
+    if (block.words.m_count > 0 || (dialect_ != DialectId::fanuc && dialect_ != DialectId::siemens)) return;
+    const bool fanuc = dialect_ == DialectId::fanuc;
+    for (const char letter : std::string_view(fanuc ? "PLQ" : "P")) {
+        if (!block.words.given(letter)) continue;
+        fail(fmt::format("{} beside an arc is not known in {}", letter, program_.dialect->name),
+             block.words.column[static_cast<std::size_t>(letter - 'A')],
+             !fanuc          ? "turns are TURN= in siemens, P in linuxcnc (--dialect linuxcnc)"
+             : letter == 'P' ? "turns are P in linuxcnc: --dialect linuxcnc"
+                             : "spirals of several turns are not read");
+    }
+}
+
+/// An arc that its frame makes an ellipse, or tilts out of the principal planes.
+void Interpreter::flatten_arc(const Arc& arc, bool clockwise, const Vec3& begin, const Vec3& end, const Vec3& rotary) {
+    if (compensation_.on()) fail("cutter compensation of an arc in a tilted or unevenly scaled frame is not supported");
+    const int u = (arc.axis + 1) % 3;
+    const int v = (arc.axis + 2) % 3;
+    const Vec3 centre = arc.centre.vec();
+    Vec3 flat = end;
+    flat[arc.axis] = begin[arc.axis];
+    const double radius = std::hypot(begin[u] - centre[u], begin[v] - centre[v]);
+    const double sweep = arc_length(arc, clockwise, begin, flat) / radius * (clockwise ? -1 : 1);
+    const double first = std::atan2(begin[v] - centre[v], begin[u] - centre[u]);
+    const Vec3 turned_from = state_.rotary;
+    for (int k = 1; k <= curve_pieces; ++k) {
+        const double part = static_cast<double>(k) / curve_pieces;
+        Vec3 p = begin + part * (end - begin);
+        p[u] = centre[u] + radius * std::cos(first + part * sweep);
+        p[v] = centre[v] + radius * std::sin(first + part * sweep);
+        straight(MotionKind::spline, state_.frame.to_work(k == curve_pieces ? end : p),
+                 turned_from + part * (rotary - turned_from));
+    }
+}
+
+void Interpreter::push_arc(Arc arc, bool clockwise, const Vec3& begin, const Vec3& end, const Vec3& rotary) {
+    arc.motion = program_.motions.size();
+    program_.motions.arcs.push_back(arc);
+    push(clockwise ? MotionKind::cw : MotionKind::ccw, end, rotary, feed_for(arc_length(arc, clockwise, begin, end)));
+}
+
+/// A probing move cuts nothing and ends wherever it touches: noted, not a motion. It is taken to touch
+/// at its end, and to stop a little before, as LinuxCNC's stand-alone interpreter has it.
+void Interpreter::probe(const Vec3& end, const Vec3& rotary) {
+    const Vec3 way = end - state_.position;
+    for (int axis = 0; axis < 3; ++axis) {
+        variables_.set(first_probed_parameter + axis, end[axis] / state_.unit_mm);
+        variables_.set(first_probed_parameter + 3 + axis, rotary[axis]);
+    }
+    variables_.set(probe_result_parameter, 0);
+    const double retreat = dialect_ == DialectId::linuxcnc ? probe_retreat_mm : 0;
+    state_.position = way.norm() > 0 ? Vec3(end - retreat * way.normalized()) : end;
+    state_.rotary = rotary;
+    event("probe", fmt::format("{:.4f} {:.4f} {:.4f}", end.x(), end.y(), end.z()));
+}
+
+void Interpreter::push(MotionKind kind, const Vec3& end, const Vec3& rotary, float feed) {
+    Motions& m = program_.motions;
+    if (forgotten_ + m.kind.size() >= most_motions_)
+        fail(fmt::format("more than {} motions from {} lines: loops or repeats without end?", most_motions_,
+                         program_.main().line_count()));
+    if (end.array().isInf().any()) fail("a position is not finite");
+    if (feed == 0 && kind != MotionKind::dwell && !feed_missed_) {
+        feed_missed_ = true;
+        note(Severity::warning, "program.no-feed",
+             state_.feed == 0 ? "a cutting motion without feed (F); said once"
+                              : "a cutting motion with a feed of 0 (is the spindle speed missing?); said once");
+    }
+    m.kind.push_back(kind);
+    m.end.push_back(Xyz(end));
+    m.feed.push_back(feed);
+    m.line.push_back(line_);
+    if (state_.frame_changes != frame_changes_ || state_.held != frame_held_ || state_.absolute != frame_absolute_)
+        settle_work_frame();
+    for (unsigned axis = 0; state_.unplaced != 0 && axis < 3; ++axis) {
+        if ((state_.unplaced >> axis & 1) != 0) m.programmed_from[axis] = m.size();
+    }
+    if (work_frame_ != 0 || !m.frame.empty()) {
+        if (m.frame.empty()) m.frame = Column<std::uint32_t>(m.kind.size() - 1, 0);
+        m.frame.push_back(work_frame_);
+    }
+    const bool vector = (tool_centre_point_ || tilted_) && !std::isnan(state_.tool_axis.x());
+    const Vec3 angles = vector ? Vec3(Vec3::Constant(std::numeric_limits<double>::quiet_NaN())) : rotary;
+    if (!m.rotary.empty() || angles.squaredNorm() != 0) {
+        if (m.rotary.empty()) m.rotary = Column<Xyz>(m.kind.size() - 1, Xyz(0, 0, 0));
+        m.rotary.push_back(Xyz(angles * rad_per_deg));
+    }
+    if (vector || !m.tool_axis.empty()) {
+        const Xyz none(Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
+        if (m.tool_axis.empty()) m.tool_axis = Column<Xyz>(m.kind.size() - 1, none);
+        m.tool_axis.push_back(vector ? Xyz(state_.tool_axis) : none);
+    }
+    if (!m.file.empty() || file_ != 0) {
+        if (m.file.empty()) m.file = Column<std::uint16_t>(m.kind.size() - 1, 0);
+        m.file.push_back(static_cast<std::uint16_t>(file_));
+    }
+    if (!m.calls.empty()) {
+        if (m.call.empty()) m.call = Column<std::uint32_t>(m.kind.size() - 1, 0);
+        m.call.push_back(call_);
+    }
+    state_.position = end;
+    state_.rotary = angles;
+}
+
+namespace {
+
+Vec2 bezier(const std::vector<Vec2>& control, double t) {
+    std::vector<Vec2> p = control;
+    for (std::size_t level = p.size() - 1; level > 0; --level) {
+        for (std::size_t i = 0; i < level; ++i) p[i] = (1 - t) * p[i] + t * p[i + 1];
+    }
+    return p[0];
+}
+
+}  // namespace
+
+void Interpreter::spline(const Block& block) {
+    if (state_.plane_axis != 2) fail("G5 and G5.1 need the XY plane (G17)");
+    const double unit = state_.unit_mm;
+    const Vec3 begin = state_.position;
+    const Vec3 end = target(block, false);
+    const auto word = [&](char letter) { return block.words.given(letter) ? block.words.of(letter) * unit : 0.0; };
+    std::vector<Vec2> control;
+    const Vec2 from = begin.head<2>();
+    const Vec2 to = end.head<2>();
+    if (state_.motion == MotionMode::cubic_spline) {
+        const bool first = block.words.given('I') || block.words.given('J');
+        if (!block.words.given('P') || !block.words.given('Q')) fail("G5 needs P and Q");
+        if (first && !(block.words.given('I') && block.words.given('J'))) fail("G5 needs both I and J, or neither");
+        if (!first && spline_out_.isZero()) fail("the first G5 needs I and J");
+        const Vec2 out = first ? Vec2(word('I'), word('J')) : Vec2(-spline_out_);
+        spline_out_ = Vec2(word('P'), word('Q'));
+        control = {from, from + out, to + spline_out_, to};
+    } else {
+        if (!block.words.given('I') && !block.words.given('J')) fail("G5.1 needs I or J");
+        const Vec2 middle = from + Vec2(word('I'), word('J'));
+        control = {from, (from + 2 * middle) / 3, (to + 2 * middle) / 3, to};
+    }
+    flatten_bezier(control);
+}
+
+void Interpreter::flatten_bezier(const std::vector<Vec2>& control) {
+    for (int k = 1; k <= curve_pieces; ++k) {
+        const Vec2 p = bezier(control, static_cast<double>(k) / curve_pieces);
+        straight(MotionKind::spline, Vec3(p.x(), p.y(), state_.position.z()), state_.rotary);
+    }
+}
+
+/// A point of G5.2 with its weight. The first one is where the tool stands; its weight is the P of a block
+/// without X and Y.
+void Interpreter::nurbs_point(const Block& block) {
+    const Words& w = block.words;
+    if (state_.plane_axis != 2) fail("G5.2 needs the XY plane (G17)");
+    if (w.given('X') != w.given('Y')) fail("a point of G5.2 needs both X and Y");
+    constexpr std::uint32_t others = Words::bit('Z') | Words::bit('A') | Words::bit('B') | Words::bit('C');
+    if ((w.has & others) != 0) fail("a spline (G5.2) moves X and Y alone");
+    const bool is_point = w.given('X');
+    const double weight = w.given('P') ? w.of('P') : 1.0;
+    if (!(weight > 0)) fail("a weight (P) must be greater than 0");
+    if (nurbs_.empty()) {
+        nurbs_order_ = least_nurbs_order;
+        nurbs_.emplace_back(state_.position.x(), state_.position.y(), is_point ? 1.0 : weight);
+    } else if (!is_point && w.given('P')) {
+        fail("P without X and Y is the weight of the first point alone", w.column['P' - 'A']);
+    }
+    if (w.given('L')) nurbs_order_ = static_cast<int>(std::clamp(w.of('L'), double(least_nurbs_order), 1e6));
+    if (nurbs_order_ > most_nurbs_order) fail(fmt::format("the order of a spline (L) is at most {}", most_nurbs_order));
+    if (!is_point) return;
+    const Vec3 end = target(block, false);
+    nurbs_.emplace_back(end.x(), end.y(), weight);
+}
+
+void Interpreter::nurbs_end() {
+    const auto count = static_cast<int>(nurbs_.size());
+    const int order = nurbs_order_;
+    if (count < order) fail(fmt::format("a spline of order {} needs {} points, it has {}", order, order, count));
+    // Clamped uniform knots; de Boor in homogeneous coordinates.
+    const int spans = count - order + 1;
+    const auto knot = [&](int i) { return static_cast<double>(std::clamp(i - order + 1, 0, spans)); };
+    for (int k = 1; k <= spans * curve_pieces / 4; ++k) {
+        const double u = std::min(static_cast<double>(k) * 4 / curve_pieces, static_cast<double>(spans));
+        const int span = std::min(static_cast<int>(u), spans - 1) + order - 1;
+        std::vector<Vec3> d;
+        for (int j = 0; j < order; ++j) {
+            const Vec3& c = nurbs_[static_cast<std::size_t>(span - order + 1 + j)];
+            d.emplace_back(c.x() * c.z(), c.y() * c.z(), c.z());
+        }
+        for (int r = 1; r < order; ++r) {
+            for (int j = order - 1; j >= r; --j) {
+                const int i = span - order + 1 + j;
+                const double width = knot(i + order - r) - knot(i);
+                const double a = width > 0 ? (u - knot(i)) / width : 0.0;
+                d[static_cast<std::size_t>(j)] =
+                    (1 - a) * d[static_cast<std::size_t>(j - 1)] + a * d[static_cast<std::size_t>(j)];
+            }
+        }
+        const Vec3& p = d[static_cast<std::size_t>(order - 1)];
+        straight(MotionKind::spline, Vec3(p.x() / p.z(), p.y() / p.z(), state_.position.z()), state_.rotary);
+    }
+    nurbs_.clear();
+    state_.motion = MotionMode::none;
+}
+
+}  // namespace clsurf

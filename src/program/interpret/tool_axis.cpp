@@ -1,0 +1,51 @@
+// Tool centre point control, and tool axes that are programmed as vectors: I J K under G43.5 of Fanuc,
+// A3= B3= C3= under TRAORI of Siemens. Which angles give them is for the machine's kinematics to say.
+//
+// Facts: Fanuc, Series 30i operator's manual, "Tool center point control" (type 2); Siemens, SINUMERIK
+// 840D sl programming manual Job planning, "3- to 5-axis transformation (TRAORI)"; Heidenhain, iTNC 530
+// user's manual, M128 and M129.
+
+#include <array>
+#include <cmath>
+
+#include "program/interpret/interpreter_state.h"
+
+namespace clsurf {
+
+void Interpreter::control_tool_centre_point(bool on, const std::string& text) {
+    if (!on && !tool_centre_point_) return;
+    tool_centre_point_ = on;
+    tool_centre_point_text_ = text;
+    axis_words_ = on && text == "G43.5";
+    state_.tool_axis.setConstant(std::numeric_limits<double>::quiet_NaN());
+    event("tool-centre-point", text);
+}
+
+/// True: the block gives a tool axis as a vector, in the axes of the program.
+bool Interpreter::take_tool_axis(const Block& block) {
+    if (!tool_centre_point_ && !tilted_) return false;
+    const bool straight = state_.motion == MotionMode::rapid || state_.motion == MotionMode::feed;
+    Vec3 axis = Vec3::Zero();
+    bool given = false;
+    for (int k = 0; k < 3; ++k) {
+        if (axis_words_ && straight && block.words.given("IJK"[k])) {
+            axis[k] = block.words.of("IJK"[k]);
+            given = true;
+        }
+        constexpr std::array<std::string_view, 3> names{"A3", "B3", "C3"};
+        if (const std::optional<double> value = block.value_of(names[static_cast<std::size_t>(k)])) {
+            axis[k] = *value;
+            given = true;
+        }
+    }
+    constexpr std::uint32_t angles = Words::bit('A') | Words::bit('B') | Words::bit('C');
+    if (!given) {
+        if ((block.words.has & angles) != 0) state_.tool_axis.setConstant(std::numeric_limits<double>::quiet_NaN());
+        return false;
+    }
+    if (!(axis.norm() > 0)) fail("the tool axis is a vector of no length");
+    state_.tool_axis = state_.frame.direction_to_work(axis.normalized());
+    return true;
+}
+
+}  // namespace clsurf

@@ -1,0 +1,26 @@
+#pragma once
+// Expressions of NC programs: those of RS274/NGC, Fanuc's custom macro B, Siemens' NC language and
+// Heidenhain's formulas. Operators: operators.h; functions: functions.h.
+
+#include <optional>
+
+#include "program/dialects/dialect.h"
+#include "program/text/cursor.h"
+#include "program/text/variables.h"
+
+namespace clsurf {
+
+/// Reads an expression (or a single value) at the cursor and evaluates it. Throws ReadError: a
+/// malformed expression, a division by zero, a name that was never set, nesting over 200.
+[[nodiscard]] double evaluate(Cursor& cursor, const Variables& variables, DialectId dialect);
+
+/// The same of Fanuc's macros, where a variable that was never set is vacant: nullopt. In sums it is 0.
+[[nodiscard]] std::optional<double> evaluate_or_vacant(Cursor& cursor, const Variables& variables, DialectId dialect);
+/// ROUND gives multiples of `least_increment`: in a word it rounds to what the axes can be told.
+[[nodiscard]] std::optional<double> read_or_vacant(Cursor& cursor, const Variables& variables, DialectId dialect,
+                                                   double least_increment = 1);
+
+/// A single value at the cursor: a number, a variable, a bracketed expression, a function, with sign.
+[[nodiscard]] double read_value(Cursor& cursor, const Variables& variables, DialectId dialect);
+
+}  // namespace clsurf

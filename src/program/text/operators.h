@@ -1,0 +1,55 @@
+#pragma once
+// The operators of expressions: how they are written, how tightly they bind, what they give.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "program/dialects/dialect.h"
+
+namespace clsurf {
+
+enum class Operator : std::uint8_t {
+    power,
+    multiply,
+    divide,
+    modulo,
+    integer_divide,
+    add,
+    subtract,
+    equal,
+    unequal,
+    greater,
+    greater_equal,
+    less,
+    less_equal,
+    logical_and,
+    logical_or,
+    logical_xor,
+    bit_and,
+    bit_or,
+    bit_xor,
+};
+
+struct OperatorRow {
+    std::string_view text;
+    Operator op;
+    int rank;     ///< higher binds tighter: of RS274 and Heidenhain
+    int fanuc;    ///< AND binds as tightly as *, OR and XOR as +
+    int siemens;  ///< comparisons come last (Job Planning, "Priority of the operations")
+    bool word;
+
+    [[nodiscard]] int rank_in(DialectId dialect) const {
+        return dialect == DialectId::fanuc ? fanuc : dialect == DialectId::siemens ? siemens : rank;
+    }
+};
+
+/// Longer ones before those that begin like them.
+[[nodiscard]] std::span<const OperatorRow> operator_table();
+
+/// NaN is a vacant variable of Fanuc. `column` is that of the operator, for the ReadError that a division by
+/// zero or a number too large for its bits throws.
+[[nodiscard]] double apply_operator(Operator op, double a, double b, DialectId dialect, std::size_t column);
+
+}  // namespace clsurf
