@@ -11,12 +11,12 @@
 #include "core/error.h"
 #include "core/units.h"
 #include "path/toolpath.h"
+#include "program/arc.h"
 #include "program/tool_centre_point.h"
 
 namespace clsurf {
 namespace {
 
-constexpr double chord_error = 1e-3;              ///< [mm]
 constexpr double chord_turn = 0.5 * rad_per_deg;  ///< of a rotary axis, a chord
 constexpr int most_chords = 2000;                 ///< of a motion
 
@@ -117,9 +117,8 @@ private:
         const Arc* arc = is_arc(kind) ? from_->arc_of(motion) : nullptr;
         if (arc != nullptr) {
             const double way = path_.length(motion);
-            const double radius = (end - arc->centre.vec()).norm();
-            const double step = std::sqrt(8 * chord_error * std::max(radius, chord_error));
-            if (way > 0) chords = std::clamp(static_cast<int>(std::ceil(way / step)), chords, most_chords);
+            const double radius = std::max((end - arc->centre.vec()).norm(), arc_chord_error);
+            if (way > 0) chords = std::max(chords, chord_count(radius, way / radius, 0));
         }
         const Vec3 turned_from = motion > 0 ? from_->rotary[at - 1].vec() : Vec3::Zero();
         const Vec3 turned_to = from_->rotary[at].vec();

@@ -13,8 +13,6 @@
 namespace clsurf {
 namespace {
 
-constexpr double chord_error = 1e-3;  ///< [mm]
-constexpr int most_chords = 2000;     ///< of an arc
 /// Rounding of a product of poses, which must not make a frame of its own: of turns, and of shifts [mm].
 constexpr double turn_rounding = 1e-14, shift_rounding = 1e-10;
 
@@ -61,29 +59,6 @@ struct Chords {
     std::int64_t motion;
     std::vector<Xyz> ends;
 };
-
-Chords chords_of(const Arc& arc, bool clockwise, const Vec3& begin, const Vec3& end, const Eigen::Isometry3d& placed) {
-    const int u = (arc.axis + 1) % 3;
-    const int v = (arc.axis + 2) % 3;
-    const Vec3 centre = arc.centre.vec();
-    Vec3 flat = end;
-    flat[arc.axis] = begin[arc.axis];
-    const double radius = std::hypot(begin[u] - centre[u], begin[v] - centre[v]);
-    const double length = arc_length(arc, clockwise, begin, flat);
-    const double sweep = length / radius * (clockwise ? -1 : 1);
-    const double first = std::atan2(begin[v] - centre[v], begin[u] - centre[u]);
-    const double step = std::sqrt(8 * chord_error * std::max(radius, chord_error));
-    const int count = std::clamp(static_cast<int>(std::ceil(length / step)), 1, most_chords);
-    Chords chords{arc.motion, {}};
-    for (int k = 1; k <= count; ++k) {
-        const double part = static_cast<double>(k) / count;
-        Vec3 p = begin + part * (end - begin);
-        p[u] = centre[u] + radius * std::cos(first + part * sweep);
-        p[v] = centre[v] + radius * std::sin(first + part * sweep);
-        chords.ends.emplace_back(apply(placed, k == count ? end : p));
-    }
-    return chords;
-}
 
 /// Puts chords in the place of arcs.
 void insert_chords(Motions& motions, std::vector<ProgramEvent>& events, const std::vector<Chords>& all) {
@@ -291,8 +266,12 @@ std::int64_t FramePlacer::place(Motions& motions, std::vector<ProgramEvent>& eve
         MotionKind& kind = motions.kind[at];
         if (now.axis < 0) {
             const Eigen::Isometry3d back = placed.inverse();
-            tilted.push_back(chords_of(arc, kind == MotionKind::cw, apply(back, motions.begin_of(arc.motion).vec()),
-                                       apply(back, motions.end[at].vec()), placed));
+            Chords chords{arc.motion, {}};
+            for (const Vec3& p :
+                 arc_chords(arc, kind == MotionKind::cw, apply(back, motions.begin_of(arc.motion).vec()),
+                            apply(back, motions.end[at].vec())))
+                chords.ends.emplace_back(apply(placed, p));
+            tilted.push_back(std::move(chords));
             continue;
         }
         arc.centre = Xyz(apply(placed, arc.centre.vec()));

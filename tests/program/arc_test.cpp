@@ -112,5 +112,32 @@ TEST(Arc, RefusesARadiusThatCannotReach) {
     EXPECT_EQ(error, "arc radius 4.0000 is too small: the end is 10.0000 away from the start");
 }
 
+TEST(ArcChords, ASpiralOfSeveralTurnsStaysWithinTheError) {
+    // Archimedes: the radius grows from 10 to 14 over two turns and a half, and z by 5.
+    Arc arc;
+    arc.turns = 3;
+    const Vec3 begin(10, 0, 0);
+    const Vec3 end(-14, 0, 5);
+    const double sweep = 5 * std::numbers::pi;
+    EXPECT_NEAR(arc_sweep(arc, false, begin, end), sweep, 1e-12);
+    for (const double error : {1e-2, 1e-3, 1e-4}) {
+        const std::vector<Vec3> chords = arc_chords(arc, false, begin, end, error);
+        EXPECT_EQ(chords.back(), end);
+        double worst = 0;
+        Vec3 from = begin;
+        for (std::size_t k = 0; k < chords.size(); ++k) {
+            const double part = (static_cast<double>(k) + 0.5) / static_cast<double>(chords.size());
+            const double radius = 10 + 4 * part;
+            const Vec3 on(radius * std::cos(part * sweep), radius * std::sin(part * sweep), 5 * part);
+            const Vec3 way = (chords[k] - from).normalized();
+            const Vec3 off = on - from;
+            worst = std::max(worst, (off - off.dot(way) * way).norm());
+            from = chords[k];
+        }
+        EXPECT_LT(worst, error);
+        EXPECT_GT(worst, 0.5 * error);  // and no more chords than that takes
+    }
+}
+
 }  // namespace
 }  // namespace clsurf

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double same_point = 1e-9;  ///< [mm]
 constexpr double unlimited = std::numeric_limits<double>::infinity();
+constexpr double most_chords = 100'000;
 /// Siemens, alarm 14040: the centre may turn about the start by the root of 0.001 [rad].
 constexpr double most_turn_of_centre = 0.0316227766;
 
@@ -117,7 +118,7 @@ Arc resolve_arc(const ArcWords& words, const ArcTolerance& tolerance, std::strin
     return arc;
 }
 
-double arc_length(const Arc& arc, bool clockwise, const Vec3& begin, const Vec3& end) {
+double arc_sweep(const Arc& arc, bool clockwise, const Vec3& begin, const Vec3& end) {
     const int u = (arc.axis + 1) % 3;
     const int v = (arc.axis + 2) % 3;
     const Vec3 centre = arc.centre.vec();
@@ -127,8 +128,48 @@ double arc_length(const Arc& arc, bool clockwise, const Vec3& begin, const Vec3&
     double sweep = angle_of(to) - angle_of(from);
     if (clockwise) sweep = -sweep;
     while (sweep <= 1e-9) sweep += two_pi;
-    sweep += two_pi * (arc.turns - 1);
-    return std::hypot(0.5 * (from.norm() + to.norm()) * sweep, end[arc.axis] - begin[arc.axis]);
+    return sweep + two_pi * (arc.turns - 1);
+}
+
+double arc_length(const Arc& arc, bool clockwise, const Vec3& begin, const Vec3& end) {
+    const int u = (arc.axis + 1) % 3;
+    const int v = (arc.axis + 2) % 3;
+    const Vec3 centre = arc.centre.vec();
+    const double at_begin = std::hypot(begin[u] - centre[u], begin[v] - centre[v]);
+    const double at_end = std::hypot(end[u] - centre[u], end[v] - centre[v]);
+    return std::hypot(0.5 * (at_begin + at_end) * arc_sweep(arc, clockwise, begin, end),
+                      end[arc.axis] - begin[arc.axis]);
+}
+
+int chord_count(double radius, double sweep, double widening, double error) {
+    // A chord over the part h of a curve p(0 … 1) stays within h²/8 · max |p''| of it, and a spiral's p'' is
+    // a radial part, radius · sweep², and one across, 2 · widening · sweep.
+    const double bend = std::hypot(radius * sweep * sweep, 2 * widening * sweep);
+    return static_cast<int>(std::clamp(std::ceil(std::sqrt(bend / (8 * error))), 1.0, most_chords));
+}
+
+std::vector<Vec3> arc_chords(const Arc& arc, bool clockwise, const Vec3& begin, const Vec3& end, double error) {
+    const int u = (arc.axis + 1) % 3;
+    const int v = (arc.axis + 2) % 3;
+    const Vec3 centre = arc.centre.vec();
+    const double at_begin = std::hypot(begin[u] - centre[u], begin[v] - centre[v]);
+    const double widening = std::hypot(end[u] - centre[u], end[v] - centre[v]) - at_begin;
+    const double sweep = arc_sweep(arc, clockwise, begin, end);
+    const double first = std::atan2(begin[v] - centre[v], begin[u] - centre[u]);
+    const int count = chord_count(at_begin + std::max(0.0, widening), sweep, widening, error);
+    std::vector<Vec3> ends;
+    ends.reserve(static_cast<std::size_t>(count));
+    for (int k = 1; k < count; ++k) {
+        const double part = static_cast<double>(k) / count;
+        const double radius = at_begin + part * widening;
+        const double angle = first + part * (clockwise ? -sweep : sweep);
+        Vec3 p = begin + part * (end - begin);
+        p[u] = centre[u] + radius * std::cos(angle);
+        p[v] = centre[v] + radius * std::sin(angle);
+        ends.push_back(p);
+    }
+    ends.push_back(end);
+    return ends;
 }
 
 }  // namespace clsurf

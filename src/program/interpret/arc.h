@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "core/geometry.h"
 #include "program/dialects/dialect.h"
@@ -38,7 +39,20 @@ struct ArcTolerance {
 /// The arc, without its motion's number; or, in `error`, why there is none (both radii named).
 [[nodiscard]] Arc resolve_arc(const ArcWords& words, const ArcTolerance& tolerance, std::string& error);
 
+/// Angle of an arc about its axis, always positive [rad].
+[[nodiscard]] double arc_sweep(const Arc& arc, bool clockwise, const Vec3& begin, const Vec3& end);
+
 /// Way along an arc or helix [mm].
 [[nodiscard]] double arc_length(const Arc& arc, bool clockwise, const Vec3& begin, const Vec3& end);
+
+constexpr double arc_chord_error = 1e-3;  ///< [mm] of the chords that replace an arc
+
+/// How many equal chords stay within `error` [mm] of an arc, helix or spiral of that sweep [rad] and greatest radius
+/// [mm]; at most 100,000. `widening`: what a spiral's radius changes by [mm].
+[[nodiscard]] int chord_count(double radius, double sweep, double widening, double error = arc_chord_error);
+
+/// An arc, helix or spiral as chords: their ends, at equal parts of the arc. The last one is `end` itself.
+[[nodiscard]] std::vector<Vec3> arc_chords(const Arc& arc, bool clockwise, const Vec3& begin, const Vec3& end,
+                                           double error = arc_chord_error);
 
 }  // namespace clsurf

@@ -250,22 +250,15 @@ void Interpreter::refuse_turns(const Block& block) const {
 /// An arc that its frame makes an ellipse, or tilts out of the principal planes.
 void Interpreter::flatten_arc(const Arc& arc, bool clockwise, const Vec3& begin, const Vec3& end, const Vec3& rotary) {
     if (compensation_.on()) fail("cutter compensation of an arc in a tilted or unevenly scaled frame is not supported");
-    const int u = (arc.axis + 1) % 3;
-    const int v = (arc.axis + 2) % 3;
-    const Vec3 centre = arc.centre.vec();
-    Vec3 flat = end;
-    flat[arc.axis] = begin[arc.axis];
-    const double radius = std::hypot(begin[u] - centre[u], begin[v] - centre[v]);
-    const double sweep = arc_length(arc, clockwise, begin, flat) / radius * (clockwise ? -1 : 1);
-    const double first = std::atan2(begin[v] - centre[v], begin[u] - centre[u]);
+    // The frame may stretch the chords' error.
+    const Vec3 u = state_.frame.direction_to_work(Vec3::Unit((arc.axis + 1) % 3));
+    const Vec3 v = state_.frame.direction_to_work(Vec3::Unit((arc.axis + 2) % 3));
+    const double stretch = std::max(1.0, std::hypot(u.norm(), v.norm()));
+    const std::vector<Vec3> chords = arc_chords(arc, clockwise, begin, end, arc_chord_error / stretch);
     const Vec3 turned_from = state_.rotary;
-    for (int k = 1; k <= curve_pieces; ++k) {
-        const double part = static_cast<double>(k) / curve_pieces;
-        Vec3 p = begin + part * (end - begin);
-        p[u] = centre[u] + radius * std::cos(first + part * sweep);
-        p[v] = centre[v] + radius * std::sin(first + part * sweep);
-        straight(MotionKind::spline, state_.frame.to_work(k == curve_pieces ? end : p),
-                 turned_from + part * (rotary - turned_from));
+    for (std::size_t k = 0; k < chords.size(); ++k) {
+        const double part = static_cast<double>(k + 1) / static_cast<double>(chords.size());
+        straight(MotionKind::spline, state_.frame.to_work(chords[k]), turned_from + part * (rotary - turned_from));
     }
 }
 
