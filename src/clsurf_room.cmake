@@ -22,6 +22,11 @@ elseif(CLSURF_SANITIZE STREQUAL "thread")
   target_compile_options(clsurf_build_options INTERFACE -fsanitize=thread -fno-omit-frame-pointer)
   target_link_options(clsurf_build_options INTERFACE -fsanitize=thread)
 endif()
+if(CLSURF_LTO)
+  # The linker then sees every type: two different ones of the same name are an error. `-O1` keeps its work small.
+  target_compile_options(clsurf_build_options INTERFACE -flto=auto)
+  target_link_options(clsurf_build_options INTERFACE -flto=auto -O1 -Werror=odr -Werror=lto-type-mismatch)
+endif()
 if(NOT CLSURF_SANITIZE STREQUAL "none")
   # Instrumented code hides from GCC that an optional is asked before it is read.
   target_compile_options(clsurf_build_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)

@@ -98,7 +98,7 @@ ShownRange range_of(const DrawnDifference& shown, const ClSurface& surface, cons
     return range;
 }
 
-void draw(const DiffOptions& options, const Run& a, const ClSurface& surface, const DrawnDifference& shown,
+void draw(const DiffOptions& options, const ComparedRun& a, const ClSurface& surface, const DrawnDifference& shown,
           double threshold, PictureOutput& output) {
     const viz::MapPanel panel{&surface, &shown.field, "", {}, {}, {}};
     const viz::Camera camera = viz::map_camera({panel}, options.look.look);
@@ -132,15 +132,15 @@ ExitCode run_diff(const po::variables_map& values) {
     std::unique_ptr<LineMap> lines;
     ClSurface surface;
     std::unique_ptr<DriftFinder> drift;
-    Run a;
+    ComparedRun a;
     std::optional<DrawnDifference> shown;
     double threshold = 0;
     for (std::size_t k = 1; k < options.files.size(); ++k) {
         clock.begin("read a run");
         const LoadedRun loaded = load_run(options.files[k], options.runs);
         diagnostics.append(loaded.log.diagnostics);
-        Run of_reference = run_of(reference, loaded, options.runs);
-        const Run b = run_of(loaded, reference, options.runs);
+        ComparedRun of_reference = run_of(reference, loaded, options.runs);
+        const ComparedRun b = run_of(loaded, reference, options.runs);
         if (!lines || of_reference.path.role != a.path.role) {
             if (drift)
                 throw InputError(Place::of_file(loaded.name), "has other kinds of positions than the runs before it",

@@ -84,10 +84,10 @@ LoadedRun load_run(const std::string& path, const RunOptions& options) {
     return run;
 }
 
-Run run_of(const LoadedRun& run, const LoadedRun& other, const RunOptions& options) {
+ComparedRun run_of(const LoadedRun& run, const LoadedRun& other, const RunOptions& options) {
     const Eigen::Isometry3d pose = pose_of_run(run, options);
     const auto both_have = [&](Role role) { return run.log.has(role) && other.log.has(role); };
-    Run made;
+    ComparedRun made;
     made.log = &run.log;
     made.path = reconstruct(run.log, common_role(run, other, options.role), pose);
     if (both_have(Role::commanded)) made.commanded = reconstruct(run.log, Role::commanded, pose);

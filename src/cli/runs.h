@@ -41,7 +41,7 @@ struct LoadedRun {
 [[nodiscard]] LoadedRun load_run(const std::string& path, const RunOptions& options);
 
 /// Which positions two runs are compared by. Throws InputError: they have none in common.
-[[nodiscard]] Run run_of(const LoadedRun& run, const LoadedRun& other, const RunOptions& options);
+[[nodiscard]] ComparedRun run_of(const LoadedRun& run, const LoadedRun& other, const RunOptions& options);
 
 /// What the points of a run belong to; without a program all that the line channel does not call idle cuts.
 [[nodiscard]] std::unique_ptr<LineMap> lines_of(const LoadedRun& run, const Trajectory& path, const RunOptions& options,

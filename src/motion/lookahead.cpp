@@ -32,17 +32,17 @@ Extremes extremes(const SCurve& profile, double from, const MotionState& at_from
 
 }  // namespace
 
-bool scan_speeds(std::span<const Stretch> stretches, std::span<double> speeds) {
+bool scan_speeds(std::span<const ScanSegment> segments, std::span<double> speeds) {
     const double present = speeds.front();
-    for (std::size_t i = stretches.size(); i-- > 0;) {
-        const Stretch& s = stretches[i];
+    for (std::size_t i = segments.size(); i-- > 0;) {
+        const ScanSegment& s = segments[i];
         if (speeds[i] > speeds[i + 1])
             speeds[i] = std::min(speeds[i], reach(speeds[i + 1], s.length, s.acceleration, s.jerk));
     }
     if (speeds.front() < present * (1 - braking_play)) return false;
     speeds.front() = present;
-    for (std::size_t i = 0; i < stretches.size(); ++i) {
-        const Stretch& s = stretches[i];
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+        const ScanSegment& s = segments[i];
         if (speeds[i + 1] > speeds[i])
             speeds[i + 1] = std::min(speeds[i + 1], reach(speeds[i], s.length, s.acceleration, s.jerk));
     }
@@ -55,7 +55,7 @@ const Easing& WindowPlanner::eased(std::span<const Span> spans, std::size_t span
     return easing;
 }
 
-void WindowPlanner::set_limits(Run& run, std::span<const Span> spans) {
+void WindowPlanner::set_limits(SpeedRun& run, std::span<const Span> spans) {
     run.length = 0;
     run.speed = 0;
     run.acceleration = run.jerk = std::numeric_limits<double>::infinity();
@@ -84,7 +84,7 @@ double WindowPlanner::part_of_axes(const Span& span, double speed, double accele
     return worst;
 }
 
-WindowPlanner::Verdict WindowPlanner::judge(const Run& run, std::span<const Span> spans) const {
+WindowPlanner::Verdict WindowPlanner::judge(const SpeedRun& run, std::span<const Span> spans) const {
     Verdict verdict;
     const SCurve& profile = run.profile;
     const double steepest =
@@ -127,10 +127,10 @@ WindowPlanner::Verdict WindowPlanner::judge(const Run& run, std::span<const Span
 }
 
 /// The worst span becomes a run of its own.
-void WindowPlanner::divide(const Run& run, const Verdict& verdict, std::vector<Run>& into) const {
+void WindowPlanner::divide(const SpeedRun& run, const Verdict& verdict, std::vector<SpeedRun>& into) const {
     const auto part = [&](std::size_t first, std::size_t last) {
         if (first >= last) return;
-        Run r;
+        SpeedRun r;
         r.first = first;
         r.last = last;
         into.push_back(r);
@@ -150,7 +150,7 @@ bool WindowPlanner::plan(std::span<const Span> spans, double start_speed, std::s
         if (!plan_with(easing, spans, start_speed, nodes)) continue;
         double time = 0;
         bool bent = false;
-        for (const Run& run : runs_) {
+        for (const SpeedRun& run : runs_) {
             time += run.profile.duration();
             bent = bent || run.eased;
         }
@@ -172,32 +172,32 @@ bool WindowPlanner::plan_with(std::size_t easing, std::span<const Span> spans, d
     for (std::size_t n = 0; n <= nodes.size(); ++n) {
         const std::size_t end = n < nodes.size() ? nodes[n] : spans.size();
         if (end <= begin) continue;
-        Run run;
+        SpeedRun run;
         run.first = begin;
         run.last = end;
         set_limits(run, spans);
         runs_.push_back(run);
         begin = end;
     }
-    const auto end_cap = [&](const Run& run, std::size_t span) {
+    const auto end_cap = [&](const SpeedRun& run, std::size_t span) {
         return run.eased ? eased(spans, span).cap : spans[span].cap;
     };
     while (true) {
-        stretches_.clear();
+        segments_.clear();
         speeds_.clear();
-        for (const Run& run : runs_) {
-            stretches_.push_back({run.length, run.acceleration, run.jerk});
+        for (const SpeedRun& run : runs_) {
+            segments_.push_back({run.length, run.acceleration, run.jerk});
             const double before =
                 speeds_.empty() ? start_speed
                                 : std::min(end_cap(runs_[speeds_.size() - 1], run.first - 1), end_cap(run, run.first));
             speeds_.push_back(before);
         }
         speeds_.push_back(0);
-        if (!scan_speeds(stretches_, speeds_)) return false;
+        if (!scan_speeds(segments_, speeds_)) return false;
         bool changed = false;
         next_.clear();
         for (std::size_t r = 0; r < runs_.size(); ++r) {
-            Run& run = runs_[r];
+            SpeedRun& run = runs_[r];
             if (!run.checked || run.start_speed != speeds_[r] || run.end_speed != speeds_[r + 1]) {
                 run.start_speed = speeds_[r];
                 run.end_speed = speeds_[r + 1];

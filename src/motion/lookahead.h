@@ -19,18 +19,18 @@
 
 namespace clsurf {
 
-/// A stretch between two nodes, for the scan.
-struct Stretch {
+/// The path between two nodes, for the scan.
+struct ScanSegment {
     double length = 0, acceleration = 0, jerk = 0;
 };
 
-/// Lowers node speeds to what can be run: node i lies before stretch i. On entry `speeds` holds the
+/// Lowers node speeds to what can be run: node i lies before segment i. On entry `speeds` holds the
 /// limit of each node, the first one the present speed. False: the present speed is too high to
-/// brake from. O(stretches).
-[[nodiscard]] bool scan_speeds(std::span<const Stretch> stretches, std::span<double> speeds);
+/// brake from. O(segments).
+[[nodiscard]] bool scan_speeds(std::span<const ScanSegment> segments, std::span<double> speeds);
 
 /// Spans [first, last) of a window run as one profile.
-struct Run {
+struct SpeedRun {
     std::size_t first = 0, last = 0;
     bool eased = false;  ///< with the tangential limits that its most bent span leaves
     double length = 0, acceleration = 0, jerk = 0, speed = 0;
@@ -48,7 +48,7 @@ public:
     /// Plans spans from a speed to rest at their end. `nodes`: span numbers where a node has to be. False:
     /// the start speed cannot be braked from with these nodes. The runs stay until the next call.
     [[nodiscard]] bool plan(std::span<const Span> spans, double start_speed, std::span<const std::size_t> nodes);
-    [[nodiscard]] const std::vector<Run>& runs() const { return best_; }
+    [[nodiscard]] const std::vector<SpeedRun>& runs() const { return best_; }
 
 private:
     struct Verdict {
@@ -59,17 +59,17 @@ private:
     [[nodiscard]] bool plan_with(std::size_t easing, std::span<const Span> spans, double start_speed,
                                  std::span<const std::size_t> nodes);
     [[nodiscard]] const Easing& eased(std::span<const Span> spans, std::size_t span);
-    void set_limits(Run& run, std::span<const Span> spans);
+    void set_limits(SpeedRun& run, std::span<const Span> spans);
     [[nodiscard]] double part_of_axes(const Span& span, double speed, double acceleration, double jerk) const;
-    [[nodiscard]] Verdict judge(const Run& run, std::span<const Span> spans) const;
-    void divide(const Run& run, const Verdict& verdict, std::vector<Run>& into) const;
+    [[nodiscard]] Verdict judge(const SpeedRun& run, std::span<const Span> spans) const;
+    void divide(const SpeedRun& run, const Verdict& verdict, std::vector<SpeedRun>& into) const;
 
     const Machine* machine_;
     bool refined_;
     std::size_t easing_ = 0;     ///< in force in plan_with()
     std::vector<Easing> eased_;  ///< of the spans by that, as far as it was asked for; otherwise its cap is less than 0
-    std::vector<Run> runs_, next_, best_;
-    std::vector<Stretch> stretches_;
+    std::vector<SpeedRun> runs_, next_, best_;
+    std::vector<ScanSegment> segments_;
     std::vector<double> speeds_;
 };
 

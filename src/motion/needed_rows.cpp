@@ -65,7 +65,7 @@ void SpeedProblem::need_likely_rows() {
         if (!may_break(cell, 1, steep, speed * speed, cell.limits.jerk)) continue;
         for (std::uint32_t s = cell.first_station; s < cell.end_station; ++s) {
             HeldStation& held_station = stations_[s];
-            const Station& station = held_station.station;
+            const PathSample& station = held_station.station;
             for (int x = 0; x < 3; ++x) {
                 const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(x)];
                 const double slope = std::abs(station.slope[x]), bend = std::abs(station.bend[x]),
@@ -109,7 +109,7 @@ bool SpeedProblem::need_broken_rows(double part) {
             continue;
         for (std::uint32_t s = cell.first_station; s < cell.end_station; ++s) {
             HeldStation& held_station = stations_[s];
-            const Station& station = held_station.station;
+            const PathSample& station = held_station.station;
             const double b_here = b + station.at * (slope + 0.5 * station.at * curve);
             const double slope_here = slope + station.at * curve;
             const double root = std::sqrt(b_here);
@@ -173,7 +173,7 @@ void SpeedProblem::make_rows() {
         }
         for (std::uint32_t s = cell.first_station; s < cell.end_station; ++s) {
             if (stations_[s].needed == 0) continue;
-            const Station& station = stations_[s].station;
+            const PathSample& station = stations_[s].station;
             const Weights w = weights_at(i, station.at);
             for (int x = 0; x < 3; ++x) {
                 const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(x)];

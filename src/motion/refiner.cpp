@@ -65,7 +65,7 @@ bool Refiner::cruises_at_the_cap(const KeptRun& run) const {
     return true;
 }
 
-void Refiner::push(const Run& run, std::span<const Span> spans) {
+void Refiner::push(const SpeedRun& run, std::span<const Span> spans) {
     runs_.push_back(
         {run.profile, {spans.begin(), spans.end()}, run.eased, true, run.start_speed == 0, run.end_speed == 0});
     KeptRun& kept_run = runs_.back();
@@ -184,7 +184,7 @@ void Refiner::close_cell() {
         begin += part.length;
     }
     problem_.add_cell(open_.length, SpeedProblem::value_between(open_.length, end_, open_.end), limits);
-    for (const Station& station : stations_) problem_.add_station(station);
+    for (const PathSample& station : stations_) problem_.add_station(station);
     cells_.push_back(open_);
     end_ = open_.end;
     open_ = {};
@@ -204,7 +204,7 @@ void Refiner::add_part(const CellPart& part, double begin, CellLimits& limits) {
     }
     const double periods = part.length / (machine_->controller.period * std::max(end_.speed, open_.end.speed));
     const int pieces = periods < briefest ? 1 : periods < brief ? 2 : periods < middling ? 4 : 8;
-    Station station;
+    PathSample station;
     double curvature = 0;
     for (int k = 0; k <= pieces; ++k) {
         const double way = part.length * k / pieces;

@@ -23,7 +23,7 @@ public:
 
     /// The next run, whose profile begins where that of the last one ended; `spans` are the run's own.
     /// A run that ends at rest ends its window.
-    void push(const Run& run, std::span<const Span> spans);
+    void push(const SpeedRun& run, std::span<const Span> spans);
 
 private:
     struct KeptRun {
@@ -82,9 +82,9 @@ private:
     std::vector<CellPart> parts_;  ///< of the cells in turn, then of the one being made
     std::size_t solved_ = 0;       ///< first cells, whose values hold the limits
     SpeedProblem problem_;
-    KnotState start_, end_;          ///< of the cells
-    Cell open_;                      ///< the cell being made
-    std::vector<Station> stations_;  ///< of the cell being made
+    KnotState start_, end_;             ///< of the cells
+    Cell open_;                         ///< the cell being made
+    std::vector<PathSample> stations_;  ///< of the cell being made
 };
 
 }  // namespace clsurf

@@ -64,13 +64,13 @@ public:
             }
             for (std::size_t i = 0; i < done; ++i) window_.pop_front();
             pending_.erase(pending_.begin(), pending_.begin() + static_cast<std::ptrdiff_t>(ran));
-            for (Run& left : pending_) left.first -= done, left.last -= done;
+            for (SpeedRun& left : pending_) left.first -= done, left.last -= done;
             report();
         }
     }
 
 private:
-    void run(const Run& next, double& speed, std::size_t& done) {
+    void run(const SpeedRun& next, double& speed, std::size_t& done) {
         refiner_.push(next, window_.items().subspan(next.first, next.last - next.first));
         speed = next.end_speed;
         done = next.last;
@@ -81,7 +81,7 @@ private:
     WindowPlanner planner_;
     Refiner refiner_;
     Queue<Span> window_;
-    std::vector<Run> pending_;
+    std::vector<SpeedRun> pending_;
 };
 
 }  // namespace

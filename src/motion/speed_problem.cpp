@@ -48,7 +48,7 @@ void SpeedProblem::add_cell(double length, double value, const CellLimits& limit
     value_.push_back(value);
 }
 
-void SpeedProblem::add_station(const Station& station) {
+void SpeedProblem::add_station(const PathSample& station) {
     stations_.push_back({station});
     Cell& cell = cells_.back();
     cell.end_station = static_cast<std::uint32_t>(stations_.size());

@@ -33,7 +33,7 @@ struct CellLimits {
 };
 
 /// The derivatives of a bent path at a place of a cell.
-struct Station {
+struct PathSample {
     double at = 0;                                                         ///< way after the cell's begin [mm]
     Vec3 slope = Vec3::Zero(), bend = Vec3::Zero(), twist = Vec3::Zero();  ///< x′, x″ [1/mm], x‴ [1/mm²]
 };
@@ -46,7 +46,7 @@ public:
     /// A cell after the last one; `value`: its coefficient to begin with [mm²/s²], greater than 0.
     void add_cell(double length, double value, const CellLimits& limits);
     /// A place of the last cell where the limits of the axes are held.
-    void add_station(const Station& station);
+    void add_station(const PathSample& station);
 
     /// The fastest speeds from one state to another. False: none was found that holds every limit, or none much
     /// faster; the values are then what they were. At least four cells.
@@ -77,7 +77,7 @@ private:
         double jerk_share = 1;  ///< of the jerk along the path, lowered where it is broken between rows
     };
     struct HeldStation {
-        Station station;
+        PathSample station;
         std::uint8_t needed = 0;  ///< a bit for the acceleration of each axis, then one for the jerk of each
     };
     /// Weights of a cell's three coefficients for b, b′ and b″ at a place.

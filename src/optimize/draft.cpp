@@ -21,12 +21,12 @@ Draft Drafter::draft(double chord_error, std::vector<std::uint8_t> needed) const
     draft.chord_error = chord_error;
     LineEditor editor(program_, rules_.least_decimals);
     const double spacing = 0.5 * fitting_spacing(program_, laid_, chord_error);
-    const std::vector<Stretch> stretches =
+    const std::vector<ResampledStretch> stretches =
         resample(program_, laid_, editor,
                  {rules_.tolerance, spacing, chord_error, shortest_line_, ResampleRules{}.corner_angle, most_turned},
                  needed, orientation_);
     std::int64_t old = 0;  // motions so far
-    for (const Stretch& stretch : stretches) {
+    for (const ResampledStretch& stretch : stretches) {
         const std::size_t lines = editor.replace(stretch.first, stretch.last, stretch.points, stretch.angles);
         if (slows_anywhere_) continue;
         draft.may_slow.insert(draft.may_slow.end(), needed.begin() + old, needed.begin() + stretch.first);

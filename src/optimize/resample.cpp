@@ -59,16 +59,16 @@ public:
           orientation_(orientation),
           phases_(run_phases(laid, rules.spacing)) {}
 
-    [[nodiscard]] std::vector<Stretch> run() const {
+    [[nodiscard]] std::vector<ResampledStretch> run() const {
         const std::vector<ProgrammedPass> passes = cut_passes(laid_);
-        std::vector<std::vector<Stretch>> of_pass(passes.size());
+        std::vector<std::vector<ResampledStretch>> of_pass(passes.size());
         parallel_for(static_cast<std::int64_t>(passes.size()), passes_a_piece,
                      [&](std::int64_t first, std::int64_t last) {
                          for (auto k = static_cast<std::size_t>(first); k < static_cast<std::size_t>(last); ++k)
                              run_pass(passes[k], of_pass[k]);
                      });
-        std::vector<Stretch> stretches;
-        for (std::vector<Stretch>& mine : of_pass)
+        std::vector<ResampledStretch> stretches;
+        for (std::vector<ResampledStretch>& mine : of_pass)
             stretches.insert(stretches.end(), std::make_move_iterator(mine.begin()),
                              std::make_move_iterator(mine.end()));
         return stretches;
@@ -88,7 +88,7 @@ private:
         return orientation_->divisible(m) && (lines_.most_turned > 0 || !orientation_->turns(m));
     }
 
-    void run_pass(const ProgrammedPass& pass, std::vector<Stretch>& stretches) const {
+    void run_pass(const ProgrammedPass& pass, std::vector<ResampledStretch>& stretches) const {
         const std::vector<std::uint8_t> creases = creases_of(pass);
         std::size_t begin = 0;  // the end that the stretch begins at
         for (std::size_t k = 1; k < pass.ends.size(); ++k) {
@@ -131,7 +131,8 @@ private:
     }
 
     /// Ends begin … end of a pass, both of which stay.
-    void add(const ProgrammedPass& pass, std::size_t begin, std::size_t end, std::vector<Stretch>& stretches) const {
+    void add(const ProgrammedPass& pass, std::size_t begin, std::size_t end,
+             std::vector<ResampledStretch>& stretches) const {
         if (end < begin + shortest_stretch) return;
         const OldStretch old = old_stretch(pass, begin, end);
         if (old.length() < lines_.spacing) return;
@@ -139,7 +140,7 @@ private:
             stations_between(laid_, phases_, pass.ends[begin], pass.ends[end], old.length());
         std::optional<TurningStretch> turning;
         if (turns(old)) turning.emplace(old, *orientation_, stations, lines_);
-        Stretch stretch{motion(pass.ends[begin + 1]), motion(pass.ends[end]), {}};
+        ResampledStretch stretch{motion(pass.ends[begin + 1]), motion(pass.ends[end]), {}};
         for (const NewPlace& place :
              new_lines(old, smooth(old, stations, lines_), stations, lines_, turning ? &*turning : nullptr)) {
             stretch.points.push_back(place.position);
@@ -162,7 +163,7 @@ private:
     }
 
     /// The points are the old ones already.
-    [[nodiscard]] static bool stays(const OldStretch& old, const Stretch& stretch) {
+    [[nodiscard]] static bool stays(const OldStretch& old, const ResampledStretch& stretch) {
         if (stretch.points.size() + 1 != old.points.size()) return false;
         for (std::size_t k = 0; k < stretch.points.size(); ++k) {
             if ((stretch.points[k] - old.points[k + 1]).norm() > 1e-3) return false;
@@ -209,9 +210,9 @@ double fitting_spacing(const Program& program, const ProgrammedSurface& laid, do
     return fitting(spacings_of(program, laid), chord_error);
 }
 
-std::vector<Stretch> resample(const Program& program, const ProgrammedSurface& laid, const LineEditor& editor,
-                              const ResampleRules& wanted, std::span<const std::uint8_t> needed,
-                              const Orientation* orientation) {
+std::vector<ResampledStretch> resample(const Program& program, const ProgrammedSurface& laid, const LineEditor& editor,
+                                       const ResampleRules& wanted, std::span<const std::uint8_t> needed,
+                                       const Orientation* orientation) {
     const Spacings spacings = spacings_of(program, laid);
     ResampleRules rules = wanted;
     if (rules.spacing <= 0) rules.spacing = fitting(spacings, rules.chord_error);

@@ -25,7 +25,7 @@ struct ResampleRules {
 
 /// Motions first … last (lines that may be rewritten, on one pass) and the points that take the place of
 /// their ends. The last point is where they ended.
-struct Stretch {
+struct ResampledStretch {
     std::int64_t first = 0, last = 0;
     std::vector<Vec3> points;          ///< [mm]
     std::vector<LineAngles> angles{};  ///< one a point; none in programs without rotary axes
@@ -38,9 +38,9 @@ struct Stretch {
 /// Stretches of all passes, in the order of the program. `needed`: one entry a motion, 0 where it is to stay; empty:
 /// all are looked at. `orientation`: of a program that is run on five axes; else nullptr, and angles stand. The tool
 /// axis at a new point is what it was at its foot on the old lines. O(points), parallel.
-[[nodiscard]] std::vector<Stretch> resample(const Program& program, const ProgrammedSurface& laid,
-                                            const LineEditor& editor, const ResampleRules& rules,
-                                            std::span<const std::uint8_t> needed,
-                                            const Orientation* orientation = nullptr);
+[[nodiscard]] std::vector<ResampledStretch> resample(const Program& program, const ProgrammedSurface& laid,
+                                                     const LineEditor& editor, const ResampleRules& rules,
+                                                     std::span<const std::uint8_t> needed,
+                                                     const Orientation* orientation = nullptr);
 
 }  // namespace clsurf

@@ -39,7 +39,7 @@ std::int64_t KnotPath::knot_at(PointIndex point) const {
     return std::max<std::int64_t>(0, after - knots_.begin() - 1);
 }
 
-Stand KnotPath::foot(std::int64_t knot, const Eigen::Vector3f& p, float from) const {
+PathFoot KnotPath::foot(std::int64_t knot, const Eigen::Vector3f& p, float from) const {
     const Eigen::Vector3f a = at(point(knot));
     const Eigen::Vector3f chord = at(point(knot + 1)) - a;
     const float squared = chord.squaredNorm();
@@ -47,15 +47,15 @@ Stand KnotPath::foot(std::int64_t knot, const Eigen::Vector3f& p, float from) co
     return {knot, fraction, (a + fraction * chord - p).norm()};
 }
 
-Stand KnotPath::advance(const Stand& from, const Eigen::Vector3f& p, float chord) const {
-    Stand best = from;
+PathFoot KnotPath::advance(const PathFoot& from, const Eigen::Vector3f& p, float chord) const {
+    PathFoot best = from;
     float best_cost = std::numeric_limits<float>::infinity();
     float nearest = best_cost;
     float way = 0;  // from the stand to the start of the chord in turn; negative on its own
     for (std::int64_t k = from.knot; k + 1 < size(); ++k) {
         const float length = (at(point(k + 1)) - at(point(k))).norm();
         if (k == from.knot) way = -from.fraction * length;
-        const Stand here = foot(k, p, k == from.knot ? from.fraction : 0.0F);
+        const PathFoot here = foot(k, p, k == from.knot ? from.fraction : 0.0F);
         const float cost = here.distance + way_penalty * std::abs(way + here.fraction * length - chord);
         nearest = std::min(nearest, here.distance);
         if (cost < best_cost) {
@@ -70,7 +70,7 @@ Stand KnotPath::advance(const Stand& from, const Eigen::Vector3f& p, float chord
     return best;
 }
 
-Station KnotPath::station(const Stand& stand, const Eigen::Vector3f& p, PointIndex expected) const {
+Station KnotPath::station(const PathFoot& stand, const Eigen::Vector3f& p, PointIndex expected) const {
     // Runs in step are in step: in a corner a chord cannot tell which of the points on it comes first.
     const PointIndex before = point(std::max<std::int64_t>(0, stand.knot - 1));
     const PointIndex after = point(std::min(size() - 1, stand.knot + 2));

@@ -6,8 +6,8 @@
 
 namespace clsurf {
 
-/// Where a walk stands on a path.
-struct Stand {
+/// The foot of a point on a path.
+struct PathFoot {
     std::int64_t knot = 0;  ///< on the chord from this knot to the next
     float fraction = 0;     ///< of the chord
     float distance = 0;     ///< [mm] from the point whose foot it is
@@ -23,12 +23,12 @@ public:
     /// The last knot at or before a point.
     [[nodiscard]] std::int64_t knot_at(PointIndex point) const;
     /// The foot of `p` on one chord at or after `from`. Domain: knot + 1 < size().
-    [[nodiscard]] Stand foot(std::int64_t knot, const Eigen::Vector3f& p, float from) const;
+    [[nodiscard]] PathFoot foot(std::int64_t knot, const Eigen::Vector3f& p, float from) const;
     /// The foot of `p` at or after `from`, for a tool that moved by `chord` [mm].
-    [[nodiscard]] Stand advance(const Stand& from, const Eigen::Vector3f& p, float chord) const;
+    [[nodiscard]] PathFoot advance(const PathFoot& from, const Eigen::Vector3f& p, float chord) const;
     /// The place between the points of B for `p`, whose foot `stand` is. Among points on one spot (B
     /// stands still) the one nearest to `expected`, so that pauses are gone through in step.
-    [[nodiscard]] Station station(const Stand& stand, const Eigen::Vector3f& p, PointIndex expected) const;
+    [[nodiscard]] Station station(const PathFoot& stand, const Eigen::Vector3f& p, PointIndex expected) const;
 
 private:
     [[nodiscard]] Eigen::Vector3f at(PointIndex point) const { return b_[point] + shift_; }

@@ -27,7 +27,7 @@ constexpr std::int64_t work_per_point = 8;  ///< bound of what is walked more th
 
 /// A walk that is tried.
 struct Trial {
-    Stand begin, stand;
+    PathFoot begin, stand;
     float way = 0;    ///< gone near the path
     double cost = 0;  ///< distance times way; `near_distance` times way where it is off
     bool alive = true;
@@ -97,7 +97,7 @@ private:
             }
             off_way += chord;
             if (off_way < retry_after) continue;
-            const Stand stand = stand_;
+            const PathFoot stand = stand_;
             if (stand.distance < lost_distance && !begin(i)) {
                 stand_ = stand;
                 retry_after = 2 * off_way + lost_way;
@@ -134,7 +134,7 @@ private:
         for (std::size_t first = 0; first < near.size();) {
             std::size_t last = first;
             while (last + 1 < near.size() && !way_->at_least(near[last], near[last + 1], one_place)) ++last;
-            const Stand stand = nearest(p, near[first], near[last]);
+            const PathFoot stand = nearest(p, near[first], near[last]);
             if (stand.distance <= near_distance) trials.push_back({stand, stand});
             first = last + 1;
         }
@@ -146,15 +146,15 @@ private:
     }
 
     /// The foot between two points of B and a cell beyond them.
-    [[nodiscard]] Stand nearest(const Eigen::Vector3f& p, PointIndex first, PointIndex last) const {
-        Stand best{0, 0, std::numeric_limits<float>::infinity()};
+    [[nodiscard]] PathFoot nearest(const Eigen::Vector3f& p, PointIndex first, PointIndex last) const {
+        PathFoot best{0, 0, std::numeric_limits<float>::infinity()};
         std::int64_t knot = path_.knot_at(first);
         for (float gone = 0; knot > 0 && gone < cell; --knot) gone += way_between(knot - 1);
         const std::int64_t end = path_.knot_at(last);
         float beyond = 0;
         for (; knot + 1 < path_.size() && (knot <= end || beyond < cell); ++knot) {
             if (knot > end) beyond += way_between(knot);
-            const Stand foot = path_.foot(knot, p, 0.0F);
+            const PathFoot foot = path_.foot(knot, p, 0.0F);
             if (foot.distance < best.distance) best = foot;
         }
         return best;
@@ -233,7 +233,7 @@ private:
     const Positions& b_;
     Eigen::Vector3f shift_;
     KnotPath path_;
-    Stand stand_;
+    PathFoot stand_;
     std::unique_ptr<Way> way_;
     std::unique_ptr<WayGrid> grid_;
     std::int64_t trial_steps_;        ///< points that several walks at once may still take

@@ -13,7 +13,7 @@
 namespace clsurf {
 namespace {
 
-constexpr double smoothing_seconds = 0.015;            ///< window of the mean of lags and heights
+constexpr double smoothing_seconds = 0.015;         ///< window of the mean of lags and heights
 constexpr PointIndex feed_reach = 8;                ///< points before and after one that tell the feed there
 constexpr double least_feed = 1e-4;                 ///< [mm] of way that has a direction
 constexpr float least_tilt = 0.1F;                  ///< sine of the feed's angle to Z: steeper, it has no upper side
@@ -37,7 +37,7 @@ Vec3 feed_at(const Trajectory& path, PointIndex i) {
 }
 
 /// How far the measured positions trail the commanded ones [mm].
-Column<float> lags_of(const Run& run) {
+Column<float> lags_of(const ComparedRun& run) {
     Column<float> lags(static_cast<std::size_t>(run.path.count));
     for_each_block(run.path.count, [&](PointIndex first, PointIndex last) {
         for (PointIndex i = first; i < last; ++i) {
@@ -176,7 +176,7 @@ Passes whole(const Trajectory& path) {
     return passes;
 }
 
-void compare_motion(const Run& a, const Run& b, const ClSurface& surface, RunDifferences& out) {
+void compare_motion(const ComparedRun& a, const ComparedRun& b, const ClSurface& surface, RunDifferences& out) {
     const Passes whole_a = whole(a.path);
     const Passes whole_b = whole(b.path);
     const FieldSet of_a(*a.log, a.path, whole_a, {nullptr, b.log->period});
@@ -204,7 +204,8 @@ float RunDifferences::threshold_at(RunQuantity q, PointIndex i) const {
     return q == RunQuantity::speed ? rules.speed * speed_base(i) + speed_play : threshold[index_of(q)];
 }
 
-RunDifferences compare_runs(const Run& a, const ClSurface& surface, const Run& b, const RunThresholds& rules) {
+RunDifferences compare_runs(const ComparedRun& a, const ClSurface& surface, const ComparedRun& b,
+                            const RunThresholds& rules) {
     RunDifferences out;
     out.rules = rules;
     {
@@ -219,7 +220,7 @@ RunDifferences compare_runs(const Run& a, const ClSurface& surface, const Run& b
         lag = lags_of(a);
         subtract(lags_of(b), out.alignment, lag);
         smooth(lag, out.alignment.stretches, window);
-        for (const Run* run : {&a, &b})
+        for (const ComparedRun* run : {&a, &b})
             lag_quantum = std::max({lag_quantum, quantum_of(*run->commanded), quantum_of(*run->measured)});
     }
     const bool measured = a.truest && b.truest;

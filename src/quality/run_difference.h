@@ -34,7 +34,7 @@ struct RunQuantityInfo {
 [[nodiscard]] std::span<const RunQuantityInfo> run_quantity_table();
 
 /// A run as it is compared.
-struct Run {
+struct ComparedRun {
     const Log* log = nullptr;
     Trajectory path;                                ///< runs are laid onto each other by it
     std::optional<Trajectory> commanded, measured;  ///< both: lags are compared
@@ -71,7 +71,7 @@ struct RunDifferences {
 
 /// `surface` is stitched from A's path. Points of rapids are not compared. Windows of derivatives are
 /// those of the coarser period; lags and heights are means over 15 ms. O(points of both).
-[[nodiscard]] RunDifferences compare_runs(const Run& a, const ClSurface& surface, const Run& b,
+[[nodiscard]] RunDifferences compare_runs(const ComparedRun& a, const ClSurface& surface, const ComparedRun& b,
                                           const RunThresholds& rules = {});
 
 }  // namespace clsurf

@@ -28,7 +28,7 @@ void keep_worst(std::vector<RunDifferenceStretch>& stretches) {
 
 class Reporter {
 public:
-    Reporter(const Run& a, const ClSurface& surface, const LineMap* lines, const Run& b,
+    Reporter(const ComparedRun& a, const ClSurface& surface, const LineMap* lines, const ComparedRun& b,
              const RunDifferences& differences)
         : a_(a), b_(b), lines_(lines), differences_(differences), way_(surface.positions) {}
 
@@ -173,8 +173,8 @@ private:
         return d;
     }
 
-    const Run& a_;
-    const Run& b_;
+    const ComparedRun& a_;
+    const ComparedRun& b_;
     const LineMap* lines_;
     const RunDifferences& differences_;
     Way way_;
@@ -188,7 +188,7 @@ const RunQuantitySummary* RunReport::find(RunQuantity q) const {
     return at == quantities.end() ? nullptr : &*at;
 }
 
-RunReport report_run(const Run& a, const ClSurface& surface, const LineMap* lines, const Run& b,
+RunReport report_run(const ComparedRun& a, const ClSurface& surface, const LineMap* lines, const ComparedRun& b,
                      const RunDifferences& differences) {
     RunReport report;
     report.aligned = differences.alignment.aligned;

@@ -50,7 +50,7 @@ struct RunReport {
 
 /// Stretches shorter than 5 ms are noise; those nearer than 1 mm are one. `lines` names lines of
 /// A's program, nullptr: not known. O(points).
-[[nodiscard]] RunReport report_run(const Run& a, const ClSurface& surface, const LineMap* lines, const Run& b,
-                                   const RunDifferences& differences);
+[[nodiscard]] RunReport report_run(const ComparedRun& a, const ClSurface& surface, const LineMap* lines,
+                                   const ComparedRun& b, const RunDifferences& differences);
 
 }  // namespace clsurf

@@ -1,5 +1,5 @@
 # Every header compiles by itself: a source per header that includes nothing else, twice (for the
-# guard). Built by the test of that name.
+# guard); and all headers compile together. Built by the test of that name.
 #
 # What the large libraries' headers cost is most of it. Those that reach core/geometry.h (Eigen) or
 # cli/options.h (Boost.Program_options) share a precompiled one: it stands before all that they say in any case.
@@ -49,6 +49,16 @@ foreach(header ${headers})
   endforeach()
   list(APPEND ${kind}_sources ${source})
 endforeach()
+
+# All headers in one source: a type that two of them define is an error here. Everywhere else it would be undefined
+# behaviour without a message.
+set(together ${CMAKE_CURRENT_BINARY_DIR}/headers_alone/all_headers.cpp)
+string(REGEX REPLACE "(^|;)src/" "\\1" all_includes "${headers}")
+list(TRANSFORM all_includes REPLACE "(.+)" "#include \"\\1\"\n")
+list(JOIN all_includes "" all_includes)
+file(CONFIGURE OUTPUT ${together} CONTENT "@all_includes@" @ONLY)
+list(APPEND options_sources ${together})
+
 add_custom_target(clsurf_headers_alone)
 foreach(kind options geometry other)
   set(target clsurf_headers_alone_${kind})

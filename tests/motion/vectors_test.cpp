@@ -129,7 +129,7 @@ TEST(LookaheadVectors, JerkLimitedScan) {
         const double a = r.number(), j = r.number(), v0 = r.number(), end = r.number();
         const int n = static_cast<int>(r.number());
         const std::vector<double> lengths = r.numbers(n), limits = r.numbers(n - 1), feeds = r.numbers(n);
-        std::vector<Stretch> stretches;
+        std::vector<ScanSegment> stretches;
         std::vector<double> speeds{v0};
         for (std::size_t i = 0; i < lengths.size(); ++i) {
             stretches.push_back({lengths[i], a, j});

@@ -155,7 +155,7 @@ Resampled resampled(const std::string& text, double tolerance, double spacing, c
     const Orientation orientation(r.before, machine, zero, Vec3::Zero());
     LineEditor editor(r.before);
     const ResampleRules rules{tolerance, spacing, 0.2 * tolerance, 0, 0.5, most_turned};
-    for (const Stretch& s : resample(r.before, lay_out(r.before), editor, rules, {}, &orientation))
+    for (const ResampledStretch& s : resample(r.before, lay_out(r.before), editor, rules, {}, &orientation))
         editor.replace(s.first, s.last, s.points, s.angles);
     r.text = editor.text("");
     r.after = of_the_tip(r.text, machine);

@@ -43,7 +43,7 @@ double farthest(const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
 
 std::string resampled_text(const Program& program, double tolerance, double spacing) {
     LineEditor editor(program);
-    for (const Stretch& stretch :
+    for (const ResampledStretch& stretch :
          resample(program, lay_out(program), editor, {tolerance, spacing, 0.2 * tolerance, 0, 0.5}, {}))
         editor.replace(stretch.first, stretch.last, stretch.points);
     return editor.text("");
@@ -123,7 +123,8 @@ TEST(Resample, LaysNoLineShorterThanItMay) {
         7, 12, [](int pass, double x) { return 0.25 + 0.05 * std::sin(pass + x); }, 0.2));
     LineEditor editor(program);
     const double shortest = 0.2;
-    for (const Stretch& stretch : resample(program, lay_out(program), editor, {0.01, 0.09, 0.004, shortest, 0.5}, {})) {
+    for (const ResampledStretch& stretch :
+         resample(program, lay_out(program), editor, {0.01, 0.09, 0.004, shortest, 0.5}, {})) {
         for (std::size_t k = 1; k < stretch.points.size(); ++k)
             EXPECT_GE((stretch.points[k] - stretch.points[k - 1]).norm(), 0.99 * shortest);
     }
@@ -216,7 +217,8 @@ TEST(Optimizer, IsBetterInEveryRespectOrRefuses) {
 
 TEST(Optimizer, SlowsNeighboursDownOnlyInTheTimeThatIsAllowed) {
     // One pass is slower than those beside it. Feeds are only ever lowered: there is no cure that takes no time.
-    std::string text = wavy_zigzag(7, 10, [](int, double) { return 0.3; }, 0);
+    std::string text = wavy_zigzag(
+        7, 10, [](int, double) { return 0.3; }, 0);
     for (const auto& [begin, feed] : {std::pair{"Y1.2000", " F2700"}, std::pair{"Y1.6000", " F3000"}})
         text.insert(text.find('\n', text.find(begin)), feed);
     const Program program = read_text(text);

@@ -16,7 +16,7 @@ using test::make_run;
 using test::RunRecipe;
 
 /// Every point of a run cuts.
-ClSurface surface_of(const Run& run, double step_over = 2) {
+ClSurface surface_of(const ComparedRun& run, double step_over = 2) {
     ClSurface surface;
     surface.positions = gather(run.path);
     surface.passes.push_back({0, run.path.count - 1, PassKind::cut});
@@ -31,8 +31,8 @@ struct Compared {
 };
 
 Compared compare(const MadeRun& a, const MadeRun& b) {
-    const Run run_a = a.run();
-    const Run run_b = b.run();
+    const ComparedRun run_a = a.run();
+    const ComparedRun run_b = b.run();
     const ClSurface surface = surface_of(run_a);
     Compared compared{compare_runs(run_a, surface, run_b), {}};
     compared.report = report_run(run_a, surface, nullptr, run_b, compared.differences);

@@ -36,8 +36,8 @@ struct MadeRun {
     std::vector<double> way;  ///< of every point
     std::shared_ptr<std::vector<double>> columns = std::make_shared<std::vector<double>>();
 
-    [[nodiscard]] Run run() const {
-        Run run;
+    [[nodiscard]] ComparedRun run() const {
+        ComparedRun run;
         run.log = &log;
         run.path = reconstruct(log, Role::commanded, Vec3::Zero());
         run.commanded = run.path;
