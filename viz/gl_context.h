@@ -18,6 +18,8 @@ public:
     virtual void make_current() = 0;
     /// What OpenGL calls itself: "llvmpipe (LLVM 15.0.6, 256 bits)".
     [[nodiscard]] virtual std::string renderer() const = 0;
+    /// Its version and whose it is: "4.5 (Core Profile) Mesa 22.3.6".
+    [[nodiscard]] virtual std::string version() const = 0;
 };
 
 /// `kind`: "osmesa" or "egl". Throws UsageError (unknown, or not built in), SystemError (no context).

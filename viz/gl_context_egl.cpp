@@ -40,15 +40,17 @@ public:
             throw SystemError("the EGL context cannot be made current");
         }
     }
-    [[nodiscard]] std::string renderer() const override {
-        using GetString = const unsigned char* (*)(unsigned);
-        constexpr unsigned renderer_name = 0x1F01;
-        const auto get = reinterpret_cast<GetString>(eglGetProcAddress("glGetString"));
-        const unsigned char* name = get != nullptr ? get(renderer_name) : nullptr;
-        return name == nullptr ? std::string() : reinterpret_cast<const char*>(name);
-    }
+    [[nodiscard]] std::string renderer() const override { return text(0x1F01); }  // GL_RENDERER
+    [[nodiscard]] std::string version() const override { return text(0x1F02); }   // GL_VERSION
 
 private:
+    [[nodiscard]] static std::string text(unsigned what) {
+        using GetString = const unsigned char* (*)(unsigned);
+        const auto get = reinterpret_cast<GetString>(eglGetProcAddress("glGetString"));
+        const unsigned char* answer = get != nullptr ? get(what) : nullptr;
+        return answer == nullptr ? std::string() : reinterpret_cast<const char*>(answer);
+    }
+
     EGLDisplay display_ = EGL_NO_DISPLAY;
     EGLContext context_ = EGL_NO_CONTEXT;
 };

@@ -40,12 +40,15 @@ public:
             throw SystemError("OSMesa cannot draw into a buffer of this size");
         }
     }
-    [[nodiscard]] std::string renderer() const override {
-        const GLubyte* name = glGetString(GL_RENDERER);
-        return name == nullptr ? std::string() : reinterpret_cast<const char*>(name);
-    }
+    [[nodiscard]] std::string renderer() const override { return text(GL_RENDERER); }
+    [[nodiscard]] std::string version() const override { return text(GL_VERSION); }
 
 private:
+    [[nodiscard]] static std::string text(GLenum what) {
+        const GLubyte* answer = glGetString(what);
+        return answer == nullptr ? std::string() : reinterpret_cast<const char*>(answer);
+    }
+
     int width_, height_;
     OSMesaContext context_ = nullptr;
     std::vector<unsigned char> buffer_;

@@ -16,9 +16,9 @@
 #include "cli/options.h"
 #include "cli/subcommand.h"
 #include "cli/terminal.h"
+#include "cli/version_text.h"
 #include "core/error.h"
 #include "core/parallel.h"
-#include "core/version.h"
 #include "io/mapped_file.h"
 #include "io/overwrite_guard.h"
 
@@ -60,7 +60,7 @@ ExitCode run(const std::vector<std::string>& words) {
         return ExitCode::done;
     }
     if (first == "--version" || first == "version") {
-        write_to_stdout("clsurf " + std::string(version) + "\n");
+        write_to_stdout(version_text());
         return ExitCode::done;
     }
     const std::vector<std::string> ordered = subcommand_first(words);

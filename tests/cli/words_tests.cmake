@@ -1,5 +1,15 @@
 # Words that people try, in the order in which they try them; and those that a configuration says for them.
 clsurf_cli_test(NAME words_version ARGS version STDOUT "^clsurf ${PROJECT_VERSION}")
+clsurf_cli_test(NAME words_version_of_all_parts ARGS --version STDOUT "^clsurf ${PROJECT_VERSION}\ncommit    ([0-9a-f]{12}(-dirty)?|unknown)\ncompiler  "
+  "VTK 9\\.[0-9]+\\.[0-9]+, OpenImageIO [0-9.]+, Eigen 3\\.[0-9.]+, Boost 1\\.[0-9.]+, TBB [0-9.]+, fmt [0-9.]+, nlohmann-json [0-9.]+, toml\\+\\+ [0-9.]+, HDF5 [0-9.]+, zlib [0-9.]+, Zstandard [0-9.]+, liblzma [0-9.]+, Expat [0-9.]+\n"
+  "OSMesa    OpenGL .*Mesa [0-9]+")
+if(EXISTS ${PROJECT_SOURCE_DIR}/.git)
+  add_test(NAME cli.words_version_of_an_archive COMMAND bash -euc
+    "rm -rf '${CMAKE_CURRENT_BINARY_DIR}/archive'; mkdir '${CMAKE_CURRENT_BINARY_DIR}/archive'; cd '${CMAKE_CURRENT_BINARY_DIR}/archive'; \
+     git -C '${PROJECT_SOURCE_DIR}' archive HEAD src/cli | tar -x; \
+     '${CMAKE_COMMAND}' -D SOURCE=$PWD -D OUTPUT=$PWD/commit.cpp -P src/cli/write_commit.cmake; \
+     grep -F \"\\\"$(git -C '${PROJECT_SOURCE_DIR}' rev-parse HEAD | cut -c1-12)\\\"\" commit.cpp")
+endif()
 clsurf_cli_test(NAME words_option_first ARGS -v render ${part} ${run} -o map.png --size 160x120 FILE map.png STDERR "stitch the surface")
 clsurf_cli_test(NAME words_option_with_a_value_first ARGS --threads 1 info ${run} STDOUT "27517 records")
 clsurf_cli_test(NAME words_help_first ARGS --help render STDOUT "usage: clsurf render")
