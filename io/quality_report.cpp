@@ -88,10 +88,9 @@ std::string defects_table(const ReportedQuality& q) {
     const QualityReport& r = *q.report;
     if (r.defects.empty()) return {};
     const bool formed = q.formed != nullptr;
-    std::string text =
-        fmt::format("{:>4} {:<8} {:<13} {:>7} {:>7} {:>14} {:>7}{}  {:<22} {}\n", "rank", "severity", "cause", "times",
-                    "speed", "depth", "length", formed ? "  formed" : "",
-                    fmt::format("{} X Y Z", place_word(r.defects.front().place)), "lines");
+    std::string text = fmt::format("{:>4} {:<8} {:<13} {:>7} {:>7} {:>14} {:>7}{}  {:<22} {}\n", "rank", "severity",
+                                   "cause", "times", "speed", "depth", "length", formed ? "  formed" : "",
+                                   fmt::format("{} X Y Z", place_word(r.defects.front().place)), "lines");
     text += fmt::format("{:>4} {:<8} {:<13} {:>7} {:>7} {:>14} {:>7}{}  {:<22}\n", "", "", "", "limit", "[%]", "[µm]",
                         "[mm]", formed ? "    [µm]" : "", "[mm]");
     for (std::size_t i = 0; i < r.defects.size(); ++i) {
@@ -101,13 +100,13 @@ std::string defects_table(const ReportedQuality& q) {
         const std::string depth = d.systematic         ? fmt::format("±{:.1f}", um(d.depth))
                                   : um(d.depth) < 0.05 ? "0.0"
                                                        : fmt::format("{:.1f} {}", um(d.depth), shape_of(d));
-        text += fmt::format(
-            "{:>4} {:<8} {:<13} {:>7.1f} {:>+7.1f} {:>14} {:>7.1f}{}  {:<22} {}\n", i + 1, name_of_severity(d.severity),
-            name_of(d.cause), d.score, 100 * d.speed_mismatch + 0.0, depth, d.length,
-            !formed        ? ""
-            : mark == mark ? fmt::format(" {:>7.1f}", mark)
-                           : "       -",
-            fmt::format("{:.2f} {:.2f} {:.2f}", at.x(), at.y(), at.z()), lines_column(d));
+        text += fmt::format("{:>4} {:<8} {:<13} {:>7.1f} {:>+7.1f} {:>14} {:>7.1f}{}  {:<22} {}\n", i + 1,
+                            name_of_severity(d.severity), name_of(d.cause), d.score, 100 * d.speed_mismatch + 0.0,
+                            depth, d.length,
+                            !formed        ? ""
+                            : mark == mark ? fmt::format(" {:>7.1f}", mark)
+                                           : "       -",
+                            fmt::format("{:.2f} {:.2f} {:.2f}", at.x(), at.y(), at.z()), lines_column(d));
     }
     return text + "\n";
 }
@@ -170,9 +169,9 @@ std::string quality_csv(const ReportedQuality& q) {
             text += fmt::format(
                 "{},{},{},{},{},{},{},{},{:.4f},{:.4f},{:.4f},{:.3f},{},{:.1f},{:.1f},{:.3f},{:.4f},{:.2f},{:.1f},{},{},{}\n",
                 i + 1, d.severity, name_of(d.cause), run.pass, run.first_line, run.last_line, run.points.first,
-                run.points.last, at.x(), at.y(), at.z(), um(d.depth), shape_of(d),
-                per_minute(d.speed_jump), d.acceleration_jump, d.length, d.area, d.score, 100 * d.speed_mismatch,
-                name_of(d.quantity), d.systematic, place_word(d.place));
+                run.points.last, at.x(), at.y(), at.z(), um(d.depth), shape_of(d), per_minute(d.speed_jump),
+                d.acceleration_jump, d.length, d.area, d.score, 100 * d.speed_mismatch, name_of(d.quantity),
+                d.systematic, place_word(d.place));
         }
     }
     return text;

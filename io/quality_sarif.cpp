@@ -29,8 +29,8 @@ Json location(const std::string& uri, const DefectRun& run, const std::string& m
 std::string message_of(const Defect& d) {
     const Vec3& at = d.place.position();
     return fmt::format("{} at the {} X {:.2f} Y {:.2f} Z {:.2f} mm. Severity {} ({}), {:.1f} times the threshold.",
-                       sentence_of(d), d.place.contact ? "contact point" : "tool tip", at.x(), at.y(), at.z(), d.severity,
-                       name_of_severity(d.severity), d.score);
+                       sentence_of(d), d.place.contact ? "contact point" : "tool tip", at.x(), at.y(), at.z(),
+                       d.severity, name_of_severity(d.severity), d.score);
 }
 
 std::string markdown_of(const Defect& d) {

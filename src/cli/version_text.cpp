@@ -15,9 +15,7 @@ std::string renderer_text() {
     try {
         const auto context = viz::make_gl_context("osmesa", 1, 1);
         return fmt::format("OpenGL {}, {}", context->version(), context->renderer());
-    } catch (const SystemError& error) {
-        return fmt::format("none: {}", error.what());
-    }
+    } catch (const SystemError& error) { return fmt::format("none: {}", error.what()); }
 }
 
 }  // namespace

@@ -26,9 +26,7 @@ double depth_inside(const CuttingTool& tool, const Vec3& off) {
     return below * std::sqrt(std::max(0.0, 1 - out * out / (tool.corner * tool.corner)));
 }
 
-Vec3 contact_offset(const CuttingTool& tool, const Vec3& normal) {
-    return contact_offset(tool, normal, Vec3::UnitZ());
-}
+Vec3 contact_offset(const CuttingTool& tool, const Vec3& normal) { return contact_offset(tool, normal, Vec3::UnitZ()); }
 
 Vec3 contact_offset(const CuttingTool& tool, const Vec3& normal, const Vec3& axis) {
     const Vec3 aside = normal - normal.dot(axis) * axis;

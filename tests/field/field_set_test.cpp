@@ -75,9 +75,7 @@ TEST(FieldSet, ShowsNoMotionBeforeTheToolStarts) {
     const Trajectory path = reconstruct(log, Role::commanded, Vec3::Zero());
     const Field speed_there = FieldSet(log, path, passes).get("speed");
     for (std::size_t i = 0; i < 1000; ++i) {
-        if (speeds[i] == 0 && i != 200 && i != 600) {
-            EXPECT_NEAR(speed_there.values[i], 0, 1e-9) << i;
-        }
+        if (speeds[i] == 0 && i != 200 && i != 600) { EXPECT_NEAR(speed_there.values[i], 0, 1e-9) << i; }
         EXPECT_NEAR(speed_there.values[i], speeds[i], 2) << i;  // the corners of the ramps are rounded
     }
 }

@@ -20,7 +20,12 @@ fs.mkdirSync(folder, { recursive: true });
 
 /** Runs clsurf and returns what it says. */
 export function run(...words) {
-    return execFileSync(clsurf, words, { encoding: 'utf8', maxBuffer: 1 << 28, cwd: folder, stdio: ['ignore', 'pipe', 'inherit'] });
+    return execFileSync(clsurf, words, {
+        encoding: 'utf8',
+        maxBuffer: 1 << 28,
+        cwd: folder,
+        stdio: ['ignore', 'pipe', 'inherit'],
+    });
 }
 
 export function writeReport(name, { program, log }, ...options) {
@@ -32,23 +37,57 @@ export function writeReport(name, { program, log }, ...options) {
 export async function startBrowser() {
     return chromium.launch({
         executablePath: process.env.CHROMIUM,
-        args: ['--no-sandbox', '--no-first-run', '--disable-quic', '--disable-background-networking', '--disable-component-update', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--font-render-hinting=none'],
+        args: [
+            '--no-sandbox',
+            '--no-first-run',
+            '--disable-quic',
+            '--disable-background-networking',
+            '--disable-component-update',
+            '--use-angle=swiftshader',
+            '--enable-unsafe-swiftshader',
+            '--font-render-hinting=none',
+        ],
     });
 }
 
 /** Opens a report; `page.complaints` gathers what must not happen. */
-export async function openReport(browser, file, { width = 1280, height = 800, colorScheme = 'light', javaScriptEnabled = true } = {}) {
-    const context = await browser.newContext({ viewport: { width, height }, colorScheme, javaScriptEnabled, acceptDownloads: true });
+export async function openReport(
+    browser,
+    file,
+    { width = 1280, height = 800, colorScheme = 'light', javaScriptEnabled = true } = {},
+) {
+    const context = await browser.newContext({
+        viewport: { width, height },
+        colorScheme,
+        javaScriptEnabled,
+        acceptDownloads: true,
+    });
     const page = await context.newPage();
     page.setDefaultTimeout(120_000);
     page.complaints = [];
-    page.on('console', (message) => ['error', 'warning'].includes(message.type()) && !message.text().includes('GPU stall') && page.complaints.push(message.text()));
+    page.on(
+        'console',
+        (message) =>
+            ['error', 'warning'].includes(message.type()) &&
+            !message.text().includes('GPU stall') &&
+            page.complaints.push(message.text()),
+    );
     page.on('pageerror', (error) => page.complaints.push(String(error)));
-    page.on('request', (request) => /^(data|blob):/.test(request.url()) || request.url() === `file://${encodeURI(file)}` || page.complaints.push(`asks for ${request.url()}`));
+    page.on(
+        'request',
+        (request) =>
+            /^(data|blob):/.test(request.url()) ||
+            request.url() === `file://${encodeURI(file)}` ||
+            page.complaints.push(`asks for ${request.url()}`),
+    );
     page.on('dialog', (dialog) => page.complaints.push(`opens a dialog: ${dialog.message()}`));
     await page.goto(`file://${encodeURI(file)}`);
     if (javaScriptEnabled) {
-        await page.waitForFunction(() => document.documentElement.dataset.ready === 'yes' || document.querySelector('#app.failed'), null, { timeout: 300_000 });
+        await page.waitForFunction(
+            () => document.documentElement.dataset.ready === 'yes' || document.querySelector('#app.failed'),
+            null,
+            { timeout: 300_000 },
+        );
         await settled(page);
     }
     return page;
@@ -79,13 +118,18 @@ export function useReport(write, take) {
 
 /** Two frames on: what was asked for is drawn. */
 export async function settled(page) {
-    await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(resolve, 30)))));
+    await page.evaluate(
+        () =>
+            new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(resolve, 30)))),
+    );
 }
 
 /** The rows of the table of numbers, by their names. */
 export async function numbers(page) {
     await settled(page);
-    const rows = await page.$$eval('.table tr', (all) => all.map((row) => [row.querySelector('th').textContent, row.querySelector('td').textContent]));
+    const rows = await page.$$eval('.table tr', (all) =>
+        all.map((row) => [row.querySelector('th').textContent, row.querySelector('td').textContent]),
+    );
     return Object.fromEntries(rows);
 }
 
@@ -131,7 +175,10 @@ export async function comparePicture(page, name, most = 0.012) {
 export function compareFiles(made, baseline, most) {
     let text;
     try {
-        text = execFileSync(clsurf, ['compare', made, baseline, '--json'], { encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] });
+        text = execFileSync(clsurf, ['compare', made, baseline, '--json'], {
+            encoding: 'utf8',
+            stdio: ['ignore', 'pipe', 'ignore'],
+        });
     } catch (error) {
         assert.equal(error.status, 1, String(error));
         text = error.stdout;

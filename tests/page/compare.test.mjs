@@ -4,20 +4,39 @@ import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { test } from 'node:test';
 
-import { clsurf, comparePicture, data, goTo, logs, numbers, press, pressed, settled, useReport, writeReport } from './browser.mjs';
+import {
+    clsurf,
+    comparePicture,
+    data,
+    goTo,
+    logs,
+    numbers,
+    press,
+    pressed,
+    settled,
+    useReport,
+    writeReport,
+} from './browser.mjs';
 
 // The same program's log with its ninth loop left out stands for the run before.
 const part = { program: `${data}/programs/dome_loops.nc`, log: `${logs}/dome_loops.biip` };
 const older = process.env.LOG_BEFORE;
 
 let page;
-useReport(() => writeReport('compare.html', part, '--before', older), (opened) => (page = opened));
+useReport(
+    () => writeReport('compare.html', part, '--before', older),
+    (opened) => (page = opened),
+);
 
 const layers = () => page.$$eval('.layer', (all) => all.map((l) => l.style.visibility));
 
 test('after is shown first; keys and buttons change to before, wipe and back', async () => {
     assert.deepEqual(await layers(), ['visible', 'hidden']);
-    for (const [key, name, shown] of [['1', 'before', ['hidden', 'visible']], ['w', 'wipe', ['visible', 'visible']], ['2', 'after', ['visible', 'hidden']]]) {
+    for (const [key, name, shown] of [
+        ['1', 'before', ['hidden', 'visible']],
+        ['w', 'wipe', ['visible', 'visible']],
+        ['2', 'after', ['visible', 'hidden']],
+    ]) {
         await press(page, key);
         assert.ok(await pressed(page, name));
         assert.deepEqual(await layers(), shown);
@@ -32,7 +51,10 @@ test('after is shown first; keys and buttons change to before, wipe and back', a
 });
 
 test('one scale for both', async () => {
-    const range = async () => [await page.getByLabel('lower end').inputValue(), await page.getByLabel('upper end').inputValue()];
+    const range = async () => [
+        await page.getByLabel('lower end').inputValue(),
+        await page.getByLabel('upper end').inputValue(),
+    ];
     const scale = await range();
     await press(page, '1');
     assert.deepEqual(await range(), scale);
@@ -46,7 +68,11 @@ test('points belong to the log that is shown', async () => {
     await press(page, '2');
     await goTo(page, 'point', 12000);
     const after_ = await numbers(page);
-    const [match] = JSON.parse(execFileSync(clsurf, ['query', part.program, older, '--point', before_.Point, '--json', '-q'], { encoding: 'utf8' })).matches;
+    const [match] = JSON.parse(
+        execFileSync(clsurf, ['query', part.program, older, '--point', before_.Point, '--json', '-q'], {
+            encoding: 'utf8',
+        }),
+    ).matches;
     assert.equal(Number(before_.Line), match.line);
     assert.notEqual(before_.Line, after_.Line); // the missing loop lies before
 });
@@ -59,7 +85,10 @@ test('the line between is dragged', async () => {
     await page.mouse.move(box.x + box.width / 4, box.y + 200, { steps: 4 });
     await page.mouse.up();
     await settled(page);
-    const clip = await page.locator('.layer').nth(1).evaluate((layer) => layer.style.clipPath);
+    const clip = await page
+        .locator('.layer')
+        .nth(1)
+        .evaluate((layer) => layer.style.clipPath);
     assert.match(clip, /^inset\(0(px)? 7[45]\.?\d*% 0(px)? 0(px)?\)$/);
     await page.mouse.move(2, 2);
     await page.click('[data-action="command"]');

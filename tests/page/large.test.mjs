@@ -6,7 +6,17 @@ import fs from 'node:fs';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
 
-import { chosenLine, closeReport, folder, goTo, numbers, openReport, run, startBrowser, writeReport } from './browser.mjs';
+import {
+    chosenLine,
+    closeReport,
+    folder,
+    goTo,
+    numbers,
+    openReport,
+    run,
+    startBrowser,
+    writeReport,
+} from './browser.mjs';
 
 const part = { program: path.join(folder, 'many.nc'), log: path.join(folder, 'many.biip') };
 
@@ -39,7 +49,10 @@ test('a small page keeps what it says it keeps, and says what it leaves out', as
     const file = writeReport('small.html', part, '--max-size', '3.6');
     assert.ok(fs.statSync(file).size <= 3.6e6, `${fs.statSync(file).size} bytes`);
     const page = await openReport(browser, file);
-    assert.match(await page.locator('#contents').innerText(), /of 300\u202f000 points are in this page. Of each [\d\u202f]+ consecutive points/);
+    assert.match(
+        await page.locator('#contents').innerText(),
+        /of 300\u202f000 points are in this page. Of each [\d\u202f]+ consecutive points/,
+    );
     // The first point of a line is there, where the page says that all are.
     const starts = /first point of each line/.test(await page.locator('#contents').innerText());
     if (starts) {

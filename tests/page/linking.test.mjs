@@ -7,13 +7,20 @@ import { test } from 'node:test';
 import { bottle, chosenLine, clickView, goTo, numbers, run, settled, useReport, writeReport } from './browser.mjs';
 
 let page;
-useReport(() => writeReport('bottle.html', bottle), (opened) => (page = opened));
+useReport(
+    () => writeReport('bottle.html', bottle),
+    (opened) => (page = opened),
+);
 
 const query = (...words) => JSON.parse(run('query', bottle.program, bottle.log, '--json', '-q', ...words)).matches;
 
 test('a place that is clicked shows its line, as query says', async () => {
     await page.click('[data-action="top"]');
-    for (const [x, y] of [[200, 200], [330, 250], [410, 150]]) {
+    for (const [x, y] of [
+        [200, 200],
+        [330, 250],
+        [410, 150],
+    ]) {
         await clickView(page, x, y);
         const shown = await numbers(page);
         const [match] = query('--point', shown.Point);
@@ -30,7 +37,11 @@ test('a place that is clicked shows its line, as query says', async () => {
 test('from above, a pixel to the right is X, a pixel down is Y, both alike', async () => {
     await page.click('[data-action="top"]');
     const places = [];
-    for (const [x, y] of [[250, 120], [450, 120], [250, 320]]) {
+    for (const [x, y] of [
+        [250, 120],
+        [450, 120],
+        [250, 320],
+    ]) {
         await clickView(page, x, y);
         places.push((await numbers(page))['X Y Z'].split(/\s+/).map(Number));
     }
@@ -69,7 +80,10 @@ test('points, lines and times are found', async () => {
     await goTo(page, 'line', 1564);
     assert.equal(Number((await numbers(page)).Point), query('--line', '1564')[0].point);
     await goTo(page, 'point', 99_999_999);
-    assert.match(await page.getByLabel('go to', { exact: true }).evaluate((input) => input.validationMessage), /points 0 … 27516/);
+    assert.match(
+        await page.getByLabel('go to', { exact: true }).evaluate((input) => input.validationMessage),
+        /points 0 … 27516/,
+    );
     await page.getByLabel('go to', { exact: true }).fill('');
 });
 
@@ -110,7 +124,11 @@ test('a defect moves the camera there and marks the lines of both passes', async
     assert.equal(Number(shown.Point), defects[0].point);
     const marked = await page.$$eval('.program .row.fault', (rows) => rows.map((row) => Number(row.dataset.line)));
     assert.ok(marked.length > 0);
-    for (const line of marked) assert.ok(defects[0].lines.some(([first, last]) => line >= first && line <= last), `line ${line} is none of defect 1's`);
+    for (const line of marked)
+        assert.ok(
+            defects[0].lines.some(([first, last]) => line >= first && line <= last),
+            `line ${line} is none of defect 1's`,
+        );
     const beside = defects.findIndex((d) => d.neighbours.lines.length > 0);
     await page.click(`[data-choice="defect-${beside}"]`);
     await goTo(page, 'line', defects[beside].neighbours.lines[0][0]); // leaves the defect: lines are no longer marked

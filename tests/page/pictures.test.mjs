@@ -5,7 +5,18 @@ import fs from 'node:fs';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
 
-import { bottle, clickView, closeReport, comparePicture, folder, goTo, openReport, press, startBrowser, writeReport } from './browser.mjs';
+import {
+    bottle,
+    clickView,
+    closeReport,
+    comparePicture,
+    folder,
+    goTo,
+    openReport,
+    press,
+    startBrowser,
+    writeReport,
+} from './browser.mjs';
 
 let browser, file;
 before(async () => {
@@ -19,18 +30,26 @@ async function clipped(page) {
     return page.evaluate(() => {
         const found = [];
         if (document.documentElement.scrollWidth > innerWidth) found.push('the page is wider than the window');
-        for (const button of document.querySelectorAll('.toolbar button, .choices button, .range button, #summary dd')) {
-            if (button.scrollWidth > button.clientWidth + 1 && button.tagName === 'BUTTON') found.push(button.textContent);
+        for (const button of document.querySelectorAll(
+            '.toolbar button, .choices button, .range button, #summary dd',
+        )) {
+            if (button.scrollWidth > button.clientWidth + 1 && button.tagName === 'BUTTON')
+                found.push(button.textContent);
         }
         for (const name of ['toolbar', 'side', 'view', 'program', 'curves', 'table']) {
             const box = document.querySelector(`.${name}`).getBoundingClientRect();
-            if (box.right > innerWidth + 1 || box.bottom > innerHeight + 1 || box.width < 100 || box.height < 30) found.push(name);
+            if (box.right > innerWidth + 1 || box.bottom > innerHeight + 1 || box.width < 100 || box.height < 30)
+                found.push(name);
         }
         return found;
     });
 }
 
-for (const [name, width, height, colorScheme] of [['light_1280', 1280, 800, 'light'], ['dark_1280', 1280, 800, 'dark'], ['light_1920', 1920, 1080, 'light']]) {
+for (const [name, width, height, colorScheme] of [
+    ['light_1280', 1280, 800, 'light'],
+    ['dark_1280', 1280, 800, 'dark'],
+    ['light_1920', 1920, 1080, 'light'],
+]) {
     test(name, async () => {
         const page = await openReport(browser, file, { width, height, colorScheme });
         assert.deepEqual(await clipped(page), []);
@@ -61,11 +80,12 @@ test('the formed surface', async () => {
 test('without JavaScript summary, pictures and tables are there', async () => {
     const page = await openReport(browser, file, { javaScriptEnabled: false });
     assert.ok(!(await page.locator('#app').isVisible()));
-    assert.ok(await page.locator('noscript').count() === 1);
+    assert.ok((await page.locator('noscript').count()) === 1);
     assert.match(await page.locator('#summary').innerText(), /bottle_uneven\.nc/);
     assert.ok((await page.locator('#defect-list tbody tr').count()) > 10);
     assert.ok((await page.locator('figure img').count()) >= 8);
-    for (const image of await page.locator('figure img').all()) assert.ok(await image.evaluate((i) => i.naturalWidth > 400));
+    for (const image of await page.locator('figure img').all())
+        assert.ok(await image.evaluate((i) => i.naturalWidth > 400));
     await page.screenshot({ path: path.join(folder, 'static.png'), fullPage: true });
     await closeReport(page);
 });
@@ -79,7 +99,10 @@ test('on paper the panes give way to pictures and tables', async () => {
     await page.setViewportSize(paper);
     for (const table of await page.locator('#report table').all()) {
         const { x, width } = await table.boundingBox();
-        assert.ok(x + width <= paper.width, `a table is ${Math.round(x + width - paper.width)} pixels wider than the sheet`);
+        assert.ok(
+            x + width <= paper.width,
+            `a table is ${Math.round(x + width - paper.width)} pixels wider than the sheet`,
+        );
     }
     fs.writeFileSync(path.join(folder, 'report.pdf'), await page.pdf({ format: 'A4' }));
     await closeReport(page);

@@ -2,7 +2,7 @@
 # UPDATE it is put there.
 cmake_policy(VERSION 3.25)
 file(REMOVE_RECURSE ${BUILD}/src ${BUILD}/dist)
-file(COPY ${SOURCE}/src ${SOURCE}/tsconfig.json ${SOURCE}/build.mjs DESTINATION ${BUILD})
+file(COPY ${SOURCE}/src ${SOURCE}/tsconfig.json ${SOURCE}/build.mjs ${SOURCE}/notices.mjs DESTINATION ${BUILD})
 execute_process(COMMAND ${NODE} node_modules/typescript/bin/tsc --noEmit WORKING_DIRECTORY ${BUILD} RESULT_VARIABLE code OUTPUT_VARIABLE out)
 if(code)
   message(FATAL_ERROR "${out}")
@@ -11,7 +11,7 @@ execute_process(COMMAND ${NODE} build.mjs dist WORKING_DIRECTORY ${BUILD} RESULT
 if(code)
   message(FATAL_ERROR "${err}")
 endif()
-foreach(name page.js page.css)
+foreach(name page.js page.css NOTICE.md)
   if(UPDATE)
     configure_file(${BUILD}/dist/${name} ${SOURCE}/dist/${name} COPYONLY)
   endif()

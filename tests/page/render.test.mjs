@@ -9,7 +9,10 @@ import { test } from 'node:test';
 import { bottle, clsurf, folder, press, settled, useReport, writeReport } from './browser.mjs';
 
 let page;
-useReport(() => writeReport('bottle.html', bottle, '--tool', 'ball:6'), (opened) => (page = opened));
+useReport(
+    () => writeReport('bottle.html', bottle, '--tool', 'ball:6'),
+    (opened) => (page = opened),
+);
 
 /** Fractions of the map's pixels that both pictures have the same: surface or not, and its colour. */
 async function agreement(blank, ours, theirs, map) {
@@ -88,7 +91,10 @@ for (const [name, prepare] of Object.entries(cases)) {
         await page.keyboard.press('Escape');
         const theirs = path.join(folder, 'render.png');
         // As a user would: pasted into a shell.
-        execFileSync('bash', ['-c', `${command.replace(/^clsurf /, `'${clsurf}' `).replace('-o map.png', `-o '${theirs}'`)} -q`]);
+        execFileSync('bash', [
+            '-c',
+            `${command.replace(/^clsurf /, `'${clsurf}' `).replace('-o map.png', `-o '${theirs}'`)} -q`,
+        ]);
         const ours = path.join(folder, 'layer.png');
         const size = await page.evaluate(() => {
             document.querySelector('.overlay').style.visibility = 'hidden';
@@ -99,7 +105,11 @@ for (const [name, prepare] of Object.entries(cases)) {
         await page.evaluate(() => (document.querySelector('.overlay').style.visibility = ''));
         const [, height] = /--size (\d+)x(\d+)/.exec(command).slice(1).map(Number);
         const text = Math.min(60, Math.max(9, Math.min(0.75 * Number(/--size (\d+)x/.exec(command)[1]), height) / 46));
-        const map = { width: size[0], height: size[1], top: height - size[1] - Math.round(3 * Math.max(8, 0.78 * text)) };
+        const map = {
+            width: size[0],
+            height: size[1],
+            top: height - size[1] - Math.round(3 * Math.max(8, 0.78 * text)),
+        };
         const blank = await page.context().browser().newPage();
         const same = await agreement(blank, ours, theirs, map);
         await blank.close();

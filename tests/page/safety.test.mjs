@@ -12,7 +12,11 @@ const hostile = [
     '(<img src=x onerror="window.harmed = 1">)',
     '("quotes\' and `ticks` & &lt;entities&gt; ${window.harmed = 1})',
     '(<!-- <script> ]]> --!>)',
-    Buffer.concat([Buffer.from('(control \x01\x07\x1b[31m\x7f '), Buffer.from([0xff, 0xfe, 0xc0, 0xaf]), Buffer.from(' no UTF-8)')]),
+    Buffer.concat([
+        Buffer.from('(control \x01\x07\x1b[31m\x7f '),
+        Buffer.from([0xff, 0xfe, 0xc0, 0xaf]),
+        Buffer.from(' no UTF-8)'),
+    ]),
     '(turned \u202e txet \u202c and \u2066 marks \u2069 \u200f)',
     '(separators \u2028 \u2029 \ufeff)',
     `(${'long '.repeat(2_000_000)})`, // 10 MB
@@ -20,16 +24,22 @@ const hostile = [
 ];
 
 let page, first;
-useReport(() => {
-    const text = fs.readFileSync(bottle.program);
-    first = text.toString('latin1').split('\n').length;
-    const program = path.join(folder, `"><img src=x onerror=window.harmed=1> \u202e'$(touch harmed).nc`);
-    const log = path.join(folder, '<script>window.harmed=1<\u2044script>.biip');
-    fs.writeFileSync(program, Buffer.concat([text, ...hostile.flatMap((line) => [Buffer.from(line), Buffer.from('\n')])]));
-    fs.copyFileSync(bottle.log, log);
-    run('report', program, log, '-o', 'hostile.html', '-q');
-    return path.join(folder, 'hostile.html');
-}, (opened) => (page = opened));
+useReport(
+    () => {
+        const text = fs.readFileSync(bottle.program);
+        first = text.toString('latin1').split('\n').length;
+        const program = path.join(folder, `"><img src=x onerror=window.harmed=1> \u202e'$(touch harmed).nc`);
+        const log = path.join(folder, '<script>window.harmed=1<\u2044script>.biip');
+        fs.writeFileSync(
+            program,
+            Buffer.concat([text, ...hostile.flatMap((line) => [Buffer.from(line), Buffer.from('\n')])]),
+        );
+        fs.copyFileSync(bottle.log, log);
+        run('report', program, log, '-o', 'hostile.html', '-q');
+        return path.join(folder, 'hostile.html');
+    },
+    (opened) => (page = opened),
+);
 
 const line = async (number) => {
     await goTo(page, 'line', number);
@@ -99,6 +109,9 @@ test('the policy forbids every request', async () => {
     assert.deepEqual(blocked, ['fetch', 'image', 'eval']);
     // The browser says what it refused; nothing left it.
     const refused = /Content Security Policy|^asks for https:\/\/example\.invalid\/x\.png$/;
-    assert.ok(page.complaints.every((text) => refused.test(text)), page.complaints.join('\n'));
+    assert.ok(
+        page.complaints.every((text) => refused.test(text)),
+        page.complaints.join('\n'),
+    );
     page.complaints.length = 0;
 });

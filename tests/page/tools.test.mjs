@@ -7,16 +7,25 @@ import { beforeEach, test } from 'node:test';
 import { bottle, clickView, numbers, press, pressed, settled, useReport, writeReport } from './browser.mjs';
 
 let page;
-useReport(() => writeReport('bottle.html', bottle, '--tool', 'ball:6'), (opened) => (page = opened));
+useReport(
+    () => writeReport('bottle.html', bottle, '--tool', 'ball:6'),
+    (opened) => (page = opened),
+);
 beforeEach(() => press(page, 'i'));
 
 const view = () => page.getAttribute('.view', 'data-view');
 const field = () => page.getByLabel('field').evaluate((select) => select.selectedOptions[0].text);
-const range = async () => [await page.getByLabel('lower end').inputValue(), await page.getByLabel('upper end').inputValue()].map(Number);
+const range = async () =>
+    [await page.getByLabel('lower end').inputValue(), await page.getByLabel('upper end').inputValue()].map(Number);
 const picture = async () => (await page.locator('.overlay').screenshot()).toString('base64');
 
 test('views', async () => {
-    for (const [name, key] of [['top', 't'], ['front', 'f'], ['left', 'l'], ['iso', 'i']]) {
+    for (const [name, key] of [
+        ['top', 't'],
+        ['front', 'f'],
+        ['left', 'l'],
+        ['iso', 'i'],
+    ]) {
         await page.click('[data-action="fit"]');
         await press(page, key);
         assert.equal(await view(), `view ${name}`);
@@ -46,7 +55,11 @@ test('dragging turns, the wheel zooms, fit shows the whole part again', async ()
 });
 
 test('surface, lines, points', async () => {
-    for (const [name, key] of [['lines', 'n'], ['points', 'o'], ['surface', 's']]) {
+    for (const [name, key] of [
+        ['lines', 'n'],
+        ['points', 'o'],
+        ['surface', 's'],
+    ]) {
         await press(page, key);
         assert.ok(await pressed(page, name));
         await clickView(page, 330, 250);
@@ -70,7 +83,10 @@ test('box zoom shows what the box held', async () => {
     await page.mouse.up();
     await settled(page);
     assert.ok(!(await pressed(page, 'box')));
-    const size = await page.evaluate(() => [document.querySelector('.layer').clientWidth, document.querySelector('.layer').clientHeight]);
+    const size = await page.evaluate(() => [
+        document.querySelector('.layer').clientWidth,
+        document.querySelector('.layer').clientHeight,
+    ]);
     await clickView(page, Math.round(size[0] / 2), Math.round(size[1] / 2));
     const now = await numbers(page);
     assert.ok(Math.abs(Number(now.Point) - Number(middle.Point)) < 12, `${now.Point} is not ${middle.Point}`);
@@ -187,7 +203,13 @@ test('the view is saved as PNG', async () => {
     await press(page, 'p');
     const download = await waiting;
     assert.equal(download.suggestedFilename(), 'bottle_uneven.nc.png');
-    assert.equal(fs.readFileSync(await download.path()).subarray(1, 4).toString(), 'PNG');
+    assert.equal(
+        fs
+            .readFileSync(await download.path())
+            .subarray(1, 4)
+            .toString(),
+        'PNG',
+    );
     const again = page.waitForEvent('download');
     await page.click('[data-action="save"]');
     await again;

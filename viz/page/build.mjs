@@ -1,6 +1,8 @@
-// Builds src/ to dist/page.js and dist/page.css (or to the folder named as argument). The same sources
+// Builds src/ to dist/page.js, dist/page.css and dist/NOTICE.md (or to the folder named as argument). The same sources
 // and lockfile always give the same bytes.
 import { build } from 'esbuild';
+import { readFileSync, writeFileSync } from 'node:fs';
+import { notices } from './notices.mjs';
 
 const folder = process.argv[2] ?? 'dist';
 const result = await build({
@@ -11,8 +13,15 @@ const result = await build({
     format: 'iife',
     target: ['es2022'],
     charset: 'ascii', // bytes that any charset reads the same
-    legalComments: 'none',
-    banner: { js: '/* Holds vtk.js (BSD-3-Clause, (c) Kitware Inc.), uPlot (MIT, (c) Leon Sorokin), gl-matrix, D3 and others: viz/page/NOTICE.md of clsurf */' },
+    legalComments: 'none', // the notices below are whole
+    metafile: true,
     logLevel: 'warning',
 });
-process.exitCode = result.errors.length > 0 ? 1 : 0;
+
+// The licences ask that their notices go where the code goes: into the script, and so into every page that holds it.
+const text = notices(result.metafile, 'node_modules');
+const ascii = text.replace(/[^\x00-\x7f]/g, (c) => `\\u${c.codePointAt(0).toString(16).padStart(4, '0')}`);
+if (ascii.includes('*/')) throw new Error('a notice holds the end of a comment');
+const script = `${folder}/page.js`;
+writeFileSync(script, `/*!\n${ascii}*/\n${readFileSync(script, 'utf8')}`);
+writeFileSync(`${folder}/NOTICE.md`, text);

@@ -21,9 +21,23 @@ export interface Deeds {
     goToDefect: (index: number) => void;
 }
 
-export function actionsOf(store: Store, view: ViewPane, deeds: Deeds, defects: number, logs: number, maps: string[]): Action[] {
+export function actionsOf(
+    store: Store,
+    view: ViewPane,
+    deeds: Deeds,
+    defects: number,
+    logs: number,
+    maps: string[],
+): Action[] {
     const { state } = store;
-    const look = (name: string, text: string, key: string): Action => ({ name, text, key, title: `view ${name === 'iso' ? 'isometric' : `from ${name === 'top' ? 'above' : `the ${name}`}`}`, group: 'View', run: () => view.look(name) });
+    const look = (name: string, text: string, key: string): Action => ({
+        name,
+        text,
+        key,
+        title: `view ${name === 'iso' ? 'isometric' : `from ${name === 'top' ? 'above' : `the ${name}`}`}`,
+        group: 'View',
+        run: () => view.look(name),
+    });
     const style = (name: 'surface' | 'lines' | 'points', key: string): Action => ({
         name,
         text: name[0].toUpperCase() + name.slice(1),
@@ -46,7 +60,10 @@ export function actionsOf(store: Store, view: ViewPane, deeds: Deeds, defects: n
         pressed: () => state.tool === name,
     });
     const step = (by: number) => () => {
-        if (defects > 0) deeds.goToDefect(state.defect === null ? (by > 0 ? 0 : defects - 1) : (state.defect + by + defects) % defects);
+        if (defects > 0)
+            deeds.goToDefect(
+                state.defect === null ? (by > 0 ? 0 : defects - 1) : (state.defect + by + defects) % defects,
+            );
     };
     const point = (by: number) => () => {
         const vertex = Math.min(view.surface.count - 1, Math.max(0, (state.vertex ?? 0) + by));
@@ -63,17 +80,74 @@ export function actionsOf(store: Store, view: ViewPane, deeds: Deeds, defects: n
         style('points', 'o'),
         tool('box', 'Box zoom', 'b', 'drag a box: the view goes there'),
         tool('measure', 'Measure', 'm', 'click two places: their distance'),
-        { name: 'defects', text: 'Outlines', key: 'u', title: 'outline the defects', group: 'Defects', run: () => store.set({ defects: !state.defects }), pressed: () => state.defects },
+        {
+            name: 'defects',
+            text: 'Outlines',
+            key: 'u',
+            title: 'outline the defects',
+            group: 'Defects',
+            run: () => store.set({ defects: !state.defects }),
+            pressed: () => state.defects,
+        },
         { name: 'previous-defect', text: '◀', key: 'v', title: 'the defect before', group: 'Defects', run: step(-1) },
-        { name: 'next-defect', text: 'Defect ▶', key: 'd', title: 'the next defect, the worst first', group: 'Defects', run: step(1) },
+        {
+            name: 'next-defect',
+            text: 'Defect ▶',
+            key: 'd',
+            title: 'the next defect, the worst first',
+            group: 'Defects',
+            run: step(1),
+        },
         { name: 'point-before', text: '', key: ',', title: 'the point before', group: 'Cursor', run: point(-1) },
         { name: 'point-after', text: '', key: '.', title: 'the next point', group: 'Cursor', run: point(1) },
-        { name: 'over', text: 'Time/way', key: 'x', title: 'curves over time or over way', group: 'Curves', run: () => store.set({ over: state.over === 'time' ? 'length' : 'time' }) },
-        { name: 'next-map', text: '', key: 'k', title: 'the next colour map', group: 'Colours', run: () => store.set({ map: maps[(maps.indexOf(state.map) + 1) % maps.length] }) },
-        { name: 'save', text: 'PNG', key: 'p', title: 'save the view as a picture', group: 'Out', run: deeds.savePicture },
-        { name: 'command', text: 'Command', key: 'r', title: 'the clsurf render command line that draws this view', group: 'Out', run: deeds.showCommand },
-        { name: 'theme', text: 'Light/dark', key: 'y', title: 'light or dark', group: 'Page', run: () => store.set({ theme: document.documentElement.dataset.theme === 'dark' ? 'light' : 'dark' }) },
-        { name: 'locate', text: '', key: 'g', title: 'go to a point, a line or a time', group: 'Cursor', run: deeds.locate },
+        {
+            name: 'over',
+            text: 'Time/way',
+            key: 'x',
+            title: 'curves over time or over way',
+            group: 'Curves',
+            run: () => store.set({ over: state.over === 'time' ? 'length' : 'time' }),
+        },
+        {
+            name: 'next-map',
+            text: '',
+            key: 'k',
+            title: 'the next colour map',
+            group: 'Colours',
+            run: () => store.set({ map: maps[(maps.indexOf(state.map) + 1) % maps.length] }),
+        },
+        {
+            name: 'save',
+            text: 'PNG',
+            key: 'p',
+            title: 'save the view as a picture',
+            group: 'Out',
+            run: deeds.savePicture,
+        },
+        {
+            name: 'command',
+            text: 'Command',
+            key: 'r',
+            title: 'the clsurf render command line that draws this view',
+            group: 'Out',
+            run: deeds.showCommand,
+        },
+        {
+            name: 'theme',
+            text: 'Light/dark',
+            key: 'y',
+            title: 'light or dark',
+            group: 'Page',
+            run: () => store.set({ theme: document.documentElement.dataset.theme === 'dark' ? 'light' : 'dark' }),
+        },
+        {
+            name: 'locate',
+            text: '',
+            key: 'g',
+            title: 'go to a point, a line or a time',
+            group: 'Cursor',
+            run: deeds.locate,
+        },
         { name: 'help', text: '?', key: '?', title: 'all keys', group: 'Page', run: deeds.showHelp },
     ];
     if (logs > 1) {
@@ -83,14 +157,33 @@ export function actionsOf(store: Store, view: ViewPane, deeds: Deeds, defects: n
             key,
             title,
             group: 'Compare',
-            run: () => store.set(name === 'wipe' ? { shown: name } : { shown: name, vertex: null, hover: null, pass: 0, defect: null }),
+            run: () =>
+                store.set(
+                    name === 'wipe'
+                        ? { shown: name }
+                        : { shown: name, vertex: null, hover: null, pass: 0, defect: null },
+                ),
             pressed: () => state.shown === name,
         });
         actions.push(
             shown('before', '1', 'the log before'),
             shown('after', '2', 'the log after'),
             shown('wipe', 'w', 'before on the left, after on the right: drag the line between'),
-            { name: 'toggle', text: '', key: 'c', title: 'the other log', group: 'Compare', run: () => store.set({ shown: state.shown === 'before' ? 'after' : 'before', vertex: null, hover: null, pass: 0, defect: null }) },
+            {
+                name: 'toggle',
+                text: '',
+                key: 'c',
+                title: 'the other log',
+                group: 'Compare',
+                run: () =>
+                    store.set({
+                        shown: state.shown === 'before' ? 'after' : 'before',
+                        vertex: null,
+                        hover: null,
+                        pass: 0,
+                        defect: null,
+                    }),
+            },
         );
     }
     return actions;

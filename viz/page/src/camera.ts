@@ -59,7 +59,8 @@ export function extentAlong(axes: Axes, xyz: Float32Array, wanted: (vertex: numb
 
 /** Millimetres a pixel at which an extent is seen whole. */
 export function wholeScale(extent: Extent, width: number, height: number): number {
-    const scale = margin * Math.max((extent.high[0] - extent.low[0]) / width, (extent.high[1] - extent.low[1]) / height);
+    const scale =
+        margin * Math.max((extent.high[0] - extent.low[0]) / width, (extent.high[1] - extent.low[1]) / height);
     return scale > 0 ? scale : 1 / Math.max(1, Math.min(width, height));
 }
 
@@ -78,7 +79,11 @@ export class Camera {
     project(p: readonly number[]): Vec3 {
         const { right, up, towards } = this.axes;
         const d = [p[0] - this.centre[0], p[1] - this.centre[1], p[2] - this.centre[2]];
-        return [dot(right, d) / this.mmPerPixel + this.width / 2, this.height / 2 - dot(up, d) / this.mmPerPixel, dot(towards, d)];
+        return [
+            dot(right, d) / this.mmPerPixel + this.width / 2,
+            this.height / 2 - dot(up, d) / this.mmPerPixel,
+            dot(towards, d),
+        ];
     }
     turn(dx: number, dy: number): void {
         this.azimuth -= 0.4 * dx;
@@ -100,7 +105,10 @@ export class Camera {
         const { right, up, towards } = this.axes;
         for (let k = 0; k < 3; ++k) {
             this.centre[k] =
-                (right[k] * (extent.low[0] + extent.high[0]) + up[k] * (extent.low[1] + extent.high[1]) + towards[k] * (extent.low[2] + extent.high[2])) / 2;
+                (right[k] * (extent.low[0] + extent.high[0]) +
+                    up[k] * (extent.low[1] + extent.high[1]) +
+                    towards[k] * (extent.low[2] + extent.high[2])) /
+                2;
         }
         this.mmPerPixel = wholeScale(extent, this.width, this.height);
     }

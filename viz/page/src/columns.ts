@@ -36,7 +36,8 @@ export async function readNumbers(column: PackedColumn, quantum = 1): Promise<Fl
     if (order === 1) {
         for (let i = stride; i < count; ++i) steps[i] += steps[i - stride];
     } else if (order === 2) {
-        for (let i = stride; i < count; ++i) steps[i] += 2 * steps[i - stride] - (i >= 2 * stride ? steps[i - 2 * stride] : 0);
+        for (let i = stride; i < count; ++i)
+            steps[i] += 2 * steps[i - stride] - (i >= 2 * stride ? steps[i - 2 * stride] : 0);
     }
     if (quantum !== 1) {
         for (let i = 0; i < count; ++i) steps[i] *= quantum;

@@ -33,7 +33,9 @@ const rounded = (value: number, digits: number) => String(Number(value.toPrecisi
 
 /** --view and --zoom of a camera on what has an extent along its axes. */
 export function viewOptions(camera: Camera, extent: Extent): string[] {
-    const named = Object.entries(views).find(([, [az, el]]) => Math.abs(az - camera.azimuth) < 1e-9 && Math.abs(el - camera.elevation) < 1e-9);
+    const named = Object.entries(views).find(
+        ([, [az, el]]) => Math.abs(az - camera.azimuth) < 1e-9 && Math.abs(el - camera.elevation) < 1e-9,
+    );
     const view = named ? named[0] : `${rounded(camera.azimuth, 6)},${rounded(camera.elevation, 6)}`;
     const axes = camera.axes;
     const whole = wholeScale(extent, camera.width, camera.height);
@@ -42,12 +44,22 @@ export function viewOptions(camera: Camera, extent: Extent): string[] {
     const y = 0.5 - (dot(axes.up, camera.centre) - (extent.low[1] + extent.high[1]) / 2) / (whole * camera.height);
     const options = ['--view', view];
     if (Math.abs(part - 1) > 1e-4 || Math.abs(x - 0.5) > 1e-4 || Math.abs(y - 0.5) > 1e-4) {
-        options.push('--zoom', [x - part / 2, y - part / 2, x + part / 2, y + part / 2].map((n) => n.toFixed(6)).join(','));
+        options.push(
+            '--zoom',
+            [x - part / 2, y - part / 2, x + part / 2, y + part / 2].map((n) => n.toFixed(6)).join(','),
+        );
     }
     return options;
 }
 
-export function renderCommand(manifest: Manifest, state: Readonly<State>, camera: Camera, surface: Surface, extent: Extent, dark: boolean): string {
+export function renderCommand(
+    manifest: Manifest,
+    state: Readonly<State>,
+    camera: Camera,
+    surface: Surface,
+    extent: Extent,
+    dark: boolean,
+): string {
     const { program, log, before, options } = manifest.command;
     const words = ['clsurf', 'render', program, state.shown === 'before' ? before : log, '-o', 'map.png', ...options];
     const field = manifest.fields[state.field];

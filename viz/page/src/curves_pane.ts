@@ -19,7 +19,9 @@ function wayOf(surface: Surface): Float64Array {
     const xyz = surface.roles[0].xyz;
     const way = new Float64Array(surface.count);
     for (let i = 1; i < surface.count; ++i) {
-        way[i] = way[i - 1] + Math.hypot(xyz[3 * i] - xyz[3 * i - 3], xyz[3 * i + 1] - xyz[3 * i - 2], xyz[3 * i + 2] - xyz[3 * i - 1]);
+        way[i] =
+            way[i - 1] +
+            Math.hypot(xyz[3 * i] - xyz[3 * i - 3], xyz[3 * i + 1] - xyz[3 * i - 2], xyz[3 * i + 2] - xyz[3 * i - 1]);
     }
     return way;
 }
@@ -68,7 +70,9 @@ export class CurvesPane {
         const info = this.manifest.fields[field];
         const holder = element('div', { class: 'chart' });
         const choice = element('select', { title: 'what this curve shows', 'aria-label': `curve ${index + 1}` });
-        this.manifest.fields.forEach((f, k) => choice.append(new Option(f.unit ? `${f.label} [${f.unit}]` : f.label, String(k), false, k === field)));
+        this.manifest.fields.forEach((f, k) =>
+            choice.append(new Option(f.unit ? `${f.label} [${f.unit}]` : f.label, String(k), false, k === field)),
+        );
         choice.addEventListener('change', () => {
             const curves = [...this.store.state.curves];
             curves[index] = Number(choice.value);
@@ -89,11 +93,26 @@ export class CurvesPane {
                 cursor: { drag: { x: true, y: false, setScale: false }, points: { show: false }, y: false },
                 scales: { x: { time: false } },
                 axes: [
-                    { stroke: ink, grid, ticks: grid, font, size: last ? 34 : 0, show: last, labelFont: font, label: this.store.state.over === 'time' ? 'time [s]' : 'way [mm]', labelSize: 13, gap: 2 },
+                    {
+                        stroke: ink,
+                        grid,
+                        ticks: grid,
+                        font,
+                        size: last ? 34 : 0,
+                        show: last,
+                        labelFont: font,
+                        label: this.store.state.over === 'time' ? 'time [s]' : 'way [mm]',
+                        labelSize: 13,
+                        gap: 2,
+                    },
                     { stroke: ink, grid, ticks: grid, font, size: 62, gap: 3, space: 22 },
                 ],
                 // The other log lies behind.
-                series: [{}, { stroke: styleValue('--second'), width: 1.2, spanGaps: false, points: { show: false } }, { stroke: styleValue('--curve'), width: 1.2, spanGaps: false, points: { show: false } }],
+                series: [
+                    {},
+                    { stroke: styleValue('--second'), width: 1.2, spanGaps: false, points: { show: false } },
+                    { stroke: styleValue('--curve'), width: 1.2, spanGaps: false, points: { show: false } },
+                ],
                 hooks: {
                     draw: [(u) => this.drawCursor(u)],
                     setSelect: [(u) => this.zoomTo(u)],
@@ -140,8 +159,17 @@ export class CurvesPane {
         const other = this.surfaces.find((s) => s !== own);
         for (const { plot, field } of this.charts) {
             const a = thinCurve(this.x(own), own.fields[field], this.low, this.high, columns);
-            const b = other && state.shown !== 'before' ? thinCurve(this.x(other), other.fields[field], this.low, this.high, columns) : { x: [], y: [] };
-            const data = b.x.length > 0 ? uPlot.join([[b.x, b.y], [a.x, a.y]] as uPlot.AlignedData[]) : ([a.x, a.x.map(() => null), a.y] as uPlot.AlignedData);
+            const b =
+                other && state.shown !== 'before'
+                    ? thinCurve(this.x(other), other.fields[field], this.low, this.high, columns)
+                    : { x: [], y: [] };
+            const data =
+                b.x.length > 0
+                    ? uPlot.join([
+                          [b.x, b.y],
+                          [a.x, a.y],
+                      ] as uPlot.AlignedData[])
+                    : ([a.x, a.x.map(() => null), a.y] as uPlot.AlignedData);
             plot.setData(data, false);
             plot.batch(() => {
                 plot.setScale('x', { min: this.low, max: this.high });

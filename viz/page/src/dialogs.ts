@@ -31,7 +31,9 @@ export function showCommand(command: string): void {
 }
 
 export function showKeys(actions: Action[]): void {
-    const rows = actions.map((a) => element('tr', {}, element('td', {}, element('kbd', {}, a.key.toUpperCase())), element('td', {}, a.title)));
+    const rows = actions.map((a) =>
+        element('tr', {}, element('td', {}, element('kbd', {}, a.key.toUpperCase())), element('td', {}, a.title)),
+    );
     const pointer = [
         ['drag', 'turn'],
         ['shift and drag, or the right button', 'move'],
@@ -39,5 +41,13 @@ export function showKeys(actions: Action[]): void {
         ['double click', 'show the whole part'],
         ['click', 'the place, its line and its point on the curves'],
     ].map(([what, does]) => element('tr', {}, element('td', {}, what), element('td', {}, does)));
-    open('Keys', element('div', { class: 'keys' }, element('table', {}, element('tbody', {}, ...rows)), element('table', {}, element('tbody', {}, ...pointer))));
+    open(
+        'Keys',
+        element(
+            'div',
+            { class: 'keys' },
+            element('table', {}, element('tbody', {}, ...rows)),
+            element('table', {}, element('tbody', {}, ...pointer)),
+        ),
+    );
 }

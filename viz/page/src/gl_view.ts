@@ -105,13 +105,23 @@ export class GlView {
         this.data.getPoints().setData(xyz, 3);
         const empty = new Uint32Array(0);
         const all = style === 'points' ? Uint32Array.from({ length: xyz.length / 3 }, (_, i) => i) : empty;
-        this.data.setPolys(vtkCellArray.newInstance({ values: style === 'surface' ? cells(mesh.triangles, 3) : empty }));
+        this.data.setPolys(
+            vtkCellArray.newInstance({ values: style === 'surface' ? cells(mesh.triangles, 3) : empty }),
+        );
         this.data.setLines(vtkCellArray.newInstance({ values: style === 'points' ? empty : cells(mesh.segments, 2) }));
         this.data.setVerts(vtkCellArray.newInstance({ values: cells(all, 1) }));
         const lit = style === 'surface' && mesh.normals;
         const points = this.data.getPointData();
         // vtk.js takes null away what is there, but its types do not say so.
-        points.setNormals((lit ? vtkDataArray.newInstance({ name: 'normals', numberOfComponents: 3, values: mesh.normals as Float32Array }) : null) as never);
+        points.setNormals(
+            (lit
+                ? vtkDataArray.newInstance({
+                      name: 'normals',
+                      numberOfComponents: 3,
+                      values: mesh.normals as Float32Array,
+                  })
+                : null) as never,
+        );
         this.actor.getProperty().setLighting(Boolean(lit));
         this.actor.getProperty().setPointSize(3);
         this.actor.getProperty().setLineWidth(style === 'lines' ? 1.5 : 1);
@@ -135,7 +145,14 @@ export class GlView {
         const some = new Float32Array(3 * this.coarseVertices.length);
         this.coarseVertices.forEach((v, i) => some.set(xyz.subarray(3 * v, 3 * v + 3), 3 * i));
         this.coarseData.getPoints().setData(some, 3);
-        this.coarseData.setVerts(vtkCellArray.newInstance({ values: cells(Uint32Array.from(this.coarseVertices, (_, i) => i), 1) }));
+        this.coarseData.setVerts(
+            vtkCellArray.newInstance({
+                values: cells(
+                    Uint32Array.from(this.coarseVertices, (_, i) => i),
+                    1,
+                ),
+            }),
+        );
         this.coarseData.modified();
     }
 
@@ -163,7 +180,9 @@ export class GlView {
         this.data.modified();
         const some = new Float32Array(2 * this.coarseVertices.length);
         this.coarseVertices.forEach((v, i) => some.set(places.subarray(2 * v, 2 * v + 2), 2 * i));
-        this.coarseData.getPointData().setTCoords(vtkDataArray.newInstance({ name: 'places', numberOfComponents: 2, values: some }));
+        this.coarseData
+            .getPointData()
+            .setTCoords(vtkDataArray.newInstance({ name: 'places', numberOfComponents: 2, values: some }));
         this.coarseData.modified();
     }
 

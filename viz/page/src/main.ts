@@ -34,7 +34,10 @@ async function begin(app: HTMLElement): Promise<void> {
     const relief = manifest.relief ? await readRelief(manifest.relief, manifest.surfaces[0].origin_mm) : null;
     const maps = manifest.colour_maps.map((info) => new ColourMap(info));
 
-    const first = Math.max(0, manifest.fields.findIndex((f) => f.name === manifest.first_field));
+    const first = Math.max(
+        0,
+        manifest.fields.findIndex((f) => f.name === manifest.first_field),
+    );
     const store = new Store({
         field: first,
         map: manifest.fields[first].diverging ? 'coolwarm' : 'isurface',
@@ -84,13 +87,15 @@ async function begin(app: HTMLElement): Promise<void> {
     const locate = (kind: string, value: number): string | null => {
         const s = surface();
         if (kind === 'line') {
-            if (value < 1 || value > text.lineCount || !Number.isInteger(value)) return `the program has lines 1 … ${text.lineCount}`;
+            if (value < 1 || value > text.lineCount || !Number.isInteger(value))
+                return `the program has lines 1 … ${text.lineCount}`;
             const runs = s.runsOfLine(value);
             store.set({ line: value, vertex: runs.length > 0 ? runs[0][0] : null, defect: null, pass: 0 });
             return runs.length > 0 ? null : 'no point of this page has that line';
         }
         const last = kind === 'point' ? s.info.records - 1 : s.time[s.count - 1];
-        if (value < 0 || value > last) return kind === 'point' ? `the log has points 0 … ${last}` : `the log lasts ${last.toFixed(3)} s`;
+        if (value < 0 || value > last)
+            return kind === 'point' ? `the log has points 0 … ${last}` : `the log lasts ${last.toFixed(3)} s`;
         const vertex = kind === 'point' ? s.vertexOfPoint(value) : s.vertexAtTime(value);
         store.set({ vertex, line: s.line[vertex], defect: null, pass: 0 });
         return null;
@@ -106,7 +111,8 @@ async function begin(app: HTMLElement): Promise<void> {
         view,
         {
             savePicture: () => void savePicture(),
-            showCommand: () => showCommand(renderCommand(manifest, store.state, view.camera, surface(), view.extent(), dark())),
+            showCommand: () =>
+                showCommand(renderCommand(manifest, store.state, view.camera, surface(), view.extent(), dark())),
             showHelp: () => showKeys(actions),
             locate: () => toolbar.locator.input.focus(),
             goToDefect,

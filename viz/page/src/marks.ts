@@ -17,7 +17,13 @@ export interface Marks {
 }
 
 /** `judged`: the defects are those of this surface. */
-export function marksOf(manifest: Manifest, state: Readonly<State>, surface: Surface, xyz: Float32Array, judged: boolean): Marks {
+export function marksOf(
+    manifest: Manifest,
+    state: Readonly<State>,
+    surface: Surface,
+    xyz: Float32Array,
+    judged: boolean,
+): Marks {
     const accent = styleValue('--accent');
     const marks: Marks = { tags: [], polylines: [], rings: [] };
     if (judged) addDefects(manifest, state, marks);
@@ -30,7 +36,8 @@ export function marksOf(manifest: Manifest, state: Readonly<State>, surface: Sur
         marks.polylines.push({ xyz: corners, closed: false, colour, width });
     };
     const beside = styleValue('--second');
-    if (state.pass > 0) addRun(surface.range(surface.passes[2 * state.pass - 2], surface.passes[2 * state.pass - 1]), beside, 2);
+    if (state.pass > 0)
+        addRun(surface.range(surface.passes[2 * state.pass - 2], surface.passes[2 * state.pass - 1]), beside, 2);
     if (state.defect !== null && judged) {
         const defect = manifest.defects[state.defect];
         for (const run of defect.neighbours) addRun(surface.range(...run.points), beside, 2);
@@ -40,9 +47,15 @@ export function marksOf(manifest: Manifest, state: Readonly<State>, surface: Sur
     for (const run of runs.slice(0, mostRuns)) addRun(run, accent, 4);
 
     const addRing = (vertex: number, label: string, small: boolean) =>
-        marks.rings.push({ at: [xyz[3 * vertex], xyz[3 * vertex + 1], xyz[3 * vertex + 2]], colour: accent, label, small });
+        marks.rings.push({
+            at: [xyz[3 * vertex], xyz[3 * vertex + 1], xyz[3 * vertex + 2]],
+            colour: accent,
+            label,
+            small,
+        });
     if (runs.length > 0 && runs[0][0] !== state.vertex) addRing(runs[0][0], '', true);
-    if (state.vertex !== null) addRing(state.vertex, `point ${surface.point[state.vertex]}, line ${surface.line[state.vertex]}`, false);
+    if (state.vertex !== null)
+        addRing(state.vertex, `point ${surface.point[state.vertex]}, line ${surface.line[state.vertex]}`, false);
     return marks;
 }
 
@@ -50,7 +63,13 @@ function addDefects(manifest: Manifest, state: Readonly<State>, marks: Marks): v
     const origin = manifest.surfaces[0].origin_mm;
     manifest.defects.forEach((defect, k) => {
         const chosen = state.defect === k;
-        if (k < mostTags || chosen) marks.tags.push({ at: defect.position_mm.map((c, i) => c - origin[i]), text: String(defect.id), severity: defect.severity, chosen });
+        if (k < mostTags || chosen)
+            marks.tags.push({
+                at: defect.position_mm.map((c, i) => c - origin[i]),
+                text: String(defect.id),
+                severity: defect.severity,
+                chosen,
+            });
         if (!chosen && !state.defects) return;
         for (const corners of defect.outlines) {
             marks.polylines.push({

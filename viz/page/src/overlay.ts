@@ -145,7 +145,13 @@ export class Overlay {
         label(g, ring.label, right ? x + 13 : x - 13, y - 12, ring.colour, halo, right ? 'left' : 'right', true);
     }
 
-    private measure(g: CanvasRenderingContext2D, camera: Camera, places: readonly number[][], ink: string, halo: string): void {
+    private measure(
+        g: CanvasRenderingContext2D,
+        camera: Camera,
+        places: readonly number[][],
+        ink: string,
+        halo: string,
+    ): void {
         const pixels = places.map((p) => camera.project(p));
         if (pixels.length === 2) {
             const [[x0, y0], [x1, y1]] = pixels;
@@ -197,7 +203,8 @@ export class Overlay {
         if (scene.lowest < scale.low - readable) arrow(top + height + 1, 1);
         const ticks = niceTicks(scale.low, scale.high, height / 45);
         const step = ticks.length > 1 ? ticks[1] - ticks[0] : 1;
-        const text = (value: number, y: number, of: number, bold: boolean) => label(g, tickText(value, of), left + 25, y, ink, halo, 'left', bold);
+        const text = (value: number, y: number, of: number, bold: boolean) =>
+            label(g, tickText(value, of), left + 25, y, ink, halo, 'left', bold);
         text(scale.high, top, step / 10, true);
         text(scale.low, top + height, step / 10, true);
         for (const tick of ticks) {
@@ -244,11 +251,28 @@ export class Overlay {
         g.lineTo(x + length / camera.mmPerPixel, y);
         g.lineTo(x + length / camera.mmPerPixel, y - 5);
         g.stroke();
-        label(g, length < 0.1 ? `${Number((length * 1000).toPrecision(3))} µm` : `${Number(length.toPrecision(3))} mm`, x + length / camera.mmPerPixel / 2, y - 12, ink, halo, 'center');
+        label(
+            g,
+            length < 0.1 ? `${Number((length * 1000).toPrecision(3))} µm` : `${Number(length.toPrecision(3))} mm`,
+            x + length / camera.mmPerPixel / 2,
+            y - 12,
+            ink,
+            halo,
+            'center',
+        );
     }
 }
 
-function label(g: CanvasRenderingContext2D, text: string, x: number, y: number, ink: string, halo: string, align: CanvasTextAlign, bold = false): void {
+function label(
+    g: CanvasRenderingContext2D,
+    text: string,
+    x: number,
+    y: number,
+    ink: string,
+    halo: string,
+    align: CanvasTextAlign,
+    bold = false,
+): void {
     if (!text) return;
     g.font = `${bold ? '600 ' : ''}12px ${styleValue('--font')}`;
     g.textAlign = align;

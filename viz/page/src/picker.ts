@@ -67,13 +67,15 @@ export class Picker {
                 const bottom = Math.max(p[a + 1], p[b + 1], p[c + 1]);
                 if (right < 0 || bottom < 0 || left > width || top > height) continue;
                 for (let row = clampRow(top); row <= clampRow(bottom); ++row) {
-                    for (let column = clampColumn(left); column <= clampColumn(right); ++column) visit(row * this.columns + column, i);
+                    for (let column = clampColumn(left); column <= clampColumn(right); ++column)
+                        visit(row * this.columns + column, i);
                 }
             }
             return;
         }
         for (let i = 0; 3 * i < p.length; ++i) {
-            if (!this.wanted(i) || p[3 * i] < 0 || p[3 * i + 1] < 0 || p[3 * i] >= width || p[3 * i + 1] >= height) continue;
+            if (!this.wanted(i) || p[3 * i] < 0 || p[3 * i + 1] < 0 || p[3 * i] >= width || p[3 * i + 1] >= height)
+                continue;
             visit(clampRow(p[3 * i + 1]) * this.columns + clampColumn(p[3 * i]), i);
         }
     }
@@ -126,7 +128,11 @@ export class Picker {
 
 function sameView(a: Camera, b: Camera): boolean {
     return (
-        a.azimuth === b.azimuth && a.elevation === b.elevation && a.mmPerPixel === b.mmPerPixel && a.width === b.width && a.height === b.height &&
+        a.azimuth === b.azimuth &&
+        a.elevation === b.elevation &&
+        a.mmPerPixel === b.mmPerPixel &&
+        a.width === b.width &&
+        a.height === b.height &&
         a.centre.every((c, k) => c === b.centre[k])
     );
 }

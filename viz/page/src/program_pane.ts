@@ -10,7 +10,12 @@ const rowHeight = 19;
 const tallest = 8_000_000; // px that every browser's scroll bar can have
 
 export class ProgramPane {
-    readonly element = element('div', { class: 'program', tabindex: '0', role: 'listbox', 'aria-label': 'the program; arrow keys go from line to line' });
+    readonly element = element('div', {
+        class: 'program',
+        tabindex: '0',
+        role: 'listbox',
+        'aria-label': 'the program; arrow keys go from line to line',
+    });
     private readonly spacer = element('div');
     private readonly rows = element('div', { class: 'rows' });
     private readonly marks = new Map<number, string>(); // class of lines of the defect that is chosen
@@ -44,7 +49,9 @@ export class ProgramPane {
                     [defect?.neighbours ?? [], 'beside'],
                     [defect?.runs ?? [], 'fault'],
                 ] as const) {
-                    for (const run of runs) for (let n = run.lines[0]; n > 0 && n <= Math.min(run.lines[1], run.lines[0] + 5000); ++n) this.marks.set(n, name);
+                    for (const run of runs)
+                        for (let n = run.lines[0]; n > 0 && n <= Math.min(run.lines[1], run.lines[0] + 5000); ++n)
+                            this.marks.set(n, name);
                 }
             }
             if (changed.has('line') && state.line > 0) this.reveal(state.line);
@@ -83,8 +90,16 @@ export class ProgramPane {
         const made: HTMLElement[] = [];
         for (let n = begin + 1; n <= Math.min(this.text.lineCount, begin + count); ++n) {
             const chosen = n === this.store.state.line;
-            const row = element('div', { class: `row ${this.marks.get(n) ?? ''} ${chosen ? 'chosen' : ''}`, 'data-line': String(n), role: 'option', 'aria-selected': String(chosen) });
-            row.append(element('span', { class: 'number' }, String(n)), element('code', { dir: 'ltr' }, this.text.line(n)));
+            const row = element('div', {
+                class: `row ${this.marks.get(n) ?? ''} ${chosen ? 'chosen' : ''}`,
+                'data-line': String(n),
+                role: 'option',
+                'aria-selected': String(chosen),
+            });
+            row.append(
+                element('span', { class: 'number' }, String(n)),
+                element('code', { dir: 'ltr' }, this.text.line(n)),
+            );
             made.push(row);
         }
         this.rows.replaceChildren(...made);

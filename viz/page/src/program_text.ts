@@ -40,7 +40,9 @@ export class ProgramText {
         let end = this.starts[number];
         while (end > begin && (this.bytes[end - 1] === 10 || this.bytes[end - 1] === 13)) --end;
         const size = end - begin;
-        const text = visibleText(this.decoder.decode(this.bytes.subarray(begin, Math.min(end, begin + 4 * longestShown))));
+        const text = visibleText(
+            this.decoder.decode(this.bytes.subarray(begin, Math.min(end, begin + 4 * longestShown))),
+        );
         if (text.length <= longestShown && size <= 4 * longestShown) return text;
         return `${text.slice(0, longestShown)} … ${(size - longestShown).toLocaleString('en')} more bytes`;
     }

@@ -6,6 +6,8 @@ import vtkImageData from '@kitware/vtk.js/Common/DataModel/ImageData';
 export function rampImage(rgba: Uint8ClampedArray): vtkImageData {
     const image = vtkImageData.newInstance();
     image.setDimensions([rgba.length / 8, 2, 1]);
-    image.getPointData().setScalars(vtkDataArray.newInstance({ name: 'colours', numberOfComponents: 4, values: new Uint8Array(rgba) }));
+    image
+        .getPointData()
+        .setScalars(vtkDataArray.newInstance({ name: 'colours', numberOfComponents: 4, values: new Uint8Array(rgba) }));
     return image;
 }

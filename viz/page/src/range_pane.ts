@@ -13,7 +13,11 @@ const beside = 0.25; // of the usual range, seen to each side of it
 
 export class RangePane {
     readonly element = element('div', { class: 'range' });
-    private readonly canvas = element('canvas', { title: 'drag an end of the range', tabindex: '0', 'aria-label': 'range of the colours' });
+    private readonly canvas = element('canvas', {
+        title: 'drag an end of the range',
+        tabindex: '0',
+        'aria-label': 'range of the colours',
+    });
     private readonly low = element('input', { type: 'number', step: 'any', 'aria-label': 'lower end of the range' });
     private readonly high = element('input', { type: 'number', step: 'any', 'aria-label': 'upper end of the range' });
     private counts = new Float64Array(bars);
@@ -26,15 +30,27 @@ export class RangePane {
         private readonly store: Store,
         private readonly view: ViewPane,
     ) {
-        const reset = element('button', { title: 'the usual range: percentiles 1 to 99 of the cutting points', 'data-action': 'range-auto' }, 'usual');
-        const all = element('button', { title: 'from the lowest to the highest value', 'data-action': 'range-all' }, 'all');
+        const reset = element(
+            'button',
+            { title: 'the usual range: percentiles 1 to 99 of the cutting points', 'data-action': 'range-auto' },
+            'usual',
+        );
+        const all = element(
+            'button',
+            { title: 'from the lowest to the highest value', 'data-action': 'range-all' },
+            'all',
+        );
         reset.addEventListener('click', () => this.reset());
         all.addEventListener('click', () => {
             const { lowest, highest } = this.ends();
             this.store.set({ low: lowest, high: highest });
         });
         for (const input of [this.low, this.high]) input.addEventListener('change', () => this.type());
-        this.element.append(element('h3', {}, 'Range'), this.canvas, element('div', { class: 'ends' }, this.low, this.high, reset, all));
+        this.element.append(
+            element('h3', {}, 'Range'),
+            this.canvas,
+            element('div', { class: 'ends' }, this.low, this.high, reset, all),
+        );
         this.canvas.addEventListener('pointerdown', (event) => {
             const { low, high } = store.state;
             const x = this.valueAt(event.offsetX);
@@ -54,7 +70,11 @@ export class RangePane {
         });
         store.on((_, changed) => {
             if (changed.has('field') || changed.has('formed')) this.reset();
-            if (['field', 'formed', 'shown', 'theme', 'low', 'high', 'map', 'bins'].some((key) => changed.has(key as never))) {
+            if (
+                ['field', 'formed', 'shown', 'theme', 'low', 'high', 'map', 'bins'].some((key) =>
+                    changed.has(key as never),
+                )
+            ) {
                 if (changed.has('field') || changed.has('formed') || changed.has('shown')) this.count();
                 this.draw();
             }
@@ -131,7 +151,8 @@ export class RangePane {
             g.fillStyle = cssColour(colourAlong(scale, (value - low) / (high - low || 1)));
             g.fillRect((k / bars) * width, height - tall, width / bars + 0.5, tall);
         });
-        const x = (value: number) => Math.min(width - 1.5, Math.max(1.5, ((value - this.from) / (this.to - this.from)) * width));
+        const x = (value: number) =>
+            Math.min(width - 1.5, Math.max(1.5, ((value - this.from) / (this.to - this.from)) * width));
         g.fillStyle = styleValue('--ink');
         for (const value of [low, high]) {
             g.fillRect(x(value) - 1, 0, 2, height);

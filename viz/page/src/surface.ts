@@ -92,7 +92,8 @@ export class Surface {
                 else this.runs?.set(of, [run]);
             });
         }
-        const end = (run: number) => (run + 1 < this.runPoints.length ? this.runPoints[run + 1] : this.info.records) - 1;
+        const end = (run: number) =>
+            (run + 1 < this.runPoints.length ? this.runPoints[run + 1] : this.info.records) - 1;
         return (this.runs.get(line) ?? []).map((run) => [this.runPoints[run], end(run)]);
     }
     /** Vertices of every run of a line, as half-open ranges; where none of its points is kept, the nearest one. */
@@ -120,7 +121,9 @@ export class Surface {
 
 /** Positions from a common origin, so that two logs lie in one space. */
 async function readPositions(info: SurfaceInfo, origin: readonly number[]): Promise<Float32Array> {
-    const axes = await Promise.all([info.columns.x, info.columns.y, info.columns.z].map((c) => readNumbers(c, info.position_quantum_mm)));
+    const axes = await Promise.all(
+        [info.columns.x, info.columns.y, info.columns.z].map((c) => readNumbers(c, info.position_quantum_mm)),
+    );
     const xyz = new Float32Array(3 * axes[0].length);
     for (let k = 0; k < 3; ++k) {
         const shift = info.origin_mm[k] - origin[k];
@@ -156,7 +159,9 @@ export async function readSurface(manifest: Manifest, index: number): Promise<Su
     const info = manifest.surfaces[index];
     const { columns } = info;
     const point = await readNumbers(columns.point);
-    const time = columns.time ? await readNumbers(columns.time, info.time_quantum_s) : point.map((n) => n * info.period_s);
+    const time = columns.time
+        ? await readNumbers(columns.time, info.time_quantum_s)
+        : point.map((n) => n * info.period_s);
     const fields: Float32Array[] = [];
     for (const field of info.fields) fields.push(await readField(field));
     return new Surface(

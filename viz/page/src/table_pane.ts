@@ -16,7 +16,8 @@ export class TablePane {
         private readonly surface: () => Surface,
     ) {
         store.on((_, changed) => {
-            if (changed.has('vertex') || changed.has('hover') || changed.has('role') || changed.has('shown')) this.draw();
+            if (changed.has('vertex') || changed.has('hover') || changed.has('role') || changed.has('shown'))
+                this.draw();
         });
         this.draw();
     }
@@ -26,10 +27,23 @@ export class TablePane {
         const at = hover ?? vertex;
         const surface = this.surface();
         if (at === null) {
-            this.element.replaceChildren(element('p', { class: 'hint' }, 'Click a place, a line, a curve or a defect: the numbers of its point stand here.'));
+            this.element.replaceChildren(
+                element(
+                    'p',
+                    { class: 'hint' },
+                    'Click a place, a line, a curve or a defect: the numbers of its point stand here.',
+                ),
+            );
             return;
         }
-        const row = (name: string, value: string, unit = '') => element('tr', {}, element('th', { title: name }, name), element('td', {}, value), element('td', { class: 'unit' }, unit));
+        const row = (name: string, value: string, unit = '') =>
+            element(
+                'tr',
+                {},
+                element('th', { title: name }, name),
+                element('td', {}, value),
+                element('td', { class: 'unit' }, unit),
+            );
         const positions = surface.roles[Math.min(role, surface.roles.length - 1)].xyz;
         const origin = this.manifest.surfaces[0].origin_mm;
         const place = [0, 1, 2].map((k) => (positions[3 * at + k] + origin[k]).toFixed(4)).join('  ');
@@ -37,7 +51,12 @@ export class TablePane {
         const rows = [
             row('Point', String(surface.point[at]), hover === null ? 'cursor' : 'pointer'),
             row('Line', line > 0 ? String(line) : '–', `of ${this.text.lineCount}`),
-            element('tr', {}, element('th', {}, ''), element('td', { class: 'text', colspan: '2' }, line > 0 ? this.text.line(line).slice(0, 80) : '')),
+            element(
+                'tr',
+                {},
+                element('th', {}, ''),
+                element('td', { class: 'text', colspan: '2' }, line > 0 ? this.text.line(line).slice(0, 80) : ''),
+            ),
             row('Time', surface.time[at].toFixed(4), 's'),
             row('Pass', String(surface.passOf(at) || '–'), `of ${surface.info.pass_count}`),
             row('X Y Z', place, 'mm'),

@@ -14,9 +14,16 @@ export class Toolbar {
     readonly element = element('div', { class: 'toolbar', role: 'toolbar' });
     readonly locator: Locator;
 
-    constructor(manifest: Manifest, store: Store, actions: Action[], locate: (kind: string, value: number) => string | null) {
+    constructor(
+        manifest: Manifest,
+        store: Store,
+        actions: Action[],
+        locate: (kind: string, value: number) => string | null,
+    ) {
         const field = element('select', { title: 'what is coloured', 'aria-label': 'field' });
-        manifest.fields.forEach((f, k) => field.append(new Option(f.unit ? `${f.label} [${f.unit}]` : f.label, String(k))));
+        manifest.fields.forEach((f, k) =>
+            field.append(new Option(f.unit ? `${f.label} [${f.unit}]` : f.label, String(k))),
+        );
         field.addEventListener('change', () => store.set({ field: Number(field.value), formed: false }));
         const map = element('select', { title: 'colour map (key K)', 'aria-label': 'colour map' });
         for (const m of manifest.colour_maps) {
@@ -38,7 +45,11 @@ export class Toolbar {
                 groups.set(action.group, (group = element('span', { class: 'set' })));
                 this.element.append(group);
             }
-            const button = element('button', { 'data-action': action.name, title: `${action.title} (key ${action.key.toUpperCase()})` }, action.text);
+            const button = element(
+                'button',
+                { 'data-action': action.name, title: `${action.title} (key ${action.key.toUpperCase()})` },
+                action.text,
+            );
             button.addEventListener('click', () => action.run());
             group.append(button);
         }
@@ -53,11 +64,25 @@ export class Toolbar {
     }
 
     private addLocator(locate: (kind: string, value: number) => string | null): Locator {
-        const kind = element('select', { 'aria-label': 'what to go to' }, new Option('line', 'line'), new Option('point', 'point'), new Option('time [s]', 'time'));
-        const input = element('input', { type: 'text', inputmode: 'decimal', size: '8', placeholder: 'go to …', title: 'a number, then Enter (key G)', 'aria-label': 'go to' });
+        const kind = element(
+            'select',
+            { 'aria-label': 'what to go to' },
+            new Option('line', 'line'),
+            new Option('point', 'point'),
+            new Option('time [s]', 'time'),
+        );
+        const input = element('input', {
+            type: 'text',
+            inputmode: 'decimal',
+            size: '8',
+            placeholder: 'go to …',
+            title: 'a number, then Enter (key G)',
+            'aria-label': 'go to',
+        });
         const go = () => {
             const value = Number(input.value.replace(',', '.'));
-            const problem = input.value.trim() === '' || !Number.isFinite(value) ? 'a number is needed' : locate(kind.value, value);
+            const problem =
+                input.value.trim() === '' || !Number.isFinite(value) ? 'a number is needed' : locate(kind.value, value);
             input.setCustomValidity(problem ?? '');
             if (problem) input.reportValidity();
         };
@@ -70,7 +95,9 @@ export class Toolbar {
     private update(actions: Action[]): void {
         for (const action of actions) {
             if (!action.pressed) continue;
-            this.element.querySelector(`[data-action="${action.name}"]`)?.setAttribute('aria-pressed', String(action.pressed()));
+            this.element
+                .querySelector(`[data-action="${action.name}"]`)
+                ?.setAttribute('aria-pressed', String(action.pressed()));
         }
     }
 }

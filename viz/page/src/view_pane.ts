@@ -31,7 +31,11 @@ function waySegments(surface: Surface): Uint32Array {
 }
 
 export class ViewPane {
-    readonly element = element('div', { class: 'view', tabindex: '0', 'aria-label': 'the surface; drag to turn, shift and drag to move, wheel to zoom' });
+    readonly element = element('div', {
+        class: 'view',
+        tabindex: '0',
+        'aria-label': 'the surface; drag to turn, shift and drag to move, wheel to zoom',
+    });
     readonly camera = new Camera();
     private readonly layers: Layer[] = [];
     private readonly overlay: Overlay;
@@ -99,8 +103,10 @@ export class ViewPane {
     private update(changed: ReadonlySet<keyof State>): void {
         const any = (...keys: (keyof State)[]) => keys.some((key) => changed.has(key));
         if (any('style', 'role', 'formed')) for (const layer of this.layers) this.remesh(layer);
-        if (any('style', 'role', 'formed', 'field', 'low', 'high')) for (const layer of this.layers) this.revalue(layer);
-        if (any('style', 'role', 'formed', 'field', 'low', 'high', 'map', 'bins')) for (const layer of this.layers) layer.view.setColours(this.scale);
+        if (any('style', 'role', 'formed', 'field', 'low', 'high'))
+            for (const layer of this.layers) this.revalue(layer);
+        if (any('style', 'role', 'formed', 'field', 'low', 'high', 'map', 'bins'))
+            for (const layer of this.layers) layer.view.setColours(this.scale);
         if (any('tool')) this.element.dataset.tool = this.store.state.tool;
         if (any('theme')) for (const layer of this.layers) layer.view.setBackground(rgbOf(styleValue('--view')));
         const { shown, wipe } = this.store.state;
@@ -138,13 +144,24 @@ export class ViewPane {
         layer.picker = null;
         if (formed && this.relief && layer === this.layers[0]) {
             const { xyz, triangles } = this.relief;
-            layer.view.setMesh({ xyz, triangles, normals: normalsOf(xyz, triangles), segments: new Uint32Array(0) }, 'surface');
+            layer.view.setMesh(
+                { xyz, triangles, normals: normalsOf(xyz, triangles), segments: new Uint32Array(0) },
+                'surface',
+            );
             return;
         }
         const xyz = this.xyzOf(surface);
         let normals = layer.normals.get(role) ?? null;
         if (!normals && style === 'surface') layer.normals.set(role, (normals = normalsOf(xyz, surface.triangles)));
-        layer.view.setMesh({ xyz, normals, triangles: surface.triangles, segments: style === 'lines' ? waySegments(surface) : surface.segments }, style);
+        layer.view.setMesh(
+            {
+                xyz,
+                normals,
+                triangles: surface.triangles,
+                segments: style === 'lines' ? waySegments(surface) : surface.segments,
+            },
+            style,
+        );
     }
 
     private revalue(layer: Layer): void {
@@ -165,7 +182,8 @@ export class ViewPane {
     /** Of all that is shown. */
     extent(): Extent {
         const { surface, relief } = this;
-        if (this.store.state.formed && relief) return extentAlong(this.camera.axes, relief.xyz, (i) => relief.missing[i] === 0);
+        if (this.store.state.formed && relief)
+            return extentAlong(this.camera.axes, relief.xyz, (i) => relief.missing[i] === 0);
         return extentAlong(this.camera.axes, this.xyzOf(surface), (i) => surface.kind(i) !== Kind.rapid);
     }
     fit(): void {
@@ -199,7 +217,8 @@ export class ViewPane {
     private drawNow(): void {
         if (this.stale) {
             this.stale = false;
-            for (const layer of this.layers) if (layer.box.style.visibility !== 'hidden') layer.view.render(this.camera);
+            for (const layer of this.layers)
+                if (layer.box.style.visibility !== 'hidden') layer.view.render(this.camera);
         }
         this.overlay.draw(this.camera, this.scene(), devicePixelRatio);
         this.element.dataset.view = viewName(this.camera);
@@ -220,7 +239,10 @@ export class ViewPane {
             highest: formed?.highest ?? field.highest,
             title: formed ? 'Formed surface over its form' : field.label,
             unit: formed ? 'µm' : field.unit,
-            caption: (this.layers.length > 1 && state.shown !== 'wipe' ? `${state.shown}: ${baseName(surface.info.log)}, ` : '') + viewName(this.camera),
+            caption:
+                (this.layers.length > 1 && state.shown !== 'wipe'
+                    ? `${state.shown}: ${baseName(surface.info.log)}, `
+                    : '') + viewName(this.camera),
             measure: this.places,
             box: this.box,
             wipe: state.shown === 'wipe' ? state.wipe : null,
@@ -237,7 +259,12 @@ export class ViewPane {
         const { surface } = layer;
         // A single pass has no triangles.
         const style = surface.triangles.length > 0 ? state.style : 'lines';
-        layer.picker ??= new Picker(this.xyzOf(surface), surface.triangles, style, (i) => surface.kind(i) !== Kind.rapid);
+        layer.picker ??= new Picker(
+            this.xyzOf(surface),
+            surface.triangles,
+            style,
+            (i) => surface.kind(i) !== Kind.rapid,
+        );
         return layer.picker.pick(this.camera, x, y);
     }
 
@@ -309,7 +336,10 @@ export class ViewPane {
             this.box = null;
             if (Math.abs(x1 - x0) > 6 && Math.abs(y1 - y0) > 6) {
                 this.camera.pan(this.camera.width / 2 - (x0 + x1) / 2, this.camera.height / 2 - (y0 + y1) / 2);
-                this.camera.mmPerPixel *= Math.max(Math.abs(x1 - x0) / this.camera.width, Math.abs(y1 - y0) / this.camera.height);
+                this.camera.mmPerPixel *= Math.max(
+                    Math.abs(x1 - x0) / this.camera.width,
+                    Math.abs(y1 - y0) / this.camera.height,
+                );
             }
             this.store.set({ tool: 'turn' });
             this.draw();
@@ -327,7 +357,9 @@ export class ViewPane {
     }
 
     private hoverAt: [number, number] | null = null;
-    private readonly hoverLater = oncePerFrame(() => this.store.set({ hover: this.hoverAt ? this.pick(...this.hoverAt) : null }));
+    private readonly hoverLater = oncePerFrame(() =>
+        this.store.set({ hover: this.hoverAt ? this.pick(...this.hoverAt) : null }),
+    );
     private hover(x: number, y: number): void {
         this.hoverAt = [x, y];
         this.hoverLater();
@@ -350,7 +382,9 @@ export class ViewPane {
         });
         this.overlay.draw(this.camera, this.scene(), devicePixelRatio);
         g.drawImage(this.overlay.canvas, 0, 0);
-        return new Promise((resolve, reject) => canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error('no picture'))), 'image/png'));
+        return new Promise((resolve, reject) =>
+            canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error('no picture'))), 'image/png'),
+        );
     }
 }
 
