@@ -18,7 +18,8 @@ constexpr int pair_rounds = 5;
 constexpr int follow_rounds = 6;
 constexpr std::size_t followed_most = 1500;  ///< points of a log that are followed along the program
 constexpr double window_share = 0.01;        ///< of the program: how far a point may be from where it is expected
-constexpr std::size_t best_matches = 3;
+constexpr std::size_t best_places = 6;       ///< of the log on the program that are followed
+constexpr double place_share = 0.005;        ///< of the program: matches nearer to each other are one place
 
 /// Puts points at equal distances on a way that comes in pieces.
 class EvenPoints {
@@ -97,6 +98,21 @@ double cost_of(const Distances& program, const Distances& log, double first, dou
                                  : (cost + most * static_cast<double>(wanted - compared)) / static_cast<double>(wanted);
 }
 
+/// The best matches, each of another place; the best first. `apart`: of places [points].
+std::vector<Match> best_of(std::vector<Match> matches, double apart) {
+    std::erase_if(matches, [](const Match& a) { return !std::isfinite(a.cost); });
+    std::stable_sort(matches.begin(), matches.end(), [](const Match& a, const Match& b) { return a.cost < b.cost; });
+    std::vector<Match> best;
+    for (const Match& one : matches) {
+        const bool known = std::any_of(best.begin(), best.end(), [&](const Match& other) {
+            return one.scale == other.scale && std::abs(one.first - other.first) < apart;
+        });
+        if (!known) best.push_back(one);
+        if (best.size() == best_places) break;
+    }
+    return best;
+}
+
 std::vector<Match> match(const PathProfile& program, const PathProfile& log) {
     std::vector<std::size_t> lags;
     for (const std::size_t part : {300, 40, 8, 3}) {
@@ -111,23 +127,18 @@ std::vector<Match> match(const PathProfile& program, const PathProfile& log) {
     const auto add = [&](double first, double scale) {
         matches.push_back({first, scale, cost_of(of_program, of_log, first, scale, most)});
     };
-    add(0, n / m);  // both whole
-    add(0, 1);
-    add(n - m, 1);
-    std::vector<Match> anywhere;
     const double step = std::max(1.0, std::floor(n / 8000));
-    for (double first = -m / 2; first < n - m / 2; first += step)
-        anywhere.push_back({first, 1, cost_of(of_program, of_log, first, 1, most)});
-    const std::size_t best = std::min(best_matches, anywhere.size());
-    std::partial_sort(anywhere.begin(), anywhere.begin() + static_cast<std::ptrdiff_t>(best), anywhere.end(),
-                      [](const Match& a, const Match& b) { return a.cost < b.cost; });
-    for (std::size_t i = 0; i < best; ++i) {
-        for (double fine = -step; fine <= step; fine += 1) add(anywhere[i].first + fine, 1);
+    for (double first = -m / 2; first < n - m / 2; first += step) add(first, 1);
+    // Passes that are alike fit passes beside them nearly as well: each place counts once, or the best one would be
+    // all of the first few.
+    const double one_place = std::max(2 * step, place_share * n);
+    const std::vector<Match> coarse = best_of(std::move(matches), one_place);
+    matches.clear();
+    add(0, n / m);  // both whole
+    for (const Match& place : coarse) {
+        for (double fine = -step; fine <= step; fine += 1) add(place.first + fine, 1);
     }
-    std::erase_if(matches, [](const Match& a) { return !std::isfinite(a.cost); });
-    std::stable_sort(matches.begin(), matches.end(), [](const Match& a, const Match& b) { return a.cost < b.cost; });
-    if (matches.size() > best_matches + 1) matches.resize(best_matches + 1);
-    return matches;
+    return best_of(std::move(matches), one_place);
 }
 
 /// Pairs along the match, made better by turns: the pose of the pairs, and for each point of the log the nearest one of

@@ -447,9 +447,14 @@ bool note_pose(const Trajectory& path, const Program& program, const LineMap* ma
         how = fmt::format("turned by {} deg about Z, and displaced", turn);
         by = found->inverse().translation();
     }
+    // Rounded corners lie inside of the programmed ones: a best fit is off by some of it.
+    const double play = corner_play(program);
+    const std::string known_to =
+        play > near ? fmt::format("; its corners may be rounded by {} mm, and the shift is no surer", decimals(play, 3))
+                    : "";
     diagnostics.add({Severity::warning, "map.work-offset", Place::of_file(path.name),
-                     fmt::format("the positions lie parallel to the programmed path, {} by X {} Y {} Z {} mm", how,
-                                 decimals(by.x(), 3), decimals(by.y(), 3), decimals(by.z(), 3)),
+                     fmt::format("the positions lie parallel to the programmed path, {} by X {} Y {} Z {} mm{}", how,
+                                 decimals(by.x(), 3), decimals(by.y(), 3), decimals(by.z(), 3), known_to),
                      fmt::format("--work-offset {} brings them onto it", pose_numbers(pose))});
     return true;
 }
