@@ -14,3 +14,6 @@ install(FILES ${PROJECT_BINARY_DIR}/clsurf-config.cmake
 foreach(export clsurf_rooms clsurf_rooms_with_vtk)
   install(EXPORT ${export} NAMESPACE clsurf:: DESTINATION ${package_folder})
 endforeach()
+
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/clsurf)
+install(FILES ${PROJECT_SOURCE_DIR}/viz/page/dist/NOTICE.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/clsurf)
