@@ -11,7 +11,7 @@
 #include "core/error.h"
 #include "core/units.h"
 #include "path/toolpath.h"
-#include "program/arc.h"
+#include "program/interpret/arc.h"
 #include "program/tool_centre_point.h"
 
 namespace clsurf {
