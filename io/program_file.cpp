@@ -39,6 +39,7 @@ std::optional<SourceText> load_beside(const std::filesystem::path& folder, const
 InterpreterOptions interpreter_options(const Source& source, const ProgramOptions& wanted) {
     InterpreterOptions options;
     options.block_delete = wanted.block_delete;
+    options.start = wanted.start;
     if (!wanted.tools.empty()) options.tools = read_tool_table(map_file(wanted.tools));
     if (const std::string& dialect = wanted.dialect; !dialect.empty()) {
         options.dialect = find_dialect(dialect);

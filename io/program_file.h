@@ -16,7 +16,8 @@ struct ProgramOptions {
     bool block_delete = true;  ///< skip blocks that begin with '/'
     /// nullopt: each motion in its own work system, as `moves` prints it.
     std::optional<Coordinates> coordinates = Coordinates::workpiece;
-    std::string tools;  ///< path of a tool table (io/tool_table_file.h); empty: none
+    std::optional<Vec3> start;  ///< [mm] as InterpreterOptions has it
+    std::string tools;          ///< path of a tool table (io/tool_table_file.h); empty: none
 };
 
 /// Reads and interprets a program ("-": standard input). Subprograms that the program calls by name

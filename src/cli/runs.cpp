@@ -59,10 +59,7 @@ RunOptions read_run_options(const po::variables_map& values) {
     if (values.count("program") > 0) options.program = values["program"].as<std::string>();
     if (values.count("machine") > 0) options.machine = values["machine"].as<std::string>();
     if (values.count("surface") > 0) options.role = parse_role(values["surface"].as<std::string>());
-    if (values.count("start") > 0) {
-        const std::vector<double> given = parse_numbers(values["start"].as<std::string>(), "--start", 3);
-        options.start = Vec3(given[0], given[1], given[2]);
-    }
+    options.start = read_start(values);
     return options;
 }
 

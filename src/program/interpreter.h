@@ -25,6 +25,9 @@ struct InterpreterOptions {
     std::uint64_t most_jumps = 5'000'000;  ///< jumps and calls; more is an error: a loop without end
     /// Motions from loops, repeats and pecks; 200 a line may come on top. Bounds the memory.
     std::uint64_t most_repeated = 20'000'000;
+    /// [mm] Where the axes of the machine stand before the program, for linuxcnc, whose interpreter knows it: its incremental
+    /// words and coordinates that it never sets count from there. nullopt: 0, 0, 0. The other dialects know no start.
+    std::optional<Vec3> start;
     std::optional<ToolTable> tools;  ///< nullopt: for linuxcnc those of its stand-alone interpreter, else none
 };
 

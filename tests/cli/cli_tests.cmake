@@ -342,6 +342,15 @@ clsurf_cli_test(NAME simulate_log_is_trusted SETUP "$CLSURF simulate ${simulated
 clsurf_cli_test(NAME simulate_log_renders SETUP "$CLSURF simulate ${simulated} -o run.biip"
   ARGS render ${simulated} run.biip -o why.png --size 160x120 --color limit FILE why.png)
 clsurf_cli_test(NAME simulate_without_output ARGS simulate ${simulated} EXIT 2 STDERR "output")
+foreach(dialect linuxcnc fanuc)
+  clsurf_cli_test(NAME simulate_starts_where_the_axes_stand_${dialect}
+    SETUP "printf 'G21 G90\\nG1 X40 F600\\nM2\\n' > a.nc && $CLSURF simulate a.nc --dialect ${dialect} --start 30,20,10 -o a.biip -q && $CLSURF export a.biip --columns x,y,z -o a.csv && sed -n 2p a.csv | grep -q '^30[.0-9]*,20,10$' && tail -n 1 a.csv | grep -q '^40,20,10$'"
+    ARGS --version)
+endforeach()
+# LinuxCNC knows where the axes stand: incremental words count from there.
+clsurf_cli_test(NAME simulate_goes_on_from_where_the_axes_stand
+  SETUP "printf 'G21 G91\\nG1 X10 Z-2 F600\\nM2\\n' > a.ngc && $CLSURF simulate a.ngc --dialect linuxcnc --start 30,20,10 -o a.biip -q && $CLSURF export a.biip --columns x,y,z -o a.csv && tail -n 1 a.csv | grep -q '^40,20,8$'"
+  ARGS --version)
 clsurf_cli_test(NAME simulate_wrong_start ARGS simulate ${simulated} -o run.biip --start 1,2 EXIT 2 STDERR "--start")
 clsurf_cli_test(NAME simulate_bad_machine SETUP "printf '[path]\\nmax_speed = -1\\n' > m.toml" ARGS simulate ${simulated} --machine m.toml -o run.biip
   EXIT 3 STDERR "m.toml:2" "'max_speed' is -1" NO_FILE run.biip)

@@ -47,13 +47,13 @@ Interpreter::Interpreter(SourceText text, const InterpreterOptions& options)
     most_motions_ = std::min(most_numbers, options_.most_repeated + most_of_a_line * program_.main().line_count());
     indexes_.resize(1);
     indexed_.resize(1);
-    // RS274's interpreter starts at its origin and retracts to R; the other controls stand wherever they stand.
+    // RS274's interpreter knows where the axes stand and retracts to R; the other controls stand wherever they stand.
     if (options.tools) tools_ = *options.tools;
     if (dialect_ == DialectId::linuxcnc) {
         if (!options.tools) tools_ = stand_alone_tools();
-        state_.position = Vec3::Zero();
+        state_.position = options.start.value_or(Vec3::Zero());
         state_.retract_to_r = true;
-        program_.motions.start = Xyz(0, 0, 0);
+        program_.motions.start = Xyz(state_.position);
     }
     if (dialect_ == DialectId::siemens) {
         // The kinds of machining of CYCLE832.
