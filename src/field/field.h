@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 
 #include "core/column.h"
 #include "core/units.h"
@@ -14,10 +15,21 @@ enum class FieldScale : std::uint8_t {
     diverging,   ///< signed, 0 in the middle of the colour map
 };
 
+/// A unit that owns its name: that of a channel is known only when its log is read.
+struct FieldUnit {
+    std::string name;       ///< "mm/min"; empty: none
+    double per_inside = 1;  ///< shown = inside · per_inside
+
+    FieldUnit() = default;
+    FieldUnit(const Unit& unit) : name(unit.name), per_inside(unit.per_inside) {}
+    /// Values that are shown as they are stored.
+    explicit FieldUnit(std::string as_stored) : name(std::move(as_stored)) {}
+};
+
 struct FieldInfo {
     std::string name;   ///< "speed", the word of --color
     std::string label;  ///< "Path speed"
-    Unit unit;          ///< as shown; values are stored in inside units
+    FieldUnit unit;     ///< as shown; values are stored in inside units
     FieldScale scale = FieldScale::sequential;
     std::string note;  ///< how it was computed, "21-point window (20 ms)"; may be empty
 };

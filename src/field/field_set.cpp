@@ -21,16 +21,6 @@ namespace {
 constexpr PointIndex stretch_points = 4096;  ///< of a block, worked on at once: fits the L1 cache
 constexpr PointIndex error_halo = 256;       ///< commanded points that the contour error looks round
 
-Unit unit_of_channel(const std::string& text) {
-    // Channels stay in the unit in which they were recorded: shown as they are.
-    static constexpr std::array<std::string_view, 12> known{"mm",  "deg",   "mm/min", "mm/s", "%", "A",
-                                                            "N·m", "1/min", "s",      "°",    "W", "V"};
-    for (const std::string_view name : known) {
-        if (text == name) return {name, 1.0};
-    }
-    return unit::none;
-}
-
 /// Positions of one role with room round them, and what is derived from them.
 struct Scratch {
     std::array<std::vector<double>, 3> samples;
@@ -213,7 +203,8 @@ const Channel* channel_of(const Log& log, std::string_view name) {
 }
 
 FieldInfo info_of(const Channel& channel, std::string_view name) {
-    return {std::string(name), "Channel " + channel.name, unit_of_channel(channel.unit), FieldScale::sequential, {}};
+    // Channels are shown as they were recorded.
+    return {std::string(name), "Channel " + channel.name, FieldUnit(channel.unit), FieldScale::sequential, {}};
 }
 
 }  // namespace

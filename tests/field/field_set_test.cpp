@@ -153,5 +153,18 @@ TEST(Range, IsThatOfTheShownPoints) {
     EXPECT_THROW((void)find_range(field, passes, {}, [](PointIndex) { return false; }), UsageError);
 }
 
+TEST(FieldSet, ShowsChannelsInTheUnitsOfTheLog) {
+    Circle circle;
+    for (const char* unit : {"bar", "Nm", "rpm", "deg/min", "mm/s²", ""}) {
+        Channel channel = circle.log.channels.front();
+        channel.name = std::string("of ") + unit;
+        channel.unit = unit;
+        circle.log.channels.push_back(channel);
+        const Field field = circle.get(channel.name.c_str());
+        EXPECT_EQ(field.info.unit.name, unit);
+        EXPECT_EQ(field.info.unit.per_inside, 1);
+    }
+}
+
 }  // namespace
 }  // namespace clsurf
