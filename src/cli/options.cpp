@@ -6,6 +6,9 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <stdexcept>
+
+#include <fmt/format.h>
 
 #include "cli/output_format.h"
 #include "cli/terminal.h"
@@ -52,6 +55,7 @@ io::ProgramOptions read_program_options(const po::variables_map& values) {
     if (values.count("dialect") > 0) options.dialect = values["dialect"].as<std::string>();
     if (values.count("block-delete") > 0) options.block_delete = values["block-delete"].as<std::string>() == "on";
     if (values.count("tools") > 0) options.tools = values["tools"].as<std::string>();
+    if (values.count("start") > 0) options.start = read_start(values);
     return options;
 }
 
@@ -138,6 +142,35 @@ void write_answer(std::string_view text, const po::variables_map& values) {
 
 bool given(const po::variables_map& values, const char* name) {
     return values.count(name) > 0 && !values[name].defaulted();
+}
+
+namespace {
+
+/// The values of one option, as they are written on a command line.
+std::vector<std::string> texts_of(const boost::any& value, const std::string& name) {
+    if (const auto* text = boost::any_cast<std::string>(&value)) return {*text};
+    if (const auto* texts = boost::any_cast<std::vector<std::string>>(&value)) return *texts;
+    if (const auto* number = boost::any_cast<double>(&value)) return {fmt::format("{}", *number)};
+    if (const auto* number = boost::any_cast<int>(&value)) return {fmt::format("{}", *number)};
+    throw std::logic_error("--" + name + " has values of a type that words_of() does not write");
+}
+
+}  // namespace
+
+std::vector<std::string> words_of(const po::options_description& group, const po::variables_map& values,
+                                  const std::vector<std::string>& except) {
+    std::vector<std::string> words;
+    for (const auto& option : group.options()) {
+        const std::string& name = option->long_name();
+        if (values.count(name) == 0 || std::ranges::find(except, name) != except.end()) continue;
+        if (option->semantic()->max_tokens() == 0) {
+            words.push_back("--" + name);
+            continue;
+        }
+        for (const std::string& text : texts_of(values[name].value(), name))
+            words.insert(words.end(), {"--" + name, text});
+    }
+    return words;
 }
 
 std::string required(const po::variables_map& values, const char* name) {

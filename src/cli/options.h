@@ -30,6 +30,7 @@ void declare_common(po::options_description& options);
 
 /// --dialect, --block-delete, --tools
 void declare_program_options(po::options_description& options);
+/// With --start, where a subcommand has it.
 [[nodiscard]] io::ProgramOptions read_program_options(const po::variables_map& values);
 
 /// --layout, --mapping, --period
@@ -57,6 +58,10 @@ void declare_json(po::options_description& options);
 
 /// The option is on the command line, not in a configuration (cli/config.h).
 [[nodiscard]] bool given(const po::variables_map& values, const char* name);
+
+/// The options of a group that have values, but `except`, as words of a command line that gives the same values.
+[[nodiscard]] std::vector<std::string> words_of(const po::options_description& group, const po::variables_map& values,
+                                                const std::vector<std::string>& except = {});
 
 /// A positional argument or an option that must be there; UsageError names it otherwise.
 [[nodiscard]] std::string required(const po::variables_map& values, const char* name);

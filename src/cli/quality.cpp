@@ -15,7 +15,7 @@ std::optional<Trajectory> measured_of(const Log& log, const Trajectory& path, st
     if (path.role != Role::commanded || wanted == Role::commanded) return std::nullopt;
     if (wanted) return reconstruct_like(log, *wanted, path);
     for (const Role role : {Role::actual, Role::feedback}) {
-        if (log.has(role)) return reconstruct_like(log, role, path);
+        if (can_reconstruct_like(log, role, path)) return reconstruct_like(log, role, path);
     }
     return std::nullopt;
 }

@@ -45,19 +45,11 @@ void declare_report(po::options_description& options) {
     declare_part(options);
 }
 
-/// What `render` needs to read the same, as words of a command line.
+/// What `render` needs to read the same, as words of a command line. Which positions are shown the page itself knows.
 std::vector<std::string> reading_options_of(const po::variables_map& values) {
-    std::vector<std::string> words;
-    for (const char* name : {"dialect", "block-delete", "tools", "layout", "mapping", "machine"}) {
-        if (values.count(name) > 0)
-            words.insert(words.end(), {fmt::format("--{}", name), values[name].as<std::string>()});
-    }
-    if (values.count("work-offset") > 0) {
-        for (const std::string& offset : values["work-offset"].as<std::vector<std::string>>())
-            words.insert(words.end(), {"--work-offset", offset});
-    }
-    if (values.count("ignore-lines") > 0) words.push_back("--ignore-lines");
-    return words;
+    po::options_description reading;
+    declare_part(reading);
+    return words_of(reading, values, {"surface"});
 }
 
 ReportOptions read_report_options(const po::variables_map& values) {
@@ -123,8 +115,8 @@ ReportLog prepare(const PartOptions& part_options, const ReportOptions& options,
         if (!usual || has_values(field, shown.surface.passes)) shown.fields.push_back(std::move(field));
     }
     for (const Role role : {Role::commanded, Role::feedback, Role::actual}) {
-        if (role != shown.part.path.role && shown.part.log.has(role))
-            shown.other_roles.push_back(reconstruct(shown.part.log, role, shown.part.path.pose()));
+        if (role != shown.part.path.role && can_reconstruct_like(shown.part.log, role, shown.part.path))
+            shown.other_roles.push_back(reconstruct_like(shown.part.log, role, shown.part.path));
     }
     clock.end();
     return shown;

@@ -200,6 +200,15 @@ bool tilts(const Log& log, const Trajectory& trajectory) {
     });
 }
 
+bool can_reconstruct_like(const Log& log, Role role, const Trajectory& like) {
+    if (!log.has(role)) return false;
+    if (!like.kinematics) return true;
+    const auto has_axis = [&](const RotaryAxis& axis) {
+        return log.find(std::string(prefix_of(role)) + "." + axis.letter) != nullptr;
+    };
+    return has_axis(like.kinematics->tilt) && has_axis(like.kinematics->rotation);
+}
+
 Trajectory reconstruct_like(const Log& log, Role role, const Trajectory& like) {
     return role == like.role ? like : reconstruct_ball(log, role, like.pose(), like.kinematics, like.ball);
 }

@@ -53,6 +53,9 @@ struct Trajectory {
 /// Whether the tool axis ever leaves z, by more than 10⁻⁶ rad. False without kinematics. O(points).
 [[nodiscard]] bool tilts(const Log& log, const Trajectory& trajectory);
 
+/// Whether reconstruct_like() finds the channels that it needs: with kinematics the rotary axes too.
+[[nodiscard]] bool can_reconstruct_like(const Log& log, Role role, const Trajectory& like);
+
 /// Another role of the same log, by the same way into the workpiece.
 [[nodiscard]] Trajectory reconstruct_like(const Log& log, Role role, const Trajectory& like);
 
