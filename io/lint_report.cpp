@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "io/quality_words.h"
 #include "io/sarif.h"
 
 namespace clsurf::io {
@@ -60,8 +61,8 @@ Json finding_json(const LintFinding& f) {
               {"lines", Json::array({f.first_line, f.last_line})},
               {"beside_lines", f.beside_first > 0 ? Json::array({f.beside_first, f.beside_last}) : Json(nullptr)},
               {"pass", f.pass > 0 ? Json(f.pass) : Json(nullptr)},
-              {"found", number(f.found * shown.factor)},
-              {"expected", number(f.expected * shown.factor)},
+              {"found", number(f.found * shown.factor, shown.digits + 1)},
+              {"expected", number(f.expected * shown.factor, shown.digits + 1)},
               {"unit", shown.unit},
               {"text", message_of(f)}};
     add_place(json, f.place);
@@ -76,8 +77,8 @@ std::string lint_text(const ReportedLint& l) {
     for (const LintFinding& f : r.findings) {
         text += fmt::format("{}:{}: {}: {} [{}]", l.program->main().name(), lines_text(f.first_line, f.last_line),
                             name_of(f.severity), message_of(f), name_of(f.rule));
-        text +=
-            f.beside_first > 0 ? fmt::format(", beside lines {}\n", lines_text(f.beside_first, f.beside_last)) : "\n";
+        if (f.beside_first > 0) text += fmt::format(", beside lines {}", lines_text(f.beside_first, f.beside_last));
+        text += fmt::format(", {}\n", place_text(f.place));
     }
     text += r.findings.empty() ? "nothing found" : fmt::format("\n{} findings", r.findings.size());
     text += fmt::format(" on {} passes", r.passes);
@@ -98,10 +99,10 @@ std::string lint_json(const ReportedLint& l) {
     for (std::size_t i = 0; i < lint_rules; ++i)
         by_rule[std::string(name_of(static_cast<LintRule>(i)))] = r.count(static_cast<LintRule>(i));
     Json summary{{"passes", r.passes},
-                 {"step_over_mm", number(r.step_over)},
-                 {"spacing_mm", number(r.spacing)},
-                 {"chord_error_um", number(r.chord_error * um_per_mm)},
-                 {"tolerance_um", r.tolerance > 0 ? number(r.tolerance * um_per_mm) : Json(nullptr)},
+                 {"step_over_mm", number(r.step_over, 5)},
+                 {"spacing_mm", number(r.spacing, 5)},
+                 {"chord_error_um", number(r.chord_error * um_per_mm, 3)},
+                 {"tolerance_um", r.tolerance > 0 ? number(r.tolerance * um_per_mm, 3) : Json(nullptr)},
                  {"findings", r.findings.size()},
                  {"warnings", r.warnings()},
                  {"by_rule", std::move(by_rule)}};
@@ -121,8 +122,9 @@ std::string lint_sarif(const ReportedLint& l) {
         Json result{{"ruleId", name_of(f.rule)},
                     {"ruleIndex", std::distance(broken.begin(), broken.find(f.rule))},
                     {"level", name_of(f.severity)},
-                    {"message", {{"text", message_of(f)}}},
+                    {"message", {{"text", fmt::format("{}, {}", message_of(f), place_text(f.place))}}},
                     {"locations", Json::array({sarif_location(uri, f.first_line, f.last_line, "")})}};
+        add_place(result["properties"], f.place);
         if (f.beside_first > 0) {
             Json beside = sarif_location(uri, f.beside_first, f.beside_last, "the pass beside it");
             beside["id"] = 1;

@@ -16,7 +16,7 @@ struct ReportedLint {
 
 /// One line a finding, "part.nc:120: warning: … [point-spacing]", and a summary.
 [[nodiscard]] std::string lint_text(const ReportedLint& lint);
-/// Keys: findings[]{rule, severity, lines, beside_lines, pass, position_mm, found, expected, unit, text}, summary, diagnostics[].
+/// Keys: findings[]{rule, severity, lines, beside_lines, pass, position_mm, tip_mm, contact_mm (where the tool is known), found, expected, unit, text}, summary, diagnostics[].
 [[nodiscard]] std::string lint_json(const ReportedLint& lint);
 /// One result per finding on its lines.
 [[nodiscard]] std::string lint_sarif(const ReportedLint& lint);

@@ -14,9 +14,6 @@
 namespace clsurf::io {
 namespace {
 
-/// What the coordinates of a place are of.
-std::string_view place_word(const CutterPlace& place) { return place.contact ? "contact" : "tool tip"; }
-
 double um(double mm) { return mm * um_per_mm; }
 double per_minute(double per_second) { return per_second * seconds_per_minute; }
 

@@ -144,6 +144,13 @@ std::vector<Kind> kinds_of(const QualityReport& report) {
 
 }  // namespace
 
+std::string_view place_word(const CutterPlace& place) { return place.contact ? "contact" : "tool tip"; }
+
+std::string place_text(const CutterPlace& place) {
+    const Vec3& at = place.position();
+    return fmt::format("{} X {:.2f} Y {:.2f} Z {:.2f} mm", place_word(place), at.x(), at.y(), at.z());
+}
+
 std::string_view shape_of(const Defect& defect) {
     return defect.systematic ? "alternating" : defect.pit ? "pit" : "bulge";
 }

@@ -11,6 +11,11 @@
 
 namespace clsurf::io {
 
+/// What the coordinates of a place are of: "contact", "tool tip".
+[[nodiscard]] std::string_view place_word(const CutterPlace& place);
+/// "tool tip X 1.00 Y 2.00 Z 3.00 mm".
+[[nodiscard]] std::string place_text(const CutterPlace& place);
+
 /// "pit", "bulge"; "alternating" where one way lies below and the other above.
 [[nodiscard]] std::string_view shape_of(const Defect& defect);
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "io/json_value.h"
+#include "io/quality_words.h"
 
 namespace clsurf::io {
 namespace {
@@ -14,15 +15,18 @@ constexpr std::size_t shown_stretches = 12;  ///< of a run, in the text
 
 const RunQuantityInfo& info_of(RunQuantity q) { return run_quantity_table()[index_of(q)]; }
 
+/// Digits behind the point that mean something, of a quantity as it is shown.
+int decimals_of(RunQuantity q) { return q == RunQuantity::lag || q == RunQuantity::height ? 3 : 1; }
+
 double percent(double part, double whole) { return whole > 0 ? 100 * part / whole : 0; }
 
 Json quantity_json(const RunQuantitySummary& s) {
     const RunQuantityInfo& info = info_of(s.quantity);
-    const auto shown = [&](double value) { return number(value * info.unit.per_inside); };
+    const auto shown = [&](double value) { return number(value * info.unit.per_inside, decimals_of(s.quantity)); };
     Json json{{"name", info.name},
               {"unit", info.unit.name},
               {"threshold", shown(s.threshold)},
-              {"compared_mm", number(s.way)},
+              {"compared_mm", number(s.way, 3)},
               {"mean", shown(s.mean)},
               {"rms", shown(s.rms)},
               {"p95", shown(s.p95)},
@@ -30,15 +34,15 @@ Json quantity_json(const RunQuantitySummary& s) {
               {"highest", shown(s.highest)},
               {"begin", shown(s.begin)},
               {"end", shown(s.end)},
-              {"over_percent", number(100 * s.over)},
+              {"over_percent", number(100 * s.over, 2)},
               {"stretches", s.stretches}};
-    if (s.quantity == RunQuantity::speed) json["most_percent"] = number(100 * s.relative_most);
+    if (s.quantity == RunQuantity::speed) json["most_percent"] = number(100 * s.relative_most, 1);
     return json;
 }
 
 Json stretch_json(const RunDifferenceStretch& d, std::size_t id) {
     const RunQuantityInfo& info = info_of(d.quantity);
-    const auto shown = [&](double value) { return number(value * info.unit.per_inside); };
+    const auto shown = [&](double value) { return number(value * info.unit.per_inside, decimals_of(d.quantity)); };
     Json json{{"id", id},
               {"quantity", info.name},
               {"unit", info.unit.name},
@@ -48,13 +52,13 @@ Json stretch_json(const RunDifferenceStretch& d, std::size_t id) {
               {"points", Json::array({d.points.first, d.points.last})},
               {"points_of_run", Json::array({d.points_of_b.first, d.points_of_b.last})},
               {"point", d.point},
-              {"length_mm", number(d.length)},
-              {"time_s", number(d.time)},
-              {"score", number(d.score)}};
+              {"length_mm", number(d.length, 3)},
+              {"time_s", number(d.time, 6)},
+              {"score", number(d.score, 2)}};
     add_place(json, d.place);
     if (d.quantity == RunQuantity::speed) {
-        json["peak_percent"] = number(100 * d.relative_peak);
-        json["mean_percent"] = number(100 * d.relative_mean);
+        json["peak_percent"] = number(100 * d.relative_peak, 1);
+        json["mean_percent"] = number(100 * d.relative_mean, 1);
     }
     return json;
 }
@@ -68,16 +72,16 @@ Json run_json(const ReportedRun& run) {
     Json budget = Json::array();
     for (const BudgetLine& line : run.budget) {
         budget.push_back({{"name", line.name},
-                          {"limit", number(line.limit)},
-                          {"measured", number(line.measured)},
+                          {"limit", number(line.limit, 4)},
+                          {"measured", number(line.measured, 4)},
                           {"held", line.held}});
     }
     return Json{{"name", run.name},
-                {"aligned_mm", number(r.aligned)},
-                {"aligned_percent", number(percent(r.aligned, r.way))},
-                {"time_s", number(r.time_of_b)},
-                {"reference_time_s", number(r.time)},
-                {"time_difference_s", number(r.time_of_b - r.time)},
+                {"aligned_mm", number(r.aligned, 3)},
+                {"aligned_percent", number(percent(r.aligned, r.way), 2)},
+                {"time_s", number(r.time_of_b, 6)},
+                {"reference_time_s", number(r.time, 6)},
+                {"time_difference_s", number(r.time_of_b - r.time, 6)},
                 {"quantities", std::move(quantities)},
                 {"differences", std::move(differences)},
                 {"budget", std::move(budget)},
@@ -106,7 +110,7 @@ std::string run_text(const ReportedRun& run, const std::string& reference) {
     }
     if (!r.stretches.empty())
         text += fmt::format("\n{:>3} {:<13} {:>16} {:>10} {:>8} {:>8} {:<28} {}\n", "no", "quantity", "peak", "mean",
-                            "mm", "s", "at X Y Z [mm]", "lines");
+                            "mm", "s", fmt::format("{} X Y Z [mm]", place_word(r.stretches.front().place)), "lines");
     for (std::size_t i = 0; i < std::min(shown_stretches, r.stretches.size()); ++i) {
         const RunDifferenceStretch& d = r.stretches[i];
         const RunQuantityInfo& info = info_of(d.quantity);
@@ -147,10 +151,10 @@ std::string runs_json(const ReportedRuns& runs) {
             Json rms;
             for (const RunQuantityInfo& info : run_quantity_table()) {
                 rms[std::string(info.name) + "_" + std::string(info.json_suffix)] =
-                    number(d.rms[index_of(info.quantity)] * info.unit.per_inside);
+                    number(d.rms[index_of(info.quantity)] * info.unit.per_inside, decimals_of(info.quantity));
             }
             departures.push_back({{"name", runs.name_of(i)},
-                                  {"score", number(d.score)},
+                                  {"score", number(d.score, 2)},
                                   {"quantity", info_of(d.quantity).name},
                                   {"rms", std::move(rms)}});
         }

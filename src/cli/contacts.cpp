@@ -9,46 +9,92 @@ namespace {
 
 constexpr PointIndex bounds_points = 64;  ///< of a run, that tell its bounds
 
-}  // namespace
-
-PartContacts::PartContacts(const Part& part, const ClSurface& surface, const CuttingTool& tool)
-    : part_(part), surface_(surface) {
-    if (tilts(part.log, part.path)) {
-        if (tool.kind == ToolKind::ball) {
-            upright_path_ = upright_ball(part.log, part.path, tool.radius);
-            upright_surface_ = clsurf::stitch(gather(*upright_path_), *part.lines);
-        } else {
-            axes_ = tool_axes(part.log, part.path.role, part.path);
-        }
-    }
-    points_.emplace(this->surface(), path(), axes_ ? &*axes_ : nullptr, tool);
+ChannelView view_of(const Column<float>& values) {
+    ChannelView view;
+    view.first = reinterpret_cast<const std::byte*>(values.data());
+    view.stride = sizeof(float);
+    view.count = static_cast<PointIndex>(values.size());
+    view.type = ScalarType::f32;
+    return view;
 }
 
-CutterPlace PartContacts::place(PointIndex point) const { return {part_.path.at(point), points_->at(point)}; }
+/// The same positions again, which must outlive it.
+Trajectory trajectory_on(const Positions& positions) {
+    Trajectory path;
+    path.axes = {view_of(positions.x), view_of(positions.y), view_of(positions.z)};
+    path.offset = positions.origin;
+    path.count = positions.size();
+    return path;
+}
+
+template <typename Work>
+void for_each_index(std::size_t count, Work&& work) {
+    parallel_for(static_cast<std::int64_t>(count), 1, [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t k = first; k < last; ++k) work(static_cast<std::size_t>(k));
+    });
+}
+
+}  // namespace
+
+PartContacts::PartContacts(const Log& log, const Trajectory& path, const LineMap& lines, const ClSurface& surface,
+                           const CuttingTool& tool)
+    : path_(path), surface_(surface) {
+    if (!path.kinematics && find_rotary_motion(log, path.role)) return;
+    if (tilts(log, path)) {
+        if (tool.kind == ToolKind::ball) {
+            upright_path_ = upright_ball(log, path, tool.radius);
+            upright_surface_ = clsurf::stitch(gather(*upright_path_), lines);
+        } else {
+            axes_ = tool_axes(log, path.role, path);
+        }
+    }
+    points_.emplace(this->surface(), this->path(), axes_ ? &*axes_ : nullptr, tool);
+}
+
+std::optional<Vec3> PartContacts::contact_of(PointIndex point) const {
+    return points_ ? points_->at(point) : std::nullopt;
+}
+
+CutterPlace PartContacts::place(PointIndex point) const { return {path_.at(point), contact_of(point)}; }
 
 std::vector<FoundPlace> PartContacts::find(const WantedPlace& wanted) const {
+    if (!points_) return {};
     std::vector<FoundPlace> found = find_places(path(), surface().passes, &*points_, surface().step_over, wanted);
-    for (FoundPlace& f : found) f.place.tip = part_.path.at(f.point);
+    for (FoundPlace& f : found) f.place.tip = path_.at(f.point);
     return found;
 }
 
 void PartContacts::locate(QualityReport& report) const {
-    for (std::vector<Defect>* list : {&report.defects, &report.expected}) {
-        parallel_for(static_cast<std::int64_t>(list->size()), 1, [&](std::int64_t first, std::int64_t last) {
-            for (std::int64_t k = first; k < last; ++k) locate((*list)[static_cast<std::size_t>(k)]);
-        });
-    }
+    for (std::vector<Defect>* list : {&report.defects, &report.expected})
+        for_each_index(list->size(), [&](std::size_t k) { locate((*list)[k]); });
+}
+
+void PartContacts::locate(RunReport& report) const {
+    for_each_index(report.stretches.size(), [&](std::size_t k) {
+        RunDifferenceStretch& stretch = report.stretches[k];
+        stretch.place.contact = contact_of(stretch.point);
+    });
 }
 
 void PartContacts::locate(Defect& defect) const {
-    defect.place.contact = points_->at(defect.point);
+    defect.place.contact = contact_of(defect.point);
     for (const DefectRun& run : defect.runs) {
         const PointIndex every = std::max<PointIndex>(1, run.points.size() / bounds_points);
         for (PointIndex i = run.points.first; i <= run.points.last; i += every) {
-            if (const std::optional<Vec3> contact = points_->at(i)) defect.contact_bounds.extend(*contact);
+            if (const std::optional<Vec3> contact = contact_of(i)) defect.contact_bounds.extend(*contact);
         }
-        if (const std::optional<Vec3> contact = points_->at(run.points.last)) defect.contact_bounds.extend(*contact);
+        if (const std::optional<Vec3> contact = contact_of(run.points.last)) defect.contact_bounds.extend(*contact);
     }
+}
+
+void locate(LintReport& report, const Program& program, const ProgrammedSurface& laid, const CuttingTool& tool) {
+    if (!program.motions.rotary.empty() || !program.motions.tool_axis.empty()) return;
+    const Trajectory path = trajectory_on(laid.surface.positions);
+    const ContactPoints points(laid.surface, path, nullptr, tool);
+    for_each_index(report.findings.size(), [&](std::size_t k) {
+        LintFinding& finding = report.findings[k];
+        finding.place.contact = points.at(finding.point);
+    });
 }
 
 }  // namespace clsurf::cli

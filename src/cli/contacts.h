@@ -1,42 +1,54 @@
 #pragma once
-// PartContacts: where the tool of a part touches it.
+// PartContacts: where the tool of a run touches the part.
 
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "cli/part.h"
+#include "optimize/lint.h"
 #include "quality/contact_points.h"
 #include "quality/defects.h"
 #include "quality/place_search.h"
+#include "quality/run_report.h"
 
 namespace clsurf::cli {
 
 /// Does not move once it is made.
 class PartContacts {
 public:
-    /// `surface` is that of the part. A ball that tilts is followed by its centre: then a surface of its own is
-    /// made. Both must outlive it. O(1), or O(points) for a tool that tilts.
-    PartContacts(const Part& part, const ClSurface& surface, const CuttingTool& tool);
+    /// `surface` is that of `path`. A ball that tilts is followed by its centre: then a surface of its own is
+    /// made. Where rotary axes move and the path is not through kinematics, no contact point is known. All but
+    /// `lines` must outlive it. O(1), or O(points) where there are rotary axes.
+    PartContacts(const Log& log, const Trajectory& path, const LineMap& lines, const ClSurface& surface,
+                 const CuttingTool& tool);
+    /// The same of a part's own path.
+    PartContacts(const Part& part, const ClSurface& surface, const CuttingTool& tool)
+        : PartContacts(part.log, part.path, *part.lines, surface, tool) {}
     PartContacts(const PartContacts&) = delete;
     PartContacts& operator=(const PartContacts&) = delete;
 
     [[nodiscard]] CutterPlace place(PointIndex point) const;
     /// As find_places(), by contact points.
     [[nodiscard]] std::vector<FoundPlace> find(const WantedPlace& wanted) const;
-    /// Adds the contact points to the defects of a report.
+    /// Adds the contact points to the places of a report.
     void locate(QualityReport& report) const;
+    void locate(RunReport& report) const;
 
 private:
     void locate(Defect& defect) const;
-    [[nodiscard]] const Trajectory& path() const { return upright_path_ ? *upright_path_ : part_.path; }
+    [[nodiscard]] std::optional<Vec3> contact_of(PointIndex point) const;
+    [[nodiscard]] const Trajectory& path() const { return upright_path_ ? *upright_path_ : path_; }
     [[nodiscard]] const ClSurface& surface() const { return upright_surface_ ? *upright_surface_ : surface_; }
 
-    const Part& part_;
+    const Trajectory& path_;
     const ClSurface& surface_;
     std::optional<Trajectory> upright_path_, axes_;  ///< of a tool that tilts: a ball's, another one's
     std::optional<ClSurface> upright_surface_;
     std::optional<ContactPoints> points_;
 };
+
+/// Adds the contact points to what lint found; nothing where the program turns the tool. O(findings).
+void locate(LintReport& report, const Program& program, const ProgrammedSurface& laid, const CuttingTool& tool);
 
 }  // namespace clsurf::cli

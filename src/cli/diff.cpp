@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/contacts.h"
 #include "cli/look.h"
 #include "cli/picture_output.h"
 #include "cli/runs.h"
@@ -123,7 +124,7 @@ ExitCode run_diff(const po::variables_map& values) {
     StageClock clock(read_common(values), 3 + 2 * static_cast<int>(options.files.size()));
     Diagnostics diagnostics;
     clock.begin("read the reference");
-    const LoadedRun reference = load_run(options.files.front(), options.runs);
+    LoadedRun reference = load_run(options.files.front(), options.runs);
     diagnostics.append(reference.log.diagnostics);
     io::ReportedRuns reported;
     reported.reference = reference.name;
@@ -132,7 +133,12 @@ ExitCode run_diff(const po::variables_map& values) {
     std::unique_ptr<LineMap> lines;
     ClSurface surface;
     std::unique_ptr<DriftFinder> drift;
+<<<<<<< HEAD
     ComparedRun a;
+=======
+    std::optional<CuttingTool> tool;
+    Run a;
+>>>>>>> 911f8ca (diff, lint and the page give contact points where the tool is known)
     std::optional<DrawnDifference> shown;
     double threshold = 0;
     for (std::size_t k = 1; k < options.files.size(); ++k) {
@@ -149,6 +155,7 @@ ExitCode run_diff(const po::variables_map& values) {
             lines = lines_of(reference, of_reference.path, options.runs, diagnostics);
             surface = clsurf::stitch(gather(of_reference.path), *lines);
             drift = std::make_unique<DriftFinder>(surface);
+            tool = find_tool(options.runs.tool, &reference.log, reference.program.get(), diagnostics);
         }
         a = std::move(of_reference);
         clock.begin("compare the runs");
@@ -157,6 +164,7 @@ ExitCode run_diff(const po::variables_map& values) {
         const bool lines_known =
             reference.log.find("line") != nullptr || reference.simulated || !options.runs.program.empty();
         RunReport report = report_run(a, surface, lines_known ? lines.get() : nullptr, b, differences);
+        if (tool) PartContacts(reference.log, a.path, *lines, surface, *tool).locate(report);
         std::vector<BudgetLine> budget = hold(report, options.budget);
         reported.runs.push_back({loaded.name, std::move(report), std::move(budget)});
         drift->add(differences);

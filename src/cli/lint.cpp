@@ -3,6 +3,8 @@
 #include <cmath>
 #include <map>
 
+#include "cli/contacts.h"
+#include "cli/known_tool.h"
 #include "cli/options.h"
 #include "cli/report_output.h"
 #include "io/lint_report.h"
@@ -24,11 +26,16 @@ ExitCode run_lint(const po::variables_map& values) {
         if (!(rules.tolerance > 0) || !std::isfinite(rules.tolerance))
             throw UsageError("--tolerance must be above 0 mm");
     }
+    const ToolChoice choice = read_tool(values);
     ReportOutput output(values, lint_formats);
     const Program program = io::read_program(required(values, "PROGRAM"), read_program_options(values));
-    const LintReport report = lint(program, lay_out(program), rules);
-    if (output.format() != "json") print(program.diagnostics, values);
-    output.write(writers.at(output.format())({&report, &program, &program.diagnostics}));
+    Diagnostics diagnostics = program.diagnostics;
+    const ProgrammedSurface laid = lay_out(program);
+    LintReport report = lint(program, laid, rules);
+    if (const std::optional<CuttingTool> tool = find_tool(choice, nullptr, &program, diagnostics))
+        locate(report, program, laid, *tool);
+    if (output.format() != "json") print(diagnostics, values);
+    output.write(writers.at(output.format())({&report, &program, &diagnostics}));
     return report.warnings() > 0 ? ExitCode::check_failed : ExitCode::done;
 }
 
@@ -52,6 +59,7 @@ Subcommand lint_subcommand() {
                 options.add_options()
                     ("tolerance", po::value<double>()->value_name("MM"), "of the controller's path (default: what the program sets with G64 P or CYCLE832)");
                 // clang-format on
+                declare_tool(options);
                 declare_report_output(options, lint_formats);
                 declare_program_options(options);
             },

@@ -1,16 +1,12 @@
 #include "cli/part.h"
 
-#include <charconv>
-
 #include <fmt/format.h>
 
 #include "cli/work_frames.h"
 #include "core/spelling.h"
 #include "io/compressed.h"
-#include "io/log_tool.h"
 #include "io/program_file.h"
 #include "io/program_identity.h"
-#include "io/tool_table_file.h"
 #include "path/pieces.h"
 #include "path/tip_motions.h"
 
@@ -25,33 +21,6 @@ Role parse_role(const std::string& text) {
 }
 
 namespace {
-
-/// The tool that the log's metadata name, else the program's tool table, where all of its tools in use have one shape.
-std::optional<CuttingTool> recorded_tool(const Part& part, const std::string& tool_table) {
-    if (const std::string recorded = io::tool_of_metadata(part.log.metadata); !recorded.empty()) {
-        try {
-            return parse_tool(recorded);
-        } catch (const UsageError& error) {
-            throw InputError(Place::of_file(part.log.name), fmt::format("its metadata: {}", error.what()));
-        }
-    }
-    if (tool_table.empty()) return std::nullopt;
-    const ToolTable table = io::read_tool_table(io::open_source(tool_table));
-    std::optional<CuttingTool> known;
-    for (const ProgramEvent& event : part.program.events) {
-        if (event.name != "tool" || !event.value.starts_with("T")) continue;
-        int number = 0;
-        const char* end = event.value.data() + event.value.size();
-        if (std::from_chars(event.value.data() + 1, end, number).ec != std::errc()) return std::nullopt;
-        if (number == 0) continue;
-        const Tool* row = table.find(number);
-        const std::optional<CuttingTool> tool =
-            row != nullptr ? tool_of_remark(row->remark, row->diameter) : std::nullopt;
-        if (!tool || (known && *known != *tool)) return std::nullopt;
-        known = tool;
-    }
-    return known;
-}
 
 /// The role that lines are found by: what was commanded, where it is there.
 Role mapping_role(const Log& log, Role shown) { return log.has(Role::commanded) ? Role::commanded : shown; }
@@ -76,13 +45,6 @@ void declare_part(po::options_description& options, bool can_form) {
             can_form ? "which positions (default: commanded, else what the log has), or what the tool leaves standing; that needs --tool" : "which positions (default: commanded, else what the log has)")
         ("ignore-lines", "find the lines by geometry even where the log has a line channel");
     declare_force(options);
-    // clang-format on
-}
-
-void declare_tool(po::options_description& options) {
-    // clang-format off
-    options.add_options()
-        ("tool", po::value<std::string>()->value_name("ball:D|bull:D,R|flat:D|none"), "the tool, diameter and corner radius in mm; places are then contact points on the part, without it the tool tip (default: what the log's metadata or --tools tell)");
     // clang-format on
 }
 
@@ -116,11 +78,7 @@ PartOptions read_part_options(const po::variables_map& values) {
     options.log_options = read_log_options(values);
     options.use_line_channel = values.count("ignore-lines") == 0;
     options.force = values.count("force") > 0;
-    if (values.count("tool") > 0) {
-        const std::string tool = values["tool"].as<std::string>();
-        options.no_tool = tool == "none";
-        if (!options.no_tool) options.tool = parse_tool(tool);
-    }
+    options.tool = read_tool(values);
     options.role_given = values.count("surface") > 0;
     options.formed = options.role_given && values["surface"].as<std::string>() == "formed";
     if (options.formed) options.role_given = false;
@@ -206,8 +164,7 @@ Part load_part(const PartOptions& options, StageClock& clock) {
         map_lines(mapped, part.log, part.program, options.use_line_channel, part.diagnostics, identity));
     if (!kinematics && part.diagnostics.count("path.rotary") > 0) forget_path(*part.lines);
     refuse_foreign(part.lines->match(), part.program, part.log, options.force, part.diagnostics);
-    part.tool = options.tool;
-    if (!part.tool && !options.no_tool) part.tool = recorded_tool(part, options.program_options.tools);
+    part.tool = find_tool(options.tool, &part.log, &part.program, part.diagnostics);
     clock.end();
     return part;
 }

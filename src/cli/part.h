@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "cli/known_tool.h"
 #include "cli/options.h"
 #include "cli/stage_clock.h"
 #include "field/field_set.h"
@@ -29,17 +30,14 @@ struct PartOptions {
     FramePoses poses;        ///< --work-offset
     std::string machine;     ///< machine file with the kinematics; empty: three axes
     bool use_line_channel = true;
-    bool force = false;               ///< go on with a log that does not belong to the program
-    std::optional<CuttingTool> tool;  ///< --tool
-    bool no_tool = false;             ///< --tool none: whatever the log or the tool table tell
+    bool force = false;  ///< go on with a log that does not belong to the program
+    ToolChoice tool;
     DerivativeMethod derivative = DerivativeMethod::savgol;
 };
 
 /// --dialect, --block-delete, --tools, --layout, --mapping, --period, --surface, --work-offset, --machine, --ignore-lines.
 /// `can_form`: --surface may be `formed` too.
 void declare_part(po::options_description& options, bool can_form = false);
-/// --tool.
-void declare_tool(po::options_description& options);
 /// --derivative, of what shows fields.
 void declare_derivative(po::options_description& options);
 [[nodiscard]] PartOptions read_part_options(const po::variables_map& values);

@@ -48,6 +48,7 @@ void declare_runs(po::options_description& options) {
     declare_log_options(options);
     declare_work_offset(options);
     declare_force(options);
+    declare_tool(options);
 }
 
 RunOptions read_run_options(const po::variables_map& values) {
@@ -55,6 +56,7 @@ RunOptions read_run_options(const po::variables_map& values) {
     options.program_options = read_program_options(values);
     options.log_options = read_log_options(values);
     options.poses = read_work_offset(values);
+    options.tool = read_tool(values);
     options.force = values.count("force") > 0;
     if (values.count("program") > 0) options.program = values["program"].as<std::string>();
     if (values.count("machine") > 0) options.machine = values["machine"].as<std::string>();
@@ -97,12 +99,13 @@ ComparedRun run_of(const LoadedRun& run, const LoadedRun& other, const RunOption
     return made;
 }
 
-std::unique_ptr<LineMap> lines_of(const LoadedRun& run, const Trajectory& path, const RunOptions& options,
+std::unique_ptr<LineMap> lines_of(LoadedRun& run, const Trajectory& path, const RunOptions& options,
                                   Diagnostics& diagnostics) {
     if (run.simulated) return std::make_unique<LineMap>(map_lines(path, run.log, *run.program, true, diagnostics));
     if (!options.program.empty()) {
         const io::Source source = io::open_source(options.program);
-        const Program program = io::read_program(source, in_coordinates_of(options, run.log));
+        run.program = std::make_shared<const Program>(io::read_program(source, in_coordinates_of(options, run.log)));
+        const Program& program = *run.program;
         diagnostics.append(program.diagnostics);
         const ProgramIdentity identity = io::check_identity(source, run.log, diagnostics);
         auto lines = std::make_unique<LineMap>(map_lines(path, run.log, program, true, diagnostics, identity));

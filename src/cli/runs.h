@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "cli/known_tool.h"
 #include "cli/options.h"
 #include "log/log.h"
 #include "path/line_map.h"
@@ -20,12 +21,13 @@ struct RunOptions {
     std::string program;  ///< of logs; empty: their line channel is taken as it is
     std::string machine;  ///< file; empty: the default one
     Vec3 start = Vec3::Zero();
-    FramePoses poses;          ///< --work-offset
-    bool force = false;        ///< go on with a log that does not belong to `program`
+    FramePoses poses;    ///< --work-offset
+    bool force = false;  ///< go on with a log that does not belong to `program`
+    ToolChoice tool;
     std::optional<Role> role;  ///< none: commanded where all runs have it
 };
 
-/// --program, --machine, --start, --surface, --work-offset and what logs and programs need.
+/// --program, --machine, --start, --surface, --work-offset, --tool and what logs and programs need.
 void declare_runs(po::options_description& options);
 [[nodiscard]] RunOptions read_run_options(const po::variables_map& values);
 
@@ -33,7 +35,7 @@ void declare_runs(po::options_description& options);
 struct LoadedRun {
     std::string name;
     Log log;
-    std::shared_ptr<const Program> program;
+    std::shared_ptr<const Program> program;  ///< that was simulated, or --program; nullptr: none
     bool simulated = false;
 };
 
@@ -43,8 +45,9 @@ struct LoadedRun {
 /// Which positions two runs are compared by. Throws InputError: they have none in common.
 [[nodiscard]] ComparedRun run_of(const LoadedRun& run, const LoadedRun& other, const RunOptions& options);
 
-/// What the points of a run belong to; without a program all that the line channel does not call idle cuts.
-[[nodiscard]] std::unique_ptr<LineMap> lines_of(const LoadedRun& run, const Trajectory& path, const RunOptions& options,
+/// What the points of a run belong to; without a program all that the line channel does not call idle cuts. Reads
+/// --program into `run`.
+[[nodiscard]] std::unique_ptr<LineMap> lines_of(LoadedRun& run, const Trajectory& path, const RunOptions& options,
                                                 Diagnostics& diagnostics);
 
 }  // namespace clsurf::cli

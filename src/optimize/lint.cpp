@@ -134,7 +134,7 @@ private:
                 }
                 good = 0;
                 if (size++ == 0) {
-                    finding = {rule, Severity::warning, line(i), line(i), 0, 0, pass.number, {}, 0, 0};
+                    finding = {rule, Severity::warning, line(i), line(i), 0, 0, pass.number, i, {}, 0, 0};
                     finding.beside_first = finding.beside_last = m->beside >= 0 ? line(m->beside) : 0;
                 }
                 finding.last_line = line(i);
@@ -149,6 +149,7 @@ private:
                     worst = distance;
                     finding.found = m->found;
                     finding.expected = m->expected;
+                    finding.point = i;
                     finding.place.tip = at(i);
                 }
             }
@@ -224,6 +225,7 @@ private:
                                         0,
                                         0,
                                         0,
+                                        first.ends[0],
                                         {at(first.ends[0]), {}},
                                         report_.chord_error,
                                         report_.tolerance / rules_.most_tolerance_ratio});
@@ -286,6 +288,7 @@ private:
                                         end.beside,
                                         end.beside,
                                         end.pass->number,
+                                        point,
                                         {at(point), {}},
                                         std::abs(end.residual),
                                         limit});

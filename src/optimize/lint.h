@@ -31,7 +31,8 @@ struct LintFinding {
     LineNumber first_line = 0, last_line = 0;
     LineNumber beside_first = 0, beside_last = 0;  ///< lines of a neighbour pass at that place; 0: none
     std::int64_t pass = 0;                         ///< number of the cut pass, from 1; 0: none
-    CutterPlace place;                             ///< where it is worst
+    PointIndex point = 0;                          ///< of the programmed surface, where it is worst …
+    CutterPlace place;                             ///< … and what lies there
     double found = 0,
            expected =
                0;  ///< mm, or mm/s for feeds: the worst value (of spacings the median) and what it is measured by

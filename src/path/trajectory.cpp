@@ -275,7 +275,7 @@ void note_poles(const Log& log, Role role, const Kinematics& kinematics, Diagnos
     leave();
 }
 
-void note_rotary(const Log& log, Role role, Diagnostics& diagnostics) {
+std::optional<RotaryMotion> find_rotary_motion(const Log& log, Role role) {
     constexpr double moving = 0.01 * rad_per_deg;
     std::vector<double> values;
     for (const char letter : {'a', 'b', 'c'}) {
@@ -291,15 +291,20 @@ void note_rotary(const Log& log, Role role, Diagnostics& diagnostics) {
                 high = value > high ? value : high;
             }
         }
-        if (!(high - low > moving)) continue;
-        diagnostics.add(
-            {Severity::warning, "path.rotary", Place::of_file(log.name),
-             fmt::format(
-                 "axis {} moves by {:.2f} deg: positions are those of the linear axes, not of the tool on the workpiece",
-                 letter, (high - low) * deg_per_rad),
-             "--machine FILE says the kinematics"});
-        return;
+        if (high - low > moving) return RotaryMotion{letter, high - low};
     }
+    return std::nullopt;
+}
+
+void note_rotary(const Log& log, Role role, Diagnostics& diagnostics) {
+    const std::optional<RotaryMotion> motion = find_rotary_motion(log, role);
+    if (!motion) return;
+    diagnostics.add(
+        {Severity::warning, "path.rotary", Place::of_file(log.name),
+         fmt::format(
+             "axis {} moves by {:.2f} deg: positions are those of the linear axes, not of the tool on the workpiece",
+             motion->letter, motion->range * deg_per_rad),
+         "--machine FILE says the kinematics"});
 }
 
 }  // namespace clsurf

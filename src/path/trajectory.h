@@ -5,6 +5,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -69,6 +70,14 @@ struct Trajectory {
 /// Notes where the tool axis passes its pole: within 2° of it the rotation axis turns by more than
 /// 45°. Adds `path.pole`. O(points).
 void note_poles(const Log& log, Role role, const Kinematics& kinematics, Diagnostics& diagnostics);
+
+/// A rotary axis that moves.
+struct RotaryMotion {
+    char letter = 'a';
+    double range = 0;  ///< [rad] between its lowest and its highest angle
+};
+/// The first of the rotary axes that moves by more than 0.01°. O(points) where there are any.
+[[nodiscard]] std::optional<RotaryMotion> find_rotary_motion(const Log& log, Role role);
 
 /// Without kinematics: a warning `path.rotary` where a rotary axis moves, for then the positions of the
 /// linear axes are not those of the tool on the workpiece. O(points).

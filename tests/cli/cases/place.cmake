@@ -49,3 +49,36 @@ clsurf_cli_test(NAME check_says_tool_tip ARGS check ${bottle} --tool none STDOUT
 clsurf_cli_test(NAME check_json_has_tip_and_contact ARGS check ${bottle} --tool ball:6 --json STDOUT "\"tip_mm\"" "\"contact_mm\"")
 clsurf_cli_test(NAME sarif_says_contact_point ARGS check ${bottle} --tool ball:6 --format sarif STDOUT "at the contact point X" "\"contact_mm\"")
 clsurf_cli_test(NAME sarif_says_tool_tip ARGS check ${bottle} --tool none --format sarif STDOUT "at the tool tip X" NO_STDOUT "contact")
+
+# lint and diff: the same ramp with one slow pass, at Y 3. Its contact lies at Y 4.5 and 0.402 mm above the tip.
+set(slow_ramp "${ramp}; sed '/Y3[.]0000/s/F1200/F600/' ramp.nc > slow.nc; grep -q F600 slow.nc")
+clsurf_cli_test(NAME lint_says_contact SETUP "${slow_ramp}" ARGS lint slow.nc --tool ball:6 EXIT 1
+  STDOUT "feed 600 .*, contact X [0-9.]+ Y 4[.]50 Z 2[.]13 mm")
+clsurf_cli_test(NAME lint_says_tool_tip SETUP "${slow_ramp}" ARGS lint slow.nc EXIT 1
+  STDOUT "feed 600 .*, tool tip X [0-9.]+ Y 3[.]00 Z 1[.]73 mm" NO_STDOUT "contact")
+clsurf_cli_test(NAME lint_json_has_tip_and_contact SETUP "${slow_ramp}" ARGS lint slow.nc --tool ball:6 --format json EXIT 1
+  STDOUT "\"position_mm\"" "\"tip_mm\"" "\"contact_mm\"")
+clsurf_cli_test(NAME lint_sarif_has_tip_and_contact SETUP "${slow_ramp}" ARGS lint slow.nc --tool ball:6 --format sarif EXIT 1
+  STDOUT "contact X [0-9.]+ Y 4[.]50 Z 2[.]13 mm" "\"contact_mm\"")
+clsurf_cli_test(NAME lint_by_the_tool_table
+  SETUP "${slow_ramp}; sed -i 's/G21/T7 M6 G21/' slow.nc; echo 'T7 P1 D6 ; ball nose' > tool.tbl"
+  ARGS lint slow.nc --tools tool.tbl EXIT 1 STDOUT "contact X [0-9.]+ Y 4[.]50 Z 2[.]13 mm")
+clsurf_cli_test(NAME lint_by_the_tool_of_the_config SETUP "${slow_ramp}; echo 'tool = \"ball:6\"' > .clsurf.toml" ARGS lint slow.nc EXIT 1
+  STDOUT "contact X [0-9.]+ Y 4[.]50 Z 2[.]13 mm")
+clsurf_cli_test(NAME lint_of_a_program_that_turns_the_tool
+  SETUP "${slow_ramp}; sed -i 's/F600/F600 A10/' slow.nc" ARGS lint slow.nc --tool ball:6 EXIT 1 STDOUT "tool tip" NO_STDOUT "contact")
+set(slow_run "${slow_ramp}; $CLSURF simulate slow.nc -o slow.biip")
+clsurf_cli_test(NAME diff_says_contact SETUP "${slow_run}" ARGS diff ramp.biip slow.biip --program ramp.nc --tool ball:6
+  STDOUT "contact X Y Z" "speed .*[0-9.]+ 4[.]50 2[.]13 ")
+clsurf_cli_test(NAME diff_says_tool_tip SETUP "${slow_run}" ARGS diff ramp.biip slow.biip --program ramp.nc
+  STDOUT "tool tip X Y Z" "speed .*[0-9.]+ 3[.]00 1[.]73 ")
+clsurf_cli_test(NAME diff_json_has_tip_and_contact SETUP "${slow_run}" ARGS diff ramp.biip slow.biip --program ramp.nc --tool ball:6 --json
+  STDOUT "\"position_mm\"" "\"tip_mm\"" "\"contact_mm\"" NO_STDOUT "[0-9][.][0-9]{7}")
+clsurf_cli_test(NAME diff_of_programs_by_the_tool_table
+  SETUP "${slow_run}; sed -i 's/G21/T7 M6 G21/' ramp.nc slow.nc; echo 'T7 P1 D6 ; ball nose' > tool.tbl"
+  ARGS diff ramp.nc slow.nc --tools tool.tbl STDOUT "contact X Y Z" "speed .*[0-9.]+ 4[.]50 2[.]13 ")
+# The log's own tool comes before the one of the config file.
+clsurf_cli_test(NAME tool_of_the_log_before_that_of_the_config
+  SETUP "cp @DATA@/programs/bottle_uneven.nc @LOGS@/bottle_uneven.biip .; echo 'tool = \"ball:20\"' > .clsurf.toml"
+  ARGS query bottle_uneven.nc bottle_uneven.biip --at 0.94,-5.33,4.86 -v
+  STDOUT "contact X" STDERR "the log says tool ball:6: ball:20 of .clsurf.toml is not used")
