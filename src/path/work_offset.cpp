@@ -326,28 +326,33 @@ std::string decimals(double value, int digits) {
     return text == "-0" ? "0" : text;
 }
 
-/// The one pose that fits; none where several fit alike.
-std::optional<Eigen::Isometry3d> best_of(const std::vector<Eigen::Isometry3d>& guesses, Fit& fit) {
-    std::optional<Eigen::Isometry3d> best;
-    double least = std::numeric_limits<double>::infinity(), most = 0;
-    bool doubtful = false;
+/// The poses that fit; several where they fit alike. The nearest first.
+std::vector<Eigen::Isometry3d> best_of(const std::vector<Eigen::Isometry3d>& guesses, Fit& fit) {
+    struct Fitting {
+        Eigen::Isometry3d pose;
+        double share, distance;
+    };
+    std::vector<Fitting> fitting;
+    double most = 0;
     for (const Eigen::Isometry3d& guess : guesses) {
         const std::optional<Eigen::Isometry3d> refined = fit.refine(guess);
         if (!refined || !fit.fits(*refined)) continue;
-        const double share = fit.share(*refined), distance = std::max(least_scatter, fit.typical_distance());
-        const bool another = best && fit.apart(*best, *refined) > same_shift;
-        const bool better = share > most + more_points || distance * far_better < least;
-        if (share < most - more_points) continue;
-        if (better)
-            doubtful = false;
-        else if (another && distance < least * far_better)
-            doubtful = true;
-        if (!better && distance >= least) continue;
-        least = distance;
-        most = share;
-        best = refined;
+        const double share = fit.share(*refined);
+        fitting.push_back({*refined, share, std::max(least_scatter, fit.typical_distance())});
+        most = std::max(most, share);
     }
-    return doubtful ? std::nullopt : best;
+    std::erase_if(fitting, [&](const Fitting& f) { return f.share < most - more_points; });
+    std::stable_sort(fitting.begin(), fitting.end(),
+                     [](const Fitting& a, const Fitting& b) { return a.distance < b.distance; });
+    std::vector<Eigen::Isometry3d> best;
+    for (const Fitting& f : fitting) {
+        if (f.distance > fitting.front().distance * far_better) break;
+        const bool known = std::any_of(best.begin(), best.end(), [&](const Eigen::Isometry3d& other) {
+            return fit.apart(other, f.pose) <= same_shift;
+        });
+        if (!known) best.push_back(f.pose);
+    }
+    return best;
 }
 
 /// Coordinates before the program sets them: unknown, and no motion to lie on.
@@ -359,34 +364,40 @@ Toolpath known_path(const Program& program) {
 
 namespace {
 
-std::optional<Eigen::Isometry3d> find_with(const Trajectory& path, const Program& program, const LineMap* map,
-                                           const std::vector<Eigen::Isometry3d>& by_order, int system = 0) {
+std::vector<Eigen::Isometry3d> find_with(const Trajectory& path, const Program& program, const LineMap* map,
+                                         std::vector<Eigen::Isometry3d> by_order, int system = 0) {
     const Toolpath toolpath = known_path(program);
     PathSamples samples = take_samples(path, toolpath, map, system);
-    if (samples.points.size() < least_samples) return std::nullopt;
+    if (samples.points.size() < least_samples) return {};
     const double play = corner_play(program);
     Fit fit(toolpath, std::move(samples.points), play);
     if (const std::optional<Eigen::Isometry3d> guess = guess_from_changes(samples.at_changes, play)) {
-        if (const auto found = best_of({*guess}, fit)) return found;
+        if (std::vector<Eigen::Isometry3d> found = best_of({*guess}, fit); !found.empty()) return found;
     }
-    if (const auto found = best_of(by_order, fit)) return found;
-    std::vector<Eigen::Isometry3d> shifts;
+    std::vector<Eigen::Isometry3d> found = best_of(by_order, fit);
+    if (found.size() == 1) return found;
     for (const Vec3& shift : guesses_from_boxes(box_of(toolpath), box_of(path)))
-        shifts.emplace_back(Eigen::Translation3d(shift));
-    return best_of(shifts, fit);
+        by_order.emplace_back(Eigen::Translation3d(shift));
+    return best_of(by_order, fit);
 }
 
 }  // namespace
 
-std::optional<Eigen::Isometry3d> find_pose(const Trajectory& path, const Program& program, const LineMap* map) {
-    if (path.count == 0 || program.motions.size() == 0) return std::nullopt;
+std::vector<Eigen::Isometry3d> find_poses(const Trajectory& path, const Program& program, const LineMap* map) {
+    if (path.count == 0 || program.motions.size() == 0) return {};
     std::vector<Eigen::Isometry3d> by_order;
     const PathProfile of_program = profile_of(known_path(program), profile_points);
     if (of_program.size() > 1) by_order = guess_poses(of_program, profile_of(path, of_program.spacing));
-    if (map != nullptr) {
-        if (const auto found = find_with(path, program, map, by_order)) return found;
-    }
-    return find_with(path, program, nullptr, by_order);
+    std::vector<Eigen::Isometry3d> by_lines;
+    if (map != nullptr) by_lines = find_with(path, program, map, by_order);
+    if (by_lines.size() == 1) return by_lines;
+    std::vector<Eigen::Isometry3d> by_geometry = find_with(path, program, nullptr, by_order);
+    return by_geometry.empty() ? by_lines : by_geometry;
+}
+
+std::optional<Eigen::Isometry3d> find_pose(const Trajectory& path, const Program& program, const LineMap* map) {
+    const std::vector<Eigen::Isometry3d> found = find_poses(path, program, map);
+    return found.size() == 1 ? std::optional(found.front()) : std::nullopt;
 }
 
 double share_on_path(const Trajectory& path, const Program& program) {
@@ -412,12 +423,12 @@ bool note_systems(const Trajectory& path, const Program& program, const LineMap&
     std::string options, names;
     for (const int system : systems) {
         const auto found = find_with(path, program, &map, {}, system);
-        if (!found) return false;
+        if (found.size() != 1) return false;
         const Motions& motions = program.motions;
         const auto first = std::find_if(motions.frame.begin(), motions.frame.end(),
                                         [&](std::uint32_t frame) { return motions.frames[frame].system == system; });
         const bool leads = system == systems.front();
-        Eigen::Isometry3d pose = path.pose() * found->inverse();
+        Eigen::Isometry3d pose = path.pose() * found.front().inverse();
         if (!leads && first != motions.frame.end()) pose = pose * motions.frames[*first].placed;
         const std::string name = name_of_work_system(system, program.dialect);
         names += (leads ? "" : system == systems.back() ? " and " : ", ") + name;
@@ -433,10 +444,31 @@ bool note_systems(const Trajectory& path, const Program& program, const LineMap&
 
 }  // namespace
 
+namespace {
+
+void note_alike(const Trajectory& path, const std::vector<Eigen::Isometry3d>& poses, Diagnostics& diagnostics) {
+    constexpr std::size_t shown = 4;
+    std::string options;
+    for (std::size_t k = 0; k < std::min(shown, poses.size()); ++k)
+        options += (k == 0 ? "" : " or ") + pose_numbers(path.pose() * poses[k].inverse());
+    diagnostics.add(
+        {Severity::warning, "map.work-offset", Place::of_file(path.name),
+         fmt::format("the work offset is ambiguous: the positions fit the programmed path alike at {} places",
+                     poses.size()),
+         fmt::format("--work-offset {}: the machine's zero tells which", options)});
+}
+
+}  // namespace
+
 bool note_pose(const Trajectory& path, const Program& program, const LineMap* map, Diagnostics& diagnostics) {
     if (map != nullptr && note_systems(path, program, *map, diagnostics)) return true;
-    const std::optional<Eigen::Isometry3d> found = find_pose(path, program, map);
-    if (!found) return false;
+    const std::vector<Eigen::Isometry3d> poses = find_poses(path, program, map);
+    if (poses.size() > 1) {
+        note_alike(path, poses, diagnostics);
+        return true;
+    }
+    if (poses.empty()) return false;
+    const Eigen::Isometry3d* found = &poses.front();
     constexpr double least_shift = 1e-3;  // [mm] displaced by nothing, they are off for another reason
     const std::string turn = decimals(-Fit::turn_of(*found) * deg_per_rad, 4);
     if (turn == "0" && found->translation().norm() < least_shift) return false;

@@ -1,11 +1,16 @@
 // Recorded logs, displaced and turned by a known pose that the log does not tell.
 #include "path/work_offset.h"
 
+#include <cmath>
+
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "io/log_format.h"
 #include "io/program_file.h"
+#include "path/toolpath.h"
 #include "program/frame_placement.h"
+#include "program/motion_rows.h"
 
 namespace clsurf {
 namespace {
@@ -125,6 +130,48 @@ TEST(WorkOffsetRefused, WhereNothingDeterminesIt) {
     made = Displaced({"transition_g61.nc", "transition_g61.biip"});
     made.cut(5000, 120);
     EXPECT_FALSE(find_pose(made.path, made.program, nullptr));
+}
+
+TEST(WorkOffsetAmbiguous, ACubesEdgesFitAtEveryQuarterTurn) {
+    // Squares round a centre, one below the other: four turns fit alike, and each is named.
+    std::string text = "G21 G90\nG0 X10 Y10 Z0\nF1000\n";
+    for (int level = 0; level < 5; ++level) text += fmt::format("G1 X10 Y10 Z-{0}\nX-10\nY-10\nX10\nY10\n", level);
+    const Program program = parse(text + "M2\n", "linuxcnc");
+    Column<double> x, y, z;
+    const Eigen::Isometry3d put = turned_by(30);
+    const Toolpath path(program.motions, Vec3::Zero());
+    for (std::int64_t m = 1; m < path.size(); ++m) {
+        const auto steps = static_cast<int>(path.length(m) / 0.1);
+        for (int k = 1; k <= steps; ++k) {
+            const Vec3 p = put * path.at(m, static_cast<double>(k) / steps);
+            x.push_back(p.x());
+            y.push_back(p.y());
+            z.push_back(p.z());
+        }
+    }
+    Trajectory points;
+    points.count = static_cast<PointIndex>(x.size());
+    for (int axis = 0; axis < 3; ++axis) {
+        ChannelView& view = points.axes[static_cast<std::size_t>(axis)];
+        view.first = reinterpret_cast<const std::byte*>((axis == 0 ? x : axis == 1 ? y : z).data());
+        view.stride = sizeof(double);
+        view.count = points.count;
+        view.type = ScalarType::f64;
+    }
+    const std::vector<Eigen::Isometry3d> poses = find_poses(points, program, nullptr);
+    ASSERT_GT(poses.size(), 1u);
+    EXPECT_FALSE(find_pose(points, program, nullptr));
+    Diagnostics diagnostics;
+    EXPECT_TRUE(note_pose(points, program, nullptr, diagnostics));
+    ASSERT_EQ(diagnostics.kept().size(), 1u);
+    EXPECT_NE(diagnostics.kept()[0].text.find("ambiguous"), std::string::npos);
+    for (const Eigen::Isometry3d& pose : poses) {
+        // A quarter turn about the part's axis apart from the right one, each.
+        const Eigen::Isometry3d left = pose * put;
+        EXPECT_LT((left * Vec3::Zero()).head<2>().norm(), 0.05);
+        const double quarters = std::atan2(left.linear()(1, 0), left.linear()(0, 0)) / (90 * rad_per_deg);
+        EXPECT_NEAR(quarters, std::round(quarters), 1e-3);
+    }
 }
 
 }  // namespace
