@@ -62,9 +62,11 @@ std::string_view line_end_of(std::string_view text) {
     return end != std::string_view::npos && end > 0 && text[end - 1] == '\r' ? "\r\n" : "\n";
 }
 
-/// A point of the path as the words of a motion count it: in the motion's work system.
+/// A point of the path as the words of a motion count it: in the motion's work system, before what the program turns,
+/// scales and shifts.
 Vec3 in_words(const Motions& motions, std::int64_t motion, const Vec3& p) {
-    return apply(motions.frame_of(motion).placed.inverse(), p);
+    const WorkFrame& frame = motions.frame_of(motion);
+    return frame.words.to_programmed(apply(frame.placed.inverse(), p));
 }
 
 }  // namespace

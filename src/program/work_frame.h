@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "core/geometry.h"
+#include "program/program_frame.h"
 
 namespace clsurf {
 
@@ -22,6 +23,8 @@ struct WorkFrame {
     Eigen::Isometry3d local = Eigen::Isometry3d::Identity();
     Vec3 tool = Vec3::Zero();    ///< length of the tool, where the program or its tool table gives it [mm]
     Vec3 rotary = Vec3::Zero();  ///< machine angle of A, B, C less the programmed one [rad]
+    /// What rotations, scales and local zeros do to the words of its motions: work position = words · programmed.
+    ProgramFrame words;
     /// What place_motions() did to the ends of its motions: end = placed · work position.
     Eigen::Isometry3d placed = Eigen::Isometry3d::Identity();
 

@@ -6,6 +6,7 @@
 #include "optimize/parts.h"
 #include "program/frame_placement.h"
 #include "program/interpreter.h"
+#include "program/motion_rows.h"
 
 namespace clsurf {
 namespace {
@@ -72,6 +73,32 @@ TEST(LineEditor, WritesInTheFrameThatIsActive) {
 }
 
 // Three lines become four: the words of an old point stay as they are, others have the finest decimals of the program.
+// Turned by 90° about (0, 0), then shifted or scaled: worked out by hand for each control.
+TEST(LineEditor, WritesWhatIsTurnedShiftedAndScaledAsTheProgramCountsIt) {
+    struct Case {
+        const char *dialect, *frame, *end;
+        Vec3 at;  ///< of X1.5 Y0 there
+    };
+    const Case cases[] = {{"fanuc", "G68 X0 Y0 R90", "G69", {0, 1.5, 0}},
+                          {"fanuc", "G52 X10 Y20", "G52 X0 Y0", {11.5, 20, 0}},
+                          {"fanuc", "G51 X0 Y0 Z0 I3000 J1000 K1000", "G50", {4.5, 0, 0}},
+                          {"fanuc", "G51.1 X5", "G50.1 X0", {8.5, 0, 0}},
+                          {"siemens", "TRANS X10\nAROT RPL=90", "TRANS", {10, 1.5, 0}},
+                          {"siemens", "ASCALE X2 Y2 Z2", "TRANS", {3, 0, 0}}};
+    for (const Case& c : cases) {
+        const std::string head = std::string("G0 X0 Y0 Z0\n") + c.frame + "\nG0 X0 Y0\n";
+        const std::string tail = std::string(c.end) + "\nM30\n";
+        Program program = parse(head + "G1 X1.000 F600\nX2.000\nX3.000\n" + tail, c.dialect);
+        place_motions(program, {}, Coordinates::level);
+        LineEditor editor(program);
+        const std::int64_t last = program.motions.size() - 1;
+        ASSERT_TRUE(editor.editable(last) && editor.editable(last - 1)) << c.frame;
+        const Vec3 end = program.motions.end[static_cast<std::size_t>(last)].vec();
+        EXPECT_EQ(editor.replace(last - 1, last, {c.at, end}), 2u);
+        EXPECT_EQ(editor.text({}), head + "G1 X1.000 F600\nX1.500\nX3.000\n" + tail) << c.frame;
+    }
+}
+
 TEST(LineEditor, WritesAngles) {
     const Program program =
         read_text("G90\nG0 X0 Y0 Z0 A0 C0\nG1 X1 F100\nX2.0 A-1.50 C10.5\nX3.0 A-3.00 C20.0\nX4.0 A-4.5 C30.125\n");

@@ -302,8 +302,9 @@ private:
     bool ways_kept_ = false;                           ///< of the settled motions, in work coordinates
     std::uint64_t frame_changes_ = ~std::uint64_t{0};  ///< of the state when frame_ was settled
     std::uint8_t frame_held_ = 0, frame_absolute_ = 0;
+    ProgramFrame frame_words_;
     std::uint32_t work_frame_ = 0;  ///< index into Motions::frames
-    std::map<std::array<double, 22>, std::uint32_t> known_frames_;
+    std::map<std::array<double, 34>, std::uint32_t> known_frames_;
     Block block_;
     Words plain_;  ///< of the line that runs, where it is plain
     ToolTable tools_;

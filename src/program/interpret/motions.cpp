@@ -299,7 +299,8 @@ void Interpreter::push(MotionKind kind, const Vec3& end, const Vec3& rotary, flo
     m.end.push_back(Xyz(end));
     m.feed.push_back(feed);
     m.line.push_back(line_);
-    if (state_.frame_changes != frame_changes_ || state_.held != frame_held_ || state_.absolute != frame_absolute_)
+    if (state_.frame_changes != frame_changes_ || state_.held != frame_held_ || state_.absolute != frame_absolute_ ||
+        state_.frame != frame_words_)
         settle_work_frame();
     for (unsigned axis = 0; state_.unplaced != 0 && axis < 3; ++axis) {
         if ((state_.unplaced >> axis & 1) != 0) m.programmed_from[axis] = m.size();

@@ -25,6 +25,7 @@ WorkFrame ModalState::work_frame() const {
     now.tool = tool_offset - assumed_tool;
     now.rotary = rotary_offset() * rad_per_deg;
     now.held = held;
+    now.words = frame;
     now.absolute = absolute;
     if (work_system == 0) return now;  // G500 of Siemens
     constexpr unsigned whole = WorkFrame::all_axes | WorkFrame::rotation;
@@ -38,14 +39,16 @@ void Interpreter::settle_work_frame() {
     frame_changes_ = state_.frame_changes;
     frame_held_ = state_.held;
     frame_absolute_ = state_.absolute;
+    frame_words_ = state_.frame;
     const WorkFrame frame = state_.work_frame();
-    std::array<double, 22> key{};
+    std::array<double, 34> key{};
     std::copy_n(frame.local.data(), 16, key.begin());
     key[16] = frame.system;
     key[17] = frame.free + 16 * frame.held + 256 * frame.absolute;
     std::copy_n(frame.tool.data(), 3, key.begin() + 18);
     // Rotary offsets: one number is enough to tell those apart that a program uses.
     key[21] = frame.rotary.dot(Vec3(1, 1e-3, 1e-6));
+    std::ranges::copy(frame.words.numbers(), key.begin() + 22);
     std::vector<WorkFrame>& frames = program_.motions.frames;
     const auto [known, added] = known_frames_.try_emplace(key, static_cast<std::uint32_t>(frames.size()));
     if (added && known_frames_.size() == 1 && forgotten_ == 0 && program_.motions.kind.size() == 1) {

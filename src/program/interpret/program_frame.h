@@ -2,7 +2,10 @@
 // ProgramFrame: what rotation, scaling, mirroring and local zeros of a program (G68, G51, G52, TRANS,
 // ROT …) do to its coordinates: work position = turn · programmed position + shift.
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "core/geometry.h"
@@ -60,6 +63,21 @@ public:
     }
 
     ProgramFrame() = default;
+
+    [[nodiscard]] bool operator==(const ProgramFrame& other) const {
+        return active_ == other.active_ && (!active_ || numbers() == other.numbers());
+    }
+    /// What tells frames apart.
+    [[nodiscard]] std::array<double, 12> numbers() const {
+        std::array<double, 12> all{};
+        std::copy_n(turn_.data(), 9, all.begin());
+        for (int axis = 0; axis < 3; ++axis) {
+            // About an unknown position: as good a number as any, but one that equals itself.
+            const double shift = shift_[axis];
+            all[static_cast<std::size_t>(9 + axis)] = std::isnan(shift) ? std::numeric_limits<double>::max() : shift;
+        }
+        return all;
+    }
 
 private:
     ProgramFrame(const Eigen::Matrix3d& turn, const Vec3& shift) : turn_(turn), back_(turn.inverse()), shift_(shift) {
