@@ -14,8 +14,7 @@ namespace {
 int system_of(const std::string& name) {
     constexpr int most = 300;
     for (int number = 1; number <= most; ++number) {
-        for (const DialectId id : {DialectId::linuxcnc, DialectId::fanuc, DialectId::siemens}) {
-            const Dialect dialect{id, {}, {}};
+        for (const Dialect& dialect : dialects()) {
             std::string known = name_of_work_system(number, &dialect);
             std::erase(known, ' ');
             if (known == name) return number;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "program/dialects/dialect_rules.h"
 #include "program/feed_per_minute.h"
 #include "program/frame_placement.h"
 #include "program/text/lexer.h"
@@ -269,8 +270,7 @@ void LineEditor::set_feeds(const std::vector<float>& feeds) {
 std::string LineEditor::text(std::string_view header) const {
     const SourceText& main = program_->main();
     const std::string_view end_of_line = line_end_of(main.text());
-    const bool semicolon =
-        program_->dialect->id == DialectId::siemens || program_->dialect->id == DialectId::heidenhain_iso;
+    const bool semicolon = program_->dialect->rules->text.semicolon_comments;
     const std::string comment = header.empty() ? ""
                                 : semicolon    ? fmt::format("; {}{}", header, end_of_line)
                                                : fmt::format("({}){}", header, end_of_line);

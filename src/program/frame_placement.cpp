@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "program/dialects/dialect_rules.h"
 #include "program/interpret/arc.h"
 
 namespace clsurf {
@@ -311,9 +312,8 @@ std::vector<int> unknown_systems(const Motions& motions) {
 std::string name_of_work_system(int number, const Dialect* dialect) {
     constexpr int plain = 6;  // G54 … G59
     if (number >= 1 && number <= plain) return fmt::format("G{}", 53 + number);
-    const DialectId id = dialect == nullptr ? DialectId::fanuc : dialect->id;
-    if (id == DialectId::linuxcnc) return fmt::format("G59.{}", number - plain);
-    if (id == DialectId::siemens) return fmt::format("G{}", 505 + number - 5);
+    const bool own = dialect != nullptr && dialect->rules != nullptr && dialect->rules->work_system_name != nullptr;
+    if (own) return dialect->rules->work_system_name(number);
     return fmt::format("G54.1 P{}", number - plain);
 }
 

@@ -3,14 +3,16 @@
 #include <algorithm>
 #include <array>
 
+#include "program/dialects/known_dialects.h"
+
 namespace clsurf {
 namespace {
 
-constexpr std::array<Dialect, 4> table{{
-    {DialectId::fanuc, "fanuc", "Fanuc, HNC and most others: G-code with custom macro B"},
-    {DialectId::siemens, "siemens", "SINUMERIK: X=AC(…), TRAORI, CYCLE832, R parameters"},
-    {DialectId::linuxcnc, "linuxcnc", "LinuxCNC: RS274/NGC with O-words and named parameters"},
-    {DialectId::heidenhain_iso, "heidenhain-iso", "Heidenhain DIN/ISO: blocks ending in *, Q parameters"},
+const std::array<Dialect, 4> table{{
+    {"fanuc", "Fanuc, HNC and most others: G-code with custom macro B", &fanuc_rules},
+    {"siemens", "SINUMERIK: X=AC(…), TRAORI, CYCLE832, R parameters", &siemens_rules},
+    {"linuxcnc", "LinuxCNC: RS274/NGC with O-words and named parameters", &linuxcnc_rules},
+    {"heidenhain-iso", "Heidenhain DIN/ISO: blocks ending in *, Q parameters", &heidenhain_iso_rules},
 }};
 
 }  // namespace

@@ -1,19 +1,19 @@
 #pragma once
 // Dialect: which controller's language a program is written in. The same word means different things
-// (G5, G5.1, G8 are splines and lathe radius in LinuxCNC, high-speed modes in Fanuc).
+// (G5, G5.1, G8 are splines and lathe radius in LinuxCNC, high-speed modes in Fanuc): what, say its rules
+// (dialect_rules.h), one file a dialect.
 
-#include <cstdint>
 #include <span>
 #include <string_view>
 
 namespace clsurf {
 
-enum class DialectId : std::uint8_t { fanuc, siemens, linuxcnc, heidenhain_iso };
+struct DialectRules;
 
 struct Dialect {
-    DialectId id;
-    std::string_view name;     ///< "fanuc", the word of --dialect
-    std::string_view summary;  ///< one line for `clsurf help dialects`
+    std::string_view name;                ///< "fanuc", the word of --dialect
+    std::string_view summary;             ///< one line for `clsurf help dialects`
+    const DialectRules* rules = nullptr;  ///< never null in a dialect that reads programs
 };
 
 /// All dialects, in the order of the help text.

@@ -1,23 +1,112 @@
-// Fanuc and HNC: frames, polar coordinates, macro calls, offsets, system variables.
+// The rules of Fanuc and HNC: what their codes and control statements mean. What needs more than a few lines is in
+// fanuc_words.cpp.
 // Facts: Fanuc, operator's manual of the series 30i (B-63944EN).
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "core/not_finite.h"
+#include "program/dialects/known_dialects.h"
 #include "program/interpret/interpreter_state.h"
 
 namespace clsurf {
+namespace fanuc {
 namespace {
 
-constexpr int extended_systems = 6;  ///< G54.1 P1 follows G59
-constexpr double most_factor = 50;   ///< above it a factor of G51 is in thousandths
-constexpr double full_turn = 360;    ///< above it an angle of G68 is in thousandths
-constexpr std::size_t argument_count = 26;
+constexpr double undefined = missing<double>;
 
-double factor_of(double value) { return std::abs(value) > most_factor ? value / 1000 : value; }
+/// The digits of v in one base, read as those of another; undefined where a double does not hold them.
+double digits_again(double v, std::uint64_t base, double other) {
+    constexpr double most = 1e15;
+    if (!(v >= 0 && v < most)) return undefined;
+    double value = 0;
+    double place = 1;
+    for (auto rest = static_cast<std::uint64_t>(v); rest > 0; rest /= base, place *= other)
+        value += static_cast<double>(rest % base) * place;
+    return value;
+}
+/// Fanuc keeps digits in four bits each: 18 stands for binary 0001'0010. BIN reads it as 12.
+double from_decimal_digits(double v) { return digits_again(v, 16, 10); }
+double to_decimal_digits(double v) { return digits_again(v, 10, 16); }
+constexpr std::array<FunctionRow, 2> functions{{{"BIN", from_decimal_digits}, {"BCD", to_decimal_digits}}};
+constexpr auto of_arguments =
+    std::to_array<ArgumentsRow>({{"POW", 2, [](const std::vector<double>& v) { return std::pow(v[0], v[1]); }}});
+
+/// O1000 and :1000.
+Control program_number(std::string_view statement) {
+    Cursor c{statement, 0};
+    Control control;
+    const char first = upper(c.peek());
+    if (first != 'O' && first != ':') return control;
+    ++c.at;
+    control.label = number_label(c);
+    if (control.label.empty()) control.label = "0";
+    control.kind = ControlKind::label;
+    control.rest = c.at;
+    return control;
+}
+
+Control read_control(std::string_view statement) {
+    Control control = program_number(statement);
+    if (control.kind != ControlKind::none) return control;
+    Cursor c{statement, 0};
+    const std::string id = c.identifier();
+    if (id.empty()) return control;
+    if (id == "IF") {
+        c.take_word("IF");
+        control.rest = c.at;
+        std::size_t at = find_control_word(statement, "GOTO", c.at);
+        if (at != std::string_view::npos) {
+            control.kind = ControlKind::if_go_to;
+            control.target = at + 4;
+            Cursor target{statement, at + 4};
+            control.label = number_label(target);
+            return control;
+        }
+        at = find_control_word(statement, "THEN", c.at);
+        if (at == std::string_view::npos) throw ReadError{"expected GOTO or THEN after IF […]", c.column(), {}};
+        control.kind = ControlKind::if_then;
+        control.label = std::to_string(at + 4);
+        return control;
+    }
+    if (id.starts_with("GOTO")) {
+        c.skip_blanks();
+        c.at += 4;
+        control.kind = ControlKind::go_to;
+        control.target = c.at;
+        control.label = number_label(c);
+        return control;
+    }
+    if (id == "WHILE") {
+        c.take_word("WHILE");
+        control.rest = c.at;
+        const std::size_t at = find_control_word(statement, "DO", c.at);
+        if (at == std::string_view::npos) throw ReadError{"expected DO after WHILE […]", c.column(), {}};
+        control.kind = ControlKind::while_begin;
+        Cursor target{statement, at + 2};
+        control.label = number_label(target);
+        return control;
+    }
+    const auto numbered = [&](std::string_view word) {
+        return id.starts_with(word) && id.find_first_not_of("0123456789", word.size()) == std::string::npos;
+    };
+    if (numbered("DO")) {
+        c.skip_blanks();
+        c.at += 2;
+        control.kind = ControlKind::while_begin;
+        control.label = number_label(c);
+        control.rest = std::string_view::npos;  // no condition
+    } else if (numbered("END")) {
+        c.skip_blanks();
+        c.at += 3;
+        control.kind = ControlKind::while_end;
+        control.label = number_label(c);
+    }
+    return control;
+}
 
 /// G7.1 C0 ends the interpolation on a cylinder.
 bool has_rotary_word(const Block& block) {
@@ -25,379 +114,326 @@ bool has_rotary_word(const Block& block) {
                        [&](char letter) { return block.words.given(letter) && block.words.of(letter) != 0; });
 }
 
-bool has_code(const Block& block, int code) {
-    const auto* first = block.words.g.data();
-    return std::find(first, first + block.words.g_count, code) != first + block.words.g_count;
+// Codes.
+bool refuse_curves(Interpreter& in, const CodeWord& w) {
+    in.refuse_motion(code_text(w.code), w.block, w.column, "involutes and exponential curves are not read");
 }
-
-}  // namespace
-
-/// The coordinates of a frame's centre: as given, else the present position.
-Vec3 Interpreter::frame_centre(const Block& block, const Vec3& now) const {
-    Vec3 centre = now.array().isNaN().select(0.0, now);
-    for (int k = 0; k < 3; ++k) {
-        if (!block.words.given("XYZ"[k])) continue;
-        const double value = block.words.of("XYZ"[k]) * state_.unit_mm;
-        centre[k] = state_.incremental ? centre[k] + value : value;
-    }
-    return centre;
+bool refuse_rotary_interpolation(Interpreter& in, const CodeWord& w) {
+    in.refuse_motion(
+        code_text(w.code), w.block, w.column,
+        "cylindrical and polar coordinate interpolation are not read: X, Y and C mean something else there");
 }
-
-void Interpreter::settle_fanuc_frame() {
-    const FanucFrame& f = fanuc_frame_;
-    state_.frame = f.local.around(f.rotation.around(f.scaling.around(f.mirror)));
+bool interpolate_on_cylinder(Interpreter& in, const CodeWord& w) {
+    if (has_rotary_word(w.block)) return refuse_rotary_interpolation(in, w);
+    in.motion_suppressed_ = true;
+    return true;
 }
-
-/// G68 X Y R in the plane, or X Y Z I J K R about an axis. The centre counts in scaled coordinates.
-void Interpreter::rotate_frame(const Block& block, std::size_t column) {
-    motion_suppressed_ = true;
-    const Words& w = block.words;
-    if (!w.given('R')) fail("G68 needs the angle (R)", column);
-    double angle = w.of('R');
-    if (std::abs(angle) > full_turn) angle /= 1000;
-    const ProgramFrame inner = fanuc_frame_.scaling.around(fanuc_frame_.mirror);
-    const Vec3 centre = inner.to_work(frame_centre(block, state_.programmed()));
-    Vec3 axis = Vec3::Unit(state_.plane_axis);
-    const bool about_an_axis = w.given('I') || w.given('J') || w.given('K');
-    if (about_an_axis) {
-        for (int k = 0; k < 3; ++k) axis[k] = w.given("IJK"[k]) ? w.of("IJK"[k]) : 0.0;
-        if (axis.isZero()) fail("G68: I J K give no direction", column);
-    }
-    fanuc_frame_.angle = state_.incremental && !about_an_axis ? fanuc_frame_.angle + angle : angle;
-    fanuc_frame_.rotation = ProgramFrame::turned(axis, fanuc_frame_.angle, centre);
-    settle_fanuc_frame();
-    event("rotation", "G68" + words_text(block, "XYZIJKR"));
+bool ignore(Interpreter&, const CodeWord&) { return true; }
+bool dwell(Interpreter& in, const CodeWord& w) {
+    // X and U belong to the dwell and count seconds, P milliseconds.
+    const Words& words = w.block.words;
+    in.motion_suppressed_ = true;
+    in.dwell(words.given('P')   ? words.of('P') / 1000
+             : words.given('U') ? words.of('U')
+             : words.given('X') ? words.of('X')
+                                : 0);
+    return true;
 }
-
-/// G51 X Y Z P, or I J K for each axis; negative: mirrored.
-void Interpreter::scale_frame(const Block& block) {
-    motion_suppressed_ = true;
-    const Words& w = block.words;
-    Vec3 factors = Vec3::Constant(w.given('P') ? factor_of(w.of('P')) : 1.0);
-    if (!w.given('P')) {
-        for (int k = 0; k < 3; ++k) factors[k] = w.given("IJK"[k]) ? factor_of(w.of("IJK"[k])) : 1.0;
-    }
-    if ((factors.array() == 0).any()) fail("G51: a factor of 0");
-    const Vec3 centre = frame_centre(block, fanuc_frame_.mirror.to_work(state_.programmed()));
-    fanuc_frame_.scaling = ProgramFrame::scaled(factors, centre);
-    settle_fanuc_frame();
-    event("scaling", "G51" + words_text(block, "XYZIJKP"));
+/// Return check, return from the reference point, approach from one direction: a rapid to the end.
+bool go_at_rapid(Interpreter& in, const CodeWord& w) {
+    in.straight(MotionKind::rapid, in.target(w.block, in.machine_coordinates_), in.rotary_target(w.block));
+    in.motion_suppressed_ = true;
+    in.event("mode", code_text(w.code));
+    return true;
 }
-
-/// G51.1 and G50.1 (HNC: G24, G25): mirrored about X, Y, Z as given.
-void Interpreter::mirror_frame(int code, const Block& block) {
-    motion_suppressed_ = true;
-    const bool on = code == 511 || code == 240;
-    const bool all = !on && (block.words.has & Words::xyz) == 0;
-    for (int k = 0; k < 3; ++k) {
-        if (!all && !block.words.given("XYZ"[k])) continue;
-        mirrored_[k] = on;
-        if (on) mirror_at_[k] = block.words.of("XYZ"[k]) * state_.unit_mm;
-    }
-    Vec3 factors = Vec3::Ones();
-    for (int k = 0; k < 3; ++k) {
-        if (mirrored_[k]) factors[k] = -1;
-    }
-    fanuc_frame_.mirror = ProgramFrame::scaled(factors, mirror_at_);
-    settle_fanuc_frame();
-    event("mirror", code_text(code) + words_text(block, "XYZ"));
+bool skip(Interpreter& in, const CodeWord& w) {
+    in.probe(in.target(w.block, in.machine_coordinates_), in.rotary_target(w.block));
+    in.motion_suppressed_ = true;
+    return true;
 }
-
-/// G52: a zero of its own in every work system.
-void Interpreter::local_zero(const Block& block) {
-    motion_suppressed_ = true;
-    for (int k = 0; k < 3; ++k) {
-        if (!block.words.given("XYZ"[k])) continue;
-        const double value = block.words.of("XYZ"[k]) * state_.unit_mm;
-        local_zero_[k] = state_.incremental ? local_zero_[k] + value : value;
-    }
-    fanuc_frame_.local = ProgramFrame::moved(local_zero_);
-    settle_fanuc_frame();
-    event("local-zero", "G52" + words_text(block, "XYZ"));
+bool high_speed(Interpreter& in, const CodeWord& w) {
+    Words& words = w.block.words;
+    const bool moves = (words.has & Words::xyz) != 0;
+    if (w.code < 8_g && moves)
+        in.refuse_motion(code_text(w.code), w.block, w.column,
+                         code_text(w.code) + " with coordinates is a spline of linuxcnc: --dialect linuxcnc");
+    in.event("high-speed", code_text(w.code) + words_text(w.block, "PQR"));
+    in.motion_suppressed_ = !moves;
+    words.has &= ~(Words::bit('P') | Words::bit('Q') | Words::bit('R'));
+    return true;
 }
-
-bool Interpreter::apply_fanuc(int code, Block& block, std::size_t column) {
-    switch (code) {
-        case 22:
-        case 32:
-        case 23:
-        case 33:
-        case 12: refuse_motion(code_text(code), block, column, "involutes and exponential curves are not read");
-        case 71:
-        case 121:
-        case 1070:
-        case 1120:
-            if ((code == 71 || code == 1070) && !has_rotary_word(block)) {
-                motion_suppressed_ = true;
-                return true;
-            }
-            refuse_motion(
-                code_text(code), block, column,
-                "cylindrical and polar coordinate interpolation are not read: X, Y and C mean something else there");
-        case 131:
-        case 1130: return true;
-        case 270:
-        case 290:
-        case 600:
-            // Return check, return from the reference point, approach from one direction: a rapid to the end.
-            straight(MotionKind::rapid, target(block, machine_coordinates_), rotary_target(block));
-            motion_suppressed_ = true;
-            event("mode", code_text(code));
-            return true;
-        case 310:  // skip
-            probe(target(block, machine_coordinates_), rotary_target(block));
-            motion_suppressed_ = true;
-            return true;
-        case 50:
-        case 51:
-        case 80:
-        case 81:
-            if (code < 80 && (block.words.has & Words::xyz) != 0)
-                refuse_motion(code_text(code), block, column,
-                              code_text(code) + " with coordinates is a spline of linuxcnc: --dialect linuxcnc");
-            event("high-speed", code_text(code) + words_text(block, "PQR"));
-            motion_suppressed_ = (block.words.has & Words::xyz) == 0;
-            block.words.has &= ~(Words::bit('P') | Words::bit('Q') | Words::bit('R'));
-            return true;
-        case 100:
-        case 110:
-            if (code == 100 && block.words.given('L') && block.words.of('L') >= 50) data_entry_ = true;
-            if (code == 110) data_entry_ = false;
-            if (code == 100) set_offsets(block);
-            return true;
-        case 150: polar_.on = false; return true;
-        case 160: {
-            polar_.on = true;
-            polar_.radius = polar_.angle = 0;
-            event("polar", "G16");
-            return true;
-        }
-        case 240:
-        case 250:
-        case 511:
-        case 501: mirror_frame(code, block); return true;
-        case 500:
-            fanuc_frame_.scaling = {};
-            settle_fanuc_frame();
-            event("scaling", "G50" + words_text(block, "S"));
-            return true;
-        case 502:
-        case 512:
-            note(Severity::warning, "program.polygon", code_text(code) + " is not carried out", column);
-            return true;
-        case 510: scale_frame(block); return true;
-        case 520: local_zero(block); return true;
-        case 540:
-            if (!block.words.given('P') || has_code(block, 650) || has_code(block, 660)) return false;
-            select_work_system(extended_systems + static_cast<int>(std::clamp(block.words.of('P'), 1.0, 300.0)));
-            return true;
-        case 660:
-        case 661: {
-            modal_call_ = {
-                .active = true,
-                .name = fmt::format("{}", macro_program(block, code, column)),
-                .repeats = block.words.given('L') ? static_cast<int>(std::clamp(block.words.of('L'), 1.0, 99999.0)) : 1,
-                .arguments = macro_arguments(block),
-                .level = frames_.size(),
-                .column = column};
-            if (code == 661)
-                note(Severity::warning, "program.modal-macro", "G66.1 is read as G66: called after blocks that move",
-                     column);
-            motion_suppressed_ = true;
-            return true;
-        }
-        case 670: modal_call_ = {}; return true;
-        case 680: rotate_frame(block, column); return true;
-        case 682: tilt_plane(block, column); return true;
-        case 531:
-        case 536:
-            if (!tilted_)
-                note(Severity::warning, "program.rotation",
-                     code_text(code) + " without a tilted plane (G68.2) does nothing", column);
-            else
-                turn_to_plane(fanuc_frame_.rotation.direction_to_work(Vec3::UnitZ()), code == 536, code_text(code));
-            return true;
-        case 683:
-        case 684:
-            note(Severity::warning, "program.rotation",
-                 code_text(code) + ": the tilted plane is not carried out, the path is read as programmed", column);
-            motion_suppressed_ = true;
-            return true;
-        case 690:
-        case 691:
-            fanuc_frame_.rotation = {};
-            fanuc_frame_.angle = 0;
-            settle_fanuc_frame();
-            event("rotation", code_text(code));
-            end_tilted_plane(code_text(code));
-            return true;
-        default: break;
-    }
-    static constexpr auto noted = std::to_array<int>({220, 230, 260, 405, 534, 535, 545, 620, 630, 601, 125, 135});
-    if (std::find(noted.begin(), noted.end(), code) != noted.end()) {
-        event("mode", code_text(code) + words_text(block, "PQHDR"));
-        motion_suppressed_ = code == 220;
-        return true;
-    }
-    return false;
+bool set_data(Interpreter& in, const CodeWord& w) {
+    const Words& words = w.block.words;
+    if (words.given('L') && words.of('L') >= 50) in.data_entry_ = true;
+    const int level = words.given('L') ? static_cast<int>(std::clamp(words.of('L'), -1e6, 1e6)) : 0;
+    in.motion_suppressed_ = true;
+    if (!in.set_fanuc_offsets(level, w.block)) in.set_offsets(w.block);
+    return true;
 }
-
-long Interpreter::macro_program(const Block& block, int code, std::size_t column) const {
-    if (!block.words.given('P')) fail(code_text(code) + " needs the program's number (P)", column);
-    return static_cast<long>(std::clamp(block.words.of('P'), 0.0, 99999999.0));
+bool end_data(Interpreter& in, const CodeWord&) {
+    in.data_entry_ = false;
+    return true;
 }
-
-/// #1 … #33 of a macro call; NaN: not given. Where I, J or K stand more than once they count on:
-/// the second I is #7 (argument specification II).
-std::vector<double> Interpreter::macro_arguments(const Block& block) const {
-    static constexpr std::pair<char, int> numbers[] = {
-        {'A', 1},  {'B', 2},  {'C', 3},  {'I', 4},  {'J', 5},  {'K', 6},  {'D', 7},  {'E', 8},  {'F', 9},  {'H', 11},
-        {'Q', 17}, {'R', 18}, {'S', 19}, {'T', 20}, {'U', 21}, {'V', 22}, {'W', 23}, {'X', 24}, {'Y', 25}, {'Z', 26}};
-    std::vector<double> arguments(33, missing<double>);
-    for (const auto& [letter, number] : numbers) {
-        if (block.words.given(letter)) arguments[static_cast<std::size_t>(number - 1)] = block.words.of(letter);
-    }
-    if (block.words.m_count > 0) arguments[12] = block.words.m[0];
-    if (block.centres.size() > 3) {
-        std::size_t group = 0;
-        char before = 0;
-        for (const auto& [letter, value] : block.centres) {
-            if (before != 0 && letter <= before) ++group;
-            before = letter;
-            const std::size_t at = 3 + 3 * group + static_cast<std::size_t>(letter - 'I');
-            if (at < arguments.size()) arguments[at] = value;
-        }
-    }
-    return arguments;
+bool end_polar(Interpreter& in, const CodeWord&) {
+    in.polar_.on = false;
+    return true;
 }
-
-/// Between G10 L50 and G11 the lines are parameters of the control.
-bool Interpreter::is_data_end(const Block& block) {
-    if (has_code(block, 110)) return true;
-    event("data-entry", std::string(current_.substr(0, 80)));
-    return false;
+bool start_polar(Interpreter& in, const CodeWord&) {
+    in.polar_.on = true;
+    in.polar_.radius = in.polar_.angle = 0;
+    in.event("polar", "G16");
+    return true;
 }
+bool mirror(Interpreter& in, const CodeWord& w) {
+    in.mirror_frame(w.code, w.block);
+    return true;
+}
+bool end_scaling(Interpreter& in, const CodeWord& w) {
+    in.fanuc_frame_.scaling = {};
+    in.settle_fanuc_frame();
+    in.event("scaling", "G50" + words_text(w.block, "S"));
+    return true;
+}
+bool turn_polygon(Interpreter& in, const CodeWord& w) {
+    in.note(Severity::warning, "program.polygon", code_text(w.code) + " is not carried out", w.column);
+    return true;
+}
+bool scale(Interpreter& in, const CodeWord& w) {
+    in.scale_frame(w.block);
+    return true;
+}
+bool set_local_zero(Interpreter& in, const CodeWord& w) {
+    in.local_zero(w.block);
+    return true;
+}
+bool set_extended_system(Interpreter& in, const CodeWord& w) {
+    if (!w.block.words.given('P') || w.block.words.has_g(65_g) || w.block.words.has_g(66_g)) return false;
+    in.select_work_system(plain_work_systems + static_cast<int>(std::clamp(w.block.words.of('P'), 1.0, 300.0)));
+    return true;
+}
+bool start_modal_macro(Interpreter& in, const CodeWord& w) {
+    const Words& words = w.block.words;
+    in.modal_call_ = {.active = true,
+                      .name = fmt::format("{}", in.macro_program(w.block, w.code, w.column)),
+                      .repeats = words.given('L') ? static_cast<int>(std::clamp(words.of('L'), 1.0, 99999.0)) : 1,
+                      .arguments = in.macro_arguments(w.block),
+                      .level = in.frames_.size(),
+                      .column = w.column};
+    if (w.code == 66.1_g)
+        in.note(Severity::warning, "program.modal-macro", "G66.1 is read as G66: called after blocks that move",
+                w.column);
+    in.motion_suppressed_ = true;
+    return true;
+}
+bool end_modal_macro(Interpreter& in, const CodeWord&) {
+    in.modal_call_ = {};
+    return true;
+}
+bool rotate(Interpreter& in, const CodeWord& w) {
+    in.rotate_frame(w.block, w.column);
+    return true;
+}
+bool tilt(Interpreter& in, const CodeWord& w) {
+    in.tilt_plane(w.block, w.column);
+    return true;
+}
+bool turn_to_plane(Interpreter& in, const CodeWord& w) {
+    if (!in.tilted_)
+        in.note(Severity::warning, "program.rotation",
+                code_text(w.code) + " without a tilted plane (G68.2) does nothing", w.column);
+    else
+        in.turn_to_plane(in.fanuc_frame_.rotation.direction_to_work(Vec3::UnitZ()), w.code == 53.6_g,
+                         code_text(w.code));
+    return true;
+}
+bool tilt_otherwise(Interpreter& in, const CodeWord& w) {
+    in.note(Severity::warning, "program.rotation",
+            code_text(w.code) + ": the tilted plane is not carried out, the path is read as programmed", w.column);
+    in.motion_suppressed_ = true;
+    return true;
+}
+bool end_rotation(Interpreter& in, const CodeWord& w) {
+    in.fanuc_frame_.rotation = {};
+    in.fanuc_frame_.angle = 0;
+    in.settle_fanuc_frame();
+    in.event("rotation", code_text(w.code));
+    in.end_tilted_plane(code_text(w.code));
+    return true;
+}
+bool note_mode(Interpreter& in, const CodeWord& w) {
+    in.event("mode", code_text(w.code) + words_text(w.block, "PQHDR"));
+    in.motion_suppressed_ = w.code == 22_g;
+    return true;
+}
+bool stop_exactly(Interpreter& in, const CodeWord& w) {
+    return in.path_mode_word(w, {BlockEnd::exact_stop, 0}, w.code == 9_g);
+}
+bool round_in_corners(Interpreter& in, const CodeWord& w) { return in.path_mode_word(w, {BlockEnd::exact_path, 0}); }
+bool round_within_tolerance(Interpreter& in, const CodeWord& w) { return in.rounded_corners(w); }
 
-/// G65: nothing else in the block is carried out, its words are arguments.
-bool Interpreter::macro_call(const Block& block) {
-    if (dialect_ != DialectId::fanuc || !has_code(block, 650)) return false;
-    const int repeats = block.words.given('L') ? static_cast<int>(std::clamp(block.words.of('L'), 1.0, 99999.0)) : 1;
-    call(fmt::format("{}", macro_program(block, 650, 0)), repeats, true, macro_arguments(block));
+constexpr auto codes = std::to_array<CodeRule>({
+    {1.2_g, refuse_curves},
+    {2.2_g, refuse_curves},
+    {2.3_g, refuse_curves},
+    {3.2_g, refuse_curves},
+    {3.3_g, refuse_curves},
+    {4_g, dwell},
+    {5_g, high_speed},
+    {5.1_g, high_speed},
+    {7.1_g, interpolate_on_cylinder},
+    {8_g, high_speed},
+    {8.1_g, high_speed},
+    {9_g, stop_exactly},
+    {10_g, set_data},
+    {11_g, end_data},
+    {12.1_g, refuse_rotary_interpolation},
+    {12.5_g, note_mode},
+    {13.1_g, ignore},
+    {13.5_g, note_mode},
+    {15_g, end_polar},
+    {16_g, start_polar},
+    {22_g, note_mode},
+    {23_g, note_mode},
+    {24_g, mirror},
+    {25_g, mirror},
+    {26_g, note_mode},
+    {27_g, go_at_rapid},
+    {29_g, go_at_rapid},
+    {31_g, skip},
+    {40.5_g, note_mode},
+    {50_g, end_scaling},
+    {50.1_g, mirror},
+    {50.2_g, turn_polygon},
+    {51_g, scale},
+    {51.1_g, mirror},
+    {51.2_g, turn_polygon},
+    {52_g, set_local_zero},
+    {53.1_g, turn_to_plane},
+    {53.4_g, note_mode},
+    {53.5_g, note_mode},
+    {53.6_g, turn_to_plane},
+    {54_g, set_extended_system},
+    {54.5_g, note_mode},
+    {60_g, go_at_rapid},
+    {60.1_g, note_mode},
+    {61_g, stop_exactly},
+    {61.1_g, round_in_corners},
+    {62_g, note_mode},
+    {63_g, note_mode},
+    {64_g, round_within_tolerance},
+    {66_g, start_modal_macro},
+    {66.1_g, start_modal_macro},
+    {67_g, end_modal_macro},
+    {68_g, rotate},
+    {68.2_g, tilt},
+    {68.3_g, tilt_otherwise},
+    {68.4_g, tilt_otherwise},
+    {69_g, end_rotation},
+    {69.1_g, end_rotation},
+    {107_g, interpolate_on_cylinder},
+    {112_g, refuse_rotary_interpolation},
+    {113_g, ignore},
+});
+
+constexpr auto m_codes = std::to_array<MRule>({
+    {98,
+     [](Interpreter& in, int, const Block& block) {
+         in.call_by_number(block, 1, true);
+         return true;
+     }},
+    {99,
+     [](Interpreter& in, int, const Block& block) {
+         in.return_to_block(block);
+         return true;
+     }},
+});
+
+constexpr const char* spirals = "spirals of several turns are not read";
+constexpr auto refused_at_arcs = std::to_array<RefusedLetter>(
+    {{'P', "turns are P in linuxcnc: --dialect linuxcnc"}, {'L', spirals}, {'Q', spirals}});
+
+/// G11 ends data; between G10 L50 and G11 nothing else is carried out. G65 takes its whole block.
+bool begin_block(Interpreter& in, Block& block) {
+    if (in.data_entry_ && !in.is_data_end(block)) return true;
+    if (!block.words.has_g(65_g)) return false;
+    in.macro_call(block);
     return true;
 }
 
-/// G10 of Fanuc: L2 and L20 work offsets, L10 … L13 of tools; G90 sets, G91 adds.
-bool Interpreter::set_fanuc_offsets(int level, const Block& block) {
-    const Words& w = block.words;
-    const bool adds = state_.incremental;
-    if (level == 2 || level == 20) {
-        const int number = w.given('P') ? static_cast<int>(std::clamp(w.of('P'), 0.0, 300.0)) : 0;
-        if (level == 2 && number == 0) {
-            event("work-offset", "G10 L2 P0" + words_text(block, "XYZ"));  // moves all systems alike, on the machine
-            return true;
-        }
-        const int system = level == 20 ? extended_systems + number : number;
-        Vec3 shift = state_.work_offsets[system].shift;
-        for (int k = 0; k < 3; ++k) {
-            if (!w.given("XYZ"[k])) continue;
-            const double value = w.of("XYZ"[k]) * state_.unit_mm;
-            shift[k] = adds ? shift[k] + value : value;
-        }
-        state_.rebase([&] {
-            WorkOffset& offset = state_.work_offsets[system];
-            offset.shift = shift;
-            if (!adds) offset.set = static_cast<std::uint8_t>(offset.set | axes_named(w));
-        });
-        return true;
-    }
-    const bool of_tool = level == 0 || level == 1 || (level >= 10 && level <= 13);
-    if (of_tool && w.given('P') && w.given('R')) {
-        Tool& tool = tools_.tools[static_cast<int>(std::clamp(w.of('P'), 0.0, 1e6))];
-        const double value = w.of('R') * state_.unit_mm;
-        const bool wear = level == 11 || level == 13;
-        if (level == 12 || level == 13)
-            tool.diameter = (adds || wear ? tool.diameter : 0.0) + 2 * value;
-        else
-            tool.offset.z() = (adds || wear ? tool.offset.z() : 0.0) + value;
-    }
-    return false;
+bool call_modal_macro(Interpreter& in) {
+    const ModalCall called = in.modal_call_;
+    in.call(called.name, called.repeats, true, called.arguments);
+    return true;
 }
 
-/// Work offsets by variable: #5221 … G54, #5241 … G55, #7001 … G54.1 P1.
-WorkOffset* Interpreter::offset_of_variable(int number, int& axis) {
-    constexpr int per_system = 20;
-    const auto found = [&](int first, int systems, int first_system) -> WorkOffset* {
-        if (number < first || number >= first + systems * per_system) return nullptr;
-        axis = (number - first) % per_system;
-        return axis < 3 ? &state_.work_offsets[first_system + (number - first) / per_system] : nullptr;
-    };
-    if (WorkOffset* offset = found(5221, 6, 1)) return offset;
-    return found(7001, 48, extended_systems + 1);
+/// G16: the first axis of the plane is the radius, the second the angle.
+void move_about_pole(Interpreter& in, const Block& block, Vec3& end) {
+    const ModalState& state = in.state_;
+    const Vec3 from = end.array().isNaN().select(0.0, end);
+    in.straight_to_pole_plane(block, from, end);
+    const char radius = "XYZ"[(state.plane_axis + 1) % 3];
+    const char angle = "XYZ"[(state.plane_axis + 2) % 3];
+    if (!block.words.given(radius) && !block.words.given(angle)) return;
+    PolarState& polar = in.polar_;
+    if (block.words.given(radius)) polar.radius = block.words.of(radius) * state.unit_mm;
+    if (block.words.given(angle)) polar.angle = block.words.of(angle) + (state.incremental ? polar.angle : 0.0);
+    polar.pole = state.incremental ? from : Vec3(Vec3::Zero());
+    in.put_at_pole(end);
 }
 
-/// What writing a variable of the control does; true: it was one.
-bool Interpreter::write_parameter(int number, double value) {
-    if (dialect_ != DialectId::fanuc || number < 1000) return false;
-    int axis = 0;
-    if (offset_of_variable(number, axis) != nullptr) {
-        state_.rebase([&] {
-            WorkOffset& offset = *offset_of_variable(number, axis);
-            offset.shift[axis] = value * state_.unit_mm;
-            offset.set = static_cast<std::uint8_t>(offset.set | (1u << axis));
-        });
-        return true;
-    }
-    if (number == 3000) {
-        note(Severity::warning, "program.alarm", fmt::format("the program raises alarm {:g} and ends here", value));
-        event("end", fmt::format("#3000={:g}", value));
-        ended_ = true;
-        return true;
-    }
-    if (number == 3006) {
-        event("stop", fmt::format("#3006={:g}", value));
-        return true;
-    }
-    return false;
-}
+constexpr auto code_signs = std::to_array<CodeSign>({{5_g, 8, "P", "IJQXYZ"},
+                                                     {5.1_g, 8, "Q", ""},
+                                                     {8_g, 6, "P", ""},
+                                                     {43.4_g, 6, "", ""},
+                                                     {43.5_g, 6, "", ""},
+                                                     {53.1_g, 4, "", ""},
+                                                     {54.1_g, 4, "P", ""},
+                                                     {68.2_g, 6, "", ""},
+                                                     {51.1_g, 3, "", ""},
+                                                     {50.1_g, 3, "", ""},
+                                                     {6.2_g, 6, "", ""},
+                                                     {65_g, 6, "P", ""},
+                                                     {66_g, 6, "P", ""},
+                                                     {7.1_g, 4, "", ""},
+                                                     {12.1_g, 4, "", ""},
+                                                     {68_g, 4, "R", ""},
+                                                     {16_g, 2, "", ""},
+                                                     {51_g, 3, "PIJK", ""}});
+constexpr auto mark_signs = std::to_array<MarkSign>({{Mark::comma_corner, 4},
+                                                     {Mark::free_assignment, 4},
+                                                     {Mark::subprogram_m, 2},
+                                                     {Mark::o_number, 3},
+                                                     {Mark::jump_to_block, 8},
+                                                     {Mark::bracketed_if, 8}});
 
-double Interpreter::fanuc_parameter(int number, const Vec3& known) const {
-    const double unit = state_.unit_mm;
-    const auto axis_of = [&](int first, const Vec3& lengths) {
-        const int k = number - first;
-        return k < 3 ? lengths[k] / unit : state_.rotary[k - 3];
-    };
-    for (const int first : {5001, 5041}) {
-        if (number >= first && number < first + 6) return axis_of(first, state_.frame.to_programmed(known));
-    }
-    if (number >= 5021 && number < 5027) return axis_of(5021, state_.to_machine(known));
-    const auto offset = [&](int first, int first_system) {
-        const auto found = state_.work_offsets.find(first_system + (number - first) / 20);
-        const int axis = (number - first) % 20;
-        return found == state_.work_offsets.end() || axis > 2 ? 0.0 : found->second.shift[axis] / unit;
-    };
-    if (number >= 5221 && number < 5341) return offset(5221, 1);
-    if (number >= 7001 && number < 7961) return offset(7001, extended_systems + 1);
-    switch (number) {
-        case 4001:
-            return state_.motion == MotionMode::rapid ? 0
-                   : state_.motion == MotionMode::cw  ? 2
-                   : state_.motion == MotionMode::ccw ? 3
-                                                      : 1;
-        case 4002: return 17 + (2 - state_.plane_axis);
-        case 4003: return state_.incremental ? 91 : 90;
-        case 4005:
-            return state_.feed_mode == FeedMode::inverse_time ? 93 : state_.feed_mode == FeedMode::per_minute ? 94 : 95;
-        case 4006: return unit == 1 ? 21 : 20;
-        case 4009: return state_.cycle > 0 && state_.motion == MotionMode::cycle ? state_.cycle / 10 : 80;
-        case 4010: return state_.retract_to_r ? 99 : 98;
-        case 4014: return state_.work_system <= extended_systems ? 53 + state_.work_system : 54.1;
-        case 4109: return state_.feed;
-        case 4119: return state_.spindle;
-        case 4120: return next_tool_;
-        default: break;
-    }
-    if (number >= 1000 && !variables_.has(number)) unknown_parameter_ = number;
-    return missing<double>;
-}
+}  // namespace
+}  // namespace fanuc
+
+const DialectRules fanuc_rules{
+    .text = {.counts_centres = true,
+             .functions_after_words = false,
+             .ranks = OperatorRanks::fanuc,
+             .vacant_variables = true,
+             .bitwise_logic = true,
+             .rounds_to_increment = true,
+             .functions = fanuc::functions,
+             .of_arguments = fanuc::of_arguments,
+             .control = fanuc::read_control},
+    .codes = fanuc::codes,
+    .m_codes = fanuc::m_codes,
+    .motion = {.refused_at_arcs = fanuc::refused_at_arcs},
+    .tools = {.radius_by_d = true, .length_of = LengthOf::row_of_h},
+    .cycles = {.dwell_unit = 0.001, .repeats_by_k = true},
+    .calls = {.begins_at_label = true, .second_name_ends = true, .jumps_to_numbers = true},
+    // Parameter 3410 is each machine's own.
+    .arc_tolerance = {.absolute = 0.03, .relative = 1e-3, .most = 0.5, .reach = 0.005, .relative_reach = 1e-3},
+    .signs = {.codes = fanuc::code_signs, .marks = fanuc::mark_signs},
+    .begin_block = fanuc::begin_block,
+    .modal_call = fanuc::call_modal_macro,
+    .parameter = [](Interpreter& in, int number) { return in.fanuc_parameter(number); },
+    .write_parameter = [](Interpreter& in, int number,
+                          double value) { return in.write_fanuc_parameter(number, value); },
+    .about_pole = fanuc::move_about_pole,
+};
 
 }  // namespace clsurf

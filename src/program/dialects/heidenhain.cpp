@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <limits>
+#include <optional>
 #include <sstream>
 
 #include <fmt/format.h>
 
 #include "core/not_finite.h"
+#include "program/dialects/known_dialects.h"
 #include "program/interpret/interpreter_state.h"
 
 namespace clsurf {
@@ -58,134 +60,6 @@ void Interpreter::count_in_inches(bool inches) {
     state_.feed_unit_mm = inches ? 0.1 * mm_per_inch : 1;
 }
 
-bool Interpreter::apply_heidenhain(int code, Block& block, std::size_t column) {
-    const Words& w = block.words;
-    const auto not_carried_out = [&](const char* what) {
-        note(Severity::warning, "program.unknown-word",
-             fmt::format("{} ({}) is not carried out", code_text(code), what), column);
-        motion_suppressed_ = true;
-        return true;
-    };
-    switch (code) {
-        case 700: count_in_inches(true); return true;
-        case 710: count_in_inches(false); return true;
-        case 50:
-            arc_kind_ = ArcKind::by_radius;
-            state_.motion = last_clockwise_ ? MotionMode::cw : MotionMode::ccw;
-            return true;
-        case 60:
-            arc_kind_ = ArcKind::tangential;
-            state_.motion = MotionMode::cw;
-            return true;
-        case 160:
-            arc_kind_ = ArcKind::tangential;
-            state_.motion = MotionMode::cw;
-            polar_line_ = true;
-            return true;
-        case 70: state_.motion = MotionMode::feed; return true;  // parallel to an axis
-        case 0:
-        case 10:
-        case 20:
-        case 30:
-            polar_line_ = false;
-            arc_kind_ = ArcKind::usual;
-            return false;
-        case 100:
-        case 110:
-            polar_line_ = true;
-            state_.motion = code == 100 ? MotionMode::rapid : MotionMode::feed;
-            return true;
-        case 120:
-        case 130:
-        case 150:
-            polar_line_ = true;
-            arc_kind_ = ArcKind::usual;
-            if (code != 150) last_clockwise_ = code == 120;
-            state_.motion = last_clockwise_ ? MotionMode::cw : MotionMode::ccw;
-            return true;
-        case 290: {
-            const Vec3 here = state_.programmed();
-            polar_.pole = here.array().isNaN().select(0.0, here);
-            motion_suppressed_ = true;
-            event("pole", "G29");
-            return true;
-        }
-        case 240: return not_carried_out("chamfer");
-        case 250: return not_carried_out("corner rounding");
-        case 260: return not_carried_out("tangential approach");
-        case 270: return not_carried_out("tangential departure");
-        case 280: {
-            Vec3 factors = Vec3::Ones();
-            for (int k = 0; k < 3; ++k) {
-                if (w.given("XYZ"[k]) || take_mention("XYZ"[k], block)) factors[k] = -1;
-            }
-            set_heidenhain_frame(mirror, ProgramFrame::scaled(factors, Vec3::Zero()));
-            event("mirror", "G28");
-            return true;
-        }
-        case 540: {
-            for (int k = 0; k < 3; ++k) {
-                if (!w.given("XYZ"[k])) continue;
-                const double value = w.of("XYZ"[k]) * state_.unit_mm;
-                datum_[k] = state_.incremental ? datum_[k] + value : value;
-            }
-            set_heidenhain_frame(datum, ProgramFrame::moved(datum_));
-            event("datum-shift", "G54" + words_text(block, "XYZ"));
-            return true;
-        }
-        case 720:
-            if (!w.given('F') || w.of('F') == 0) fail("G72 needs its factor (F)", column);
-            set_heidenhain_frame(scaling, ProgramFrame::scaled(Vec3::Constant(w.of('F')), Vec3::Zero()));
-            event("scaling", "G72" + words_text(block, "F"));
-            return true;
-        case 730:
-            if (!w.given('H')) fail("G73 needs its angle (H)", column);
-            turned_by_ = state_.incremental ? turned_by_ + w.of('H') : w.of('H');
-            set_heidenhain_frame(rotation,
-                                 ProgramFrame::turned(Vec3::Unit(state_.plane_axis), turned_by_, Vec3::Zero()));
-            event("rotation", "G73" + words_text(block, "H"));
-            return true;
-        case 200: return not_carried_out("fourth axis as tool axis");
-        case 530: return not_carried_out("datum table");
-        case 800:
-            if ((w.has & (Words::bit('A') | Words::bit('B') | Words::bit('C'))) == 0) {
-                motion_suppressed_ = true;
-                return true;
-            }
-            return not_carried_out("tilted working plane");
-        case 430:
-        case 440: return not_carried_out("paraxial radius compensation");
-        case 300:
-        case 310:
-        case 360:
-        case 380:
-        case 390:
-        case 500:
-        case 510:
-        case 550:
-        case 990:
-        case 980:
-            // Blank form, spindle angle, stop, tools, probing, tool definition, labels.
-            if (code == 380)
-                event("stop", "G38");
-            else
-                event("mode", code_text(code) + words_text(block, "TLR"));
-            if (code == 990 && w.given('T')) {
-                Tool tool{.number = static_cast<int>(std::clamp(w.of('T'), 0.0, 1e6))};
-                if (w.given('L')) tool.offset.z() = w.of('L') * state_.unit_mm;
-                if (w.given('R')) tool.diameter = 2 * w.of('R') * state_.unit_mm;
-                tools_.tools[tool.number] = tool;
-            }
-            motion_suppressed_ = true;
-            block.words.has &= ~(Words::bit('T') | Words::bit('L'));
-            return true;
-        default: break;
-    }
-    const bool cycle = code == 790 || (code >= 740 && code <= 860) || (code >= 2000 && code <= 4990) ||
-                       (code >= 560 && code <= 590) || code == 370 || code == 1200;
-    return cycle && not_carried_out("cycle");
-}
-
 /// An axis letter that stands without a number, as in G28 X Y.
 bool Interpreter::take_mention(char letter, Block& block) {
     return std::erase_if(block.unknown, [&](const UnknownWord& word) {
@@ -195,7 +69,7 @@ bool Interpreter::take_mention(char letter, Block& block) {
 
 /// I J K give the pole, which stays: in the block of the arc, or before it.
 void Interpreter::take_pole(const Block& block) {
-    if (dialect_ != DialectId::heidenhain_iso || (block.words.has & ijk) == 0) return;
+    if ((block.words.has & ijk) == 0) return;
     const Vec3 here = state_.programmed();
     for (int k = 0; k < 3; ++k) {
         if (!block.words.given("IJK"[k])) continue;
@@ -245,7 +119,7 @@ bool Interpreter::q_function(std::string_view text) {
         (void)read_decimal(c.text.substr(0, end), c.at, place);
         c.at = end;
         if (!(place >= 1 && place <= 3)) throw ReadError{"expected P01, P02 or P03", c.column(), {}};
-        p[static_cast<int>(place) - 1] = evaluate(c, variables_, dialect_);
+        p[static_cast<int>(place) - 1] = evaluate(c, variables_, rules_->text);
     }
     const auto set = [&](double value) {
         if (target < 0) throw ReadError{"expected Q and its number", c.column(), {}};
@@ -312,48 +186,277 @@ bool Interpreter::call_label(std::string_view text) {
     return true;
 }
 
-/// Polar words of Fanuc (G16), Siemens (RP= AP=) and Heidenhain (R H), about the pole.
-void Interpreter::put_about_pole(const Block& block, Vec3& end) {
-    const int u = (state_.plane_axis + 1) % 3;
-    const int v = (state_.plane_axis + 2) % 3;
-    const double unit = state_.unit_mm;
-    const Vec3 from = end.array().isNaN().select(0.0, end);
-    const auto straight_axis = [&](int k) {
-        const char letter = "XYZ"[k];
-        if (!block.words.given(letter)) return;
-        const std::uint32_t bit = Words::bit(letter);
-        const bool adds = state_.incremental ? (block.absolute & bit) == 0 : (block.incremental & bit) != 0;
-        end[k] = (adds ? from[k] : 0.0) + block.words.of(letter) * unit;
-    };
-    straight_axis(state_.plane_axis);
-    if (dialect_ == DialectId::fanuc) {
-        const char radius = "XYZ"[u];
-        const char angle = "XYZ"[v];
-        if (!block.words.given(radius) && !block.words.given(angle)) return;
-        if (block.words.given(radius)) polar_.radius = block.words.of(radius) * unit;
-        if (block.words.given(angle)) polar_.angle = block.words.of(angle) + (state_.incremental ? polar_.angle : 0.0);
-        polar_.pole = state_.incremental ? from : Vec3(Vec3::Zero());
-    } else {
-        const bool siemens = dialect_ == DialectId::siemens;
-        // NaN: not given.
-        const auto word = [&](const std::optional<double>& of_siemens, char letter) {
-            if (siemens) return of_siemens.value_or(missing<double>);
-            return block.words.given(letter) ? block.words.of(letter) : missing<double>;
-        };
-        const double angle = word(block.polar_angle, 'H');
-        const double radius = word(block.polar_radius, 'R');
-        const Vec2 now(from[u] - polar_.pole[u], from[v] - polar_.pole[v]);
-        // What is not given stays as it is now.
-        if (!std::isnan(radius))
-            polar_.radius = radius * unit + (siemens && block.polar_radius_incremental ? now.norm() : 0.0);
-        else
-            polar_.radius = now.norm();
-        const bool adds = siemens ? block.polar_angle_incremental : state_.incremental;
-        const double angle_now = angle_of(now) * deg_per_rad;
-        polar_.angle = std::isnan(angle) ? angle_now : angle + (adds ? angle_now : 0.0);
-    }
-    end[u] = polar_.pole[u] + polar_.radius * std::cos(polar_.angle * rad_per_deg);
-    end[v] = polar_.pole[v] + polar_.radius * std::sin(polar_.angle * rad_per_deg);
+namespace heidenhain {
+namespace {
+
+/// Of formulas.
+constexpr std::array<FunctionRow, 5> functions{{
+    {"SQ", [](double v) { return v * v; }},
+    {"NEG", [](double v) { return -v; }},
+    {"FRAC", [](double v) { return v - std::trunc(v); }},
+    {"SGN", [](double v) { return v > 0   ? 1.0
+                                  : v < 0 ? -1.0
+                                          : 0.0; }},
+    {"LOG", [](double v) { return std::log10(v); }},
+}};
+
+Control read_control(std::string_view statement) {
+    Control control;
+    Cursor c{statement, 0};
+    // G98 L5 is a label, G98 L0 the end of a subprogram.
+    if (upper(c.peek()) != 'G') return control;
+    ++c.at;
+    double code = 0;
+    const std::size_t next = read_decimal(c.text, c.at, code);
+    if (next == c.at || code != 98) return control;
+    c.at = next;
+    if (upper(c.peek()) != 'L') return control;
+    ++c.at;
+    control.label = number_label(c);
+    control.kind = control.label.empty() ? ControlKind::end_sub : ControlKind::sub;
+    control.rest = c.at;
+    return control;
 }
+
+bool not_carried_out(Interpreter& in, const CodeWord& w, const char* what) {
+    in.note(Severity::warning, "program.unknown-word",
+            fmt::format("{} ({}) is not carried out", code_text(w.code), what), w.column);
+    in.motion_suppressed_ = true;
+    return true;
+}
+bool count_in_unit(Interpreter& in, const CodeWord& w) {
+    in.count_in_inches(w.code == 70_g);
+    return true;
+}
+bool dwell(Interpreter& in, const CodeWord& w) {
+    in.motion_suppressed_ = true;
+    in.dwell(w.block.words.given('F') ? w.block.words.of('F') : 0);
+    return true;
+}
+bool move_as_usual(Interpreter& in, const CodeWord&) {
+    in.polar_line_ = false;
+    in.arc_kind_ = ArcKind::usual;
+    return false;
+}
+bool arc_by_radius(Interpreter& in, const CodeWord&) {
+    in.arc_kind_ = ArcKind::by_radius;
+    in.state_.motion = in.last_clockwise_ ? MotionMode::cw : MotionMode::ccw;
+    return true;
+}
+bool arc_tangential(Interpreter& in, const CodeWord& w) {
+    in.arc_kind_ = ArcKind::tangential;
+    in.state_.motion = MotionMode::cw;
+    if (w.code == 16_g) in.polar_line_ = true;
+    return true;
+}
+bool move_along_axis(Interpreter& in, const CodeWord&) {
+    in.state_.motion = MotionMode::feed;
+    return true;
+}
+bool polar_line(Interpreter& in, const CodeWord& w) {
+    in.polar_line_ = true;
+    in.state_.motion = w.code == 10_g ? MotionMode::rapid : MotionMode::feed;
+    return true;
+}
+bool polar_arc(Interpreter& in, const CodeWord& w) {
+    in.polar_line_ = true;
+    in.arc_kind_ = ArcKind::usual;
+    if (w.code != 15_g) in.last_clockwise_ = w.code == 12_g;
+    in.state_.motion = in.last_clockwise_ ? MotionMode::cw : MotionMode::ccw;
+    return true;
+}
+bool take_position_as_pole(Interpreter& in, const CodeWord&) {
+    const Vec3 here = in.state_.programmed();
+    in.polar_.pole = here.array().isNaN().select(0.0, here);
+    in.motion_suppressed_ = true;
+    in.event("pole", "G29");
+    return true;
+}
+bool chamfer(Interpreter& in, const CodeWord& w) { return not_carried_out(in, w, "chamfer"); }
+bool round_corner(Interpreter& in, const CodeWord& w) { return not_carried_out(in, w, "corner rounding"); }
+bool approach(Interpreter& in, const CodeWord& w) { return not_carried_out(in, w, "tangential approach"); }
+bool depart(Interpreter& in, const CodeWord& w) { return not_carried_out(in, w, "tangential departure"); }
+bool fourth_axis(Interpreter& in, const CodeWord& w) { return not_carried_out(in, w, "fourth axis as tool axis"); }
+bool datum_table(Interpreter& in, const CodeWord& w) { return not_carried_out(in, w, "datum table"); }
+bool paraxial(Interpreter& in, const CodeWord& w) { return not_carried_out(in, w, "paraxial radius compensation"); }
+bool mirror_axes(Interpreter& in, const CodeWord& w) {
+    Vec3 factors = Vec3::Ones();
+    for (int k = 0; k < 3; ++k) {
+        if (w.block.words.given("XYZ"[k]) || Interpreter::take_mention("XYZ"[k], w.block)) factors[k] = -1;
+    }
+    in.set_heidenhain_frame(mirror, ProgramFrame::scaled(factors, Vec3::Zero()));
+    in.event("mirror", "G28");
+    return true;
+}
+bool shift_datum(Interpreter& in, const CodeWord& w) {
+    for (int k = 0; k < 3; ++k) {
+        if (!w.block.words.given("XYZ"[k])) continue;
+        const double value = w.block.words.of("XYZ"[k]) * in.state_.unit_mm;
+        in.datum_[k] = in.state_.incremental ? in.datum_[k] + value : value;
+    }
+    in.set_heidenhain_frame(datum, ProgramFrame::moved(in.datum_));
+    in.event("datum-shift", "G54" + words_text(w.block, "XYZ"));
+    return true;
+}
+bool scale_all(Interpreter& in, const CodeWord& w) {
+    const Words& words = w.block.words;
+    if (!words.given('F') || words.of('F') == 0) in.fail("G72 needs its factor (F)", w.column);
+    in.set_heidenhain_frame(scaling, ProgramFrame::scaled(Vec3::Constant(words.of('F')), Vec3::Zero()));
+    in.event("scaling", "G72" + words_text(w.block, "F"));
+    return true;
+}
+bool rotate(Interpreter& in, const CodeWord& w) {
+    const Words& words = w.block.words;
+    if (!words.given('H')) in.fail("G73 needs its angle (H)", w.column);
+    in.turned_by_ = in.state_.incremental ? in.turned_by_ + words.of('H') : words.of('H');
+    in.set_heidenhain_frame(rotation,
+                            ProgramFrame::turned(Vec3::Unit(in.state_.plane_axis), in.turned_by_, Vec3::Zero()));
+    in.event("rotation", "G73" + words_text(w.block, "H"));
+    return true;
+}
+bool tilt(Interpreter& in, const CodeWord& w) {
+    constexpr std::uint32_t angles = Words::bit('A') | Words::bit('B') | Words::bit('C');
+    if ((w.block.words.has & angles) != 0) return not_carried_out(in, w, "tilted working plane");
+    in.motion_suppressed_ = true;
+    return true;
+}
+bool stop(Interpreter& in, const CodeWord& w) {
+    in.event("stop", "G38");
+    in.motion_suppressed_ = true;
+    w.block.words.has &= ~(Words::bit('T') | Words::bit('L'));
+    return true;
+}
+/// Blank form, spindle angle, tools, probing, labels.
+bool note_mode(Interpreter& in, const CodeWord& w) {
+    in.event("mode", code_text(w.code) + words_text(w.block, "TLR"));
+    in.motion_suppressed_ = true;
+    w.block.words.has &= ~(Words::bit('T') | Words::bit('L'));
+    return true;
+}
+bool define_tool(Interpreter& in, const CodeWord& w) {
+    const Words& words = w.block.words;
+    if (words.given('T')) {
+        Tool tool{.number = static_cast<int>(std::clamp(words.of('T'), 0.0, 1e6))};
+        if (words.given('L')) tool.offset.z() = words.of('L') * in.state_.unit_mm;
+        if (words.given('R')) tool.diameter = 2 * words.of('R') * in.state_.unit_mm;
+        in.tools_.tools[tool.number] = tool;
+    }
+    return note_mode(in, w);
+}
+
+constexpr int order_of_offsets = 9;  ///< G54 is no work system: its words count as G90 or G91 has it
+constexpr auto codes = std::to_array<CodeRule>({
+    {0_g, move_as_usual},
+    {1_g, move_as_usual},
+    {2_g, move_as_usual},
+    {3_g, move_as_usual},
+    {4_g, dwell},
+    {5_g, arc_by_radius},
+    {6_g, arc_tangential},
+    {7_g, move_along_axis},
+    {10_g, polar_line},
+    {11_g, polar_line},
+    {12_g, polar_arc},
+    {13_g, polar_arc},
+    {15_g, polar_arc},
+    {16_g, arc_tangential},
+    {20_g, fourth_axis},
+    {24_g, chamfer},
+    {25_g, round_corner},
+    {26_g, approach},
+    {27_g, depart},
+    {28_g, mirror_axes},
+    {29_g, take_position_as_pole},
+    {30_g, note_mode},
+    {31_g, note_mode},
+    {36_g, note_mode},
+    {38_g, stop},
+    {39_g, note_mode},
+    {43_g, paraxial},
+    {44_g, paraxial},
+    {50_g, note_mode},
+    {51_g, note_mode},
+    {53_g, datum_table},
+    {54_g, shift_datum, order_of_offsets},
+    {55_g, note_mode},
+    {70_g, count_in_unit},
+    {71_g, count_in_unit},
+    {72_g, scale_all},
+    {73_g, rotate},
+    {80_g, tilt},
+    {98_g, note_mode},
+    {99_g, define_tool},
+});
+
+/// Machining cycles: read, not carried out.
+bool cycle(Interpreter& in, const CodeWord& w) {
+    const int code = w.code;
+    const bool known = code == 79_g || (code >= 74_g && code <= 86_g) || (code >= 200_g && code <= 499_g) ||
+                       (code >= 56_g && code <= 59_g) || code == 37_g || code == 120_g;
+    return known && not_carried_out(in, w, "cycle");
+}
+
+bool machine_position(Interpreter& in, int code, const Block&) {
+    in.machine_coordinates_ = code == 91;
+    if (code == 92) in.note(Severity::warning, "program.unknown-word", "M92: the machine's second zero is not known");
+    return true;
+}
+bool tool_centre_point(Interpreter& in, int code, const Block&) {
+    in.control_tool_centre_point(code == 128, fmt::format("M{}", code));
+    return true;
+}
+constexpr auto m_codes = std::to_array<MRule>(
+    {{91, machine_position}, {92, machine_position}, {128, tool_centre_point}, {129, tool_centre_point}});
+
+/// L5 beside other words of a block.
+void call_label(Interpreter& in, const Block& block) {
+    if (!block.words.given('L') || in.motion_suppressed_) return;
+    in.call(fmt::format("{}", std::lround(block.words.of('L'))), 1, false, {});
+}
+
+constexpr auto code_signs = std::to_array<CodeSign>({{98_g, 6, "L", "XYZ"}, {99_g, 5, "T", ""}});
+constexpr auto ending_signs = std::to_array<EndingSign>({{".i", 4}});
+constexpr auto mark_signs = std::to_array<MarkSign>(
+    {{Mark::title_with_unit, 15}, {Mark::stars, 60}, {Mark::q_equals, 6}, {Mark::blank_in_plane, 2}});
+
+}  // namespace
+}  // namespace heidenhain
+
+const DialectRules heidenhain_iso_rules{
+    .text = {.semicolon_comments = true,
+             .formulas = true,
+             .star_ends_block = true,
+             .named_titles = true,
+             .q_words = true,
+             .caret_power = true,
+             .round_brackets = true,
+             .numbered_names = "RQ",
+             .functions = heidenhain::functions,
+             .control = heidenhain::read_control},
+    .codes = heidenhain::codes,
+    .other_code = heidenhain::cycle,
+    .m_codes = heidenhain::m_codes,
+    .motion = {.plain_blocks = false, .refuses_curve_codes = false, .idle_letters = {}},
+    .tools = {.t_changes = true, .length_with_tool = true},
+    .calls = {.by_sub = true, .subs_run_through = true, .file_from_top = true},
+    // The greatest value of MP7431 and of circleDeviation.
+    .arc_tolerance = {.absolute = 0.016,
+                      .relative = 0,
+                      .most = std::numeric_limits<double>::infinity(),
+                      .reach = 0.005,
+                      .relative_reach = 1e-3},
+    .signs = {.codes = heidenhain::code_signs, .endings = heidenhain::ending_signs, .marks = heidenhain::mark_signs},
+    .statement = [](Interpreter& in, const Statement& s) { return in.q_function(s.text) || in.call_label(s.text); },
+    .after_codes = [](Interpreter& in, const Block& block) { in.take_pole(block); },
+    .after_block = heidenhain::call_label,
+    .arc = [](Interpreter& in, const Block& block, ArcWords& words) { return in.arc_of_heidenhain(block, words); },
+    .about_pole =
+        [](Interpreter& in, const Block& block, Vec3& end) {
+            const auto word = [&](char letter) {
+                return block.words.given(letter) ? std::optional(block.words.of(letter)) : std::nullopt;
+            };
+            in.put_about_pole(block, word('R'), word('H'), false, in.state_.incremental, end);
+        },
+};
 
 }  // namespace clsurf

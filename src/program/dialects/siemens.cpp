@@ -1,392 +1,411 @@
-// SINUMERIK: G codes, frames, poles, words of several letters, calls.
+// The rules of SINUMERIK: what its codes and control statements mean. Words of several letters and frames:
+// siemens_words.cpp; cycles: siemens_cycles.cpp.
 // Facts: Siemens, SINUMERIK 840D sl, Programming Manual "Fundamentals" and "Job Planning".
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <optional>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "program/dialects/known_dialects.h"
 #include "program/interpret/interpreter_state.h"
 
 namespace clsurf {
+namespace siemens {
 namespace {
 
-/// Codes that are kept as an event and change no motion, in tenths.
-constexpr auto noted_codes = std::to_array<int>({
-    270, 330,  340,  350,  500,  2500, 4500, 4510, 4600, 4610, 4620, 6010, 6020, 6030, 620,  621,
-    630, 3310, 3320, 1400, 1410, 1420, 1430, 3400, 3410, 4000, 5000, 5100, 9610, 9710, 9730,
-});
-/// Soft approach and retract: the way there is not carried out.
-constexpr auto approach_codes = std::to_array<int>({1470, 1480, 2470, 2480, 3470, 3480});
+struct ControlWord {
+    std::string_view text;
+    ControlKind kind;
+};
+constexpr std::array<ControlWord, 17> control_words{{
+    {"IF", ControlKind::if_begin},
+    {"ELSE", ControlKind::else_branch},
+    {"ENDIF", ControlKind::if_end},
+    {"WHILE", ControlKind::while_begin},
+    {"ENDWHILE", ControlKind::while_end},
+    {"FOR", ControlKind::for_begin},
+    {"ENDFOR", ControlKind::for_end},
+    {"LOOP", ControlKind::while_begin},
+    {"ENDLOOP", ControlKind::while_end},
+    {"REPEAT", ControlKind::do_begin},
+    {"UNTIL", ControlKind::do_while},
+    {"RET", ControlKind::leave},
+    {"M17", ControlKind::leave},
+    {"PROC", ControlKind::label},
+    {"ENDPROC", ControlKind::leave},
+    {"REPEATB", ControlKind::repeat_block},
+    {"CASE", ControlKind::choice},
+}};
 
-constexpr auto noted_words = std::to_array<std::string_view>({
-    "MSG",     "FNORM",  "FLIN",      "FCUB",    "STOPRE",   "ORIWKS",    "ORIMKS",   "ORIAXES", "ORIVECT",
-    "ORISON",  "OTOL",   "CTOL",      "UPATH",   "SPATH",    "CDOF",      "CDOF2",    "CDON",    "CUT2D",
-    "CUT2DF",  "ORISOF", "WORKPIECE", "FGROUP",  "FIFOCTRL", "STARTFIFO", "STOPFIFO", "NORM",    "KONT",
-    "KONTT",   "KONTC",  "DISPLOF",   "DISPLON", "SAVE",     "SBLOF",     "SBLON",    "FFWON",   "FFWOF",
-    "SOFT",    "BRISK",  "DRIVE",     "SOFTA",   "BRISKA",   "ACC",       "RTLION",   "RTLIOF",  "TOFFOF",
-    "PAROTOF", "CFC",    "CFTCP",     "CFIN",    "FENDNORM", "FFWOFF",    "VELOLIM",  "GETT",    "TLPREP",
-    "TOWSTD",  "TCOABS", "WALIMOF",   "WALIMON", "SPOS",     "SPCON",     "SPCOF",
-});
-constexpr auto curve_words =
-    std::to_array<std::string_view>({"ASPLINE", "BSPLINE", "CSPLINE", "POLY", "OEMIPO1", "OEMIPO2", "INVCW", "INVCCW"});
-
-template <typename List, typename Value>
-bool contains(const List& list, const Value& value) {
-    return std::find(list.begin(), list.end(), value) != list.end();
+/// GOTO, GOTOF, GOTOB, GOTOC with its label, behind the letters GOTO.
+void read_go_to(Cursor& c, Control& control) {
+    const char way = c.at < c.text.size() ? upper(c.text[c.at]) : ' ';
+    const bool named = way == 'F' || way == 'B' || way == 'C';
+    if (named) ++c.at;
+    control.direction = way == 'F' ? 1 : way == 'B' ? -1 : 0;
+    control.may_miss = way == 'C';
+    control.label = c.identifier();
 }
 
-}  // namespace
+Control read_control(std::string_view statement) {
+    Control control;
+    Cursor c{statement, 0};
+    const std::string id = c.identifier();
+    if (id.empty()) return control;
+    Cursor after = c;
+    after.at += id.size();
+    if (after.peek() == ':' && id.size() > 1) {
+        control.kind = ControlKind::label;
+        control.label = id;
+        control.rest = after.at + 1;
+        return control;
+    }
+    if (id == "GOTO" || id == "GOTOF" || id == "GOTOB" || id == "GOTOC") {
+        control.kind = ControlKind::go_to;
+        c.skip_blanks();
+        c.at += 4;
+        read_go_to(c, control);
+        return control;
+    }
+    for (const ControlWord& row : control_words) {
+        if (id != row.text) continue;
+        control.kind = row.kind;
+        control.rest = after.at;
+        if (id == "LOOP") control.rest = std::string_view::npos;
+        if (id == "REPEATB" || (id == "REPEAT" && !after.identifier().empty())) {
+            control.kind = id == "REPEATB" ? ControlKind::repeat_block : ControlKind::repeat_section;
+            control.label = after.identifier();
+            control.rest = after.at + after.text.substr(after.at).find_first_not_of(' ') + control.label.size();
+            return control;
+        }
+        if (row.kind == ControlKind::if_begin) {
+            const std::size_t at = find_control_word(statement, "GOTO", after.at);
+            if (at != std::string_view::npos) {
+                control.kind = ControlKind::if_go_to;
+                Cursor target{statement, at + 4};
+                read_go_to(target, control);
+            }
+        }
+        return control;
+    }
+    return control;
+}
 
-bool Interpreter::apply_siemens(int code, Block& block, std::size_t column) {
-    switch (code) {
-        case 700: state_.unit_mm = mm_per_inch; return true;  // lengths alone, not the feed
-        case 710: state_.unit_mm = 1; return true;
-        case 7000: state_.count_in(mm_per_inch); return true;
-        case 7100: state_.count_in(1); return true;
-        case 530:
-        case 1530: machine_coordinates_ = true; return true;
-        case 5000: select_work_system(0); return true;
-        case 580:
-        case 590:
-            note(Severity::warning, "program.frame",
-                 code_text(code) + " is not carried out, positions are read as programmed", column);
-            motion_suppressed_ = true;
-            return true;
-        case 250:
-        case 260:  // limits of the work area or of the spindle
-            event("mode", code_text(code));
-            motion_suppressed_ = true;
-            return true;
-        case 740:
-        case 750:
-            event("reference", code_text(code));
-            motion_suppressed_ = true;
-            return true;
-        case 1100:
-        case 1110:
-        case 1120: set_pole(code, block); return true;
-        default: break;
-    }
-    if (code >= 5050 && code <= 5990) {
-        select_work_system((code - 5050) / 10 + 5);
-        return true;
-    }
-    if (contains(approach_codes, code)) {
-        note(Severity::warning, "program.approach",
-             code_text(code) + " is not carried out: its end is approached straight", column);
-        return true;
-    }
-    if (contains(noted_codes, code)) {
-        event("mode", code_text(code));
-        if (code == 3310 || code == 3320) state_.motion = MotionMode::thread;
-        return true;
-    }
+constexpr auto of_arguments = std::to_array<ArgumentsRow>({
+    {"MINVAL", 2, [](const std::vector<double>& v) { return std::min(v[0], v[1]); }},
+    {"MAXVAL", 2, [](const std::vector<double>& v) { return std::max(v[0], v[1]); }},
+    // Lower, upper, value.
+    {"BOUND", 3, [](const std::vector<double>& v) { return std::max(v[0], std::min(v[2], v[1])); }},
+});
+
+// Codes.
+bool dwell(Interpreter& in, const CodeWord& w) {
+    const Words& words = w.block.words;
+    in.motion_suppressed_ = true;
+    const bool turns = words.given('S') && in.state_.spindle > 0;  // revolutions of the spindle
+    in.dwell(turns ? words.of('S') * seconds_per_minute / in.state_.spindle : words.given('F') ? words.of('F') : 0);
+    return true;
+}
+/// Lengths alone, not the feed.
+bool count_lengths_in_inches(Interpreter& in, const CodeWord&) {
+    in.state_.unit_mm = mm_per_inch;
+    return true;
+}
+bool count_lengths_in_mm(Interpreter& in, const CodeWord&) {
+    in.state_.unit_mm = 1;
+    return true;
+}
+bool count_in_inches(Interpreter& in, const CodeWord&) {
+    in.state_.count_in(mm_per_inch);
+    return true;
+}
+bool count_in_mm(Interpreter& in, const CodeWord&) {
+    in.state_.count_in(1);
+    return true;
+}
+bool count_in_machine(Interpreter& in, const CodeWord&) {
+    in.machine_coordinates_ = true;
+    return true;
+}
+bool without_work_system(Interpreter& in, const CodeWord&) {
+    in.select_work_system(0);
+    return true;
+}
+bool axis_frame(Interpreter& in, const CodeWord& w) {
+    in.note(Severity::warning, "program.frame",
+            code_text(w.code) + " is not carried out, positions are read as programmed", w.column);
+    in.motion_suppressed_ = true;
+    return true;
+}
+/// Of the work area or of the spindle.
+bool limit_area(Interpreter& in, const CodeWord& w) {
+    in.event("mode", code_text(w.code));
+    in.motion_suppressed_ = true;
+    return true;
+}
+bool go_to_fixed_point(Interpreter& in, const CodeWord& w) {
+    in.event("reference", code_text(w.code));
+    in.motion_suppressed_ = true;
+    return true;
+}
+bool set_pole(Interpreter& in, const CodeWord& w) {
+    in.set_pole(w.code, w.block);
+    return true;
+}
+/// Soft approach and retract: the way there is not carried out.
+bool approach(Interpreter& in, const CodeWord& w) {
+    in.note(Severity::warning, "program.approach",
+            code_text(w.code) + " is not carried out: its end is approached straight", w.column);
+    return true;
+}
+bool note_mode(Interpreter& in, const CodeWord& w) {
+    in.event("mode", code_text(w.code));
+    return true;
+}
+bool thread(Interpreter& in, const CodeWord& w) {
+    in.state_.motion = MotionMode::thread;
+    return note_mode(in, w);
+}
+bool refuse_exact_stop(Interpreter& in, const CodeWord& w) {
+    in.fail(code_text(w.code) + " is not a word of siemens", w.column,
+            "the exact stop of siemens is G60 or G9; fanuc and linuxcnc have G61 (--dialect)");
+}
+bool stop_exactly(Interpreter& in, const CodeWord& w) {
+    return in.path_mode_word(w, {BlockEnd::exact_stop, 0}, w.code == 9_g);
+}
+bool round_within_tolerance(Interpreter& in, const CodeWord& w) {
+    return in.path_mode_word(w, {BlockEnd::rounded, in.contour_tolerance_});
+}
+/// G64: as far off as the speed takes, unless CTOL or CYCLE832 gave a tolerance.
+bool round_corners(Interpreter& in, const CodeWord& w) {
+    constexpr double unlimited = std::numeric_limits<double>::infinity();
+    return in.path_mode_word(
+        w, {BlockEnd::rounded, std::isnan(in.contour_tolerance_) ? unlimited : in.contour_tolerance_});
+}
+
+constexpr auto codes = std::to_array<CodeRule>({
+    {4_g, dwell},
+    {9_g, stop_exactly},
+    {25_g, limit_area},
+    {26_g, limit_area},
+    {27_g, note_mode},
+    {33_g, note_mode},
+    {34_g, note_mode},
+    {35_g, note_mode},
+    {50_g, note_mode},
+    {53_g, count_in_machine},
+    {58_g, axis_frame},
+    {59_g, axis_frame},
+    {60_g, stop_exactly},
+    {61_g, refuse_exact_stop},
+    {61.1_g, refuse_exact_stop},
+    {62_g, note_mode},
+    {62.1_g, note_mode},
+    {63_g, note_mode},
+    {64_g, round_corners},
+    {70_g, count_lengths_in_inches},
+    {71_g, count_lengths_in_mm},
+    {74_g, go_to_fixed_point},
+    {75_g, go_to_fixed_point},
+    {110_g, set_pole},
+    {111_g, set_pole},
+    {112_g, set_pole},
+    {140_g, note_mode},
+    {141_g, note_mode},
+    {142_g, note_mode},
+    {143_g, note_mode},
+    {147_g, approach},
+    {148_g, approach},
+    {153_g, count_in_machine},
+    {247_g, approach},
+    {248_g, approach},
+    {250_g, note_mode},
+    {331_g, thread},
+    {332_g, thread},
+    {340_g, note_mode},
+    {341_g, note_mode},
+    {347_g, approach},
+    {348_g, approach},
+    {400_g, note_mode},
+    {450_g, note_mode},
+    {451_g, note_mode},
+    {460_g, note_mode},
+    {461_g, note_mode},
+    {462_g, note_mode},
+    {500_g, without_work_system},
+    {510_g, note_mode},
+    {601_g, note_mode},
+    {602_g, note_mode},
+    {603_g, note_mode},
+    {641_g, round_within_tolerance},
+    {642_g, round_within_tolerance},
+    {643_g, round_within_tolerance},
+    {644_g, round_within_tolerance},
+    {645_g, round_within_tolerance},
+    {700_g, count_in_inches},
+    {710_g, count_in_mm},
+    {961_g, note_mode},
+    {971_g, note_mode},
+    {973_g, note_mode},
+});
+
+/// Settable work systems: G505 … G599.
+bool work_system(Interpreter& in, const CodeWord& w) {
+    if (w.code < 505_g || w.code > 599_g) return false;
+    in.select_work_system((w.code - 505_g) / 10 + 5);
+    return true;
+}
+
+constexpr auto m_codes = std::to_array<MRule>({
+    {17,
+     [](Interpreter& in, int, const Block&) {
+         in.leave(false);
+         return true;
+     }},
+});
+
+constexpr auto refused_at_arcs =
+    std::to_array<RefusedLetter>({{'P', "turns are TURN= in siemens, P in linuxcnc (--dialect linuxcnc)"}});
+
+/// The kinds of machining of CYCLE832.
+void begin(Interpreter& in) {
+    for (const auto& [name, kind] : {std::pair{"_OFF", 0},
+                                     {"_FINISH", 1},
+                                     {"_SEMIFIN", 2},
+                                     {"_ROUGH", 3},
+                                     {"_PRECISION", 4},
+                                     {"_ORI_FINISH", 11},
+                                     {"_ORI_SEMIFIN", 12},
+                                     {"_ORI_ROUGH", 13},
+                                     {"_ORI_PRECISION", 14},
+                                     {"_TOP_SURFACE_SMOOTH_OFF", 0},
+                                     {"_TOP_SURFACE_SMOOTH_ON", 1000}})
+        in.variables_.set(name, kind);
+}
+
+bool statement(Interpreter& in, const Statement& statement) {
+    Cursor c{statement.text, 0};
+    if (!c.take_word("DEF")) return false;
+    in.siemens_definition(statement.text.substr(c.at));
+    return true;
+}
+
+/// G0 to G3, or a thread.
+bool names_motion(const Block& block) {
+    const auto* first = block.words.g.data();
+    return std::any_of(first, first + block.words.g_count, [](std::int32_t code) {
+        return code <= 30 || (code >= 330 && code <= 350) || code == 3310 || code == 3320;
+    });
+}
+
+bool begin_block(Interpreter& in, Block& block) {
+    if (names_motion(block)) in.arc_kind_ = ArcKind::usual;  // what ends CIP and CT
+    for (const Keyword& keyword : block.keywords) in.apply_keyword(keyword, block);
+    if (!in.ended_) in.contour_tolerance(block);
     return false;
 }
 
-/// G110 from the present position, G111 from the zero, G112 from the last pole.
-void Interpreter::set_pole(int code, const Block& block) {
-    motion_suppressed_ = true;
-    const Vec3 here = state_.programmed();
-    Vec3 pole = code == 1100   ? Vec3(here.array().isNaN().select(0.0, here))
-                : code == 1110 ? Vec3(Vec3::Zero())
-                               : polar_.pole;
-    if (block.polar_radius || block.polar_angle) {
-        const double radius = block.polar_radius.value_or(0) * state_.unit_mm;
-        const double angle = block.polar_angle.value_or(0) * rad_per_deg;
-        pole[(state_.plane_axis + 1) % 3] += radius * std::cos(angle);
-        pole[(state_.plane_axis + 2) % 3] += radius * std::sin(angle);
-    }
-    for (int k = 0; k < 3; ++k) {
-        if (block.words.given("XYZ"[k])) pole[k] += block.words.of("XYZ"[k]) * state_.unit_mm;
-    }
-    polar_.pole = pole;
-    event("pole", fmt::format("{} {:g} {:g} {:g}", code_text(code), pole.x(), pole.y(), pole.z()));
-}
-
-/// TRANS, ROT, SCALE and MIRROR replace the frame; with an A before it they add to it.
-bool Interpreter::siemens_frame(const Keyword& keyword, Block& block) {
-    const bool adds =
-        keyword.name == "ATRANS" || keyword.name == "AROT" || keyword.name == "ASCALE" || keyword.name == "AMIRROR";
-    const std::string kind = adds ? keyword.name.substr(1) : keyword.name;
+/// L5 P2: subprogram L5 twice.
+void call_subprogram(Interpreter& in, const Block& block) {
     const Words& w = block.words;
-    ProgramFrame frame;
-    if (kind == "TRANS") {
-        Vec3 by = Vec3::Zero();
-        for (int k = 0; k < 3; ++k) {
-            if (w.given("XYZ"[k])) by[k] = w.of("XYZ"[k]) * state_.unit_mm * (k == 0 && state_.diameter ? 0.5 : 1.0);
-        }
-        frame = ProgramFrame::moved(by);
-    } else if (kind == "ROT") {
-        if (const std::optional<double> in_plane = block.value_of("RPL")) {
-            frame = ProgramFrame::turned(Vec3::Unit(state_.plane_axis), *in_plane, Vec3::Zero());
-        }
-        // About Z, then the new Y, then the new X.
-        for (const int k : {2, 1, 0}) {
-            if (w.given("XYZ"[k]))
-                frame = frame.around(ProgramFrame::turned(Vec3::Unit(k), w.of("XYZ"[k]), Vec3::Zero()));
-        }
-    } else if (kind == "SCALE" || kind == "MIRROR") {
-        Vec3 factors = Vec3::Ones();
-        for (int k = 0; k < 3; ++k) {
-            if (w.given("XYZ"[k])) factors[k] = kind == "MIRROR" ? -1.0 : w.of("XYZ"[k]);
-        }
-        if ((factors.array() == 0).any()) fail(keyword.name + ": a factor of 0", keyword.column);
-        frame = ProgramFrame::scaled(factors, Vec3::Zero());
-    } else {
-        return false;
-    }
-    state_.frame = adds ? state_.frame.around(frame) : swivel_.around(frame);
-    const std::optional<double> turned = block.value_of("RPL");
-    event("frame",
-          keyword.name + words_text(block, "XYZ") + (turned ? fmt::format(" RPL={:g}", *turned) : std::string()));
-    // The words belong to the frame, not to a motion.
-    motion_suppressed_ = true;
-    block.words.has &= ~Words::xyz;
-    return true;
+    if (!w.given('L') || in.motion_suppressed_) return;
+    const int times = w.given('P') ? static_cast<int>(std::clamp(w.of('P'), 1.0, 9999.0)) : 1;
+    in.call(fmt::format("L{}", std::lround(w.of('L'))), times, true, {});
 }
 
-/// Values between parentheses; nullopt: left out, or a text.
-std::vector<std::optional<double>> Interpreter::arguments_of(const Keyword& keyword) const {
-    std::vector<std::optional<double>> values;
-    Cursor c{keyword.arguments, 0};
-    while (keyword.has_arguments) {
-        const char next = c.peek();
-        if (next == '"') {
-            const std::size_t end = keyword.arguments.find('"', c.at + 1);
-            c.at = end == std::string::npos ? keyword.arguments.size() : end + 1;
-            values.emplace_back();
-        } else if (next == ',' || next == '\0') {
-            values.emplace_back();
-        } else {
-            try {
-                values.emplace_back(evaluate(c, variables_, dialect_));
-            } catch (const ReadError& error) {
-                throw ReadError{keyword.name + ": " + error.what, keyword.column, error.hint};
-            }
-        }
-        if (!c.take(',')) break;
-    }
-    return values;
+/// Variables of the control ($P_…) are read as 0, and reported.
+double named_parameter(Interpreter& in, const std::string& name) {
+    if (!name.starts_with('$')) return std::numeric_limits<double>::quiet_NaN();
+    in.unknown_name_ = name;
+    return 0;
 }
 
-/// A subprogram by its name, with arguments for the names after its PROC; false: there is none.
-bool Interpreter::call_siemens(const std::string& name, const Keyword& keyword, int repeats) {
-    const bool here = index(file_).find(ControlKind::label, name) >= 0;
-    if (!here && !load(name)) return false;
-    // Evaluated before the call, in the caller's variables.
-    const std::vector<std::optional<double>> values = arguments_of(keyword);
-    call(name, repeats, true, {});
-    motion_suppressed_ = true;
-    const SourceText& text = program_.files[file_];
-    const LineNumber first = frames_.back().start_line;
-    for (const LineNumber line : {first, first - 1}) {
-        const Statement statement = clean_line(text.line(line), dialect_);
-        Cursor c{statement.text, 0};
-        if (!c.take_word("PROC")) continue;
-        const std::string called = c.identifier();
-        c.skip_blanks();
-        c.at += called.size();
-        std::size_t k = 0;
-        if (!c.take('(')) break;
-        while (c.peek() != ')' && c.peek() != '\0') {
-            std::string parameter;
-            for (std::string id = c.identifier(); !id.empty(); id = c.identifier()) {  // VAR REAL NAME
-                parameter = id;
-                c.skip_blanks();
-                c.at += id.size();
-            }
-            double value = 0;
-            if (c.take('=')) value = evaluate(c, variables_, dialect_);
-            if (k < values.size() && values[k]) value = *values[k];
-            ++k;
-            if (parameter.empty()) throw ReadError{"expected a name in PROC(…)", c.column(), {}};
-            variables_.set(parameter, value);
-            if (!c.take(',')) break;
-        }
-        break;
-    }
-    return true;
-}
+std::string work_system_name(int number) { return fmt::format("G{}", 505 + number - 5); }
 
-void Interpreter::start_modal_call(const Keyword& called) {
-    modal_call_ = {.active = true,
-                   .name = called.name,
-                   .repeats = 1,
-                   .arguments = {},
-                   .level = frames_.size(),
-                   .column = called.column};
-    for (const std::optional<double>& value : arguments_of(called)) {
-        modal_call_.arguments.push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
-    }
-    event("modal-call", "MCALL " + called.name + (called.has_arguments ? "(" + called.arguments + ")" : std::string()));
-}
+constexpr auto word_signs = std::to_array<WordSign>(
+    {{"TRAORI", 10}, {"TRAFOOF", 10}, {"TRANSMIT", 8}, {"SUPA", 6},       {"MCALL", 10},    {"MSG", 6},
+     {"FFWON", 8},   {"FFWOF", 8},    {"SOFT", 4},     {"BRISK", 4},      {"GOTOF", 8},     {"GOTOB", 8},
+     {"GOTOC", 8},   {"PROC", 8},     {"ENDPROC", 8},  {"RET", 4},        {"COMPCAD", 8},   {"COMPCURV", 8},
+     {"COMPON", 8},  {"COMPSURF", 8}, {"COMPOF", 8},   {"STOPRE", 8},     {"WORKPIECE", 8}, {"TRANS", 6},
+     {"ATRANS", 8},  {"ROT", 6},      {"AROT", 8},     {"ASCALE", 8},     {"AMIRROR", 8},   {"ASPLINE", 8},
+     {"BSPLINE", 8}, {"CSPLINE", 8},  {"POLY", 8},     {"SPLINEPATH", 8}, {"FNORM", 6},     {"DIAMON", 6},
+     {"DIAMOF", 6},  {"EXTCALL", 8},  {"ORIWKS", 8},   {"ORIMKS", 8},     {"ORIVECT", 8},   {"ORIAXES", 8},
+     {"DEF", 8},     {"ENDFOR", 8},   {"ENDLOOP", 8},  {"CIP", 6},        {"REPEATB", 8},   {"CASE", 6}});
+constexpr auto numbered_signs = std::to_array<WordSign>({{"CYCLE", 10}, {"POCKET", 8}, {"HOLES", 8}, {"SLOT", 8}});
+constexpr auto code_signs = std::to_array<CodeSign>({{641_g, 8, "", ""},
+                                                     {642_g, 8, "", ""},
+                                                     {643_g, 8, "", ""},
+                                                     {644_g, 8, "", ""},
+                                                     {645_g, 8, "", ""},
+                                                     {601_g, 6, "", ""},
+                                                     {602_g, 6, "", ""},
+                                                     {603_g, 6, "", ""},
+                                                     {60_g, 3, "", "XYZ"},
+                                                     {500_g, 5, "", ""},
+                                                     {153_g, 5, "", ""},
+                                                     {700_g, 5, "", ""},
+                                                     {710_g, 5, "", ""},
+                                                     {111_g, 5, "", ""},
+                                                     {450_g, 5, "", ""},
+                                                     {451_g, 5, "", ""}});
+constexpr auto ending_signs = std::to_array<EndingSign>({{".mpf", 6}, {".spf", 6}});
+constexpr auto mark_signs = std::to_array<MarkSign>({{Mark::tape_name, 15},
+                                                     {Mark::round_comment, -3},
+                                                     {Mark::letter_equals, 6},
+                                                     {Mark::return_m, 4},
+                                                     {Mark::jump_to_label, 4},
+                                                     {Mark::open_if, 4},
+                                                     {Mark::name_equals, 6},
+                                                     {Mark::name_colon, 6}});
 
-void Interpreter::apply_keyword(const Keyword& keyword, Block& block) {
-    const std::string& name = keyword.name;
-    const auto text = [&] { return keyword.has_arguments ? name + "(" + keyword.arguments + ")" : name; };
-    if (name == "SUPA" || name == "G153") {
-        machine_coordinates_ = true;
-        return;
-    }
-    if (name == "TRAORI" || name == "TRAFOOF") {
-        control_tool_centre_point(name == "TRAORI", text());
-        return;
-    }
-    if (name == "CYCLE800") {
-        swivel(keyword);
-        return;
-    }
-    if (name == "CYCLE832") {
-        high_speed_settings(keyword);
-        return;
-    }
-    if (name == "MCALL") {
-        // What follows it in the block is called after every block that moves.
-        const auto at = std::find_if(block.keywords.begin(), block.keywords.end(),
-                                     [](const Keyword& k) { return k.name == "MCALL"; });
-        if (at + 1 == block.keywords.end()) {
-            modal_call_ = {};
-            event("modal-call", "MCALL");
-        } else {
-            start_modal_call(*(at + 1));
-        }
-        return;
-    }
-    const bool after_mcall =
-        std::any_of(block.keywords.begin(), block.keywords.end(), [](const Keyword& k) { return k.name == "MCALL"; });
-    if (after_mcall) return;
-    if (name == "T=") {
-        event("tool", "T=\"" + keyword.arguments + "\"");
-        return;
-    }
-    if (name == "DIAMON" || name == "DIAMOF" || name == "DIAM90") {
-        state_.diameter = name == "DIAMON";
-        if (name == "DIAM90")
-            note(Severity::warning, "program.unknown-word", "DIAM90 is read as DIAMOF", keyword.column);
-        event("lathe", name);
-        return;
-    }
-    if (name == "CIP" || name == "CT") {
-        state_.motion = MotionMode::cw;  // which way, the point between or the tangent tells
-        arc_kind_ = name == "CIP" ? ArcKind::by_points : ArcKind::tangential;
-        return;
-    }
-    if (siemens_frame(keyword, block) || siemens_cycle(keyword)) return;
-    if (name == "EXTCALL" || name == "CALL" || name == "PCALL") {
-        std::string called = keyword.arguments;
-        std::erase(called, '"');
-        called = called.substr(called.find_last_of('/') + 1);
-        if (called.starts_with("_N_")) called = called.substr(3);
-        for (const std::string_view ending : {".SPF", ".spf", ".MPF", ".mpf", "_SPF", "_MPF"}) {
-            if (called.ends_with(ending)) called.resize(called.size() - ending.size());
-        }
-        if (called.empty() || !call_siemens(called, Keyword{name, {}, false, keyword.column}, 1)) {
-            fail(fmt::format("subprogram '{}' is neither in the program nor beside it", called), keyword.column);
-        }
-        return;
-    }
-    if (contains(curve_words, name)) {
-        refuse_motion(name, block, keyword.column,
-                      "splines and polynomials are not read: let the CAM system write lines");
-    }
-    if (contains(noted_words, name) || name.starts_with("COMP") || name.ends_with("=")) {
-        event("mode", text());
-        return;
-    }
-    const int repeats = block.words.given('P') ? static_cast<int>(std::clamp(block.words.of('P'), 1.0, 9999.0)) : 1;
-    if (call_siemens(name, keyword, repeats)) return;
-    note(Severity::warning, "program.unknown-word", "'" + name + "' is not known", keyword.column);
-}
+}  // namespace
+}  // namespace siemens
 
-/// ANG= with one coordinate of the plane: a line whose other coordinate the angle gives.
-bool Interpreter::ends_by_angle(const Block& block) const {
-    if (block.find("ANG") == nullptr || (state_.motion != MotionMode::rapid && state_.motion != MotionMode::feed))
-        return false;
-    return block.words.given("XYZ"[(state_.plane_axis + 1) % 3]) !=
-           block.words.given("XYZ"[(state_.plane_axis + 2) % 3]);
-}
-
-void Interpreter::end_by_angle(const Block& block, Vec3& end) const {
-    const int u = (state_.plane_axis + 1) % 3;
-    const int v = (state_.plane_axis + 2) % 3;
-    const NamedWord& angle = *block.find("ANG");
-    const Vec3 from = state_.programmed().array().isNaN().select(0.0, state_.programmed());
-    const Vec2 way(std::cos(angle.value * rad_per_deg), std::sin(angle.value * rad_per_deg));
-    const bool along = block.words.given("XYZ"[u]);
-    const double given = along ? way.x() : way.y();
-    if (std::abs(given) < 1e-9)
-        fail(fmt::format("a line at ANG={:g} does not reach the given {}", angle.value, "XYZ"[along ? u : v]),
-             angle.column);
-    if (along)
-        end[v] = from[v] + (end[u] - from[u]) * way.y() / way.x();
-    else
-        end[u] = from[u] + (end[v] - from[v]) * way.x() / way.y();
-}
-
-/// Arcs of the dialects that are given by other words than I J K and R. `words` has begin, end and
-/// axis; true: centre and direction are set.
-bool Interpreter::arc_of_dialect(const Block& block, ArcWords& words) {
-    if (dialect_ != DialectId::siemens && dialect_ != DialectId::heidenhain_iso) return false;
-    if (dialect_ == DialectId::heidenhain_iso) return arc_of_heidenhain(block, words);
-    const int u = (words.axis + 1) % 3;
-    const int v = (words.axis + 2) % 3;
-    if (arc_kind_ == ArcKind::tangential) {
-        if (std::abs(words.end[words.axis] - words.begin[words.axis]) > 1e-6)
-            fail("CT out of the plane (G17, G18, G19) is not supported");
-        arc_along_tangent(words);
-        return true;
-    }
-    if (arc_kind_ == ArcKind::by_points) {
-        Vec3 between = words.begin;
-        for (int k = 0; k < 3; ++k) {
-            const NamedWord* word = block.find(std::string(1, "IJK"[k]) + "1");
-            if (word != nullptr)
-                between[k] = word->value * state_.unit_mm +
-                             (word->increment.value_or(state_.incremental) ? words.begin[k] : 0.0);
-        }
-        const Vec2 b(between[u] - words.begin[u], between[v] - words.begin[v]);
-        const Vec2 e(words.end[u] - words.begin[u], words.end[v] - words.begin[v]);
-        const double area = b.x() * e.y() - b.y() * e.x();
-        if (std::abs(between[words.axis] - words.begin[words.axis]) > 1e-6)
-            fail("CIP out of the plane (G17, G18, G19) is not supported");
-        if (std::abs(area) < 1e-12) fail("CIP: the three points lie on a line");
-        const double bb = b.squaredNorm();
-        const double ee = e.squaredNorm();
-        words.centre = words.begin;
-        words.centre[u] += (e.y() * bb - b.y() * ee) / (2 * area);
-        words.centre[v] += (b.x() * ee - e.x() * bb) / (2 * area);
-        words.clockwise = area < 0;
-        return true;
-    }
-    const bool centre_given = block.words.given('I') || block.words.given('J') || block.words.given('K');
-    if (const std::optional<double> opening = block.value_of("AR")) {
-        const double angle = *opening * rad_per_deg;
-        if (!(*opening > 0 && *opening < 360)) fail("AR= must be between 0 and 360 degrees");
-        if (!centre_given) {  // by its ends
-            const double chord = std::hypot(words.end[u] - words.begin[u], words.end[v] - words.begin[v]);
-            words.has_radius = true;
-            words.radius = chord / (2 * std::sin(angle / 2)) * (*opening > 180 ? -1 : 1);
-            return true;
-        }
-        words.centre = words.begin;
-        for (const int k : {u, v}) {
-            if (!block.words.given("IJK"[k])) continue;
-            const double value = block.words.of("IJK"[k]) * state_.unit_mm;
-            words.centre[k] = (block.absolute & Words::bit("IJK"[k])) != 0 ? value : words.begin[k] + value;
-        }
-        const double sweep = words.clockwise ? -angle : angle;
-        const double from_u = words.begin[u] - words.centre[u];
-        const double from_v = words.begin[v] - words.centre[v];
-        words.end[u] = words.centre[u] + std::cos(sweep) * from_u - std::sin(sweep) * from_v;
-        words.end[v] = words.centre[v] + std::sin(sweep) * from_u + std::cos(sweep) * from_v;
-        return true;
-    }
-    const bool about_pole = (block.polar_radius || block.polar_angle) && !centre_given && !block.words.given('R');
-    if (about_pole) words.centre = polar_.pole;
-    return about_pole;
-}
+const DialectRules siemens_rules{
+    .text = {.semicolon_comments = true,
+             .round_comments = false,
+             .words = WordStyle::names,
+             .ranks = OperatorRanks::siemens,
+             .round_brackets = true,
+             .numbered_names = "RQ",
+             .of_arguments = siemens::of_arguments,
+             .control = siemens::read_control},
+    .codes = siemens::codes,
+    .other_code = siemens::work_system,
+    .m_codes = siemens::m_codes,
+    .motion = {.plain_blocks = false, .idle_letters = "IJK", .refused_at_arcs = siemens::refused_at_arcs},
+    .tools = {.length_with_tool = true, .edges = true},
+    .calls = {.file_from_top = true, .return_ends_main = true, .blocks_after_label = true},
+    // The defaults of MD21000 CIRCLE_ERROR_CONST and MD21010 CIRCLE_ERROR_FACTOR.
+    .arc_tolerance = {.absolute = 0.01,
+                      .relative = 1e-3,
+                      .most = std::numeric_limits<double>::infinity(),
+                      .reach = 0.005,
+                      .relative_reach = 1e-3,
+                      .moves_centre = true},
+    .signs = {.words = siemens::word_signs,
+              .numbered_words = siemens::numbered_signs,
+              .codes = siemens::code_signs,
+              .endings = siemens::ending_signs,
+              .marks = siemens::mark_signs},
+    .begin = siemens::begin,
+    .statement = siemens::statement,
+    .begin_block = siemens::begin_block,
+    .after_block = siemens::call_subprogram,
+    .arc = [](Interpreter& in, const Block& block, ArcWords& words) { return in.arc_of_siemens(block, words); },
+    .modal_call = [](Interpreter& in) { return in.run_modal_call(); },
+    .named_parameter = siemens::named_parameter,
+    .about_pole =
+        [](Interpreter& in, const Block& block, Vec3& end) {
+            in.put_about_pole(block, block.polar_radius, block.polar_angle, block.polar_radius_incremental,
+                              block.polar_angle_incremental, end);
+        },
+    .work_system_name = siemens::work_system_name,
+};
 
 }  // namespace clsurf

@@ -198,23 +198,20 @@ void Interpreter::hole_pattern(const std::string& name, const std::vector<double
 }
 
 /// The modal cycle or subprogram after a block that moved.
-void Interpreter::run_modal_call() {
+bool Interpreter::run_modal_call() {
     const ModalCall called = modal_call_;
-    if (dialect_ == DialectId::fanuc) {
-        call(called.name, called.repeats, true, called.arguments);
-        return;
-    }
     if (drills(called.name)) {
         drill_siemens(called.name, called.arguments);
-        return;
+        return true;
     }
     if (is_cycle(called.name)) {
         note(Severity::warning, "program.cycle", "MCALL " + called.name + ": the cycle is not carried out");
-        return;
+        return true;
     }
     if (!call_siemens(called.name, Keyword{called.name, {}, false, called.column}, 1)) {
         fail(fmt::format("subprogram '{}' is neither in the program nor beside it", called.name));
     }
+    return true;
 }
 
 }  // namespace clsurf

@@ -8,12 +8,12 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "program/dialects/dialect_rules.h"
 
 namespace clsurf {
 namespace {
 
 constexpr double same_point = 1e-9;  ///< [mm]
-constexpr double unlimited = std::numeric_limits<double>::infinity();
 constexpr double most_chords = 100'000;
 /// Siemens, alarm 14040: the centre may turn about the start by the root of 0.001 [rad].
 constexpr double most_turn_of_centre = 0.0316227766;
@@ -32,29 +32,8 @@ Vec2 centre_on_bisector(const Vec2& from, const Vec2& to, const Vec2& programmed
 
 }  // namespace
 
-ArcTolerance arc_tolerance(DialectId dialect, double unit_mm) {
-    const bool inches = unit_mm != 1;
-    switch (dialect) {
-        case DialectId::linuxcnc: {
-            // src/emc/rs274ngc/interp_internal.hh: CENTER_ARC_RADIUS_TOLERANCE_INCH and _MM, RADIUS_TOLERANCE_INCH.
-            const double absolute = 2 * std::numbers::sqrt2 * (inches ? 0.001 * mm_per_inch : 0.01);
-            return {.absolute = absolute, .relative = 1e-3, .most = 100 * absolute, .reach = 5e-5 * mm_per_inch};
-        }
-        case DialectId::siemens:
-            // The defaults of MD21000 CIRCLE_ERROR_CONST and MD21010 CIRCLE_ERROR_FACTOR.
-            return {.absolute = 0.01,
-                    .relative = 1e-3,
-                    .most = unlimited,
-                    .reach = 0.005,
-                    .relative_reach = 1e-3,
-                    .moves_centre = true};
-        case DialectId::heidenhain_iso:
-            // The greatest value of MP7431 and of circleDeviation.
-            return {.absolute = 0.016, .relative = 0, .most = unlimited, .reach = 0.005, .relative_reach = 1e-3};
-        case DialectId::fanuc: break;
-    }
-    // Parameter 3410 is each machine's own.
-    return {.absolute = 0.03, .relative = 1e-3, .most = 0.5, .reach = 0.005, .relative_reach = 1e-3};
+ArcTolerance arc_tolerance(const DialectRules& rules, double unit_mm) {
+    return unit_mm != 1 && rules.arc_tolerance_inch ? *rules.arc_tolerance_inch : rules.arc_tolerance;
 }
 
 Arc resolve_arc(const ArcWords& words, const ArcTolerance& tolerance, std::string& error) {

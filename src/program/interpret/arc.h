@@ -12,6 +12,8 @@
 
 namespace clsurf {
 
+struct DialectRules;
+
 struct ArcWords {
     Vec3 begin, end;  ///< [mm]; the components along `axis` make it a helix
     int axis = 2;     ///< of rotation
@@ -34,7 +36,7 @@ struct ArcTolerance {
 };
 
 /// What the controls of a dialect accept. `unit_mm`: of the program's lengths.
-[[nodiscard]] ArcTolerance arc_tolerance(DialectId dialect, double unit_mm);
+[[nodiscard]] ArcTolerance arc_tolerance(const DialectRules& rules, double unit_mm);
 
 /// The arc, without its motion's number; or, in `error`, why there is none (both radii named).
 [[nodiscard]] Arc resolve_arc(const ArcWords& words, const ArcTolerance& tolerance, std::string& error);

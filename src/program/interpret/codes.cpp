@@ -13,38 +13,16 @@
 namespace clsurf {
 namespace {
 
-/// Codes that are read, kept as an event and change no motion, by dialect.
-struct NotedCode {
-    int code;  ///< tenths
-    const char* event;
-};
-constexpr auto noted_everywhere = std::to_array<NotedCode>({
-    {400, "cutter-compensation"},
-    {960, "spindle-mode"},
-    {970, "spindle-mode"},
-    {80, "unused"},
-    {130, "unused"},
-});
 bool is(const Block& block, char letter) { return block.words.given(letter); }
-/// G0 to G3, or a thread.
-bool names_motion(const Block& block) {
-    const auto* first = block.words.g.data();
-    return std::any_of(first, first + block.words.g_count, [](std::int32_t code) {
-        return code <= 30 || (code >= 330 && code <= 350) || code == 3310 || code == 3320;
-    });
-}
-
 bool names_axes(const Block& block) {
     constexpr std::uint32_t axes = Words::xyz | Words::bit('A') | Words::bit('B') | Words::bit('C') | Words::bit('U') |
                                    Words::bit('V') | Words::bit('W');
     return (block.words.has & axes) != 0 || block.polar_radius || block.polar_angle;
 }
 
-/// G codes of curves, which move axes in the blocks after theirs as well.
-bool is_motion_elsewhere(int code, DialectId dialect) {
-    static constexpr auto curves = std::to_array<int>({52, 53, 61, 62, 63});
-    // G6.2 of Heidenhain would be its G06.
-    return dialect != DialectId::heidenhain_iso && std::find(curves.begin(), curves.end(), code) != curves.end();
+/// G codes of curves elsewhere, which move axes in the blocks after theirs as well.
+bool is_curve_elsewhere(int code) {
+    return code == 5.2_g || code == 5.3_g || code == 6.1_g || code == 6.2_g || code == 6.3_g;
 }
 
 /// "X1=" of siemens: an axis of the machine by its name.
@@ -55,75 +33,246 @@ bool is_numbered_axis(std::string_view word) {
 }
 
 /// Where an unknown code is known.
-std::string hint_of_code(int code, DialectId dialect) {
-    if ((code == 50 || code == 51 || code == 52 || code == 53) && dialect != DialectId::linuxcnc)
+std::string hint_of_code(int code) {
+    if (code >= 5_g && code <= 5.3_g)
         return fmt::format("{} is a spline of linuxcnc: --dialect linuxcnc", code_text(code));
-    if (code == 61 || code == 62 || code == 63) return "NURBS are not read: let the CAM system write lines and arcs";
+    if (code >= 6.1_g && code <= 6.3_g) return "NURBS are not read: let the CAM system write lines and arcs";
     return {};
 }
 
-constexpr auto cycle_codes = std::to_array<int>({730, 740, 760, 810, 820, 830, 840, 850, 860, 870, 880, 890, 843});
-
 /// The order in which the codes of one block work (RS274/NGC, table 8).
+constexpr int order_of_modes = 7, order_of_offsets = 9, usual_order = 8;
+constexpr auto orders = std::to_array<std::pair<int, int>>({
+    {93_g, 0},
+    {94_g, 0},
+    {95_g, 0},
+    {17_g, 1},
+    {18_g, 1},
+    {19_g, 1},
+    {20_g, 1},
+    {21_g, 1},
+    {70_g, 1},
+    {71_g, 1},
+    {4_g, 2},
+    {40_g, 3},
+    {41_g, 3},
+    {42_g, 3},
+    {41.1_g, 3},
+    {42.1_g, 3},
+    {43_g, 4},
+    {43.1_g, 4},
+    {43.2_g, 4},
+    {43.4_g, 4},
+    {44_g, 4},
+    {49_g, 4},
+    {53_g, 6},
+    {90_g, order_of_modes},
+    {91_g, order_of_modes},
+    {90.1_g, order_of_modes},
+    {91.1_g, order_of_modes},
+    {28_g, order_of_offsets},
+    {30_g, order_of_offsets},
+    {28.1_g, order_of_offsets},
+    {30.1_g, order_of_offsets},
+    {10_g, order_of_offsets},
+    {52_g, order_of_offsets},
+    {92_g, order_of_offsets},
+    {92.1_g, order_of_offsets},
+    {92.2_g, order_of_offsets},
+    {92.3_g, order_of_offsets},
+});
 int order_of(int code) {
-    switch (code) {
-        case 930:
-        case 940:
-        case 950: return 0;
-        case 170:
-        case 180:
-        case 190: return 1;
-        case 40: return 2;
-        case 400:
-        case 410:
-        case 420:
-        case 411:
-        case 421: return 3;
-        case 200:
-        case 210:
-        case 700:
-        case 710: return 1;
-        case 430:
-        case 431:
-        case 432:
-        case 434:
-        case 440:
-        case 490: return 4;
-        case 530: return 6;
-        case 900:
-        case 910:
-        case 901:
-        case 911: return 7;
-        case 280:
-        case 300:
-        case 281:
-        case 301:
-        case 100:
-        case 520: return 9;
-        case 920:
-        case 921:
-        case 922:
-        case 923: return 9;
-        default: break;
-    }
-    return code >= 540 && code < 600 ? 5 : 8;
+    const auto* found = std::find_if(orders.begin(), orders.end(), [&](const auto& row) { return row.first == code; });
+    if (found != orders.end()) return found->second;
+    return code >= 54_g && code < 60_g ? 5 : usual_order;
 }
+
+/// M codes that stop the program or change which line comes next: after the block has moved.
+bool stops_block(int m) { return m == 0 || m == 1 || m == 2 || m == 30 || m == 60 || m == 98 || m == 99; }
+
+template <MotionMode mode>
+bool set_motion(Interpreter& in, const CodeWord&) {
+    in.state_.motion = mode;
+    return true;
+}
+template <int axis>
+bool set_plane(Interpreter& in, const CodeWord&) {
+    in.state_.plane_axis = axis;
+    return true;
+}
+template <FeedMode mode>
+bool set_feed_mode(Interpreter& in, const CodeWord&) {
+    in.select_feed_mode(mode);
+    return true;
+}
+template <bool ModalState::*flag, bool value>
+bool set_flag(Interpreter& in, const CodeWord&) {
+    in.state_.*flag = value;
+    return true;
+}
+bool count_in_inches(Interpreter& in, const CodeWord&) {
+    in.state_.count_in(mm_per_inch);
+    return true;
+}
+bool count_in_mm(Interpreter& in, const CodeWord&) {
+    in.state_.count_in(1);
+    return true;
+}
+bool dwell_in_seconds(Interpreter& in, const CodeWord& w) {
+    in.dwell(is(w.block, 'P') ? w.block.words.of('P') : 0);
+    return true;
+}
+bool go_to_reference(Interpreter& in, const CodeWord& w) {
+    in.reference(w.code, w.block);
+    return true;
+}
+template <bool tip>
+bool set_tool_length(Interpreter& in, const CodeWord& w) {
+    in.tool_length(w.code, w.block);
+    in.control_tool_centre_point(tip, code_text(w.code));
+    return true;
+}
+bool set_position(Interpreter& in, const CodeWord& w) {
+    in.shift_position(w.block);
+    return true;
+}
+bool end_position_shift(Interpreter& in, const CodeWord& w) {
+    in.restore_shift(w.code);
+    return true;
+}
+bool count_in_machine(Interpreter& in, const CodeWord&) {
+    in.machine_coordinates_ = true;
+    return true;
+}
+bool set_work_system(Interpreter& in, const CodeWord& w) {
+    const bool extended = w.code > 59_g;  // G59.1 … G59.3
+    in.select_work_system(extended ? 6 + w.code - 59_g : (w.code - 54_g) / 10 + 1);
+    return true;
+}
+bool set_extended_system(Interpreter& in, const CodeWord& w) {
+    const double number = is(w.block, 'P') ? w.block.words.of('P') : 1;
+    in.select_work_system(6 + static_cast<int>(std::clamp(number, -1e6, 1e6)));
+    return true;
+}
+bool end_cycles(Interpreter& in, const CodeWord&) {
+    in.state_.motion = MotionMode::none;
+    in.state_.cycle = 0;
+    return true;
+}
+bool start_table_compensation(Interpreter& in, const CodeWord& w) {
+    in.compensate_by_table(w.code, w.block, w.column);
+    return true;
+}
+bool note_mode(Interpreter& in, const CodeWord& w, const char* name) {
+    in.event(name, code_text(w.code) + words_text(w.block, "PQ"));
+    // Their words are theirs alone.
+    w.block.words.has &= ~(Words::bit('P') | Words::bit('Q'));
+    return true;
+}
+bool end_compensation(Interpreter& in, const CodeWord& w) {
+    if (!in.compensation_.on()) return note_mode(in, w, "cutter-compensation");
+    in.stop_compensation();
+    return true;
+}
+bool note_spindle_mode(Interpreter& in, const CodeWord& w) { return note_mode(in, w, "spindle-mode"); }
+bool note_unused(Interpreter& in, const CodeWord& w) { return note_mode(in, w, "unused"); }
+bool start_cycle(Interpreter& in, const CodeWord& w) {
+    // Another cycle needs its own words; the level where the first of them began stays.
+    if (in.state_.motion != MotionMode::cycle) in.cycle_ = {};
+    if (in.state_.cycle != w.code) in.cycle_ = CycleState{.initial = in.cycle_.initial};
+    in.state_.motion = MotionMode::cycle;
+    in.state_.cycle = w.code;
+    return true;
+}
+
+/// What codes mean unless a dialect has a row of its own.
+constexpr auto common_codes = std::to_array<CodeRule>({
+    {0_g, set_motion<MotionMode::rapid>},
+    {1_g, set_motion<MotionMode::feed>},
+    {2_g, set_motion<MotionMode::cw>},
+    {3_g, set_motion<MotionMode::ccw>},
+    {4_g, dwell_in_seconds},
+    {8_g, note_unused},
+    {13_g, note_unused},
+    {17_g, set_plane<2>},
+    {18_g, set_plane<1>},
+    {19_g, set_plane<0>},
+    {20_g, count_in_inches},
+    {21_g, count_in_mm},
+    {28_g, go_to_reference},
+    {30_g, go_to_reference},
+    {33_g, set_motion<MotionMode::thread>},
+    {40_g, end_compensation},
+    {41_g, start_table_compensation},
+    {41.1_g, start_table_compensation},
+    {42_g, start_table_compensation},
+    {42.1_g, start_table_compensation},
+    {43_g, set_tool_length<false>},
+    {43.1_g, set_tool_length<false>},
+    {43.2_g, set_tool_length<false>},
+    {43.4_g, set_tool_length<true>},
+    {43.5_g, set_tool_length<true>},
+    {44_g, set_tool_length<false>},
+    {49_g, set_tool_length<false>},
+    {52_g, set_position},
+    {53_g, count_in_machine},
+    {54_g, set_work_system},
+    {54.1_g, set_extended_system},
+    {55_g, set_work_system},
+    {56_g, set_work_system},
+    {57_g, set_work_system},
+    {58_g, set_work_system},
+    {59_g, set_work_system},
+    {59.1_g, set_work_system},
+    {59.2_g, set_work_system},
+    {59.3_g, set_work_system},
+    {73_g, start_cycle},
+    {74_g, start_cycle},
+    {76_g, start_cycle},
+    {80_g, end_cycles},
+    {81_g, start_cycle},
+    {82_g, start_cycle},
+    {83_g, start_cycle},
+    {84_g, start_cycle},
+    {84.3_g, start_cycle},
+    {85_g, start_cycle},
+    {86_g, start_cycle},
+    {87_g, start_cycle},
+    {88_g, start_cycle},
+    {89_g, start_cycle},
+    {90_g, set_flag<&ModalState::incremental, false>},
+    {90.1_g, set_flag<&ModalState::centre_absolute, true>},
+    {91_g, set_flag<&ModalState::incremental, true>},
+    {91.1_g, set_flag<&ModalState::centre_absolute, false>},
+    {92_g, set_position},
+    {92.1_g, end_position_shift},
+    {92.2_g, end_position_shift},
+    {92.3_g, end_position_shift},
+    {93_g, set_feed_mode<FeedMode::inverse_time>},
+    {94_g, set_feed_mode<FeedMode::per_minute>},
+    {95_g, set_feed_mode<FeedMode::per_revolution>},
+    {96_g, note_spindle_mode},
+    {97_g, note_spindle_mode},
+    {98_g, set_flag<&ModalState::retract_to_r, false>},
+    {99_g, set_flag<&ModalState::retract_to_r, true>},
+});
+
+constexpr bool in_order(std::span<const CodeRule> rows) {
+    return std::is_sorted(rows.begin(), rows.end(),
+                          [](const CodeRule& a, const CodeRule& b) { return a.code < b.code; });
+}
+static_assert(in_order(common_codes));
 
 }  // namespace
 
 void Interpreter::execute(Block& block) {
     machine_coordinates_ = false;
     motion_suppressed_ = false;
-    call_program_ = -1;
-    if (dialect_ == DialectId::siemens && names_motion(block)) arc_kind_ = ArcKind::usual;  // what ends CIP and CT
-    if (data_entry_ && !is_data_end(block)) return;
-    if (macro_call(block)) return;
-    for (const Keyword& keyword : block.keywords) { apply_keyword(keyword, block); }
+    if (rules_->begin_block != nullptr && rules_->begin_block(*this, block)) return;
     if (ended_) return;
-    contour_tolerance(block);
     change_tool(block);
     settle_codes(block);
-    take_pole(block);
+    if (rules_->after_codes != nullptr) rules_->after_codes(*this, block);
     if (is(block, 'F') && !motion_suppressed_) state_.feed = block.words.of('F');
     if (is(block, 'S')) {
         if (block.words.of('S') < 0) note(Severity::warning, "program.spindle", "negative spindle speed");
@@ -131,150 +280,76 @@ void Interpreter::execute(Block& block) {
         event("spindle", fmt::format("S{:g}", state_.spindle));
     }
     if (is(block, 'T')) event("tool", fmt::format("T{:g}", block.words.of('T')));
-    bool stops = false;
-    for (int i = 0; i < block.words.m_count; ++i) {
-        const int code = block.words.m[static_cast<std::size_t>(i)];
-        if (code == 0 || code == 1 || code == 2 || code == 30 || code == 60 || code == 98 || code == 99) {
-            stops = true;
-        } else {
-            apply_m(code, block);
-        }
-    }
-    const std::int64_t before = program_.motions.size();
-    if (!motion_suppressed_) move(block);
-    if (dialect_ == DialectId::linuxcnc) read_machine_position(block);
-    report_unused(block);
-    if (std::exchange(path_mode_returns_, false)) set_path_mode("path-mode", "as it was", state_.path_mode);
-    if (stops) {
+    const auto apply_m_codes = [&](bool that_stop) {
         for (int i = 0; i < block.words.m_count; ++i) {
             const int code = block.words.m[static_cast<std::size_t>(i)];
-            if (code == 0 || code == 1 || code == 2 || code == 30 || code == 60 || code == 98 || code == 99) {
-                apply_m(code, block);
-            }
+            if (stops_block(code) == that_stop) apply_m(code, block);
         }
-    }
+    };
+    apply_m_codes(false);
+    const std::int64_t before = program_.motions.size();
+    if (!motion_suppressed_) move(block);
+    if (rules_->after_motion != nullptr) rules_->after_motion(*this, block);
+    report_unused(block);
+    if (std::exchange(path_mode_returns_, false)) set_path_mode("path-mode", "as it was", state_.path_mode);
+    apply_m_codes(true);
     if (ended_) return;
-    if (dialect_ != DialectId::linuxcnc) call_from_words(block);
+    if (rules_->after_block != nullptr) rules_->after_block(*this, block);
     const bool calls = modal_call_.active && frames_.size() == modal_call_.level && program_.motions.size() > before;
-    if (calls) run_modal_call();
+    if (calls && rules_->modal_call != nullptr) rules_->modal_call(*this);
+}
+
+/// The dialect's rows and the common ones that it does not replace, by code.
+void Interpreter::index_codes() {
+    code_rules_.assign(rules_->codes.begin(), rules_->codes.end());
+    std::stable_sort(code_rules_.begin(), code_rules_.end(),
+                     [](const CodeRule& a, const CodeRule& b) { return a.code < b.code; });
+}
+
+const CodeRule* Interpreter::rule_of(int code) const {
+    const auto found = std::lower_bound(code_rules_.begin(), code_rules_.end(), code,
+                                        [](const CodeRule& row, int wanted) { return row.code < wanted; });
+    return found != code_rules_.end() && found->code == code ? &*found : nullptr;
 }
 
 void Interpreter::settle_codes(Block& block) {
     const int count = block.words.g_count;
-    std::array<int, Words::most_codes> sequence{};
-    for (int i = 0; i < count; ++i) sequence[static_cast<std::size_t>(i)] = i;
-    std::stable_sort(sequence.begin(), sequence.begin() + count, [&](int a, int b) {
-        const auto order = [&](int k) {
-            const int code = block.words.g[static_cast<std::size_t>(k)];
-            // Heidenhain's G54 is no work system: its words count as G90 or G91 has it.
-            return dialect_ == DialectId::heidenhain_iso && code == 540 ? order_of(520) : order_of(code);
-        };
-        return order(a) < order(b);
-    });
+    if (count == 1) return apply_code(block.words.g[0], block, block.words.g_column[0]);
+    struct Step {
+        int order;
+        std::size_t k;
+    };
+    std::array<Step, Words::most_codes> steps{};
     for (int i = 0; i < count; ++i) {
-        const auto k = static_cast<std::size_t>(sequence[static_cast<std::size_t>(i)]);
+        const auto k = static_cast<std::size_t>(i);
+        const CodeRule* rule = rule_of(block.words.g[k]);
+        steps[k] = {rule != nullptr && rule->order >= 0 ? rule->order : order_of(block.words.g[k]), k};
+    }
+    std::stable_sort(steps.begin(), steps.begin() + count,
+                     [](const Step& a, const Step& b) { return a.order < b.order; });
+    for (int i = 0; i < count; ++i) {
+        const std::size_t k = steps[static_cast<std::size_t>(i)].k;
         apply_code(block.words.g[k], block, block.words.g_column[k]);
     }
 }
 
 void Interpreter::apply_code(int code, Block& block, std::size_t column) {
     refuse_in_compensation(code, block, column);
-    if (apply_path_mode(code, block, column) || apply_of_dialect(code, block, column)) return;
-    apply_common(code, block, column);
+    const CodeWord word{code, block, column};
+    const CodeRule* rule = rule_of(code);
+    const CodeHandler handle = rule != nullptr ? rule->handle : rules_->other_code;
+    if (handle == nullptr || !handle(*this, word)) apply_common(code, block, column);
 }
 
 void Interpreter::apply_common(int code, Block& block, std::size_t column) {
-    const auto noted = std::find_if(noted_everywhere.begin(), noted_everywhere.end(),
-                                    [&](const NotedCode& n) { return n.code == code; });
-    switch (code) {
-        case 0: state_.motion = MotionMode::rapid; return;
-        case 10: state_.motion = MotionMode::feed; return;
-        case 20: state_.motion = MotionMode::cw; return;
-        case 30: state_.motion = MotionMode::ccw; return;
-        case 40: dwell(block); return;
-        case 170: state_.plane_axis = 2; return;
-        case 180: state_.plane_axis = 1; return;
-        case 190: state_.plane_axis = 0; return;
-        case 200: state_.count_in(mm_per_inch); return;
-        case 210: state_.count_in(1); return;
-        case 280:
-        case 300: reference(code, block); return;
-        case 330: state_.motion = MotionMode::thread; return;
-        case 430:
-        case 431:
-        case 432:
-        case 440:
-        case 490:
-            tool_length(code, block);
-            control_tool_centre_point(false, code_text(code));
-            return;
-        case 434:
-        case 435:
-            tool_length(code, block);
-            control_tool_centre_point(true, code_text(code));
-            return;
-        case 520:
-        case 920:
-        case 921:
-        case 922:
-        case 923:
-            if (code == 520 || code == 920)
-                shift_position(block);
-            else
-                restore_shift(code);
-            return;
-        case 530: machine_coordinates_ = true; return;
-        case 540:
-        case 550:
-        case 560:
-        case 570:
-        case 580:
-        case 590: select_work_system((code - 540) / 10 + 1); return;
-        case 591:
-        case 592:
-        case 593: select_work_system(6 + code - 590); return;
-        case 541:
-            select_work_system(6 + (is(block, 'P') ? static_cast<int>(std::clamp(block.words.of('P'), -1e6, 1e6)) : 1));
-            return;
-        case 800:
-            state_.motion = MotionMode::none;
-            state_.cycle = 0;
-            return;
-        case 900: state_.incremental = false; return;
-        case 910: state_.incremental = true; return;
-        case 901: state_.centre_absolute = true; return;
-        case 911: state_.centre_absolute = false; return;
-        case 930: select_feed_mode(FeedMode::inverse_time); return;
-        case 940: select_feed_mode(FeedMode::per_minute); return;
-        case 950: select_feed_mode(FeedMode::per_revolution); return;
-        case 980: state_.retract_to_r = false; return;
-        case 990: state_.retract_to_r = true; return;
-        case 410:
-        case 420:
-        case 411:
-        case 421: compensate_by_table(code, block, column); return;
-        case 400:
-            if (!compensation_.on()) break;
-            stop_compensation();
-            return;
-        default: break;
-    }
-    if (std::find(cycle_codes.begin(), cycle_codes.end(), code) != cycle_codes.end()) {
-        // Another cycle needs its own words; the level where the first of them began stays.
-        if (state_.motion != MotionMode::cycle) cycle_ = {};
-        if (state_.cycle != code) cycle_ = CycleState{.initial = cycle_.initial};
-        state_.motion = MotionMode::cycle;
-        state_.cycle = code;
+    const auto* found = std::lower_bound(common_codes.begin(), common_codes.end(), code,
+                                         [](const CodeRule& row, int wanted) { return row.code < wanted; });
+    if (found != common_codes.end() && found->code == code) {
+        (void)found->handle(*this, {code, block, column});
         return;
     }
-    if (noted != noted_everywhere.end()) {
-        event(noted->event, code_text(code) + words_text(block, "PQ"));
-        // Their words are theirs alone.
-        block.words.has &= ~(Words::bit('P') | Words::bit('Q'));
-        return;
-    }
-    if (is_motion_elsewhere(code, dialect_) || names_axes(block))
-        refuse_motion(code_text(code), block, column, hint_of_code(code, dialect_));
+    if ((rules_->motion.refuses_curve_codes && is_curve_elsewhere(code)) || names_axes(block))
+        refuse_motion(code_text(code), block, column, hint_of_code(code));
     note(Severity::warning, "program.unknown-word", code_text(code) + " is not known", column);
 }
 
@@ -286,50 +361,10 @@ void Interpreter::refuse_motion(const std::string& word, const Block& block, std
          column, hint);
 }
 
-bool Interpreter::apply_of_dialect(int code, Block& block, std::size_t column) {
-    switch (dialect_) {
-        case DialectId::linuxcnc:
-            switch (code) {
-                case 400: stop_compensation(); return true;
-                case 410:
-                case 420:
-                case 411:
-                case 421: start_compensation(code, block, column); return true;
-                case 50: state_.motion = MotionMode::cubic_spline; return true;
-                case 51: state_.motion = MotionMode::quadratic_spline; return true;
-                case 52: state_.motion = MotionMode::nurbs; return true;
-                case 53: nurbs_end(); return true;
-                case 70:
-                case 80:
-                    state_.diameter = code == 70;
-                    event("lathe", code_text(code));
-                    return true;
-                case 100: set_offsets(block); return true;
-                case 281:
-                case 301: keep_reference(code); return true;
-                case 331: state_.motion = MotionMode::tap; return true;
-                case 382:
-                case 383:
-                case 384:
-                case 385: state_.motion = MotionMode::probe; return true;
-                case 700:
-                case 710:
-                case 711:
-                case 712:
-                case 720:
-                case 721:
-                case 722: lathe_cycle(code, Block(block), column); return true;
-                case 690: return false;
-                default: return false;
-            }
-        case DialectId::fanuc: return apply_fanuc(code, block, column);
-        case DialectId::siemens: return apply_siemens(code, block, column);
-        case DialectId::heidenhain_iso: return apply_heidenhain(code, block, column);
-    }
-    return false;
-}
-
 void Interpreter::apply_m(int code, const Block& block) {
+    for (const MRule& row : rules_->m_codes) {
+        if (row.code == code && row.handle(*this, code, block)) return;
+    }
     switch (code) {
         case 0:
         case 1:
@@ -347,72 +382,22 @@ void Interpreter::apply_m(int code, const Block& block) {
         case 8:
         case 9: event("coolant", fmt::format("M{}", code)); return;
         case 17:
-            if (dialect_ == DialectId::siemens) leave(false);
-            return;
         case 70:
         case 71:
         case 72:
         case 73:
-            if (dialect_ == DialectId::linuxcnc) keep_modes(code);
-            return;
         case 98:
-        case 99:
-            if (dialect_ == DialectId::fanuc || dialect_ == DialectId::linuxcnc) {
-                if (code == 98) {
-                    call_program_ =
-                        is(block, 'P') ? static_cast<int>(std::clamp(block.words.of('P'), 0.0, 99999999.0)) : -2;
-                    if (dialect_ == DialectId::linuxcnc) call_from_words(block);
-                } else if (is(block, 'P')) {
-                    // M99 P: back to that block of the caller.
-                    const double number = block.words.of('P');
-                    leave(false);
-                    const LineNumber line = find_block(number, 0, 0);
-                    if (line == 0) fail(fmt::format("M99 P{:g}: there is no block N{:g}", number, number));
-                    go_to(file_, line);
-                } else {
-                    leave(false);
-                }
-            }
-            return;
+        case 99: return;
         case 91:
         case 92:
-            if (dialect_ == DialectId::heidenhain_iso) {
-                machine_coordinates_ = code == 91;
-                if (code == 92)
-                    note(Severity::warning, "program.unknown-word", "M92: the machine's second zero is not known");
-                return;
-            }
-            event("m-code", fmt::format("M{}", code));
-            return;
         case 128:
-        case 129:
-            if (dialect_ == DialectId::heidenhain_iso) {
-                control_tool_centre_point(code == 128, fmt::format("M{}", code));
-                return;
-            }
-            event("m-code", fmt::format("M{}", code));
-            return;
+        case 129: event("m-code", fmt::format("M{}", code)); return;
         default: event("m-code", fmt::format("M{}", code) + words_text(block, "PQ")); return;
     }
 }
 
-void Interpreter::dwell(const Block& block) {
-    // Fanuc's X and U belong to the dwell; RS274 lets a motion follow in the same block.
-    motion_suppressed_ = dialect_ != DialectId::linuxcnc;
-    double seconds = 0;
-    if (dialect_ == DialectId::siemens) {
-        if (is(block, 'F')) seconds = block.words.of('F');
-        if (is(block, 'S') && state_.spindle > 0) seconds = block.words.of('S') * seconds_per_minute / state_.spindle;
-    } else if (dialect_ == DialectId::fanuc) {
-        // X and U count seconds, P milliseconds.
-        if (is(block, 'X')) seconds = block.words.of('X');
-        if (is(block, 'U')) seconds = block.words.of('U');
-        if (is(block, 'P')) seconds = block.words.of('P') / 1000;
-    } else if (dialect_ == DialectId::heidenhain_iso) {
-        if (is(block, 'F')) seconds = block.words.of('F');
-    } else if (is(block, 'P')) {
-        seconds = block.words.of('P');
-    }
+/// The axes stand for a time.
+void Interpreter::dwell(double seconds) {
     if (seconds < 0) fail("negative dwell time");
     push(MotionKind::dwell, tool_position(), state_.rotary, static_cast<float>(seconds));
 }
@@ -420,7 +405,8 @@ void Interpreter::dwell(const Block& block) {
 /// Words of arcs, cycles and calls beside a straight motion, which uses none of them: an R that was
 /// meant as a corner, an I whose G2 is missing. Blocks with a code of another kind are left to it.
 void Interpreter::report_idle(const Block& block) {
-    constexpr auto plain_codes = std::to_array<int>({0, 10, 170, 180, 190, 200, 210, 700, 710, 900, 910, 940});
+    constexpr auto plain_codes =
+        std::to_array<int>({0_g, 1_g, 17_g, 18_g, 19_g, 20_g, 21_g, 70_g, 71_g, 90_g, 91_g, 94_g});
     const bool straight =
         (state_.motion == MotionMode::rapid || state_.motion == MotionMode::feed) && !motion_suppressed_;
     const auto* first = block.words.g.data();
@@ -429,8 +415,8 @@ void Interpreter::report_idle(const Block& block) {
     });
     const bool theirs = block.words.m_count > 0 || !block.keywords.empty() || modal_call_.active ||
                         tool_centre_point_ || compensation_.on();
-    if (!straight || !plain || theirs || dialect_ == DialectId::heidenhain_iso) return;
-    for (const char letter : std::string_view(dialect_ == DialectId::siemens ? "IJK" : "IJKLPQR")) {
+    if (!straight || !plain || theirs) return;
+    for (const char letter : rules_->motion.idle_letters) {
         if (!is(block, letter)) continue;
         note(Severity::warning, "program.unused-word",
              fmt::format("word {} has no meaning beside a straight motion: it is left out", letter),
@@ -471,7 +457,7 @@ void Interpreter::report_unused(const Block& block) {
         const bool moves = state_.motion == MotionMode::rapid || state_.motion == MotionMode::feed ||
                            state_.motion == MotionMode::cw || state_.motion == MotionMode::ccw;
         if (block.words.of(letter) == 0) continue;
-        if (moves && dialect_ == DialectId::linuxcnc) {
+        if (moves && rules_->motion.separate_uvw) {
             // Its axes U V W are never increments of X Y Z, which stay true.
             note(Severity::warning, "program.axis",
                  fmt::format("axis {} moves: positions are those of X Y Z without it", letter), column);

@@ -11,13 +11,7 @@
 namespace clsurf {
 namespace {
 
-/// Codes that have no meaning, or another, while the path is not the programmed one.
-constexpr auto forbidden = std::to_array<int>({
-    50,  51,  52,  280, 281, 300, 301, 330, 331, 382, 383, 384, 385, 430, 431, 432,
-    490, 520, 530, 540, 550, 560, 570, 580, 590, 591, 592, 593, 700, 710, 711, 712,
-    720, 721, 722, 730, 740, 760, 810, 820, 830, 840, 850, 860, 870, 880, 890, 920,
-});
-constexpr std::array<int, 3> plane_codes{190, 180, 170};  ///< by axis of rotation
+constexpr std::array<int, 3> plane_codes{19_g, 18_g, 17_g};  ///< by axis of rotation
 constexpr int most_orientation = 9;
 
 Vec2 in_plane(const Vec3& p, int axis) { return {p[(axis + 1) % 3], p[(axis + 2) % 3]}; }
@@ -63,7 +57,7 @@ void Interpreter::compensate_by_table(int code, const Block& block, std::size_t 
         return;
     }
     double diameter = tool_.diameter;
-    if (dialect_ == DialectId::fanuc) {
+    if (rules_->tools.radius_by_d) {
         if (block.words.given('D'))
             radius_number_ = static_cast<int>(std::clamp(std::round(block.words.of('D')), 0.0, 1e6));
         diameter = tool_of(radius_number_, column).diameter;
@@ -104,7 +98,8 @@ void Interpreter::stop_compensation() {
 }
 
 void Interpreter::refuse_in_compensation(int code, const Block& block, std::size_t column) const {
-    if (!compensation_.on() || dialect_ != DialectId::linuxcnc) return;
+    const std::span<const int> forbidden = rules_->motion.forbidden_in_compensation;
+    if (!compensation_.on() || forbidden.empty()) return;
     const bool other_plane = std::find(plane_codes.begin(), plane_codes.end(), code) != plane_codes.end() &&
                              plane_codes[static_cast<std::size_t>(state_.plane_axis)] != code;
     const bool system_moves =

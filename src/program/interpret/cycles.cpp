@@ -15,7 +15,7 @@ constexpr double peck_clearance_mm = 0.254;  ///< 0.010 inch, as RS274/NGC has i
 constexpr int most_pecks = 1'000'000;
 
 /// What a cycle does between R and Z.
-Stroke stroke_of(int code, bool linuxcnc) {
+Stroke stroke_of(int code, bool rs274) {
     switch (code) {
         case 730: return {.pecks = true, .breaks_chips = true};
         case 820: return {.dwells = true};
@@ -23,7 +23,7 @@ Stroke stroke_of(int code, bool linuxcnc) {
         case 740:
         case 840:
         case 842:
-        case 843: return {.dwells = !linuxcnc, .feeds_out = true};
+        case 843: return {.dwells = !rs274, .feeds_out = true};
         case 850: return {.feeds_out = true};
         case 860:
         case 880: return {.dwells = true};
@@ -36,14 +36,14 @@ Stroke stroke_of(int code, bool linuxcnc) {
 
 void Interpreter::cycle(const Block& block) {
     const int code = state_.cycle;
-    const bool linuxcnc = dialect_ == DialectId::linuxcnc;
-    if (code == 760 && linuxcnc) {
+    const bool rs274 = rules_->cycles.rs274;
+    if (code == 760 && rs274) {
         thread_cycle(block);
         return;
     }
     const bool from_below = code == 870;
     const bool fine_bore = code == 760;
-    const Stroke stroke = stroke_of(code, linuxcnc);
+    const Stroke stroke = stroke_of(code, rs274);
     const double unit = state_.unit_mm;
     const int c = state_.plane_axis;  // the drilling axis
     const char depth_letter = "XYZ"[c];
@@ -53,10 +53,10 @@ void Interpreter::cycle(const Block& block) {
     word('R', cycle_.r);
     word(depth_letter, cycle_.z);
     word('Q', cycle_.q);
-    if (block.words.given('P')) cycle_.p = block.words.of('P') * (dialect_ == DialectId::fanuc ? 0.001 : 1.0);
+    if (block.words.given('P')) cycle_.p = block.words.of('P') * rules_->cycles.dwell_unit;
     for (int k = 0; k < 3; ++k) word("IJK"[k], cycle_.ijk[k]);
     if (stroke.pecks && !(cycle_.q > 0)) {
-        if (linuxcnc) fail(fmt::format("G{} needs Q greater than 0", code / 10));
+        if (rs274) fail(fmt::format("G{} needs Q greater than 0", code / 10));
         note(Severity::warning, "program.cycle", fmt::format("G{} without Q: read as one stroke", code / 10));
     }
 
@@ -68,17 +68,17 @@ void Interpreter::cycle(const Block& block) {
     if (std::isnan(cycle_.initial)) cycle_.initial = position[c];
     const double r = cycle_.r * unit + (state_.incremental ? cycle_.initial : 0.0);
     const double bottom = cycle_.z * unit + (state_.incremental ? r : 0.0);
-    if (r < bottom && (linuxcnc || !from_below))
+    if (r < bottom && (rs274 || !from_below))
         fail(fmt::format("the cycle's R ({:g}) is below its bottom ({:g})", r, bottom));
     int repeats = 1;
     for (const char letter : {'L', 'K'}) {
-        if (letter == 'K' && (dialect_ != DialectId::fanuc || from_below)) continue;
+        if (letter == 'K' && (!rules_->cycles.repeats_by_k || from_below)) continue;
         if (block.words.given(letter)) repeats = static_cast<int>(std::clamp(block.words.of(letter), 0.0, 1e6));
     }
     const Vec3 rotary = rotary_target(block);
     // Up to R at once where the cycles began below it, even if the tool has come up since.
-    if (linuxcnc && cycle_.initial < r) go_to_level(MotionKind::rapid, r, rotary);
-    const double clear = state_.retract_to_r && !(from_below && !linuxcnc) ? r : std::max(r, cycle_.initial);
+    if (rs274 && cycle_.initial < r) go_to_level(MotionKind::rapid, r, rotary);
+    const double clear = state_.retract_to_r && !(from_below && !rs274) ? r : std::max(r, cycle_.initial);
     std::vector<double> depths;
     if (stroke.pecks && cycle_.q > 0) {
         const double peck = cycle_.q * unit;
@@ -89,9 +89,9 @@ void Interpreter::cycle(const Block& block) {
         Vec3 hole = machine_coordinates_ ? state_.frame.to_programmed(target(block, true)) : read_axes(block, false);
         const double now = state_.programmed()[c];
         // RS274 climbs before it crosses; Fanuc crosses at the level where it is.
-        hole[c] = now < clear && linuxcnc ? clear : now;
+        hole[c] = now < clear && rs274 ? clear : now;
         straight(MotionKind::rapid, state_.frame.to_work(hole), rotary);
-        if (from_below && !linuxcnc) {
+        if (from_below && !rs274) {
             bore_back_shifted(r, bottom, clear, rotary);
             continue;
         }
@@ -119,8 +119,8 @@ void Interpreter::go_to_level(MotionKind kind, double height, const Vec3& rotary
 void Interpreter::drill(const Stroke& stroke, double r, double bottom, double clear, const std::vector<double>& depths,
                         const Vec3& rotary) {
     const int c = state_.plane_axis;
-    const bool linuxcnc = dialect_ == DialectId::linuxcnc;
-    if (linuxcnc && c != 2 && (state_.cycle == 740 || state_.cycle == 840)) {
+    const bool rs274 = rules_->cycles.rs274;
+    if (rs274 && c != 2 && (state_.cycle == 740 || state_.cycle == 840)) {
         tap_turned(bottom, clear, rotary);
         return;
     }
@@ -132,9 +132,9 @@ void Interpreter::drill(const Stroke& stroke, double r, double bottom, double cl
         go_to_level(MotionKind::rapid, depth + peck_clearance_mm, rotary);
     }
     go_to_level(MotionKind::feed, bottom, rotary);
-    if (stroke.dwells && (linuxcnc || cycle_.p > 0))
+    if (stroke.dwells && (rs274 || cycle_.p > 0))
         push(MotionKind::dwell, state_.position, state_.rotary, static_cast<float>(cycle_.p));
-    if (state_.cycle == 880 && linuxcnc) {
+    if (state_.cycle == 880 && rs274) {
         // The operator takes the tool out by hand: no motion of the program.
         event("stop", "G88");
         state_.position[c] = clear;
@@ -142,7 +142,7 @@ void Interpreter::drill(const Stroke& stroke, double r, double bottom, double cl
     }
     if (stroke.feeds_out) {
         // Feeds end at R; but LinuxCNC runs at feed all the way, except in G85.
-        const bool all_the_way = linuxcnc && state_.cycle != 850;
+        const bool all_the_way = rs274 && state_.cycle != 850;
         go_to_level(MotionKind::feed, all_the_way ? clear : r, rotary);
         if (state_.programmed()[c] == clear) return;
     }

@@ -17,7 +17,7 @@ constexpr std::size_t deepest_call = 64;
 
 const ControlIndex& Interpreter::index(std::size_t file) {
     if (!indexed_[file]) {
-        indexes_[file] = ControlIndex(program_.files[file], dialect_);
+        indexes_[file] = ControlIndex(program_.files[file], rules_->text);
         indexed_[file] = true;
     }
     return indexes_[file];
@@ -31,26 +31,18 @@ void Interpreter::count_jump() {
 
 /// The condition of an elseif.
 bool Interpreter::branch_taken(const Control& branch) const {
-    const Statement statement = clean_line(program_.files[file_].line(branch.line), dialect_);
+    const Statement statement = clean_line(program_.files[file_].line(branch.line), rules_->text);
     Cursor c{statement.text, branch.rest};
-    return evaluate(c, variables_, dialect_) != 0;
+    return evaluate(c, variables_, rules_->text) != 0;
 }
 
 bool Interpreter::control(const Statement& statement) {
     const std::string& text = statement.text;
-    if (dialect_ == DialectId::siemens) {
-        Cursor c{text, 0};
-        if (c.take_word("DEF")) {
-            siemens_definition(text.substr(c.at));
-            return true;
-        }
-    }
-    if (dialect_ == DialectId::heidenhain_iso && (q_function(text) || call_label(text))) return true;
-    const Control parsed = parse_control(text, dialect_);
+    const Control parsed = parse_control(text, rules_->text);
     if (parsed.kind == ControlKind::none) return false;
     const auto condition = [&](std::size_t at) {
         Cursor c{text, at};
-        return evaluate(c, variables_, dialect_) != 0;
+        return evaluate(c, variables_, rules_->text) != 0;
     };
     const auto own = [&]() -> const Control& {
         const int at = index(file_).at_line(line_);
@@ -67,7 +59,7 @@ bool Interpreter::control(const Statement& statement) {
     };
     switch (parsed.kind) {
         case ControlKind::sub:
-            if (dialect_ == DialectId::heidenhain_iso) {
+            if (rules_->calls.subs_run_through) {
                 // A label; what it begins is carried out on the way as well.
                 return true;
             }
@@ -75,15 +67,15 @@ bool Interpreter::control(const Statement& statement) {
             return true;
         case ControlKind::end_sub:
         case ControlKind::leave: {
-            if (parsed.rest < text.size() && dialect_ == DialectId::linuxcnc) {
+            if (parsed.rest < text.size() && rules_->calls.returns_value) {
                 Cursor c{text, parsed.rest};
                 if (c.peek() != '\0') {
-                    const double value = read_value(c, variables_, dialect_);
+                    const double value = read_value(c, variables_, rules_->text);
                     variables_.set("_value", value);
                     variables_.set("_value_returned", 1);
                 }
             }
-            if (frames_.empty() && dialect_ != DialectId::siemens) return true;
+            if (frames_.empty() && !rules_->calls.return_ends_main) return true;
             leave(false);
             return true;
         }
@@ -92,13 +84,13 @@ bool Interpreter::control(const Statement& statement) {
             Cursor c{text, parsed.rest};
             while (c.peek() == '[') {
                 ++c.at;
-                arguments.push_back(evaluate(c, variables_, dialect_));
+                arguments.push_back(evaluate(c, variables_, rules_->text));
                 if (!c.take(']')) throw ReadError{"'[' is not closed", c.column(), {}};
             }
             std::string label = parsed.label;
             if (label.starts_with('[') || label.starts_with('#')) {
                 Cursor name{label, 0};
-                label = fmt::format("{}", std::lround(read_value(name, variables_, dialect_)));
+                label = fmt::format("{}", std::lround(read_value(name, variables_, rules_->text)));
             }
             call(label, 1, true, arguments);
             return true;
@@ -149,7 +141,7 @@ bool Interpreter::control(const Statement& statement) {
         case ControlKind::repeat_begin: {
             const Control& begin = own();
             Cursor c{text, parsed.rest};
-            const double count = read_value(c, variables_, dialect_);
+            const double count = read_value(c, variables_, rules_->text);
             if (!(count >= 1)) {
                 after(partner_of(begin, "repeat").line);
                 return true;
@@ -175,9 +167,9 @@ bool Interpreter::control(const Statement& statement) {
             const std::string name = c.identifier();
             c.at += name.size();
             if (name.empty() || !c.take('=')) throw ReadError{"expected a variable and '=' after FOR", c.column(), {}};
-            const double from = evaluate(c, variables_, dialect_);
+            const double from = evaluate(c, variables_, rules_->text);
             if (!c.take_word("TO")) throw ReadError{"expected TO", c.column(), {}};
-            const double to = evaluate(c, variables_, dialect_);
+            const double to = evaluate(c, variables_, rules_->text);
             double value = from;
             const auto running = counters_.find(line_);
             const bool numbered =
@@ -219,9 +211,9 @@ bool Interpreter::control(const Statement& statement) {
         case ControlKind::go_to: {
             if (parsed.kind == ControlKind::if_go_to && !condition(parsed.rest)) return true;
             std::string label = parsed.label;
-            if (label.empty() && dialect_ == DialectId::fanuc) {
+            if (label.empty() && rules_->calls.jumps_to_numbers) {
                 Cursor c{text, parsed.target};
-                label = fmt::format("{}", std::lround(read_value(c, variables_, dialect_)));
+                label = fmt::format("{}", std::lround(read_value(c, variables_, rules_->text)));
             }
             jump_to(label, parsed.direction, parsed.may_miss);
             return true;
@@ -229,28 +221,29 @@ bool Interpreter::control(const Statement& statement) {
         case ControlKind::if_then: {
             if (!condition(parsed.rest)) return true;
             Cursor c{text, static_cast<std::size_t>(std::stoul(parsed.label))};
-            read_block(c, variables_, dialect_, state_.least_increment(), block_);
+            read_block(c, variables_, rules_->text, state_.least_increment(), block_);
             execute(block_);
             return true;
         }
         case ControlKind::label: {
             // A program number; what follows in its block still counts. A second one ends the first
             // program, as another program begins there.
-            const bool begins_another = dialect_ == DialectId::fanuc && program_.motions.size() > 0 && frames_.empty();
+            const bool begins_another =
+                rules_->calls.second_name_ends && program_.motions.size() > 0 && frames_.empty();
             if (begins_another) {
                 event("end", "O" + parsed.label);
                 ended_ = true;
                 return true;
             }
             const std::string word = text.substr(std::min(parsed.rest, text.size()));
-            if (dialect_ == DialectId::siemens && word.find_first_not_of(' ') != std::string::npos &&
+            if (rules_->calls.blocks_after_label && word.find_first_not_of(' ') != std::string::npos &&
                 text.find(':') != std::string::npos) {
                 Statement after_label = statement;
                 std::fill(after_label.text.begin(), after_label.text.begin() + static_cast<std::ptrdiff_t>(parsed.rest),
                           ' ');
                 if (control(after_label)) return true;
                 Cursor c{after_label.text, 0};
-                read_block(c, variables_, dialect_, state_.least_increment(), block_);
+                read_block(c, variables_, rules_->text, state_.least_increment(), block_);
                 execute(block_);
             }
             return true;
@@ -264,10 +257,11 @@ bool Interpreter::control(const Statement& statement) {
 /// To a label or a block number. `may_miss`: without it the program goes on.
 void Interpreter::jump_to(const std::string& label, int direction, bool may_miss) {
     count_jump();
-    const bool number = dialect_ == DialectId::fanuc || (label.size() > 1 && label[0] == 'N' && is_digit(label[1]));
+    const bool numbers = rules_->calls.jumps_to_numbers;
+    const bool number = numbers || (label.size() > 1 && label[0] == 'N' && is_digit(label[1]));
     LineNumber line = 0;
     if (number) {
-        const std::string digits = dialect_ == DialectId::fanuc ? label : label.substr(1);
+        const std::string digits = numbers ? label : label.substr(1);
         double value = 0;
         if (read_decimal(digits, 0, value) > 0) line = find_block(value, line_, direction);
     } else {
@@ -289,10 +283,10 @@ void Interpreter::jump_to(const std::string& label, int direction, bool may_miss
 /// CASE v OF 1 GOTOF A 2 GOTOF B DEFAULT GOTOF C
 void Interpreter::choose(const std::string& text, std::size_t begin) {
     Cursor c{text, begin};
-    const double wanted = evaluate(c, variables_, dialect_);
+    const double wanted = evaluate(c, variables_, rules_->text);
     if (!c.take_word("OF")) throw ReadError{"expected OF after the value of CASE", c.column(), {}};
     while (c.peek() != '\0') {
-        const bool chosen = c.take_word("DEFAULT") || std::abs(read_value(c, variables_, dialect_) - wanted) < 1e-9;
+        const bool chosen = c.take_word("DEFAULT") || std::abs(read_value(c, variables_, rules_->text) - wanted) < 1e-9;
         const std::string jump = c.identifier();
         const bool known = jump == "GOTO" || jump == "GOTOF" || jump == "GOTOB" || jump == "GOTOC";
         if (!known) throw ReadError{"expected GOTOF or GOTOB and a label in CASE", c.column(), {}};
@@ -334,7 +328,7 @@ void Interpreter::repeat_lines(const Control& repeat, const std::string& text) {
     double times = 1;
     if (c.take_word("P")) {
         if (!c.take('=')) throw ReadError{"expected '=' after P", c.column(), {}};
-        times = evaluate(c, variables_, dialect_);
+        times = evaluate(c, variables_, rules_->text);
     }
     if (c.peek() != '\0') throw ReadError{"expected P= after the labels of REPEAT", c.column(), {}};
     if (section.end < section.begin || (section.begin <= line_ && line_ <= section.end))
@@ -379,36 +373,6 @@ void Interpreter::repeat_from(LineNumber begin, double times) {
     go_to(file_, begin);
 }
 
-/// DEF REAL a, b=5: names that exist from here on.
-void Interpreter::siemens_definition(const std::string& definition) {
-    Cursor c{definition, 0};
-    const std::string type = c.identifier();
-    c.at += type.size();
-    if (type == "STRING" && c.take('[')) {
-        while (!c.done() && !c.take(']')) ++c.at;
-    }
-    while (c.peek() != '\0') {
-        const std::string name = c.identifier();
-        if (name.empty()) throw ReadError{"expected a name after DEF", c.column(), {}};
-        c.skip_blanks();
-        c.at += name.size();
-        double value = 0;
-        if (c.take('[')) {  // an array: its elements are 0
-            while (!c.done() && !c.take(']')) ++c.at;
-        }
-        if (c.take('=')) {
-            if (c.peek() == '"') {
-                const std::size_t end = definition.find('"', c.at + 1);
-                c.at = end == std::string::npos ? definition.size() : end + 1;
-            } else {
-                value = evaluate(c, variables_, dialect_);
-            }
-        }
-        variables_.set(name, value);
-        if (!c.take(',')) break;
-    }
-}
-
 LineNumber Interpreter::find_block(double number, LineNumber line, int direction) {
     auto found = numbers_.find(file_);
     if (found == numbers_.end()) found = numbers_.emplace(file_, BlockNumbers(program_.files[file_])).first;
@@ -433,13 +397,12 @@ void Interpreter::call(const std::string& name, int repeats, bool locals, const 
     if (frames_.size() >= deepest_call) {
         fail(fmt::format("calls are nested more than {} deep: a subprogram that calls itself?", deepest_call));
     }
-    const ControlKind kind = dialect_ == DialectId::linuxcnc || dialect_ == DialectId::heidenhain_iso
-                                 ? ControlKind::sub
-                                 : ControlKind::label;
+    const CallRules& calls = rules_->calls;
+    const ControlKind kind = calls.by_sub ? ControlKind::sub : ControlKind::label;
     const auto begin_in = [&](std::size_t file) {
         const int begin = index(file).find(kind, name);
         // M98 of LinuxCNC calls `O1 … M99`, as Fanuc writes it.
-        return begin < 0 && dialect_ == DialectId::linuxcnc ? index(file).find(ControlKind::label, name) : begin;
+        return begin < 0 && calls.label_if_no_sub ? index(file).find(ControlKind::label, name) : begin;
     };
     std::size_t file = file_;
     int at = begin_in(file);
@@ -460,8 +423,8 @@ void Interpreter::call(const std::string& name, int repeats, bool locals, const 
     frame.file = file_;
     frame.line = line_;
     frame.start_file = file;
-    frame.start_line = line + (at >= 0 || dialect_ != DialectId::fanuc ? 1 : 0);
-    if (at < 0 && (dialect_ == DialectId::siemens || dialect_ == DialectId::heidenhain_iso)) frame.start_line = 1;
+    frame.start_line = line + (at >= 0 || !calls.begins_at_label ? 1 : 0);
+    if (at < 0 && calls.file_from_top) frame.start_line = 1;
     frame.call = call_;
     call_ = call_from_here();
     frame.repeats = repeats - 1;
@@ -519,36 +482,27 @@ void Interpreter::leave(bool from_end_of_text) {
     go_to(file, line + 1);
 }
 
-/// M98 P…, L5 and L5,2 of Siemens and Heidenhain.
-void Interpreter::call_from_words(const Block& block) {
-    if (call_program_ == -2) fail("M98 needs the program's number (P)");
-    const bool linuxcnc = dialect_ == DialectId::linuxcnc;
-    const double least_repeats = linuxcnc ? 0 : 1;  // L0 of LinuxCNC calls nothing
-    int repeats =
-        block.words.given('L') ? static_cast<int>(std::clamp(block.words.of('L'), least_repeats, 99999.0)) : 1;
-    if (call_program_ >= 0) {
-        int number = call_program_;
-        // P0031234: three times program 1234, where no L says so.
-        if (!block.words.given('L') && number > 9999 && !linuxcnc) {
-            repeats = number / 10000;
-            number %= 10000;
-        }
-        call_program_ = -1;
-        if (repeats == 0) return;
-        call(fmt::format("{}", number), repeats, false, {});
-        return;
+/// M98 P L: P0031234 calls program 1234 three times where no L says how often and `counted`.
+void Interpreter::call_by_number(const Block& block, int least_repeats, bool counted) {
+    const Words& w = block.words;
+    if (!w.given('P')) fail("M98 needs the program's number (P)");
+    int number = static_cast<int>(std::clamp(w.of('P'), 0.0, 99999999.0));
+    int repeats = w.given('L') ? static_cast<int>(std::clamp(w.of('L'), double(least_repeats), 99999.0)) : 1;
+    if (counted && !w.given('L') && number > 9999) {
+        repeats = number / 10000;
+        number %= 10000;
     }
-    if (block.words.given('L') && (dialect_ == DialectId::siemens || dialect_ == DialectId::heidenhain_iso) &&
-        !motion_suppressed_) {
-        const long number = std::lround(block.words.of('L'));
-        if (dialect_ == DialectId::siemens) {
-            const int times =
-                block.words.given('P') ? static_cast<int>(std::clamp(block.words.of('P'), 1.0, 9999.0)) : 1;
-            call(fmt::format("L{}", number), times, true, {});
-        } else {
-            call(fmt::format("{}", number), 1, false, {});
-        }
-    }
+    if (repeats > 0) call(fmt::format("{}", number), repeats, false, {});
+}
+
+/// M99 P: back to that block of the caller; M99: behind the call.
+void Interpreter::return_to_block(const Block& block) {
+    if (!block.words.given('P')) return leave(false);
+    const double number = block.words.of('P');
+    leave(false);
+    const LineNumber line = find_block(number, 0, 0);
+    if (line == 0) fail(fmt::format("M99 P{:g}: there is no block N{:g}", number, number));
+    go_to(file_, line);
 }
 
 }  // namespace clsurf

@@ -39,7 +39,8 @@ Interpreter::Interpreter(SourceText text, const InterpreterOptions& options)
         program_.dialect = guess.dialect;
         program_.dialect_guessed_from = guess.reason;
     }
-    dialect_ = program_.dialect->id;
+    rules_ = program_.dialect->rules;
+    index_codes();
     program_.files.push_back(std::move(text));
     // A line makes 100 chords of a spline at most, and a few motions besides.
     constexpr std::uint64_t most_of_a_line = 200;
@@ -47,29 +48,8 @@ Interpreter::Interpreter(SourceText text, const InterpreterOptions& options)
     most_motions_ = std::min(most_numbers, options_.most_repeated + most_of_a_line * program_.main().line_count());
     indexes_.resize(1);
     indexed_.resize(1);
-    // RS274's interpreter knows where the axes stand and retracts to R; the other controls stand wherever they stand.
     if (options.tools) tools_ = *options.tools;
-    if (dialect_ == DialectId::linuxcnc) {
-        if (!options.tools) tools_ = stand_alone_tools();
-        state_.position = options.start.value_or(Vec3::Zero());
-        state_.retract_to_r = true;
-        program_.motions.start = Xyz(state_.position);
-    }
-    if (dialect_ == DialectId::siemens) {
-        // The kinds of machining of CYCLE832.
-        for (const auto& [name, kind] : {std::pair{"_OFF", 0},
-                                         {"_FINISH", 1},
-                                         {"_SEMIFIN", 2},
-                                         {"_ROUGH", 3},
-                                         {"_PRECISION", 4},
-                                         {"_ORI_FINISH", 11},
-                                         {"_ORI_SEMIFIN", 12},
-                                         {"_ORI_ROUGH", 13},
-                                         {"_ORI_PRECISION", 14},
-                                         {"_TOP_SURFACE_SMOOTH_OFF", 0},
-                                         {"_TOP_SURFACE_SMOOTH_ON", 1000}})
-            variables_.set(name, kind);
-    }
+    if (rules_->begin != nullptr) rules_->begin(*this);
     const std::string_view bytes = program_.main().text();
     if (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff")) {
         throw InputError(Place::of_file(program_.main().name()), "is UTF-16 text, expected ASCII or UTF-8",
@@ -167,9 +147,9 @@ void Interpreter::run_line() {
         return;
     }
     current_ = next_line();
-    if (read_plain(current_, plain_) == PlainResult::plain) {
+    if (rules_->plain(current_, plain_) == PlainResult::plain) {
         if (run_plain(plain_)) return;
-        if (dialect_ != DialectId::siemens && dialect_ != DialectId::heidenhain_iso) {
+        if (rules_->motion.plain_blocks) {
             block_.clear();
             block_.words = plain_;
             execute(block_);
@@ -211,7 +191,7 @@ bool Interpreter::run_plain(const Words& words) {
 
 void Interpreter::run_block(std::string_view line) {
     try {
-        const Statement statement = clean_line(line, dialect_);
+        const Statement statement = clean_line(line, rules_->text);
         if (statement.open_comment) note(Severity::warning, "program.open-comment", "'(' is not closed");
         if (statement.tape_mark && !statement.title.empty()) {
             heidenhain_title(statement.title);
@@ -226,21 +206,27 @@ void Interpreter::run_block(std::string_view line) {
         }
         if (statement.deleted && options_.block_delete) return;
         if (statement.text.empty()) return;
-        if (!control(statement)) {
+        const bool done = rules_->statement != nullptr && rules_->statement(*this, statement);
+        if (!done && !control(statement)) {
             Cursor cursor{statement.text, 0};
-            read_block(cursor, variables_, dialect_, state_.least_increment(), block_);
+            read_block(cursor, variables_, rules_->text, state_.least_increment(), block_);
             execute(block_);
         }
-        if (!unknown_name_.empty()) {
-            note(Severity::warning, "program.variable", unknown_name_ + " of the control is not known: read as 0");
-            unknown_name_.clear();
-        }
-        if (unknown_parameter_ != 0) {
-            note(Severity::warning, "program.variable",
-                 fmt::format("#{} of the control is not known: read as vacant", unknown_parameter_));
-            unknown_parameter_ = 0;
-        }
+        note_unknown_parameters();
     } catch (const ReadError& error) { fail(error.what, error.column, error.hint); }
+}
+
+/// Parameters of the control that the block has read.
+void Interpreter::note_unknown_parameters() {
+    if (!unknown_name_.empty()) {
+        note(Severity::warning, "program.variable", unknown_name_ + " of the control is not known: read as 0");
+        unknown_name_.clear();
+    }
+    if (unknown_parameter_ != 0) {
+        note(Severity::warning, "program.variable",
+             fmt::format("#{} of the control is not known: read as vacant", unknown_parameter_));
+        unknown_parameter_ = 0;
+    }
 }
 
 void Interpreter::fail(const std::string& what, std::size_t column, const std::string& hint) const {

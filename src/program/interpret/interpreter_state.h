@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "program/dialects/dialect_rules.h"
 #include "program/frame_placement.h"
 #include "program/interpret/arc.h"
 #include "program/interpret/cutter_compensation.h"
@@ -102,12 +103,14 @@ public:
     /// before they are forgotten. How many motions that makes.
     [[nodiscard]] std::int64_t place_settled(std::int64_t motions);
 
-private:
+    // All of it is open: the dialects' handlers (dialect_rules.h) are written in these words.
+
     // interpreter.cpp: lines, calls, output
     [[nodiscard]] std::int64_t settled() const;
     void run_line();
     void run_block(std::string_view line);
     bool run_plain(const Words& words);
+    void note_unknown_parameters();
     [[nodiscard]] std::string_view next_line();
     void go_to(std::size_t file, LineNumber line);  ///< the next line read is `line`
     [[noreturn]] void fail(const std::string& what, std::size_t column = 0, const std::string& hint = {}) const;
@@ -115,18 +118,19 @@ private:
     void event(const std::string& name, const std::string& value);
 
     // parameters.cpp: of the control; NaN: an ordinary variable
-    [[nodiscard]] double parameter(int number) const;
-    [[nodiscard]] double named_parameter(const std::string& name) const;
+    [[nodiscard]] double parameter(int number);
+    [[nodiscard]] double named_parameter(const std::string& name);
+    bool write_parameter(int number, double value);
 
     // codes.cpp: what words mean
     void execute(Block& block);
     void settle_codes(Block& block);
     void apply_code(int code, Block& block, std::size_t column);
+    void index_codes();
+    [[nodiscard]] const CodeRule* rule_of(int code) const;
     void apply_common(int code, Block& block, std::size_t column);
-    bool apply_of_dialect(int code, Block& block, std::size_t column);
     void apply_m(int code, const Block& block);
-    void apply_keyword(const Keyword& keyword, Block& block);
-    void dwell(const Block& block);
+    void dwell(double seconds);
     [[noreturn]] void refuse_motion(const std::string& word, const Block& block, std::size_t column,
                                     const std::string& hint = {}) const;
     void report_unused(const Block& block);
@@ -134,12 +138,12 @@ private:
 
     // path_modes.cpp
     void set_path_mode(const std::string& name, const std::string& value, const PathMode& mode, bool once = false);
-    bool apply_path_mode(int code, Block& block, std::size_t column);
-    void high_speed_settings(const Keyword& keyword);  ///< CYCLE832
-    void contour_tolerance(const Block& block);        ///< CTOL=
+    bool path_mode_word(const CodeWord& word, const PathMode& mode, bool once = false);  ///< a G code; always true
+    bool rounded_corners(const CodeWord& word);                                          ///< G64 P Q
+    void high_speed_settings(const Keyword& keyword);                                    ///< CYCLE832
+    void contour_tolerance(const Block& block);                                          ///< CTOL=
 
     // fanuc.cpp
-    bool apply_fanuc(int code, Block& block, std::size_t column);
     [[nodiscard]] Vec3 frame_centre(const Block& block, const Vec3& now) const;
     void settle_fanuc_frame();
     void rotate_frame(const Block& block, std::size_t column);  ///< G68
@@ -148,16 +152,17 @@ private:
     void local_zero(const Block& block);                        ///< G52
     [[nodiscard]] long macro_program(const Block& block, int code, std::size_t column) const;
     [[nodiscard]] std::vector<double> macro_arguments(const Block& block) const;
-    bool macro_call(const Block& block);                    ///< G65
+    void macro_call(const Block& block);                    ///< G65
     bool set_fanuc_offsets(int level, const Block& block);  ///< G10; true: a work offset
     [[nodiscard]] WorkOffset* offset_of_variable(int number, int& axis);
-    bool write_parameter(int number, double value);
-    [[nodiscard]] double fanuc_parameter(int number, const Vec3& known) const;
+    bool write_fanuc_parameter(int number, double value);
+    [[nodiscard]] double fanuc_parameter(int number);
 
     [[nodiscard]] bool is_data_end(const Block& block);  ///< G11
 
     // siemens.cpp, siemens_cycles.cpp
-    bool apply_siemens(int code, Block& block, std::size_t column);
+    void apply_keyword(const Keyword& keyword, Block& block);
+    bool arc_of_siemens(const Block& block, ArcWords& words);
     void set_pole(int code, const Block& block);                 ///< G110 … G112
     bool siemens_frame(const Keyword& keyword, Block& block);    ///< true: the keyword was one
     [[nodiscard]] bool ends_by_angle(const Block& block) const;  ///< ANG=
@@ -172,7 +177,6 @@ private:
     void hole_pattern(const std::string& name, const std::vector<double>& values, std::size_t column);
 
     // heidenhain.cpp
-    bool apply_heidenhain(int code, Block& block, std::size_t column);
     void set_heidenhain_frame(std::size_t kind, const ProgramFrame& frame);
     static bool take_mention(char letter, Block& block);
     void heidenhain_title(const std::string& title);  ///< %NAME G71
@@ -231,8 +235,10 @@ private:
     // motions.cpp
     [[nodiscard]] Vec3 target(const Block& block, bool machine);
     [[nodiscard]] Vec3 read_axes(const Block& block, bool machine);
-    void put_about_pole(const Block& block, Vec3& end);  ///< G16, RP= AP=, G10 … G13
-    bool arc_of_dialect(const Block& block, ArcWords& words);
+    void straight_to_pole_plane(const Block& block, const Vec3& from, Vec3& end) const;
+    void put_at_pole(Vec3& end) const;
+    void put_about_pole(const Block& block, std::optional<double> radius, std::optional<double> angle, bool radius_adds,
+                        bool angle_adds, Vec3& end);
     void flatten_arc(const Arc& arc, bool clockwise, const Vec3& begin, const Vec3& end, const Vec3& rotary);
     void put_polar(const Block& block, Vec3& end) const;
     [[nodiscard]] Vec3 rotary_target(const Block& block) const;
@@ -268,16 +274,17 @@ private:
     // flow.cpp: control statements; true: the line was one
     bool control(const Statement& statement);
     [[nodiscard]] bool branch_taken(const Control& branch) const;
-    void siemens_definition(const std::string& statement);
+    void siemens_definition(const std::string& statement);                     ///< DEF
+    void call_by_number(const Block& block, int least_repeats, bool counted);  ///< M98 P L
+    void return_to_block(const Block& block);                                  ///< M99 P
     void call(const std::string& name, int repeats, bool locals, const std::vector<double>& arguments);
-    void call_from_words(const Block& block);  ///< M98, G65, L…
     void repeat_from(LineNumber begin, double times);
     void jump_to(const std::string& label, int direction, bool may_miss);
     void choose(const std::string& text, std::size_t begin);  ///< CASE
     void repeat_lines(const Control& repeat, const std::string& text);
     void next_of_section();
     void watch_section();
-    void run_modal_call();
+    bool run_modal_call();
     void leave(bool from_end_of_text);
     void count_jump();
     [[nodiscard]] std::uint32_t call_from_here();
@@ -290,7 +297,8 @@ private:
     std::vector<Vec3>
         forgotten_ways_;  ///< of the motions forgotten the last, and the last that is not parallel to it [mm]
     Program program_;
-    DialectId dialect_;
+    const DialectRules* rules_ = nullptr;
+    std::vector<CodeRule> code_rules_;  ///< the dialect's and the common ones, by code
     std::vector<ControlIndex> indexes_;
     std::vector<bool> indexed_;
     std::map<std::string, std::size_t> loaded_;    ///< files of subprograms, by the name they were called by
@@ -346,8 +354,7 @@ private:
     // Per block.
     bool machine_coordinates_ = false;  ///< G53, SUPA
     bool motion_suppressed_ = false;    ///< the axis words belong to G10, G92, G28 …
-    int call_program_ = -1;
-    bool path_mode_returns_ = false;  ///< G9: the mode in force comes back behind the block
+    bool path_mode_returns_ = false;    ///< G9: the mode in force comes back behind the block
     double contour_tolerance_ = std::numeric_limits<double>::quiet_NaN();  ///< CTOL, CYCLE832 [mm]; NaN: the machine's
     ModalCall modal_call_;                                                 ///< G66, MCALL
     PolarState polar_;
@@ -361,9 +368,9 @@ private:
     ArcKind arc_kind_ = ArcKind::usual;
     bool polar_line_ = false;  ///< its G10 … G16: R and H give the end
     bool last_clockwise_ = false;
-    mutable std::string unknown_name_;   ///< of a variable of the control that the block has read
-    mutable int unknown_parameter_ = 0;  ///< that the block has read
-    std::vector<Vec3> nurbs_;            ///< x, y, weight
+    std::string unknown_name_;   ///< of a variable of the control that the block has read
+    int unknown_parameter_ = 0;  ///< that the block has read
+    std::vector<Vec3> nurbs_;    ///< x, y, weight
     int nurbs_order_ = 3;
     Vec2 spline_out_ = Vec2::Zero();  ///< P Q of the cubic spline before
 };

@@ -32,6 +32,8 @@ enum class MotionMode : std::uint8_t {
 
 enum class FeedMode : std::uint8_t { per_minute, per_revolution, inverse_time };
 
+inline constexpr int plain_work_systems = 6;  ///< G54 … G59
+
 struct WorkOffset {
     Vec3 shift = Vec3::Zero();   ///< [mm]
     double rotation = 0;         ///< about z [deg]

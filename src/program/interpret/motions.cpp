@@ -19,7 +19,6 @@ constexpr int most_turns = 100'000;
 constexpr int curve_pieces = 100;
 constexpr int least_nurbs_order = 3;  ///< LinuxCNC reads a smaller L as 3
 constexpr int most_nurbs_order = 20;
-constexpr double probe_retreat_mm = 0.254;  ///< 0.01 inch
 constexpr int first_probed_parameter = 5061, probe_result_parameter = 5070;
 
 bool names_motion(const Block& block) {
@@ -43,7 +42,7 @@ Vec3 Interpreter::read_axes(const Block& block, bool machine) {
     const bool mixed = !machine && state_.frame.active() && axes_named(block.words) != 0;
     state_.place(mixed ? all : axes_named(block.words) | (by_pole && !machine ? plane : 0u), machine);
     if ((polar_.on || polar_line_) && !machine) {
-        put_about_pole(block, base);
+        if (rules_->about_pole != nullptr) rules_->about_pole(*this, block, base);
         return base;
     }
     for (int axis = 0; axis < 3; ++axis) {
@@ -59,12 +58,43 @@ Vec3 Interpreter::read_axes(const Block& block, bool machine) {
     }
     if (ends_by_angle(block)) end_by_angle(block, base);
     if (block.polar_radius || block.polar_angle) {
-        if (dialect_ == DialectId::linuxcnc)
-            put_polar(block, base);
+        if (rules_->about_pole != nullptr)
+            rules_->about_pole(*this, block, base);
         else
-            put_about_pole(block, base);
+            put_polar(block, base);
     }
     return base;
+}
+
+/// The axis of the plane's normal, beside polar words.
+void Interpreter::straight_to_pole_plane(const Block& block, const Vec3& from, Vec3& end) const {
+    const int k = state_.plane_axis;
+    const char letter = "XYZ"[k];
+    if (!block.words.given(letter)) return;
+    const std::uint32_t bit = Words::bit(letter);
+    const bool adds = state_.incremental ? (block.absolute & bit) == 0 : (block.incremental & bit) != 0;
+    end[k] = (adds ? from[k] : 0.0) + block.words.of(letter) * state_.unit_mm;
+}
+
+void Interpreter::put_at_pole(Vec3& end) const {
+    const int u = (state_.plane_axis + 1) % 3;
+    const int v = (state_.plane_axis + 2) % 3;
+    end[u] = polar_.pole[u] + polar_.radius * std::cos(polar_.angle * rad_per_deg);
+    end[v] = polar_.pole[v] + polar_.radius * std::sin(polar_.angle * rad_per_deg);
+}
+
+/// The end of a motion by radius [programmed lengths] and angle [deg] about the pole; what is not given stays as it is.
+void Interpreter::put_about_pole(const Block& block, std::optional<double> radius, std::optional<double> angle,
+                                 bool radius_adds, bool angle_adds, Vec3& end) {
+    const int u = (state_.plane_axis + 1) % 3;
+    const int v = (state_.plane_axis + 2) % 3;
+    const Vec3 from = end.array().isNaN().select(0.0, end);
+    straight_to_pole_plane(block, from, end);
+    const Vec2 now(from[u] - polar_.pole[u], from[v] - polar_.pole[v]);
+    polar_.radius = radius ? *radius * state_.unit_mm + (radius_adds ? now.norm() : 0.0) : now.norm();
+    const double angle_now = angle_of(now) * deg_per_rad;
+    polar_.angle = angle ? *angle + (angle_adds ? angle_now : 0.0) : angle_now;
+    put_at_pole(end);
 }
 
 /// LinuxCNC's polar words: @ radius, ^ angle about the work origin.
@@ -85,7 +115,7 @@ void Interpreter::put_polar(const Block& block, Vec3& end) const {
 }
 
 Vec3 Interpreter::rotary_target(const Block& block) const {
-    const bool machine = machine_coordinates_ && dialect_ == DialectId::linuxcnc;
+    const bool machine = machine_coordinates_ && rules_->motion.rotary_in_machine;
     Vec3 target = state_.rotary;
     for (int axis = 0; axis < 3; ++axis) {
         const char letter = "ABC"[axis];
@@ -113,7 +143,7 @@ void Interpreter::move(const Block& block) {
     switch (state_.motion) {
         case MotionMode::none:
             if (!axes) return;
-            if (dialect_ == DialectId::linuxcnc) fail("axis words without a motion mode (G80 is active)");
+            if (rules_->motion.needs_mode) fail("axis words without a motion mode (G80 is active)");
             note(Severity::warning, "program.no-motion-mode", "axis words without a motion mode are read as G1");
             state_.motion = MotionMode::feed;
             straight(MotionKind::feed, target(block, machine_coordinates_), rotary_target(block));
@@ -125,7 +155,7 @@ void Interpreter::move(const Block& block) {
         case MotionMode::feed:
         case MotionMode::thread:
             // RS274 makes a motion of no length of a G0 or G1 that stands alone.
-            if (!axes && !(dialect_ == DialectId::linuxcnc && names_motion(block))) return;
+            if (!axes && !(rules_->motion.moves_without_axes && names_motion(block))) return;
             compensated_straight(state_.motion == MotionMode::rapid ? MotionKind::rapid : MotionKind::feed,
                                  target(block, machine_coordinates_), rotary_target(block));
             return;
@@ -185,8 +215,7 @@ void Interpreter::arc(const Block& block, bool clockwise) {
     words.end = words.end.array().isNaN().select(words.begin, words.end);
     words.axis = state_.plane_axis;
     words.clockwise = clockwise;
-    const bool heidenhain = dialect_ == DialectId::heidenhain_iso;
-    if (arc_of_dialect(block, words)) {
+    if (rules_->arc != nullptr && rules_->arc(*this, block, words)) {
         clockwise = words.clockwise;
     } else if (block.words.given('R')) {
         words.has_radius = true;
@@ -199,14 +228,14 @@ void Interpreter::arc(const Block& block, bool clockwise) {
             if (k == words.axis || !block.words.given(letter)) continue;
             any = true;
             const std::uint32_t bit = Words::bit(letter);
-            const bool absolute = state_.centre_absolute || heidenhain || (block.absolute & bit) != 0;
+            const bool absolute = state_.centre_absolute || (block.absolute & bit) != 0;
             const double value = block.words.of(letter) * state_.unit_mm;
             words.centre[k] = absolute ? value : words.begin[k] + value;
         }
         if (!any) fail("an arc needs its centre (I, J, K) or its radius (R)");
     }
     words.turns = 1 + block.extra_turns;
-    if (dialect_ == DialectId::linuxcnc && block.words.given('P')) {
+    if (rules_->motion.turns_by_p && block.words.given('P')) {
         const double turns = block.words.of('P');
         if (!(turns >= 1 && turns <= most_turns) || turns != std::round(turns))
             fail("P of an arc must be a whole number of turns, 1 or more");
@@ -214,7 +243,7 @@ void Interpreter::arc(const Block& block, bool clockwise) {
     }
     refuse_turns(block);
     std::string error;
-    Arc arc = resolve_arc(words, arc_tolerance(dialect_, state_.unit_mm), error);
+    Arc arc = resolve_arc(words, arc_tolerance(*rules_, state_.unit_mm), error);
     if (!error.empty()) fail(error, block.words.g_count > 0 ? block.words.g_column[0] : 1);
     const std::optional<ProgramFrame::Circle> circle = state_.frame.circle(arc.axis);
     if (!circle) {
@@ -235,15 +264,11 @@ void Interpreter::arc(const Block& block, bool clockwise) {
 
 /// Turns as another dialect gives them, or as a spiral: P, L and Q beside an arc.
 void Interpreter::refuse_turns(const Block& block) const {
-    if (block.words.m_count > 0 || (dialect_ != DialectId::fanuc && dialect_ != DialectId::siemens)) return;
-    const bool fanuc = dialect_ == DialectId::fanuc;
-    for (const char letter : std::string_view(fanuc ? "PLQ" : "P")) {
-        if (!block.words.given(letter)) continue;
-        fail(fmt::format("{} beside an arc is not known in {}", letter, program_.dialect->name),
-             block.words.column[static_cast<std::size_t>(letter - 'A')],
-             !fanuc          ? "turns are TURN= in siemens, P in linuxcnc (--dialect linuxcnc)"
-             : letter == 'P' ? "turns are P in linuxcnc: --dialect linuxcnc"
-                             : "spirals of several turns are not read");
+    if (block.words.m_count > 0) return;
+    for (const RefusedLetter& row : rules_->motion.refused_at_arcs) {
+        if (!block.words.given(row.letter)) continue;
+        fail(fmt::format("{} beside an arc is not known in {}", row.letter, program_.dialect->name),
+             block.words.column[static_cast<std::size_t>(row.letter - 'A')], row.hint);
     }
 }
 
@@ -277,7 +302,7 @@ void Interpreter::probe(const Vec3& end, const Vec3& rotary) {
         variables_.set(first_probed_parameter + 3 + axis, rotary[axis]);
     }
     variables_.set(probe_result_parameter, 0);
-    const double retreat = dialect_ == DialectId::linuxcnc ? probe_retreat_mm : 0;
+    const double retreat = rules_->motion.probe_retreat;
     state_.position = way.norm() > 0 ? Vec3(end - retreat * way.normalized()) : end;
     state_.rotary = rotary;
     event("probe", fmt::format("{:.4f} {:.4f} {:.4f}", end.x(), end.y(), end.z()));

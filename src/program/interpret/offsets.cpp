@@ -63,9 +63,8 @@ void Interpreter::settle_work_frame() {
 void Interpreter::set_offsets(const Block& block) {
     motion_suppressed_ = true;
     const int level = is(block, 'L') ? static_cast<int>(std::clamp(block.words.of('L'), -1e6, 1e6)) : 0;
-    if (dialect_ == DialectId::fanuc && set_fanuc_offsets(level, block)) return;
     if (level != 2 && level != 20) {
-        if (dialect_ == DialectId::linuxcnc) set_tool(level, block);
+        if (rules_->offsets.tool_data) set_tool(level, block);
         event("tool-table", "G10" + words_text(block, "LPRZXYIJQ"));
         return;
     }
@@ -77,7 +76,7 @@ void Interpreter::set_offsets(const Block& block) {
     state_.rebase([&] {
         WorkOffset& offset = state_.work_offsets[system];
         unsigned named = axes_named(block.words);
-        if (is(block, 'R') && level == 2 && dialect_ == DialectId::linuxcnc) {
+        if (is(block, 'R') && level == 2 && rules_->offsets.rotation) {
             offset.rotation = block.words.of('R');
             named |= WorkFrame::rotation;
         }
@@ -97,7 +96,7 @@ void Interpreter::set_offsets(const Block& block) {
         }
         for (int axis = 0; axis < 3; ++axis) {
             const char letter = "ABC"[axis];
-            if (dialect_ != DialectId::linuxcnc || !is(block, letter)) continue;
+            if (!rules_->offsets.rotary || !is(block, letter)) continue;
             const double value = block.words.of(letter);
             offset.rotary[axis] = level == 2 ? value : machine_rotary[axis] - state_.rotary_shift[axis] - value;
         }
@@ -114,7 +113,7 @@ void Interpreter::set_offsets(const Block& block) {
 
 void Interpreter::shift_position(const Block& block) {
     motion_suppressed_ = true;
-    const bool local = std::find(block.words.g.begin(), block.words.g.begin() + block.words.g_count, 520) !=
+    const bool local = std::find(block.words.g.begin(), block.words.g.begin() + block.words.g_count, 52_g) !=
                        block.words.g.begin() + block.words.g_count;
     state_.rebase([&] {
         const Vec3 position = state_.position;
@@ -130,7 +129,7 @@ void Interpreter::shift_position(const Block& block) {
             }
         }
         for (int axis = 0; axis < 3; ++axis) {
-            if (dialect_ != DialectId::linuxcnc || !is(block, "ABC"[axis])) continue;
+            if (!rules_->offsets.rotary || !is(block, "ABC"[axis])) continue;
             const double value = block.words.of("ABC"[axis]);
             state_.rotary_shift[axis] = local ? value : state_.rotary_shift[axis] + state_.rotary[axis] - value;
         }
@@ -144,12 +143,12 @@ void Interpreter::shift_position(const Block& block) {
 /// G92.1 takes the shift away for good, G92.2 keeps it for G92.3.
 void Interpreter::restore_shift(int code) {
     state_.rebase([&] {
-        if (code == 923) {
+        if (code == 92.3_g) {
             state_.shift = state_.saved_shift;
             state_.rotary_shift = state_.saved_rotary_shift;
             return;
         }
-        const bool keeps = code == 922;
+        const bool keeps = code == 92.2_g;
         state_.saved_shift = keeps ? state_.shift : Vec3(Vec3::Zero());
         state_.saved_rotary_shift = keeps ? state_.rotary_shift : Vec3(Vec3::Zero());
         state_.shift = Vec3::Zero();
@@ -190,7 +189,7 @@ void Interpreter::restore_modes(const ModalState& kept) {
     select_work_system(kept.work_system);
     if (kept.tool_offset.isZero()) state_.rebase([&] { state_.tool_offset = state_.assumed_tool = Vec3::Zero(); });
     const bool shifted = !(kept.shift.isZero() && kept.rotary_shift.isZero());
-    if (!shifted && !(state_.shift.isZero() && state_.rotary_shift.isZero())) restore_shift(922);
+    if (!shifted && !(state_.shift.isZero() && state_.rotary_shift.isZero())) restore_shift(92.2_g);
 }
 
 void Interpreter::select_work_system(int number) {
@@ -246,23 +245,22 @@ void Interpreter::change_tool(const Block& block) {
     if (is(block, 'T')) next_tool_ = whole('T');
     // A block with T calls the tool in Heidenhain's dialect; Siemens takes its length with the edge D1.
     bool changed = false;
-    if (dialect_ == DialectId::heidenhain_iso && is(block, 'T')) {
+    if (rules_->tools.t_changes && is(block, 'T')) {
         tool_ = tools_.tools.empty() ? Tool{next_tool_} : tool_of(next_tool_, block.words.column['T' - 'A']);
         changed = true;
     }
     const auto* first = block.words.m.data();
     for (const std::int32_t code : std::vector<std::int32_t>(first, first + block.words.m_count)) {
-        if (code != 6 && (code != 61 || dialect_ != DialectId::linuxcnc)) continue;
+        if (code != 6 && (code != 61 || !rules_->tools.m61)) continue;
         if (compensation_.on()) fail("a tool cannot be changed while cutter compensation is on");
         if (code == 61 && !is(block, 'Q')) fail("M61 needs the tool's number (Q)");
         // Without a table the other dialects have nothing to look up.
-        const bool known = dialect_ == DialectId::linuxcnc || !tools_.tools.empty();
+        const bool known = rules_->tools.always_looks_up || !tools_.tools.empty();
         tool_ = known ? tool_of(code == 61 ? whole('Q') : next_tool_, 0) : Tool{next_tool_};
         changed = true;
     }
-    const bool own_length = dialect_ == DialectId::siemens || dialect_ == DialectId::heidenhain_iso;
-    const bool edge = dialect_ == DialectId::siemens && is(block, 'D');
-    if (!own_length || tools_.tools.empty() || !(changed || edge)) return;
+    const bool edge = rules_->tools.edges && is(block, 'D');
+    if (!rules_->tools.length_with_tool || tools_.tools.empty() || !(changed || edge)) return;
     const Vec3 offset = edge && block.words.of('D') == 0 ? Vec3(Vec3::Zero()) : tool_.offset;
     state_.rebase([&] { state_.tool_offset = offset; });
 }
@@ -302,28 +300,28 @@ void Interpreter::tool_length(int code, const Block& block) {
     const auto assumed_in = [](const Tool& tool) { return tool.assumed ? tool.offset : Vec3(Vec3::Zero()); };
     Vec3 offset = state_.tool_offset;
     Vec3 assumed = state_.assumed_tool;
-    if (code == 431) {
+    if (code == 43.1_g) {
         motion_suppressed_ = true;
         offset = words_move(offset);
         for (int axis = 0; axis < 3; ++axis) {
             if (is(block, "XYZ"[axis])) assumed[axis] = 0;
         }
-    } else if (code == 490) {
+    } else if (code == 49_g) {
         offset = assumed = Vec3::Zero();
-    } else if (dialect_ == DialectId::linuxcnc && code == 430) {
+    } else if (rules_->tools.length_of == LengthOf::tool_in_spindle && code == 43_g) {
         const Tool tool = tool_named(!is(block, 'H') || block.words.of('H') == 0);
         offset = tool.offset;
         assumed = assumed_in(tool);
-    } else if (dialect_ == DialectId::linuxcnc && code == 432) {
+    } else if (rules_->tools.length_of == LengthOf::tool_in_spindle && code == 43.2_g) {
         if (!is(block, 'H')) fail("G43.2 needs the tool's number (H)");
         const Tool tool = tool_named(false);
         offset += tool.offset;
         assumed += assumed_in(tool);
-    } else if (dialect_ == DialectId::fanuc && (code == 430 || code == 440 || code == 434 || code == 435) &&
+    } else if (rules_->tools.length_of == LengthOf::row_of_h && code >= 43_g && code <= 44_g && code != 43.2_g &&
                !tools_.tools.empty()) {
         if (is(block, 'H')) length_number_ = static_cast<int>(std::clamp(std::round(block.words.of('H')), 0.0, 1e8));
         offset = tool_of(length_number_, is(block, 'H') ? block.words.column['H' - 'A'] : 0).offset *
-                 (code == 440 ? -1.0 : 1.0);
+                 (code == 44_g ? -1.0 : 1.0);
     }
     part_from_machine(offset - state_.tool_offset);
     state_.rebase([&] {
@@ -335,18 +333,18 @@ void Interpreter::tool_length(int code, const Block& block) {
 
 void Interpreter::keep_reference(int code) {
     motion_suppressed_ = true;
-    (code == 281 ? state_.home : state_.second_home) = state_.to_machine(state_.position);
-    (code == 281 ? state_.home_rotary : state_.second_home_rotary) = state_.rotary + state_.rotary_offset();
+    (code == 28.1_g ? state_.home : state_.second_home) = state_.to_machine(state_.position);
+    (code == 28.1_g ? state_.home_rotary : state_.second_home_rotary) = state_.rotary + state_.rotary_offset();
 }
 
 void Interpreter::reference(int code, const Block& block) {
     motion_suppressed_ = true;
-    const Vec3 home = state_.from_machine(code == 280 ? state_.home : state_.second_home);
-    const Vec3 home_rotary = (code == 280 ? state_.home_rotary : state_.second_home_rotary) - state_.rotary_offset();
+    const Vec3 home = state_.from_machine(code == 28_g ? state_.home : state_.second_home);
+    const Vec3 home_rotary = (code == 28_g ? state_.home_rotary : state_.second_home_rotary) - state_.rotary_offset();
     std::uint32_t named = 0;
     for (const char c : {'X', 'Y', 'Z', 'A', 'B', 'C'}) named |= block.words.has & Words::bit(c);
     // RS274 goes to the intermediate point even where that is the present one: a new offset shows in it.
-    if (named != 0 || dialect_ == DialectId::linuxcnc) {
+    if (named != 0 || rules_->offsets.always_by_point) {
         straight(MotionKind::rapid, target(block, machine_coordinates_), rotary_target(block));
     }
     // RS274: without axis words all axes go; with them only those.
@@ -356,7 +354,7 @@ void Interpreter::reference(int code, const Block& block) {
     Vec3 rotary = state_.rotary;
     for (int axis = 0; axis < 3; ++axis) {
         if (named == 0 || is(block, "XYZ"[axis])) end[axis] = home[axis];
-        if (named == 0 || (is(block, "ABC"[axis]) && dialect_ == DialectId::linuxcnc)) rotary[axis] = home_rotary[axis];
+        if (named == 0 || (is(block, "ABC"[axis]) && rules_->offsets.rotary)) rotary[axis] = home_rotary[axis];
     }
     straight(MotionKind::rapid, end, rotary);
 }

@@ -45,7 +45,7 @@ void close_numbers(std::string& text) {
 
 }  // namespace
 
-Statement clean_line(std::string_view line, DialectId dialect) {
+Statement clean_line(std::string_view line, const TextRules& rules) {
     Statement statement;
     std::string& text = statement.text;
     text.assign(line);
@@ -63,8 +63,8 @@ Statement clean_line(std::string_view line, DialectId dialect) {
             break;
         }
         // Parentheses are those of expressions in siemens, and of formulas in heidenhain-iso: Q1 = 2 * ( Q2 + 1 ).
-        formula = formula || (c == '=' && dialect == DialectId::heidenhain_iso);
-        const bool comment = c == '(' && dialect != DialectId::siemens && !formula;
+        formula = formula || (c == '=' && rules.formulas);
+        const bool comment = c == '(' && rules.round_comments && !formula;
         if (!comment) continue;
         const std::size_t end = text.find(')', i);
         if (end == std::string::npos) statement.open_comment = true;
@@ -72,7 +72,7 @@ Statement clean_line(std::string_view line, DialectId dialect) {
         std::fill(text.begin() + static_cast<std::ptrdiff_t>(i), text.begin() + static_cast<std::ptrdiff_t>(stop), ' ');
         i = stop - 1;
     }
-    if (dialect == DialectId::heidenhain_iso) {
+    if (rules.star_ends_block) {
         // '*' ends a block; in a formula (Q1 = Q2 * 3 *) the last one does.
         while (!text.empty() && text.back() == ' ') text.pop_back();
         if (!formula)
@@ -81,7 +81,7 @@ Statement clean_line(std::string_view line, DialectId dialect) {
             text.pop_back();
         std::replace(text.begin(), text.end(), '~', ' ');  // a block that goes on
     }
-    if (dialect == DialectId::linuxcnc && text.find('"') == std::string::npos) close_numbers(text);
+    if (rules.blanks_in_numbers && text.find('"') == std::string::npos) close_numbers(text);
     while (!text.empty() && text.back() == ' ') text.pop_back();
     std::size_t at = text.find_first_not_of(' ');
     if (at == std::string::npos) {
@@ -93,15 +93,14 @@ Statement clean_line(std::string_view line, DialectId dialect) {
         statement.deleted = true;
         text[slash] = ' ';
         // A skip level, /1 … /9.
-        if (slash + 1 < text.size() && is_digit(text[slash + 1]) && dialect != DialectId::linuxcnc)
-            text[slash + 1] = ' ';
+        if (slash + 1 < text.size() && is_digit(text[slash + 1]) && rules.skip_levels) text[slash + 1] = ' ';
     };
     take_skip(at);
     // "%" alone begins and ends a tape; "%name" is a program's name.
     const auto take_tape_mark = [&] {
         if (at == std::string::npos || text[at] != '%') return false;
         statement.tape_mark = true;
-        if (dialect == DialectId::heidenhain_iso) statement.title = text.substr(at + 1);
+        if (rules.named_titles) statement.title = text.substr(at + 1);
         text.clear();
         return true;
     };
@@ -115,7 +114,7 @@ Statement clean_line(std::string_view line, DialectId dialect) {
         std::fill(text.begin() + static_cast<std::ptrdiff_t>(at), text.begin() + static_cast<std::ptrdiff_t>(end), ' ');
         take_skip(end);
         at = text.find_first_not_of(' ');
-        if (dialect == DialectId::heidenhain_iso) (void)take_tape_mark();
+        if (rules.named_titles) (void)take_tape_mark();
     }
     return statement;
 }
@@ -133,8 +132,8 @@ struct NamedAssignment {
 
 class BlockReader {
 public:
-    BlockReader(Cursor& cursor, Variables& variables, DialectId dialect, double least_increment, Block& block)
-        : c_(cursor), variables_(variables), dialect_(dialect), least_increment_(least_increment), block_(block) {}
+    BlockReader(Cursor& cursor, Variables& variables, const TextRules& rules, double least_increment, Block& block)
+        : c_(cursor), variables_(variables), rules_(rules), least_increment_(least_increment), block_(block) {}
 
     void read() {
         block_.clear();
@@ -142,14 +141,14 @@ public:
             const char next = c_.peek();
             if (next == '#') {
                 hash_assignment();
-            } else if (dialect_ == DialectId::siemens) {
+            } else if (rules_.words == WordStyle::names) {
                 siemens_word();
             } else if (next == ',' && is_letter(c_.at + 1 < c_.text.size() ? c_.text[c_.at + 1] : ' ')) {
                 // ,C and ,R: chamfer and corner radius between blocks.
                 unknown(2);
-            } else if ((next == '@' || next == '^') && dialect_ == DialectId::linuxcnc) {
+            } else if ((next == '@' || next == '^') && rules_.polar_signs) {
                 ++c_.at;
-                (next == '@' ? block_.polar_radius : block_.polar_angle) = read_value(c_, variables_, dialect_);
+                (next == '@' ? block_.polar_radius : block_.polar_angle) = read_value(c_, variables_, rules_);
             } else if (is_letter(next)) {
                 letter_word();
             } else {
@@ -181,11 +180,11 @@ private:
             named_.push_back({name, right_side()});
             return;
         }
-        const double number = read_value(c_, variables_, dialect_);
+        const double number = read_value(c_, variables_, rules_);
         if (!(number >= 0 && number < 1e6)) throw ReadError{"no such variable number", column, {}};
         expect_equals();
         const std::optional<double> value =
-            dialect_ == DialectId::fanuc ? evaluate_or_vacant(c_, variables_, dialect_) : right_side();
+            rules_.vacant_variables ? evaluate_or_vacant(c_, variables_, rules_) : right_side();
         numbered_.push_back({static_cast<int>(std::lround(number)), value});
     }
     void expect_equals() {
@@ -193,8 +192,7 @@ private:
     }
     /// RS274 assigns a value (`#1=[#2+1]`), Fanuc and Siemens an expression (`#1=#2+1`).
     double right_side() {
-        return dialect_ == DialectId::linuxcnc ? read_value(c_, variables_, dialect_)
-                                               : evaluate(c_, variables_, dialect_);
+        return rules_.assigns_expressions ? evaluate(c_, variables_, rules_) : read_value(c_, variables_, rules_);
     }
 
     void unknown(std::size_t least) {
@@ -212,11 +210,11 @@ private:
         } else if (letter == 'M') {
             if (!add_m(block_.words, value)) block_.unknown.push_back({fmt::format("M{}", value), column});
         } else {
-            if (block_.words.given(letter) && dialect_ == DialectId::linuxcnc) {
+            if (block_.words.given(letter) && !rules_.repeated_words) {
                 throw ReadError{std::string("word ") + letter + " is given twice", column, {}};
             }
             block_.words.set(letter, value, column);
-            const bool counted = dialect_ == DialectId::fanuc && letter >= 'I' && letter <= 'K';
+            const bool counted = rules_.counts_centres && letter >= 'I' && letter <= 'K';
             if (counted) block_.centres.emplace_back(letter, value);
         }
     }
@@ -224,14 +222,14 @@ private:
     void letter_word() {
         const std::size_t column = c_.column();
         const char letter = upper(c_.peek());
-        if (letter == 'Q' && dialect_ == DialectId::heidenhain_iso) {
-            if (heidenhain_assignment()) return;
+        if (letter == 'Q' && rules_.q_words) {
+            if (q_assignment()) return;
         }
         ++c_.at;
         const char next = c_.peek();
         const bool value_follows = is_digit(next) || next == '.' || next == '-' || next == '+' || next == '[' ||
-                                   next == '#' || (is_letter(next) && dialect_ != DialectId::fanuc) ||
-                                   (next == 'Q' && dialect_ == DialectId::heidenhain_iso);
+                                   next == '#' || (is_letter(next) && rules_.functions_after_words) ||
+                                   (next == 'Q' && rules_.q_words);
         if (!value_follows) {
             c_.at = column - 1;
             unknown(1);
@@ -245,7 +243,7 @@ private:
         // A word with a vacant variable of Fanuc is not there.
         constexpr std::string_view lengths = "ABCIJKQRUVWXYZ";
         const double increment = lengths.find(letter) == std::string_view::npos ? 1.0 : least_increment_;
-        if (const std::optional<double> value = read_or_vacant(c_, variables_, dialect_, increment))
+        if (const std::optional<double> value = read_or_vacant(c_, variables_, rules_, increment))
             put(letter, *value, column);
     }
 
@@ -253,13 +251,13 @@ private:
     bool function_follows() {
         static constexpr std::array<std::string_view, 14> names{
             "ABS", "ACOS", "ASIN", "ATAN", "COS", "EXP", "FIX", "FUP", "LN", "ROUND", "SIN", "SQRT", "TAN", "EXISTS"};
-        if (dialect_ == DialectId::heidenhain_iso) return upper(c_.peek()) == 'Q';
+        if (rules_.q_words) return upper(c_.peek()) == 'Q';
         const std::string id = c_.identifier();
         return std::find(names.begin(), names.end(), id) != names.end();
     }
 
     /// `Q1 = 5` in the newer form.
-    bool heidenhain_assignment() {
+    bool q_assignment() {
         Cursor ahead = c_;
         ++ahead.at;
         double number = 0;
@@ -269,7 +267,7 @@ private:
         if (!ahead.take('=')) return false;
         if (!(number < 1e4)) throw ReadError{"no such variable number", c_.column(), {}};
         c_ = ahead;
-        numbered_.push_back({100000 + static_cast<int>(number), evaluate(c_, variables_, dialect_)});
+        numbered_.push_back({100000 + static_cast<int>(number), evaluate(c_, variables_, rules_)});
         return true;
     }
 
@@ -335,7 +333,7 @@ private:
         std::string index = "[";
         do {
             if (index.size() > 1) index += ',';
-            index += std::to_string(std::lround(evaluate(inside, variables_, dialect_)));
+            index += std::to_string(std::lround(evaluate(inside, variables_, rules_)));
         } while (inside.take(','));
         if (!inside.take(']')) throw ReadError{"'[' is not closed", column, {}};
         after.at = inside.at;
@@ -350,9 +348,9 @@ private:
             if (!inside.take_word(name) || inside.peek() != '(') continue;
             c_ = inside;
             increment = adds;
-            return read_value(c_, variables_, dialect_);
+            return read_value(c_, variables_, rules_);
         }
-        return evaluate(c_, variables_, dialect_);
+        return evaluate(c_, variables_, rules_);
     }
 
     void keyword(const std::string& id, Cursor after, std::size_t column) {
@@ -397,7 +395,7 @@ private:
                 Cursor inside = c_;
                 if (!inside.take_word(name) || inside.peek() != '(') continue;
                 c_ = inside;
-                put(letter, read_value(c_, variables_, dialect_), column);
+                put(letter, read_value(c_, variables_, rules_), column);
                 *mask |= Words::bit(letter);
                 return;
             }
@@ -405,11 +403,11 @@ private:
                 Cursor inside = c_;
                 if (!inside.take_word(name) || inside.peek() != '(') continue;
                 c_ = inside;
-                put(letter, read_value(c_, variables_, dialect_), column);
+                put(letter, read_value(c_, variables_, rules_), column);
                 block_.absolute |= Words::bit(letter);
                 return;
             }
-            put(letter, evaluate(c_, variables_, dialect_), column);
+            put(letter, evaluate(c_, variables_, rules_), column);
             return;
         }
         if (id.starts_with("PO["))
@@ -429,7 +427,7 @@ private:
             std::to_array<std::string_view>({"AR", "RPL", "I1", "J1", "K1", "RND", "RNDM", "CHR", "CHF", "ANG", "DISR",
                                              "A3", "B3", "C3", "CTOL", "OTOL", "ATOL"});
         const bool of_block = std::find(of_blocks.begin(), of_blocks.end(), id) != of_blocks.end();
-        const double value = of_block ? coordinate(increment) : evaluate(c_, variables_, dialect_);
+        const double value = of_block ? coordinate(increment) : evaluate(c_, variables_, rules_);
         if (id == "CR") {
             put('R', value, column);
         } else if (id == "TURN") {
@@ -455,7 +453,7 @@ private:
 
     Cursor& c_;
     Variables& variables_;
-    DialectId dialect_;
+    const TextRules& rules_;
     double least_increment_;
     Block& block_;
     std::vector<NumberedAssignment> numbered_;
@@ -464,8 +462,8 @@ private:
 
 }  // namespace
 
-void read_block(Cursor& cursor, Variables& variables, DialectId dialect, double least_increment, Block& block) {
-    BlockReader(cursor, variables, dialect, least_increment, block).read();
+void read_block(Cursor& cursor, Variables& variables, const TextRules& rules, double least_increment, Block& block) {
+    BlockReader(cursor, variables, rules, least_increment, block).read();
 }
 
 }  // namespace clsurf

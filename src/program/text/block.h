@@ -74,7 +74,7 @@ struct Block {
 
 /// Reads the words from the cursor to the end of the line. `least_increment`: of lengths, which
 /// Fanuc's ROUND rounds to in their words. Throws ReadError.
-void read_block(Cursor& cursor, Variables& variables, DialectId dialect, double least_increment, Block& block);
+void read_block(Cursor& cursor, Variables& variables, const TextRules& rules, double least_increment, Block& block);
 
 /// The words of these letters as they would be written, each after a blank: " P0.01 Q2".
 [[nodiscard]] std::string words_text(const Block& block, const char* letters);
@@ -90,6 +90,6 @@ struct Statement {
     std::string title;          ///< of heidenhain-iso: what stands behind '%'
     bool open_comment = false;  ///< a '(' that is not closed
 };
-[[nodiscard]] Statement clean_line(std::string_view line, DialectId dialect);
+[[nodiscard]] Statement clean_line(std::string_view line, const TextRules& rules);
 
 }  // namespace clsurf

@@ -10,8 +10,9 @@
 #include <vector>
 
 #include "core/point.h"
-#include "program/dialects/dialect.h"
 #include "program/program.h"
+#include "program/text/cursor.h"
+#include "program/text/text_rules.h"
 
 namespace clsurf {
 
@@ -58,13 +59,19 @@ struct Control {
 };
 
 /// What control statement a cleaned line is, if any. Throws ReadError.
-[[nodiscard]] Control parse_control(std::string_view statement, DialectId dialect);
+[[nodiscard]] Control parse_control(std::string_view statement, const TextRules& rules);
+
+// For the dialects' parsers.
+/// The digits of a label without leading zeros: "007" is "7", "0" is empty.
+[[nodiscard]] std::string number_label(Cursor& c);
+/// Where a word (upper case) begins in a statement, letters before it apart; npos: not there.
+[[nodiscard]] std::size_t find_control_word(std::string_view text, std::string_view word, std::size_t from);
 
 /// All control statements of a text, matched. Built when the first of them is met. O(text).
 class ControlIndex {
 public:
     ControlIndex() = default;
-    ControlIndex(const SourceText& text, DialectId dialect);
+    ControlIndex(const SourceText& text, const TextRules& rules);
 
     [[nodiscard]] const std::vector<Control>& all() const { return controls_; }
     /// The statement of a line, or −1.

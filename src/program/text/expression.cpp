@@ -14,13 +14,12 @@ namespace clsurf {
 
 namespace {
 
-constexpr double end_of_parameters = 5602;  ///< of LinuxCNC: the number behind the last one
 constexpr int deepest_nesting = 200;
 constexpr double vacant = std::numeric_limits<double>::quiet_NaN();  ///< of Fanuc: a variable that was never set
 class Reader {
 public:
-    Reader(Cursor& cursor, const Variables& variables, DialectId dialect, double least_increment = 1)
-        : c_(cursor), variables_(variables), dialect_(dialect), least_increment_(least_increment) {}
+    Reader(Cursor& cursor, const Variables& variables, const TextRules& rules, double least_increment = 1)
+        : c_(cursor), variables_(variables), rules_(rules), least_increment_(least_increment) {}
 
     double expression(int least_rank) {
         enter();
@@ -28,13 +27,13 @@ public:
         for (;;) {
             const std::size_t before = c_.at;
             const OperatorRow* row = take_operator();
-            if (row == nullptr || row->rank_in(dialect_) < least_rank) {
+            if (row == nullptr || row->rank_in(rules_.ranks) < least_rank) {
                 c_.at = before;
                 break;
             }
             const std::size_t column = c_.column();
-            const double right = expression(row->rank_in(dialect_) + 1);
-            left = apply_operator(row->op, left, right, dialect_, column);
+            const double right = expression(row->rank_in(rules_.ranks) + 1);
+            left = apply_operator(row->op, left, right, rules_, column);
         }
         --depth_;
         return left;
@@ -55,7 +54,7 @@ private:
     const OperatorRow* take_operator() {
         c_.skip_blanks();
         for (const OperatorRow& row : operator_table()) {
-            if (row.text == "^" && dialect_ != DialectId::heidenhain_iso) continue;
+            if (row.text == "^" && !rules_.caret_power) continue;
             if (row.word ? take_operator_word(row.text) : take_symbol(row.text)) return &row;
         }
         return nullptr;
@@ -74,7 +73,7 @@ private:
         }
         const std::size_t after = c_.at + word.size();
         if (after < c_.text.size() &&
-            (c_.text[after] == '_' || (is_letter(c_.text[after]) && dialect_ == DialectId::siemens))) {
+            (c_.text[after] == '_' || (is_letter(c_.text[after]) && rules_.words == WordStyle::names))) {
             return false;
         }
         c_.at = after;
@@ -89,8 +88,7 @@ private:
             return next == '-' ? -v : v;
         }
         if (next == '[') return bracketed('[', ']');
-        if (next == '(' && (dialect_ == DialectId::siemens || dialect_ == DialectId::heidenhain_iso))
-            return bracketed('(', ')');
+        if (next == '(' && rules_.round_brackets) return bracketed('(', ')');
         if (next == '#') return hash_variable();
         if (is_digit(next) || next == '.') return number();
         if (is_letter(next) || next == '_' || next == '$') return name();
@@ -113,7 +111,7 @@ private:
         const std::size_t next = read_decimal(c_.text, c_.at, v);
         if (next == c_.at) throw ReadError{"malformed number", c_.column(), {}};
         c_.at = next;
-        if (dialect_ == DialectId::siemens && c_.text.substr(c_.at, 2) == "EX") {
+        if (rules_.words == WordStyle::names && c_.text.substr(c_.at, 2) == "EX") {
             c_.at += 2;
             double exponent = 0;
             const std::size_t end = read_decimal(c_.text, c_.at, exponent);
@@ -136,7 +134,7 @@ private:
             throw ReadError{"variable #<" + key + "> was never set", column, {}};
         }
         const int number = variable_number(value(), column);
-        if (dialect_ != DialectId::fanuc) return variables_.get(number);
+        if (!rules_.vacant_variables) return variables_.get(number);
         return number == 0 ? vacant : variables_.number(number).value_or(vacant);
     }
 
@@ -166,7 +164,7 @@ private:
             return std::atan2(a, b) * deg_per_rad;
         }
         if (!c_.take(close)) throw ReadError{"ATAN is not closed", column, {}};
-        if (dialect_ == DialectId::linuxcnc || c_.peek() == '/') {
+        if (rules_.divided_arc_tangent || c_.peek() == '/') {
             if (!c_.take('/')) throw ReadError{"expected '/' after ATAN[…]", c_.column(), {}};
             return std::atan2(a, value()) * deg_per_rad;
         }
@@ -181,17 +179,8 @@ private:
             return arc_tangent(column);
         }
         if (id == "EXISTS") return exists();
-        if (id == "POW" && dialect_ == DialectId::fanuc) {
-            const std::vector<double> v = arguments(id, 2);
-            return std::pow(v[0], v[1]);
-        }
-        if ((id == "MINVAL" || id == "MAXVAL") && dialect_ == DialectId::siemens) {
-            const std::vector<double> v = arguments(id, 2);
-            return id == "MINVAL" ? std::min(v[0], v[1]) : std::max(v[0], v[1]);
-        }
-        if (id == "BOUND" && dialect_ == DialectId::siemens) {  // lower, upper, value
-            const std::vector<double> v = arguments(id, 3);
-            return std::max(v[0], std::min(v[2], v[1]));
+        for (const ArgumentsRow& row : rules_.of_arguments) {
+            if (id == row.name) return row.value(arguments(id, row.count));
         }
         if (id == "PI" || id == "$PI") {
             c_.at += id.size();
@@ -201,11 +190,11 @@ private:
             c_.at += id.size();
             return id == "TRUE" ? 1 : 0;
         }
-        if (const FunctionRow* row = find_function(id, dialect_)) {
+        if (const FunctionRow* row = find_function(id, rules_.functions)) {
             c_.at += id.size();
             const double given = value();
             const double argument = std::isnan(given) ? 0 : given;
-            const double result = call_function(*row, argument, dialect_, least_increment_);
+            const double result = call_function(*row, argument, rules_, least_increment_);
             if (std::isnan(result) && !std::isnan(argument)) {
                 throw ReadError{
                     std::string(row->name) + " of " + std::to_string(argument) + " is not defined", column, {}};
@@ -219,8 +208,8 @@ private:
     std::vector<double> arguments(const std::string& id, std::size_t count) {
         const std::size_t column = c_.column();
         c_.at += id.size();
-        const char open = dialect_ == DialectId::siemens ? '(' : '[';
-        const char close = dialect_ == DialectId::siemens ? ')' : ']';
+        const char open = rules_.round_brackets ? '(' : '[';
+        const char close = rules_.round_brackets ? ')' : ']';
         std::vector<double> values;
         if (!c_.take(open)) throw ReadError{std::string("expected '") + open + "' after " + id, c_.column(), {}};
         do { values.push_back(expression(0)); } while (c_.take(','));
@@ -243,9 +232,9 @@ private:
         } else {
             // LinuxCNC's numbered parameters are all there from the start.
             const double number = value();
-            result = dialect_ == DialectId::linuxcnc ? (number >= 1 && number < end_of_parameters ? 1 : 0)
-                     : variables_.has(variable_number(number, column)) ? 1
-                                                                       : 0;
+            const bool kept = rules_.numbered_parameters > 0;
+            const bool is_parameter = kept && number >= 1 && number < rules_.numbered_parameters;
+            result = (kept ? is_parameter : variables_.has(variable_number(number, column))) ? 1 : 0;
         }
         if (!c_.take(']')) throw ReadError{"EXISTS is not closed", column, {}};
         return result;
@@ -253,17 +242,17 @@ private:
 
     /// R5 (Siemens), Q5 (Heidenhain), or a declared name.
     double variable(const std::string& id, std::size_t column) {
-        const bool numbered = id.size() > 1 && (id[0] == 'R' || id[0] == 'Q') &&
+        const bool numbered = id.size() > 1 && rules_.numbered_names.find(id[0]) != std::string_view::npos &&
                               id.find_first_not_of("0123456789", 1) == std::string::npos && id.size() < 7;
-        if (numbered && (dialect_ == DialectId::siemens || dialect_ == DialectId::heidenhain_iso)) {
+        if (numbered) {
             c_.at += id.size();
             return variables_.get(100000 + std::stoi(id.substr(1)));
         }
-        if (id == "R" && dialect_ == DialectId::siemens) {
+        if (id == "R" && rules_.words == WordStyle::names) {
             ++c_.at;
             return variables_.get(100000 + variable_number(bracketed('[', ']'), column));
         }
-        if (dialect_ == DialectId::siemens) return siemens_variable(id, column);
+        if (rules_.words == WordStyle::names) return siemens_variable(id, column);
         if (const double* found = variables_.find(id)) {
             c_.at += id.size();
             return *found;
@@ -299,30 +288,30 @@ private:
 
     Cursor& c_;
     const Variables& variables_;
-    DialectId dialect_;
+    const TextRules& rules_;
     double least_increment_;
     int depth_ = 0;
 };
 
 }  // namespace
 
-double evaluate(Cursor& cursor, const Variables& variables, DialectId dialect) {
-    return evaluate_or_vacant(cursor, variables, dialect).value_or(0.0);
+double evaluate(Cursor& cursor, const Variables& variables, const TextRules& rules) {
+    return evaluate_or_vacant(cursor, variables, rules).value_or(0.0);
 }
 
-std::optional<double> evaluate_or_vacant(Cursor& cursor, const Variables& variables, DialectId dialect) {
-    const double value = Reader(cursor, variables, dialect).expression(0);
+std::optional<double> evaluate_or_vacant(Cursor& cursor, const Variables& variables, const TextRules& rules) {
+    const double value = Reader(cursor, variables, rules).expression(0);
     return std::isnan(value) ? std::nullopt : std::optional(value);
 }
 
-std::optional<double> read_or_vacant(Cursor& cursor, const Variables& variables, DialectId dialect,
+std::optional<double> read_or_vacant(Cursor& cursor, const Variables& variables, const TextRules& rules,
                                      double least_increment) {
-    const double value = Reader(cursor, variables, dialect, least_increment).value();
+    const double value = Reader(cursor, variables, rules, least_increment).value();
     return std::isnan(value) ? std::nullopt : std::optional(value);
 }
 
-double read_value(Cursor& cursor, const Variables& variables, DialectId dialect) {
-    return read_or_vacant(cursor, variables, dialect).value_or(0.0);
+double read_value(Cursor& cursor, const Variables& variables, const TextRules& rules) {
+    return read_or_vacant(cursor, variables, rules).value_or(0.0);
 }
 
 }  // namespace clsurf

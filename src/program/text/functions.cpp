@@ -3,16 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
-#include <limits>
-#include <span>
 
 #include "core/units.h"
+#include "program/text/text_rules.h"
 
 namespace clsurf {
 namespace {
-
-constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
 double sine(double a) { return std::sin(a * rad_per_deg); }
 double cosine(double a) { return std::cos(a * rad_per_deg); }
@@ -42,47 +38,20 @@ constexpr std::array<FunctionRow, 18> of_all{{
     {"NOT", [](double v) { return v == 0 ? 1.0 : 0.0; }},
 }};
 
-/// Of Heidenhain's formulas alone.
-constexpr std::array<FunctionRow, 5> heidenhain_functions{{
-    {"SQ", [](double v) { return v * v; }},
-    {"NEG", [](double v) { return -v; }},
-    {"FRAC", [](double v) { return v - std::trunc(v); }},
-    {"SGN", [](double v) { return v > 0   ? 1.0
-                                  : v < 0 ? -1.0
-                                          : 0.0; }},
-    {"LOG", [](double v) { return std::log10(v); }},
-}};
-
-/// The digits of v in one base, read as those of another; undefined where a double does not hold them.
-double digits_again(double v, std::uint64_t base, double other) {
-    constexpr double most = 1e15;
-    if (!(v >= 0 && v < most)) return undefined;
-    double value = 0;
-    double place = 1;
-    for (auto rest = static_cast<std::uint64_t>(v); rest > 0; rest /= base, place *= other)
-        value += static_cast<double>(rest % base) * place;
-    return value;
-}
-/// Fanuc keeps digits in four bits each: 18 stands for binary 0001'0010. BIN reads it as 12.
-double from_decimal_digits(double v) { return digits_again(v, 16, 10); }
-double to_decimal_digits(double v) { return digits_again(v, 10, 16); }
-constexpr std::array<FunctionRow, 2> fanuc_functions{{{"BIN", from_decimal_digits}, {"BCD", to_decimal_digits}}};
-
 }  // namespace
 
-const FunctionRow* find_function(std::string_view name, DialectId dialect) {
+const FunctionRow* find_function(std::string_view name, std::span<const FunctionRow> own) {
     const auto in = [&](std::span<const FunctionRow> table) {
         const auto found =
             std::find_if(table.begin(), table.end(), [&](const FunctionRow& row) { return row.name == name; });
         return found == table.end() ? nullptr : &*found;
     };
-    if (const FunctionRow* found = in(of_all)) return found;
-    if (dialect == DialectId::fanuc) return in(fanuc_functions);
-    return dialect == DialectId::heidenhain_iso ? in(heidenhain_functions) : nullptr;
+    const FunctionRow* found = in(of_all);
+    return found != nullptr ? found : in(own);
 }
 
-double call_function(const FunctionRow& function, double argument, DialectId dialect, double least_increment) {
-    if (dialect == DialectId::fanuc) {
+double call_function(const FunctionRow& function, double argument, const TextRules& rules, double least_increment) {
+    if (rules.rounds_to_increment) {
         if (function.name == "FIX" || function.name == "FUP")
             return std::copysign(function.value(std::abs(argument)), argument);
         if (function.name == "ROUND") return function.value(argument / least_increment) * least_increment;

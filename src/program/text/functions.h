@@ -1,22 +1,32 @@
 #pragma once
-// The functions of one value in expressions. Angles deg.
+// The functions in expressions. Angles deg.
 
+#include <cstddef>
+#include <span>
 #include <string_view>
-
-#include "program/dialects/dialect.h"
+#include <vector>
 
 namespace clsurf {
+
+struct TextRules;
 
 struct FunctionRow {
     std::string_view name;
     double (*value)(double);  ///< NaN where it is not defined
 };
 
-/// nullptr: the dialect has none of that name (upper case).
-[[nodiscard]] const FunctionRow* find_function(std::string_view name, DialectId dialect);
+/// A function of several values: POW[2,3], MINVAL(R1,R2).
+struct ArgumentsRow {
+    std::string_view name;
+    std::size_t count;
+    double (*value)(const std::vector<double>& arguments);
+};
+
+/// Of all dialects, or of `own`; nullptr: none of that name (upper case).
+[[nodiscard]] const FunctionRow* find_function(std::string_view name, std::span<const FunctionRow> own);
 
 /// As the dialect counts: FIX and FUP of Fanuc by magnitude, its ROUND in multiples of `least_increment`.
-[[nodiscard]] double call_function(const FunctionRow& function, double argument, DialectId dialect,
+[[nodiscard]] double call_function(const FunctionRow& function, double argument, const TextRules& rules,
                                    double least_increment);
 
 }  // namespace clsurf

@@ -5,6 +5,7 @@
 // read here at memory speed. What is not plain (expressions, assignments, keywords, comments) is left
 // to the dialect's block reader, which gets the same text.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string_view>
@@ -28,6 +29,10 @@ struct Words {
     static constexpr std::uint32_t xyz = 7u << ('X' - 'A');
     [[nodiscard]] bool given(char letter) const { return (has & bit(letter)) != 0; }
     [[nodiscard]] double of(char letter) const { return value[static_cast<std::size_t>(letter - 'A')]; }
+    /// Whether the block has a G code, in tenths.
+    [[nodiscard]] bool has_g(int code) const {
+        return std::find(g.begin(), g.begin() + g_count, code) != g.begin() + g_count;
+    }
     void set(char letter, double number, std::size_t at) {
         const auto k = static_cast<std::size_t>(letter - 'A');
         value[k] = number;

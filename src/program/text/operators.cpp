@@ -43,7 +43,7 @@ constexpr std::array<OperatorRow, 26> table{{
 bool same(double a, double b) { return std::abs(a - b) < equal_within; }
 
 /// RS274 orders exactly: a loop that counts by tenths ends where its sum ends.
-bool near(double a, double b, DialectId dialect) { return dialect == DialectId::linuxcnc ? a == b : same(a, b); }
+bool near(double a, double b, const TextRules& rules) { return rules.exact_comparison ? a == b : same(a, b); }
 
 /// Bit by bit on whole numbers: B_AND … of Siemens, AND, OR and XOR of Fanuc.
 double bitwise(Operator op, double a, double b, std::size_t column) {
@@ -59,7 +59,7 @@ double bitwise(Operator op, double a, double b, std::size_t column) {
 
 std::span<const OperatorRow> operator_table() { return table; }
 
-double apply_operator(Operator op, double a, double b, DialectId dialect, std::size_t column) {
+double apply_operator(Operator op, double a, double b, const TextRules& rules, std::size_t column) {
     if (std::isnan(a) || std::isnan(b)) {
         // A vacant variable equals only another; everywhere else it is 0.
         const bool both = std::isnan(a) && std::isnan(b);
@@ -77,7 +77,7 @@ double apply_operator(Operator op, double a, double b, DialectId dialect, std::s
         case Operator::modulo: {
             if (b == 0) throw ReadError{"division by zero", column, {}};
             const double rest = std::fmod(a, b);
-            return rest < 0 && dialect == DialectId::linuxcnc ? rest + std::abs(b) : rest;
+            return rest < 0 && rules.positive_modulo ? rest + std::abs(b) : rest;
         }
         case Operator::integer_divide:
             if (b == 0) throw ReadError{"division by zero", column, {}};
@@ -86,18 +86,18 @@ double apply_operator(Operator op, double a, double b, DialectId dialect, std::s
         case Operator::subtract: return a - b;
         case Operator::equal: return same(a, b) ? 1 : 0;
         case Operator::unequal: return same(a, b) ? 0 : 1;
-        case Operator::greater: return a > b && !near(a, b, dialect) ? 1 : 0;
-        case Operator::greater_equal: return a > b || near(a, b, dialect) ? 1 : 0;
-        case Operator::less: return a < b && !near(a, b, dialect) ? 1 : 0;
-        case Operator::less_equal: return a < b || near(a, b, dialect) ? 1 : 0;
+        case Operator::greater: return a > b && !near(a, b, rules) ? 1 : 0;
+        case Operator::greater_equal: return a > b || near(a, b, rules) ? 1 : 0;
+        case Operator::less: return a < b && !near(a, b, rules) ? 1 : 0;
+        case Operator::less_equal: return a < b || near(a, b, rules) ? 1 : 0;
         case Operator::logical_and:
-            if (dialect == DialectId::fanuc) return bitwise(Operator::bit_and, a, b, column);
+            if (rules.bitwise_logic) return bitwise(Operator::bit_and, a, b, column);
             return a != 0 && b != 0 ? 1 : 0;
         case Operator::logical_or:
-            if (dialect == DialectId::fanuc) return bitwise(Operator::bit_or, a, b, column);
+            if (rules.bitwise_logic) return bitwise(Operator::bit_or, a, b, column);
             return a != 0 || b != 0 ? 1 : 0;
         case Operator::logical_xor:
-            if (dialect == DialectId::fanuc) return bitwise(Operator::bit_xor, a, b, column);
+            if (rules.bitwise_logic) return bitwise(Operator::bit_xor, a, b, column);
             return (a != 0) != (b != 0) ? 1 : 0;
         case Operator::bit_and:
         case Operator::bit_or:

@@ -6,7 +6,7 @@
 #include <span>
 #include <string_view>
 
-#include "program/dialects/dialect.h"
+#include "program/text/text_rules.h"
 
 namespace clsurf {
 
@@ -40,8 +40,8 @@ struct OperatorRow {
     int siemens;  ///< comparisons come last (Job Planning, "Priority of the operations")
     bool word;
 
-    [[nodiscard]] int rank_in(DialectId dialect) const {
-        return dialect == DialectId::fanuc ? fanuc : dialect == DialectId::siemens ? siemens : rank;
+    [[nodiscard]] int rank_in(OperatorRanks ranks) const {
+        return ranks == OperatorRanks::fanuc ? fanuc : ranks == OperatorRanks::siemens ? siemens : rank;
     }
 };
 
@@ -50,6 +50,6 @@ struct OperatorRow {
 
 /// NaN is a vacant variable of Fanuc. `column` is that of the operator, for the ReadError that a division by
 /// zero or a number too large for its bits throws.
-[[nodiscard]] double apply_operator(Operator op, double a, double b, DialectId dialect, std::size_t column);
+[[nodiscard]] double apply_operator(Operator op, double a, double b, const TextRules& rules, std::size_t column);
 
 }  // namespace clsurf

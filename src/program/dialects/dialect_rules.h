@@ -1,0 +1,154 @@
+#pragma once
+// DialectRules: what a dialect means by its lines, words and codes. A value: one constant a dialect, each in its file
+// in this folder. The interpreter asks these rules and never which dialect it reads.
+//
+// What all dialects share (G0 … G3, planes, G90, drilling cycles) is in interpret/codes.cpp; a row here comes before
+// it. Handlers speak to the interpreter in the words of interpreter_state.h.
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "program/dialects/dialect.h"
+#include "program/dialects/dialect_signs.h"
+#include "program/interpret/arc.h"
+#include "program/text/block.h"
+#include "program/text/text_rules.h"
+
+namespace clsurf {
+
+class Interpreter;
+
+/// A G code as blocks keep it, in tenths: 54.1_g is 541.
+consteval int operator""_g(long double code) { return static_cast<int>(code * 10 + 0.5L); }
+consteval int operator""_g(unsigned long long code) { return static_cast<int>(code * 10); }
+
+/// A G code where it stands.
+struct CodeWord {
+    int code;  ///< in tenths
+    Block& block;
+    std::size_t column;
+};
+/// Carries out a code. False: it means here what it means everywhere.
+using CodeHandler = bool (*)(Interpreter&, const CodeWord&);
+
+struct CodeRule {
+    int code;
+    CodeHandler handle;
+    int order = -1;  ///< among the codes of a block, as order_of() in codes.cpp; −1: as usual
+};
+
+struct MRule {
+    int code;
+    /// False: it means here what it means everywhere.
+    bool (*handle)(Interpreter&, int code, const Block&);
+};
+
+/// A letter that must not stand beside an arc, and what to write instead.
+struct RefusedLetter {
+    char letter;
+    const char* hint;
+};
+
+/// How blocks that move are read.
+struct MotionRules {
+    bool plain_blocks = true;                          ///< letters with numbers need no reader of the dialect's
+    bool needs_mode = false;                           ///< axis words without a motion mode are an error, not G1
+    bool moves_without_axes = false;                   ///< G0 or G1 alone makes a motion of no length
+    bool rotary_in_machine = false;                    ///< G53 holds for A, B, C as well
+    bool turns_by_p = false;                           ///< P beside an arc counts its turns
+    bool separate_uvw = false;                         ///< U, V, W are axes of their own, which leave X, Y, Z true
+    bool refuses_curve_codes = true;                   ///< G5.2, G5.3, G6.1 … move axes elsewhere: an error
+    double probe_retreat = 0;                          ///< [mm] a probing move stops so far before its end
+    std::string_view idle_letters = "IJKLPQR";         ///< without meaning beside a straight motion: reported
+    std::span<const RefusedLetter> refused_at_arcs{};  ///< P, L, Q as another dialect gives turns
+    std::span<const int> forbidden_in_compensation{};  ///< codes, in tenths
+};
+
+/// Whose length G43 takes.
+enum class LengthOf : std::uint8_t { nothing, tool_in_spindle, row_of_h };
+
+struct ToolRules {
+    bool t_changes = false;         ///< T calls the tool, without M6
+    bool m61 = false;               ///< M61 Q: this tool is in the spindle
+    bool always_looks_up = false;   ///< a tool that is not in the table is reported, even in an empty one
+    bool length_with_tool = false;  ///< the length counts from the change on, without G43
+    bool edges = false;             ///< D1 takes the length, D0 takes it off
+    bool radius_by_d = false;       ///< G41 D: a row of the table; false: the tool in the spindle
+    LengthOf length_of = LengthOf::nothing;
+};
+
+struct OffsetRules {
+    bool rotary = false;           ///< A, B, C of G10, G92 and G28 count
+    bool rotation = false;         ///< R of G10 L2 turns a work system
+    bool tool_data = false;        ///< G10 L1, L10, L11 are rows of the tool table
+    bool always_by_point = false;  ///< G28 goes by the point between even where no axis is named
+};
+
+struct CycleRules {
+    bool rs274 = false;         ///< G76 threads, G73 and G83 need Q, G74 and G84 tap in other planes
+    double dwell_unit = 1;      ///< [s] of P
+    bool repeats_by_k = false;  ///< K beside L
+};
+
+struct CallRules {
+    bool by_sub = false;              ///< a subprogram begins where its control statement says so; false: at a label
+    bool label_if_no_sub = false;     ///< then at a label of that name
+    bool subs_run_through = false;    ///< a label that the program reaches is carried out; false: skipped
+    bool begins_at_label = false;     ///< the line of the label itself is carried out
+    bool file_from_top = false;       ///< a subprogram in its own file begins at its first line
+    bool returns_value = false;       ///< of a call: #<_value>
+    bool return_ends_main = false;    ///< outside of calls a return ends the program; false: it does nothing
+    bool second_name_ends = false;    ///< the name of another program ends the first
+    bool blocks_after_label = false;  ///< LABEL: G1 X10
+    bool jumps_to_numbers = false;    ///< GOTO 10 and GOTO #1; false: to labels, and to N10
+};
+
+struct DialectRules {
+    TextRules text{};
+    std::span<const CodeRule> codes{};
+    CodeHandler other_code = nullptr;  ///< codes that are in no row
+    std::span<const MRule> m_codes{};
+    MotionRules motion{};
+    ToolRules tools{};
+    OffsetRules offsets{};
+    CycleRules cycles{};
+    CallRules calls{};
+    ArcTolerance arc_tolerance{};                      ///< [mm]
+    std::optional<ArcTolerance> arc_tolerance_inch{};  ///< in inch programs; nullopt: the same
+    GuessSigns signs{};
+
+    /// Reads a line whose words are plain, which nearly all lines of a finishing program are.
+    PlainResult (*plain)(std::string_view line, Words&) = read_plain;
+
+    // Where a dialect needs more than a table. nullptr: nothing.
+    /// Before the first line: where the machine stands, what is known.
+    void (*begin)(Interpreter&) = nullptr;
+    /// A line without its comments. True: it is carried out.
+    bool (*statement)(Interpreter&, const Statement&) = nullptr;
+    /// A block before its codes. True: it is carried out.
+    bool (*begin_block)(Interpreter&, Block&) = nullptr;
+    /// After its codes, before it moves.
+    void (*after_codes)(Interpreter&, const Block&) = nullptr;
+    /// After it has moved.
+    void (*after_motion)(Interpreter&, const Block&) = nullptr;
+    /// After its M codes: calls.
+    void (*after_block)(Interpreter&, const Block&) = nullptr;
+    /// An arc that is given by other words than I J K and R. True: it was.
+    bool (*arc)(Interpreter&, const Block&, ArcWords&) = nullptr;
+    /// The called macro or cycle of a modal call. True: it was one of the dialect's own.
+    bool (*modal_call)(Interpreter&) = nullptr;
+    /// Parameters that the control keeps; NaN: ordinary variables.
+    double (*parameter)(Interpreter&, int number) = nullptr;
+    double (*named_parameter)(Interpreter&, const std::string& name) = nullptr;
+    /// Writes one of them. True: it was one.
+    bool (*write_parameter)(Interpreter&, int number, double value) = nullptr;
+    /// The polar words of a block, about the pole: `end` is where it stands before. nullptr: @ and ^ about the zero.
+    void (*about_pole)(Interpreter&, const Block&, Vec3& end) = nullptr;
+    /// The name of work systems after G59, from 7 on; nullptr: G54.1 P1 …
+    std::string (*work_system_name)(int number) = nullptr;
+};
+
+}  // namespace clsurf

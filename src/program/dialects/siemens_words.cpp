@@ -1,0 +1,395 @@
+// SINUMERIK: G codes, frames, poles, words of several letters, calls.
+// Facts: Siemens, SINUMERIK 840D sl, Programming Manual "Fundamentals" and "Job Planning".
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "program/dialects/known_dialects.h"
+#include "program/interpret/interpreter_state.h"
+
+namespace clsurf {
+namespace {
+
+constexpr auto noted_words = std::to_array<std::string_view>({
+    "MSG",     "FNORM",  "FLIN",      "FCUB",    "STOPRE",   "ORIWKS",    "ORIMKS",   "ORIAXES", "ORIVECT",
+    "ORISON",  "OTOL",   "CTOL",      "UPATH",   "SPATH",    "CDOF",      "CDOF2",    "CDON",    "CUT2D",
+    "CUT2DF",  "ORISOF", "WORKPIECE", "FGROUP",  "FIFOCTRL", "STARTFIFO", "STOPFIFO", "NORM",    "KONT",
+    "KONTT",   "KONTC",  "DISPLOF",   "DISPLON", "SAVE",     "SBLOF",     "SBLON",    "FFWON",   "FFWOF",
+    "SOFT",    "BRISK",  "DRIVE",     "SOFTA",   "BRISKA",   "ACC",       "RTLION",   "RTLIOF",  "TOFFOF",
+    "PAROTOF", "CFC",    "CFTCP",     "CFIN",    "FENDNORM", "FFWOFF",    "VELOLIM",  "GETT",    "TLPREP",
+    "TOWSTD",  "TCOABS", "WALIMOF",   "WALIMON", "SPOS",     "SPCON",     "SPCOF",
+});
+constexpr auto curve_words =
+    std::to_array<std::string_view>({"ASPLINE", "BSPLINE", "CSPLINE", "POLY", "OEMIPO1", "OEMIPO2", "INVCW", "INVCCW"});
+
+template <typename List, typename Value>
+bool contains(const List& list, const Value& value) {
+    return std::find(list.begin(), list.end(), value) != list.end();
+}
+
+}  // namespace
+
+/// G110 from the present position, G111 from the zero, G112 from the last pole.
+void Interpreter::set_pole(int code, const Block& block) {
+    motion_suppressed_ = true;
+    const Vec3 here = state_.programmed();
+    Vec3 pole = code == 110_g   ? Vec3(here.array().isNaN().select(0.0, here))
+                : code == 111_g ? Vec3(Vec3::Zero())
+                                : polar_.pole;
+    if (block.polar_radius || block.polar_angle) {
+        const double radius = block.polar_radius.value_or(0) * state_.unit_mm;
+        const double angle = block.polar_angle.value_or(0) * rad_per_deg;
+        pole[(state_.plane_axis + 1) % 3] += radius * std::cos(angle);
+        pole[(state_.plane_axis + 2) % 3] += radius * std::sin(angle);
+    }
+    for (int k = 0; k < 3; ++k) {
+        if (block.words.given("XYZ"[k])) pole[k] += block.words.of("XYZ"[k]) * state_.unit_mm;
+    }
+    polar_.pole = pole;
+    event("pole", fmt::format("{} {:g} {:g} {:g}", code_text(code), pole.x(), pole.y(), pole.z()));
+}
+
+/// TRANS, ROT, SCALE and MIRROR replace the frame; with an A before it they add to it.
+bool Interpreter::siemens_frame(const Keyword& keyword, Block& block) {
+    const bool adds =
+        keyword.name == "ATRANS" || keyword.name == "AROT" || keyword.name == "ASCALE" || keyword.name == "AMIRROR";
+    const std::string kind = adds ? keyword.name.substr(1) : keyword.name;
+    const Words& w = block.words;
+    ProgramFrame frame;
+    if (kind == "TRANS") {
+        Vec3 by = Vec3::Zero();
+        for (int k = 0; k < 3; ++k) {
+            if (w.given("XYZ"[k])) by[k] = w.of("XYZ"[k]) * state_.unit_mm * (k == 0 && state_.diameter ? 0.5 : 1.0);
+        }
+        frame = ProgramFrame::moved(by);
+    } else if (kind == "ROT") {
+        if (const std::optional<double> in_plane = block.value_of("RPL")) {
+            frame = ProgramFrame::turned(Vec3::Unit(state_.plane_axis), *in_plane, Vec3::Zero());
+        }
+        // About Z, then the new Y, then the new X.
+        for (const int k : {2, 1, 0}) {
+            if (w.given("XYZ"[k]))
+                frame = frame.around(ProgramFrame::turned(Vec3::Unit(k), w.of("XYZ"[k]), Vec3::Zero()));
+        }
+    } else if (kind == "SCALE" || kind == "MIRROR") {
+        Vec3 factors = Vec3::Ones();
+        for (int k = 0; k < 3; ++k) {
+            if (w.given("XYZ"[k])) factors[k] = kind == "MIRROR" ? -1.0 : w.of("XYZ"[k]);
+        }
+        if ((factors.array() == 0).any()) fail(keyword.name + ": a factor of 0", keyword.column);
+        frame = ProgramFrame::scaled(factors, Vec3::Zero());
+    } else {
+        return false;
+    }
+    state_.frame = adds ? state_.frame.around(frame) : swivel_.around(frame);
+    const std::optional<double> turned = block.value_of("RPL");
+    event("frame",
+          keyword.name + words_text(block, "XYZ") + (turned ? fmt::format(" RPL={:g}", *turned) : std::string()));
+    // The words belong to the frame, not to a motion.
+    motion_suppressed_ = true;
+    block.words.has &= ~Words::xyz;
+    return true;
+}
+
+/// Values between parentheses; nullopt: left out, or a text.
+std::vector<std::optional<double>> Interpreter::arguments_of(const Keyword& keyword) const {
+    std::vector<std::optional<double>> values;
+    Cursor c{keyword.arguments, 0};
+    while (keyword.has_arguments) {
+        const char next = c.peek();
+        if (next == '"') {
+            const std::size_t end = keyword.arguments.find('"', c.at + 1);
+            c.at = end == std::string::npos ? keyword.arguments.size() : end + 1;
+            values.emplace_back();
+        } else if (next == ',' || next == '\0') {
+            values.emplace_back();
+        } else {
+            try {
+                values.emplace_back(evaluate(c, variables_, rules_->text));
+            } catch (const ReadError& error) {
+                throw ReadError{keyword.name + ": " + error.what, keyword.column, error.hint};
+            }
+        }
+        if (!c.take(',')) break;
+    }
+    return values;
+}
+
+/// A subprogram by its name, with arguments for the names after its PROC; false: there is none.
+bool Interpreter::call_siemens(const std::string& name, const Keyword& keyword, int repeats) {
+    const bool here = index(file_).find(ControlKind::label, name) >= 0;
+    if (!here && !load(name)) return false;
+    // Evaluated before the call, in the caller's variables.
+    const std::vector<std::optional<double>> values = arguments_of(keyword);
+    call(name, repeats, true, {});
+    motion_suppressed_ = true;
+    const SourceText& text = program_.files[file_];
+    const LineNumber first = frames_.back().start_line;
+    for (const LineNumber line : {first, first - 1}) {
+        const Statement statement = clean_line(text.line(line), rules_->text);
+        Cursor c{statement.text, 0};
+        if (!c.take_word("PROC")) continue;
+        const std::string called = c.identifier();
+        c.skip_blanks();
+        c.at += called.size();
+        std::size_t k = 0;
+        if (!c.take('(')) break;
+        while (c.peek() != ')' && c.peek() != '\0') {
+            std::string parameter;
+            for (std::string id = c.identifier(); !id.empty(); id = c.identifier()) {  // VAR REAL NAME
+                parameter = id;
+                c.skip_blanks();
+                c.at += id.size();
+            }
+            double value = 0;
+            if (c.take('=')) value = evaluate(c, variables_, rules_->text);
+            if (k < values.size() && values[k]) value = *values[k];
+            ++k;
+            if (parameter.empty()) throw ReadError{"expected a name in PROC(…)", c.column(), {}};
+            variables_.set(parameter, value);
+            if (!c.take(',')) break;
+        }
+        break;
+    }
+    return true;
+}
+
+void Interpreter::start_modal_call(const Keyword& called) {
+    modal_call_ = {.active = true,
+                   .name = called.name,
+                   .repeats = 1,
+                   .arguments = {},
+                   .level = frames_.size(),
+                   .column = called.column};
+    for (const std::optional<double>& value : arguments_of(called)) {
+        modal_call_.arguments.push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
+    }
+    event("modal-call", "MCALL " + called.name + (called.has_arguments ? "(" + called.arguments + ")" : std::string()));
+}
+
+void Interpreter::apply_keyword(const Keyword& keyword, Block& block) {
+    const std::string& name = keyword.name;
+    const auto text = [&] { return keyword.has_arguments ? name + "(" + keyword.arguments + ")" : name; };
+    if (name == "SUPA" || name == "G153") {
+        machine_coordinates_ = true;
+        return;
+    }
+    if (name == "TRAORI" || name == "TRAFOOF") {
+        control_tool_centre_point(name == "TRAORI", text());
+        return;
+    }
+    if (name == "CYCLE800") {
+        swivel(keyword);
+        return;
+    }
+    if (name == "CYCLE832") {
+        high_speed_settings(keyword);
+        return;
+    }
+    if (name == "MCALL") {
+        // What follows it in the block is called after every block that moves.
+        const auto at = std::find_if(block.keywords.begin(), block.keywords.end(),
+                                     [](const Keyword& k) { return k.name == "MCALL"; });
+        if (at + 1 == block.keywords.end()) {
+            modal_call_ = {};
+            event("modal-call", "MCALL");
+        } else {
+            start_modal_call(*(at + 1));
+        }
+        return;
+    }
+    const bool after_mcall =
+        std::any_of(block.keywords.begin(), block.keywords.end(), [](const Keyword& k) { return k.name == "MCALL"; });
+    if (after_mcall) return;
+    if (name == "T=") {
+        event("tool", "T=\"" + keyword.arguments + "\"");
+        return;
+    }
+    if (name == "DIAMON" || name == "DIAMOF" || name == "DIAM90") {
+        state_.diameter = name == "DIAMON";
+        if (name == "DIAM90")
+            note(Severity::warning, "program.unknown-word", "DIAM90 is read as DIAMOF", keyword.column);
+        event("lathe", name);
+        return;
+    }
+    if (name == "CIP" || name == "CT") {
+        state_.motion = MotionMode::cw;  // which way, the point between or the tangent tells
+        arc_kind_ = name == "CIP" ? ArcKind::by_points : ArcKind::tangential;
+        return;
+    }
+    if (siemens_frame(keyword, block) || siemens_cycle(keyword)) return;
+    if (name == "EXTCALL" || name == "CALL" || name == "PCALL") {
+        std::string called = keyword.arguments;
+        std::erase(called, '"');
+        called = called.substr(called.find_last_of('/') + 1);
+        if (called.starts_with("_N_")) called = called.substr(3);
+        for (const std::string_view ending : {".SPF", ".spf", ".MPF", ".mpf", "_SPF", "_MPF"}) {
+            if (called.ends_with(ending)) called.resize(called.size() - ending.size());
+        }
+        if (called.empty() || !call_siemens(called, Keyword{name, {}, false, keyword.column}, 1)) {
+            fail(fmt::format("subprogram '{}' is neither in the program nor beside it", called), keyword.column);
+        }
+        return;
+    }
+    if (contains(curve_words, name)) {
+        refuse_motion(name, block, keyword.column,
+                      "splines and polynomials are not read: let the CAM system write lines");
+    }
+    if (contains(noted_words, name) || name.starts_with("COMP") || name.ends_with("=")) {
+        event("mode", text());
+        return;
+    }
+    const int repeats = block.words.given('P') ? static_cast<int>(std::clamp(block.words.of('P'), 1.0, 9999.0)) : 1;
+    if (call_siemens(name, keyword, repeats)) return;
+    note(Severity::warning, "program.unknown-word", "'" + name + "' is not known", keyword.column);
+}
+
+/// ANG= with one coordinate of the plane: a line whose other coordinate the angle gives.
+bool Interpreter::ends_by_angle(const Block& block) const {
+    if (block.find("ANG") == nullptr || (state_.motion != MotionMode::rapid && state_.motion != MotionMode::feed))
+        return false;
+    return block.words.given("XYZ"[(state_.plane_axis + 1) % 3]) !=
+           block.words.given("XYZ"[(state_.plane_axis + 2) % 3]);
+}
+
+void Interpreter::end_by_angle(const Block& block, Vec3& end) const {
+    const int u = (state_.plane_axis + 1) % 3;
+    const int v = (state_.plane_axis + 2) % 3;
+    const NamedWord& angle = *block.find("ANG");
+    const Vec3 from = state_.programmed().array().isNaN().select(0.0, state_.programmed());
+    const Vec2 way(std::cos(angle.value * rad_per_deg), std::sin(angle.value * rad_per_deg));
+    const bool along = block.words.given("XYZ"[u]);
+    const double given = along ? way.x() : way.y();
+    if (std::abs(given) < 1e-9)
+        fail(fmt::format("a line at ANG={:g} does not reach the given {}", angle.value, "XYZ"[along ? u : v]),
+             angle.column);
+    if (along)
+        end[v] = from[v] + (end[u] - from[u]) * way.y() / way.x();
+    else
+        end[u] = from[u] + (end[v] - from[v]) * way.x() / way.y();
+}
+
+/// Arcs that are given by other words than I J K and R. `words` has begin, end and axis; true: centre and direction
+/// are set.
+bool Interpreter::arc_of_siemens(const Block& block, ArcWords& words) {
+    const int u = (words.axis + 1) % 3;
+    const int v = (words.axis + 2) % 3;
+    if (arc_kind_ == ArcKind::tangential) {
+        if (std::abs(words.end[words.axis] - words.begin[words.axis]) > 1e-6)
+            fail("CT out of the plane (G17, G18, G19) is not supported");
+        arc_along_tangent(words);
+        return true;
+    }
+    if (arc_kind_ == ArcKind::by_points) {
+        Vec3 between = words.begin;
+        for (int k = 0; k < 3; ++k) {
+            const NamedWord* word = block.find(std::string(1, "IJK"[k]) + "1");
+            if (word != nullptr)
+                between[k] = word->value * state_.unit_mm +
+                             (word->increment.value_or(state_.incremental) ? words.begin[k] : 0.0);
+        }
+        const Vec2 b(between[u] - words.begin[u], between[v] - words.begin[v]);
+        const Vec2 e(words.end[u] - words.begin[u], words.end[v] - words.begin[v]);
+        const double area = b.x() * e.y() - b.y() * e.x();
+        if (std::abs(between[words.axis] - words.begin[words.axis]) > 1e-6)
+            fail("CIP out of the plane (G17, G18, G19) is not supported");
+        if (std::abs(area) < 1e-12) fail("CIP: the three points lie on a line");
+        const double bb = b.squaredNorm();
+        const double ee = e.squaredNorm();
+        words.centre = words.begin;
+        words.centre[u] += (e.y() * bb - b.y() * ee) / (2 * area);
+        words.centre[v] += (b.x() * ee - e.x() * bb) / (2 * area);
+        words.clockwise = area < 0;
+        return true;
+    }
+    const bool centre_given = block.words.given('I') || block.words.given('J') || block.words.given('K');
+    if (const std::optional<double> opening = block.value_of("AR")) {
+        const double angle = *opening * rad_per_deg;
+        if (!(*opening > 0 && *opening < 360)) fail("AR= must be between 0 and 360 degrees");
+        if (!centre_given) {  // by its ends
+            const double chord = std::hypot(words.end[u] - words.begin[u], words.end[v] - words.begin[v]);
+            words.has_radius = true;
+            words.radius = chord / (2 * std::sin(angle / 2)) * (*opening > 180 ? -1 : 1);
+            return true;
+        }
+        words.centre = words.begin;
+        for (const int k : {u, v}) {
+            if (!block.words.given("IJK"[k])) continue;
+            const double value = block.words.of("IJK"[k]) * state_.unit_mm;
+            words.centre[k] = (block.absolute & Words::bit("IJK"[k])) != 0 ? value : words.begin[k] + value;
+        }
+        const double sweep = words.clockwise ? -angle : angle;
+        const double from_u = words.begin[u] - words.centre[u];
+        const double from_v = words.begin[v] - words.centre[v];
+        words.end[u] = words.centre[u] + std::cos(sweep) * from_u - std::sin(sweep) * from_v;
+        words.end[v] = words.centre[v] + std::sin(sweep) * from_u + std::cos(sweep) * from_v;
+        return true;
+    }
+    const bool about_pole = (block.polar_radius || block.polar_angle) && !centre_given && !block.words.given('R');
+    if (about_pole) words.centre = polar_.pole;
+    return about_pole;
+}
+
+/// CYCLE832(tolerance, kind of machining, …): kind 0 (_OFF), or no tolerance, gives the machine its own back.
+void Interpreter::high_speed_settings(const Keyword& keyword) {
+    std::vector<std::optional<double>> values;
+    try {
+        values = arguments_of(keyword);
+    } catch (const ReadError& error) {
+        // A variable that the control alone knows: no axis moves by it.
+        note(Severity::warning, "program.variable", error.what + ": the machine's own tolerance is taken",
+             error.column);
+    }
+    const double tolerance = values.empty() ? 0 : values[0].value_or(0) * state_.unit_mm;
+    const double kind = values.size() > 1 ? values[1].value_or(1) : 1;
+    const bool off = !(tolerance > 0) || std::fmod(std::round(kind), 10) == 0;
+    contour_tolerance_ = off ? std::numeric_limits<double>::quiet_NaN() : tolerance;
+    set_path_mode("high-speed", "CYCLE832(" + keyword.arguments + ")", {BlockEnd::rounded, contour_tolerance_});
+}
+
+/// CTOL=: of compressors and of G642 … G645; less than 0 gives the machine its own back.
+void Interpreter::contour_tolerance(const Block& block) {
+    const std::optional<double> value = block.value_of("CTOL");
+    if (!value) return;
+    contour_tolerance_ = *value >= 0 ? *value * state_.unit_mm : std::numeric_limits<double>::quiet_NaN();
+    if (state_.path_mode.block_end == BlockEnd::rounded)
+        set_path_mode("path-mode", fmt::format("CTOL={:g}", *value), {BlockEnd::rounded, contour_tolerance_});
+}
+
+/// DEF REAL a, b=5: names that exist from here on.
+void Interpreter::siemens_definition(const std::string& definition) {
+    Cursor c{definition, 0};
+    const std::string type = c.identifier();
+    c.at += type.size();
+    if (type == "STRING" && c.take('[')) {
+        while (!c.done() && !c.take(']')) ++c.at;
+    }
+    while (c.peek() != '\0') {
+        const std::string name = c.identifier();
+        if (name.empty()) throw ReadError{"expected a name after DEF", c.column(), {}};
+        c.skip_blanks();
+        c.at += name.size();
+        double value = 0;
+        if (c.take('[')) {  // an array: its elements are 0
+            while (!c.done() && !c.take(']')) ++c.at;
+        }
+        if (c.take('=')) {
+            if (c.peek() == '"') {
+                const std::size_t end = definition.find('"', c.at + 1);
+                c.at = end == std::string::npos ? definition.size() : end + 1;
+            } else {
+                value = evaluate(c, variables_, rules_->text);
+            }
+        }
+        variables_.set(name, value);
+        if (!c.take(',')) break;
+    }
+}
+
+}  // namespace clsurf
