@@ -70,17 +70,33 @@ Vec3 in_words(const Motions& motions, std::int64_t motion, const Vec3& p) {
     return frame.words.to_programmed(apply(frame.placed.inverse(), p));
 }
 
+/// The number and the word of a straight line that Klartext begins with: "12 L "; false: there are none.
+bool read_statement(std::string_view text, std::string_view word, PlainLine& line, std::size_t& at) {
+    const std::size_t number = at;
+    while (at < text.size() && is_digit(text[at])) ++at;
+    at = skip_blanks(text, at);
+    line.number = text.substr(number, at - number);
+    if (!text.substr(at).starts_with(word)) return false;
+    const std::size_t after = at + word.size();
+    if (after >= text.size() || !is_blank(text[after])) return false;
+    const std::size_t end = skip_blanks(text, after);
+    line.code = text.substr(at, end - at);
+    at = end;
+    return true;
+}
+
 }  // namespace
 
-std::optional<PlainLine> read_plain_line(std::string_view text) {
+std::optional<PlainLine> read_plain_line(std::string_view text, std::string_view straight_word) {
     PlainLine line;
     std::size_t at = skip_blanks(text, 0);
+    if (!straight_word.empty() && !read_statement(text, straight_word, line, at)) return std::nullopt;
     bool any = false, moves = false;
     while (at < text.size()) {
         const char letter = upper(text[at]);
         const std::size_t word = at;
         at = skip_blanks(text, at + 1);
-        if (letter == 'N' || letter == 'G') {
+        if (straight_word.empty() && (letter == 'N' || letter == 'G')) {
             const std::size_t digits = at;
             while (at < text.size() && is_digit(text[at])) ++at;
             if (at == digits) return std::nullopt;
@@ -110,7 +126,8 @@ std::optional<PlainLine> read_plain_line(std::string_view text) {
     return moves ? std::optional(line) : std::nullopt;
 }
 
-LineEditor::LineEditor(const Program& program, int least_decimals) : program_(&program), decimals_(least_decimals) {
+LineEditor::LineEditor(const Program& program, int least_decimals)
+    : program_(&program), rules_(&program.dialect->rules->text), decimals_(least_decimals) {
     const Motions& motions = program.motions;
     const auto count = static_cast<std::size_t>(motions.size());
     const SourceText& main = program.main();
@@ -129,7 +146,7 @@ LineEditor::LineEditor(const Program& program, int least_decimals) : program_(&p
         for (std::size_t i = 0; i < count; ++i) {
             if (!per_minute.on(static_cast<std::int64_t>(i))) continue;
             if (!cuts_in_a_line(motions, i) || !in_main(i) || motions_of_line[motions.line[i]] != 1) continue;
-            const std::optional<PlainLine> line = read_plain_line(main.line(motions.line[i]));
+            const std::optional<PlainLine> line = read_plain_line(main.line(motions.line[i]), rules_->straight_word);
             if (!line || !says_its_angles(*line, motions, i)) continue;
             const auto motion = static_cast<std::int64_t>(i);
             const Vec3 end = in_words(motions, motion, motions.end[i].vec()),
@@ -177,7 +194,7 @@ std::size_t LineEditor::replace(std::int64_t first, std::int64_t last, const std
     std::string first_code;
     bool code_everywhere = true, blanks = false;
     for (LineNumber n = first_line; n <= last_line; ++n) {
-        const PlainLine line = *read_plain_line(main.line(n));
+        const PlainLine line = *read_plain_line(main.line(n), rules_->straight_word);
         for (std::size_t a = 0; a < axes; ++a) {
             if (!line.axis[a].empty()) words[a] = line.axis[a];
             everywhere[a] = everywhere[a] && !line.axis[a].empty();
@@ -193,8 +210,9 @@ std::size_t LineEditor::replace(std::int64_t first, std::int64_t last, const std
     std::array<std::string, axes> modal;
     const auto text_of = [&](std::size_t axis, const Vec3& position, const Vec3& turned) {
         const int k = static_cast<int>(axis % linear);
-        return axis < linear ? number_text(position[k] / unit_, decimals_)
-                             : number_text(turned[k] * deg_per_rad, turn_decimals_);
+        const std::string number = axis < linear ? number_text(position[k] / unit_, decimals_)
+                                                 : number_text(turned[k] * deg_per_rad, turn_decimals_);
+        return rules_->straight_word.empty() || number.starts_with('-') ? number : "+" + number;
     };
     const Vec3 begin = in_words(motions, first, motions.begin_of(first).vec());
     for (std::size_t a = 0; a < used; ++a) modal[a] = text_of(a, begin, angles_before(motions, first));
@@ -220,7 +238,8 @@ std::size_t LineEditor::replace(std::int64_t first, std::int64_t last, const std
         if (!moves) continue;  // nearer to the point before than the decimals tell
         const std::int64_t kept = angles.empty() ? -1 : angles[k].motion;
         const PlainLine as_written =
-            kept < 0 ? PlainLine{} : *read_plain_line(main.line(motions.line[static_cast<std::size_t>(kept)]));
+            kept < 0 ? PlainLine{}
+                     : *read_plain_line(main.line(motions.line[static_cast<std::size_t>(kept)]), rules_->straight_word);
         for (std::size_t a = 0; a < used; ++a) {
             if (now[a] == modal[a] && !everywhere[a]) continue;
             const bool same_words = a >= linear && !as_written.axis[a].empty();
@@ -242,8 +261,10 @@ void LineEditor::set_feeds(const std::vector<float>& feeds) {
     const SourceText& main = program_->main();
     const std::string_view end_of_line = line_end_of(main.text());
     const auto feed_text = [&](double f) {
-        return fmt::format("F{}", std::round(f * seconds_per_minute / unit_ * feed_steps) / feed_steps);
+        const double unit = unit_ == 1 ? 1 : unit_ * rules_->inch_feed;
+        return fmt::format("F{}", std::round(f * seconds_per_minute / unit * feed_steps) / feed_steps);
     };
+    const std::string statement = rules_->straight_word.empty() ? "" : std::string(rules_->straight_word) + " ";
     std::string modal;  // what the controller has now, where that is not what was programmed
     for (std::int64_t i = 0; i < motions.size(); ++i) {
         const auto k = static_cast<std::size_t>(i);
@@ -259,7 +280,7 @@ void LineEditor::set_feeds(const std::vector<float>& feeds) {
             Edit edit{motions.line[k], motions.line[k], std::string(text)};
             if (wanted != modal) edit.text += (text.find(' ') == std::string_view::npos ? "" : " ") + wanted;
             edit.text += end_of_line;
-            if (restores) edit.text += programmed + std::string(end_of_line);
+            if (restores) edit.text += statement + programmed + std::string(end_of_line);
             edits_.push_back(std::move(edit));
             ++changed_;
         }
@@ -270,7 +291,7 @@ void LineEditor::set_feeds(const std::vector<float>& feeds) {
 std::string LineEditor::text(std::string_view header) const {
     const SourceText& main = program_->main();
     const std::string_view end_of_line = line_end_of(main.text());
-    const bool semicolon = program_->dialect->rules->text.semicolon_comments;
+    const bool semicolon = rules_->semicolon_comments;
     const std::string comment = header.empty() ? ""
                                 : semicolon    ? fmt::format("; {}{}", header, end_of_line)
                                                : fmt::format("({}){}", header, end_of_line);
@@ -279,7 +300,9 @@ std::string LineEditor::text(std::string_view header) const {
     while (head < main.line_count()) {
         const std::string_view line = main.line(head + 1);
         const std::size_t at = skip_blanks(line, 0);
-        const bool name = at == line.size() || line[at] == '%' ||
+        const std::string_view block = line.substr(std::min(line.find_first_not_of("0123456789 \t"), line.size()));
+        const bool first_block = !rules_->first_block.empty() && block.starts_with(rules_->first_block);
+        const bool name = at == line.size() || line[at] == '%' || first_block ||
                           (upper(line[at]) == 'O' && at + 1 < line.size() && is_digit(line[at + 1]));
         if (!name) break;
         ++head;

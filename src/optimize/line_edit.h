@@ -17,10 +17,12 @@
 
 namespace clsurf {
 
+struct TextRules;
+
 /// What a rewritable line looks like. Words are those of X, Y, Z, A, B, C.
 struct PlainLine {
-    std::string_view number;                 ///< "N120 " with the blanks behind; empty: none
-    std::string_view code;                   ///< "G1 ", "G01"; empty: modal
+    std::string_view number;                 ///< "N120 ", "12 " with the blanks behind; empty: none
+    std::string_view code;                   ///< "G1 ", "G01", "L "; empty: modal
     std::array<std::string_view, 6> axis;    ///< "X", "Y ", "Z=" as written before the number; empty: not given
     std::array<std::string_view, 6> digits;  ///< the number as written
     std::array<double, 6> value{};
@@ -29,7 +31,8 @@ struct PlainLine {
 };
 
 /// Reads a line without its end; nullopt: there is more in it.
-[[nodiscard]] std::optional<PlainLine> read_plain_line(std::string_view text);
+/// `straight_word`: what straight lines of the dialect begin with, as L in Klartext; empty: G1.
+[[nodiscard]] std::optional<PlainLine> read_plain_line(std::string_view text, std::string_view straight_word = {});
 
 /// The angles at the end of a new line.
 struct LineAngles {
@@ -78,6 +81,7 @@ private:
     };
 
     const Program* program_;
+    const TextRules* rules_;  ///< of its dialect
     std::vector<std::uint8_t> editable_;
     std::vector<Edit> edits_;
     double unit_ = 1;

@@ -75,9 +75,9 @@ TEST(DialectGuess, AnErrorNamesTheGuessAndTheOption) {
     EXPECT_EQ(error_of_guess(text, find_dialect("fanuc")).find("--dialect"), std::string::npos);
 }
 
-TEST(DialectGuess, KlartextIsAnErrorThatSaysSo) {
+TEST(DialectGuess, KlartextAsDinIsoIsAnErrorThatSaysSo) {
     EXPECT_NE(error_of("0 BEGIN PGM PART MM\n1 L X+10 R0 FMAX\n", "heidenhain-iso")
-                  .find("test.nc:1: error: is Heidenhain's Klartext"),
+                  .find("test.nc:1: error: is Klartext (BEGIN PGM), not DIN/ISO"),
               std::string::npos);
 }
 

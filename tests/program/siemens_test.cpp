@@ -249,5 +249,10 @@ TEST(SiemensModes, AreNotedOrHalveDiameters) {
     EXPECT_EQ(p.motions.size(), 3);
 }
 
+TEST(SiemensPolar, AddsAnIncrementOfTheThirdAxisOnce) {
+    EXPECT_EQ(motions(parse("G0 X0 Y0 Z5\nG111 X0 Y0\nG1 RP=5 AP=90 Z=IC(-1) F60\nM30\n", "siemens")),
+              (Rows{"rapid 0 0 5", "feed 0 5 4"}));
+}
+
 }  // namespace
 }  // namespace clsurf

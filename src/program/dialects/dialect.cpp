@@ -8,11 +8,12 @@
 namespace clsurf {
 namespace {
 
-const std::array<Dialect, 4> table{{
+const std::array<Dialect, 5> table{{
     {"fanuc", "Fanuc, HNC and most others: G-code with custom macro B", &fanuc_rules},
     {"siemens", "SINUMERIK: X=AC(…), TRAORI, CYCLE832, R parameters", &siemens_rules},
     {"linuxcnc", "LinuxCNC: RS274/NGC with O-words and named parameters", &linuxcnc_rules},
     {"heidenhain-iso", "Heidenhain DIN/ISO: blocks ending in *, Q parameters", &heidenhain_iso_rules},
+    {"klartext", "Heidenhain Klartext (.h): L, CC, C, CYCL DEF, Q parameters, PLANE", &klartext_rules},
 }};
 
 }  // namespace

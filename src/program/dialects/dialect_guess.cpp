@@ -59,6 +59,7 @@ public:
         skip_blanks();
         if (at_ < text_.size()) ++lines_;
         if (!text_.empty() && text_.back() == '*') ++stars_;
+        if (begins_program()) return;
         if (peek() == '%') {
             title();
             return;
@@ -128,6 +129,14 @@ private:
     }
     void skip_blanks() {
         while (at_ < text_.size() && (is_blank(text_[at_]) || text_[at_] == '\0')) ++at_;
+    }
+
+    /// "0 BEGIN PGM PART MM"
+    bool begins_program() {
+        const std::size_t name = text_.find_first_not_of("0123456789 \t", at_);
+        if (name == std::string_view::npos || !text_.substr(name).starts_with("BEGIN PGM ")) return false;
+        mark(Mark::program_begin, "BEGIN PGM");
+        return true;
     }
 
     /// "%_N_PART_MPF" of siemens, "%PART G71 *" of heidenhain-iso; "%" alone is everybody's.

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "core/error.h"
 #include "core/not_finite.h"
 #include "program/dialects/known_dialects.h"
 #include "program/interpret/interpreter_state.h"
@@ -18,8 +19,6 @@ namespace {
 
 constexpr int q_variables = 100'000;  ///< Q5 is variable 100005
 constexpr std::uint32_t ijk = Words::bit('I') | Words::bit('J') | Words::bit('K');
-
-enum FrameKind : std::size_t { datum, mirror, rotation, scaling };
 
 }  // namespace
 
@@ -57,7 +56,7 @@ void Interpreter::heidenhain_title(const std::string& title) {
 /// Inch programs give the feed in tenths of an inch.
 void Interpreter::count_in_inches(bool inches) {
     state_.unit_mm = inches ? mm_per_inch : 1;
-    state_.feed_unit_mm = inches ? 0.1 * mm_per_inch : 1;
+    state_.feed_unit_mm = inches ? rules_->text.inch_feed * mm_per_inch : 1;
 }
 
 /// An axis letter that stands without a number, as in G28 X Y.
@@ -284,7 +283,7 @@ bool mirror_axes(Interpreter& in, const CodeWord& w) {
     for (int k = 0; k < 3; ++k) {
         if (w.block.words.given("XYZ"[k]) || Interpreter::take_mention("XYZ"[k], w.block)) factors[k] = -1;
     }
-    in.set_heidenhain_frame(mirror, ProgramFrame::scaled(factors, Vec3::Zero()));
+    in.set_heidenhain_frame(HeidenhainFrames::mirror, ProgramFrame::scaled(factors, Vec3::Zero()));
     in.event("mirror", "G28");
     return true;
 }
@@ -294,14 +293,15 @@ bool shift_datum(Interpreter& in, const CodeWord& w) {
         const double value = w.block.words.of("XYZ"[k]) * in.state_.unit_mm;
         in.datum_[k] = in.state_.incremental ? in.datum_[k] + value : value;
     }
-    in.set_heidenhain_frame(datum, ProgramFrame::moved(in.datum_));
+    in.set_heidenhain_frame(HeidenhainFrames::datum, ProgramFrame::moved(in.datum_));
     in.event("datum-shift", "G54" + words_text(w.block, "XYZ"));
     return true;
 }
 bool scale_all(Interpreter& in, const CodeWord& w) {
     const Words& words = w.block.words;
     if (!words.given('F') || words.of('F') == 0) in.fail("G72 needs its factor (F)", w.column);
-    in.set_heidenhain_frame(scaling, ProgramFrame::scaled(Vec3::Constant(words.of('F')), Vec3::Zero()));
+    in.set_heidenhain_frame(HeidenhainFrames::scaling,
+                            ProgramFrame::scaled(Vec3::Constant(words.of('F')), Vec3::Zero()));
     in.event("scaling", "G72" + words_text(w.block, "F"));
     return true;
 }
@@ -309,7 +309,7 @@ bool rotate(Interpreter& in, const CodeWord& w) {
     const Words& words = w.block.words;
     if (!words.given('H')) in.fail("G73 needs its angle (H)", w.column);
     in.turned_by_ = in.state_.incremental ? in.turned_by_ + words.of('H') : words.of('H');
-    in.set_heidenhain_frame(rotation,
+    in.set_heidenhain_frame(HeidenhainFrames::rotation,
                             ProgramFrame::turned(Vec3::Unit(in.state_.plane_axis), in.turned_by_, Vec3::Zero()));
     in.event("rotation", "G73" + words_text(w.block, "H"));
     return true;
@@ -388,6 +388,43 @@ constexpr auto codes = std::to_array<CodeRule>({
     {99_g, define_tool},
 });
 
+/// G62 T0.05 P01 0 P02 5, as cycle 32: the tolerance of the path; without T the machine's own comes back. P01 is the
+/// mode, P02 the tolerance of rotary axes.
+bool set_tolerance(Interpreter& in, std::string_view text) {
+    Cursor c{text, 0};
+    if (!c.take_word("G62")) return false;
+    double tolerance = 0;
+    while (c.peek() != '\0') {
+        const std::size_t column = c.column();
+        const char letter = upper(c.peek());
+        ++c.at;
+        double number = 0;
+        const std::size_t end = letter == 'P' ? read_decimal(text, c.at, number) : c.at;
+        if ((letter != 'T' && letter != 'P') || (letter == 'P' && end == c.at))
+            throw ReadError{"expected T, P01 or P02 of G62", column, {}};
+        c.at = end;
+        const double value = evaluate(c, in.variables_, in.rules_->text);
+        if (letter == 'T') tolerance = value * in.state_.unit_mm;
+        if (tolerance < 0) throw ReadError{"a tolerance below 0", column, {}};
+    }
+    in.contour_tolerance_ = tolerance > 0 ? tolerance : std::numeric_limits<double>::quiet_NaN();
+    in.set_path_mode("path-mode", std::string(text.substr(text.find_first_not_of(' '))),
+                     {BlockEnd::rounded, in.contour_tolerance_});
+    return true;
+}
+
+/// Klartext is HEIDENHAIN's other language.
+void begin(Interpreter& in) {
+    const SourceText& text = in.program_.main();
+    LineNumber line = 1;
+    while (line < text.line_count() && text.line(line).find_first_not_of(" \t\r") == std::string_view::npos) ++line;
+    const std::string_view first = text.line(line);
+    const std::size_t name = first.find_first_not_of("0123456789 \t\xef\xbb\xbf");
+    if (name == std::string_view::npos || !first.substr(name).starts_with("BEGIN PGM ")) return;
+    throw InputError(Place::of_line(text.name(), line), "is Klartext (BEGIN PGM), not DIN/ISO",
+                     "--dialect klartext reads it");
+}
+
 /// Machining cycles: read, not carried out.
 bool cycle(Interpreter& in, const CodeWord& w) {
     const int code = w.code;
@@ -422,11 +459,14 @@ constexpr auto mark_signs = std::to_array<MarkSign>(
 }  // namespace
 }  // namespace heidenhain
 
+std::span<const FunctionRow> heidenhain_functions() { return heidenhain::functions; }
+
 const DialectRules heidenhain_iso_rules{
     .text = {.semicolon_comments = true,
              .formulas = true,
              .star_ends_block = true,
              .named_titles = true,
+             .inch_feed = 0.1,
              .q_words = true,
              .caret_power = true,
              .round_brackets = true,
@@ -439,14 +479,13 @@ const DialectRules heidenhain_iso_rules{
     .motion = {.plain_blocks = false, .refuses_curve_codes = false, .idle_letters = {}},
     .tools = {.t_changes = true, .length_with_tool = true},
     .calls = {.by_sub = true, .subs_run_through = true, .file_from_top = true},
-    // The greatest value of MP7431 and of circleDeviation.
-    .arc_tolerance = {.absolute = 0.016,
-                      .relative = 0,
-                      .most = std::numeric_limits<double>::infinity(),
-                      .reach = 0.005,
-                      .relative_reach = 1e-3},
+    .arc_tolerance = heidenhain_arc_tolerance,
     .signs = {.codes = heidenhain::code_signs, .endings = heidenhain::ending_signs, .marks = heidenhain::mark_signs},
-    .statement = [](Interpreter& in, const Statement& s) { return in.q_function(s.text) || in.call_label(s.text); },
+    .begin = heidenhain::begin,
+    .statement =
+        [](Interpreter& in, const Statement& s) {
+            return in.q_function(s.text) || in.call_label(s.text) || heidenhain::set_tolerance(in, s.text);
+        },
     .after_codes = [](Interpreter& in, const Block& block) { in.take_pole(block); },
     .after_block = heidenhain::call_label,
     .arc = [](Interpreter& in, const Block& block, ArcWords& words) { return in.arc_of_heidenhain(block, words); },
@@ -455,7 +494,8 @@ const DialectRules heidenhain_iso_rules{
             const auto word = [&](char letter) {
                 return block.words.given(letter) ? std::optional(block.words.of(letter)) : std::nullopt;
             };
-            in.put_about_pole(block, word('R'), word('H'), false, in.state_.incremental, end);
+            in.straight_to_pole_plane(block, end.array().isNaN().select(0.0, end), end);
+            in.put_about_pole(word('R'), word('H'), false, in.state_.incremental, end);
         },
 };
 

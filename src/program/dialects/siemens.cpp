@@ -402,7 +402,7 @@ const DialectRules siemens_rules{
     .named_parameter = siemens::named_parameter,
     .about_pole =
         [](Interpreter& in, const Block& block, Vec3& end) {
-            in.put_about_pole(block, block.polar_radius, block.polar_angle, block.polar_radius_incremental,
+            in.put_about_pole(block.polar_radius, block.polar_angle, block.polar_radius_incremental,
                               block.polar_angle_incremental, end);
         },
     .work_system_name = siemens::work_system_name,

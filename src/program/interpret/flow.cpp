@@ -419,12 +419,30 @@ void Interpreter::call(const std::string& name, int repeats, bool locals, const 
         const int begin = begin_in(file);
         if (begin >= 0) line = indexes_[file].all()[static_cast<std::size_t>(begin)].line;
     }
+    LineNumber first = line + (at >= 0 || !calls.begins_at_label ? 1 : 0);
+    if (at < 0 && calls.file_from_top) first = 1;
+    enter(file, first, repeats, locals);
+    for (std::size_t k = 0; k < arguments.size() && k < 33; ++k) {
+        if (!std::isnan(arguments[k])) variables_.set(static_cast<int>(k) + 1, arguments[k]);
+    }
+}
+
+void Interpreter::call_file(const std::string& name) {
+    count_jump();
+    if (frames_.size() >= deepest_call) {
+        fail(fmt::format("calls are nested more than {} deep: a subprogram that calls itself?", deepest_call));
+    }
+    if (!load(name)) fail(fmt::format("subprogram '{}' is neither in the program nor beside it", name));
+    enter(loaded_.at(name), 1, 1, false);
+}
+
+/// Goes on at a line of a subprogram, and comes back behind the line that runs.
+void Interpreter::enter(std::size_t file, LineNumber line, int repeats, bool locals) {
     Frame frame;
     frame.file = file_;
     frame.line = line_;
     frame.start_file = file;
-    frame.start_line = line + (at >= 0 || !calls.begins_at_label ? 1 : 0);
-    if (at < 0 && calls.file_from_top) frame.start_line = 1;
+    frame.start_line = line;
     frame.call = call_;
     call_ = call_from_here();
     frame.repeats = repeats - 1;
@@ -432,14 +450,11 @@ void Interpreter::call(const std::string& name, int repeats, bool locals, const 
     frame.counters = std::move(counters_);
     counters_.clear();
     if (locals) variables_.push_locals();
-    for (std::size_t k = 0; k < arguments.size() && k < 33; ++k) {
-        if (!std::isnan(arguments[k])) variables_.set(static_cast<int>(k) + 1, arguments[k]);
-    }
     frames_.push_back(std::move(frame));
     kept_modes_.emplace_back();
     restores_modes_.push_back(false);
     watch_section();
-    go_to(file, frames_.back().start_line);
+    go_to(file, line);
 }
 
 /// The call that the line makes which runs; a loop that calls again and again makes one.

@@ -19,12 +19,6 @@ namespace {
 constexpr std::size_t shown_line_bytes = 4000;  ///< of a source line in a message
 constexpr std::size_t shown_text_bytes = 400;   ///< of a message, which may name a word of any length
 
-/// "0 BEGIN PGM NAME MM" as the first block: where it begins, else npos.
-std::size_t begin_of_klartext(std::string_view text) {
-    const std::size_t at = text.find_first_not_of("0123456789 \t\r\n\xef\xbb\xbf");
-    return at != std::string_view::npos && text.substr(at).starts_with("BEGIN PGM ") ? at : std::string_view::npos;
-}
-
 }  // namespace
 
 Interpreter::Interpreter(SourceText text, const InterpreterOptions& options)
@@ -55,12 +49,6 @@ Interpreter::Interpreter(SourceText text, const InterpreterOptions& options)
         throw InputError(Place::of_file(program_.main().name()), "is UTF-16 text, expected ASCII or UTF-8",
                          "convert it first, as with iconv -f UTF-16 -t UTF-8");
     }
-    if (const std::size_t at = begin_of_klartext(bytes); at != std::string_view::npos) {
-        const auto line = 1 + std::count(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(at), '\n');
-        throw InputError(Place::of_line(program_.main().name(), static_cast<std::uint64_t>(line)),
-                         "is Heidenhain's Klartext (BEGIN PGM), which is not read",
-                         "let the postprocessor or the programming station write DIN/ISO");
-    }
 }
 
 std::int64_t Interpreter::read_on(std::int64_t motions) {
@@ -68,6 +56,7 @@ std::int64_t Interpreter::read_on(std::int64_t motions) {
         while (!ended_ && settled() < motions) run_line();
         if (ended_ && !nurbs_.empty())
             note(Severity::warning, "program.open-spline", "a spline is not closed at the end");
+        if (ended_ && corner_.pending) fail("a straight line with feed must follow RND and CHF");
     }
     return settled();
 }
@@ -172,11 +161,13 @@ bool Interpreter::run_plain(const Words& words) {
     }
     const bool ordinary = (mode == MotionMode::rapid || mode == MotionMode::feed) && !state_.incremental &&
                           state_.feed_mode == FeedMode::per_minute && !modal_call_.active && !polar_.on &&
-                          !state_.frame.active() && nurbs_.empty() && !state_.diameter && !compensation_.on();
+                          !state_.frame.active() && nurbs_.empty() && !state_.diameter && !compensation_.on() &&
+                          !corner_.pending;
     if (!ordinary) return false;
     state_.motion = mode;
     const double unit = state_.unit_mm;
     if (words.given('F')) state_.feed = words.of('F');
+    const Vec3 before = state_.position;
     Vec3& p = state_.position;
     if (words.given('X')) p.x() = words.of('X') * unit;
     if (words.given('Y')) p.y() = words.of('Y') * unit;
@@ -186,6 +177,7 @@ bool Interpreter::run_plain(const Words& words) {
     push(rapid ? MotionKind::rapid : MotionKind::feed, p, state_.rotary,
          rapid ? std::numeric_limits<float>::quiet_NaN()
                : static_cast<float>(state_.feed * state_.feed_unit_mm / seconds_per_minute));
+    begin_of_last_ = before;
     return true;
 }
 

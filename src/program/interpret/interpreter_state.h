@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "program/dialects/dialect_rules.h"
+#include "program/dialects/klartext_words.h"
 #include "program/frame_placement.h"
 #include "program/interpret/arc.h"
 #include "program/interpret/cutter_compensation.h"
@@ -79,14 +80,30 @@ struct FanucFrame {
 
 /// Heidenhain's parts of the frame, and in which order they came.
 struct HeidenhainFrames {
-    std::array<ProgramFrame, 4> frame;
+    enum Part : std::size_t { datum, mirror, rotation, scaling, tilt, parts };
+    std::array<ProgramFrame, parts> frame;
     std::vector<std::size_t> order;
 };
 /// How arcs are given: usually, or as Heidenhain's G05, by Siemens' CIP, or by its CT and Heidenhain's G06.
 enum class ArcKind : std::uint8_t { usual, by_radius, by_points, tangential };
 
+/// What Klartext keeps from block to block.
+struct KlartextState {
+    double tool_feed = 0;  ///< F of TOOL CALL, which F AUTO takes
+    KlartextSide side = KlartextSide::none;
+};
+
 class Interpreter {
 public:
+    /// A corner that the next line cuts off: RND, CHF.
+    struct Corner {
+        bool pending = false;
+        bool rounded = false;  ///< else a chamfer
+        double size = 0;       ///< radius, or length taken off each line [mm]
+        double feed = 0;       ///< as programmed
+        LineNumber line = 0;
+    };
+
     /// Throws InputError (UTF-16).
     Interpreter(SourceText text, const InterpreterOptions& options);
     /// All of the program.
@@ -237,8 +254,8 @@ public:
     [[nodiscard]] Vec3 read_axes(const Block& block, bool machine);
     void straight_to_pole_plane(const Block& block, const Vec3& from, Vec3& end) const;
     void put_at_pole(Vec3& end) const;
-    void put_about_pole(const Block& block, std::optional<double> radius, std::optional<double> angle, bool radius_adds,
-                        bool angle_adds, Vec3& end);
+    void put_about_pole(std::optional<double> radius, std::optional<double> angle, bool radius_adds, bool angle_adds,
+                        Vec3& end);
     void flatten_arc(const Arc& arc, bool clockwise, const Vec3& begin, const Vec3& end, const Vec3& rotary);
     void put_polar(const Block& block, Vec3& end) const;
     [[nodiscard]] Vec3 rotary_target(const Block& block) const;
@@ -278,6 +295,8 @@ public:
     void call_by_number(const Block& block, int least_repeats, bool counted);  ///< M98 P L
     void return_to_block(const Block& block);                                  ///< M99 P
     void call(const std::string& name, int repeats, bool locals, const std::vector<double>& arguments);
+    void call_file(const std::string& name);  ///< whatever labels the program has
+    void enter(std::size_t file, LineNumber line, int repeats, bool locals);
     void repeat_from(LineNumber begin, double times);
     void jump_to(const std::string& label, int direction, bool may_miss);
     void choose(const std::string& text, std::size_t begin);  ///< CASE
@@ -365,6 +384,9 @@ public:
     HeidenhainFrames heidenhain_frames_;
     Vec3 datum_ = Vec3::Zero();  ///< Heidenhain's G54 [mm]
     double turned_by_ = 0;       ///< its G73 [deg]
+    KlartextState klartext_;
+    Corner corner_;
+    Vec3 begin_of_last_ = Vec3::Zero();  ///< where the last motion began [mm], of the work system
     ArcKind arc_kind_ = ArcKind::usual;
     bool polar_line_ = false;  ///< its G10 … G16: R and H give the end
     bool last_clockwise_ = false;

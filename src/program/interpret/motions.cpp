@@ -84,12 +84,11 @@ void Interpreter::put_at_pole(Vec3& end) const {
 }
 
 /// The end of a motion by radius [programmed lengths] and angle [deg] about the pole; what is not given stays as it is.
-void Interpreter::put_about_pole(const Block& block, std::optional<double> radius, std::optional<double> angle,
-                                 bool radius_adds, bool angle_adds, Vec3& end) {
+void Interpreter::put_about_pole(std::optional<double> radius, std::optional<double> angle, bool radius_adds,
+                                 bool angle_adds, Vec3& end) {
     const int u = (state_.plane_axis + 1) % 3;
     const int v = (state_.plane_axis + 2) % 3;
     const Vec3 from = end.array().isNaN().select(0.0, end);
-    straight_to_pole_plane(block, from, end);
     const Vec2 now(from[u] - polar_.pole[u], from[v] - polar_.pole[v]);
     polar_.radius = radius ? *radius * state_.unit_mm + (radius_adds ? now.norm() : 0.0) : now.norm();
     const double angle_now = angle_of(now) * deg_per_rad;
@@ -353,6 +352,7 @@ void Interpreter::push(MotionKind kind, const Vec3& end, const Vec3& rotary, flo
         if (m.call.empty()) m.call = Column<std::uint32_t>(m.kind.size() - 1, 0);
         m.call.push_back(call_);
     }
+    begin_of_last_ = state_.position;
     state_.position = end;
     state_.rotary = angles;
 }

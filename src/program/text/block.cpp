@@ -96,6 +96,12 @@ Statement clean_line(std::string_view line, const TextRules& rules) {
         if (slash + 1 < text.size() && is_digit(text[slash + 1]) && rules.skip_levels) text[slash + 1] = ' ';
     };
     take_skip(at);
+    if (rules.block_numbers) {
+        at = text.find_first_not_of(' ');
+        for (; at < text.size() && is_digit(text[at]); ++at) text[at] = ' ';
+        take_skip(text.find_first_not_of(' '));
+        at = std::min(text.find_first_not_of(' '), text.size() - 1);
+    }
     // "%" alone begins and ends a tape; "%name" is a program's name.
     const auto take_tape_mark = [&] {
         if (at == std::string::npos || text[at] != '%') return false;

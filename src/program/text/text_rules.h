@@ -23,14 +23,17 @@ enum class WordStyle : std::uint8_t {
 
 struct TextRules {
     // Lines.
-    bool semicolon_comments = false;  ///< the usual comment is "; …", not "( … )"
-    bool round_comments = true;       ///< ( … ) is a comment
-    bool formulas = false;            ///< after '=' parentheses and '*' belong to the expression
-    bool star_ends_block = false;     ///< '*' ends a block, '~' continues it
-    bool blanks_in_numbers = false;   ///< "1 0 . 5" is 10.5
-    bool skip_levels = true;          ///< /1 … /9
-    bool named_titles = false;        ///< "%NAME G71" begins and ends a program
-    bool block_numbers = false;       ///< a number without N begins a line
+    bool semicolon_comments = false;   ///< the usual comment is "; …", not "( … )"
+    bool round_comments = true;        ///< ( … ) is a comment
+    bool formulas = false;             ///< after '=' parentheses and '*' belong to the expression
+    bool star_ends_block = false;      ///< '*' ends a block, '~' continues it
+    bool blanks_in_numbers = false;    ///< "1 0 . 5" is 10.5
+    bool skip_levels = true;           ///< /1 … /9
+    bool named_titles = false;         ///< "%NAME G71" begins and ends a program
+    bool block_numbers = false;        ///< a number without N begins a line
+    std::string_view straight_word{};  ///< what begins every straight line, as L; empty: G1, which stays in force
+    std::string_view first_block{};    ///< how the first block of a program begins, after its number
+    double inch_feed = 1;              ///< inches that F counts in an inch program
 
     // Words.
     WordStyle words = WordStyle::letters;

@@ -1,0 +1,48 @@
+#pragma once
+// What the parts of Klartext share: the statement that runs, and those of its handlers that stand in other files.
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "program/dialects/klartext_words.h"
+#include "program/dialects/known_dialects.h"
+#include "program/interpret/interpreter_state.h"
+
+namespace clsurf::klartext {
+
+/// A statement: the cursor stands after its first words.
+struct Line {
+    Interpreter& in;
+    Cursor c;
+    std::size_t start = 0;  ///< byte of its first word
+
+    /// A signed number or Q parameter at the cursor.
+    double value() { return read_klartext_value(c, in.variables_, in.rules_->text); }
+    /// A text between quotes at the cursor, without them. Throws ReadError.
+    std::string quoted();
+};
+
+/// The label at the cursor: digits without leading zeros, or a name with its quotes.
+[[nodiscard]] std::string label_of(Cursor& c);
+
+// klartext_motions.cpp
+/// A straight line: G1, or G0 under FMAX; cuts the corner before it that RND or CHF asked for.
+void straight(Line& line, const KlartextWords& words);
+/// An arc: C, CR, CT and their polar kin.
+void arc(Line& line, const KlartextWords& words, ArcKind kind);
+/// Words of a block beside a G code.
+void move_with(Line& line, const KlartextWords& words, int code);
+/// Whether a statement of that name may follow RND and CHF.
+[[nodiscard]] bool takes_corner(std::string_view name);
+
+// klartext_cycles.cpp
+void define_cycle(Line& line);
+void call_cycle(Line& line);
+void note_cycle(Interpreter& in, const std::string& what, std::size_t column);
+void tilt_plane(Line& line);
+void start_tool_centre_point(Line& line);
+void end_tool_centre_point(Line& line);
+void shift_datum_by_axis(Line& line);
+
+}  // namespace clsurf::klartext
