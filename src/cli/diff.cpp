@@ -133,12 +133,8 @@ ExitCode run_diff(const po::variables_map& values) {
     std::unique_ptr<LineMap> lines;
     ClSurface surface;
     std::unique_ptr<DriftFinder> drift;
-<<<<<<< HEAD
-    ComparedRun a;
-=======
     std::optional<CuttingTool> tool;
-    Run a;
->>>>>>> 911f8ca (diff, lint and the page give contact points where the tool is known)
+    ComparedRun a;
     std::optional<DrawnDifference> shown;
     double threshold = 0;
     for (std::size_t k = 1; k < options.files.size(); ++k) {

@@ -10,8 +10,6 @@
 
 #include <fmt/format.h>
 
-#include <fmt/format.h>
-
 #include "cli/config.h"
 #include "cli/output_format.h"
 #include "cli/terminal.h"
@@ -147,7 +145,6 @@ bool given(const po::variables_map& values, const char* name) {
     return values.count(name) > 0 && !values[name].defaulted();
 }
 
-<<<<<<< HEAD
 namespace {
 
 /// The values of one option, as they are written on a command line.
@@ -175,13 +172,13 @@ std::vector<std::string> words_of(const po::options_description& group, const po
             words.insert(words.end(), {"--" + name, text});
     }
     return words;
-=======
+}
+
 void note_overruled(Diagnostics& diagnostics, const Log& log, const std::string& option, const std::string& configured,
                     const std::string& recorded) {
     diagnostics.add({Severity::note, "config.overruled", Place::of_file(log.name),
                      fmt::format("the log says {} {}: {} of {} is not used", option, recorded, configured, config_name),
                      fmt::format("--{} on the command line comes first", option)});
->>>>>>> 911f8ca (diff, lint and the page give contact points where the tool is known)
 }
 
 std::string required(const po::variables_map& values, const char* name) {

@@ -59,15 +59,13 @@ void declare_json(po::options_description& options);
 /// The option is on the command line, not in a configuration (cli/config.h).
 [[nodiscard]] bool given(const po::variables_map& values, const char* name);
 
-<<<<<<< HEAD
 /// The options of a group that have values, but `except`, as words of a command line that gives the same values.
 [[nodiscard]] std::vector<std::string> words_of(const po::options_description& group, const po::variables_map& values,
                                                 const std::vector<std::string>& except = {});
-=======
+
 /// A note that what a log says of itself came before another value that the configuration has for `option`.
 void note_overruled(Diagnostics& diagnostics, const Log& log, const std::string& option, const std::string& configured,
                     const std::string& recorded);
->>>>>>> 911f8ca (diff, lint and the page give contact points where the tool is known)
 
 /// A positional argument or an option that must be there; UsageError names it otherwise.
 [[nodiscard]] std::string required(const po::variables_map& values, const char* name);
