@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "core/geometry.h"
-#include "program/program_frame.h"
+#include "program/interpret/program_frame.h"
 
 namespace clsurf {
 
