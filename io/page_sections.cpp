@@ -96,13 +96,13 @@ std::string defects_section(const ReportPage& page) {
     const QualityReport& report = *page.quality.report;
     std::string text = "<section id=\"defects\"><h2>Defects</h2>\n";
     if (report.step_over <= 0)
-        return text + "<p>No pass has another beside it: there is nothing to compare.</p></section>\n";
+        return text + "<p>No pass has an adjacent pass, so nothing can be compared.</p></section>\n";
     text += fmt::format(
         "<p><b>{}</b> {} passes, {:.3g} mm apart. A defect is a place where a pass differs from its neighbours enough to leave a mark.</p>\n",
         html(verdict_of(report)), report.passes, report.step_over);
     if (!report.defects.empty()) {
         text += fmt::format(
-            "<p><a href=\"#defect-list\">All are listed below</a>; what stands out most comes first. Severity: {}.</p>\n<div class=\"pictures\">\n",
+            "<p><a href=\"#defect-list\">All defects are listed below</a>, worst first. Severity: {}.</p>\n<div class=\"pictures\">\n",
             severities_text());
         for (const PageDefect& defect : page.defects) {
             if (defect.picture) text += picture_html(*defect.picture);
@@ -110,13 +110,12 @@ std::string defects_section(const ReportPage& page) {
         text += "</div>\n";
     }
     if (!report.expected.empty())
-        text +=
-            fmt::format("<p>{} more at the border of the part, where a pass has one neighbour only: not counted.</p>\n",
-                        report.expected.size());
+        text += fmt::format("<p>Not counted: {} at the border of the part, where a pass has only one neighbour.</p>\n",
+                            report.expected.size());
     return text + "</section>\n";
 }
 
-/// Behind all else: it can fill many sheets.
+/// At the end, because it can fill many sheets.
 std::string defect_list_section(const ReportPage& page) {
     const QualityReport& report = *page.quality.report;
     if (report.defects.empty()) return "";
@@ -144,7 +143,7 @@ std::string defect_list_section(const ReportPage& page) {
 std::string numbers_section(const ReportPage& page) {
     const QualityReport& report = *page.quality.report;
     std::string text =
-        "<section id=\"numbers\"><h2>Adjacent passes in numbers</h2>\n<div class=\"wide\"><table><thead><tr><th>Size of</th><th>50 %</th><th>90 %</th><th>99 %</th><th>most</th><th>unit</th></tr></thead><tbody>\n";
+        "<section id=\"numbers\"><h2>Adjacent passes in numbers</h2>\n<div class=\"wide\"><table><thead><tr><th>Size of</th><th>50 %</th><th>90 %</th><th>99 %</th><th>maximum</th><th>unit</th></tr></thead><tbody>\n";
     for (const PagePercentiles& row : page.percentiles) {
         const FieldInfo* info = nullptr;
         for (const Field& field : page.surfaces.front().fields) {
@@ -167,14 +166,14 @@ std::string numbers_section(const ReportPage& page) {
             html(to_text(*page.quality.tool)), f.patches.size(), f.ra * um_per_mm, f.rz * um_per_mm,
             f.patches[f.roughest].profile.rz * um_per_mm, f.sa * um_per_mm, f.sz * um_per_mm, f.cutoff);
     } else {
-        text += "<p>Roughness is not known without the tool: <code>--tool ball:D</code>.</p>\n";
+        text += "<p>Roughness needs the tool: <code>--tool ball:D</code>.</p>\n";
     }
     return text + "</section>\n";
 }
 
 std::string health_section(const ReportPage& page) {
     std::string text = "<section id=\"health\"><h2>Can the log be trusted?</h2>\n";
-    if (page.health.empty()) return text + "<p>Nothing to remark.</p></section>\n";
+    if (page.health.empty()) return text + "<p>No problems found.</p></section>\n";
     text += "<ul>\n";
     for (const Diagnostic& d : page.health.summary()) {
         const std::string where = d.where.text();
@@ -191,22 +190,23 @@ std::string kept_text(const PageSurface& surface) {
     if (!kept.reduced())
         return fmt::format("<li>{}: all {} points are in this page.</li>\n", log, count_text(kept.all));
     return fmt::format(
-        "<li>{}: {} of {} points are in this page. Of each {} consecutive points of a pass stay the first and where each field is lowest and highest; besides these "
-        "the ends of passes, {}and {}. At which point each line begins and ends is known of all lines. Numbers, percentiles, "
-        "defects and pictures on this page were made from all points.</li>\n",
+        "<li>{}: {} of {} points are in this page. Of each {} consecutive points of a pass, the page keeps the first one and the lowest and highest value of each field. It also keeps "
+        "the ends of passes, {}and {}. The first and last point of each line is known for all lines. Numbers, percentiles, "
+        "defects and pictures on this page use all points.</li>\n",
         log, count_text(static_cast<std::int64_t>(kept.points.size())), count_text(kept.all), count_text(kept.window),
         kept.line_starts ? "the first point of each line, " : "",
         kept.whole_defects == kept.defects
-            ? "every point of a defect and of the passes beside it"
-            : fmt::format("every point of {} of {} defects and of the passes beside them, the others being too large",
-                          kept.whole_defects, kept.defects));
+            ? "every point of a defect and of the passes adjacent to it"
+            : fmt::format(
+                  "every point of {} of {} defects and of the passes adjacent to them (the others are too large)",
+                  kept.whole_defects, kept.defects));
 }
 
 std::string contents_section(const ReportPage& page) {
-    std::string text = "<section id=\"contents\"><h2>What this page holds</h2>\n<ul>\n";
+    std::string text = "<section id=\"contents\"><h2>Contents of this page</h2>\n<ul>\n";
     for (const PageSurface& surface : page.surfaces) text += kept_text(surface);
     text += fmt::format(
-        "<li>Positions in steps of 0.1 µm, values in steps of 1/32768 of the range that is shown; at most {:.4g} MB were allowed (<code>--max-size</code>).</li>\n",
+        "<li>Positions in steps of 0.1 µm, values in steps of 1/32768 of the colour range; size limit {:.4g} MB (<code>--max-size</code>).</li>\n",
         static_cast<double>(page.most_bytes) / 1e6);
     for (const Field& field : page.surfaces.front().fields) {
         if (!field.info.note.empty())
@@ -263,7 +263,7 @@ std::string page_summary(const ReportPage& page) {
                  page.health.has_errors() ? "errors"
                  : warnings > 0           ? "warnings"
                                           : "sound",
-                 warnings > 0 ? fmt::format("{} to look at", warnings) : "",
+                 warnings > 0 ? fmt::format("{} found", warnings) : "",
                  page.health.has_errors() ? "bad"
                  : warnings > 0           ? "fair"
                                           : "good");

@@ -45,7 +45,7 @@ std::string write_page(const ReportPage& page) {
     text += "</style>\n</head>\n<body>\n";
     text += page_summary(page);
     text +=
-        "<noscript><p class=\"note\">The view that can be turned needs JavaScript; pictures, tables and summary do without.</p></noscript>\n<div id=\"app\" hidden></div>\n";
+        "<noscript><p class=\"note\">The interactive view needs JavaScript. Pictures, tables and summary do not.</p></noscript>\n<div id=\"app\" hidden></div>\n";
     text += page_sections(page);
     text += "<script type=\"application/json\" id=\"manifest\">" +
             json_for_html(data.manifest.dump(-1, ' ', true, Json::error_handler_t::replace)) + "</script>\n";

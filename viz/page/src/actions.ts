@@ -42,7 +42,7 @@ export function actionsOf(
         name,
         text: name[0].toUpperCase() + name.slice(1),
         key,
-        title: `draw ${name === 'surface' ? 'the surface between passes' : name === 'lines' ? 'the way of the tool as lines' : 'the points alone'}`,
+        title: `draw ${name === 'surface' ? 'the surface between passes' : name === 'lines' ? 'the tool path as lines' : 'the points only'}`,
         group: 'Draw',
         run: () => store.set({ style: name }),
         pressed: () => state.style === name,
@@ -78,8 +78,8 @@ export function actionsOf(
         style('surface', 's'),
         style('lines', 'n'),
         style('points', 'o'),
-        tool('box', 'Box zoom', 'b', 'drag a box: the view goes there'),
-        tool('measure', 'Measure', 'm', 'click two places: their distance'),
+        tool('box', 'Box zoom', 'b', 'drag a box to zoom to it'),
+        tool('measure', 'Measure', 'm', 'click two places to measure their distance'),
         {
             name: 'defects',
             text: 'Outlines',
@@ -89,7 +89,7 @@ export function actionsOf(
             run: () => store.set({ defects: !state.defects }),
             pressed: () => state.defects,
         },
-        { name: 'previous-defect', text: '◀', key: 'v', title: 'the defect before', group: 'Defects', run: step(-1) },
+        { name: 'previous-defect', text: '◀', key: 'v', title: 'the previous defect', group: 'Defects', run: step(-1) },
         {
             name: 'next-defect',
             text: 'Defect ▶',
@@ -98,13 +98,13 @@ export function actionsOf(
             group: 'Defects',
             run: step(1),
         },
-        { name: 'point-before', text: '', key: ',', title: 'the point before', group: 'Cursor', run: point(-1) },
+        { name: 'point-before', text: '', key: ',', title: 'the previous point', group: 'Cursor', run: point(-1) },
         { name: 'point-after', text: '', key: '.', title: 'the next point', group: 'Cursor', run: point(1) },
         {
             name: 'over',
             text: 'Time/way',
             key: 'x',
-            title: 'curves over time or over way',
+            title: 'curves over time or arc length',
             group: 'Curves',
             run: () => store.set({ over: state.over === 'time' ? 'length' : 'time' }),
         },
@@ -128,7 +128,7 @@ export function actionsOf(
             name: 'command',
             text: 'Command',
             key: 'r',
-            title: 'the clsurf render command line that draws this view',
+            title: 'the clsurf render command for this view',
             group: 'Out',
             run: deeds.showCommand,
         },
@@ -166,14 +166,14 @@ export function actionsOf(
             pressed: () => state.shown === name,
         });
         actions.push(
-            shown('before', '1', 'the log before'),
-            shown('after', '2', 'the log after'),
-            shown('wipe', 'w', 'before on the left, after on the right: drag the line between'),
+            shown('before', '1', 'the earlier log'),
+            shown('after', '2', 'the later log'),
+            shown('wipe', 'w', 'before on the left, after on the right: drag the line between them'),
             {
                 name: 'toggle',
                 text: '',
                 key: 'c',
-                title: 'the other log',
+                title: 'switch to the other log',
                 group: 'Compare',
                 run: () =>
                     store.set({

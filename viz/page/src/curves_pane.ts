@@ -101,7 +101,7 @@ export class CurvesPane {
                         size: last ? 34 : 0,
                         show: last,
                         labelFont: font,
-                        label: this.store.state.over === 'time' ? 'time [s]' : 'way [mm]',
+                        label: this.store.state.over === 'time' ? 'time [s]' : 'arc length [mm]',
                         labelSize: 13,
                         gap: 2,
                     },
@@ -123,7 +123,7 @@ export class CurvesPane {
         );
         plot.over.addEventListener('click', (event) => this.click(plot, event.offsetX));
         plot.over.addEventListener('dblclick', () => this.showAll());
-        plot.over.title = `${info.label}: click for the place, drag to enlarge, double click for all`;
+        plot.over.title = `${info.label}: click to select the place, drag to zoom, double click to show all`;
         this.charts.push({ plot, holder, field });
     }
 

@@ -16,7 +16,7 @@ function open(title: string, ...children: Node[]): void {
 export function showCommand(command: string): void {
     const text = element('textarea', { readonly: '', rows: '5', 'aria-label': 'command line' });
     text.value = command;
-    const copy = element('button', { 'data-action': 'copy', title: 'to the clipboard' }, 'Copy');
+    const copy = element('button', { 'data-action': 'copy', title: 'copy to the clipboard' }, 'Copy');
     copy.addEventListener('click', async () => {
         text.select();
         try {
@@ -39,7 +39,7 @@ export function showKeys(actions: Action[]): void {
         ['shift and drag, or the right button', 'move'],
         ['wheel', 'zoom'],
         ['double click', 'show the whole part'],
-        ['click', 'the place, its line and its point on the curves'],
+        ['click', 'select the place, its line and its point on the curves'],
     ].map(([what, does]) => element('tr', {}, element('td', {}, what), element('td', {}, does)));
     open(
         'Keys',

@@ -91,7 +91,7 @@ async function begin(app: HTMLElement): Promise<void> {
                 return `the program has lines 1 … ${text.lineCount}`;
             const runs = s.runsOfLine(value);
             store.set({ line: value, vertex: runs.length > 0 ? runs[0][0] : null, defect: null, pass: 0 });
-            return runs.length > 0 ? null : 'no point of this page has that line';
+            return runs.length > 0 ? null : 'this report has no point on that line';
         }
         const last = kind === 'point' ? s.info.records - 1 : s.time[s.count - 1];
         if (value < 0 || value > last)
@@ -156,7 +156,7 @@ async function begin(app: HTMLElement): Promise<void> {
         action.run();
     });
     for (const row of document.querySelectorAll<HTMLElement>('[data-defect]')) {
-        row.title = 'show it above';
+        row.title = 'show this defect above';
         row.addEventListener('click', () => {
             goToDefect(Number(row.dataset.defect) - 1);
             app.scrollIntoView();
@@ -171,7 +171,7 @@ if (app) {
     begin(app).catch((error: unknown) => {
         app.hidden = false;
         app.className = 'failed';
-        app.textContent = `The view cannot be shown: ${error instanceof Error ? error.message : String(error)}. Pictures and tables below are whole.`;
+        app.textContent = `The view is not available: ${error instanceof Error ? error.message : String(error)}. The pictures and tables below are complete.`;
         console.error(error);
     });
 }

@@ -14,7 +14,7 @@ export class ProgramPane {
         class: 'program',
         tabindex: '0',
         role: 'listbox',
-        'aria-label': 'the program; arrow keys go from line to line',
+        'aria-label': 'the program; arrow keys move from line to line',
     });
     private readonly spacer = element('div');
     private readonly rows = element('div', { class: 'rows' });

@@ -31,7 +31,7 @@ export class TablePane {
                 element(
                     'p',
                     { class: 'hint' },
-                    'Click a place, a line, a curve or a defect: the numbers of its point stand here.',
+                    'Click a place, a line, a curve or a defect to see the values of its point.',
                 ),
             );
             return;

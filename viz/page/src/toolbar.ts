@@ -20,7 +20,7 @@ export class Toolbar {
         actions: Action[],
         locate: (kind: string, value: number) => string | null,
     ) {
-        const field = element('select', { title: 'what is coloured', 'aria-label': 'field' });
+        const field = element('select', { title: 'coloured field', 'aria-label': 'field' });
         manifest.fields.forEach((f, k) =>
             field.append(new Option(f.unit ? `${f.label} [${f.unit}]` : f.label, String(k))),
         );
@@ -32,7 +32,7 @@ export class Toolbar {
             map.append(option);
         }
         map.addEventListener('change', () => store.set({ map: map.value }));
-        const bins = element('select', { title: 'running colours, or steps', 'aria-label': 'steps of colour' });
+        const bins = element('select', { title: 'continuous colours or steps', 'aria-label': 'colour steps' });
         for (const n of [0, 6, 8, 10, 12, 16]) bins.append(new Option(n === 0 ? 'running' : `${n} steps`, String(n)));
         bins.addEventListener('change', () => store.set({ bins: Number(bins.value) }));
         this.element.append(element('span', { class: 'set' }, field, map, bins));
@@ -66,7 +66,7 @@ export class Toolbar {
     private addLocator(locate: (kind: string, value: number) => string | null): Locator {
         const kind = element(
             'select',
-            { 'aria-label': 'what to go to' },
+            { 'aria-label': 'target' },
             new Option('line', 'line'),
             new Option('point', 'point'),
             new Option('time [s]', 'time'),
@@ -82,7 +82,7 @@ export class Toolbar {
         const go = () => {
             const value = Number(input.value.replace(',', '.'));
             const problem =
-                input.value.trim() === '' || !Number.isFinite(value) ? 'a number is needed' : locate(kind.value, value);
+                input.value.trim() === '' || !Number.isFinite(value) ? 'enter a number' : locate(kind.value, value);
             input.setCustomValidity(problem ?? '');
             if (problem) input.reportValidity();
         };

@@ -10,7 +10,7 @@ const mostPasses = 1000;
 const shapeSigns: Record<string, string> = { pit: '▾ ', bulge: '▴ ', alternating: '± ' };
 
 export class TreePane {
-    readonly element = element('nav', { class: 'tree', 'aria-label': 'what is loaded' });
+    readonly element = element('nav', { class: 'tree', 'aria-label': 'contents' });
     private readonly passes = element('details', { class: 'passes' });
 
     constructor(
@@ -75,7 +75,7 @@ export class TreePane {
         );
         if (formed)
             list.append(
-                this.choice('formed', 'formed', 'what the tool leaves standing, over its form', () =>
+                this.choice('formed', 'formed', 'the as-machined surface, above its form', () =>
                     this.store.set({ formed: true }),
                 ),
             );
@@ -128,7 +128,7 @@ export class TreePane {
             list.append(button);
         }
         if (count > mostPasses)
-            list.append(element('p', { class: 'hint' }, `${count - mostPasses} more: click on the surface`));
+            list.append(element('p', { class: 'hint' }, `${count - mostPasses} more: click the surface`));
         this.passes.replaceChildren(element('summary', {}, `Passes (${count.toLocaleString('en')})`), list);
     }
 
