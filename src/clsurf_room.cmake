@@ -47,6 +47,8 @@ function(clsurf_room name)
   add_library(clsurf::${name} ALIAS clsurf_${name})
   target_sources(clsurf_${name} PUBLIC FILE_SET HEADERS BASE_DIRS ${base} FILES ${ROOM_HEADERS})
   target_compile_features(clsurf_${name} PUBLIC cxx_std_20)
+  # Rooms include each other as "room/header.h", users say <clsurf/room/header.h>.
+  target_include_directories(clsurf_${name} INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   list(TRANSFORM ROOM_NEEDS PREPEND clsurf_)
   target_link_libraries(clsurf_${name} PRIVATE $<BUILD_INTERFACE:clsurf_build_options>)
   target_link_libraries(clsurf_${name} PUBLIC ${ROOM_NEEDS})

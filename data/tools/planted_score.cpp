@@ -4,10 +4,9 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "path/line_map.h"
-#include "path/pieces.h"
+#include "pipeline/part.h"
+#include "pipeline/signals_of.h"
 #include "program/interpreter.h"
-#include "quality/signals.h"
 
 namespace clsurf::planted {
 namespace {
@@ -137,14 +136,12 @@ Program program_of(const PlantedLog& planted) {
 QualityReport judge(const PlantedLog& planted, const QualityRules& rules) {
     const Log log = as_log(planted);
     const Program program = program_of(planted);
-    Diagnostics diagnostics;
-    const Trajectory path = reconstruct(log, Role::commanded, Vec3::Zero());
-    const Trajectory measured = reconstruct(log, Role::feedback, Vec3::Zero());
-    const LineMap lines = map_lines(path, log, program, true, diagnostics);
-    const ClSurface surface = stitch(gather(path), lines);
-    const Signals signals =
-        derive_signals(surface, path, &measured, smooth_pieces(log, surface.passes), usual_end_zone(surface.step_over));
-    return find_defects(surface, signals, lines, program, log.period, rules);
+    PartRules part_rules;
+    part_rules.accept_foreign = true;  // the score says what is found of it
+    const Part part = assemble(program, log, part_rules);
+    const ClSurface surface = stitch(part);
+    const PartSignals read = signals_of(part, surface, Role::feedback);
+    return find_defects(surface, read.signals, *part.lines, part.program, part.log.period, rules);
 }
 
 Score score(const PlantedLog& planted, const QualityReport& report) {

@@ -6,14 +6,16 @@
 #include <fmt/format.h>
 
 #include "cli/part.h"
-#include "cli/quality.h"
 #include "cli/report_output.h"
+#include "cli/stage_clock.h"
 #include "core/units.h"
+#include "field/field_set.h"
 #include "field/range.h"
 #include "io/budget_file.h"
 #include "io/joined_reports.h"
 #include "io/json_text.h"
 #include "io/quality_report.h"
+#include "pipeline/judge.h"
 #include "quality/severity.h"
 #include "viz/colour_difference.h"
 
@@ -64,7 +66,8 @@ Checked check_log(const PartOptions& options, std::optional<Role> measured, cons
     Part part = load_part(options, clock);
     clock.begin("stitch the surface");
     const ClSurface surface = stitch(part);
-    const Quality quality = judge(part, surface, measured, {}, clock);
+    const Quality quality = judge(part, surface, measured, {}, clock.stages());
+    part.diagnostics.append(quality.diagnostics);
 
     io::ReportedQuality reported;
     reported.report = &quality.report;

@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "cli/contacts.h"
 #include "cli/look.h"
 #include "cli/picture_output.h"
 #include "cli/runs.h"
@@ -16,6 +15,7 @@
 #include "core/spelling.h"
 #include "io/budget_file.h"
 #include "io/run_report.h"
+#include "pipeline/contacts.h"
 
 namespace clsurf::cli {
 namespace {

@@ -4,8 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "cli/quality.h"
+#include "machine/machine.h"
 #include "optimize/program_intervals.h"
+#include "pipeline/signals_of.h"
 #include "quality/quality_fields.h"
 
 namespace clsurf::cli {

@@ -5,7 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "cli/part.h"
+#include "field/field_set.h"
+#include "pipeline/part.h"
 #include "quality/signals.h"
 
 namespace clsurf::cli {

@@ -90,15 +90,6 @@ private:
 
 }  // namespace
 
-FormedPart::FormedPart(const Part& part, const ClSurface& surface, std::optional<Role> role, const CuttingTool& tool,
-                       StageClock& clock) {
-    clock.begin("sweep the tool");
-    upright_ = upright_part(part, role, tool);
-    if (!upright_) read_ = signals_of(part, surface, role);
-    const ToolRun run = upright_ ? upright_->run() : ToolRun{part.path, surface, read_};
-    formed_.emplace(run.formed(tool));
-}
-
 FormedMap make_formed_map(const FormedPart& part, const Box3& box, const viz::Camera& camera) {
     const FormedSurface& formed = part.surface();
     Box2 region = formed.bounds();

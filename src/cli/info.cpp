@@ -17,6 +17,8 @@
 #include "path/line_map.h"
 #include "path/tip_motions.h"
 #include "path/toolpath_summary.h"
+#include "pipeline/placement.h"
+#include "pipeline/roles.h"
 
 namespace clsurf::cli {
 namespace {
@@ -70,9 +72,7 @@ void print_log(const Log& log, const Diagnostics& diagnostics) {
 ProgramMatch judge_together(Program program, const Log& log, const FramePoses& given,
                             const std::shared_ptr<const Kinematics>& kinematics, ProgramIdentity identity,
                             Diagnostics& diagnostics) {
-    const Role role = log.has(Role::commanded)  ? Role::commanded
-                      : log.has(Role::feedback) ? Role::feedback
-                                                : Role::actual;
+    const Role role = shown_role(log);
     if (!log.has(role) || log.records == 0 || program.motions.size() == 0) return {};
     const Eigen::Isometry3d pose = place_with(program, log, given, kinematics.get(), diagnostics);
     const Trajectory path = reconstruct(log, role, pose, kinematics);

@@ -3,15 +3,47 @@
 #include <cmath>
 #include <map>
 
-#include "cli/contacts.h"
 #include "cli/known_tool.h"
 #include "cli/options.h"
 #include "cli/report_output.h"
+#include "core/parallel.h"
 #include "io/lint_report.h"
 #include "io/program_file.h"
+#include "quality/contact_points.h"
 
 namespace clsurf::cli {
 namespace {
+
+ChannelView view_of(const Column<float>& values) {
+    ChannelView view;
+    view.first = reinterpret_cast<const std::byte*>(values.data());
+    view.stride = sizeof(float);
+    view.count = static_cast<PointIndex>(values.size());
+    view.type = ScalarType::f32;
+    return view;
+}
+
+/// The same positions again, which must outlive it.
+Trajectory trajectory_on(const Positions& positions) {
+    Trajectory path;
+    path.axes = {view_of(positions.x), view_of(positions.y), view_of(positions.z)};
+    path.offset = positions.origin;
+    path.count = positions.size();
+    return path;
+}
+
+/// Adds the contact points to what lint found; nothing where the program turns the tool. O(findings).
+void locate(LintReport& report, const Program& program, const ProgrammedSurface& laid, const CuttingTool& tool) {
+    if (!program.motions.rotary.empty() || !program.motions.tool_axis.empty()) return;
+    const Trajectory path = trajectory_on(laid.surface.positions);
+    const ContactPoints points(laid.surface, path, nullptr, tool);
+    parallel_for(static_cast<std::int64_t>(report.findings.size()), 1, [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t k = first; k < last; ++k) {
+            LintFinding& finding = report.findings[static_cast<std::size_t>(k)];
+            finding.place.contact = points.at(finding.point);
+        }
+    });
+}
 
 constexpr const char* lint_formats = "text|json|sarif";
 

@@ -23,6 +23,7 @@
 #include "io/optimize_report.h"
 #include "io/program_file.h"
 #include "optimize/optimizer.h"
+#include "pipeline/placement.h"
 #include "viz/image.h"
 #include "viz/scene.h"
 

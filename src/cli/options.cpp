@@ -84,16 +84,6 @@ void declare_force(po::options_description& options) {
     options.add_options()("force", "go on where the log does not belong to the program; nothing is judged then");
 }
 
-void refuse_foreign(const ProgramMatch& match, const Program& program, const Log& log, bool force,
-                    Diagnostics& diagnostics) {
-    if (match.foreign.empty()) return;
-    const Place place = Place::of_file(log.name);
-    const std::string text = "does not belong to " + program.main().name() + ": " + match.foreign;
-    const std::string hint = "--force goes on all the same; --work-offset or --machine may be missing";
-    if (!force) throw InputError(place, text, hint);
-    diagnostics.add({Severity::warning, "map.foreign", place, text, {}});
-}
-
 void declare_kinematics(po::options_description& options) {
     options.add_options()(
         "machine", po::value<std::string>()->value_name("FILE"),

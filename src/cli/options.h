@@ -14,7 +14,6 @@
 #include "io/log_format.h"
 #include "io/program_file.h"
 #include "machine/kinematics.h"
-#include "path/program_match.h"
 
 namespace clsurf::cli {
 
@@ -39,9 +38,6 @@ void declare_log_options(po::options_description& options);
 
 /// --force, of what takes a log that must belong to its program
 void declare_force(po::options_description& options);
-/// Throws InputError where the log does not belong to the program; with `force` it is a warning.
-void refuse_foreign(const ProgramMatch& match, const Program& program, const Log& log, bool force,
-                    Diagnostics& diagnostics);
 
 /// --machine, for its kinematics
 void declare_kinematics(po::options_description& options);

@@ -8,6 +8,7 @@
 #include "cli/picture_output.h"
 #include "core/file_name.h"
 #include "io/profile_report.h"
+#include "quality/formed_report.h"
 
 namespace clsurf::cli {
 
@@ -49,7 +50,8 @@ ExitCode plot_profile(const po::variables_map& values, PartOptions options, viz:
     const CuttingTool tool = required_tool(part, "--profile", "--profile 10,0,10,5 --tool ball:6");
     clock.begin("stitch the surface");
     const ClSurface surface = stitch(part);
-    const FormedPart formed(part, surface, role, tool, clock);
+    clock.begin("sweep the tool");
+    const FormedPart formed(part, surface, role, tool);
     const FormedProfile profile = measure_profile(formed.surface(), from, to);
     if (profile.count < 2) throw UsageError("--profile: nothing was cut between the two places");
 

@@ -8,11 +8,11 @@
 
 #include <fmt/format.h>
 
-#include "cli/contacts.h"
 #include "cli/part.h"
 #include "core/file_name.h"
 #include "core/units.h"
 #include "io/json_text.h"
+#include "pipeline/contacts.h"
 
 namespace clsurf::cli {
 namespace {

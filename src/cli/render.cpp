@@ -8,11 +8,13 @@
 #include "cli/fields.h"
 #include "cli/formed.h"
 #include "cli/look.h"
+#include "cli/part.h"
 #include "cli/picture_output.h"
-#include "cli/quality.h"
+#include "cli/stage_clock.h"
 #include "core/file_name.h"
 #include "core/spelling.h"
 #include "field/range.h"
+#include "pipeline/judge.h"
 #include "quality/outline.h"
 #include "viz/scene.h"
 
@@ -97,7 +99,8 @@ void form(Shown& shown, const RenderOptions& options, StageClock& clock) {
     panel.surface = &shown.surface;
     const viz::Camera camera = viz::map_camera({panel}, options.shown.look);
     const CuttingTool tool = required_tool(shown.part, "--surface formed", "--surface formed --tool ball:6");
-    const FormedPart formed(shown.part, shown.surface, options.swept, tool, clock);
+    clock.begin("sweep the tool");
+    const FormedPart formed(shown.part, shown.surface, options.swept, tool);
     FormedMap map = make_formed_map(formed, options.shown.look.box, camera);
     clock.end();
     shown.field = std::move(map.field);
@@ -105,25 +108,25 @@ void form(Shown& shown, const RenderOptions& options, StageClock& clock) {
 }
 
 /// What `check` finds, as outlines: passes are compared where they were commanded, heights measured
-/// from the positions that are shown.
+/// from the positions that are shown. Adds why nothing was judged to the part's diagnostics.
 std::vector<viz::OutlineMark> outline_defects(Part& part, const ClSurface& surface, StageClock& clock) {
     std::vector<viz::OutlineMark> outlines;
-    const auto add = [&](const ClSurface& judged, std::optional<Role> measured) {
+    const auto add = [&](const Trajectory& path, const ClSurface& judged, std::optional<Role> measured) {
         clock.begin("derive the signals");
-        const PartSignals read = signals_of(part, judged, measured);
-        const QualityReport report = find_part_defects(part, judged, read, {}, clock);
+        const PartSignals read = signals_along(part.log, path, judged, measured);
+        clock.begin("find the defects");
+        const QualityReport report = find_defects(part, path, judged, read);
+        note_reasons(report, part, part.diagnostics);
         for (std::size_t i = 0; i < report.defects.size(); ++i) {
             outlines.push_back({outlines_of(report.defects[i], judged), fmt::format("{}", i + 1)});
         }
     };
     if (part.path.role == Role::commanded || !part.log.has(Role::commanded)) {
-        add(surface, std::nullopt);
+        add(part.path, surface, std::nullopt);
         return outlines;
     }
-    const Trajectory shown = part.path;
-    part.path = reconstruct_like(part.log, Role::commanded, shown);
-    add(stitch(part), shown.role);
-    part.path = shown;
+    const Trajectory commanded = reconstruct_like(part.log, Role::commanded, part.path);
+    add(commanded, stitch(gather(commanded), *part.lines), part.path.role);
     return outlines;
 }
 

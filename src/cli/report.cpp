@@ -105,7 +105,8 @@ ReportLog prepare(const PartOptions& part_options, const ReportOptions& options,
     shown.part = load_part(part_options, clock);
     clock.begin("stitch the surface");
     shown.surface = stitch(shown.part);
-    shown.quality = judge(shown.part, shown.surface, options.measured, {}, clock);
+    shown.quality = judge(shown.part, shown.surface, options.measured, {}, clock.stages());
+    shown.part.diagnostics.append(shown.quality.diagnostics);
     clock.begin("compute the fields");
     Fields fields(shown.part, shown.surface);
     const bool usual = options.fields.empty();
@@ -114,10 +115,7 @@ ReportLog prepare(const PartOptions& part_options, const ReportOptions& options,
         // What was asked for by name must be there; of the usual ones a log has some.
         if (!usual || has_values(field, shown.surface.passes)) shown.fields.push_back(std::move(field));
     }
-    for (const Role role : {Role::commanded, Role::feedback, Role::actual}) {
-        if (role != shown.part.path.role && can_reconstruct_like(shown.part.log, role, shown.part.path))
-            shown.other_roles.push_back(reconstruct_like(shown.part.log, role, shown.part.path));
-    }
+    shown.other_roles = other_roles(shown.part);
     clock.end();
     return shown;
 }
@@ -148,7 +146,8 @@ struct Formed {
 };
 
 Formed form(const ReportLog& shown, const ReportOptions& options, StageClock& clock) {
-    const FormedPart formed(shown.part, shown.surface, options.measured, *shown.part.tool, clock);
+    clock.begin("sweep the tool");
+    const FormedPart formed(shown.part, shown.surface, options.measured, *shown.part.tool);
     viz::MapPanel panel;
     panel.surface = &shown.surface;
     viz::Look look;

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "cli/quality.h"
 #include "io/report_page.h"
+#include "pipeline/judge.h"
 #include "viz/bands.h"
 
 namespace clsurf::cli {

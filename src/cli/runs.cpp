@@ -1,21 +1,19 @@
 #include "cli/runs.h"
 
+#include <utility>
+
 #include "cli/part.h"
 #include "cli/work_frames.h"
 #include "io/compressed.h"
 #include "io/machine_file.h"
 #include "io/program_file.h"
 #include "io/program_identity.h"
-#include "io/simulated_run.h"
+#include "pipeline/placement.h"
+#include "pipeline/roles.h"
+#include "pipeline/simulated_log.h"
 
 namespace clsurf::cli {
 namespace {
-
-/// machine = pose · workpiece. The simulated run of a program is in the workpiece's coordinates.
-Eigen::Isometry3d pose_of_run(const LoadedRun& run, const RunOptions& options) {
-    if (run.simulated) return Eigen::Isometry3d::Identity();
-    return options.poses.zero.value_or(pose_of(run.log).value_or(Eigen::Isometry3d::Identity()));
-}
 
 /// Without a pose all positions stay the machine's.
 io::ProgramOptions in_coordinates_of(const RunOptions& options, const Log& log) {
@@ -25,13 +23,32 @@ io::ProgramOptions in_coordinates_of(const RunOptions& options, const Log& log) 
     return program;
 }
 
-Role common_role(const LoadedRun& a, const LoadedRun& b, std::optional<Role> wanted) {
-    if (wanted) return *wanted;
-    for (const Role role : {Role::commanded, Role::feedback, Role::actual}) {
-        if (a.log.has(role) && b.log.has(role)) return role;
-    }
+Role required_common_role(const LoadedRun& a, const LoadedRun& b, std::optional<Role> wanted) {
+    if (const std::optional<Role> role = common_role(a.log, b.log, wanted)) return *role;
     throw InputError(Place::of_file(b.name),
                      "has no positions of a kind that " + a.name + " has too: commanded, feedback or actual");
+}
+
+/// Simulates the program of a run.
+void simulate_into(LoadedRun& run, const io::Source& source, const RunOptions& options) {
+    run.simulated = true;
+    io::ProgramOptions as_programmed = options.program_options;
+    as_programmed.coordinates.reset();
+    Program program = io::read_program(source, as_programmed);
+    Vec3 zero = Vec3::Zero();
+    if (runs_on_five_axes(program, options.machine)) {
+        run.kinematics = options.kinematics;
+        run.pose = prepare_five_axes(program, options.machine, options.poses);
+        zero = run.pose.translation();
+    } else {
+        (void)place_motions(program, {}, *in_coordinates_of(options, run.log).coordinates);
+    }
+    SimulatedRun made = simulate_to_log(program, options.machine, options.start, {}, zero);
+    run.log = std::move(made.log);
+    run.log.name = program.main().name();
+    run.log.diagnostics = program.diagnostics;
+    run.log.diagnostics.append(made.summary.diagnostics);
+    run.program = std::make_shared<const Program>(std::move(program));
 }
 
 }  // namespace
@@ -40,7 +57,7 @@ void declare_runs(po::options_description& options) {
     // clang-format off
     options.add_options()
         ("program", po::value<std::string>()->value_name("FILE"), "the program that the logs are of: tells lines and rapids")
-        ("machine", po::value<std::string>()->value_name("FILE"), "machine file for programs, which are simulated (default: that of clsurf machine --defaults)")
+        ("machine", po::value<std::string>()->value_name("FILE"), "machine file for programs, which are simulated (default: that of clsurf machine --defaults); by its kinematics positions of five axes become those of the tool's tip")
         ("start", po::value<std::string>()->value_name("X,Y,Z"), "where the axes stand before a simulated program, mm (default: 0,0,0)")
         ("surface", po::value<std::string>()->value_name("commanded|feedback|actual"), "positions that runs are laid onto each other by (default: commanded, else what all have)");
     // clang-format on
@@ -59,7 +76,11 @@ RunOptions read_run_options(const po::variables_map& values) {
     options.tool = read_tool(values);
     options.force = values.count("force") > 0;
     if (values.count("program") > 0) options.program = values["program"].as<std::string>();
-    if (values.count("machine") > 0) options.machine = values["machine"].as<std::string>();
+    if (values.count("machine") > 0) {
+        options.machine = io::read_machine(values["machine"].as<std::string>());
+        if (options.machine.kinematics.has_rotary())
+            options.kinematics = std::make_shared<const Kinematics>(options.machine.kinematics);
+    }
     if (values.count("surface") > 0) options.role = parse_role(values["surface"].as<std::string>());
     options.start = read_start(values);
     return options;
@@ -73,46 +94,69 @@ LoadedRun load_run(const std::string& path, const RunOptions& options) {
     const bool is_program = io::forces_log(options.log_options) && io::looks_like_program(source);
     if (!is_program && io::recognise_log(source, options.log_options) != nullptr) {
         run.log = io::open_log(source, options.log_options);
+        run.kinematics = options.kinematics;
+        run.pose = options.poses.zero.value_or(pose_of(run.log).value_or(Eigen::Isometry3d::Identity()));
+        if (!run.kinematics) note_rotary(run.log, shown_role(run.log), run.log.diagnostics);
     } else {
-        const Machine machine = options.machine.empty() ? Machine{} : io::read_machine(options.machine);
-        run.simulated = true;
-        run.program = std::make_shared<const Program>(io::read_program(source, in_coordinates_of(options, run.log)));
-        run.log = io::simulate_run(*run.program, machine, options.start, {});
+        simulate_into(run, source, options);
     }
     if (run.log.records == 0) throw InputError(Place::of_file(path), "holds no records");
     return run;
 }
 
 ComparedRun run_of(const LoadedRun& run, const LoadedRun& other, const RunOptions& options) {
-    const Eigen::Isometry3d pose = pose_of_run(run, options);
-    const auto both_have = [&](Role role) { return run.log.has(role) && other.log.has(role); };
     ComparedRun made;
     made.log = &run.log;
-    made.path = reconstruct(run.log, common_role(run, other, options.role), pose);
-    if (both_have(Role::commanded)) made.commanded = reconstruct(run.log, Role::commanded, pose);
-    for (const Role role : {Role::actual, Role::feedback}) {
-        if (!both_have(role)) continue;
-        made.measured = reconstruct(run.log, role, pose);
-        if (role != made.path.role) made.truest = made.measured;
-        break;
+    const Role role = required_common_role(run, other, options.role);
+    made.path = reconstruct(run.log, role, run.pose, run.kinematics);
+    if (run.log.has(Role::commanded) && other.log.has(Role::commanded))
+        made.commanded = reconstruct_like(run.log, Role::commanded, made.path);
+    if (const std::optional<Role> measured = common_measured_role(run.log, other.log)) {
+        made.measured = reconstruct_like(run.log, *measured, made.path);
+        if (*measured != role) made.truest = made.measured;
     }
     return made;
 }
 
+namespace {
+
+/// Lines of a simulated run on five axes. Its program has axes along those of the machine, and so has `level`.
+LineMap lines_on_five_axes(const LoadedRun& run, const Trajectory& path, Diagnostics& diagnostics) {
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    pose.translation() = run.pose.translation();
+    const Trajectory level = reconstruct(run.log, path.role, pose, run.kinematics);
+    return map_lines(level, run.log, *run.program, true, diagnostics);
+}
+
+/// Lines of a log of --program, which becomes the program of the run.
+LineMap lines_of_program(LoadedRun& run, const Trajectory& path, const RunOptions& options, Diagnostics& diagnostics) {
+    const io::Source source = io::open_source(options.program);
+    io::ProgramOptions how = in_coordinates_of(options, run.log);
+    if (run.kinematics) how.coordinates.reset();
+    Program program = io::read_program(source, how);
+    if (run.kinematics) {
+        FramePoses poses = options.poses;
+        poses.zero = run.pose;
+        (void)place_tips_with(program, run.log, poses, run.kinematics.get(), diagnostics);
+    }
+    diagnostics.append(program.diagnostics);
+    const ProgramIdentity identity = io::check_identity(source, run.log, diagnostics);
+    LineMap lines = map_lines(path, run.log, program, true, diagnostics, identity);
+    // The path of the axes alone does not say whether a log of five axes belongs to the program.
+    if (run.kinematics || run.log.diagnostics.count("path.rotary") == 0)
+        refuse_foreign(lines.match(), program, run.log, options.force, diagnostics);
+    run.program = std::make_shared<const Program>(std::move(program));
+    return lines;
+}
+
+}  // namespace
+
 std::unique_ptr<LineMap> lines_of(LoadedRun& run, const Trajectory& path, const RunOptions& options,
                                   Diagnostics& diagnostics) {
+    if (run.simulated && run.kinematics) return std::make_unique<LineMap>(lines_on_five_axes(run, path, diagnostics));
     if (run.simulated) return std::make_unique<LineMap>(map_lines(path, run.log, *run.program, true, diagnostics));
-    if (!options.program.empty()) {
-        const io::Source source = io::open_source(options.program);
-        run.program = std::make_shared<const Program>(io::read_program(source, in_coordinates_of(options, run.log)));
-        const Program& program = *run.program;
-        diagnostics.append(program.diagnostics);
-        const ProgramIdentity identity = io::check_identity(source, run.log, diagnostics);
-        auto lines = std::make_unique<LineMap>(map_lines(path, run.log, program, true, diagnostics, identity));
-        refuse_foreign(lines->match(), program, run.log, options.force, diagnostics);
-        return lines;
-    }
-    return lines_without_program(run.log, path.count);
+    if (!options.program.empty()) return std::make_unique<LineMap>(lines_of_program(run, path, options, diagnostics));
+    return std::make_unique<LineMap>(lines_without_program(run.log, path.count));
 }
 
 }  // namespace clsurf::cli

@@ -8,6 +8,7 @@
 #include "cli/known_tool.h"
 #include "cli/options.h"
 #include "log/log.h"
+#include "machine/machine.h"
 #include "path/line_map.h"
 #include "program/frame_placement.h"
 #include "program/program.h"
@@ -18,8 +19,9 @@ namespace clsurf::cli {
 struct RunOptions {
     io::ProgramOptions program_options;
     io::LogOptions log_options;
-    std::string program;  ///< of logs; empty: their line channel is taken as it is
-    std::string machine;  ///< file; empty: the default one
+    std::string program;                           ///< of logs; empty: their line channel is taken as it is
+    Machine machine;                               ///< --machine, else the default one
+    std::shared_ptr<const Kinematics> kinematics;  ///< of --machine; nullptr: three axes
     Vec3 start = Vec3::Zero();
     FramePoses poses;    ///< --work-offset
     bool force = false;  ///< go on with a log that does not belong to `program`
@@ -31,18 +33,23 @@ struct RunOptions {
 void declare_runs(po::options_description& options);
 [[nodiscard]] RunOptions read_run_options(const po::variables_map& values);
 
-/// A log, and the program if it was one that was simulated.
+/// A log, and the program if it was one that was simulated, as it was simulated.
 struct LoadedRun {
     std::string name;
     Log log;
     std::shared_ptr<const Program> program;  ///< that was simulated, or --program; nullptr: none
     bool simulated = false;
+    std::shared_ptr<const Kinematics> kinematics;            ///< nullptr: the log has the positions of three axes
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< machine = pose · what is compared
 };
 
-/// Told apart by content. Throws InputError: neither, or empty.
+/// Told apart by content; a program is simulated, on five axes where it and --machine have them. Throws InputError:
+/// neither, or empty, or a machine with rotary axes that the log does not have. The log's diagnostics have `path.rotary` where a
+/// rotary axis moves and no machine is given.
 [[nodiscard]] LoadedRun load_run(const std::string& path, const RunOptions& options);
 
-/// Which positions two runs are compared by. Throws InputError: they have none in common.
+/// Which positions two runs are compared by: with --machine those of the tip. Throws InputError: they have none in
+/// common.
 [[nodiscard]] ComparedRun run_of(const LoadedRun& run, const LoadedRun& other, const RunOptions& options);
 
 /// What the points of a run belong to; without a program all that the line channel does not call idle cuts. Reads

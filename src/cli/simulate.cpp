@@ -14,7 +14,8 @@
 #include "io/program_file.h"
 #include "io/program_identity.h"
 #include "io/simulated_log.h"
-#include "path/tip_motions.h"
+#include "motion/five_axis_simulator.h"
+#include "pipeline/simulated_log.h"
 
 namespace clsurf::cli {
 namespace {
@@ -51,10 +52,8 @@ std::string rotary_text(const FiveAxisSummary& s, const Kinematics& k) {
 }
 
 /// The program is gone through many times, and stands in memory.
-ExitCode run_five_axis(Program program, const Machine& machine, const Vec3& zero, const Vec3& start,
+ExitCode run_five_axis(const Program& program, const Machine& machine, const Vec3& zero, const Vec3& start,
                        io::SimulatedLogWriter& log, const po::variables_map& values) {
-    solve_tool_axes(program, machine);
-    make_tip_motions(program, machine.kinematics, -zero);
     ProgressBar bar(read_common(values));
     const FiveAxisSummary summary = simulate_five_axis(
         program, machine, zero, start, [&](std::span<const FiveAxisPoint> points) { log.append(points); },
@@ -82,7 +81,7 @@ ExitCode run_simulate(const po::variables_map& values) {
     const std::string path = required(values, "PROGRAM");
     const io::Source source = io::open_source(path);
     const bool five_axes = machine.kinematics.has_rotary();
-    FramePoses poses = five_axes ? read_work_offset(values) : FramePoses{};
+    const FramePoses poses = five_axes ? read_work_offset(values) : FramePoses{};
     if (given(values, "work-offset") && !five_axes)
         throw UsageError("--work-offset is for machines with rotary axes; of three the program's own offsets count");
     const auto open_log = [&](const std::optional<Eigen::Isometry3d>& pose) {
@@ -100,12 +99,10 @@ ExitCode run_simulate(const po::variables_map& values) {
         io::ProgramOptions options = read_program_options(values);
         options.coordinates.reset();
         Program program = io::read_program(source, options);
-        poses.tool_by_kinematics = true;
-        // With its axes along those of the machine, whose limits count.
-        const Eigen::Isometry3d pose = place_motions(program, poses, Coordinates::level);
+        const Eigen::Isometry3d pose = prepare_five_axes(program, machine, poses);
         const bool told = poses.zero || !pose.translation().isZero(0);
         io::SimulatedLogWriter log = open_log(told ? std::optional(poses.zero.value_or(pose)) : std::nullopt);
-        return run_five_axis(std::move(program), machine, pose.translation(), start, log, values);
+        return run_five_axis(program, machine, pose.translation(), start, log, values);
     }
     const std::unique_ptr<ProgramReader> program = io::open_program(source, read_program_options(values));
     io::SimulatedLogWriter log = open_log(std::nullopt);

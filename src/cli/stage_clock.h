@@ -5,10 +5,12 @@
 #include <chrono>
 #include <cstdio>
 #include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 
 #include "cli/progress_bar.h"
+#include "pipeline/stages.h"
 
 namespace clsurf::cli {
 
@@ -22,12 +24,17 @@ public:
     ~StageClock() { end(); }
 
     /// Ends the stage before and begins one.
-    void begin(const char* stage) {
+    void begin(std::string_view stage) {
         end();
-        stage_ = stage;
+        stage_ = std::string(stage);
         start_ = std::chrono::steady_clock::now();
         if (progress_) progress_(stage, static_cast<double>(begun_) / stages_);
         ++begun_;
+    }
+
+    /// Begins the stages of a computation; refers to this clock.
+    [[nodiscard]] Stages stages() {
+        return [this](std::string_view stage) { begin(stage); };
     }
 
     /// Ends the stage and takes the bar away, before something else is printed.

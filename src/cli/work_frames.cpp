@@ -30,26 +30,6 @@ Eigen::Isometry3d pose_from(const std::string& text) {
     return clsurf::pose_of(Vec3(numbers[0], numbers[1], numbers[2]), numbers.size() > 3 ? numbers[3] : 0.0);
 }
 
-/// The program sets its offsets itself. Some controllers record positions of the machine, others those of the work
-/// system: the path says which.
-Eigen::Isometry3d own_or_none(const Program& program, const Log& log, const Eigen::Isometry3d& own,
-                              Diagnostics& diagnostics) {
-    const Eigen::Isometry3d none = Eigen::Isometry3d::Identity();
-    for (const Role role : {Role::commanded, Role::feedback, Role::actual}) {
-        if (!log.has(role)) continue;
-        const double with = share_on_path(reconstruct(log, role, own), program);
-        const double without = share_on_path(reconstruct(log, role, none), program);
-        if (!(without > with)) return own;
-        diagnostics.add(
-            {Severity::note, "map.coordinates", Place::of_file(log.name),
-             fmt::format("positions are read as those of the work system, without the offset {} that {} sets",
-                         pose_numbers(own), program.main().name()),
-             fmt::format("--work-offset {} reads them as the machine's", pose_numbers(own))});
-        return none;
-    }
-    return own;
-}
-
 }  // namespace
 
 void declare_work_offset(po::options_description& options) {
@@ -71,37 +51,6 @@ FramePoses read_work_offset(const po::variables_map& values) {
         poses.zero = pose_from(text);
     }
     return poses;
-}
-
-std::optional<Eigen::Isometry3d> pose_of(const Log& log) {
-    if (!log.work_offset) return std::nullopt;
-    return clsurf::pose_of(*log.work_offset, log.work_rotation);
-}
-
-Eigen::Isometry3d place_with(Program& program, const Log& log, FramePoses given, const Kinematics* kinematics,
-                             Diagnostics& diagnostics) {
-    if (!given.zero) given.zero = pose_of(log);
-    given.tool_by_kinematics = kinematics != nullptr;
-    given.starts_anywhere = true;
-    const std::vector<int> unknown = unknown_systems(program.motions);
-    if (unknown.size() > 1) {
-        std::string names;
-        bool missing = false;
-        for (const int system : unknown) {
-            const std::string name = name_of_work_system(system, program.dialect);
-            names += (names.empty() ? "" : system == unknown.back() ? " and " : ", ") + name;
-            missing = missing || (system != unknown.front() && !given.systems.contains(system));
-        }
-        if (missing) {
-            diagnostics.add({Severity::note, "program.work-offset", Place::of_file(program.main().name()),
-                             fmt::format("cuts in {}, and sets none of them: they are taken to lie where {} lies",
-                                         names, name_of_work_system(unknown.front(), program.dialect)),
-                             "--work-offset G55:X,Y,Z says where one of them lies"});
-        }
-    }
-    const Eigen::Isometry3d pose = place_motions(program, given);
-    if (given.zero || kinematics != nullptr || pose.matrix().isIdentity(0)) return pose;
-    return own_or_none(program, log, pose, diagnostics);
 }
 
 }  // namespace clsurf::cli

@@ -6,24 +6,11 @@
 
 #include "log/log.h"
 #include "machine/machine.h"
-#include "motion/simulator.h"
 #include "path/line_map.h"
+#include "pipeline/simulated_log.h"
 #include "quality/defects.h"
 
 namespace clsurf {
-
-/// Whether a program is run on five axes: it names rotary axes or tool axes, and the machine has two to turn.
-[[nodiscard]] bool runs_on_five_axes(const Program& program, const Machine& machine);
-
-/// The run of a program on a machine, as a log in memory: cmd.*, fb.*, line.
-struct SimulatedRun {
-    Log log;
-    SimulationSummary summary;
-};
-/// Of a program that runs on five axes the motions are those of the tip (path/tip_motions.h); `zero`: machine position of its
-/// zero [mm]. Throws what simulate() and simulate_five_axis() throw. Memory: 52 bytes a point, 84 on five axes.
-[[nodiscard]] SimulatedRun simulate_to_log(const Program& program, const Machine& machine, const Vec3& start,
-                                           const Progress& progress, const Vec3& zero = Vec3::Zero());
 
 struct JudgedRun {
     Log log;

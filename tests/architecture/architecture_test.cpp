@@ -34,13 +34,16 @@ const std::map<std::string, std::set<std::string>> rooms{
     {"motion", {"core", "curve", "program", "machine", "log"}},
     {"quality", {"core", "program", "log", "path", "surface", "field"}},
     {"report", {"core", "log", "path", "surface", "field", "quality"}},
-    {"optimize", {"core", "curve", "program", "machine", "log", "path", "surface", "field", "quality", "motion"}},
+    {"pipeline", {"core", "program", "machine", "log", "path", "surface", "motion", "quality"}},
+    {"optimize",
+     {"core", "curve", "program", "machine", "log", "path", "surface", "field", "quality", "motion", "pipeline"}},
     {"io",
-     {"core", "program", "machine", "log", "path", "surface", "field", "motion", "quality", "report", "optimize"}},
+     {"core", "program", "machine", "log", "path", "surface", "field", "motion", "quality", "report", "pipeline",
+      "optimize"}},
     {"viz", {"core", "path", "surface", "field", "quality"}},
     {"cli",
-     {"core", "program", "machine", "log", "path", "surface", "field", "motion", "quality", "report", "optimize", "io",
-      "viz"}},
+     {"core", "program", "machine", "log", "path", "surface", "field", "motion", "quality", "report", "pipeline",
+      "optimize", "io", "viz"}},
 };
 
 // How the headers of a third party begin → paths that may include them.
@@ -272,6 +275,32 @@ TEST(Listing, EveryFileIsBuilt) {
         while (!fs::exists(root / folder / "CMakeLists.txt")) folder = folder.parent_path();
         expect_none(check_listed(file, folder.generic_string(), read(root / folder / "CMakeLists.txt")));
     }
+}
+
+/// The code blocks of a Markdown text that are marked as C++.
+std::vector<std::string> cpp_blocks(const std::string& text) {
+    std::vector<std::string> blocks;
+    const std::string fence = "```cpp\n";
+    for (std::size_t at = text.find(fence); at != std::string::npos; at = text.find(fence, at)) {
+        at += fence.size();
+        blocks.push_back(text.substr(at, text.find("```", at) - at));
+    }
+    return blocks;
+}
+
+std::string whole_text(const fs::path& path) {
+    std::ostringstream text;
+    text << std::ifstream(path).rdbuf();
+    return text.str();
+}
+
+// The program that tests/consumer builds against the installed package.
+TEST(Documentation, ReadmeShowsTheProgramThatTheConsumerTestRuns) {
+    const std::string program = whole_text(fs::path(PROJECT_ROOT) / "tests/consumer/consumer.cpp");
+    ASSERT_FALSE(program.empty());
+    const std::vector<std::string> shown = cpp_blocks(whole_text(fs::path(PROJECT_ROOT) / "README.md"));
+    ASSERT_EQ(shown.size(), 1U);
+    EXPECT_EQ(shown.front(), program);
 }
 
 }  // namespace

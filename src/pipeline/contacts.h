@@ -5,14 +5,13 @@
 #include <optional>
 #include <vector>
 
-#include "cli/part.h"
-#include "optimize/lint.h"
+#include "pipeline/part.h"
 #include "quality/contact_points.h"
 #include "quality/defects.h"
 #include "quality/place_search.h"
 #include "quality/run_report.h"
 
-namespace clsurf::cli {
+namespace clsurf {
 
 /// Does not move once it is made.
 class PartContacts {
@@ -48,7 +47,4 @@ private:
     std::optional<ContactPoints> points_;
 };
 
-/// Adds the contact points to what lint found; nothing where the program turns the tool. O(findings).
-void locate(LintReport& report, const Program& program, const ProgrammedSurface& laid, const CuttingTool& tool);
-
-}  // namespace clsurf::cli
+}  // namespace clsurf

@@ -1,31 +1,13 @@
-#include "cli/contacts.h"
+#include "pipeline/contacts.h"
 
 #include <algorithm>
 
 #include "core/parallel.h"
 
-namespace clsurf::cli {
+namespace clsurf {
 namespace {
 
 constexpr PointIndex bounds_points = 64;  ///< of a run, that tell its bounds
-
-ChannelView view_of(const Column<float>& values) {
-    ChannelView view;
-    view.first = reinterpret_cast<const std::byte*>(values.data());
-    view.stride = sizeof(float);
-    view.count = static_cast<PointIndex>(values.size());
-    view.type = ScalarType::f32;
-    return view;
-}
-
-/// The same positions again, which must outlive it.
-Trajectory trajectory_on(const Positions& positions) {
-    Trajectory path;
-    path.axes = {view_of(positions.x), view_of(positions.y), view_of(positions.z)};
-    path.offset = positions.origin;
-    path.count = positions.size();
-    return path;
-}
 
 template <typename Work>
 void for_each_index(std::size_t count, Work&& work) {
@@ -43,7 +25,7 @@ PartContacts::PartContacts(const Log& log, const Trajectory& path, const LineMap
     if (tilts(log, path)) {
         if (tool.kind == ToolKind::ball) {
             upright_path_ = upright_ball(log, path, tool.radius);
-            upright_surface_ = clsurf::stitch(gather(*upright_path_), lines);
+            upright_surface_ = stitch(gather(*upright_path_), lines);
         } else {
             axes_ = tool_axes(log, path.role, path);
         }
@@ -87,14 +69,4 @@ void PartContacts::locate(Defect& defect) const {
     }
 }
 
-void locate(LintReport& report, const Program& program, const ProgrammedSurface& laid, const CuttingTool& tool) {
-    if (!program.motions.rotary.empty() || !program.motions.tool_axis.empty()) return;
-    const Trajectory path = trajectory_on(laid.surface.positions);
-    const ContactPoints points(laid.surface, path, nullptr, tool);
-    for_each_index(report.findings.size(), [&](std::size_t k) {
-        LintFinding& finding = report.findings[k];
-        finding.place.contact = points.at(finding.point);
-    });
-}
-
-}  // namespace clsurf::cli
+}  // namespace clsurf

@@ -1,0 +1,78 @@
+#include "pipeline/judge.h"
+
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "pipeline/contacts.h"
+#include "pipeline/formed_part.h"
+#include "quality/axis_delay.h"
+#include "quality/scallop.h"
+
+namespace clsurf {
+namespace {
+
+/// Roughness and scallops of the formed surface, and the places of its rough patches.
+void measure_formed_surface(const Part& part, const ClSurface& surface, std::optional<Role> measured,
+                            const PartSignals& read, const PartContacts& contacts, Quality& quality) {
+    const CuttingTool tool = *part.tool;
+    const std::unique_ptr<const UprightPart> upright = upright_part(part, measured, tool);
+    const ToolRun run = upright ? upright->run() : ToolRun{part.path, surface, read};
+    const double step_over = run.surface.step_over;
+    if (tool.kind == ToolKind::ball && step_over > 0 && step_over < 2 * tool.radius) {
+        quality.scallop = scallop_height(tool.radius, step_over, std::numeric_limits<double>::infinity());
+    }
+    quality.formed = measure_formed(run.formed(tool), run.read.signals, quality.report);
+    for (RoughPatch& patch : quality.formed->patches)
+        patch.contact = contacts.place(patch.point).contact.value_or(patch.contact);
+}
+
+}  // namespace
+
+QualityReport find_defects(const Part& part, const ClSurface& surface, const PartSignals& read,
+                           const QualityRules& rules) {
+    return find_defects(part, part.path, surface, read, rules);
+}
+
+QualityReport find_defects(const Part& part, const Trajectory& path, const ClSurface& surface, const PartSignals& read,
+                           const QualityRules& rules) {
+    QualityReport report = find_defects(surface, read.signals, *part.lines, part.program, part.log.period, rules);
+    for (std::string& doubt : part.lines->match().doubts()) report.judgement.refuse(std::move(doubt));
+    if (read.measured) explain_systematic_lag(report, path, *read.measured, read.signals);
+    return report;
+}
+
+void note_reasons(const QualityReport& report, const Part& part, Diagnostics& diagnostics) {
+    for (const std::string& reason : report.judgement.reasons) {
+        diagnostics.add(
+            {Severity::warning, "quality.not-judged", Place::of_file(part.log.name), "not judged: " + reason, {}});
+    }
+}
+
+Quality judge(const Part& part, const ClSurface& surface, std::optional<Role> measured, const QualityRules& rules,
+              const Stages& stages) {
+    Quality quality;
+    begin_stage(stages, "derive the signals");
+    const PartSignals read = signals_of(part, surface, measured);
+    begin_stage(stages, "find the defects");
+    quality.report = find_defects(part, surface, read, rules);
+    note_reasons(quality.report, part, quality.diagnostics);
+    if (!part.tool || surface.step_over <= 0) return quality;
+    begin_stage(stages, "measure the formed surface");
+    const PartContacts contacts(part, surface, *part.tool);
+    contacts.locate(quality.report);
+    if (part.tool->kind != ToolKind::ball && tilts(part.log, part.path)) {
+        quality.diagnostics.add(
+            {Severity::warning,
+             "quality.tilted-tool",
+             Place::of_file(part.log.name),
+             to_text(*part.tool) + " is tilted: the formed surface and its roughness are known of balls only",
+             {}});
+        return quality;
+    }
+    measure_formed_surface(part, surface, measured, read, contacts, quality);
+    return quality;
+}
+
+}  // namespace clsurf

@@ -1,0 +1,104 @@
+#include "pipeline/part.h"
+
+#include <string>
+#include <utility>
+
+#include "core/error.h"
+#include "path/pieces.h"
+#include "pipeline/placement.h"
+#include "pipeline/roles.h"
+
+namespace clsurf {
+namespace {
+
+/// Without the machine's kinematics the path of a five-axis log does not say whether it belongs to the program.
+void forget_path(LineMap& lines) {
+    ProgramMatch match = lines.match();
+    match.foreign.clear();
+    lines.set_match(std::move(match));
+}
+
+/// The part of a log before its path is known.
+Part part_of(Log log, const PartRules& rules) {
+    if (log.records == 0) throw InputError(Place::of_file(log.name), "holds no records");
+    Part part;
+    part.log = std::move(log);
+    part.tool = rules.tool;
+    part.derivative = rules.derivative;
+    return part;
+}
+
+}  // namespace
+
+LineMap lines_without_program(const Log& log, PointIndex count) {
+    static constexpr LineNumber no_line = 0xffffffffU;  // that no program has
+    Program none;
+    none.files.emplace_back();
+    if (const Channel* channel = log.find("line")) return {channel->values, none, log.keep_alive};
+    ChannelView everywhere;
+    everywhere.first = reinterpret_cast<const std::byte*>(&no_line);
+    everywhere.count = count;
+    everywhere.type = ScalarType::u32;
+    return {everywhere, none, nullptr};
+}
+
+void refuse_foreign(const ProgramMatch& match, const Program& program, const Log& log, bool accept,
+                    Diagnostics& diagnostics) {
+    if (match.foreign.empty()) return;
+    const Place place = Place::of_file(log.name);
+    const std::string text = "does not belong to " + program.main().name() + ": " + match.foreign;
+    const std::string hint = "--force goes on all the same; --work-offset or --machine may be missing";
+    if (!accept) throw InputError(place, text, hint);
+    diagnostics.add({Severity::warning, "map.foreign", place, text, {}});
+}
+
+Part assemble(Log log, const PartRules& rules) {
+    Part part = part_of(std::move(log), rules);
+    part.program.files.emplace_back();
+    const Eigen::Isometry3d pose = rules.poses.zero.value_or(pose_of(part.log).value_or(Eigen::Isometry3d::Identity()));
+    part.path = reconstruct(part.log, shown_role(part.log, rules.role), pose, rules.kinematics);
+    part.diagnostics.append(part.log.diagnostics);
+    part.lines = std::make_shared<const LineMap>(lines_without_program(part.log, part.path.count));
+    return part;
+}
+
+Part assemble(Program program, Log log, const PartRules& rules) {
+    Part part = part_of(std::move(log), rules);
+    part.program = std::move(program);
+    const Role role = shown_role(part.log, rules.role);
+    const Kinematics* const kinematics = rules.kinematics.get();
+    const Eigen::Isometry3d pose = place_tips_with(part.program, part.log, rules.poses, kinematics, part.diagnostics);
+    part.path = reconstruct(part.log, role, pose, rules.kinematics);
+    part.diagnostics.append(part.program.diagnostics);
+    part.diagnostics.append(part.log.diagnostics);
+    if (kinematics != nullptr) {
+        note_poles(part.log, role, *kinematics, part.diagnostics);
+    } else {
+        note_rotary(part.log, role, part.diagnostics);
+    }
+    const Trajectory mapped = reconstruct_like(part.log, mapping_role(part.log, role), part.path);
+    LineMap lines = map_lines(mapped, part.log, part.program, rules.use_line_channel, part.diagnostics, rules.identity);
+    if (kinematics == nullptr && part.diagnostics.count("path.rotary") > 0) forget_path(lines);
+    refuse_foreign(lines.match(), part.program, part.log, rules.accept_foreign, part.diagnostics);
+    part.lines = std::make_shared<const LineMap>(std::move(lines));
+    return part;
+}
+
+ClSurface stitch(const Part& part) { return stitch(gather(part.path), *part.lines); }
+
+std::vector<Trajectory> other_roles(const Part& part) {
+    std::vector<Trajectory> others;
+    for (const Role role : all_roles) {
+        if (role != part.path.role && can_reconstruct_like(part.log, role, part.path))
+            others.push_back(reconstruct_like(part.log, role, part.path));
+    }
+    return others;
+}
+
+std::shared_ptr<const MotionEstimate> estimate_motion(const Part& part, const Passes& pieces) {
+    if (part.derivative == DerivativeMethod::savgol) return nullptr;
+    return std::make_shared<const MotionEstimate>(part.log, part.path,
+                                                  split_at_standstills(smooth_pieces(part.log, pieces), part.path));
+}
+
+}  // namespace clsurf

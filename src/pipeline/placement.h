@@ -1,0 +1,27 @@
+#pragma once
+// Placement: how a program and a log come into one coordinate system.
+
+#include <optional>
+
+#include "core/diagnostic.h"
+#include "log/log.h"
+#include "machine/kinematics.h"
+#include "program/frame_placement.h"
+
+namespace clsurf {
+
+/// The pose of the program's zero that a log's header gives; nullopt: it gives none.
+[[nodiscard]] std::optional<Eigen::Isometry3d> pose_of(const Log& log);
+
+/// Brings a program, read with its motions as programmed, into the coordinates of the workpiece. `given` goes before
+/// the log's own pose, that before the program's own offsets, which count unless the path fits better without
+/// (`map.coordinates`). Returns machine = pose · workpiece. Adds `program.work-offset` where the program cuts in
+/// several systems whose offsets are not known. O(motions), and O(points) where the program sets offsets.
+[[nodiscard]] Eigen::Isometry3d place_with(Program& program, const Log& log, FramePoses given,
+                                           const Kinematics* kinematics, Diagnostics& diagnostics);
+
+/// The same, and with kinematics the motions are those of the tip: what the tips of the log are compared with.
+[[nodiscard]] Eigen::Isometry3d place_tips_with(Program& program, const Log& log, const FramePoses& given,
+                                                const Kinematics* kinematics, Diagnostics& diagnostics);
+
+}  // namespace clsurf

@@ -1,0 +1,22 @@
+#include "pipeline/signals_of.h"
+
+#include "path/pieces.h"
+#include "pipeline/roles.h"
+
+namespace clsurf {
+
+PartSignals signals_along(const Log& log, const Trajectory& path, const ClSurface& surface,
+                          std::optional<Role> wanted) {
+    PartSignals result{std::nullopt, smooth_pieces(log, surface.passes), {}};
+    if (const std::optional<Role> role = measured_role(log, path, wanted))
+        result.measured = reconstruct_like(log, *role, path);
+    result.signals = derive_signals(surface, path, result.measured ? &*result.measured : nullptr, result.pieces,
+                                    usual_end_zone(surface.step_over));
+    return result;
+}
+
+PartSignals signals_of(const Part& part, const ClSurface& surface, std::optional<Role> wanted) {
+    return signals_along(part.log, part.path, surface, wanted);
+}
+
+}  // namespace clsurf

@@ -1,0 +1,16 @@
+#pragma once
+// Stages: the names of the steps of a longer computation, for who shows progress or measures time.
+
+#include <functional>
+#include <string_view>
+
+namespace clsurf {
+
+/// Called in the caller's thread when a stage begins. May be empty.
+using Stages = std::function<void(std::string_view stage)>;
+
+inline void begin_stage(const Stages& stages, std::string_view stage) {
+    if (stages) stages(stage);
+}
+
+}  // namespace clsurf
