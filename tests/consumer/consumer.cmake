@@ -14,7 +14,9 @@ if(CLSURF_SANITIZE STREQUAL "none")
       --build-options -DCMAKE_PREFIX_PATH=${here}/installed -DCMAKE_BUILD_TYPE=Release
                       -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}
                       ${launcher}
-      --test-command consumer)
+      --test-command consumer ${PROJECT_SOURCE_DIR}/data/programs/bottle_uneven.nc
+                              ${PROJECT_BINARY_DIR}/samples/bottle_uneven.biip)
   set_tests_properties(consumer.install PROPERTIES FIXTURES_SETUP installed_tree)
-  set_tests_properties(consumer.uses_the_installed_package PROPERTIES FIXTURES_REQUIRED installed_tree)
+  set_tests_properties(consumer.uses_the_installed_package PROPERTIES FIXTURES_REQUIRED installed_tree
+    PASS_REGULAR_EXPRESSION "lines [0-9]+ to [0-9]+: [0-9]+ mm/min, [0-9]+ mm/min beside them.*[0-9]+ to [0-9]+ mm/min.*[0-9.]+ s simulated")
 endif()

@@ -1,19 +1,28 @@
-// Built against an installed clsurf: its headers are found, its libraries link, its values are
-// right.
+// Which lines of a program leave marks on the part that was cut, and how long a simulated machine would take for it.
 
-#include <array>
 #include <cstdio>
-#include <string_view>
 
-#include "core/spelling.h"
-#include "core/version.h"
-#include "io/mapped_file.h"
+#include <clsurf/field/field_set.h>
+#include <clsurf/field/range.h>
+#include <clsurf/io/part_file.h>
+#include <clsurf/pipeline/judge.h>
+#include <clsurf/pipeline/simulated_log.h>
 
 int main(int, char** arguments) {
-    const clsurf::io::Source itself = clsurf::io::map_file(arguments[0]);
-    const std::array<std::string_view, 2> words{"speed", "jerk"};
-    const std::string_view nearest = clsurf::nearest_word("sped", words);
-    std::printf("clsurf %s: %.*s, %zu bytes\n", clsurf::version, static_cast<int>(nearest.size()), nearest.data(),
-                itself.bytes.size());
-    return nearest == "speed" && itself.bytes.size() > 1000 ? 0 : 1;
+    const clsurf::Part part = clsurf::io::read_part(arguments[1], arguments[2]);  // program and log
+    const clsurf::ClSurface surface = clsurf::stitch(part);
+    const clsurf::Quality quality = clsurf::judge(part, surface);
+    for (const clsurf::Defect& defect : quality.report.defects) {
+        const clsurf::DefectRun& run = defect.runs.front();
+        std::printf("lines %u to %u: %.0f mm/min, %.0f mm/min beside them\n", run.first_line, run.last_line,
+                    60 * defect.speed, 60 * defect.speed_beside);
+    }
+
+    const clsurf::Field speed = clsurf::FieldSet(part.log, part.path, surface.passes).get("speed");
+    const clsurf::ShownRange range = clsurf::find_range(speed, surface.passes, {});
+    std::printf("%.0f to %.0f %s\n", range.low, range.high, speed.info.unit.name.c_str());
+
+    const clsurf::Program program = clsurf::io::read_program(arguments[1]);
+    const clsurf::SimulatedRun run = clsurf::simulate_to_log(program, clsurf::Machine{});
+    std::printf("%.1f s simulated\n", run.summary.duration);
 }
