@@ -257,7 +257,9 @@ TEST(Form, ALongFileAForeignLetterAndAMissingPragmaAreFound) {
 }
 
 TEST(Form, IsKeptByEveryFile) {
-    for (const SourceFile& file : sources_in({"src", "io", "viz", "tests", "data"})) { expect_none(check_form(file)); }
+    // Programs in data/programs may end in .h too: HEIDENHAIN's Klartext.
+    for (const SourceFile& file : sources_in({"src", "io", "viz", "tests", "data/tools"}))
+        expect_none(check_form(file));
 }
 
 TEST(Listing, AFileThatNobodyBuildsIsFound) {
@@ -267,7 +269,7 @@ TEST(Listing, AFileThatNobodyBuildsIsFound) {
 
 TEST(Listing, EveryFileIsBuilt) {
     const fs::path root(PROJECT_ROOT);
-    for (const SourceFile& file : sources_in({"src", "io", "viz", "tests", "data"})) {
+    for (const SourceFile& file : sources_in({"src", "io", "viz", "tests", "data/tools"})) {
         // Headers are listed in the rooms: public ones as HEADERS, others among SOURCES.
         const bool in_room = rooms.contains(room_of(file.path)) && room_of(file.path) != "cli";
         if (file.path.ends_with(".h") && !in_room) continue;

@@ -37,7 +37,7 @@ clsurf_cli_test(NAME config_tool SETUP "${project}; echo 'tool = \"ball:6\"' > p
   STDOUT "with ball:6" STDERR "options from [^\n]*/parts/.clsurf.toml: tool")
 clsurf_cli_test(NAME config_command_line_first SETUP "${project}; echo 'tool = \"ball:6\"' > parts/.clsurf.toml" ARGS check parts/deep/part.nc ${run} --tool ball:8 STDOUT "with ball:8")
 clsurf_cli_test(NAME config_not_wanted SETUP "${project}; echo 'tool = \"ball:4\"' > parts/.clsurf.toml" ARGS check parts/deep/part.nc ${run} --no-config NO_STDOUT "ball:4")
-clsurf_cli_test(NAME config_nearest SETUP "${project}; echo 'tool = \"ball:6\"' > parts/.clsurf.toml; echo 'tool = \"ball:4\"' > parts/deep/.clsurf.toml" ARGS check parts/deep/part.nc ${run} STDOUT "with ball:4")
+clsurf_cli_test(NAME config_nearest SETUP "${project}; echo 'tool = \"ball:6\"' > parts/.clsurf.toml; echo 'tool = \"ball:4\"' > parts/deep/.clsurf.toml" ARGS check parts/deep/part.nc ${run} -v STDERR "options from [^\n]*/parts/deep/.clsurf.toml: tool" "ball:4 of .clsurf.toml is not used")
 clsurf_cli_test(NAME config_of_the_working_folder SETUP "echo 'threads = 0' > .clsurf.toml; echo 'G0 X1' > stdin" ARGS moves - EXIT 2 STDERR "--threads must be at least 1" "options from [^\n]*/.clsurf.toml: threads")
 clsurf_cli_test(NAME config_relative_paths SETUP "${project}; echo 'machine = \"mill.toml\"' > parts/.clsurf.toml; cd parts/deep; $CLSURF simulate part.nc -o run.biip -v 2>&1 | grep -q 'clsurf.toml: machine'"
   ARGS simulate parts/deep/part.nc -o run.biip FILE run.biip)
