@@ -69,7 +69,7 @@ Control read_control(std::string_view statement) {
         at = find_control_word(statement, "THEN", c.at);
         if (at == std::string_view::npos) throw ReadError{"expected GOTO or THEN after IF […]", c.column(), {}};
         control.kind = ControlKind::if_then;
-        control.label = std::to_string(at + 4);
+        control.target = at + 4;
         return control;
     }
     if (id.starts_with("GOTO")) {
@@ -125,14 +125,14 @@ bool refuse_rotary_interpolation(Interpreter& in, const CodeWord& w) {
 }
 bool interpolate_on_cylinder(Interpreter& in, const CodeWord& w) {
     if (has_rotary_word(w.block)) return refuse_rotary_interpolation(in, w);
-    in.motion_suppressed_ = true;
+    in.this_block_.motion_suppressed = true;
     return true;
 }
 bool ignore(Interpreter&, const CodeWord&) { return true; }
 bool dwell(Interpreter& in, const CodeWord& w) {
     // X and U belong to the dwell and count seconds, P milliseconds.
     const Words& words = w.block.words;
-    in.motion_suppressed_ = true;
+    in.this_block_.motion_suppressed = true;
     in.dwell(words.given('P')   ? words.of('P') / 1000
              : words.given('U') ? words.of('U')
              : words.given('X') ? words.of('X')
@@ -141,14 +141,14 @@ bool dwell(Interpreter& in, const CodeWord& w) {
 }
 /// Return check, return from the reference point, approach from one direction: a rapid to the end.
 bool go_at_rapid(Interpreter& in, const CodeWord& w) {
-    in.straight(MotionKind::rapid, in.target(w.block, in.machine_coordinates_), in.rotary_target(w.block));
-    in.motion_suppressed_ = true;
+    in.straight(MotionKind::rapid, in.target(w.block, in.this_block_.machine_coordinates), in.rotary_target(w.block));
+    in.this_block_.motion_suppressed = true;
     in.event("mode", code_text(w.code));
     return true;
 }
 bool skip(Interpreter& in, const CodeWord& w) {
-    in.probe(in.target(w.block, in.machine_coordinates_), in.rotary_target(w.block));
-    in.motion_suppressed_ = true;
+    in.probe(in.target(w.block, in.this_block_.machine_coordinates), in.rotary_target(w.block));
+    in.this_block_.motion_suppressed = true;
     return true;
 }
 bool high_speed(Interpreter& in, const CodeWord& w) {
@@ -158,7 +158,7 @@ bool high_speed(Interpreter& in, const CodeWord& w) {
         in.refuse_motion(code_text(w.code), w.block, w.column,
                          code_text(w.code) + " with coordinates is a spline of linuxcnc: --dialect linuxcnc");
     in.event("high-speed", code_text(w.code) + words_text(w.block, "PQR"));
-    in.motion_suppressed_ = !moves;
+    in.this_block_.motion_suppressed = !moves;
     words.has &= ~(Words::bit('P') | Words::bit('Q') | Words::bit('R'));
     return true;
 }
@@ -166,7 +166,7 @@ bool set_data(Interpreter& in, const CodeWord& w) {
     const Words& words = w.block.words;
     if (words.given('L') && words.of('L') >= 50) in.data_entry_ = true;
     const int level = words.given('L') ? static_cast<int>(std::clamp(words.of('L'), -1e6, 1e6)) : 0;
-    in.motion_suppressed_ = true;
+    in.this_block_.motion_suppressed = true;
     if (!in.set_fanuc_offsets(level, w.block)) in.set_offsets(w.block);
     return true;
 }
@@ -175,12 +175,12 @@ bool end_data(Interpreter& in, const CodeWord&) {
     return true;
 }
 bool end_polar(Interpreter& in, const CodeWord&) {
-    in.polar_.on = false;
+    in.frames_.polar.on = false;
     return true;
 }
 bool start_polar(Interpreter& in, const CodeWord&) {
-    in.polar_.on = true;
-    in.polar_.radius = in.polar_.angle = 0;
+    in.frames_.polar.on = true;
+    in.frames_.polar.radius = in.frames_.polar.angle = 0;
     in.event("polar", "G16");
     return true;
 }
@@ -189,7 +189,7 @@ bool mirror(Interpreter& in, const CodeWord& w) {
     return true;
 }
 bool end_scaling(Interpreter& in, const CodeWord& w) {
-    in.fanuc_frame_.scaling = {};
+    in.frames_.fanuc.scaling = {};
     in.settle_fanuc_frame();
     in.event("scaling", "G50" + words_text(w.block, "S"));
     return true;
@@ -217,12 +217,12 @@ bool start_modal_macro(Interpreter& in, const CodeWord& w) {
                       .name = fmt::format("{}", in.macro_program(w.block, w.code, w.column)),
                       .repeats = words.given('L') ? static_cast<int>(std::clamp(words.of('L'), 1.0, 99999.0)) : 1,
                       .arguments = in.macro_arguments(w.block),
-                      .level = in.frames_.size(),
+                      .level = in.calls_.frames.size(),
                       .column = w.column};
     if (w.code == 66.1_g)
         in.note(Severity::warning, "program.modal-macro", "G66.1 is read as G66: called after blocks that move",
                 w.column);
-    in.motion_suppressed_ = true;
+    in.this_block_.motion_suppressed = true;
     return true;
 }
 bool end_modal_macro(Interpreter& in, const CodeWord&) {
@@ -238,23 +238,23 @@ bool tilt(Interpreter& in, const CodeWord& w) {
     return true;
 }
 bool turn_to_plane(Interpreter& in, const CodeWord& w) {
-    if (!in.tilted_)
+    if (!in.five_axis_.tilted)
         in.note(Severity::warning, "program.rotation",
                 code_text(w.code) + " without a tilted plane (G68.2) does nothing", w.column);
     else
-        in.turn_to_plane(in.fanuc_frame_.rotation.direction_to_work(Vec3::UnitZ()), w.code == 53.6_g,
+        in.turn_to_plane(in.frames_.fanuc.rotation.direction_to_work(Vec3::UnitZ()), w.code == 53.6_g,
                          code_text(w.code));
     return true;
 }
 bool tilt_otherwise(Interpreter& in, const CodeWord& w) {
     in.note(Severity::warning, "program.rotation",
             code_text(w.code) + ": the tilted plane is not carried out, the path is read as programmed", w.column);
-    in.motion_suppressed_ = true;
+    in.this_block_.motion_suppressed = true;
     return true;
 }
 bool end_rotation(Interpreter& in, const CodeWord& w) {
-    in.fanuc_frame_.rotation = {};
-    in.fanuc_frame_.angle = 0;
+    in.frames_.fanuc.rotation = {};
+    in.frames_.fanuc.angle = 0;
     in.settle_fanuc_frame();
     in.event("rotation", code_text(w.code));
     in.end_tilted_plane(code_text(w.code));
@@ -262,7 +262,7 @@ bool end_rotation(Interpreter& in, const CodeWord& w) {
 }
 bool note_mode(Interpreter& in, const CodeWord& w) {
     in.event("mode", code_text(w.code) + words_text(w.block, "PQHDR"));
-    in.motion_suppressed_ = w.code == 22_g;
+    in.this_block_.motion_suppressed = w.code == 22_g;
     return true;
 }
 bool stop_exactly(Interpreter& in, const CodeWord& w) {
@@ -374,7 +374,7 @@ void move_about_pole(Interpreter& in, const Block& block, Vec3& end) {
     const char radius = "XYZ"[(state.plane_axis + 1) % 3];
     const char angle = "XYZ"[(state.plane_axis + 2) % 3];
     if (!block.words.given(radius) && !block.words.given(angle)) return;
-    PolarState& polar = in.polar_;
+    PolarState& polar = in.frames_.polar;
     if (block.words.given(radius)) polar.radius = block.words.of(radius) * state.unit_mm;
     if (block.words.given(angle)) polar.angle = block.words.of(angle) + (state.incremental ? polar.angle : 0.0);
     polar.pole = state.incremental ? from : Vec3(Vec3::Zero());

@@ -33,18 +33,18 @@ Vec3 Interpreter::frame_centre(const Block& block, const Vec3& now) const {
 }
 
 void Interpreter::settle_fanuc_frame() {
-    const FanucFrame& f = fanuc_frame_;
+    const FanucFrame& f = frames_.fanuc;
     state_.frame = f.local.around(f.rotation.around(f.scaling.around(f.mirror)));
 }
 
 /// G68 X Y R in the plane, or X Y Z I J K R about an axis. The centre counts in scaled coordinates.
 void Interpreter::rotate_frame(const Block& block, std::size_t column) {
-    motion_suppressed_ = true;
+    this_block_.motion_suppressed = true;
     const Words& w = block.words;
     if (!w.given('R')) fail("G68 needs the angle (R)", column);
     double angle = w.of('R');
     if (std::abs(angle) > full_turn) angle /= 1000;
-    const ProgramFrame inner = fanuc_frame_.scaling.around(fanuc_frame_.mirror);
+    const ProgramFrame inner = frames_.fanuc.scaling.around(frames_.fanuc.mirror);
     const Vec3 centre = inner.to_work(frame_centre(block, state_.programmed()));
     Vec3 axis = Vec3::Unit(state_.plane_axis);
     const bool about_an_axis = w.given('I') || w.given('J') || w.given('K');
@@ -52,55 +52,55 @@ void Interpreter::rotate_frame(const Block& block, std::size_t column) {
         for (int k = 0; k < 3; ++k) axis[k] = w.given("IJK"[k]) ? w.of("IJK"[k]) : 0.0;
         if (axis.isZero()) fail("G68: I J K give no direction", column);
     }
-    fanuc_frame_.angle = state_.incremental && !about_an_axis ? fanuc_frame_.angle + angle : angle;
-    fanuc_frame_.rotation = ProgramFrame::turned(axis, fanuc_frame_.angle, centre);
+    frames_.fanuc.angle = state_.incremental && !about_an_axis ? frames_.fanuc.angle + angle : angle;
+    frames_.fanuc.rotation = ProgramFrame::turned(axis, frames_.fanuc.angle, centre);
     settle_fanuc_frame();
     event("rotation", "G68" + words_text(block, "XYZIJKR"));
 }
 
 /// G51 X Y Z P, or I J K for each axis; negative: mirrored.
 void Interpreter::scale_frame(const Block& block) {
-    motion_suppressed_ = true;
+    this_block_.motion_suppressed = true;
     const Words& w = block.words;
     Vec3 factors = Vec3::Constant(w.given('P') ? factor_of(w.of('P')) : 1.0);
     if (!w.given('P')) {
         for (int k = 0; k < 3; ++k) factors[k] = w.given("IJK"[k]) ? factor_of(w.of("IJK"[k])) : 1.0;
     }
     if ((factors.array() == 0).any()) fail("G51: a factor of 0");
-    const Vec3 centre = frame_centre(block, fanuc_frame_.mirror.to_work(state_.programmed()));
-    fanuc_frame_.scaling = ProgramFrame::scaled(factors, centre);
+    const Vec3 centre = frame_centre(block, frames_.fanuc.mirror.to_work(state_.programmed()));
+    frames_.fanuc.scaling = ProgramFrame::scaled(factors, centre);
     settle_fanuc_frame();
     event("scaling", "G51" + words_text(block, "XYZIJKP"));
 }
 
 /// G51.1 and G50.1 (HNC: G24, G25): mirrored about X, Y, Z as given.
 void Interpreter::mirror_frame(int code, const Block& block) {
-    motion_suppressed_ = true;
+    this_block_.motion_suppressed = true;
     const bool on = code == 51.1_g || code == 24_g;
     const bool all = !on && (block.words.has & Words::xyz) == 0;
     for (int k = 0; k < 3; ++k) {
         if (!all && !block.words.given("XYZ"[k])) continue;
-        mirrored_[k] = on;
-        if (on) mirror_at_[k] = block.words.of("XYZ"[k]) * state_.unit_mm;
+        frames_.mirrored[k] = on;
+        if (on) frames_.mirror_at[k] = block.words.of("XYZ"[k]) * state_.unit_mm;
     }
     Vec3 factors = Vec3::Ones();
     for (int k = 0; k < 3; ++k) {
-        if (mirrored_[k]) factors[k] = -1;
+        if (frames_.mirrored[k]) factors[k] = -1;
     }
-    fanuc_frame_.mirror = ProgramFrame::scaled(factors, mirror_at_);
+    frames_.fanuc.mirror = ProgramFrame::scaled(factors, frames_.mirror_at);
     settle_fanuc_frame();
     event("mirror", code_text(code) + words_text(block, "XYZ"));
 }
 
 /// G52: a zero of its own in every work system.
 void Interpreter::local_zero(const Block& block) {
-    motion_suppressed_ = true;
+    this_block_.motion_suppressed = true;
     for (int k = 0; k < 3; ++k) {
         if (!block.words.given("XYZ"[k])) continue;
         const double value = block.words.of("XYZ"[k]) * state_.unit_mm;
-        local_zero_[k] = state_.incremental ? local_zero_[k] + value : value;
+        frames_.local_zero[k] = state_.incremental ? frames_.local_zero[k] + value : value;
     }
-    fanuc_frame_.local = ProgramFrame::moved(local_zero_);
+    frames_.fanuc.local = ProgramFrame::moved(frames_.local_zero);
     settle_fanuc_frame();
     event("local-zero", "G52" + words_text(block, "XYZ"));
 }
@@ -137,7 +137,7 @@ std::vector<double> Interpreter::macro_arguments(const Block& block) const {
 /// Between G10 L50 and G11 the lines are parameters of the control.
 bool Interpreter::is_data_end(const Block& block) {
     if (block.words.has_g(11_g)) return true;
-    event("data-entry", std::string(current_.substr(0, 80)));
+    event("data-entry", std::string(place_.text.substr(0, 80)));
     return false;
 }
 
@@ -173,7 +173,7 @@ bool Interpreter::set_fanuc_offsets(int level, const Block& block) {
     }
     const bool of_tool = level == 0 || level == 1 || (level >= 10 && level <= 13);
     if (of_tool && w.given('P') && w.given('R')) {
-        Tool& tool = tools_.tools[static_cast<int>(std::clamp(w.of('P'), 0.0, 1e6))];
+        Tool& tool = tools_.table.tools[static_cast<int>(std::clamp(w.of('P'), 0.0, 1e6))];
         const double value = w.of('R') * state_.unit_mm;
         const bool wear = level == 11 || level == 13;
         if (level == 12 || level == 13)
@@ -256,10 +256,10 @@ double Interpreter::fanuc_parameter(int number) {
         case 4014: return state_.work_system <= plain_work_systems ? 53 + state_.work_system : 54.1;
         case 4109: return state_.feed;
         case 4119: return state_.spindle;
-        case 4120: return next_tool_;
+        case 4120: return tools_.next;
         default: break;
     }
-    if (number >= 1000 && !variables_.has(number)) unknown_parameter_ = number;
+    if (number >= 1000 && !variables_.has(number)) this_block_.unknown_parameter = number;
     return missing<double>;
 }
 

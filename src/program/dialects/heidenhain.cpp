@@ -24,14 +24,14 @@ constexpr std::uint32_t ijk = Words::bit('I') | Words::bit('J') | Words::bit('K'
 
 /// G54, G28, G73, G72: each replaces its own earlier one; the one that was first stays outermost.
 void Interpreter::set_heidenhain_frame(std::size_t kind, const ProgramFrame& frame) {
-    HeidenhainFrames& f = heidenhain_frames_;
+    HeidenhainFrames& f = frames_.heidenhain;
     f.frame[kind] = frame;
     std::erase(f.order, kind);
     if (frame.active()) f.order.push_back(kind);
     ProgramFrame all;
     for (const std::size_t k : f.order) all = all.around(f.frame[k]);
     state_.frame = all;
-    motion_suppressed_ = true;
+    this_block_.motion_suppressed = true;
 }
 
 /// `%NAME G71` begins a program with its unit of measure, and ends it; `%NAME` alone calls one.
@@ -40,8 +40,8 @@ void Interpreter::heidenhain_title(const std::string& title) {
     std::string name;
     std::string unit;
     words >> name >> unit;
-    const std::string_view before = program_.files[file_].text().substr(
-        0, static_cast<std::size_t>(current_.data() - program_.files[file_].text().data()));
+    const std::string_view before = program_.files[place_.file].text().substr(
+        0, static_cast<std::size_t>(place_.text.data() - program_.files[place_.file].text().data()));
     const bool begins = before.find_first_not_of(" \t\r\n\xef\xbb\xbf") == std::string_view::npos;
     if (begins) {
         count_in_inches(unit == "G70");
@@ -73,21 +73,21 @@ void Interpreter::take_pole(const Block& block) {
     for (int k = 0; k < 3; ++k) {
         if (!block.words.given("IJK"[k])) continue;
         const double value = block.words.of("IJK"[k]) * state_.unit_mm;
-        polar_.pole[k] = state_.incremental ? (std::isnan(here[k]) ? 0.0 : here[k]) + value : value;
+        frames_.polar.pole[k] = state_.incremental ? (std::isnan(here[k]) ? 0.0 : here[k]) + value : value;
     }
     const bool alone =
         (block.words.has & (Words::xyz | Words::bit('H') | Words::bit('R'))) == 0 && block.words.g_count == 0;
-    if (alone) motion_suppressed_ = true;
+    if (alone) this_block_.motion_suppressed = true;
 }
 
 bool Interpreter::arc_of_heidenhain(const Block& block, ArcWords& words) {
-    if (arc_kind_ == ArcKind::tangential) {
+    if (arcs_.kind == ArcKind::tangential) {
         arc_along_tangent(words);
         return true;
     }
-    last_clockwise_ = words.clockwise;
-    if (block.words.given('R') && !polar_line_) return false;
-    words.centre = polar_.pole;
+    arcs_.last_clockwise = words.clockwise;
+    if (block.words.given('R') && !arcs_.polar_line) return false;
+    words.centre = frames_.polar.pole;
     words.centre[words.axis] = words.begin[words.axis];
     return true;
 }
@@ -129,9 +129,9 @@ bool Interpreter::q_function(std::string_view text) {
         if (!taken) return;
         count_jump();
         const std::string label = fmt::format("{}", std::lround(p[2]));
-        const int at = index(file_).find(ControlKind::sub, label);
+        const int at = index(place_.file).find(ControlKind::sub, label);
         if (at < 0) fail(fmt::format("there is no label to go to: '{}'", label));
-        go_to(file_, index(file_).all()[static_cast<std::size_t>(at)].line);
+        go_to(place_.file, index(place_.file).all()[static_cast<std::size_t>(at)].line);
     };
     switch (static_cast<int>(code)) {
         case 0: set(p[0]); return true;
@@ -179,9 +179,9 @@ bool Interpreter::call_label(std::string_view text) {
         call(name, 1, false, {});
         return true;
     }
-    const int at = index(file_).find(ControlKind::sub, name);
+    const int at = index(place_.file).find(ControlKind::sub, name);
     if (at < 0) fail(fmt::format("there is no label to repeat: '{}'", name));
-    repeat_from(index(file_).all()[static_cast<std::size_t>(at)].line + 1, times);
+    repeat_from(index(place_.file).all()[static_cast<std::size_t>(at)].line + 1, times);
     return true;
 }
 
@@ -220,7 +220,7 @@ Control read_control(std::string_view statement) {
 bool not_carried_out(Interpreter& in, const CodeWord& w, const char* what) {
     in.note(Severity::warning, "program.unknown-word",
             fmt::format("{} ({}) is not carried out", code_text(w.code), what), w.column);
-    in.motion_suppressed_ = true;
+    in.this_block_.motion_suppressed = true;
     return true;
 }
 bool count_in_unit(Interpreter& in, const CodeWord& w) {
@@ -228,24 +228,24 @@ bool count_in_unit(Interpreter& in, const CodeWord& w) {
     return true;
 }
 bool dwell(Interpreter& in, const CodeWord& w) {
-    in.motion_suppressed_ = true;
+    in.this_block_.motion_suppressed = true;
     in.dwell(w.block.words.given('F') ? w.block.words.of('F') : 0);
     return true;
 }
 bool move_as_usual(Interpreter& in, const CodeWord&) {
-    in.polar_line_ = false;
-    in.arc_kind_ = ArcKind::usual;
+    in.arcs_.polar_line = false;
+    in.arcs_.kind = ArcKind::usual;
     return false;
 }
 bool arc_by_radius(Interpreter& in, const CodeWord&) {
-    in.arc_kind_ = ArcKind::by_radius;
-    in.state_.motion = in.last_clockwise_ ? MotionMode::cw : MotionMode::ccw;
+    in.arcs_.kind = ArcKind::by_radius;
+    in.state_.motion = in.arcs_.last_clockwise ? MotionMode::cw : MotionMode::ccw;
     return true;
 }
 bool arc_tangential(Interpreter& in, const CodeWord& w) {
-    in.arc_kind_ = ArcKind::tangential;
+    in.arcs_.kind = ArcKind::tangential;
     in.state_.motion = MotionMode::cw;
-    if (w.code == 16_g) in.polar_line_ = true;
+    if (w.code == 16_g) in.arcs_.polar_line = true;
     return true;
 }
 bool move_along_axis(Interpreter& in, const CodeWord&) {
@@ -253,21 +253,21 @@ bool move_along_axis(Interpreter& in, const CodeWord&) {
     return true;
 }
 bool polar_line(Interpreter& in, const CodeWord& w) {
-    in.polar_line_ = true;
+    in.arcs_.polar_line = true;
     in.state_.motion = w.code == 10_g ? MotionMode::rapid : MotionMode::feed;
     return true;
 }
 bool polar_arc(Interpreter& in, const CodeWord& w) {
-    in.polar_line_ = true;
-    in.arc_kind_ = ArcKind::usual;
-    if (w.code != 15_g) in.last_clockwise_ = w.code == 12_g;
-    in.state_.motion = in.last_clockwise_ ? MotionMode::cw : MotionMode::ccw;
+    in.arcs_.polar_line = true;
+    in.arcs_.kind = ArcKind::usual;
+    if (w.code != 15_g) in.arcs_.last_clockwise = w.code == 12_g;
+    in.state_.motion = in.arcs_.last_clockwise ? MotionMode::cw : MotionMode::ccw;
     return true;
 }
 bool take_position_as_pole(Interpreter& in, const CodeWord&) {
     const Vec3 here = in.state_.programmed();
-    in.polar_.pole = here.array().isNaN().select(0.0, here);
-    in.motion_suppressed_ = true;
+    in.frames_.polar.pole = here.array().isNaN().select(0.0, here);
+    in.this_block_.motion_suppressed = true;
     in.event("pole", "G29");
     return true;
 }
@@ -291,9 +291,9 @@ bool shift_datum(Interpreter& in, const CodeWord& w) {
     for (int k = 0; k < 3; ++k) {
         if (!w.block.words.given("XYZ"[k])) continue;
         const double value = w.block.words.of("XYZ"[k]) * in.state_.unit_mm;
-        in.datum_[k] = in.state_.incremental ? in.datum_[k] + value : value;
+        in.frames_.datum[k] = in.state_.incremental ? in.frames_.datum[k] + value : value;
     }
-    in.set_heidenhain_frame(HeidenhainFrames::datum, ProgramFrame::moved(in.datum_));
+    in.set_heidenhain_frame(HeidenhainFrames::datum, ProgramFrame::moved(in.frames_.datum));
     in.event("datum-shift", "G54" + words_text(w.block, "XYZ"));
     return true;
 }
@@ -308,28 +308,28 @@ bool scale_all(Interpreter& in, const CodeWord& w) {
 bool rotate(Interpreter& in, const CodeWord& w) {
     const Words& words = w.block.words;
     if (!words.given('H')) in.fail("G73 needs its angle (H)", w.column);
-    in.turned_by_ = in.state_.incremental ? in.turned_by_ + words.of('H') : words.of('H');
+    in.frames_.turned_by = in.state_.incremental ? in.frames_.turned_by + words.of('H') : words.of('H');
     in.set_heidenhain_frame(HeidenhainFrames::rotation,
-                            ProgramFrame::turned(Vec3::Unit(in.state_.plane_axis), in.turned_by_, Vec3::Zero()));
+                            ProgramFrame::turned(Vec3::Unit(in.state_.plane_axis), in.frames_.turned_by, Vec3::Zero()));
     in.event("rotation", "G73" + words_text(w.block, "H"));
     return true;
 }
 bool tilt(Interpreter& in, const CodeWord& w) {
     constexpr std::uint32_t angles = Words::bit('A') | Words::bit('B') | Words::bit('C');
     if ((w.block.words.has & angles) != 0) return not_carried_out(in, w, "tilted working plane");
-    in.motion_suppressed_ = true;
+    in.this_block_.motion_suppressed = true;
     return true;
 }
 bool stop(Interpreter& in, const CodeWord& w) {
     in.event("stop", "G38");
-    in.motion_suppressed_ = true;
+    in.this_block_.motion_suppressed = true;
     w.block.words.has &= ~(Words::bit('T') | Words::bit('L'));
     return true;
 }
 /// Blank form, spindle angle, tools, probing, labels.
 bool note_mode(Interpreter& in, const CodeWord& w) {
     in.event("mode", code_text(w.code) + words_text(w.block, "TLR"));
-    in.motion_suppressed_ = true;
+    in.this_block_.motion_suppressed = true;
     w.block.words.has &= ~(Words::bit('T') | Words::bit('L'));
     return true;
 }
@@ -339,7 +339,7 @@ bool define_tool(Interpreter& in, const CodeWord& w) {
         Tool tool{.number = static_cast<int>(std::clamp(words.of('T'), 0.0, 1e6))};
         if (words.given('L')) tool.offset.z() = words.of('L') * in.state_.unit_mm;
         if (words.given('R')) tool.diameter = 2 * words.of('R') * in.state_.unit_mm;
-        in.tools_.tools[tool.number] = tool;
+        in.tools_.table.tools[tool.number] = tool;
     }
     return note_mode(in, w);
 }
@@ -434,7 +434,7 @@ bool cycle(Interpreter& in, const CodeWord& w) {
 }
 
 bool machine_position(Interpreter& in, int code, const Block&) {
-    in.machine_coordinates_ = code == 91;
+    in.this_block_.machine_coordinates = code == 91;
     if (code == 92) in.note(Severity::warning, "program.unknown-word", "M92: the machine's second zero is not known");
     return true;
 }
@@ -447,7 +447,7 @@ constexpr auto m_codes = std::to_array<MRule>(
 
 /// L5 beside other words of a block.
 void call_label(Interpreter& in, const Block& block) {
-    if (!block.words.given('L') || in.motion_suppressed_) return;
+    if (!block.words.given('L') || in.this_block_.motion_suppressed) return;
     in.call(fmt::format("{}", std::lround(block.words.of('L'))), 1, false, {});
 }
 

@@ -58,7 +58,7 @@ void define_tool(Line& line) {
             throw ReadError{"expected L or R of the tool", line.c.column(), {}};
         }
     }
-    line.in.tools_.tools[tool.number] = tool;
+    line.in.tools_.table.tools[tool.number] = tool;
 }
 
 /// TOOL CALL 5 Z S8000 F500 DL+0.1 DR-0.05: the axis sets the working plane.
@@ -100,8 +100,8 @@ void call_tool(Line& line) {
         }
     }
     in.execute(block);
-    if (in.tools_.tools.empty()) return;
-    in.tool_.diameter += 2 * wider;
+    if (in.tools_.table.tools.empty()) return;
+    in.tools_.in_spindle.diameter += 2 * wider;
     if (longer != 0) in.state_.rebase([&] { in.state_.tool_offset[in.state_.plane_axis] += longer; });
 }
 
@@ -113,7 +113,7 @@ void line_with_normal(Line& line) {
     const KlartextWords words = words_of(line);
     const bool has_axis = words.find("TX") != nullptr || words.find("TY") != nullptr || words.find("TZ") != nullptr;
     const bool turns_on = std::find(words.m.begin(), words.m.end(), 128) != words.m.end();
-    if (has_axis && !line.in.tool_centre_point_ && !turns_on)
+    if (has_axis && !line.in.five_axis_.tool_centre_point && !turns_on)
         line.in.fail("TX TY TZ need M128 or FUNCTION TCPM before them", line.start + 1);
     straight(line, words);
 }
@@ -123,12 +123,12 @@ void set_pole(Line& line) {
     const KlartextWords words = words_of(line);
     const Vec3 programmed = in.state_.programmed();
     const Vec3 here = programmed.array().isNaN().select(0.0, programmed);
-    if (words.values.empty()) in.polar_.pole = here;
+    if (words.values.empty()) in.frames_.polar.pole = here;
     for (const auto& [name, word] : words.values) {
         if (name.size() != 1 || name[0] < 'X' || name[0] > 'Z')
             throw ReadError{"CC takes X, Y and Z only", word.column, {}};
         const int k = name[0] - 'X';
-        in.polar_.pole[k] = (word.incremental ? here[k] : 0.0) + word.value * in.state_.unit_mm;
+        in.frames_.polar.pole[k] = (word.incremental ? here[k] : 0.0) + word.value * in.state_.unit_mm;
     }
 }
 
@@ -150,12 +150,12 @@ void cut_corner(Line& line) {
     if (!(size > 0)) in.fail("RND and CHF need a length above 0", column);
     const bool after_line = !in.program_.motions.kind.empty() && in.program_.motions.kind.back() == MotionKind::feed;
     if (!after_line || in.corner_.pending) in.fail("RND and CHF are read between straight lines with feed", column);
-    if (in.compensation_.on()) in.fail("RND and CHF under RL or RR with a tool radius are not read", column);
+    if (in.compensation_.path.on()) in.fail("RND and CHF under RL or RR with a tool radius are not read", column);
     in.corner_ = {.pending = true,
                   .rounded = rounded,
                   .size = size,
                   .feed = words.feed == KlartextFeed::number ? words.feed_value : in.state_.feed,
-                  .line = in.line_};
+                  .line = in.place_.line};
 }
 
 [[noreturn]] void refuse(Line& line) {
@@ -171,9 +171,9 @@ void call_label(Line& line) {
     if (!line.c.take_word("REP") && line.c.peek() == '\0') return in.call(label, 1, false, {});
     if (line.c.text.substr(line.c.at).starts_with("REP")) line.c.at += 3;
     const double times = line.value();
-    const int at = in.index(in.file_).find(ControlKind::sub, label);
+    const int at = in.index(in.place_.file).find(ControlKind::sub, label);
     if (at < 0) in.fail(fmt::format("there is no label to repeat: '{}'", label));
-    in.repeat_from(in.index(in.file_).all()[static_cast<std::size_t>(at)].line + 1, times);
+    in.repeat_from(in.index(in.place_.file).all()[static_cast<std::size_t>(at)].line + 1, times);
 }
 
 void call_program(Line& line) {
@@ -238,10 +238,10 @@ void jump_if(Line& line, int function) {
     const bool equal = std::abs(a - b) < same_value;
     const std::array<bool, 4> taken{equal, !equal, a > b && !equal, a < b && !equal};
     if (!taken[static_cast<std::size_t>(function - 9)]) return;
-    const int at = in.index(in.file_).find(ControlKind::sub, label);
+    const int at = in.index(in.place_.file).find(ControlKind::sub, label);
     if (at < 0) in.fail(fmt::format("there is no label to go to: '{}'", label));
     in.count_jump();
-    in.go_to(in.file_, in.index(in.file_).all()[static_cast<std::size_t>(at)].line);
+    in.go_to(in.place_.file, in.index(in.place_.file).all()[static_cast<std::size_t>(at)].line);
 }
 
 double divided(Line& line, double a, double b) {
@@ -429,7 +429,7 @@ bool carry_out(Interpreter& in, const Statement& statement) {
 }
 
 bool machine_position(Interpreter& in, int code, const Block&) {
-    in.machine_coordinates_ = code == 91;
+    in.this_block_.machine_coordinates = code == 91;
     if (code == 92) in.note(Severity::warning, "program.unknown-word", "M92: the machine's second zero is not known");
     return true;
 }

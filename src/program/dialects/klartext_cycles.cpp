@@ -49,12 +49,13 @@ void shift_datum(Line& line) {
         const int k = axis_at(line.c, adds);
         if (k < 0) throw ReadError{"expected X, Y or Z of the datum", line.c.column(), {}};
         const double value = line.value() * in.state_.unit_mm;
-        in.datum_[k] = adds ? in.datum_[k] + value : value;
+        in.frames_.datum[k] = adds ? in.frames_.datum[k] + value : value;
         any = true;
     }
     if (!any) return;
-    in.set_heidenhain_frame(Part::datum, ProgramFrame::moved(in.datum_));
-    in.event("datum-shift", fmt::format("CYCL DEF 7 X{:g} Y{:g} Z{:g}", in.datum_.x(), in.datum_.y(), in.datum_.z()));
+    in.set_heidenhain_frame(Part::datum, ProgramFrame::moved(in.frames_.datum));
+    in.event("datum-shift", fmt::format("CYCL DEF 7 X{:g} Y{:g} Z{:g}", in.frames_.datum.x(), in.frames_.datum.y(),
+                                        in.frames_.datum.z()));
 }
 
 void mirror(Line& line) {
@@ -77,10 +78,10 @@ void rotate(Line& line) {
     line.c.at = at + 3;
     const double angle = line.value();
     expect_end(line);
-    in.turned_by_ = adds ? in.turned_by_ + angle : angle;
+    in.frames_.turned_by = adds ? in.frames_.turned_by + angle : angle;
     in.set_heidenhain_frame(Part::rotation,
-                            ProgramFrame::turned(Vec3::Unit(in.state_.plane_axis), in.turned_by_, Vec3::Zero()));
-    in.event("rotation", fmt::format("CYCL DEF 10 ROT{:+g}", in.turned_by_));
+                            ProgramFrame::turned(Vec3::Unit(in.state_.plane_axis), in.frames_.turned_by, Vec3::Zero()));
+    in.event("rotation", fmt::format("CYCL DEF 10 ROT{:+g}", in.frames_.turned_by));
 }
 
 void scale(Line& line) {
@@ -210,7 +211,7 @@ void define_cycle(Line& line) {
     const bool of_steps = cycle < 200;
     line.c.skip_blanks();
     if (of_steps && step == 0) return;  // its name
-    if (of_steps && in.compensation_.on() && cycle != 9 && cycle != 32)
+    if (of_steps && in.compensation_.path.on() && cycle != 9 && cycle != 32)
         in.fail("a frame cannot change under RL or RR", column);
     switch (cycle) {
         case 7: return shift_datum(line);
@@ -236,7 +237,7 @@ void call_cycle(Line& line) { note_cycle(line.in, "CYCL CALL", line.start + 1); 
 void tilt_plane(Line& line) {
     Interpreter& in = line.in;
     const std::string form = line.c.identifier();
-    if (in.compensation_.on()) in.fail("PLANE under RL or RR", line.start + 1);
+    if (in.compensation_.path.on()) in.fail("PLANE under RL or RR", line.start + 1);
     if (form == "RESET") return reset_plane(line);
     if (in.state_.plane_axis != 2) in.fail("PLANE is read with the tool axis Z", line.start + 1);
     ProgramFrame frame;
@@ -277,7 +278,7 @@ void shift_datum_by_axis(Line& line) {
                 line.c.column());
         return;
     }
-    in.datum_ = Vec3::Zero();
+    in.frames_.datum = Vec3::Zero();
     in.set_heidenhain_frame(Part::datum, {});
     in.event("datum-shift", "TRANS DATUM RESET");
 }

@@ -52,19 +52,19 @@ CutCorner cut(Interpreter& in, const Vec3& before, const Vec3& corner, const Vec
 /// Moves the end of the last line back to where the corner is cut, and cuts it.
 void finish_corner(Line& line, const KlartextWords& words, const Block& block) {
     Interpreter& in = line.in;
-    const Interpreter::Corner corner = in.corner_;
+    const Corner corner = in.corner_;
     const std::optional<ProgramFrame::Circle> circle = in.state_.frame.circle(in.state_.plane_axis);
     if (!circle || circle->axis != in.state_.plane_axis)
         in.fail("RND and CHF in a tilted or unevenly scaled frame are not read");
     if (words.feed == KlartextFeed::rapid) in.fail("a line with feed must follow RND and CHF", line.start + 1);
     const Vec3 after = in.target(block, false);
-    const CutCorner shape = cut(in, in.begin_of_last_, in.state_.position, after);
+    const CutCorner shape = cut(in, in.arcs_.begin_of_last, in.state_.position, after);
     in.corner_.pending = false;
     if (shape.begin == shape.end) return;
     in.program_.motions.end.back() = Xyz(shape.begin);
     in.state_.position = shape.begin;
     const double feed = std::exchange(in.state_.feed, corner.feed);
-    const LineNumber here = std::exchange(in.line_, corner.line);
+    const LineNumber here = std::exchange(in.place_.line, corner.line);
     if (corner.rounded) {
         Arc arc;
         arc.centre = Xyz(shape.centre);
@@ -73,7 +73,7 @@ void finish_corner(Line& line, const KlartextWords& words, const Block& block) {
     } else {
         in.straight(MotionKind::feed, shape.end, in.state_.rotary);
     }
-    in.line_ = here;
+    in.place_.line = here;
     in.state_.feed = feed;
 }
 
@@ -132,7 +132,7 @@ void move_with(Line& line, const KlartextWords& words, int code) {
     block.clear();
     (void)add_g(block.words, code / 10, line.start + 1);
     fill(line, words, block);
-    if (words.reads_plane_angles && in.tilted_) {
+    if (words.reads_plane_angles && in.five_axis_.tilted) {
         // The angles that PLANE has found: the tool stands upright on the plane.
         block.words.has &= ~(Words::bit('A') | Words::bit('B') | Words::bit('C'));
         in.turn_to_plane(in.state_.frame.direction_to_work(Vec3::UnitZ()).normalized(), false, "PLANE");
@@ -143,7 +143,7 @@ void move_with(Line& line, const KlartextWords& words, int code) {
 }
 
 void straight(Line& line, const KlartextWords& words) {
-    line.in.arc_kind_ = ArcKind::usual;
+    line.in.arcs_.kind = ArcKind::usual;
     move_with(line, words, words.feed == KlartextFeed::rapid ? 0_g : 1_g);
 }
 
@@ -151,8 +151,8 @@ void arc(Line& line, const KlartextWords& words, ArcKind kind) {
     Interpreter& in = line.in;
     if (words.feed == KlartextFeed::rapid) in.fail("FMAX of an arc is not read", line.start + 1);
     if (kind == ArcKind::by_radius && words.find("R") == nullptr) in.fail("CR needs its radius (R)", line.start + 1);
-    in.arc_kind_ = kind;
-    const bool clockwise = words.clockwise.value_or(in.last_clockwise_);
+    in.arcs_.kind = kind;
+    const bool clockwise = words.clockwise.value_or(in.arcs_.last_clockwise);
     Block& block = in.block_;
     block.clear();
     (void)add_g(block.words, clockwise ? 2 : 3, line.start + 1);
@@ -166,7 +166,7 @@ void arc(Line& line, const KlartextWords& words, ArcKind kind) {
         block.extra_turns = std::max(0, static_cast<int>(std::ceil(turned - least_angle)) - 1);
     }
     in.execute(block);
-    in.last_clockwise_ = clockwise;
+    in.arcs_.last_clockwise = clockwise;
 }
 
 std::string Line::quoted() {

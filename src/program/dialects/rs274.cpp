@@ -100,7 +100,7 @@ Control read_control(std::string_view statement) {
 
 double numbered_parameter(Interpreter& in, int number) {
     const double unit = in.state_.unit_mm;
-    const double machine_unit = in.tools_.unit_mm;
+    const double machine_unit = in.tools_.table.unit_mm;
     const Vec3 at = in.tool_position();
     const Vec3 known = at.array().isNaN().select(0.0, at);
     const auto axis_of = [&](int first, const Vec3& lengths, const Vec3& angles, double per) {
@@ -124,14 +124,14 @@ double numbered_parameter(Interpreter& in, int number) {
         return axis < 3 ? offset.shift[axis] / machine_unit : 0.0;
     }
     switch (number) {
-        case 5400: return in.tool_.number;
-        case 5410: return in.tool_.diameter / machine_unit;
-        case 5411: return in.tool_.front_angle;
-        case 5412: return in.tool_.back_angle;
-        case 5413: return in.tool_.orientation;
+        case 5400: return in.tools_.in_spindle.number;
+        case 5410: return in.tools_.in_spindle.diameter / machine_unit;
+        case 5411: return in.tools_.in_spindle.front_angle;
+        case 5412: return in.tools_.in_spindle.back_angle;
+        case 5413: return in.tools_.in_spindle.orientation;
         default: break;
     }
-    if (number >= 5401 && number <= 5409) return axis_of(5401, in.tool_.offset, none_turned, machine_unit);
+    if (number >= 5401 && number <= 5409) return axis_of(5401, in.tools_.in_spindle.offset, none_turned, machine_unit);
     return missing<double>;
 }
 
@@ -191,17 +191,17 @@ double named_parameter(Interpreter& in, const std::string& name) {
                                                : 190},
         {"_coord_system", system <= numbered_systems ? 530 + 10 * system : 590 + system - numbered_systems},
         {"_tool_offset", !in.state_.tool_offset.isZero()},
-        {"_ccomp", !in.compensation_.on()    ? 400
-                   : in.compensation_.left() ? 410
-                                             : 420},
+        {"_ccomp", !in.compensation_.path.on()    ? 400
+                   : in.compensation_.path.left() ? 410
+                                                  : 420},
         {"_feed", in.state_.feed},
         {"_rpm", in.state_.spindle},
-        {"_current_tool", in.tool_.number},
-        {"_current_pocket", in.tool_.number},
-        {"_selected_tool", in.next_tool_},
-        {"_selected_pocket", in.next_tool_},
-        {"_call_level", static_cast<double>(in.frames_.size())},
-        {"_line", static_cast<double>(in.line_)},
+        {"_current_tool", in.tools_.in_spindle.number},
+        {"_current_pocket", in.tools_.in_spindle.number},
+        {"_selected_tool", in.tools_.next},
+        {"_selected_pocket", in.tools_.next},
+        {"_call_level", static_cast<double>(in.calls_.frames.size())},
+        {"_line", static_cast<double>(in.place_.line)},
         {"_value", 0},
         {"_value_returned", 0},
         {"_feed_override", 1},
@@ -221,7 +221,7 @@ double named_parameter(Interpreter& in, const std::string& name) {
 
 /// Its interpreter knows where the axes stand, has tools of its own, and retracts to R.
 void begin(Interpreter& in) {
-    if (!in.options_.tools) in.tools_ = stand_alone_tools();
+    if (!in.options_.tools) in.tools_.table = stand_alone_tools();
     in.state_.position = in.options_.start.value_or(Vec3::Zero());
     in.state_.retract_to_r = true;
     in.program_.motions.start = Xyz(in.state_.position);

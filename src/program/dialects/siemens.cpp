@@ -106,7 +106,7 @@ constexpr auto of_arguments = std::to_array<ArgumentsRow>({
 // Codes.
 bool dwell(Interpreter& in, const CodeWord& w) {
     const Words& words = w.block.words;
-    in.motion_suppressed_ = true;
+    in.this_block_.motion_suppressed = true;
     const bool turns = words.given('S') && in.state_.spindle > 0;  // revolutions of the spindle
     in.dwell(turns ? words.of('S') * seconds_per_minute / in.state_.spindle : words.given('F') ? words.of('F') : 0);
     return true;
@@ -129,7 +129,7 @@ bool count_in_mm(Interpreter& in, const CodeWord&) {
     return true;
 }
 bool count_in_machine(Interpreter& in, const CodeWord&) {
-    in.machine_coordinates_ = true;
+    in.this_block_.machine_coordinates = true;
     return true;
 }
 bool without_work_system(Interpreter& in, const CodeWord&) {
@@ -139,18 +139,18 @@ bool without_work_system(Interpreter& in, const CodeWord&) {
 bool axis_frame(Interpreter& in, const CodeWord& w) {
     in.note(Severity::warning, "program.frame",
             code_text(w.code) + " is not carried out, positions are read as programmed", w.column);
-    in.motion_suppressed_ = true;
+    in.this_block_.motion_suppressed = true;
     return true;
 }
 /// Of the work area or of the spindle.
 bool limit_area(Interpreter& in, const CodeWord& w) {
     in.event("mode", code_text(w.code));
-    in.motion_suppressed_ = true;
+    in.this_block_.motion_suppressed = true;
     return true;
 }
 bool go_to_fixed_point(Interpreter& in, const CodeWord& w) {
     in.event("reference", code_text(w.code));
-    in.motion_suppressed_ = true;
+    in.this_block_.motion_suppressed = true;
     return true;
 }
 bool set_pole(Interpreter& in, const CodeWord& w) {
@@ -304,7 +304,7 @@ bool names_motion(const Block& block) {
 }
 
 bool begin_block(Interpreter& in, Block& block) {
-    if (names_motion(block)) in.arc_kind_ = ArcKind::usual;  // what ends CIP and CT
+    if (names_motion(block)) in.arcs_.kind = ArcKind::usual;  // what ends CIP and CT
     for (const Keyword& keyword : block.keywords) in.apply_keyword(keyword, block);
     if (!in.ended_) in.contour_tolerance(block);
     return false;
@@ -313,7 +313,7 @@ bool begin_block(Interpreter& in, Block& block) {
 /// L5 P2: subprogram L5 twice.
 void call_subprogram(Interpreter& in, const Block& block) {
     const Words& w = block.words;
-    if (!w.given('L') || in.motion_suppressed_) return;
+    if (!w.given('L') || in.this_block_.motion_suppressed) return;
     const int times = w.given('P') ? static_cast<int>(std::clamp(w.of('P'), 1.0, 9999.0)) : 1;
     in.call(fmt::format("L{}", std::lround(w.of('L'))), times, true, {});
 }
@@ -321,7 +321,7 @@ void call_subprogram(Interpreter& in, const Block& block) {
 /// Variables of the control ($P_…) are read as 0, and reported.
 double named_parameter(Interpreter& in, const std::string& name) {
     if (!name.starts_with('$')) return std::numeric_limits<double>::quiet_NaN();
-    in.unknown_name_ = name;
+    in.this_block_.unknown_name = name;
     return 0;
 }
 

@@ -37,11 +37,11 @@ bool contains(const List& list, const Value& value) {
 
 /// G110 from the present position, G111 from the zero, G112 from the last pole.
 void Interpreter::set_pole(int code, const Block& block) {
-    motion_suppressed_ = true;
+    this_block_.motion_suppressed = true;
     const Vec3 here = state_.programmed();
     Vec3 pole = code == 110_g   ? Vec3(here.array().isNaN().select(0.0, here))
                 : code == 111_g ? Vec3(Vec3::Zero())
-                                : polar_.pole;
+                                : frames_.polar.pole;
     if (block.polar_radius || block.polar_angle) {
         const double radius = block.polar_radius.value_or(0) * state_.unit_mm;
         const double angle = block.polar_angle.value_or(0) * rad_per_deg;
@@ -51,7 +51,7 @@ void Interpreter::set_pole(int code, const Block& block) {
     for (int k = 0; k < 3; ++k) {
         if (block.words.given("XYZ"[k])) pole[k] += block.words.of("XYZ"[k]) * state_.unit_mm;
     }
-    polar_.pole = pole;
+    frames_.polar.pole = pole;
     event("pole", fmt::format("{} {:g} {:g} {:g}", code_text(code), pole.x(), pole.y(), pole.z()));
 }
 
@@ -87,12 +87,12 @@ bool Interpreter::siemens_frame(const Keyword& keyword, Block& block) {
     } else {
         return false;
     }
-    state_.frame = adds ? state_.frame.around(frame) : swivel_.around(frame);
+    state_.frame = adds ? state_.frame.around(frame) : frames_.swivel.around(frame);
     const std::optional<double> turned = block.value_of("RPL");
     event("frame",
           keyword.name + words_text(block, "XYZ") + (turned ? fmt::format(" RPL={:g}", *turned) : std::string()));
     // The words belong to the frame, not to a motion.
-    motion_suppressed_ = true;
+    this_block_.motion_suppressed = true;
     block.words.has &= ~Words::xyz;
     return true;
 }
@@ -123,14 +123,14 @@ std::vector<std::optional<double>> Interpreter::arguments_of(const Keyword& keyw
 
 /// A subprogram by its name, with arguments for the names after its PROC; false: there is none.
 bool Interpreter::call_siemens(const std::string& name, const Keyword& keyword, int repeats) {
-    const bool here = index(file_).find(ControlKind::label, name) >= 0;
+    const bool here = index(place_.file).find(ControlKind::label, name) >= 0;
     if (!here && !load(name)) return false;
     // Evaluated before the call, in the caller's variables.
     const std::vector<std::optional<double>> values = arguments_of(keyword);
     call(name, repeats, true, {});
-    motion_suppressed_ = true;
-    const SourceText& text = program_.files[file_];
-    const LineNumber first = frames_.back().start_line;
+    this_block_.motion_suppressed = true;
+    const SourceText& text = program_.files[place_.file];
+    const LineNumber first = calls_.frames.back().start_line;
     for (const LineNumber line : {first, first - 1}) {
         const Statement statement = clean_line(text.line(line), rules_->text);
         Cursor c{statement.text, 0};
@@ -165,7 +165,7 @@ void Interpreter::start_modal_call(const Keyword& called) {
                    .name = called.name,
                    .repeats = 1,
                    .arguments = {},
-                   .level = frames_.size(),
+                   .level = calls_.frames.size(),
                    .column = called.column};
     for (const std::optional<double>& value : arguments_of(called)) {
         modal_call_.arguments.push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
@@ -177,7 +177,7 @@ void Interpreter::apply_keyword(const Keyword& keyword, Block& block) {
     const std::string& name = keyword.name;
     const auto text = [&] { return keyword.has_arguments ? name + "(" + keyword.arguments + ")" : name; };
     if (name == "SUPA" || name == "G153") {
-        machine_coordinates_ = true;
+        this_block_.machine_coordinates = true;
         return;
     }
     if (name == "TRAORI" || name == "TRAFOOF") {
@@ -220,7 +220,7 @@ void Interpreter::apply_keyword(const Keyword& keyword, Block& block) {
     }
     if (name == "CIP" || name == "CT") {
         state_.motion = MotionMode::cw;  // which way, the point between or the tangent tells
-        arc_kind_ = name == "CIP" ? ArcKind::by_points : ArcKind::tangential;
+        arcs_.kind = name == "CIP" ? ArcKind::by_points : ArcKind::tangential;
         return;
     }
     if (siemens_frame(keyword, block) || siemens_cycle(keyword)) return;
@@ -280,13 +280,13 @@ void Interpreter::end_by_angle(const Block& block, Vec3& end) const {
 bool Interpreter::arc_of_siemens(const Block& block, ArcWords& words) {
     const int u = (words.axis + 1) % 3;
     const int v = (words.axis + 2) % 3;
-    if (arc_kind_ == ArcKind::tangential) {
+    if (arcs_.kind == ArcKind::tangential) {
         if (std::abs(words.end[words.axis] - words.begin[words.axis]) > 1e-6)
             fail("CT out of the plane (G17, G18, G19) is not supported");
         arc_along_tangent(words);
         return true;
     }
-    if (arc_kind_ == ArcKind::by_points) {
+    if (arcs_.kind == ArcKind::by_points) {
         Vec3 between = words.begin;
         for (int k = 0; k < 3; ++k) {
             const NamedWord* word = block.find(std::string(1, "IJK"[k]) + "1");
@@ -332,7 +332,7 @@ bool Interpreter::arc_of_siemens(const Block& block, ArcWords& words) {
         return true;
     }
     const bool about_pole = (block.polar_radius || block.polar_angle) && !centre_given && !block.words.given('R');
-    if (about_pole) words.centre = polar_.pole;
+    if (about_pole) words.centre = frames_.polar.pole;
     return about_pole;
 }
 

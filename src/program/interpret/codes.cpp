@@ -141,7 +141,7 @@ bool end_position_shift(Interpreter& in, const CodeWord& w) {
     return true;
 }
 bool count_in_machine(Interpreter& in, const CodeWord&) {
-    in.machine_coordinates_ = true;
+    in.this_block_.machine_coordinates = true;
     return true;
 }
 bool set_work_system(Interpreter& in, const CodeWord& w) {
@@ -170,7 +170,7 @@ bool note_mode(Interpreter& in, const CodeWord& w, const char* name) {
     return true;
 }
 bool end_compensation(Interpreter& in, const CodeWord& w) {
-    if (!in.compensation_.on()) return note_mode(in, w, "cutter-compensation");
+    if (!in.compensation_.path.on()) return note_mode(in, w, "cutter-compensation");
     in.stop_compensation();
     return true;
 }
@@ -266,14 +266,14 @@ static_assert(in_order(common_codes));
 }  // namespace
 
 void Interpreter::execute(Block& block) {
-    machine_coordinates_ = false;
-    motion_suppressed_ = false;
+    this_block_.machine_coordinates = false;
+    this_block_.motion_suppressed = false;
     if (rules_->begin_block != nullptr && rules_->begin_block(*this, block)) return;
     if (ended_) return;
     change_tool(block);
     settle_codes(block);
     if (rules_->after_codes != nullptr) rules_->after_codes(*this, block);
-    if (is(block, 'F') && !motion_suppressed_) state_.feed = block.words.of('F');
+    if (is(block, 'F') && !this_block_.motion_suppressed) state_.feed = block.words.of('F');
     if (is(block, 'S')) {
         if (block.words.of('S') < 0) note(Severity::warning, "program.spindle", "negative spindle speed");
         state_.spindle = block.words.of('S');
@@ -288,14 +288,15 @@ void Interpreter::execute(Block& block) {
     };
     apply_m_codes(false);
     const std::int64_t before = program_.motions.size();
-    if (!motion_suppressed_) move(block);
+    if (!this_block_.motion_suppressed) move(block);
     if (rules_->after_motion != nullptr) rules_->after_motion(*this, block);
     report_unused(block);
-    if (std::exchange(path_mode_returns_, false)) set_path_mode("path-mode", "as it was", state_.path_mode);
+    if (std::exchange(this_block_.path_mode_returns, false)) set_path_mode("path-mode", "as it was", state_.path_mode);
     apply_m_codes(true);
     if (ended_) return;
     if (rules_->after_block != nullptr) rules_->after_block(*this, block);
-    const bool calls = modal_call_.active && frames_.size() == modal_call_.level && program_.motions.size() > before;
+    const bool calls =
+        modal_call_.active && calls_.frames.size() == modal_call_.level && program_.motions.size() > before;
     if (calls && rules_->modal_call != nullptr) rules_->modal_call(*this);
 }
 
@@ -408,13 +409,13 @@ void Interpreter::report_idle(const Block& block) {
     constexpr auto plain_codes =
         std::to_array<int>({0_g, 1_g, 17_g, 18_g, 19_g, 20_g, 21_g, 70_g, 71_g, 90_g, 91_g, 94_g});
     const bool straight =
-        (state_.motion == MotionMode::rapid || state_.motion == MotionMode::feed) && !motion_suppressed_;
+        (state_.motion == MotionMode::rapid || state_.motion == MotionMode::feed) && !this_block_.motion_suppressed;
     const auto* first = block.words.g.data();
     const bool plain = std::all_of(first, first + block.words.g_count, [&](int code) {
         return std::find(plain_codes.begin(), plain_codes.end(), code) != plain_codes.end();
     });
     const bool theirs = block.words.m_count > 0 || !block.keywords.empty() || modal_call_.active ||
-                        tool_centre_point_ || compensation_.on();
+                        five_axis_.tool_centre_point || compensation_.path.on();
     if (!straight || !plain || theirs) return;
     for (const char letter : rules_->motion.idle_letters) {
         if (!is(block, letter)) continue;
@@ -438,7 +439,7 @@ void Interpreter::report_unused(const Block& block) {
             note(Severity::warning, "program.corner",
                  fmt::format("{}={:g} is not carried out: the corner is read as programmed", word.name, word.value),
                  word.column);
-        const bool line = word.name == "ANG" && (motion_suppressed_ || !ends_by_angle(block));
+        const bool line = word.name == "ANG" && (this_block_.motion_suppressed || !ends_by_angle(block));
         if (line)
             note(Severity::warning, "program.corner",
                  fmt::format(
@@ -447,7 +448,7 @@ void Interpreter::report_unused(const Block& block) {
                  word.column);
     }
     for (const char letter : {'V', 'W', 'U', 'E'}) {
-        if (!is(block, letter) || motion_suppressed_) continue;
+        if (!is(block, letter) || this_block_.motion_suppressed) continue;
         const std::size_t column = block.words.column[static_cast<std::size_t>(letter - 'A')];
         if (letter == 'E') {
             note(Severity::warning, "program.unknown-word", "word E is not known", column);

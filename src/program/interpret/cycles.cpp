@@ -86,7 +86,8 @@ void Interpreter::cycle(const Block& block) {
         for (double depth = r - peck; depth > bottom; depth -= peck) depths.push_back(depth);
     }
     for (int k = 0; k < repeats; ++k) {
-        Vec3 hole = machine_coordinates_ ? state_.frame.to_programmed(target(block, true)) : read_axes(block, false);
+        Vec3 hole =
+            this_block_.machine_coordinates ? state_.frame.to_programmed(target(block, true)) : read_axes(block, false);
         const double now = state_.programmed()[c];
         // RS274 climbs before it crosses; Fanuc crosses at the level where it is.
         hole[c] = now < clear && rs274 ? clear : now;

@@ -1,6 +1,7 @@
 // Which line comes next: control statements, calls and returns.
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 
@@ -16,242 +17,268 @@ constexpr std::size_t deepest_call = 64;
 }  // namespace
 
 const ControlIndex& Interpreter::index(std::size_t file) {
-    if (!indexed_[file]) {
-        indexes_[file] = ControlIndex(program_.files[file], rules_->text);
-        indexed_[file] = true;
+    if (!texts_.indexed[file]) {
+        texts_.indexes[file] = ControlIndex(program_.files[file], rules_->text);
+        texts_.indexed[file] = true;
     }
-    return indexes_[file];
+    return texts_.indexes[file];
 }
 
 void Interpreter::count_jump() {
-    if (++jumps_ > options_.most_jumps) {
+    if (++calls_.jumps > options_.most_jumps) {
         fail(fmt::format("more than {} jumps and calls: a loop without end?", options_.most_jumps));
     }
 }
 
 /// The condition of an elseif.
 bool Interpreter::branch_taken(const Control& branch) const {
-    const Statement statement = clean_line(program_.files[file_].line(branch.line), rules_->text);
+    const Statement statement = clean_line(program_.files[place_.file].line(branch.line), rules_->text);
     Cursor c{statement.text, branch.rest};
     return evaluate(c, variables_, rules_->text) != 0;
 }
 
-bool Interpreter::control(const Statement& statement) {
-    const std::string& text = statement.text;
-    const Control parsed = parse_control(text, rules_->text);
-    if (parsed.kind == ControlKind::none) return false;
-    const auto condition = [&](std::size_t at) {
-        Cursor c{text, at};
-        return evaluate(c, variables_, rules_->text) != 0;
-    };
-    const auto own = [&]() -> const Control& {
-        const int at = index(file_).at_line(line_);
-        if (at < 0) fail("this control statement cannot stand here");
-        return index(file_).all()[static_cast<std::size_t>(at)];
-    };
-    const auto partner_of = [&](const Control& c, const char* what) -> const Control& {
-        if (c.partner < 0) fail(fmt::format("{} has no other end", what));
-        return index(file_).all()[static_cast<std::size_t>(c.partner)];
-    };
-    const auto after = [&](LineNumber line) {
-        count_jump();
-        go_to(file_, line + 1);
-    };
-    switch (parsed.kind) {
-        case ControlKind::sub:
-            if (rules_->calls.subs_run_through) {
-                // A label; what it begins is carried out on the way as well.
-                return true;
-            }
-            after(partner_of(own(), "sub").line);
-            return true;
-        case ControlKind::end_sub:
-        case ControlKind::leave: {
-            if (parsed.rest < text.size() && rules_->calls.returns_value) {
-                Cursor c{text, parsed.rest};
-                if (c.peek() != '\0') {
-                    const double value = read_value(c, variables_, rules_->text);
-                    variables_.set("_value", value);
-                    variables_.set("_value_returned", 1);
-                }
-            }
-            if (frames_.empty() && !rules_->calls.return_ends_main) return true;
-            leave(false);
-            return true;
+/// The value of a condition or a loop's count at a byte of the statement.
+double Interpreter::value_at(std::string_view text, std::size_t at) const {
+    Cursor c{text, at};
+    return evaluate(c, variables_, rules_->text);
+}
+
+/// The statement of the line that runs, as the index has matched it.
+const Control& Interpreter::own_control() {
+    const int at = index(place_.file).at_line(place_.line);
+    if (at < 0) fail("this control statement cannot stand here");
+    return index(place_.file).all()[static_cast<std::size_t>(at)];
+}
+
+const Control& Interpreter::partner_of(const Control& control, const char* what) {
+    if (control.partner < 0) fail(fmt::format("{} has no other end", what));
+    return index(place_.file).all()[static_cast<std::size_t>(control.partner)];
+}
+
+/// On with the line after another one.
+void Interpreter::go_after(LineNumber line) {
+    count_jump();
+    go_to(place_.file, line + 1);
+}
+
+void Interpreter::pass_sub(const Control&, const Statement&) {
+    // A label of HEIDENHAIN: what it begins is carried out on the way as well.
+    if (!rules_->calls.subs_run_through) go_after(partner_of(own_control(), "sub").line);
+}
+
+void Interpreter::return_from_sub(const Control& control, const Statement& statement) {
+    if (control.rest < statement.text.size() && rules_->calls.returns_value) {
+        Cursor c{statement.text, control.rest};
+        if (c.peek() != '\0') {
+            variables_.set("_value", read_value(c, variables_, rules_->text));
+            variables_.set("_value_returned", 1);
         }
-        case ControlKind::call: {
-            std::vector<double> arguments;
-            Cursor c{text, parsed.rest};
-            while (c.peek() == '[') {
-                ++c.at;
-                arguments.push_back(evaluate(c, variables_, rules_->text));
-                if (!c.take(']')) throw ReadError{"'[' is not closed", c.column(), {}};
-            }
-            std::string label = parsed.label;
-            if (label.starts_with('[') || label.starts_with('#')) {
-                Cursor name{label, 0};
-                label = fmt::format("{}", std::lround(read_value(name, variables_, rules_->text)));
-            }
-            call(label, 1, true, arguments);
-            return true;
-        }
-        case ControlKind::while_begin: {
-            const Control& begin = own();
-            if (begin.kind == ControlKind::do_while) {  // `o1 while` that closes `o1 do`
-                if (condition(parsed.rest)) after(partner_of(begin, "while").line);
-                return true;
-            }
-            const bool goes_in = parsed.rest == std::string_view::npos || condition(parsed.rest);
-            if (!goes_in) after(partner_of(begin, "while").line);
-            return true;
-        }
-        case ControlKind::while_end: {
-            const Control& begin = partner_of(own(), "end of a loop");
-            count_jump();
-            go_to(file_, begin.line);
-            return true;
-        }
-        case ControlKind::do_begin: return true;
-        case ControlKind::do_while: {  // UNTIL
-            const Control& begin = partner_of(own(), "until");
-            if (!condition(parsed.rest)) after(begin.line);
-            return true;
-        }
-        case ControlKind::if_begin:
-        case ControlKind::else_if: {
-            const Control* branch = &own();
-            // Reached by running on from a branch that was taken: the whole is over.
-            if (parsed.kind == ControlKind::else_if) {
-                after(partner_of(*branch, "elseif").line);
-                return true;
-            }
-            if (condition(parsed.rest)) return true;
-            do {
-                if (branch->next_branch < 0) fail("if has no endif");
-                branch = &index(file_).all()[static_cast<std::size_t>(branch->next_branch)];
-                if (branch->kind != ControlKind::else_if) break;
-                line_ = branch->line;
-                current_ = program_.files[file_].line(line_);
-            } while (!branch_taken(*branch));
-            after(branch->line);
-            return true;
-        }
-        case ControlKind::else_branch: after(partner_of(own(), "else").line); return true;
-        case ControlKind::if_end: return true;
-        case ControlKind::repeat_begin: {
-            const Control& begin = own();
-            Cursor c{text, parsed.rest};
-            const double count = read_value(c, variables_, rules_->text);
-            if (!(count >= 1)) {
-                after(partner_of(begin, "repeat").line);
-                return true;
-            }
-            counters_[line_] = std::floor(count + 1e-6) - 1;
-            return true;
-        }
-        case ControlKind::repeat_section:
-        case ControlKind::repeat_block: repeat_lines(parsed, text); return true;
-        case ControlKind::choice: choose(text, parsed.rest); return true;
-        case ControlKind::repeat_end: {
-            const Control& begin = partner_of(own(), "endrepeat");
-            double& left = counters_[begin.line];
-            if (left >= 1) {
-                left -= 1;
-                after(begin.line);
-            }
-            return true;
-        }
-        case ControlKind::for_begin: {
-            // FOR v = from TO to
-            Cursor c{text, parsed.rest};
-            const std::string name = c.identifier();
-            c.at += name.size();
-            if (name.empty() || !c.take('=')) throw ReadError{"expected a variable and '=' after FOR", c.column(), {}};
-            const double from = evaluate(c, variables_, rules_->text);
-            if (!c.take_word("TO")) throw ReadError{"expected TO", c.column(), {}};
-            const double to = evaluate(c, variables_, rules_->text);
-            double value = from;
-            const auto running = counters_.find(line_);
-            const bool numbered =
-                name.size() > 1 && name[0] == 'R' && name.find_first_not_of("0123456789", 1) == std::string::npos;
-            const int number = numbered && name.size() < 7 ? 100000 + std::stoi(name.substr(1)) : 0;
-            if (running != counters_.end()) value = running->second + 1;
-            if (numbered)
-                variables_.set(number, value);
-            else
-                variables_.set(name, value);
-            if (value > to) {
-                counters_.erase(line_);
-                after(partner_of(own(), "for").line);
-            } else {
-                counters_[line_] = value;
-            }
-            return true;
-        }
-        case ControlKind::for_end: {
-            count_jump();
-            go_to(file_, partner_of(own(), "endfor").line);
-            return true;
-        }
-        case ControlKind::break_loop:
-        case ControlKind::continue_loop: {
-            const int loop = index(file_).loop_around(line_, parsed.label);
-            if (loop < 0) fail("break or continue outside a loop");
-            const Control& begin = index(file_).all()[static_cast<std::size_t>(loop)];
-            const Control& end = partner_of(begin, "loop");
-            if (parsed.kind == ControlKind::break_loop) {
-                after(end.line);
-            } else {
-                count_jump();
-                go_to(file_, end.line);
-            }
-            return true;
-        }
-        case ControlKind::if_go_to:
-        case ControlKind::go_to: {
-            if (parsed.kind == ControlKind::if_go_to && !condition(parsed.rest)) return true;
-            std::string label = parsed.label;
-            if (label.empty() && rules_->calls.jumps_to_numbers) {
-                Cursor c{text, parsed.target};
-                label = fmt::format("{}", std::lround(read_value(c, variables_, rules_->text)));
-            }
-            jump_to(label, parsed.direction, parsed.may_miss);
-            return true;
-        }
-        case ControlKind::if_then: {
-            if (!condition(parsed.rest)) return true;
-            Cursor c{text, static_cast<std::size_t>(std::stoul(parsed.label))};
-            read_block(c, variables_, rules_->text, state_.least_increment(), block_);
-            execute(block_);
-            return true;
-        }
-        case ControlKind::label: {
-            // A program number; what follows in its block still counts. A second one ends the first
-            // program, as another program begins there.
-            const bool begins_another =
-                rules_->calls.second_name_ends && program_.motions.size() > 0 && frames_.empty();
-            if (begins_another) {
-                event("end", "O" + parsed.label);
-                ended_ = true;
-                return true;
-            }
-            const std::string word = text.substr(std::min(parsed.rest, text.size()));
-            if (rules_->calls.blocks_after_label && word.find_first_not_of(' ') != std::string::npos &&
-                text.find(':') != std::string::npos) {
-                Statement after_label = statement;
-                std::fill(after_label.text.begin(), after_label.text.begin() + static_cast<std::ptrdiff_t>(parsed.rest),
-                          ' ');
-                if (control(after_label)) return true;
-                Cursor c{after_label.text, 0};
-                read_block(c, variables_, rules_->text, state_.least_increment(), block_);
-                execute(block_);
-            }
-            return true;
-        }
-        case ControlKind::end_loop:
-        case ControlKind::none: return false;
     }
-    return false;
+    if (!calls_.frames.empty() || rules_->calls.return_ends_main) leave(false);
+}
+
+/// O-words: o<name> call [1] [2].
+void Interpreter::call_sub(const Control& control, const Statement& statement) {
+    std::vector<double> arguments;
+    Cursor c{statement.text, control.rest};
+    while (c.peek() == '[') {
+        ++c.at;
+        arguments.push_back(evaluate(c, variables_, rules_->text));
+        if (!c.take(']')) throw ReadError{"'[' is not closed", c.column(), {}};
+    }
+    std::string label = control.label;
+    if (label.starts_with('[') || label.starts_with('#')) {
+        Cursor name{label, 0};
+        label = fmt::format("{}", std::lround(read_value(name, variables_, rules_->text)));
+    }
+    call(label, 1, true, arguments);
+}
+
+void Interpreter::begin_while(const Control& control, const Statement& statement) {
+    const Control& begin = own_control();
+    if (begin.kind == ControlKind::do_while) {  // `o1 while` that closes `o1 do`
+        if (value_at(statement.text, control.rest) != 0) go_after(partner_of(begin, "while").line);
+        return;
+    }
+    const bool goes_in = control.rest == std::string_view::npos || value_at(statement.text, control.rest) != 0;
+    if (!goes_in) go_after(partner_of(begin, "while").line);
+}
+
+void Interpreter::end_loop(const Control&, const Statement&) {
+    const Control& begin = partner_of(own_control(), "end of a loop");
+    count_jump();
+    go_to(place_.file, begin.line);
+}
+
+/// UNTIL
+void Interpreter::end_do(const Control& control, const Statement& statement) {
+    const Control& begin = partner_of(own_control(), "until");
+    if (value_at(statement.text, control.rest) == 0) go_after(begin.line);
+}
+
+void Interpreter::begin_if(const Control& control, const Statement& statement) {
+    const Control* branch = &own_control();
+    if (value_at(statement.text, control.rest) != 0) return;
+    do {
+        if (branch->next_branch < 0) fail("if has no endif");
+        branch = &index(place_.file).all()[static_cast<std::size_t>(branch->next_branch)];
+        if (branch->kind != ControlKind::else_if) break;
+        place_.line = branch->line;
+        place_.text = program_.files[place_.file].line(place_.line);
+    } while (!branch_taken(*branch));
+    go_after(branch->line);
+}
+
+/// Reached by running on from a branch that was taken: the whole is over.
+void Interpreter::pass_else_if(const Control&, const Statement&) { go_after(partner_of(own_control(), "elseif").line); }
+void Interpreter::pass_else(const Control&, const Statement&) { go_after(partner_of(own_control(), "else").line); }
+void Interpreter::pass(const Control&, const Statement&) {}
+
+void Interpreter::begin_repeat(const Control& control, const Statement& statement) {
+    const Control& begin = own_control();
+    Cursor c{statement.text, control.rest};
+    const double count = read_value(c, variables_, rules_->text);
+    if (!(count >= 1)) return go_after(partner_of(begin, "repeat").line);
+    calls_.counters[place_.line] = std::floor(count + 1e-6) - 1;
+}
+
+void Interpreter::end_repeat(const Control&, const Statement&) {
+    const Control& begin = partner_of(own_control(), "endrepeat");
+    double& left = calls_.counters[begin.line];
+    if (left < 1) return;
+    left -= 1;
+    go_after(begin.line);
+}
+
+/// FOR v = from TO to
+void Interpreter::begin_for(const Control& control, const Statement& statement) {
+    Cursor c{statement.text, control.rest};
+    const std::string name = c.identifier();
+    c.at += name.size();
+    if (name.empty() || !c.take('=')) throw ReadError{"expected a variable and '=' after FOR", c.column(), {}};
+    const double from = evaluate(c, variables_, rules_->text);
+    if (!c.take_word("TO")) throw ReadError{"expected TO", c.column(), {}};
+    const double to = evaluate(c, variables_, rules_->text);
+    double value = from;
+    const auto running = calls_.counters.find(place_.line);
+    const bool numbered =
+        name.size() > 1 && name[0] == 'R' && name.find_first_not_of("0123456789", 1) == std::string::npos;
+    const int number = numbered && name.size() < 7 ? 100000 + std::stoi(name.substr(1)) : 0;
+    if (running != calls_.counters.end()) value = running->second + 1;
+    if (numbered)
+        variables_.set(number, value);
+    else
+        variables_.set(name, value);
+    if (value > to) {
+        calls_.counters.erase(place_.line);
+        go_after(partner_of(own_control(), "for").line);
+    } else {
+        calls_.counters[place_.line] = value;
+    }
+}
+
+void Interpreter::end_for(const Control&, const Statement&) {
+    count_jump();
+    go_to(place_.file, partner_of(own_control(), "endfor").line);
+}
+
+void Interpreter::leave_loop(const Control& control, const Statement&) {
+    const int loop = index(place_.file).loop_around(place_.line, control.label);
+    if (loop < 0) fail("break or continue outside a loop");
+    const Control& begin = index(place_.file).all()[static_cast<std::size_t>(loop)];
+    const Control& end = partner_of(begin, "loop");
+    if (control.kind == ControlKind::break_loop) return go_after(end.line);
+    count_jump();
+    go_to(place_.file, end.line);
+}
+
+void Interpreter::go_to_label(const Control& control, const Statement& statement) {
+    if (control.kind == ControlKind::if_go_to && value_at(statement.text, control.rest) == 0) return;
+    std::string label = control.label;
+    if (label.empty() && rules_->calls.jumps_to_numbers) {
+        Cursor c{statement.text, control.target};
+        label = fmt::format("{}", std::lround(read_value(c, variables_, rules_->text)));
+    }
+    jump_to(label, control.direction, control.may_miss);
+}
+
+/// The rest of a statement as a block of its own.
+void Interpreter::run_rest(std::string_view text, std::size_t at) {
+    Cursor c{text, at};
+    read_block(c, variables_, rules_->text, state_.least_increment(), block_);
+    execute(block_);
+}
+
+/// IF […] THEN …
+void Interpreter::run_if(const Control& control, const Statement& statement) {
+    if (value_at(statement.text, control.rest) != 0) run_rest(statement.text, control.target);
+}
+
+/// A program number; what follows in its block still counts. A second one ends the first program, as another program
+/// begins there.
+void Interpreter::pass_label(const Control& control, const Statement& statement) {
+    const bool begins_another = rules_->calls.second_name_ends && program_.motions.size() > 0 && calls_.frames.empty();
+    if (begins_another) {
+        event("end", "O" + control.label);
+        ended_ = true;
+        return;
+    }
+    const std::string& text = statement.text;
+    const std::size_t rest = std::min(control.rest, text.size());
+    const bool goes_on = rules_->calls.blocks_after_label && text.find_first_not_of(' ', rest) != std::string::npos &&
+                         text.find(':') != std::string::npos;
+    if (!goes_on) return;
+    Statement after_label = statement;
+    std::fill(after_label.text.begin(), after_label.text.begin() + static_cast<std::ptrdiff_t>(rest), ' ');
+    if (!control_statement(after_label)) run_rest(after_label.text, 0);
+}
+
+void Interpreter::repeat(const Control& control, const Statement& statement) { repeat_lines(control, statement.text); }
+
+void Interpreter::choose_branch(const Control& control, const Statement& statement) {
+    choose(statement.text, control.rest);
+}
+
+struct Interpreter::ControlRow {
+    ControlKind kind;
+    void (Interpreter::*run)(const Control&, const Statement&);
+};
+
+/// True: the statement was one of control.
+bool Interpreter::control_statement(const Statement& statement) {
+    static constexpr auto rows = std::to_array<ControlRow>({
+        {ControlKind::sub, &Interpreter::pass_sub},
+        {ControlKind::end_sub, &Interpreter::return_from_sub},
+        {ControlKind::call, &Interpreter::call_sub},
+        {ControlKind::leave, &Interpreter::return_from_sub},
+        {ControlKind::while_begin, &Interpreter::begin_while},
+        {ControlKind::while_end, &Interpreter::end_loop},
+        {ControlKind::do_begin, &Interpreter::pass},
+        {ControlKind::do_while, &Interpreter::end_do},
+        {ControlKind::if_begin, &Interpreter::begin_if},
+        {ControlKind::else_if, &Interpreter::pass_else_if},
+        {ControlKind::else_branch, &Interpreter::pass_else},
+        {ControlKind::if_end, &Interpreter::pass},
+        {ControlKind::repeat_begin, &Interpreter::begin_repeat},
+        {ControlKind::repeat_end, &Interpreter::end_repeat},
+        {ControlKind::for_begin, &Interpreter::begin_for},
+        {ControlKind::for_end, &Interpreter::end_for},
+        {ControlKind::break_loop, &Interpreter::leave_loop},
+        {ControlKind::continue_loop, &Interpreter::leave_loop},
+        {ControlKind::go_to, &Interpreter::go_to_label},
+        {ControlKind::if_go_to, &Interpreter::go_to_label},
+        {ControlKind::if_then, &Interpreter::run_if},
+        {ControlKind::label, &Interpreter::pass_label},
+        {ControlKind::repeat_section, &Interpreter::repeat},
+        {ControlKind::repeat_block, &Interpreter::repeat},
+        {ControlKind::choice, &Interpreter::choose_branch},
+    });
+    const Control parsed = parse_control(statement.text, rules_->text);
+    const auto* row =
+        std::find_if(rows.begin(), rows.end(), [&](const ControlRow& r) { return r.kind == parsed.kind; });
+    if (row == rows.end()) return false;
+    (this->*row->run)(parsed, statement);
+    return true;
 }
 
 /// To a label or a block number. `may_miss`: without it the program goes on.
@@ -263,21 +290,22 @@ void Interpreter::jump_to(const std::string& label, int direction, bool may_miss
     if (number) {
         const std::string digits = numbers ? label : label.substr(1);
         double value = 0;
-        if (read_decimal(digits, 0, value) > 0) line = find_block(value, line_, direction);
+        if (read_decimal(digits, 0, value) > 0) line = find_block(value, place_.line, direction);
     } else {
         // Backwards from the end of this line: its own label counts.
-        const int at = index(file_).find(ControlKind::label, label, line_ + (direction < 0 ? 1 : 0), direction);
-        if (at >= 0) line = index(file_).all()[static_cast<std::size_t>(at)].line;
+        const int at =
+            index(place_.file).find(ControlKind::label, label, place_.line + (direction < 0 ? 1 : 0), direction);
+        if (at >= 0) line = index(place_.file).all()[static_cast<std::size_t>(at)].line;
     }
     if (line == 0 && may_miss) return;
     if (line == 0) fail(fmt::format("there is no block to go to: '{}'", label));
-    const bool leaves = !sections_.empty() && sections_.back().level == frames_.size() &&
-                        (line < sections_.back().begin || line > sections_.back().end);
+    const bool leaves = !calls_.sections.empty() && calls_.sections.back().level == calls_.frames.size() &&
+                        (line < calls_.sections.back().begin || line > calls_.sections.back().end);
     if (leaves) {
-        sections_.pop_back();
+        calls_.sections.pop_back();
         watch_section();
     }
-    go_to(file_, line);
+    go_to(place_.file, line);
 }
 
 /// CASE v OF 1 GOTOF A 2 GOTOF B DEFAULT GOTOF C
@@ -305,12 +333,12 @@ void Interpreter::choose(const std::string& text, std::size_t begin) {
 void Interpreter::repeat_lines(const Control& repeat, const std::string& text) {
     Cursor c{text, repeat.rest};
     const auto line_of = [&](const std::string& label) {
-        int at = index(file_).find(ControlKind::label, label, line_, -1);
-        if (at < 0) at = index(file_).find(ControlKind::label, label, line_, 1);
+        int at = index(place_.file).find(ControlKind::label, label, place_.line, -1);
+        if (at < 0) at = index(place_.file).find(ControlKind::label, label, place_.line, 1);
         if (at < 0) fail(fmt::format("REPEAT: there is no label '{}'", label));
-        return index(file_).all()[static_cast<std::size_t>(at)].line;
+        return index(place_.file).all()[static_cast<std::size_t>(at)].line;
     };
-    Section section{.begin = line_of(repeat.label), .level = frames_.size(), .back = line_};
+    Section section{.begin = line_of(repeat.label), .level = calls_.frames.size(), .back = place_.line};
     section.end = section.begin;
     if (repeat.kind == ControlKind::repeat_section) {
         const std::string until = c.identifier();
@@ -320,9 +348,9 @@ void Interpreter::repeat_lines(const Control& repeat, const std::string& text) {
             c = after;
             section.end = line_of(until);
         } else {
-            const int end = index(file_).find(ControlKind::label, "ENDLABEL", section.begin, 1);
-            const LineNumber line = end < 0 ? 0 : index(file_).all()[static_cast<std::size_t>(end)].line;
-            section.end = line != 0 && (line < line_ || section.begin > line_) ? line : line_ - 1;
+            const int end = index(place_.file).find(ControlKind::label, "ENDLABEL", section.begin, 1);
+            const LineNumber line = end < 0 ? 0 : index(place_.file).all()[static_cast<std::size_t>(end)].line;
+            section.end = line != 0 && (line < place_.line || section.begin > place_.line) ? line : place_.line - 1;
         }
     }
     double times = 1;
@@ -331,70 +359,71 @@ void Interpreter::repeat_lines(const Control& repeat, const std::string& text) {
         times = evaluate(c, variables_, rules_->text);
     }
     if (c.peek() != '\0') throw ReadError{"expected P= after the labels of REPEAT", c.column(), {}};
-    if (section.end < section.begin || (section.begin <= line_ && line_ <= section.end))
+    if (section.end < section.begin || (section.begin <= place_.line && place_.line <= section.end))
         fail(fmt::format("REPEAT: no lines to repeat from '{}' on", repeat.label));
-    if (sections_.size() >= deepest_call) fail(fmt::format("repeats are nested more than {} deep", deepest_call));
+    if (calls_.sections.size() >= deepest_call) fail(fmt::format("repeats are nested more than {} deep", deepest_call));
     section.left = std::floor(times);
     if (!(section.left >= 1)) return;
-    sections_.push_back(section);
+    calls_.sections.push_back(section);
     next_of_section();
 }
 
 /// Once more from its beginning, or back behind its REPEAT.
 void Interpreter::next_of_section() {
-    Section& section = sections_.back();
+    Section& section = calls_.sections.back();
     count_jump();
     if (section.left >= 1) {
         section.left -= 1;
-        go_to(file_, section.begin);
+        go_to(place_.file, section.begin);
     } else {
-        go_to(file_, section.back + 1);
-        sections_.pop_back();
+        go_to(place_.file, section.back + 1);
+        calls_.sections.pop_back();
     }
     watch_section();
 }
 
 /// Which line to stop before: that behind the section that is repeated at this level of calls.
 void Interpreter::watch_section() {
-    while (!sections_.empty() && sections_.back().level > frames_.size()) sections_.pop_back();
-    const bool here = !sections_.empty() && sections_.back().level == frames_.size();
-    behind_section_ = here ? sections_.back().end + 1 : 0;
+    while (!calls_.sections.empty() && calls_.sections.back().level > calls_.frames.size()) calls_.sections.pop_back();
+    const bool here = !calls_.sections.empty() && calls_.sections.back().level == calls_.frames.size();
+    calls_.behind_section = here ? calls_.sections.back().end + 1 : 0;
 }
 
 /// Back to a line, `times` times; then on.
 void Interpreter::repeat_from(LineNumber begin, double times) {
-    const auto found = counters_.try_emplace(line_, std::floor(times)).first;
+    const auto found = calls_.counters.try_emplace(place_.line, std::floor(times)).first;
     if (!(found->second >= 1)) {
-        counters_.erase(found);
+        calls_.counters.erase(found);
         return;
     }
     found->second -= 1;
     count_jump();
-    go_to(file_, begin);
+    go_to(place_.file, begin);
 }
 
 LineNumber Interpreter::find_block(double number, LineNumber line, int direction) {
-    auto found = numbers_.find(file_);
-    if (found == numbers_.end()) found = numbers_.emplace(file_, BlockNumbers(program_.files[file_])).first;
+    auto found = texts_.numbers.find(place_.file);
+    if (found == texts_.numbers.end())
+        found = texts_.numbers.emplace(place_.file, BlockNumbers(program_.files[place_.file])).first;
     return found->second.find(number, line, direction);
 }
 
 /// Reads a subprogram's file once, whatever how often it is called.
 bool Interpreter::load(const std::string& name) {
-    if (loaded_.contains(name)) return true;
+    if (texts_.loaded.contains(name)) return true;
     std::optional<SourceText> text = options_.load ? options_.load(name) : std::nullopt;
     if (!text) return false;
     if (program_.files.size() >= 65535) fail("too many subprogram files");
-    loaded_.emplace(name, program_.files.size());
+    texts_.loaded.emplace(name, program_.files.size());
     program_.files.push_back(std::move(*text));
-    indexes_.emplace_back();
-    indexed_.push_back(false);
+    texts_.indexes.emplace_back();
+    texts_.indexed.push_back(false);
     return true;
 }
 
 void Interpreter::call(const std::string& name, int repeats, bool locals, const std::vector<double>& arguments) {
     count_jump();
-    if (frames_.size() >= deepest_call) {
+    if (calls_.frames.size() >= deepest_call) {
         fail(fmt::format("calls are nested more than {} deep: a subprogram that calls itself?", deepest_call));
     }
     const CallRules& calls = rules_->calls;
@@ -404,7 +433,7 @@ void Interpreter::call(const std::string& name, int repeats, bool locals, const 
         // M98 of LinuxCNC calls `O1 … M99`, as Fanuc writes it.
         return begin < 0 && calls.label_if_no_sub ? index(file).find(ControlKind::label, name) : begin;
     };
-    std::size_t file = file_;
+    std::size_t file = place_.file;
     int at = begin_in(file);
     for (std::size_t other = 0; at < 0 && other < program_.files.size(); ++other) {
         file = other;
@@ -412,12 +441,12 @@ void Interpreter::call(const std::string& name, int repeats, bool locals, const 
     }
     LineNumber line = 1;
     if (at >= 0) {
-        line = indexes_[file].all()[static_cast<std::size_t>(at)].line;
+        line = texts_.indexes[file].all()[static_cast<std::size_t>(at)].line;
     } else {
         if (!load(name)) fail(fmt::format("subprogram '{}' is neither in the program nor beside it", name));
-        file = loaded_.at(name);
+        file = texts_.loaded.at(name);
         const int begin = begin_in(file);
-        if (begin >= 0) line = indexes_[file].all()[static_cast<std::size_t>(begin)].line;
+        if (begin >= 0) line = texts_.indexes[file].all()[static_cast<std::size_t>(begin)].line;
     }
     LineNumber first = line + (at >= 0 || !calls.begins_at_label ? 1 : 0);
     if (at < 0 && calls.file_from_top) first = 1;
@@ -429,30 +458,30 @@ void Interpreter::call(const std::string& name, int repeats, bool locals, const 
 
 void Interpreter::call_file(const std::string& name) {
     count_jump();
-    if (frames_.size() >= deepest_call) {
+    if (calls_.frames.size() >= deepest_call) {
         fail(fmt::format("calls are nested more than {} deep: a subprogram that calls itself?", deepest_call));
     }
     if (!load(name)) fail(fmt::format("subprogram '{}' is neither in the program nor beside it", name));
-    enter(loaded_.at(name), 1, 1, false);
+    enter(texts_.loaded.at(name), 1, 1, false);
 }
 
 /// Goes on at a line of a subprogram, and comes back behind the line that runs.
 void Interpreter::enter(std::size_t file, LineNumber line, int repeats, bool locals) {
-    Frame frame;
-    frame.file = file_;
-    frame.line = line_;
+    CallFrame frame;
+    frame.file = place_.file;
+    frame.line = place_.line;
     frame.start_file = file;
     frame.start_line = line;
-    frame.call = call_;
-    call_ = call_from_here();
+    frame.call = calls_.running;
+    calls_.running = call_from_here();
     frame.repeats = repeats - 1;
     frame.locals = locals;
-    frame.counters = std::move(counters_);
-    counters_.clear();
+    frame.counters = std::move(calls_.counters);
+    calls_.counters.clear();
     if (locals) variables_.push_locals();
-    frames_.push_back(std::move(frame));
-    kept_modes_.emplace_back();
-    restores_modes_.push_back(false);
+    calls_.frames.push_back(std::move(frame));
+    calls_.kept_modes.emplace_back();
+    calls_.restores_modes.push_back(false);
     watch_section();
     go_to(file, line);
 }
@@ -461,15 +490,16 @@ void Interpreter::enter(std::size_t file, LineNumber line, int repeats, bool loc
 std::uint32_t Interpreter::call_from_here() {
     std::vector<Call>& calls = program_.motions.calls;
     constexpr std::size_t most_calls = 1'000'000;  // of lines and ways to them; what more there is counts as its caller
-    if (calls.size() >= most_calls) return call_;
-    const auto [found, is_new] = known_calls_.try_emplace({call_, static_cast<std::uint32_t>(file_), line_},
-                                                          static_cast<std::uint32_t>(calls.size() + 1));
-    if (is_new) calls.push_back({call_, static_cast<std::uint16_t>(file_), line_});
+    if (calls.size() >= most_calls) return calls_.running;
+    const auto [found, is_new] =
+        calls_.known.try_emplace({calls_.running, static_cast<std::uint32_t>(place_.file), place_.line},
+                                 static_cast<std::uint32_t>(calls.size() + 1));
+    if (is_new) calls.push_back({calls_.running, static_cast<std::uint16_t>(place_.file), place_.line});
     return found->second;
 }
 
 void Interpreter::leave(bool from_end_of_text) {
-    if (frames_.empty()) {
+    if (calls_.frames.empty()) {
         ended_ = true;
         if (from_end_of_text)
             note(Severity::note, "program.no-end", "the program ends without M2 or M30");
@@ -477,22 +507,22 @@ void Interpreter::leave(bool from_end_of_text) {
             event("end", "return from the main program");
         return;
     }
-    Frame& frame = frames_.back();
+    CallFrame& frame = calls_.frames.back();
     if (frame.repeats > 0) {
         count_jump();
         --frame.repeats;
         go_to(frame.start_file, frame.start_line);
         return;
     }
-    if (restores_modes_.back() && kept_modes_.back()) restore_modes(*kept_modes_.back());
-    kept_modes_.pop_back();
-    restores_modes_.pop_back();
+    if (calls_.restores_modes.back() && calls_.kept_modes.back()) restore_modes(*calls_.kept_modes.back());
+    calls_.kept_modes.pop_back();
+    calls_.restores_modes.pop_back();
     if (frame.locals) variables_.pop_locals();
-    counters_ = std::move(frame.counters);
+    calls_.counters = std::move(frame.counters);
     const std::size_t file = frame.file;
     const LineNumber line = frame.line;
-    call_ = frame.call;
-    frames_.pop_back();
+    calls_.running = frame.call;
+    calls_.frames.pop_back();
     watch_section();
     go_to(file, line + 1);
 }
@@ -517,7 +547,7 @@ void Interpreter::return_to_block(const Block& block) {
     leave(false);
     const LineNumber line = find_block(number, 0, 0);
     if (line == 0) fail(fmt::format("M99 P{:g}: there is no block N{:g}", number, number));
-    go_to(file_, line);
+    go_to(place_.file, line);
 }
 
 }  // namespace clsurf

@@ -40,9 +40,9 @@ Interpreter::Interpreter(SourceText text, const InterpreterOptions& options)
     constexpr std::uint64_t most_of_a_line = 200;
     constexpr std::uint64_t most_numbers = 0xfffffff0u;
     most_motions_ = std::min(most_numbers, options_.most_repeated + most_of_a_line * program_.main().line_count());
-    indexes_.resize(1);
-    indexed_.resize(1);
-    if (options.tools) tools_ = *options.tools;
+    texts_.indexes.resize(1);
+    texts_.indexed.resize(1);
+    if (options.tools) tools_.table = *options.tools;
     if (rules_->begin != nullptr) rules_->begin(*this);
     const std::string_view bytes = program_.main().text();
     if (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff")) {
@@ -54,7 +54,7 @@ Interpreter::Interpreter(SourceText text, const InterpreterOptions& options)
 std::int64_t Interpreter::read_on(std::int64_t motions) {
     if (!ended_) {
         while (!ended_ && settled() < motions) run_line();
-        if (ended_ && !nurbs_.empty())
+        if (ended_ && !curves_.nurbs.empty())
             note(Severity::warning, "program.open-spline", "a spline is not closed at the end");
         if (ended_ && corner_.pending) fail("a straight line with feed must follow RND and CHF");
     }
@@ -65,7 +65,7 @@ std::int64_t Interpreter::settled() const {
     const std::int64_t all = program_.motions.size();
     if (ended_ || all == 0) return all;
     // The next motion begins where the last one ends.
-    return compensation_.on() ? std::min(all - 1, static_cast<std::int64_t>(open_motions_)) : all - 1;
+    return compensation_.path.on() ? std::min(all - 1, static_cast<std::int64_t>(compensation_.open_motions)) : all - 1;
 }
 
 std::int64_t Interpreter::place_settled(std::int64_t motions) {
@@ -74,9 +74,9 @@ std::int64_t Interpreter::place_settled(std::int64_t motions) {
     ways_kept_ = true;
     const std::int64_t placed = placer_.place(program_.motions, program_.events, motions);
     const std::int64_t more = placed - motions;
-    open_motions_ += static_cast<std::size_t>(more);
-    compensation_ended_ += more;
-    unread_since_ += more;
+    compensation_.open_motions += static_cast<std::size_t>(more);
+    compensation_.ended_at += more;
+    compensation_.unread_since += more;
     return placed;
 }
 
@@ -88,9 +88,9 @@ void Interpreter::forget(std::int64_t motions) {
                                               [motions](const ProgramEvent& e) { return e.motion >= motions; }));
     for (ProgramEvent& e : events) e.motion -= motions;
     forgotten_ += static_cast<std::uint64_t>(motions);
-    open_motions_ -= std::min(open_motions_, static_cast<std::size_t>(motions));
-    compensation_ended_ -= motions;
-    unread_since_ -= motions;
+    compensation_.open_motions -= std::min(compensation_.open_motions, static_cast<std::size_t>(motions));
+    compensation_.ended_at -= motions;
+    compensation_.unread_since -= motions;
 }
 
 Program Interpreter::run() {
@@ -108,35 +108,35 @@ Program Interpreter::run() {
 }
 
 std::string_view Interpreter::next_line() {
-    const std::string_view text = program_.files[file_].text();
-    const char* begin = text.data() + next_byte_;
-    const std::size_t left = text.size() - next_byte_;
+    const std::string_view text = program_.files[place_.file].text();
+    const char* begin = text.data() + place_.next_byte;
+    const std::size_t left = text.size() - place_.next_byte;
     const void* end = std::memchr(begin, '\n', left);
     const std::size_t size = end == nullptr ? left : static_cast<std::size_t>(static_cast<const char*>(end) - begin);
-    next_byte_ += size + (end == nullptr ? 0 : 1);
-    line_ = next_line_++;
+    place_.next_byte += size + (end == nullptr ? 0 : 1);
+    place_.line = place_.next_line++;
     return {begin, size};
 }
 
 void Interpreter::go_to(std::size_t file, LineNumber line) {
-    file_ = file;
-    next_line_ = line;
+    place_.file = file;
+    place_.next_line = line;
     const SourceText& text = program_.files[file];
-    next_byte_ = line > text.line_count() ? text.text().size()
-                                          : static_cast<std::size_t>(text.line(line).data() - text.text().data());
+    place_.next_byte = line > text.line_count() ? text.text().size()
+                                                : static_cast<std::size_t>(text.line(line).data() - text.text().data());
 }
 
 void Interpreter::run_line() {
-    if (next_line_ == behind_section_) {
+    if (place_.next_line == calls_.behind_section) {
         next_of_section();
         return;
     }
-    if (next_byte_ >= program_.files[file_].text().size()) {
+    if (place_.next_byte >= program_.files[place_.file].text().size()) {
         leave(true);
         return;
     }
-    current_ = next_line();
-    if (rules_->plain(current_, plain_) == PlainResult::plain) {
+    place_.text = next_line();
+    if (rules_->plain(place_.text, plain_) == PlainResult::plain) {
         if (run_plain(plain_)) return;
         if (rules_->motion.plain_blocks) {
             block_.clear();
@@ -145,7 +145,7 @@ void Interpreter::run_line() {
             return;
         }
     }
-    run_block(current_);
+    run_block(place_.text);
 }
 
 /// G0, G1 or nothing, with axis words and feed: what nearly every block of a finishing program is.
@@ -160,9 +160,9 @@ bool Interpreter::run_plain(const Words& words) {
         return false;
     }
     const bool ordinary = (mode == MotionMode::rapid || mode == MotionMode::feed) && !state_.incremental &&
-                          state_.feed_mode == FeedMode::per_minute && !modal_call_.active && !polar_.on &&
-                          !state_.frame.active() && nurbs_.empty() && !state_.diameter && !compensation_.on() &&
-                          !corner_.pending;
+                          state_.feed_mode == FeedMode::per_minute && !modal_call_.active && !frames_.polar.on &&
+                          !state_.frame.active() && curves_.nurbs.empty() && !state_.diameter &&
+                          !compensation_.path.on() && !corner_.pending;
     if (!ordinary) return false;
     state_.motion = mode;
     const double unit = state_.unit_mm;
@@ -177,7 +177,7 @@ bool Interpreter::run_plain(const Words& words) {
     push(rapid ? MotionKind::rapid : MotionKind::feed, p, state_.rotary,
          rapid ? std::numeric_limits<float>::quiet_NaN()
                : static_cast<float>(state_.feed * state_.feed_unit_mm / seconds_per_minute));
-    begin_of_last_ = before;
+    arcs_.begin_of_last = before;
     return true;
 }
 
@@ -192,14 +192,14 @@ void Interpreter::run_block(std::string_view line) {
         if (statement.tape_mark) {
             // The second % ends the tape; "%name" of other controls is a title.
             const bool alone = line.find_first_not_of("% \t\r") == std::string_view::npos;
-            if (tape_began_ && alone && file_ == 0) ended_ = true;
+            if (tape_began_ && alone && place_.file == 0) ended_ = true;
             tape_began_ = true;
             return;
         }
         if (statement.deleted && options_.block_delete) return;
         if (statement.text.empty()) return;
         const bool done = rules_->statement != nullptr && rules_->statement(*this, statement);
-        if (!done && !control(statement)) {
+        if (!done && !control_statement(statement)) {
             Cursor cursor{statement.text, 0};
             read_block(cursor, variables_, rules_->text, state_.least_increment(), block_);
             execute(block_);
@@ -210,20 +210,21 @@ void Interpreter::run_block(std::string_view line) {
 
 /// Parameters of the control that the block has read.
 void Interpreter::note_unknown_parameters() {
-    if (!unknown_name_.empty()) {
-        note(Severity::warning, "program.variable", unknown_name_ + " of the control is not known: read as 0");
-        unknown_name_.clear();
-    }
-    if (unknown_parameter_ != 0) {
+    if (!this_block_.unknown_name.empty()) {
         note(Severity::warning, "program.variable",
-             fmt::format("#{} of the control is not known: read as vacant", unknown_parameter_));
-        unknown_parameter_ = 0;
+             this_block_.unknown_name + " of the control is not known: read as 0");
+        this_block_.unknown_name.clear();
+    }
+    if (this_block_.unknown_parameter != 0) {
+        note(Severity::warning, "program.variable",
+             fmt::format("#{} of the control is not known: read as vacant", this_block_.unknown_parameter));
+        this_block_.unknown_parameter = 0;
     }
 }
 
 void Interpreter::fail(const std::string& what, std::size_t column, const std::string& hint) const {
-    Place place = Place::of_line(program_.files[file_].name(), line_, static_cast<std::uint32_t>(column));
-    place.source = std::string(current_.substr(0, shown_line_bytes));
+    Place place = Place::of_line(program_.files[place_.file].name(), place_.line, static_cast<std::uint32_t>(column));
+    place.source = std::string(place_.text.substr(0, shown_line_bytes));
     std::string advice = hint;
     if (!program_.dialect_guessed_from.empty()) {
         advice += fmt::format("{}read as {}, a guess ({}); --dialect names another", advice.empty() ? "" : "; ",
@@ -233,15 +234,15 @@ void Interpreter::fail(const std::string& what, std::size_t column, const std::s
 }
 
 void Interpreter::note(Severity severity, const char* code, const std::string& text, std::size_t column) {
-    Place place = Place::of_line(program_.files[file_].name(), line_, static_cast<std::uint32_t>(column));
+    Place place = Place::of_line(program_.files[place_.file].name(), place_.line, static_cast<std::uint32_t>(column));
     if (program_.diagnostics.count(code) < Diagnostics::kept_of_a_code) {
-        place.source = std::string(current_.substr(0, shown_line_bytes));
+        place.source = std::string(place_.text.substr(0, shown_line_bytes));
     }
     program_.diagnostics.add({severity, code, std::move(place), printable(text.substr(0, shown_text_bytes)), {}});
 }
 
 void Interpreter::event(const std::string& name, const std::string& value) {
-    program_.events.push_back({program_.motions.size(), line_, name, value, {}});
+    program_.events.push_back({program_.motions.size(), place_.line, name, value, {}});
 }
 
 Program parse_program(SourceText text, const InterpreterOptions& options) {

@@ -12,26 +12,17 @@
 #include "program/dialects/klartext_words.h"
 #include "program/frame_placement.h"
 #include "program/interpret/arc.h"
-#include "program/interpret/cutter_compensation.h"
+#include "program/interpret/block_state.h"
+#include "program/interpret/call_stack.h"
+#include "program/interpret/frames.h"
 #include "program/interpret/modal_state.h"
+#include "program/interpret/tool_state.h"
 #include "program/interpreter.h"
 #include "program/text/block.h"
 #include "program/text/control.h"
 #include "program/tool_table.h"
 
 namespace clsurf {
-
-/// A call that is running: where it goes on afterwards.
-struct Frame {
-    std::size_t file = 0;
-    LineNumber line = 0;         ///< the calling line
-    std::size_t start_file = 0;  ///< of the subprogram, for repeats
-    LineNumber start_line = 0;
-    std::uint32_t call = 0;                 ///< that ran before it: index into Motions::calls, from 1
-    int repeats = 0;                        ///< still to do after this one
-    bool locals = false;                    ///< a set of local variables was pushed
-    std::map<LineNumber, double> counters;  ///< of the repeat and for loops of the caller
-};
 
 struct CycleState {
     double r = 0, z = 0, q = 0;  ///< sticky words, as programmed
@@ -40,52 +31,10 @@ struct CycleState {
     double initial = std::numeric_limits<double>::quiet_NaN();  ///< level where the cycle began [mm]
 };
 
-/// Lines that Siemens' REPEAT runs once more.
-struct Section {
-    LineNumber begin = 0, end = 0;
-    double left = 0;        ///< times still to begin
-    std::size_t level = 0;  ///< of calls
-    LineNumber back = 0;    ///< the line of REPEAT
-};
-
 /// What a cycle does between R and its bottom.
 struct Stroke {
     bool dwells = false, feeds_out = false, pecks = false, breaks_chips = false;
 };
-
-/// Fanuc's G66 and Siemens' MCALL: called after every block that moves, at the level of calls where
-/// it was given.
-struct ModalCall {
-    bool active = false;
-    std::string name;
-    int repeats = 1;
-    std::vector<double> arguments;  ///< NaN: not given
-    std::size_t level = 0;          ///< of calls
-    std::size_t column = 0;
-};
-
-/// Polar coordinates of Fanuc's G16, Siemens' RP= AP= and Heidenhain's G10 … G13.
-struct PolarState {
-    bool on = false;           ///< G16
-    Vec3 pole = Vec3::Zero();  ///< [mm], programmed coordinates
-    double radius = 0;         ///< [mm]
-    double angle = 0;          ///< [deg]
-};
-
-/// Fanuc's parts of the frame: local zero, then rotation, then scaling, then mirroring.
-struct FanucFrame {
-    ProgramFrame local, rotation, scaling, mirror;
-    double angle = 0;  ///< of the rotation [deg]
-};
-
-/// Heidenhain's parts of the frame, and in which order they came.
-struct HeidenhainFrames {
-    enum Part : std::size_t { datum, mirror, rotation, scaling, tilt, parts };
-    std::array<ProgramFrame, parts> frame;
-    std::vector<std::size_t> order;
-};
-/// How arcs are given: usually, or as Heidenhain's G05, by Siemens' CIP, or by its CT and Heidenhain's G06.
-enum class ArcKind : std::uint8_t { usual, by_radius, by_points, tangential };
 
 /// What Klartext keeps from block to block.
 struct KlartextState {
@@ -95,15 +44,6 @@ struct KlartextState {
 
 class Interpreter {
 public:
-    /// A corner that the next line cuts off: RND, CHF.
-    struct Corner {
-        bool pending = false;
-        bool rounded = false;  ///< else a chamfer
-        double size = 0;       ///< radius, or length taken off each line [mm]
-        double feed = 0;       ///< as programmed
-        LineNumber line = 0;
-    };
-
     /// Throws InputError (UTF-16).
     Interpreter(SourceText text, const InterpreterOptions& options);
     /// All of the program.
@@ -289,7 +229,33 @@ public:
     void bore_back(double r, double bottom, double clear, const Vec3& rotary);
 
     // flow.cpp: control statements; true: the line was one
-    bool control(const Statement& statement);
+    bool control_statement(const Statement& statement);
+    [[nodiscard]] double value_at(std::string_view text, std::size_t at) const;
+    [[nodiscard]] const Control& own_control();
+    [[nodiscard]] const Control& partner_of(const Control& control, const char* what);
+    void go_after(LineNumber line);
+    void run_rest(std::string_view text, std::size_t at);
+    struct ControlRow;  ///< a kind of statement and its handler, one of these
+    void pass(const Control&, const Statement&);
+    void pass_sub(const Control&, const Statement&);
+    void return_from_sub(const Control& control, const Statement& statement);
+    void call_sub(const Control& control, const Statement& statement);
+    void begin_while(const Control& control, const Statement& statement);
+    void end_loop(const Control&, const Statement&);
+    void end_do(const Control& control, const Statement& statement);
+    void begin_if(const Control& control, const Statement& statement);
+    void pass_else_if(const Control&, const Statement&);
+    void pass_else(const Control&, const Statement&);
+    void begin_repeat(const Control& control, const Statement& statement);
+    void end_repeat(const Control&, const Statement&);
+    void begin_for(const Control& control, const Statement& statement);
+    void end_for(const Control&, const Statement&);
+    void leave_loop(const Control& control, const Statement&);
+    void go_to_label(const Control& control, const Statement& statement);
+    void run_if(const Control& control, const Statement& statement);
+    void pass_label(const Control& control, const Statement& statement);
+    void repeat(const Control& control, const Statement& statement);
+    void choose_branch(const Control& control, const Statement& statement);
     [[nodiscard]] bool branch_taken(const Control& branch) const;
     void siemens_definition(const std::string& statement);                     ///< DEF
     void call_by_number(const Block& block, int least_repeats, bool counted);  ///< M98 P L
@@ -312,89 +278,41 @@ public:
     [[nodiscard]] bool load(const std::string& name);  ///< false: no such file
 
     InterpreterOptions options_;
+    const DialectRules* rules_ = nullptr;
+    std::vector<CodeRule> code_rules_;  ///< the dialect's, by code
+    Program program_;
     std::uint64_t most_motions_ = 0, forgotten_ = 0;
     std::vector<Vec3>
-        forgotten_ways_;  ///< of the motions forgotten the last, and the last that is not parallel to it [mm]
-    Program program_;
-    const DialectRules* rules_ = nullptr;
-    std::vector<CodeRule> code_rules_;  ///< the dialect's and the common ones, by code
-    std::vector<ControlIndex> indexes_;
-    std::vector<bool> indexed_;
-    std::map<std::string, std::size_t> loaded_;    ///< files of subprograms, by the name they were called by
-    std::map<std::size_t, BlockNumbers> numbers_;  ///< of files in which a jump went to a block number
-    ModalState state_;
-    Variables variables_;
-    CycleState cycle_;
+        forgotten_ways_;      ///< of the motions forgotten the last, and the last that is not parallel to it [mm]
+    bool ways_kept_ = false;  ///< of the settled motions, in work coordinates
     FramePlacer placer_{{}, Coordinates::machine};
-    bool ways_kept_ = false;                           ///< of the settled motions, in work coordinates
-    std::uint64_t frame_changes_ = ~std::uint64_t{0};  ///< of the state when frame_ was settled
-    std::uint8_t frame_held_ = 0, frame_absolute_ = 0;
-    ProgramFrame frame_words_;
-    std::uint32_t work_frame_ = 0;  ///< index into Motions::frames
-    std::map<std::array<double, 34>, std::uint32_t> known_frames_;
+
+    ReadingPlace place_;
+    KnownTexts texts_;
+    CallStack calls_;
+    ModalCall modal_call_;  ///< G66, MCALL
+    Variables variables_;
     Block block_;
     Words plain_;  ///< of the line that runs, where it is plain
-    ToolTable tools_;
-    int next_tool_ = 0;  ///< of the T word
-    Tool tool_;          ///< in the spindle
-    CutterCompensation compensation_;
-    std::size_t open_motions_ = 0;               ///< the first motion whose end an inside corner may still move
-    bool enters_beside_ = false;                 ///< G41 of the controls: where the entry ends, the next motion tells
-    bool entry_programmed_ = false;              ///< the entry move has been read
-    int length_number_ = 0, radius_number_ = 0;  ///< Fanuc's H and D
-    bool tool_centre_point_ = false;             ///< G43.4, TRAORI, M128
-    std::string tool_centre_point_text_;         ///< what switched it on
-    bool axis_words_ = false;                    ///< G43.5: I J K are the tool axis
-    bool tilted_ = false;                        ///< CYCLE800, G68.2: positions are those of the tip, too
-    ProgramFrame swivel_;                        ///< of CYCLE800; TRANS, ROT … count in it
-    bool feed_missed_ = false;                   ///< a cutting motion without feed has been reported
-    std::int64_t compensation_ended_ = -1;       ///< motions before G40: the next one is a straight one
-    std::int64_t unread_since_ = -1;             ///< motions before the position and the machine parted
-    Vec3 unread_ = Vec3::Zero();                 ///< from the position as it reads to the last motion's end [mm]
+    BlockFlags this_block_;
 
-    // Where it reads.
-    std::size_t file_ = 0;
-    LineNumber line_ = 0;  ///< of the block that runs
-    LineNumber next_line_ = 1;
-    std::size_t next_byte_ = 0;
-    std::string_view current_;  ///< text of the line that runs
-    std::vector<Frame> frames_;
-    std::vector<Section> sections_;
-    LineNumber behind_section_ = 0;  ///< the line to stop before; 0: none
-    std::uint32_t call_ = 0;         ///< that runs: index into Motions::calls, from 1; 0: the main program
-    std::map<std::array<std::uint32_t, 3>, std::uint32_t> known_calls_;  ///< by caller, file and line
-    std::vector<std::optional<ModalState>> kept_modes_{1};               ///< by level of calls: what M70 and M73 kept
-    std::vector<bool> restores_modes_{false};                            ///< M73: they come back on return
-    std::map<LineNumber, double> counters_;
-    std::uint64_t jumps_ = 0;
-    bool ended_ = false;
-    bool tape_began_ = false;
-
-    // Per block.
-    bool machine_coordinates_ = false;  ///< G53, SUPA
-    bool motion_suppressed_ = false;    ///< the axis words belong to G10, G92, G28 …
-    bool path_mode_returns_ = false;    ///< G9: the mode in force comes back behind the block
+    ModalState state_;
     double contour_tolerance_ = std::numeric_limits<double>::quiet_NaN();  ///< CTOL, CYCLE832 [mm]; NaN: the machine's
-    ModalCall modal_call_;                                                 ///< G66, MCALL
-    PolarState polar_;
-    FanucFrame fanuc_frame_;
-    Vec3 local_zero_ = Vec3::Zero(), mirror_at_ = Vec3::Zero();  ///< G52, G51.1 [mm]
-    std::array<bool, 3> mirrored_{};
-    bool data_entry_ = false;  ///< G10 L50 … G11: lines are parameters of the control
-    HeidenhainFrames heidenhain_frames_;
-    Vec3 datum_ = Vec3::Zero();  ///< Heidenhain's G54 [mm]
-    double turned_by_ = 0;       ///< its G73 [deg]
-    KlartextState klartext_;
+    Frames frames_;
+    FiveAxisModes five_axis_;
+    KnownWorkFrames work_frames_;
+    ToolState tools_;
+    CompensationState compensation_;
+    CycleState cycle_;
+    ArcState arcs_;
+    CurveState curves_;
     Corner corner_;
-    Vec3 begin_of_last_ = Vec3::Zero();  ///< where the last motion began [mm], of the work system
-    ArcKind arc_kind_ = ArcKind::usual;
-    bool polar_line_ = false;  ///< its G10 … G16: R and H give the end
-    bool last_clockwise_ = false;
-    std::string unknown_name_;   ///< of a variable of the control that the block has read
-    int unknown_parameter_ = 0;  ///< that the block has read
-    std::vector<Vec3> nurbs_;    ///< x, y, weight
-    int nurbs_order_ = 3;
-    Vec2 spline_out_ = Vec2::Zero();  ///< P Q of the cubic spline before
+    KlartextState klartext_;
+
+    bool feed_missed_ = false;  ///< a cutting motion without feed has been reported
+    bool data_entry_ = false;   ///< G10 L50 … G11: lines are parameters of the control
+    bool tape_began_ = false;
+    bool ended_ = false;
 };
 
 }  // namespace clsurf

@@ -113,17 +113,17 @@ bool rises(const Vec2& first, const std::vector<CompensatedMove>& moves, const F
 Vec2 Interpreter::record_profile(const std::string& name, std::vector<CompensatedMove>& profile) {
     const ModalState state = state_;
     const Block block = block_;
-    const LineNumber line = line_;
-    const std::string_view current = current_;
+    const LineNumber line = place_.line;
+    const std::string_view current = place_.text;
     Motions& m = program_.motions;
     const auto first = static_cast<std::size_t>(m.size());
     const std::size_t first_arc = m.arcs.size();
     const std::size_t first_event = program_.events.size();
     call(name, 1, true, {});
-    const std::size_t depth = frames_.size();
-    while (!ended_ && frames_.size() >= depth) run_line();
-    line_ = line;
-    current_ = current;
+    const std::size_t depth = calls_.frames.size();
+    while (!ended_ && calls_.frames.size() >= depth) run_line();
+    place_.line = line;
+    place_.text = current;
     if (m.kind.size() < first + 2) fail("the profile has no motion after its first point");
     const Vec2 begin = zx(m.end[first].vec());
     for (std::size_t i = first + 1; i < m.kind.size(); ++i) {
@@ -147,8 +147,8 @@ Vec2 Interpreter::record_profile(const std::string& name, std::vector<Compensate
     for (std::size_t i = first_event; i < program_.events.size(); ++i) program_.events[i].motion = m.size();
     state_ = state;
     block_ = block;
-    machine_coordinates_ = false;
-    motion_suppressed_ = true;  // the axis words of the cycle are its own, not those of a motion
+    this_block_.machine_coordinates = false;
+    this_block_.motion_suppressed = true;  // the axis words of the cycle are its own, not those of a motion
     if (profile.empty()) fail("the profile has no way");
     return begin;
 }

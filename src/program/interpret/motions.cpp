@@ -37,11 +37,12 @@ Vec3 Interpreter::read_axes(const Block& block, bool machine) {
     Vec3 base = machine ? state_.to_machine(state_.position) : state_.programmed();
     constexpr unsigned all = WorkFrame::all_axes;
     const unsigned plane = all & ~(1u << state_.plane_axis);
-    const bool by_pole = polar_.on || polar_line_ || block.polar_radius || block.polar_angle || ends_by_angle(block);
+    const bool by_pole =
+        frames_.polar.on || arcs_.polar_line || block.polar_radius || block.polar_angle || ends_by_angle(block);
     // A frame's turn mixes the axes.
     const bool mixed = !machine && state_.frame.active() && axes_named(block.words) != 0;
     state_.place(mixed ? all : axes_named(block.words) | (by_pole && !machine ? plane : 0u), machine);
-    if ((polar_.on || polar_line_) && !machine) {
+    if ((frames_.polar.on || arcs_.polar_line) && !machine) {
         if (rules_->about_pole != nullptr) rules_->about_pole(*this, block, base);
         return base;
     }
@@ -79,8 +80,8 @@ void Interpreter::straight_to_pole_plane(const Block& block, const Vec3& from, V
 void Interpreter::put_at_pole(Vec3& end) const {
     const int u = (state_.plane_axis + 1) % 3;
     const int v = (state_.plane_axis + 2) % 3;
-    end[u] = polar_.pole[u] + polar_.radius * std::cos(polar_.angle * rad_per_deg);
-    end[v] = polar_.pole[v] + polar_.radius * std::sin(polar_.angle * rad_per_deg);
+    end[u] = frames_.polar.pole[u] + frames_.polar.radius * std::cos(frames_.polar.angle * rad_per_deg);
+    end[v] = frames_.polar.pole[v] + frames_.polar.radius * std::sin(frames_.polar.angle * rad_per_deg);
 }
 
 /// The end of a motion by radius [programmed lengths] and angle [deg] about the pole; what is not given stays as it is.
@@ -89,10 +90,10 @@ void Interpreter::put_about_pole(std::optional<double> radius, std::optional<dou
     const int u = (state_.plane_axis + 1) % 3;
     const int v = (state_.plane_axis + 2) % 3;
     const Vec3 from = end.array().isNaN().select(0.0, end);
-    const Vec2 now(from[u] - polar_.pole[u], from[v] - polar_.pole[v]);
-    polar_.radius = radius ? *radius * state_.unit_mm + (radius_adds ? now.norm() : 0.0) : now.norm();
+    const Vec2 now(from[u] - frames_.polar.pole[u], from[v] - frames_.polar.pole[v]);
+    frames_.polar.radius = radius ? *radius * state_.unit_mm + (radius_adds ? now.norm() : 0.0) : now.norm();
     const double angle_now = angle_of(now) * deg_per_rad;
-    polar_.angle = angle ? *angle + (angle_adds ? angle_now : 0.0) : angle_now;
+    frames_.polar.angle = angle ? *angle + (angle_adds ? angle_now : 0.0) : angle_now;
     put_at_pole(end);
 }
 
@@ -114,7 +115,7 @@ void Interpreter::put_polar(const Block& block, Vec3& end) const {
 }
 
 Vec3 Interpreter::rotary_target(const Block& block) const {
-    const bool machine = machine_coordinates_ && rules_->motion.rotary_in_machine;
+    const bool machine = this_block_.machine_coordinates && rules_->motion.rotary_in_machine;
     Vec3 target = state_.rotary;
     for (int axis = 0; axis < 3; ++axis) {
         const char letter = "ABC"[axis];
@@ -138,17 +139,17 @@ void Interpreter::move(const Block& block) {
     const bool turns_tool = take_tool_axis(block);
     const bool axes = turns_tool || (block.words.has & (Words::xyz | rotary_axes | other_axes)) != 0 ||
                       block.polar_radius || block.polar_angle ||
-                      (polar_line_ && (block.words.has & (Words::bit('R') | Words::bit('H'))) != 0);
+                      (arcs_.polar_line && (block.words.has & (Words::bit('R') | Words::bit('H'))) != 0);
     switch (state_.motion) {
         case MotionMode::none:
             if (!axes) return;
             if (rules_->motion.needs_mode) fail("axis words without a motion mode (G80 is active)");
             note(Severity::warning, "program.no-motion-mode", "axis words without a motion mode are read as G1");
             state_.motion = MotionMode::feed;
-            straight(MotionKind::feed, target(block, machine_coordinates_), rotary_target(block));
+            straight(MotionKind::feed, target(block, this_block_.machine_coordinates), rotary_target(block));
             return;
         case MotionMode::probe:
-            if (axes) probe(target(block, machine_coordinates_), rotary_target(block));
+            if (axes) probe(target(block, this_block_.machine_coordinates), rotary_target(block));
             return;
         case MotionMode::rapid:
         case MotionMode::feed:
@@ -156,10 +157,10 @@ void Interpreter::move(const Block& block) {
             // RS274 makes a motion of no length of a G0 or G1 that stands alone.
             if (!axes && !(rules_->motion.moves_without_axes && names_motion(block))) return;
             compensated_straight(state_.motion == MotionMode::rapid ? MotionKind::rapid : MotionKind::feed,
-                                 target(block, machine_coordinates_), rotary_target(block));
+                                 target(block, this_block_.machine_coordinates), rotary_target(block));
             return;
         case MotionMode::tap:
-            if (axes) tap(target(block, machine_coordinates_), rotary_target(block));
+            if (axes) tap(target(block, this_block_.machine_coordinates), rotary_target(block));
             return;
         case MotionMode::cw:
         case MotionMode::ccw:
@@ -204,13 +205,14 @@ void Interpreter::straight(MotionKind kind, const Vec3& end, const Vec3& rotary)
 }
 
 void Interpreter::arc(const Block& block, bool clockwise) {
-    if (compensation_ended_ == program_.motions.size())
+    if (compensation_.ended_at == program_.motions.size())
         fail("the first motion after cutter compensation (G40) must be a straight one");
     ArcWords words;
     // In programmed coordinates; the frame takes the arc as a whole.
     words.begin = state_.programmed();
     words.begin = words.begin.array().isNaN().select(0.0, words.begin);
-    words.end = machine_coordinates_ ? state_.frame.to_programmed(target(block, true)) : read_axes(block, false);
+    words.end =
+        this_block_.machine_coordinates ? state_.frame.to_programmed(target(block, true)) : read_axes(block, false);
     words.end = words.end.array().isNaN().select(words.begin, words.end);
     words.axis = state_.plane_axis;
     words.clockwise = clockwise;
@@ -254,7 +256,7 @@ void Interpreter::arc(const Block& block, bool clockwise) {
     arc.centre = Xyz(state_.frame.to_work(arc.centre.vec()));
     arc.axis = static_cast<std::uint8_t>(circle->axis);
     clockwise = clockwise != circle->reversed;
-    if (compensation_.active()) {
+    if (compensation_.path.active()) {
         compensated_arc(arc, clockwise, end, rotary_target(block));
     } else {
         push_arc(arc, clockwise, begin, end, rotary_target(block));
@@ -273,7 +275,8 @@ void Interpreter::refuse_turns(const Block& block) const {
 
 /// An arc that its frame makes an ellipse, or tilts out of the principal planes.
 void Interpreter::flatten_arc(const Arc& arc, bool clockwise, const Vec3& begin, const Vec3& end, const Vec3& rotary) {
-    if (compensation_.on()) fail("cutter compensation of an arc in a tilted or unevenly scaled frame is not supported");
+    if (compensation_.path.on())
+        fail("cutter compensation of an arc in a tilted or unevenly scaled frame is not supported");
     // The frame may stretch the chords' error.
     const Vec3 u = state_.frame.direction_to_work(Vec3::Unit((arc.axis + 1) % 3));
     const Vec3 v = state_.frame.direction_to_work(Vec3::Unit((arc.axis + 2) % 3));
@@ -322,18 +325,18 @@ void Interpreter::push(MotionKind kind, const Vec3& end, const Vec3& rotary, flo
     m.kind.push_back(kind);
     m.end.push_back(Xyz(end));
     m.feed.push_back(feed);
-    m.line.push_back(line_);
-    if (state_.frame_changes != frame_changes_ || state_.held != frame_held_ || state_.absolute != frame_absolute_ ||
-        state_.frame != frame_words_)
+    m.line.push_back(place_.line);
+    if (state_.frame_changes != work_frames_.changes || state_.held != work_frames_.held ||
+        state_.absolute != work_frames_.absolute || state_.frame != work_frames_.words)
         settle_work_frame();
     for (unsigned axis = 0; state_.unplaced != 0 && axis < 3; ++axis) {
         if ((state_.unplaced >> axis & 1) != 0) m.programmed_from[axis] = m.size();
     }
-    if (work_frame_ != 0 || !m.frame.empty()) {
+    if (work_frames_.current != 0 || !m.frame.empty()) {
         if (m.frame.empty()) m.frame = Column<std::uint32_t>(m.kind.size() - 1, 0);
-        m.frame.push_back(work_frame_);
+        m.frame.push_back(work_frames_.current);
     }
-    const bool vector = (tool_centre_point_ || tilted_) && !std::isnan(state_.tool_axis.x());
+    const bool vector = (five_axis_.tool_centre_point || five_axis_.tilted) && !std::isnan(state_.tool_axis.x());
     const Vec3 angles = vector ? Vec3(Vec3::Constant(std::numeric_limits<double>::quiet_NaN())) : rotary;
     if (!m.rotary.empty() || angles.squaredNorm() != 0) {
         if (m.rotary.empty()) m.rotary = Column<Xyz>(m.kind.size() - 1, Xyz(0, 0, 0));
@@ -344,15 +347,15 @@ void Interpreter::push(MotionKind kind, const Vec3& end, const Vec3& rotary, flo
         if (m.tool_axis.empty()) m.tool_axis = Column<Xyz>(m.kind.size() - 1, none);
         m.tool_axis.push_back(vector ? Xyz(state_.tool_axis) : none);
     }
-    if (!m.file.empty() || file_ != 0) {
+    if (!m.file.empty() || place_.file != 0) {
         if (m.file.empty()) m.file = Column<std::uint16_t>(m.kind.size() - 1, 0);
-        m.file.push_back(static_cast<std::uint16_t>(file_));
+        m.file.push_back(static_cast<std::uint16_t>(place_.file));
     }
     if (!m.calls.empty()) {
         if (m.call.empty()) m.call = Column<std::uint32_t>(m.kind.size() - 1, 0);
-        m.call.push_back(call_);
+        m.call.push_back(calls_.running);
     }
-    begin_of_last_ = state_.position;
+    arcs_.begin_of_last = state_.position;
     state_.position = end;
     state_.rotary = angles;
 }
@@ -382,10 +385,10 @@ void Interpreter::spline(const Block& block) {
         const bool first = block.words.given('I') || block.words.given('J');
         if (!block.words.given('P') || !block.words.given('Q')) fail("G5 needs P and Q");
         if (first && !(block.words.given('I') && block.words.given('J'))) fail("G5 needs both I and J, or neither");
-        if (!first && spline_out_.isZero()) fail("the first G5 needs I and J");
-        const Vec2 out = first ? Vec2(word('I'), word('J')) : Vec2(-spline_out_);
-        spline_out_ = Vec2(word('P'), word('Q'));
-        control = {from, from + out, to + spline_out_, to};
+        if (!first && curves_.spline_out.isZero()) fail("the first G5 needs I and J");
+        const Vec2 out = first ? Vec2(word('I'), word('J')) : Vec2(-curves_.spline_out);
+        curves_.spline_out = Vec2(word('P'), word('Q'));
+        control = {from, from + out, to + curves_.spline_out, to};
     } else {
         if (!block.words.given('I') && !block.words.given('J')) fail("G5.1 needs I or J");
         const Vec2 middle = from + Vec2(word('I'), word('J'));
@@ -412,22 +415,23 @@ void Interpreter::nurbs_point(const Block& block) {
     const bool is_point = w.given('X');
     const double weight = w.given('P') ? w.of('P') : 1.0;
     if (!(weight > 0)) fail("a weight (P) must be greater than 0");
-    if (nurbs_.empty()) {
-        nurbs_order_ = least_nurbs_order;
-        nurbs_.emplace_back(state_.position.x(), state_.position.y(), is_point ? 1.0 : weight);
+    if (curves_.nurbs.empty()) {
+        curves_.nurbs_order = least_nurbs_order;
+        curves_.nurbs.emplace_back(state_.position.x(), state_.position.y(), is_point ? 1.0 : weight);
     } else if (!is_point && w.given('P')) {
         fail("P without X and Y is the weight of the first point alone", w.column['P' - 'A']);
     }
-    if (w.given('L')) nurbs_order_ = static_cast<int>(std::clamp(w.of('L'), double(least_nurbs_order), 1e6));
-    if (nurbs_order_ > most_nurbs_order) fail(fmt::format("the order of a spline (L) is at most {}", most_nurbs_order));
+    if (w.given('L')) curves_.nurbs_order = static_cast<int>(std::clamp(w.of('L'), double(least_nurbs_order), 1e6));
+    if (curves_.nurbs_order > most_nurbs_order)
+        fail(fmt::format("the order of a spline (L) is at most {}", most_nurbs_order));
     if (!is_point) return;
     const Vec3 end = target(block, false);
-    nurbs_.emplace_back(end.x(), end.y(), weight);
+    curves_.nurbs.emplace_back(end.x(), end.y(), weight);
 }
 
 void Interpreter::nurbs_end() {
-    const auto count = static_cast<int>(nurbs_.size());
-    const int order = nurbs_order_;
+    const auto count = static_cast<int>(curves_.nurbs.size());
+    const int order = curves_.nurbs_order;
     if (count < order) fail(fmt::format("a spline of order {} needs {} points, it has {}", order, order, count));
     // Clamped uniform knots; de Boor in homogeneous coordinates.
     const int spans = count - order + 1;
@@ -437,7 +441,7 @@ void Interpreter::nurbs_end() {
         const int span = std::min(static_cast<int>(u), spans - 1) + order - 1;
         std::vector<Vec3> d;
         for (int j = 0; j < order; ++j) {
-            const Vec3& c = nurbs_[static_cast<std::size_t>(span - order + 1 + j)];
+            const Vec3& c = curves_.nurbs[static_cast<std::size_t>(span - order + 1 + j)];
             d.emplace_back(c.x() * c.z(), c.y() * c.z(), c.z());
         }
         for (int r = 1; r < order; ++r) {
@@ -452,7 +456,7 @@ void Interpreter::nurbs_end() {
         const Vec3& p = d[static_cast<std::size_t>(order - 1)];
         straight(MotionKind::spline, Vec3(p.x() / p.z(), p.y() / p.z(), state_.position.z()), state_.rotary);
     }
-    nurbs_.clear();
+    curves_.nurbs.clear();
     state_.motion = MotionMode::none;
 }
 

@@ -36,10 +36,10 @@ WorkFrame ModalState::work_frame() const {
 
 /// The index of the frame that the next motion counts in; a new one where it is.
 void Interpreter::settle_work_frame() {
-    frame_changes_ = state_.frame_changes;
-    frame_held_ = state_.held;
-    frame_absolute_ = state_.absolute;
-    frame_words_ = state_.frame;
+    work_frames_.changes = state_.frame_changes;
+    work_frames_.held = state_.held;
+    work_frames_.absolute = state_.absolute;
+    work_frames_.words = state_.frame;
     const WorkFrame frame = state_.work_frame();
     std::array<double, 34> key{};
     std::copy_n(frame.local.data(), 16, key.begin());
@@ -50,18 +50,18 @@ void Interpreter::settle_work_frame() {
     key[21] = frame.rotary.dot(Vec3(1, 1e-3, 1e-6));
     std::ranges::copy(frame.words.numbers(), key.begin() + 22);
     std::vector<WorkFrame>& frames = program_.motions.frames;
-    const auto [known, added] = known_frames_.try_emplace(key, static_cast<std::uint32_t>(frames.size()));
-    if (added && known_frames_.size() == 1 && forgotten_ == 0 && program_.motions.kind.size() == 1) {
+    const auto [known, added] = work_frames_.known.try_emplace(key, static_cast<std::uint32_t>(frames.size()));
+    if (added && work_frames_.known.size() == 1 && forgotten_ == 0 && program_.motions.kind.size() == 1) {
         known->second = 0;
         frames.front() = frame;
     } else if (added) {
         frames.push_back(frame);
     }
-    work_frame_ = known->second;
+    work_frames_.current = known->second;
 }
 
 void Interpreter::set_offsets(const Block& block) {
-    motion_suppressed_ = true;
+    this_block_.motion_suppressed = true;
     const int level = is(block, 'L') ? static_cast<int>(std::clamp(block.words.of('L'), -1e6, 1e6)) : 0;
     if (level != 2 && level != 20) {
         if (rules_->offsets.tool_data) set_tool(level, block);
@@ -112,7 +112,7 @@ void Interpreter::set_offsets(const Block& block) {
 }
 
 void Interpreter::shift_position(const Block& block) {
-    motion_suppressed_ = true;
+    this_block_.motion_suppressed = true;
     const bool local = std::find(block.words.g.begin(), block.words.g.begin() + block.words.g_count, 52_g) !=
                        block.words.g.begin() + block.words.g_count;
     state_.rebase([&] {
@@ -158,10 +158,10 @@ void Interpreter::restore_shift(int code) {
 
 /// M70 … M73 of LinuxCNC: modes are kept and come back; after M73 when the subprogram returns.
 void Interpreter::keep_modes(int code) {
-    std::optional<ModalState>& kept = kept_modes_.back();
+    std::optional<ModalState>& kept = calls_.kept_modes.back();
     if (code == 70 || code == 73) {
         kept = state_;
-        if (code == 73) restores_modes_.back() = true;
+        if (code == 73) calls_.restores_modes.back() = true;
         return;
     }
     if (code == 71) {
@@ -204,7 +204,7 @@ void Interpreter::set_tool(int level, const Block& block) {
     if (level != 1 && level != 10 && level != 11) fail(fmt::format("G10 L{} is not known", level));
     if (!is(block, 'P')) fail("G10 L1, L10 and L11 need the tool's number (P)");
     const int number = static_cast<int>(std::clamp(std::round(block.words.of('P')), 0.0, 1e6));
-    Tool tool = tools_.find(number) != nullptr ? *tools_.find(number) : Tool{number};
+    Tool tool = tools_.table.find(number) != nullptr ? *tools_.table.find(number) : Tool{number};
     const auto length = [&](char letter) { return block.words.of(letter) * state_.unit_mm; };
     ModalState fixture = state_;  // where the words count
     if (level == 11) {
@@ -224,13 +224,13 @@ void Interpreter::set_tool(int level, const Block& block) {
     if (is(block, 'I')) tool.front_angle = block.words.of('I');
     if (is(block, 'J')) tool.back_angle = block.words.of('J');
     if (is(block, 'Q')) tool.orientation = static_cast<int>(std::clamp(block.words.of('Q'), 0.0, 9.0));
-    tools_.tools[number] = tool;
-    if (tool_.number == number) tool_ = tool;
+    tools_.table.tools[number] = tool;
+    if (tools_.in_spindle.number == number) tools_.in_spindle = tool;
 }
 
 /// The tool of the table; one that is not there has neither length nor diameter, and is reported.
 Tool Interpreter::tool_of(int number, std::size_t column) {
-    if (const Tool* found = tools_.find(number)) return *found;
+    if (const Tool* found = tools_.table.find(number)) return *found;
     if (number != 0) {
         note(Severity::warning, "program.tool-table",
              fmt::format("tool {} is not in the tool table: read without length and diameter", number), column);
@@ -242,35 +242,36 @@ void Interpreter::change_tool(const Block& block) {
     const auto whole = [&](char letter) {
         return static_cast<int>(std::clamp(std::round(block.words.of(letter)), 0.0, 1e8));
     };
-    if (is(block, 'T')) next_tool_ = whole('T');
+    if (is(block, 'T')) tools_.next = whole('T');
     // A block with T calls the tool in Heidenhain's dialect; Siemens takes its length with the edge D1.
     bool changed = false;
     if (rules_->tools.t_changes && is(block, 'T')) {
-        tool_ = tools_.tools.empty() ? Tool{next_tool_} : tool_of(next_tool_, block.words.column['T' - 'A']);
+        tools_.in_spindle =
+            tools_.table.tools.empty() ? Tool{tools_.next} : tool_of(tools_.next, block.words.column['T' - 'A']);
         changed = true;
     }
     const auto* first = block.words.m.data();
     for (const std::int32_t code : std::vector<std::int32_t>(first, first + block.words.m_count)) {
         if (code != 6 && (code != 61 || !rules_->tools.m61)) continue;
-        if (compensation_.on()) fail("a tool cannot be changed while cutter compensation is on");
+        if (compensation_.path.on()) fail("a tool cannot be changed while cutter compensation is on");
         if (code == 61 && !is(block, 'Q')) fail("M61 needs the tool's number (Q)");
         // Without a table the other dialects have nothing to look up.
-        const bool known = rules_->tools.always_looks_up || !tools_.tools.empty();
-        tool_ = known ? tool_of(code == 61 ? whole('Q') : next_tool_, 0) : Tool{next_tool_};
+        const bool known = rules_->tools.always_looks_up || !tools_.table.tools.empty();
+        tools_.in_spindle = known ? tool_of(code == 61 ? whole('Q') : tools_.next, 0) : Tool{tools_.next};
         changed = true;
     }
     const bool edge = rules_->tools.edges && is(block, 'D');
-    if (!rules_->tools.length_with_tool || tools_.tools.empty() || !(changed || edge)) return;
-    const Vec3 offset = edge && block.words.of('D') == 0 ? Vec3(Vec3::Zero()) : tool_.offset;
+    if (!rules_->tools.length_with_tool || tools_.table.tools.empty() || !(changed || edge)) return;
+    const Vec3 offset = edge && block.words.of('D') == 0 ? Vec3(Vec3::Zero()) : tools_.in_spindle.offset;
     state_.rebase([&] { state_.tool_offset = offset; });
 }
 
 /// From here on the end of the last motion is not what the position reads: a length was taken off, or
 /// compensation ended beside the programmed point.
 void Interpreter::part_from_machine(const Vec3& by) {
-    if (unread_since_ != program_.motions.size()) unread_ = Vec3::Zero();
-    unread_since_ = program_.motions.size();
-    unread_ += by;
+    if (compensation_.unread_since != program_.motions.size()) compensation_.unread = Vec3::Zero();
+    compensation_.unread_since = program_.motions.size();
+    compensation_.unread += by;
 }
 
 /// After a tool change, or after waiting for an input, the interpreter takes up the end of the last
@@ -280,9 +281,9 @@ void Interpreter::read_machine_position(const Block& block) {
     const auto* first = block.words.m.data();
     const bool reads =
         std::any_of(first, first + block.words.m_count, [](std::int32_t code) { return code == 6 || code == 66; });
-    if (!reads || unread_since_ != program_.motions.size()) return;
-    state_.position += unread_;
-    unread_ = Vec3::Zero();
+    if (!reads || compensation_.unread_since != program_.motions.size()) return;
+    state_.position += compensation_.unread;
+    compensation_.unread = Vec3::Zero();
 }
 
 void Interpreter::tool_length(int code, const Block& block) {
@@ -293,7 +294,7 @@ void Interpreter::tool_length(int code, const Block& block) {
         return offset;
     };
     const auto tool_named = [&](bool loaded) {
-        if (loaded) return tool_;
+        if (loaded) return tools_.in_spindle;
         const auto column = block.words.column['H' - 'A'];
         return tool_of(static_cast<int>(std::clamp(std::round(block.words.of('H')), 0.0, 1e8)), column);
     };
@@ -301,7 +302,7 @@ void Interpreter::tool_length(int code, const Block& block) {
     Vec3 offset = state_.tool_offset;
     Vec3 assumed = state_.assumed_tool;
     if (code == 43.1_g) {
-        motion_suppressed_ = true;
+        this_block_.motion_suppressed = true;
         offset = words_move(offset);
         for (int axis = 0; axis < 3; ++axis) {
             if (is(block, "XYZ"[axis])) assumed[axis] = 0;
@@ -318,9 +319,9 @@ void Interpreter::tool_length(int code, const Block& block) {
         offset += tool.offset;
         assumed += assumed_in(tool);
     } else if (rules_->tools.length_of == LengthOf::row_of_h && code >= 43_g && code <= 44_g && code != 43.2_g &&
-               !tools_.tools.empty()) {
-        if (is(block, 'H')) length_number_ = static_cast<int>(std::clamp(std::round(block.words.of('H')), 0.0, 1e8));
-        offset = tool_of(length_number_, is(block, 'H') ? block.words.column['H' - 'A'] : 0).offset *
+               !tools_.table.tools.empty()) {
+        if (is(block, 'H')) tools_.length_row = static_cast<int>(std::clamp(std::round(block.words.of('H')), 0.0, 1e8));
+        offset = tool_of(tools_.length_row, is(block, 'H') ? block.words.column['H' - 'A'] : 0).offset *
                  (code == 44_g ? -1.0 : 1.0);
     }
     part_from_machine(offset - state_.tool_offset);
@@ -332,20 +333,20 @@ void Interpreter::tool_length(int code, const Block& block) {
 }
 
 void Interpreter::keep_reference(int code) {
-    motion_suppressed_ = true;
+    this_block_.motion_suppressed = true;
     (code == 28.1_g ? state_.home : state_.second_home) = state_.to_machine(state_.position);
     (code == 28.1_g ? state_.home_rotary : state_.second_home_rotary) = state_.rotary + state_.rotary_offset();
 }
 
 void Interpreter::reference(int code, const Block& block) {
-    motion_suppressed_ = true;
+    this_block_.motion_suppressed = true;
     const Vec3 home = state_.from_machine(code == 28_g ? state_.home : state_.second_home);
     const Vec3 home_rotary = (code == 28_g ? state_.home_rotary : state_.second_home_rotary) - state_.rotary_offset();
     std::uint32_t named = 0;
     for (const char c : {'X', 'Y', 'Z', 'A', 'B', 'C'}) named |= block.words.has & Words::bit(c);
     // RS274 goes to the intermediate point even where that is the present one: a new offset shows in it.
     if (named != 0 || rules_->offsets.always_by_point) {
-        straight(MotionKind::rapid, target(block, machine_coordinates_), rotary_target(block));
+        straight(MotionKind::rapid, target(block, this_block_.machine_coordinates), rotary_target(block));
     }
     // RS274: without axis words all axes go; with them only those.
     constexpr unsigned all = WorkFrame::all_axes;

@@ -11,7 +11,7 @@ void Interpreter::set_path_mode(const std::string& name, const std::string& valu
     event(name, value);
     program_.events.back().path_mode = mode;
     if (once)
-        path_mode_returns_ = true;
+        this_block_.path_mode_returns = true;
     else
         state_.path_mode = mode;
 }

@@ -24,16 +24,16 @@ ProgramFrame turned_about(int axis, double degrees) {
 }  // namespace
 
 void Interpreter::begin_tilted_plane(const std::string& text) {
-    tilted_ = true;
+    five_axis_.tilted = true;
     state_.tool_axis.setConstant(std::numeric_limits<double>::quiet_NaN());
     event("tool-centre-point", std::string(tilted_plane) + text);
 }
 
 void Interpreter::end_tilted_plane(const std::string& text) {
-    if (!tilted_) return;
-    tilted_ = false;
+    if (!five_axis_.tilted) return;
+    five_axis_.tilted = false;
     state_.tool_axis.setConstant(std::numeric_limits<double>::quiet_NaN());
-    event("tool-centre-point", tool_centre_point_ ? tool_centre_point_text_ : text);
+    event("tool-centre-point", five_axis_.tool_centre_point ? five_axis_.switched_on_by : text);
 }
 
 /// The rotary axes turn until the tool stands upright on the plane; the others stand still meanwhile, or
@@ -56,7 +56,7 @@ void Interpreter::swivel(const Keyword& keyword) {
     const bool given = keyword.arguments.find_first_not_of(" \t") != std::string::npos;
     const bool deselects = keyword.arguments.find("\"0\"") != std::string::npos;
     if (!given || deselects) {
-        swivel_ = {};
+        frames_.swivel = {};
         state_.frame = {};
         end_tilted_plane(text);
         return;
@@ -73,7 +73,7 @@ void Interpreter::swivel(const Keyword& keyword) {
         return refuse(kinds[static_cast<std::size_t>(kind)]);
     }
     if (state_.plane_axis != 2) return refuse("a plane of G18 or G19");
-    if (compensation_.on()) fail("CYCLE800 while cutter compensation is on", keyword.column);
+    if (compensation_.path.on()) fail("CYCLE800 while cutter compensation is on", keyword.column);
     const auto vector = [&](std::size_t k) { return Vec3(value(k), value(k + 1), value(k + 2)); };
     ProgramFrame frame = ProgramFrame::moved(state_.unit_mm * vector(4));
     for (std::size_t k = 0; k < 3; ++k) {
@@ -85,18 +85,18 @@ void Interpreter::swivel(const Keyword& keyword) {
     }
     frame = frame.around(ProgramFrame::moved(state_.unit_mm * vector(10)));
     const bool additive = std::fmod(value(2), 10) >= 1;
-    swivel_ = additive ? state_.frame.around(frame) : frame;
-    state_.frame = swivel_;
+    frames_.swivel = additive ? state_.frame.around(frame) : frame;
+    state_.frame = frames_.swivel;
     begin_tilted_plane(text);
     // DIR 0: the plane is set, and the program turns the axes itself.
     const bool tracks_tip = std::fmod(std::floor(value(2) / 10), 10) >= 1;
-    if (value(13) != 0) turn_to_plane(swivel_.direction_to_work(Vec3::UnitZ()).normalized(), tracks_tip, text);
+    if (value(13) != 0) turn_to_plane(frames_.swivel.direction_to_work(Vec3::UnitZ()).normalized(), tracks_tip, text);
 }
 
 /// G68.2 X Y Z I J K: the plane's zero and its Euler angles, about Z, the new X and the new Z; with P1 Q the angles
 /// are those about X, Y and Z of the work system, in the order that Q tells.
 void Interpreter::tilt_plane(const Block& block, std::size_t column) {
-    motion_suppressed_ = true;
+    this_block_.motion_suppressed = true;
     const Words& w = block.words;
     const auto refuse = [&](const std::string& what) {
         note(Severity::warning, "program.rotation",
@@ -105,7 +105,7 @@ void Interpreter::tilt_plane(const Block& block, std::size_t column) {
     const int form = w.given('P') ? static_cast<int>(std::clamp(w.of('P'), 0.0, 99.0)) : 0;
     if (form > 1) return refuse(fmt::format("G68.2 P{}", form));
     if (state_.plane_axis != 2) return refuse("G68.2 in G18 or G19");
-    if (compensation_.on()) fail("G68.2 while cutter compensation is on", column);
+    if (compensation_.path.on()) fail("G68.2 while cutter compensation is on", column);
     const auto words = [&](const char* letters) {
         Vec3 v = Vec3::Zero();
         for (int k = 0; k < 3; ++k) {
@@ -128,8 +128,8 @@ void Interpreter::tilt_plane(const Block& block, std::size_t column) {
             fail(fmt::format("G68.2 P1: Q{} is no order of 1, 2 and 3", order), column);
         for (const int axis : axes) turn = turned_about(axis, angles[axis]).around(turn);
     }
-    fanuc_frame_.rotation = ProgramFrame::moved(state_.unit_mm * words("XYZ")).around(turn);
-    fanuc_frame_.angle = 0;
+    frames_.fanuc.rotation = ProgramFrame::moved(state_.unit_mm * words("XYZ")).around(turn);
+    frames_.fanuc.angle = 0;
     settle_fanuc_frame();
     const std::string text = "G68.2" + words_text(block, "PQXYZIJK");
     event("rotation", text);

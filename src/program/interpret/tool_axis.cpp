@@ -13,22 +13,22 @@
 namespace clsurf {
 
 void Interpreter::control_tool_centre_point(bool on, const std::string& text) {
-    if (!on && !tool_centre_point_) return;
-    tool_centre_point_ = on;
-    tool_centre_point_text_ = text;
-    axis_words_ = on && text == "G43.5";
+    if (!on && !five_axis_.tool_centre_point) return;
+    five_axis_.tool_centre_point = on;
+    five_axis_.switched_on_by = text;
+    five_axis_.axis_words = on && text == "G43.5";
     state_.tool_axis.setConstant(std::numeric_limits<double>::quiet_NaN());
     event("tool-centre-point", text);
 }
 
 /// True: the block gives a tool axis as a vector, in the axes of the program.
 bool Interpreter::take_tool_axis(const Block& block) {
-    if (!tool_centre_point_ && !tilted_) return false;
+    if (!five_axis_.tool_centre_point && !five_axis_.tilted) return false;
     const bool straight = state_.motion == MotionMode::rapid || state_.motion == MotionMode::feed;
     Vec3 axis = Vec3::Zero();
     bool given = false;
     for (int k = 0; k < 3; ++k) {
-        if (axis_words_ && straight && block.words.given("IJK"[k])) {
+        if (five_axis_.axis_words && straight && block.words.given("IJK"[k])) {
             axis[k] = block.words.of("IJK"[k]);
             given = true;
         }

@@ -50,7 +50,7 @@ struct Control {
     ControlKind kind = ControlKind::none;
     std::string label;       ///< O-word, DO number, GOTO target, label: upper or lower case as compared
     std::size_t rest = 0;    ///< byte of the statement where its expression or arguments begin
-    std::size_t target = 0;  ///< of IF … GOTO: byte where the target begins
+    std::size_t target = 0;  ///< of IF … GOTO and IF … THEN: byte where what follows begins
     int direction = 0;       ///< of a GOTO: +1 forward, −1 backward, 0 both
     bool may_miss = false;   ///< GOTOC: without its label the program goes on
     LineNumber line = 0;     ///< where it stands, in an index
