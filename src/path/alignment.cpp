@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "log/placeholder.h"
 #include "path/motion_grid.h"
 #include "path/path_walk.h"
 #include "path/toolpath.h"
@@ -20,6 +22,8 @@ constexpr double off_distance = 0.1;      ///< the walk may be on the wrong way 
 constexpr double lost_way = 1.0;          ///< way gone off before the walk counts as lost
 constexpr double near_distance = 0.1;     ///< a new start must be this near
 constexpr PointIndex proof_points = 400;  ///< moving points over which a new start must stay near
+constexpr double least_jump = 10;         ///< to a placeholder
+constexpr double placeholder_reach = 1e-6;       ///< its position, moved to the workpiece
 constexpr double first_retry = 1.0;       ///< way until a failed search is repeated; doubles
 
 class Aligner {
@@ -44,6 +48,10 @@ public:
                 continue;
             }
             const double chord = (p - before).norm();
+            if (chord > least_jump && is_placeholder(p)) {
+                put(i, LineMap::no_motion, 0.0);
+                continue;
+            }
             stand = walk_.advance(stand, p, chord);
             before = p;
             put(i, static_cast<std::uint32_t>(stand.motion), confidence_of(stand.distance));
@@ -169,13 +177,13 @@ private:
         return std::nullopt;
     }
 
-    bool stays_near(Stand stand, PointIndex point) const {
+    bool stays_near(Stand stand, PointIndex point) {
         Vec3 before = log_.at(point);
         PointIndex moving = 0;
         for (PointIndex i = point + 1; i < log_.count && moving < proof_points; ++i) {
             const Vec3 p = log_.at(i);
             const double chord = (p - before).norm();
-            if (!(chord > 0)) continue;
+            if (!(chord > 0) || (chord > least_jump && is_placeholder(p))) continue;
             ++moving;
             stand = walk_.advance(stand, p, chord);
             before = p;
@@ -184,11 +192,22 @@ private:
         return moving > 0;
     }
 
+    /// Whether the log has this position where none was recorded.
+    bool is_placeholder(const Vec3& p) {
+        if (!placeholder_) {
+            const std::optional<Placeholder> found = find_placeholder(log_.axes);
+            placeholder_ = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+            if (found) placeholder_ = log_.pose().inverse() * Vec3(found->position.data());
+        }
+        return (p - *placeholder_).squaredNorm() < placeholder_reach * placeholder_reach;
+    }
+
     const Trajectory& log_;
     Toolpath path_;
     PathWalk walk_;
     Diagnostics& diagnostics_;
     std::optional<MotionGrid> grid_;
+    std::optional<Vec3> placeholder_;  ///< NaN: the log has none; empty: nobody looked
     Column<std::uint32_t> motion_;
     Column<std::uint8_t> confidence_;
     std::vector<double> x_, y_, z_;

@@ -7,7 +7,7 @@ set(zigzag_log "'BEGIN { print \"time,cmd.x,cmd.y,cmd.z\"; n = 0; for (k = 0; k 
 clsurf_cli_test(NAME slow_records_are_not_judged SETUP "${zigzag_program} && awk -v T=0.1 ${zigzag_log}" ARGS check part.nc run.csv
   EXIT 5 STDOUT "NOT JUDGED: A record comes every 100 ms[.]")
 clsurf_cli_test(NAME info_warns_of_slow_records SETUP "awk -v T=0.1 ${zigzag_log}" ARGS info run.csv STDOUT "a record every 100 ms: marks")
-clsurf_cli_test(NAME placeholders_are_not_judged SETUP "${zigzag_program} && awk -v T=0.01 -v P=1 ${zigzag_log}" ARGS check part.nc run.csv --force
+clsurf_cli_test(NAME placeholders_are_not_judged SETUP "${zigzag_program} && awk -v T=0.01 -v P=1 ${zigzag_log}" ARGS check part.nc run.csv
   EXIT 5 STDOUT "NOT JUDGED: .*jumps to X198 Y158 Z119 and back 1[0-9] times")
 clsurf_cli_test(NAME info_warns_of_placeholders SETUP "awk -v T=0.01 -v P=1 ${zigzag_log}" ARGS info run.csv
   STDOUT "jumps to X198 Y158 Z119 and back 1[0-9] times, here for the first time, over up to 27[0-9][.][0-9] mm")
