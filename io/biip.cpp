@@ -158,7 +158,7 @@ void read_metadata(Log& log, const Source& source) {
                 return found != entry.end() && found->is_string() ? found->get<std::string>() : std::string();
             };
             const auto size = entry.find("size");
-            log.programs.push_back({text("name"), text("sha256"), {}});
+            log.programs.push_back({text("name"), text("sha256"), {}, text("sha256_lf")});
             if (size != entry.end() && size->is_number_unsigned())
                 log.programs.back().size = size->get<std::uint64_t>();
         }

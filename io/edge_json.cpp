@@ -111,7 +111,7 @@ private:
         std::string path = paths_.empty() ? std::string() : paths_.back();
         if (path.empty()) path = unknown_program;
         const auto [found, is_new] = numbers_.try_emplace(path, static_cast<std::uint32_t>(log_.programs.size()));
-        if (is_new) log_.programs.push_back({path, {}, {}});
+        if (is_new) log_.programs.push_back({path, {}, {}, {}});
         return found->second;
     }
 

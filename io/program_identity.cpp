@@ -41,10 +41,15 @@ std::string with_line_ends(std::string_view text, std::string_view line_end) {
     return changed;
 }
 
+std::string hash_of(std::string_view text) { return sha256(std::as_bytes(std::span(text.data(), text.size()))); }
+
 }  // namespace
 
 ProgramReference identify(const Source& program) {
-    return {file_name(program.name), sha256(program.bytes), program.bytes.size()};
+    ProgramReference reference{file_name(program.name), sha256(program.bytes), program.bytes.size(), {}};
+    if (std::string lf = hash_of(with_line_ends(text_of(program), "\n")); lf != reference.sha256)
+        reference.sha256_lf = std::move(lf);
+    return reference;
 }
 
 std::string with_programs(const std::string& metadata, std::span<const ProgramReference> programs) {
@@ -54,6 +59,7 @@ std::string with_programs(const std::string& metadata, std::span<const ProgramRe
     for (const ProgramReference& program : programs) {
         Json entry{{"name", program.name}, {"sha256", program.sha256}};
         if (program.size) entry["size"] = *program.size;
+        if (!program.sha256_lf.empty()) entry["sha256_lf"] = program.sha256_lf;
         list.push_back(std::move(entry));
     }
     json["programs"] = std::move(list);
@@ -68,14 +74,14 @@ ProgramIdentity check_identity(const Source& program, const Log& log, Diagnostic
     if (hashed.empty()) return ProgramIdentity::unknown;
     const ProgramReference given = identify(program);
     const auto ran_with = [&](std::string_view hash) {
-        return std::any_of(hashed.begin(), hashed.end(),
-                           [&](const ProgramReference* known) { return same_hash(known->sha256, hash); });
+        return std::any_of(hashed.begin(), hashed.end(), [&](const ProgramReference* known) {
+            return same_hash(known->sha256, hash) || same_hash(known->sha256_lf, hash);
+        });
     };
-    if (ran_with(given.sha256)) return ProgramIdentity::same;
-    for (const std::string_view line_end : {"\n", "\r\n"}) {
-        const std::string text = with_line_ends(text_of(program), line_end);
-        if (ran_with(sha256(std::as_bytes(std::span(text.data(), text.size()))))) return ProgramIdentity::same;
-    }
+    // Logs of other writers have one hash: of the file as it was.
+    if (ran_with(given.sha256) || ran_with(given.sha256_lf.empty() ? given.sha256 : given.sha256_lf) ||
+        ran_with(hash_of(with_line_ends(text_of(program), "\r\n"))))
+        return ProgramIdentity::same;
     const auto namesake = std::find_if(hashed.begin(), hashed.end(), [&](const ProgramReference* known) {
         return file_name(known->name) == given.name;
     });

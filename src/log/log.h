@@ -32,6 +32,7 @@ struct ProgramReference {
     std::string name;
     std::string sha256;                 ///< 64 hexadecimal digits; empty: not recorded
     std::optional<std::uint64_t> size;  ///< [bytes]
+    std::string sha256_lf = {};         ///< with all line ends LF; empty: as sha256, or not recorded
 };
 
 struct Log {
