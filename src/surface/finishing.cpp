@@ -11,8 +11,9 @@ constexpr double beside_share = 0.3;      ///< of the shorter pass that lies bes
 constexpr std::size_t many_passes = 5;    ///< side by side: a finished surface, whatever its shape
 constexpr double surface_share = 0.6;     ///< of a smaller group that has a neighbour
 constexpr std::size_t fewest_passes = 2;  ///< of a group
-constexpr double stacked_share = 0.5;     ///< of a smaller group: its neighbours lie above each other
-constexpr float upright = 0.9F;           ///< squared cosine to z of what lies above
+constexpr double stacked_share =
+    0.5;                         ///< of the points of a smaller group that have a neighbour: it lies above or below
+constexpr float upright = 0.9F;  ///< squared cosine to z of what lies above
 
 /// Disjoint sets of passes.
 class Groups {
@@ -103,7 +104,7 @@ std::vector<bool> find_finishing_passes(const ClSurface& surface) {
         if (passes[k].kind != PassKind::cut) continue;
         const Group& group = all[groups.of(k)];
         const auto points = static_cast<double>(group.points);
-        const bool levels = static_cast<double>(group.stacked) > stacked_share * points;
+        const bool levels = static_cast<double>(group.stacked) > stacked_share * static_cast<double>(group.beside);
         finishing[k] = group.passes >= many_passes || (group.passes >= fewest_passes && !levels &&
                                                        static_cast<double>(group.beside) >= surface_share * points);
     }
