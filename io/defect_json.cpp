@@ -8,19 +8,27 @@
 namespace clsurf::io {
 namespace {
 
-/// "passes", "lines" and "points" of runs, side by side.
+/// "passes", "lines" and "points" of runs, side by side, and "subprograms" where one runs in a file of its own.
 void add_runs(Json& json, const std::vector<DefectRun>& runs) {
     Json passes = Json::array();
     Json lines = Json::array();
     Json points = Json::array();
+    Json subprograms = Json::array();
+    bool in_subprogram = false;
     for (const DefectRun& run : runs) {
         passes.push_back(run.pass);
         lines.push_back(Json::array({run.first_line, run.last_line}));
         points.push_back(Json::array({run.points.first, run.points.last}));
+        in_subprogram = in_subprogram || !run.file.empty();
+        subprograms.push_back(
+            run.file.empty()
+                ? Json(nullptr)
+                : Json{{"file", run.file}, {"lines", Json::array({run.file_first_line, run.file_last_line})}});
     }
     json["passes"] = std::move(passes);
     json["lines"] = std::move(lines);
     json["points"] = std::move(points);
+    if (in_subprogram) json["subprograms"] = std::move(subprograms);
 }
 
 /// What a systematic lag has besides.

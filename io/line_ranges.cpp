@@ -1,6 +1,8 @@
 #include "io/line_ranges.h"
 
 #include <algorithm>
+#include <map>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -8,15 +10,13 @@
 
 namespace clsurf::io {
 
-std::string line_ranges(std::span<const DefectRun> runs, std::size_t shown) {
-    std::vector<std::pair<LineNumber, LineNumber>> ranges;
-    for (const DefectRun& run : runs) {
-        // A loop that begins again ends on an earlier line than it began.
-        if (run.first_line > 0) ranges.emplace_back(std::minmax({run.first_line, std::max(run.last_line, 1U)}));
-    }
-    if (ranges.empty()) return "-";
+namespace {
+
+using Range = std::pair<LineNumber, LineNumber>;
+
+std::string text_of(std::vector<Range> ranges, std::size_t shown) {
     std::sort(ranges.begin(), ranges.end());
-    std::vector<std::pair<LineNumber, LineNumber>> merged;
+    std::vector<Range> merged;
     for (const auto& range : ranges) {
         if (!merged.empty() && range.first <= merged.back().second)
             merged.back().second = std::max(merged.back().second, range.second);
@@ -29,6 +29,22 @@ std::string line_ranges(std::span<const DefectRun> runs, std::size_t shown) {
         text += (k > 0 ? ", " : "") + (first == last ? fmt::format("{}", first) : fmt::format("{}-{}", first, last));
     }
     if (merged.size() > shown) text += fmt::format(" and {} more", merged.size() - shown);
+    return text;
+}
+
+}  // namespace
+
+std::string line_ranges(std::span<const DefectRun> runs, std::size_t shown) {
+    std::vector<Range> ranges;
+    std::map<std::string, std::vector<Range>> of_file;
+    for (const DefectRun& run : runs) {
+        // A loop that begins again ends on an earlier line than it began.
+        if (run.first_line > 0) ranges.emplace_back(std::minmax({run.first_line, std::max(run.last_line, 1U)}));
+        if (!run.file.empty()) of_file[run.file].emplace_back(run.file_first_line, run.file_last_line);
+    }
+    if (ranges.empty()) return "-";
+    std::string text = text_of(std::move(ranges), shown);
+    for (auto& [file, lines] : of_file) text += fmt::format(" (in {}: {})", file, text_of(std::move(lines), shown));
     return text;
 }
 

@@ -14,6 +14,7 @@
 #include "quality/cause.h"
 #include "quality/explanations.h"
 #include "quality/opposites.h"
+#include "quality/subprogram_lines.h"
 #include "quality/suspects.h"
 #include "quality/systematic_lag.h"
 
@@ -462,6 +463,8 @@ QualityReport find_defects(const ClSurface& surface, const Signals& signals, con
         (built.expected ? report.expected : report.defects).push_back(std::move(built.defect));
     }
     if (!systematic.sites.empty()) report.defects.push_back(builder.build(systematic));
+    name_subprograms(program, lines, report.defects);
+    name_subprograms(program, lines, report.expected);
     std::sort(report.defects.begin(), report.defects.end(), worse);
     std::sort(report.expected.begin(), report.expected.end(), worse);
     return report;

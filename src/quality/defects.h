@@ -39,7 +39,10 @@ enum class Cause : std::uint8_t {
 struct DefectRun {
     std::int64_t pass = 0;  ///< number of the cut pass, from 1
     PointRange points;
-    LineNumber first_line = 0, last_line = 0;  ///< of these points; 0: no line
+    LineNumber first_line = 0, last_line = 0;  ///< of these points, in the main program; 0: no line
+    /// Where a subprogram in a file of its own runs: the file and its lines. first_line and last_line call it.
+    std::string file = {};
+    LineNumber file_first_line = 0, file_last_line = 0;
 };
 
 /// How far the measured position of an axis trails the commanded one.
