@@ -26,6 +26,11 @@ clsurf_cli_test(NAME pose_of_a_turned_log SETUP "${turned_run}" ARGS info part.n
   STDOUT "turned by 17[.]5 deg about Z, and displaced by X 35[.]5 Y -22[.]25 Z -14 mm" "--work-offset 35[.]5,-22[.]25,-14,17[.]5 brings them onto it")
 clsurf_cli_test(NAME work_offset_with_a_rotation SETUP "${turned_run}" ARGS info part.ngc run.biip --dialect linuxcnc --work-offset 35.5,-22.25,-14,17.5
   STDOUT "positions lie 0.0000 mm .median. and 0.000" NO_STDOUT "displaced" "map.disagreement")
+clsurf_cli_test(NAME report_with_a_work_offset
+  SETUP "${turned_run} && $CLSURF report part.ngc run.biip --dialect linuxcnc --work-offset 35.5,-22.25,-14,17.5 -o page.html 2> said.txt && ! grep -E 'displaced|does not belong|farther' said.txt"
+  ARGS report part.ngc run.biip --dialect linuxcnc --work-offset G54:35.5,-22.25,-14,17.5 -o again.html FILE again.html)
+clsurf_cli_test(NAME report_without_its_work_offset_is_told_it SETUP "${turned_run}" ARGS report part.ngc run.biip --dialect linuxcnc -o page.html
+  STDERR "--work-offset 35[.]5,-22[.]25,-14,17[.]5 brings them onto it")
 clsurf_cli_test(NAME work_offset_of_the_program_itself SETUP "${turned_run}" ARGS info turned.ngc run.biip --dialect linuxcnc
   STDOUT "positions lie 0.0000 mm .median. and 0.000" NO_STDOUT "displaced" "map.disagreement")
 # The same log as a control writes it that records the work system.
