@@ -80,6 +80,11 @@ std::string lint_text(const ReportedLint& l) {
         if (f.beside_first > 0) text += fmt::format(", beside lines {}", lines_text(f.beside_first, f.beside_last));
         text += fmt::format(", {}\n", place_text(f.place));
     }
+    if (r.not_finishing > 0.5)
+        return text +
+               fmt::format(
+                   "no finishing passes to judge: {:.0f} % of the cutting is pockets, drilling or single contours\n",
+                   100 * r.not_finishing);
     text += r.findings.empty() ? "nothing found" : fmt::format("\n{} findings", r.findings.size());
     text += fmt::format(" on {} passes", r.passes);
     if (r.step_over > 0) text += fmt::format(", {:.3g} mm apart", r.step_over);
@@ -100,6 +105,8 @@ std::string lint_json(const ReportedLint& l) {
         by_rule[std::string(name_of(static_cast<LintRule>(i)))] = r.count(static_cast<LintRule>(i));
     Json summary{{"passes", r.passes},
                  {"step_over_mm", number(r.step_over, 5)},
+                 {"judged", r.judged()},
+                 {"not_finishing_percent", number(100 * r.not_finishing, 3)},
                  {"spacing_mm", number(r.spacing, 5)},
                  {"chord_error_um", number(r.chord_error * um_per_mm, 3)},
                  {"tolerance_um", r.tolerance > 0 ? number(r.tolerance * um_per_mm, 3) : Json(nullptr)},

@@ -354,6 +354,12 @@ double programmed_tolerance(const Program& program) {
 
 LintReport lint(const Program& program, const ProgrammedSurface& laid, const LintRules& rules) {
     LintReport report = Linter(program, laid, rules).run();
+    PointIndex finishing = 0;
+    for (const Pass& pass : laid.surface.passes) finishing += pass.kind == PassKind::cut ? pass.size() : 0;
+    const PointIndex all = finishing + laid.surface.not_finishing;
+    if (all > 0) report.not_finishing = static_cast<double>(laid.surface.not_finishing) / static_cast<double>(all);
+    // What lies beside what by chance says nothing.
+    if (report.not_finishing > 0.5) report.findings.clear();
     std::stable_sort(report.findings.begin(), report.findings.end(), [](const LintFinding& a, const LintFinding& b) {
         return std::pair(a.rule, a.first_line) < std::pair(b.rule, b.first_line);
     });

@@ -52,10 +52,13 @@ struct LintRules {
 struct LintReport {
     std::vector<LintFinding> findings;  ///< by rule, then by line
     std::int64_t passes = 0;
-    double step_over = 0;    ///< [mm]; 0: nothing to compare with
-    double spacing = 0;      ///< [mm] median length of the cutting lines
-    double chord_error = 0;  ///< [mm] 95th percentile over the way of the lines that bend
-    double tolerance = 0;    ///< [mm] it is held against; 0: not known
+    double step_over = 0;      ///< [mm]; 0: nothing to compare with
+    double spacing = 0;        ///< [mm] median length of the cutting lines
+    double chord_error = 0;    ///< [mm] 95th percentile over the way of the lines that bend
+    double tolerance = 0;      ///< [mm] it is held against; 0: not known
+    double not_finishing = 0;  ///< share of the cutting that is pockets, drilling or single contours, 0 … 1
+    /// Whether passes were compared: not where most of the cutting is none of finishing passes.
+    [[nodiscard]] bool judged() const { return step_over > 0 && not_finishing <= 0.5; }
     [[nodiscard]] std::size_t count(LintRule rule) const;
     /// Findings that are more than notes.
     [[nodiscard]] std::size_t warnings() const;
