@@ -10,6 +10,7 @@
 #include "core/block.h"
 #include "path/alignment.h"
 #include "path/allowed_motions.h"
+#include "path/feed_edits.h"
 #include "path/line_edits.h"
 #include "path/motion_track.h"
 #include "path/program_course.h"
@@ -265,6 +266,8 @@ private:
     }
 
     LineMap finish(LineMap map) {
+        if (match_.edited && match_.foreign.empty())
+            note_changed_feeds(path_, log_.period, program_, map, diagnostics_);
         map.set_match(std::move(match_));
         return map;
     }

@@ -24,9 +24,16 @@ clsurf_cli_test(NAME comment_inserted_after_the_run SETUP "${insert_comment}" AR
 clsurf_cli_test(NAME lines_deleted_after_the_run SETUP "sed '1000,1011d' ${uneven} > bottle_uneven.nc" ARGS query bottle_uneven.nc ${uneven_log} --point 20000 --json
   STDOUT "\"confidence\": 0[.]95" "12 lines deleted before line 101[23]")
 clsurf_cli_test(NAME feed_changed_after_the_run SETUP "sed 's/F3000/F2500/' ${uneven} > bottle_uneven.nc" ARGS query bottle_uneven.nc ${uneven_log} --at 2.0,-5.6,4.7 --tool none
-  STDOUT "^line 568: X2.013" "confidence 0[.]95")
+  STDOUT "^line 568: X2.013" "confidence 0[.]95" STDERR "lines 1[0-9]-37[0-9][0-9] ran at 30[0-9][0-9] mm/min, the program says F2500")
+clsurf_cli_test(NAME feed_raised_after_the_run SETUP "sed 's/F3000/F4000/' ${uneven} > bottle_uneven.nc" ARGS query bottle_uneven.nc ${uneven_log} --at 2.0,-5.6,4.7 --tool none
+  STDERR "lines 1[0-9]-37[0-9][0-9] ran at 30[0-9][0-9] mm/min, the program says F4000")
+clsurf_cli_test(NAME comment_does_not_change_a_feed SETUP "${insert_comment}" ARGS info bottle_uneven.nc ${uneven_log} STDOUT "inserted" NO_STDOUT "ran at")
 clsurf_cli_test(NAME crlf_is_the_same_program SETUP "sed 's/$/\\r/' ${uneven} > bottle_uneven.nc" ARGS info bottle_uneven.nc ${uneven_log}
   STDOUT "positions lie" NO_STDOUT "edited" "another program")
+# A log that was recorded from a text with mixed line ends, and the text with LF only.
+clsurf_cli_test(NAME mixed_line_ends_are_the_same_program
+  SETUP "sed '1~2s/$/\\r/' ${uneven} > bottle_uneven.nc && $CLSURF convert ${uneven_log} --program bottle_uneven.nc -o run.biip && cp ${uneven} bottle_uneven.nc"
+  ARGS info bottle_uneven.nc run.biip STDOUT "positions lie" NO_STDOUT "edited" "another program")
 # The log of petal_spiral carries no hash.
 clsurf_cli_test(NAME lines_inserted_without_a_hash SETUP "sed -e '3000i (a)' -e '3000i (b)' @DATA@/programs/petal_spiral.ngc > petal_spiral.ngc"
   ARGS query petal_spiral.ngc @LOGS@/petal_spiral.raw --layout @DATA@/logs/petal_spiral.layout.toml --point 70000
@@ -60,6 +67,16 @@ clsurf_cli_test(NAME line_that_calls_a_file SETUP "${rib}" ARGS query part.ngc r
 clsurf_cli_test(NAME line_of_no_file SETUP "${rib}" ARGS query part.ngc run.biip --dialect linuxcnc --line web.ngc:3 EXIT 2 STDERR "no file 'web.ngc'" "rib.ngc")
 clsurf_cli_test(NAME line_beyond_a_called_file SETUP "${rib}" ARGS query part.ngc run.biip --dialect linuxcnc --line rib.ngc:30 EXIT 2 STDERR "rib.ngc has lines 1 … 6")
 clsurf_cli_test(NAME line_that_is_no_number SETUP "${rib}" ARGS query part.ngc run.biip --dialect linuxcnc --line six EXIT 2 STDERR "'six' is not a whole number")
+# Every fifth of thirty passes that a file makes is run at half the feed.
+set(slow_passes "(printf 'G21 G90 G17\\nG0 X0 Y0 Z5\\nG1 Z0 F600\\n' && seq 0 29 | awk '{printf \"o<pair> call [%.1f] [%d]\\n\", $1*0.8, $1 % 5 == 2 ? 1500 : 3000}' && echo M2) > part.ngc"
+  "printf 'o<pair> sub\\nF3000\\nG1 X0 Y[#1]\\nX20\\nY[#1+0.4]\\nX14\\nF[#2]\\nX6\\nF3000\\nX0\\no<pair> endsub\\nM2\\n' > pair.ngc"
+  "$CLSURF simulate part.ngc --dialect linuxcnc -o run.biip > /dev/null")
+list(JOIN slow_passes " && " slow_passes)
+# The slow stretch is line 8 of pair.ngc with its ramps, called in line 6, 11 …
+clsurf_cli_test(NAME defect_in_a_file_that_is_called SETUP "${slow_passes}" ARGS check part.ngc run.biip --dialect linuxcnc
+  STDOUT " 16 .in pair.ngc: 6-10." " 31 .in pair.ngc: 6-10.")
+clsurf_cli_test(NAME defect_in_a_file_that_is_called_in_json SETUP "${slow_passes}" ARGS check part.ngc run.biip --dialect linuxcnc --json
+  STDOUT "\"subprograms\": .*\"file\": \"pair.ngc\"")
 
 # ---- what is no finishing pass ----
 # Forty passes of 30 mm side by side, then three levels of a square pocket and two drilled holes.
@@ -69,6 +86,9 @@ set(with_pocket "(printf 'G21 G90 G17\\nG0 X0 Y0 Z5\\nG1 Z0 F600\\nF3000\\n' && 
 list(JOIN with_pocket " && " with_pocket)
 clsurf_cli_test(NAME pocket_is_no_finishing_pass SETUP "${with_pocket}" ARGS check part.nc run.biip --dialect fanuc
   STDOUT "on 40 passes" "1[0-9][.][0-9] % of all cutting points belong to pockets, drilling or single contours")
+clsurf_cli_test(NAME lint_of_a_pocket_judges_nothing
+  SETUP "(printf 'G21 G90 G17\\nG0 X0 Y0 Z5\\nF3000\\n' && seq 1 3 | awk '{printf \"G0 Z5\\nG0 X60 Y0\\nG1 Z-%d\\nX75 F2000\\nY15\\nG3 X60 I-7.5 F3000\\nG1 Y0\\n\", $1}' && echo M30) > part.nc"
+  ARGS lint part.nc STDOUT "no finishing passes to judge: 100 % of the cutting" NO_STDOUT "warning")
 # A square wall of twelve levels, 0.3 mm apart, is finished.
 set(waterlines "(printf 'G21 G90 G17\\nG0 X0 Y0 Z5\\nG1 Z0 F600\\nF3000\\n' && seq 1 12 | awk '{printf \"G1 Z-%.1f\\nX20\\nY20\\nX0\\nY0\\n\", $1*0.3}' && echo M30) > part.nc"
   "$CLSURF simulate part.nc -o run.biip > /dev/null")
