@@ -5,6 +5,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <sstream>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -173,6 +175,57 @@ TEST(TiltedPlanes, AreWaysOfTheTipWithTheToolUprightOnThem) {
         }
         EXPECT_EQ(in_plane, 2) << dialect;  // the turn before them is one of the axes, in chords of its own
         EXPECT_LE((axes - Vec3(7, 8, 9)).norm(), 1e-9) << dialect;
+    }
+}
+
+// The same machine: on paper the axes show what the plane's program says, so that the log is the zigzag itself, with A at
+// 90°; behind the plane, at A 0, the same numbers are another place of the workpiece.
+TEST(TiltedPlanes, GiveTheirPointsTheirLines) {
+    Kinematics k;
+    k.type = KinematicsType::table_table;
+    std::string zigzag;
+    for (int pass = 0; pass < 8; ++pass)
+        zigzag += fmt::format("X{} Y{} Z1\nY{}\n", pass % 2 == 0 ? 30 : 2, pass, pass + 1);
+    const std::string fanuc = "G90 G21\nG0 X0 Y0 Z60\nG68.2 X0 Y0 Z0 I0 J90 K0\nG53.1\nG0 X2 Y0 Z20\nG1 Z1 F2000\n" +
+                              zigzag + "G0 Z60\nG69\nA0 C0\nG0 X2 Y0 Z20\nG1 Z1 F2000\n" + zigzag + "M30\n";
+    std::string siemens = fanuc;
+    siemens.replace(siemens.find("G21"), 3, "G71");
+    siemens.replace(siemens.find("G68.2"), std::string_view("G68.2 X0 Y0 Z0 I0 J90 K0\nG53.1").size(),
+                    "CYCLE800(0,\"TC\",100000,57,0,0,0,90,0,0,0,0,0,1)\n");
+    siemens.replace(siemens.find("G69"), 3, "CYCLE800()");
+    for (const auto& [text, dialect] : {std::pair{fanuc, "fanuc"}, std::pair{siemens, "siemens"}}) {
+        test::MadeLog made;
+        LineNumber number = 0;
+        Vec3 at(2, 0, 1);
+        double tilt = 90 * rad_per_deg;
+        std::istringstream lines(text);
+        for (std::string line; std::getline(lines, line);) {
+            ++number;
+            if (line == "A0 C0") {
+                tilt = 0;
+                at = Vec3(2, 0, 1);
+            }
+            const bool wide = line.starts_with("X"), narrow = line.starts_with("Y");
+            if (!wide && !narrow) continue;
+            Vec3 to = at;
+            if (wide) to.x() = std::stod(line.substr(1));
+            if (narrow) to.y() = std::stod(line.substr(1));
+            for (int i = 1; i <= 100; ++i) made.add(at + 0.01 * i * (to - at), {tilt, 0}, number);
+            at = to;
+        }
+        made.finish(0.001);
+        Program program = test::parse_text(text, dialect);
+        solve_tool_axes(program, k);
+        make_tip_motions(program, k, Vec3::Zero());
+        const Trajectory path = reconstruct(made.log, Role::commanded, Vec3(0, 0, 0), std::make_shared<Kinematics>(k));
+        Diagnostics diagnostics;
+        const LineMap map = map_lines(path, made.log, program, false, diagnostics);
+        EXPECT_TRUE(map.match().foreign.empty()) << dialect << map.match().foreign;
+        std::int64_t right = 0;
+        for (PointIndex i = 0; i < path.count; ++i)
+            right +=
+                std::abs(static_cast<double>(map.line_at(i)) - made.line[static_cast<std::size_t>(i)]) <= 1 ? 1 : 0;
+        EXPECT_GE(static_cast<double>(right), 0.99 * static_cast<double>(path.count)) << dialect;
     }
 }
 
