@@ -254,5 +254,17 @@ TEST(SiemensPolar, AddsAnIncrementOfTheThirdAxisOnce) {
               (Rows{"rapid 0 0 5", "feed 0 5 4"}));
 }
 
+TEST(SiemensVariables, OfTheControlAreToldToBeDeclared) {
+    const std::string said = error_of("G90\nG1 X=_ZSD_LENGTH+3 F1000\n", "siemens");
+    EXPECT_NE(said.find("'_ZSD_LENGTH' is neither a function nor a variable that was set"), std::string::npos) << said;
+    try {
+        (void)parse("G90\nG1 X=_ZSD_LENGTH+3 F1000\n", "siemens");
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_NE(error.diagnostic().hint.find("DEF REAL _ZSD_LENGTH="), std::string::npos);
+    }
+    EXPECT_EQ(error_of("DEF REAL _ZSD_LENGTH=2\nG90\nG1 X=_ZSD_LENGTH+3 F1000\n", "siemens"), "");
+}
+
 }  // namespace
 }  // namespace clsurf

@@ -283,7 +283,9 @@ private:
         }
         if (const std::optional<double> found = variables_.read(key)) return *found;
         if (key.size() > id.size() && variables_.find(id) != nullptr) return 0;
-        throw ReadError{"'" + id + "' is neither a function nor a variable that was set", column, {}};
+        throw ReadError{
+            "'" + id + "' is neither a function nor a variable that was set", column,
+            "if it is a global variable of the control (GUD), declare it at the top: DEF REAL " + id + "=…"};
     }
 
     Cursor& c_;
