@@ -87,13 +87,39 @@ Passes cut_by_lines(const Part& part, const Passes& passes) {
 /// The nearest point of each of the nearest passes, or of each of the nearest lines where there is one pass only.
 std::vector<FoundPlace> find_nearest(const QueriedPart& queried, const WantedPlace& wanted) {
     const Part& part = queried.part;
-    if (queried.contacts) {
+    if (queried.contacts && queried.contacts->known()) {
         std::vector<FoundPlace> found = queried.contacts->find(wanted);
-        if (!found.empty()) return found;
+        if (!found.empty() || wanted.from_above) return found;
     }
     const ClSurface& surface = *queried.surface;
     if (surface.step_over > 0) return find_places(part.path, surface.passes, nullptr, surface.step_over, wanted);
     return find_places(part.path, cut_by_lines(part, surface.passes), nullptr, 0, wanted);
+}
+
+/// A place from which the nearest pass lies far away is not on the part; under one without a height nothing was cut.
+std::vector<FoundPlace> find_on_part(const QueriedPart& queried, const WantedPlace& wanted, const std::string& text,
+                                     Diagnostics& diagnostics) {
+    constexpr double far_away = 5;  // step-overs
+    std::vector<FoundPlace> found = find_nearest(queried, wanted);
+    const double step_over = queried.surface->step_over;
+    const bool is_far = !found.empty() && step_over > 0 && found.front().distance > far_away * step_over;
+    if (wanted.from_above && (found.empty() || is_far)) {
+        const std::string away = found.empty()
+                                     ? "no cutter reaches there"
+                                     : fmt::format("the nearest pass is {:.3f} mm away", found.front().distance);
+        throw UsageError(fmt::format("--at {}: nothing was cut there, {}", text, away),
+                         "`clsurf info` says where the part lies; --at X,Y,Z finds the nearest pass all the same");
+    }
+    if (is_far) {
+        diagnostics.add({Severity::warning,
+                         "query.off-the-part",
+                         Place::of_file(queried.part.log.name),
+                         fmt::format("--at {} is not on the part: the nearest {} is {:.3f} mm away, {:.0f} step-overs",
+                                     text, found.front().place.contact ? "contact point" : "tool tip",
+                                     found.front().distance, found.front().distance / step_over),
+                         {}});
+    }
+    return found;
 }
 
 /// The number of the cut pass that a point lies on.
@@ -201,7 +227,7 @@ PlaceInFile read_line(const std::string& text, const Program& program) {
     return place;
 }
 
-std::vector<io::QueryMatch> find_matches(const Part& part, const po::variables_map& values) {
+std::vector<io::QueryMatch> find_matches(const Part& part, const po::variables_map& values, Diagnostics& diagnostics) {
     std::vector<io::QueryMatch> matches;
     std::optional<WantedPlace> wanted;
     if (values.count("at") > 0) wanted = parse_place(values["at"].as<std::string>());
@@ -218,9 +244,11 @@ std::vector<io::QueryMatch> find_matches(const Part& part, const po::variables_m
         matches.push_back(match_of(queried, point));
     }
     if (wanted) {
-        for (const FoundPlace& found : find_nearest(queried, *wanted)) {
+        const std::string text = values["at"].as<std::string>();
+        for (const FoundPlace& found : find_on_part(queried, *wanted, text, diagnostics)) {
             matches.push_back(match_of(queried, found.point));
             matches.back().distance = found.distance;
+            if (found.place.contact) matches.back().place = found.place;
         }
     }
     if (values.count("time") > 0) {
@@ -276,11 +304,12 @@ ExitCode run_query(const po::variables_map& values) {
     }
     StageClock clock(read_common(values), 3);
     const Part part = load_part(read_part_options(values), clock);
-    const std::vector<io::QueryMatch> matches = find_matches(part, values);
+    Diagnostics diagnostics = part.diagnostics;
+    const std::vector<io::QueryMatch> matches = find_matches(part, values, diagnostics);
     if (read_json(values)) {
-        write_to_stdout(io::query_json(matches, part.diagnostics));
+        write_to_stdout(io::query_json(matches, diagnostics));
     } else {
-        print(part.diagnostics, values);
+        print(diagnostics, values);
         if (!read_common(values).quiet) print_matches(matches);
     }
     return matches.empty() ? ExitCode::check_failed : ExitCode::done;

@@ -27,6 +27,8 @@ public:
     PartContacts(const PartContacts&) = delete;
     PartContacts& operator=(const PartContacts&) = delete;
 
+    /// False where nothing tells how the tool stands to the part.
+    [[nodiscard]] bool known() const { return points_.has_value(); }
     [[nodiscard]] CutterPlace place(PointIndex point) const;
     /// As find_places(), by contact points.
     [[nodiscard]] std::vector<FoundPlace> find(const WantedPlace& wanted) const;

@@ -38,6 +38,9 @@ public:
     [[nodiscard]] std::optional<Vec3> at(PointIndex point) const;
     /// Unit normal of the part where the tool touches it; NaN: not known.
     [[nodiscard]] Vec3 normal(PointIndex point) const;
+    [[nodiscard]] const CuttingTool& tool() const { return tool_; }
+    /// nullptr: +z all the time.
+    [[nodiscard]] const Trajectory* axes() const { return axes_; }
     /// No contact point lies farther from its tip [mm].
     [[nodiscard]] double reach() const;
     /// Whether a piece of the path can have contact points.

@@ -3,8 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <optional>
+#include <utility>
 
 #include "core/block.h"
+#include "quality/contact.h"
+#include "quality/cutter_touch.h"
 
 namespace clsurf {
 namespace {
@@ -13,40 +18,56 @@ constexpr double beside_places = 0.6;  ///< step-overs in the plane within which
 constexpr double level_ends = 2;       ///< step-overs of height between two levels
 constexpr double longest_jump = 0.25;  ///< step-overs: contact points farther apart are not joined …
 constexpr double jump_of_tips = 4;     ///< … unless their tips are a quarter as far apart
+constexpr double near_the_part = 0.5;  ///< step-overs: a place no farther from what the cutters leave is on the part
+constexpr double own_contact = 0.6;    ///< step-overs: a contact point farther away is not what touches the place
+/// Of a contact point's distance against the cutter's own: under a flat bottom that lies on the part all passes
+/// touch, and the nearest is meant.
+constexpr double by_contact = 0.003;
+constexpr double most_by_contact = 1.5;  ///< step-overs that count of it
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// The nearest tip of a piece.
-struct NearestTip {
-    std::size_t piece = 0;
-    double distance = infinite;  ///< [mm]
+/// The point of a piece where something is least.
+struct LeastPoint {
+    double value = infinite;
     PointIndex point = -1;
 
-    void improve(double d, PointIndex i) {
-        if (d < distance || (d == distance && i < point)) {
-            distance = d;
+    void improve(double v, PointIndex i) {
+        if (v < value || (v == value && i < point)) {
+            value = v;
             point = i;
         }
     }
+};
+
+/// What is nearest of a piece, of its points alone.
+struct NearestTip {
+    std::size_t piece = 0;
+    LeastPoint tip;     ///< [mm] to the place
+    LeastPoint cutter;  ///< [mm] from the cutter; from above: its height
 };
 
 class Search {
 public:
     Search(const Trajectory& path, const Passes& pieces, const ContactPoints* contacts, double step_over,
            const WantedPlace& wanted)
-        : path_(path), pieces_(pieces), contacts_(contacts), step_over_(step_over), wanted_(wanted) {}
+        : path_(path), pieces_(pieces), contacts_(contacts), step_over_(step_over), wanted_(wanted) {
+        if (contacts != nullptr) body_.emplace(path, contacts->axes(), contacts->tool());
+    }
 
     [[nodiscard]] std::vector<FoundPlace> run() const {
+        if (wanted_.from_above && body_ && contacts_->axes() == nullptr && path_.ball == 0) return run_from_above();
         const std::vector<NearestTip> tips = nearest_tips();
         const double reach = contacts_ != nullptr ? contacts_->reach() : 0;
         std::vector<FoundPlace> found;
         // Rising distance of tips: no piece can be nearer than its nearest tip less the tool's reach.
         for (const NearestTip& tip : tips) {
-            if (tip.distance - reach > farthest_wanted(found)) break;
+            if (tip.tip.value - reach > farthest_wanted(found)) break;
             const FoundPlace nearest = nearest_of(tip, reach);
             if (nearest.point < 0) continue;
             const auto after = std::upper_bound(found.begin(), found.end(), nearest, is_nearer);
             found.insert(after, nearest);
         }
+        if (body_ && !wanted_.from_above) put_touching_first(tips, found);
         if (wanted_.from_above) keep_topmost(found);
         if (found.size() > wanted_.pieces) found.resize(wanted_.pieces);
         return found;
@@ -79,6 +100,99 @@ private:
         return std::max(last, std::max(found.front().distance, beside_places * step_over_));
     }
 
+    /// The place is what the upright cutters leave under x, y.
+    [[nodiscard]] std::vector<FoundPlace> run_from_above() const {
+        double z = infinite;
+        for (const NearestTip& tip : nearest_tips()) {
+            if (tip.cutter.point >= 0) z = std::min(z, body_->lowest(tip.cutter.point, range_of(tip), wanted_.at));
+        }
+        if (z == infinite) return {};
+        WantedPlace below = wanted_;
+        below.at.z() = z;
+        below.from_above = false;
+        std::vector<FoundPlace> found = Search(path_, pieces_, contacts_, step_over_, below).run();
+        for (FoundPlace& f : found) f.distance = distance_of(f.place.position());
+        return found;
+    }
+
+    [[nodiscard]] PointRange range_of(const NearestTip& tip) const {
+        return {pieces_[tip.piece].first, pieces_[tip.piece].last};
+    }
+
+    [[nodiscard]] PointIndex first_point_of_piece(PointIndex point) const {
+        return std::prev(std::upper_bound(pieces_.begin(), pieces_.end(), point,
+                                          [](PointIndex i, const Pass& pass) { return i < pass.first; }))
+            ->first;
+    }
+
+    /// The longer of the two steps beside the point whose cutter is nearest [mm].
+    [[nodiscard]] double most_between_points(const NearestTip& tip) const {
+        const PointRange range = range_of(tip);
+        const Vec3 here = path_.at(tip.cutter.point);
+        double most = 0;
+        for (const PointIndex beside : {tip.cutter.point - 1, tip.cutter.point + 1}) {
+            if (beside >= range.first && beside <= range.last) most = std::max(most, (path_.at(beside) - here).norm());
+        }
+        return most;
+    }
+
+    /// A piece whose cutter touches the place, or all but does.
+    struct Touching {
+        FoundPlace place;
+        double score = infinite;
+    };
+
+    /// The better of the point whose cutter is nearest and of the one whose contact is, where that is known.
+    [[nodiscard]] Touching touching(const CutterTouch& touch, PointRange piece, const FoundPlace* by_contacts) const {
+        Touching best;
+        const auto look = [&](const CutterTouch& here, const FoundPlace& place) {
+            const double score = here.distance + by_contact * std::min(place.distance, most_by_contact * step_over_);
+            if (score >= best.score) return;
+            best = {place, score};
+            // In a groove the cutter touches more than one place, and no fitted normal tells which.
+            if (place.distance > own_contact * step_over_) best.place = place_of(here.point, here.foot);
+        };
+        FoundPlace mine = place_of(touch.point, contacts_->at(touch.point));
+        if (!mine.place.contact) mine.distance = infinite;
+        look(touch, mine);
+        if (by_contacts != nullptr && by_contacts->point != touch.point)
+            look(body_->touch(by_contacts->point, piece, wanted_.at), *by_contacts);
+        return best;
+    }
+
+    /// The part is what the cutters leave: a place on it is theirs whose cutter reaches lowest there. `found` are the
+    /// nearest by contact points, which know places off the part as well.
+    void put_touching_first(std::vector<NearestTip> tips, std::vector<FoundPlace>& found) const {
+        const double spare = by_contact * most_by_contact * step_over_;
+        std::sort(tips.begin(), tips.end(),
+                  [](const NearestTip& a, const NearestTip& b) { return a.cutter.value < b.cutter.value; });
+        double least = infinite;
+        std::vector<std::pair<CutterTouch, PointRange>> touches;
+        for (const NearestTip& tip : tips) {
+            if (tip.cutter.value - most_between_points(tip) > least + spare) continue;
+            touches.emplace_back(body_->touch(tip.cutter.point, range_of(tip), wanted_.at), range_of(tip));
+            least = std::min(least, touches.back().first.distance);
+        }
+        if (!(std::abs(least) <= near_the_part * step_over_)) return;
+        // Where the place lies nearer to a contact point than to the part, that contact is meant, though cut away.
+        if (!found.empty() && found.front().distance <= std::abs(least)) return;
+        std::map<PointIndex, FoundPlace> known;  // by the first point of their pieces
+        for (const FoundPlace& f : found) known.emplace(first_point_of_piece(f.point), f);
+        std::vector<Touching> first;
+        for (const auto& [touch, piece] : touches) {
+            if (touch.distance > least + spare) continue;
+            const auto at = known.find(piece.first);
+            first.push_back(touching(touch, piece, at == known.end() ? nullptr : &at->second));
+            if (at != known.end()) known.erase(at);
+        }
+        std::stable_sort(first.begin(), first.end(), [](const auto& a, const auto& b) { return a.score < b.score; });
+        std::erase_if(found, [&](const FoundPlace& f) { return !known.contains(first_point_of_piece(f.point)); });
+        std::vector<FoundPlace> all;
+        for (const Touching& one : first) all.push_back(one.place);
+        all.insert(all.end(), found.begin(), found.end());
+        found = std::move(all);
+    }
+
     /// Of every piece that is asked, nearest first.
     [[nodiscard]] std::vector<NearestTip> nearest_tips() const {
         const auto blocks = static_cast<std::size_t>((path_.count + block_points - 1) / block_points);
@@ -92,20 +206,22 @@ private:
                 // A piece may go on from the block before.
                 if (all.empty() || all.back().piece != tip.piece)
                     all.push_back(tip);
-                else
-                    all.back().improve(tip.distance, tip.point);
+                else {
+                    all.back().tip.improve(tip.tip.value, tip.tip.point);
+                    all.back().cutter.improve(tip.cutter.value, tip.cutter.point);
+                }
             }
         }
-        std::erase_if(all, [](const NearestTip& tip) { return tip.point < 0; });
+        std::erase_if(all, [](const NearestTip& tip) { return tip.tip.point < 0; });
         std::sort(all.begin(), all.end(), [](const NearestTip& a, const NearestTip& b) {
-            return a.distance != b.distance ? a.distance < b.distance : a.point < b.point;
+            return a.tip.value != b.tip.value ? a.tip.value < b.tip.value : a.tip.point < b.tip.point;
         });
         return all;
     }
 
     [[nodiscard]] std::vector<NearestTip> nearest_tips_between(PointIndex first, PointIndex end) const {
         std::vector<NearestTip> tips;
-        std::vector<double> axes[3];
+        std::vector<double> axes[3], turned[3];
         auto piece = std::upper_bound(pieces_.begin(), pieces_.end(), first,
                                       [](PointIndex i, const Pass& pass) { return i < pass.first; });
         if (piece != pieces_.begin()) --piece;
@@ -115,17 +231,32 @@ private:
             if (from > to || !is_asked(*piece)) continue;
             NearestTip tip;
             tip.piece = static_cast<std::size_t>(piece - pieces_.begin());
-            read(from, to, axes);
-            for (std::size_t k = 0; k < axes[0].size(); ++k)
-                tip.improve(distance_of({axes[0][k], axes[1][k], axes[2][k]}), from + static_cast<PointIndex>(k));
+            read(path_, from, to, axes);
+            const bool leans = contacts_ != nullptr && contacts_->axes() != nullptr;
+            if (leans) read(*contacts_->axes(), from, to, turned);
+            for (std::size_t k = 0; k < axes[0].size(); ++k) {
+                const Vec3 at(axes[0][k], axes[1][k], axes[2][k]);
+                const PointIndex point = from + static_cast<PointIndex>(k);
+                tip.tip.improve(distance_of(at), point);
+                if (!body_) continue;
+                const Vec3 axis = leans ? Vec3(turned[0][k], turned[1][k], turned[2][k]) : Vec3::UnitZ();
+                tip.cutter.improve(cutter_at(at, axis), point);
+            }
             tips.push_back(tip);
         }
         return tips;
     }
 
-    void read(PointIndex from, PointIndex to, std::vector<double> (&axes)[3]) const {
+    /// Distance of the cutter, or its height where the place is looked for from above.
+    [[nodiscard]] double cutter_at(const Vec3& tip, const Vec3& axis) const {
+        const Vec3 off = wanted_.at - tip;
+        if (!wanted_.from_above) return body_->distance(off, axis);
+        return tip.z() + outline_height(contacts_->tool(), off.head<2>().norm());
+    }
+
+    static void read(const Trajectory& path, PointIndex from, PointIndex to, std::vector<double> (&axes)[3]) {
         for (std::vector<double>& axis : axes) axis.resize(static_cast<std::size_t>(to - from + 1));
-        path_.read(from, axes[0], axes[1], axes[2]);
+        path.read(from, axes[0], axes[1], axes[2]);
     }
 
     [[nodiscard]] FoundPlace place_of(PointIndex point, const std::optional<Vec3>& contact) const {
@@ -136,7 +267,7 @@ private:
 
     /// The nearest place of a piece; point −1: it has none.
     [[nodiscard]] FoundPlace nearest_of(const NearestTip& tip, double reach) const {
-        if (contacts_ == nullptr) return place_of(tip.point, std::nullopt);
+        if (contacts_ == nullptr) return place_of(tip.tip.point, std::nullopt);
         FoundPlace best;
         best.point = -1;
         double least = infinite;  // to the line through the contact points
@@ -145,14 +276,14 @@ private:
             least = distance;
             best = place_of(point, contact);
         };
-        if (const std::optional<Vec3> contact = contacts_->at(tip.point))
-            look(tip.point, contact, distance_of(*contact));
+        if (const std::optional<Vec3> contact = contacts_->at(tip.tip.point))
+            look(tip.tip.point, contact, distance_of(*contact));
         const Pass& piece = pieces_[tip.piece];
         std::vector<double> axes[3];
         std::optional<Vec3> before;
         for (PointIndex begin = piece.first; begin <= piece.last; begin += block_points) {
             const PointIndex last = std::min(piece.last, begin + block_points - 1);
-            read(begin, last, axes);
+            read(path_, begin, last, axes);
             for (PointIndex i = begin; i <= last; ++i) {
                 const auto k = static_cast<std::size_t>(i - begin);
                 const bool near = distance_of({axes[0][k], axes[1][k], axes[2][k]}) - reach <= least;
@@ -208,6 +339,7 @@ private:
     const ContactPoints* contacts_;
     double step_over_;
     const WantedPlace& wanted_;
+    std::optional<CutterBody> body_;
 };
 
 }  // namespace

@@ -23,9 +23,12 @@ struct FoundPlace {
 };
 
 /// The nearest point of each of the nearest pieces, nearest first. With `contacts`, of the pieces that cut:
-/// the place may lie between two contact points, and the nearer one is given. Without it: of all pieces, by
-/// tips. From above: of cut pieces, those as near as half a step-over, of them the topmost level, which
-/// ends where the next point below lies two step-overs deeper. `step_over` [mm], 0: none is known.
+/// the place may lie between two contact points, and the nearer one is given. Of the pieces about a place on
+/// the part the one whose cutter touches it comes first: fitted normals do not tell passes apart whose contacts
+/// all but meet, in hollows and at creases. Without contacts: of all pieces, by tips.
+/// From above, with an upright tool: what the cutters leave of the height there is the place; nothing, where none
+/// reaches. Else: of cut pieces, those as near as half a step-over, of them the topmost level, which ends where
+/// the next point below lies two step-overs deeper. `step_over` [mm], 0: none is known.
 /// O(points) for the tips, parallel; contact points are computed for pieces that may be among the nearest.
 [[nodiscard]] std::vector<FoundPlace> find_places(const Trajectory& path, const Passes& pieces,
                                                   const ContactPoints* contacts, double step_over,

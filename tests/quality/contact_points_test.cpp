@@ -230,6 +230,69 @@ TEST(PlaceSearch, TheNearestPassesFollowEachOther) {
     EXPECT_NEAR(found[4].distance, 2 * step_over, 0.02);
 }
 
+/// A V-groove along x whose bottom the ball of one pass rounds: it touches both walls and forms all between them.
+constexpr double groove_bottom = 3.0;                 ///< [mm] v of that pass
+constexpr double wall = 30 * std::numbers::pi / 180;  ///< slope of both walls
+
+Vec3 centre_in_groove(double u, double v) {
+    return {u, v, std::abs(v - groove_bottom) * std::tan(wall) + ball.radius / std::cos(wall)};
+}
+
+SurfacePoint groove(double u, double v) {
+    const double side = v < groove_bottom ? -1 : 1;
+    const Vec3 normal(0, -side * std::sin(wall), std::cos(wall));
+    return {centre_in_groove(u, v) - ball.radius * normal, normal};
+}
+
+TEST(PlaceSearch, InAGrooveThePassAtItsBottomIsMeant) {
+    const Milled milled(groove, ball, 6, 6);
+    const ContactPoints points(milled.surface, milled.path, nullptr, ball);
+    for (const double degrees : {-27.0, -12.0, -1.0, 4.0, 16.0, 28.0}) {
+        const double angle = degrees * std::numbers::pi / 180;
+        const Vec3 place =
+            centre_in_groove(3.01, groove_bottom) + ball.radius * Vec3(0, std::sin(angle), -std::cos(angle));
+        for (const bool from_above : {false, true}) {
+            const std::vector<FoundPlace> found =
+                find_places(milled.path, milled.surface.passes, &points, step_over, {place, from_above});
+            ASSERT_FALSE(found.empty());
+            EXPECT_NEAR(found.front().place.tip.y(), groove_bottom, 1e-9) << degrees;
+            EXPECT_LT(std::abs(found.front().place.tip.x() - place.x()), spacing);
+            // The place itself is touched, not where some normal would have it.
+            EXPECT_LT((found.front().place.position() - place).norm(), 0.6 * step_over) << degrees;
+        }
+    }
+}
+
+TEST(PlaceSearch, AContactThatIsCutAwayAgainIsFoundWhereItIsAskedFor) {
+    // The walls' own contacts go on below where the ball of the lowest pass ends them.
+    const Milled milled(groove, ball, 6, 6);
+    const ContactPoints points(milled.surface, milled.path, nullptr, ball);
+    const PointIndex i = milled.path.count / 3;
+    const std::optional<Vec3> contact = points.at(i);
+    ASSERT_TRUE(contact.has_value());
+    const std::vector<FoundPlace> found =
+        find_places(milled.path, milled.surface.passes, &points, step_over, {*contact});
+    EXPECT_EQ(found.front().point, i);
+}
+
+TEST(PlaceSearch, FromAboveNothingIsFoundWhereNoCutterReaches) {
+    const Milled milled(tilted, ball, 4, 4);
+    const ContactPoints points(milled.surface, milled.path, nullptr, ball);
+    EXPECT_TRUE(find_places(milled.path, milled.surface.passes, &points, step_over, {Vec3(40, 40, 0), true}).empty());
+}
+
+/// Under a flat tool on a level face all passes within its radius touch: the nearest is meant.
+TEST(PlaceSearch, UnderAFlatBottomTheNearestPassIsMeant) {
+    const Milled milled([](double u, double v) { return SurfacePoint{Vec3(u, v, 0), Vec3::UnitZ()}; }, flat, 6, 6);
+    const ContactPoints points(milled.surface, milled.path, nullptr, flat);
+    for (const double v : {1.2, 2.4, 3.6}) {
+        const std::vector<FoundPlace> found =
+            find_places(milled.path, milled.surface.passes, &points, step_over, {Vec3(3, v + 0.02, 0)});
+        EXPECT_NEAR(found.front().place.tip.y(), v, 1e-6);
+        EXPECT_LT(std::abs(found.front().place.tip.x() - 3), spacing);
+    }
+}
+
 TEST(PlaceSearch, FromAboveTheTopmostLevelIsMeant) {
     // Two level faces over each other, the lower one cut last; its passes lie half a step-over beside the others.
     Columns tips;

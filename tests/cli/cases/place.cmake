@@ -82,3 +82,12 @@ clsurf_cli_test(NAME tool_of_the_log_before_that_of_the_config
   SETUP "cp @DATA@/programs/bottle_uneven.nc @LOGS@/bottle_uneven.biip .; echo 'tool = \"ball:20\"' > .clsurf.toml"
   ARGS query bottle_uneven.nc bottle_uneven.biip --at 0.94,-5.33,4.86 -v
   STDOUT "contact X" STDERR "the log says tool ball:6: ball:20 of .clsurf.toml is not used")
+
+# Places that are not on the part.
+clsurf_cli_test(NAME query_off_the_part ARGS query ${bottle} --tool ball:6 --at 40,40,3 STDOUT "46[.]007 mm away|46[.]0069 mm away"
+  STDERR "warning: --at 40,40,3 is not on the part: the nearest contact point is 46[.]007 mm away, 112 step-overs")
+clsurf_cli_test(NAME query_off_the_part_json ARGS query ${bottle} --tool ball:6 --at 40,40,3 --json STDOUT "\"distance_mm\": 46[.]0069" "query.off-the-part")
+clsurf_cli_test(NAME query_nothing_below ARGS query ${bottle} --tool ball:6 --at 40,40 EXIT 2 STDERR "--at 40,40: nothing was cut there, no cutter reaches there")
+clsurf_cli_test(NAME query_nothing_below_the_tip ARGS query ${bottle} --tool none --at 40,40 EXIT 2 STDERR "--at 40,40: nothing was cut there, the nearest pass is 43[.]186 mm away")
+# In a groove where the ball touches both walls the passes' fitted normals are of no use: line 11571 made this place.
+clsurf_cli_test(NAME query_in_a_groove ARGS query @DATA@/programs/petal_zigzag_g64.ngc @LOGS@/petal_zigzag_g64.biip --tool ball:6 --at -10.7886,14.3171,-3.3252 STDOUT "^line 11571:")
