@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "viz/label_placer.h"
 
 namespace clsurf::viz {
 namespace {
@@ -40,87 +43,136 @@ std::vector<std::vector<Vec2>> strokes(PointIndex count, const At& position, con
     return all;
 }
 
-/// Outlines with their numbers above them; a number that would lie on another is left out.
-void add_outlines(Sheet& sheet, const MapPanel& map, const MeshPanel& panel, const Look& look,
-                  const MapLayout& layout) {
-    const Vec2 corner(panel.rect.x, panel.rect.y);
-    constexpr Rgb white{255, 255, 255};
-    constexpr Rgb black{0, 0, 0};
-    std::vector<Rect> taken;
-    for (const OutlineMark& mark : map.outlines) {
+/// The marks of one map, drawn onto a sheet.
+class MarkDrawer {
+public:
+    MarkDrawer(Sheet& sheet, const MapPanel& map, const MeshPanel& panel, const Look& look, const MapLayout& layout)
+        : sheet_(sheet),
+          map_(map),
+          panel_(panel),
+          look_(look),
+          layout_(layout),
+          corner_(panel.rect.x, panel.rect.y),
+          placer_(panel.rect) {}
+
+    int draw() {
+        for (const PointMark& mark : map_.points) take_ring(place_of(mark.point));
+        for (const LineMark& mark : map_.lines) {
+            for (const PointRange& range : mark.points) take_ring(place_of(range.first));
+        }
+        for (const LineMark& mark : map_.lines) add_line(mark);
+        for (const PointMark& mark : map_.points) add_point(mark);
+        for (const OutlineMark& mark : map_.outlines) add_outline(mark);
+        return without_room_;
+    }
+
+private:
+    static constexpr Rgb white{255, 255, 255};
+    static constexpr Rgb black{0, 0, 0};
+
+    [[nodiscard]] Vec3 place_of(PointIndex point) const {
+        return map_.place_of ? map_.place_of(point) : map_.surface->positions.absolute(point);
+    }
+
+    [[nodiscard]] double ring_radius() const { return 0.75 * layout_.text; }
+
+    /// Labels keep off the ring of a point.
+    void take_ring(const Vec3& place) {
+        if (!shows(panel_.camera, look_, place)) return;
+        const Vec2 at = corner_ + panel_.camera.pixel(place);
+        const double r = ring_radius();
+        placer_.take({at.x() - r, at.y() - r, 2 * r, 2 * r});
+    }
+
+    /// A label near its anchor, with its middle at `centre` where there is room; a line leads to one farther away.
+    void add_label(const Vec2& anchor, const Vec2& middle, const std::string& text) {
+        FlatText flat{0, 0, text, layout_.small_text, Align::centre, true, black};
+        const Vec2 size(text_width(flat) + 6, 1.24 * layout_.small_text);
+        const std::optional<Rect> rect = placer_.place(middle, size);
+        if (!rect) {
+            ++without_room_;
+            return;
+        }
+        flat.x = rect->x + 0.5 * rect->width;
+        flat.y = rect->y + 0.5 * rect->height;
+        const Vec2 nearest(std::clamp(anchor.x(), rect->x, rect->x + rect->width),
+                           std::clamp(anchor.y(), rect->y, rect->y + rect->height));
+        if ((Vec2(flat.x, flat.y) - middle).norm() > size.y()) {
+            sheet_.lines.push_back({{anchor, nearest}, 0.2 * layout_.text, white, true});
+            sheet_.lines.push_back({{anchor, nearest}, 0.06 * layout_.text, black, false});
+        }
+        sheet_.quads.push_back({*rect, white});
+        sheet_.texts.push_back(std::move(flat));
+    }
+
+    /// Beside a ring, to the right of it.
+    void add_label_beside(const Vec2& at, const std::string& text) {
+        if (text.empty()) return;
+        const FlatText flat{0, 0, text, layout_.small_text, Align::left, true, black};
+        const double aside = 0.9 * layout_.text + 0.5 * (text_width(flat) + 6);
+        const bool fits = at.x() + 2 * aside <= corner_.x() + panel_.rect.width;
+        add_label(at, at + Vec2(fits ? aside : -aside, 0.9 * layout_.text), text);
+    }
+
+    void add_line(const LineMark& mark) {
+        bool labelled = false;
+        for (const PointRange& range : mark.points) {
+            const auto position = [&](PointIndex i) { return place_of(range.first + i); };
+            for (std::vector<Vec2>& stroke : strokes(range.size(), position, panel_.camera, look_, corner_)) {
+                if (stroke.size() == 1) stroke.push_back(stroke[0] + Vec2(0.5, 0));
+                if (!labelled) add_label_beside(stroke.front(), mark.label);
+                labelled = true;
+                sheet_.lines.push_back({stroke, 0.35 * layout_.text, white, true});
+                sheet_.lines.push_back({std::move(stroke), 0.17 * layout_.text, black, false});
+            }
+            // The first point of a marked line is ringed: there the line begins.
+            if (const Vec3 p = place_of(range.first); shows(panel_.camera, look_, p))
+                add_ring(sheet_, corner_ + panel_.camera.pixel(p), 0.45 * layout_.text, 0.15 * layout_.text, black,
+                         false);
+        }
+    }
+
+    void add_point(const PointMark& mark) {
+        const Vec3 p = place_of(mark.point);
+        if (!shows(panel_.camera, look_, p)) return;
+        const Vec2 at = corner_ + panel_.camera.pixel(p);
+        add_ring(sheet_, at, ring_radius(), 0.36 * layout_.text, white, true);
+        add_ring(sheet_, at, ring_radius(), 0.18 * layout_.text, black, false);
+        add_label_beside(at, mark.label);
+    }
+
+    /// An outline with its number above it.
+    void add_outline(const OutlineMark& mark) {
         Vec2 top(0, -1);
         for (const std::vector<Vec3>& corners : mark.lines) {
             const auto position = [&](PointIndex i) -> const Vec3& { return corners[static_cast<std::size_t>(i)]; };
             for (std::vector<Vec2>& stroke :
-                 strokes(static_cast<PointIndex>(corners.size()), position, panel.camera, look, corner)) {
+                 strokes(static_cast<PointIndex>(corners.size()), position, panel_.camera, look_, corner_)) {
                 if (stroke.size() < 2) continue;
                 for (const Vec2& p : stroke) {
                     if (p.y() > top.y()) top = p;
                 }
-                sheet.lines.push_back({stroke, 0.2 * layout.text, white, true});
-                sheet.lines.push_back({std::move(stroke), 0.08 * layout.text, black, false});
+                sheet_.lines.push_back({stroke, 0.2 * layout_.text, white, true});
+                sheet_.lines.push_back({std::move(stroke), 0.08 * layout_.text, black, false});
             }
         }
-        if (top.y() < 0 || mark.label.empty()) continue;
-        FlatText text{top.x(), top.y() + 0.75 * layout.small_text, mark.label, layout.small_text, Align::centre, true,
-                      black};
-        const double width = text_width(text) + 6;
-        text.x = std::clamp(text.x, corner.x() + 0.5 * width, corner.x() + panel.rect.width - 0.5 * width);
-        const Rect box{text.x - 0.5 * width, text.y - 0.62 * layout.small_text, width, 1.24 * layout.small_text};
-        const bool overlaps = std::any_of(taken.begin(), taken.end(), [&](const Rect& other) {
-            return box.x < other.x + other.width && other.x < box.x + box.width && box.y < other.y + other.height &&
-                   other.y < box.y + box.height;
-        });
-        if (overlaps) continue;
-        taken.push_back(box);
-        sheet.quads.push_back({box, white});
-        sheet.texts.push_back(std::move(text));
+        if (top.y() >= 0 && !mark.label.empty()) add_label(top, top + Vec2(0, 0.75 * layout_.small_text), mark.label);
     }
-}
+
+    Sheet& sheet_;
+    const MapPanel& map_;
+    const MeshPanel& panel_;
+    const Look& look_;
+    const MapLayout& layout_;
+    Vec2 corner_;
+    LabelPlacer placer_;
+    int without_room_ = 0;
+};
 
 }  // namespace
 
-void add_marks(Sheet& sheet, const MapPanel& map, const MeshPanel& panel, const Look& look, const MapLayout& layout) {
-    const Vec2 corner(panel.rect.x, panel.rect.y);
-    constexpr Rgb white{255, 255, 255};
-    constexpr Rgb black{0, 0, 0};
-    const auto label = [&](Vec2 at, const std::string& text) {
-        if (text.empty()) return;
-        FlatText flat{
-            at.x() + 0.9 * layout.text, at.y() + 0.9 * layout.text, text, layout.small_text, Align::left, true, black};
-        const double width = text_width(flat);
-        const double right = corner.x() + panel.rect.width;
-        if (flat.x + width > right) flat.x = std::max(corner.x(), at.x() - 0.9 * layout.text - width);
-        sheet.quads.push_back(
-            {{flat.x - 2, flat.y - 0.65 * layout.small_text, width + 4, 1.3 * layout.small_text}, white});
-        sheet.texts.push_back(std::move(flat));
-    };
-    for (const LineMark& mark : map.lines) {
-        bool labelled = false;
-        for (const PointRange& range : mark.points) {
-            const auto position = [&](PointIndex i) { return map.surface->positions.absolute(range.first + i); };
-            for (std::vector<Vec2>& stroke : strokes(range.size(), position, panel.camera, look, corner)) {
-                if (stroke.size() == 1) stroke.push_back(stroke[0] + Vec2(0.5, 0));
-                if (!labelled) label(stroke.front(), mark.label);
-                labelled = true;
-                sheet.lines.push_back({stroke, 0.35 * layout.text, white, true});
-                sheet.lines.push_back({std::move(stroke), 0.17 * layout.text, black, false});
-            }
-            // The first point of a marked line is ringed: there the line begins.
-            if (const Vec3 p = map.surface->positions.absolute(range.first); shows(panel.camera, look, p)) {
-                add_ring(sheet, corner + panel.camera.pixel(p), 0.45 * layout.text, 0.15 * layout.text, black, false);
-            }
-        }
-    }
-    add_outlines(sheet, map, panel, look, layout);
-    for (const PointMark& mark : map.points) {
-        const Vec3 p = map.surface->positions.absolute(mark.point);
-        if (!shows(panel.camera, look, p)) continue;
-        const Vec2 at = corner + panel.camera.pixel(p);
-        add_ring(sheet, at, 0.75 * layout.text, 0.36 * layout.text, white, true);
-        add_ring(sheet, at, 0.75 * layout.text, 0.18 * layout.text, black, false);
-        label(at, mark.label);
-    }
+int add_marks(Sheet& sheet, const MapPanel& map, const MeshPanel& panel, const Look& look, const MapLayout& layout) {
+    return MarkDrawer(sheet, map, panel, look, layout).draw();
 }
 
 }  // namespace clsurf::viz

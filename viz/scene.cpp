@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/format.h>
+
 #include "core/block.h"
 #include "viz/map_margin.h"
 #include "viz/map_marks.h"
@@ -166,6 +168,7 @@ Sheet map_sheet(const std::vector<MapPanel>& panels, const Camera& camera, const
     sheet.height = look.height;
     sheet.background = look.background;
     Beyond beyond;
+    int without_room = 0;
     for (std::size_t k = 0; k < panels.size(); ++k) {
         const MapPanel& map = panels[k];
         MeshPanel panel;
@@ -191,7 +194,7 @@ Sheet map_sheet(const std::vector<MapPanel>& panels, const Camera& camera, const
             panel.bare_segments = take_bare(panel.geometry.segments, 2, detail.values);
             panel.bare_points = take_bare(panel.geometry.points, 1, detail.values);
         }
-        add_marks(sheet, map, panel, look, layout);
+        without_room += add_marks(sheet, map, panel, look, layout);
         if (!map.caption.empty()) {
             const double y = panel.rect.y + panel.rect.height + 0.5 * caption_lines * layout.text;
             sheet.texts.push_back(
@@ -205,7 +208,9 @@ Sheet map_sheet(const std::vector<MapPanel>& panels, const Camera& camera, const
         sheet.panels.push_back(std::move(panel));
     }
     if (look.legend) {
-        add_title(sheet, texts, look, layout, ink);
+        MapTexts all = texts;
+        if (without_room > 0) all.notes.push_back(fmt::format("{} labels have no room in this picture", without_room));
+        add_title(sheet, all, look, layout, ink);
         add_legend(sheet, scale, panels.front().field->info, beyond, look, layout, ink);
     }
     return sheet;

@@ -2,6 +2,7 @@
 // Scene: a quality map on a sheet: panels, what stands round them (map_margin.h), what is marked on
 // them (map_marks.h). To draw another thing, add a function that puts it on the sheet.
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,7 @@ struct MapPanel {
     std::vector<LineMark> lines;
     std::vector<OutlineMark> outlines;
     const Relief* relief = nullptr;  ///< drawn in place of the surface; the field is then one of its vertices
+    std::function<Vec3(PointIndex)> place_of = {};  ///< where points and lines are marked [mm]; empty: on the surface
 };
 
 struct MapTexts {

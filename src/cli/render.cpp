@@ -14,6 +14,7 @@
 #include "core/file_name.h"
 #include "core/spelling.h"
 #include "field/range.h"
+#include "pipeline/contacts.h"
 #include "pipeline/judge.h"
 #include "quality/outline.h"
 #include "viz/scene.h"
@@ -91,6 +92,12 @@ struct Shown {
     Field field;
     std::optional<viz::Relief> relief;  ///< the formed surface, whose vertices have the field then
     std::vector<viz::OutlineMark> defects;
+    std::unique_ptr<const PartContacts> contacts;  ///< of the formed surface; `this` does not move any more
+
+    /// Where a point is marked in the picture [mm].
+    [[nodiscard]] Vec3 place_of(PointIndex i) const {
+        return contacts ? contacts->place(i).position() : surface.positions.absolute(i);
+    }
 };
 
 /// The formed surface in place of the positions', as fine as the picture shows it.
@@ -105,11 +112,14 @@ void form(Shown& shown, const RenderOptions& options, StageClock& clock) {
     clock.end();
     shown.field = std::move(map.field);
     shown.relief = std::move(map.relief);
+    shown.contacts = std::make_unique<const PartContacts>(shown.part, shown.surface, tool);
 }
 
 /// What `check` finds, as outlines: passes are compared where they were commanded, heights measured
-/// from the positions that are shown. Adds why nothing was judged to the part's diagnostics.
-std::vector<viz::OutlineMark> outline_defects(Part& part, const ClSurface& surface, StageClock& clock) {
+/// from the positions that are shown. With `tool` they are drawn where it touches the part. Adds why nothing was judged
+/// to the part's diagnostics.
+std::vector<viz::OutlineMark> outline_defects(Part& part, const ClSurface& surface,
+                                              const std::optional<CuttingTool>& tool, StageClock& clock) {
     std::vector<viz::OutlineMark> outlines;
     const auto add = [&](const Trajectory& path, const ClSurface& judged, std::optional<Role> measured) {
         clock.begin("derive the signals");
@@ -117,9 +127,13 @@ std::vector<viz::OutlineMark> outline_defects(Part& part, const ClSurface& surfa
         clock.begin("find the defects");
         const QualityReport report = find_defects(part, path, judged, read);
         note_reasons(report, part, part.diagnostics);
-        for (std::size_t i = 0; i < report.defects.size(); ++i) {
-            outlines.push_back({outlines_of(report.defects[i], judged), fmt::format("{}", i + 1)});
-        }
+        std::optional<PartContacts> contacts;
+        if (tool) contacts.emplace(part.log, path, *part.lines, judged, *tool);
+        const auto place_of = [&](PointIndex i) {
+            return contacts ? contacts->place(i).position() : judged.positions.absolute(i);
+        };
+        for (std::size_t i = 0; i < report.defects.size(); ++i)
+            outlines.push_back({outlines_of(report.defects[i], judged, place_of), fmt::format("{}", i + 1)});
     };
     if (part.path.role == Role::commanded || !part.log.has(Role::commanded)) {
         add(part.path, surface, std::nullopt);
@@ -137,13 +151,20 @@ Shown prepare(const PartOptions& options, const std::string& field, bool defects
     shown.surface = stitch(shown.part);
     clock.begin("compute the field");
     if (!options.formed) shown.field = Fields(shown.part, shown.surface).get(field);
-    if (defects) shown.defects = outline_defects(shown.part, shown.surface, clock);
+    if (defects)
+        shown.defects = outline_defects(shown.part, shown.surface,
+                                        options.formed ? shown.part.tool : std::optional<CuttingTool>(), clock);
     clock.end();
     return shown;
 }
 
 viz::MapPanel panel_of(const Shown& shown, const RenderOptions& options, std::string caption) {
-    viz::MapPanel panel{&shown.surface, &shown.field, std::move(caption), {}, {}, shown.defects};
+    viz::MapPanel panel;
+    panel.surface = &shown.surface;
+    panel.field = &shown.field;
+    panel.caption = std::move(caption);
+    panel.outlines = shown.defects;
+    panel.place_of = [&shown](PointIndex i) { return shown.place_of(i); };
     if (shown.relief) panel.relief = &*shown.relief;
     for (const PointIndex point : options.points) {
         if (point < 0 || point >= shown.part.log.records) {
@@ -203,9 +224,7 @@ ShownRange range_of(const Shown& shown, const RenderOptions& options, const viz:
 void warn_of_marks_outside(const Shown& shown, const RenderOptions& options, const viz::Camera& camera,
                            const po::variables_map& values) {
     Diagnostics diagnostics;
-    const auto outside = [&](PointIndex i) {
-        return !viz::shows(camera, options.shown.look, shown.surface.positions.absolute(i));
-    };
+    const auto outside = [&](PointIndex i) { return !viz::shows(camera, options.shown.look, shown.place_of(i)); };
     const auto warn = [&](const std::string& what) {
         diagnostics.add(
             {Severity::warning, "render.mark-outside", Place(), what + " lies outside the part that is shown", {}});

@@ -87,9 +87,10 @@ private:
     std::vector<PointRange> ranges_;  ///< in order, disjoint
 };
 
+using PlaceOf = std::function<Vec3(PointIndex)>;
+
 /// Half way to the pass on a side; by the other side where there is none.
-Vec3 border(const ClSurface& surface, PointIndex i, Side side) {
-    const auto at = [&](PointIndex p) { return surface.positions.absolute(p); };
+Vec3 border(const ClSurface& surface, const PlaceOf& at, PointIndex i, Side side) {
     const Side other = side == Side::left ? Side::right : Side::left;
     if (surface.neighbours.has(side, i)) return 0.5 * (at(i) + at(surface.neighbours.neighbour(side, i)));
     if (surface.neighbours.has(other, i)) return 1.5 * at(i) - 0.5 * at(surface.neighbours.neighbour(other, i));
@@ -97,8 +98,8 @@ Vec3 border(const ClSurface& surface, PointIndex i, Side side) {
 }
 
 /// The side's pieces beside which the region does not go on.
-void add_side(const Region& region, const ClSurface& surface, const std::vector<PointIndex>& samples, Side side,
-              std::vector<std::vector<Vec3>>& lines) {
+void add_side(const Region& region, const ClSurface& surface, const PlaceOf& place_of,
+              const std::vector<PointIndex>& samples, Side side, std::vector<std::vector<Vec3>>& lines) {
     std::vector<Vec3> piece;
     const auto finish = [&] {
         if (piece.size() > 1) lines.push_back(std::move(piece));
@@ -107,7 +108,7 @@ void add_side(const Region& region, const ClSurface& surface, const std::vector<
     // A piece reaches to where the region goes on, so that it meets the end of the pass there.
     std::optional<Vec3> before;
     for (const PointIndex i : samples) {
-        const Vec3 at = border(surface, i, side);
+        const Vec3 at = border(surface, place_of, i, side);
         const bool inside = surface.neighbours.has(side, i) && region.holds(surface.neighbours.neighbour(side, i));
         if (!inside && piece.empty() && before) piece.push_back(*before);
         if (!inside || !piece.empty()) piece.push_back(at);
@@ -119,15 +120,16 @@ void add_side(const Region& region, const ClSurface& surface, const std::vector<
 
 }  // namespace
 
-std::vector<std::vector<Vec3>> outlines_of(const Defect& defect, const ClSurface& surface) {
+std::vector<std::vector<Vec3>> outlines_of(const Defect& defect, const ClSurface& surface, const PlaceOf& place_of) {
+    const PlaceOf at = place_of ? place_of : [&](PointIndex i) { return surface.positions.absolute(i); };
     const Region region(defect.runs, surface);
     std::vector<std::vector<Vec3>> lines;
     for (const PointRange& range : region.ranges()) {
         const std::vector<PointIndex> samples = region.samples(range);
-        add_side(region, surface, samples, Side::left, lines);
-        add_side(region, surface, samples, Side::right, lines);
+        add_side(region, surface, at, samples, Side::left, lines);
+        add_side(region, surface, at, samples, Side::right, lines);
         for (const PointIndex end : {range.first, range.last}) {
-            lines.push_back({border(surface, end, Side::left), border(surface, end, Side::right)});
+            lines.push_back({border(surface, at, end, Side::left), border(surface, at, end, Side::right)});
         }
     }
     return lines;

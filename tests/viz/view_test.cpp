@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "viz/label_placer.h"
 
 namespace clsurf::viz {
 namespace {
@@ -56,6 +57,28 @@ TEST(View, RefusesWhatIsNone) {
     EXPECT_THROW((void)parse_view("tpo"), UsageError);
     EXPECT_THROW((void)parse_view("10"), UsageError);
     EXPECT_THROW((void)parse_view("10,95"), UsageError);
+}
+
+TEST(LabelPlacer, NoLabelLiesOnAnotherOneNorOutside) {
+    const Rect panel{10, 20, 300, 200};
+    LabelPlacer placer(panel);
+    const Vec2 size(40, 15);
+    std::vector<Rect> placed;
+    // The panel has room for them, but not where they are all wanted: in a corner.
+    for (int k = 0; k < 20; ++k) {
+        const std::optional<Rect> rect = placer.place(Vec2(12, 22), size);
+        ASSERT_TRUE(rect.has_value()) << k;
+        EXPECT_GE(rect->x, panel.x);
+        EXPECT_GE(rect->y, panel.y);
+        for (const Rect& other : placed) {
+            const bool apart = rect->x + rect->width < other.x || other.x + other.width < rect->x ||
+                               rect->y + rect->height < other.y || other.y + other.height < rect->y;
+            EXPECT_TRUE(apart) << k;
+        }
+        placed.push_back(*rect);
+    }
+    placer.take(panel);
+    EXPECT_FALSE(placer.place(Vec2(150, 100), size).has_value());
 }
 
 }  // namespace

@@ -1,0 +1,70 @@
+#include "viz/label_placer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace clsurf::viz {
+namespace {
+
+constexpr double cell = 3;    ///< [px]
+constexpr double reach = 12;  ///< heights of a label from where it is wanted
+constexpr double ring = 0.5;  ///< heights between two rings of tries
+constexpr int tries_a_ring = 16;
+
+}  // namespace
+
+LabelPlacer::LabelPlacer(const Rect& panel)
+    : panel_(panel),
+      columns_(static_cast<int>(std::ceil(panel.width / cell)) + 1),
+      rows_(static_cast<int>(std::ceil(panel.height / cell)) + 1),
+      taken_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), false) {}
+
+/// Calls visit(a cell's flag) until it says false; whether it never did.
+template <typename Visit>
+bool LabelPlacer::every_cell(const Rect& rect, Visit&& visit) {
+    const auto index = [](double from, int most) {
+        return static_cast<int>(std::clamp(std::floor(from / cell), 0.0, static_cast<double>(most - 1)));
+    };
+    const int left = index(rect.x - panel_.x, columns_), right = index(rect.x + rect.width - panel_.x, columns_);
+    const int low = index(rect.y - panel_.y, rows_), high = index(rect.y + rect.height - panel_.y, rows_);
+    for (int row = low; row <= high; ++row) {
+        for (int column = left; column <= right; ++column) {
+            const auto at = static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_);
+            if (!visit(taken_[at + static_cast<std::size_t>(column)])) return false;
+        }
+    }
+    return true;
+}
+
+void LabelPlacer::take(const Rect& rect) {
+    every_cell(rect, [](auto flag) {
+        flag = true;
+        return true;
+    });
+}
+
+Rect LabelPlacer::inside(const Vec2& centre, const Vec2& size) const {
+    const auto hold = [](double from, double low, double room) {
+        return std::clamp(from, low, std::max(low, low + room));
+    };
+    return {hold(centre.x() - 0.5 * size.x(), panel_.x, panel_.width - size.x()),
+            hold(centre.y() - 0.5 * size.y(), panel_.y, panel_.height - size.y()), size.x(), size.y()};
+}
+
+std::optional<Rect> LabelPlacer::place(const Vec2& centre, const Vec2& size) {
+    const auto is_free = [&](const Rect& rect) { return every_cell(rect, [](bool flag) { return !flag; }); };
+    for (double radius = 0; radius <= reach; radius += ring) {
+        for (int k = 0; k < (radius > 0 ? tries_a_ring : 1); ++k) {
+            const double angle = 0.5 * std::numbers::pi + 2 * std::numbers::pi * k / tries_a_ring;
+            const Vec2 aside = radius * size.y() * Vec2(std::cos(angle), std::sin(angle));
+            const Rect rect = inside(centre + aside, size);
+            if (!is_free(rect)) continue;
+            take(rect);
+            return rect;
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace clsurf::viz
