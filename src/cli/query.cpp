@@ -11,6 +11,7 @@
 #include "cli/part.h"
 #include "core/file_name.h"
 #include "core/units.h"
+#include "field/field_set.h"
 #include "io/json_text.h"
 #include "pipeline/contacts.h"
 
