@@ -1,5 +1,6 @@
 #pragma once
-// Cure: where a run still has defects, speeds that leave none, for as many of them as there is time for.
+// Feed reduction: speeds that remove the remaining defects of a run, for as many of them as the time budget
+// allows.
 
 #include <vector>
 
@@ -17,9 +18,9 @@ struct CureRules {
     std::vector<Vec3> hopeless{};  ///< [mm] places of defects that are let be
 };
 
-/// With which power of the speed v the part of the following error grows that lies across the path and differs forth
-/// and back. A loop lags by c₁x′ + c₂x″ + c₃x‴ + …: where the axes have the same loop, c₁x′ runs along the path and
-/// c₂x″ is the same both ways, which leaves the third, v³; where they have different ones, c₁x′ leaves the path: v.
+/// Exponent of the speed v with which the normal deviation that alternates with the direction of travel grows. A loop
+/// lags by c₁x′ + c₂x″ + c₃x‴ + …: if the axes have the same loop, c₁x′ is along the path and c₂x″ is the same in both
+/// directions, so the third term remains: v³. If the loops differ, c₁x′ leaves the path: v.
 [[nodiscard]] double lag_power(const Machine& machine);
 
 struct CuringSpeeds {
@@ -27,14 +28,14 @@ struct CuringSpeeds {
     std::vector<std::int32_t> causes;  ///< per point the index of the defect that it is levelled for; −1: none
 };
 
-/// Speeds that are level within `step` about the defects of motion and lag, and so low that their lag steps
-/// keep the threshold, where that takes no more than four tenths of the speed. Defects of the programmed relief are left
-/// out, and of the others the dearest, each by what it costs alone, as long as all together would lose more than the budget: by
-/// the points' own times. O(points · defects).
+/// Speeds that are equal within `step` around the defects of motion and lag, and so low that lag steps keep their
+/// threshold, if that takes at most four tenths of the speed. Defects of the programmed relief are excluded. Of the
+/// others the most expensive are dropped, each priced alone, until all together lose no more than the budget, by the
+/// times of the points. O(points · defects).
 [[nodiscard]] CuringSpeeds curing_speeds(const JudgedRun& run, const CureRules& rules);
 
-/// Per defect of a run how many defects there are fewer about the places that were slowed for it, on another run of the same
-/// path; 0 where nothing was. O(points).
+/// Per defect of a run: how many defects fewer there are around the places that were slowed for it, on another run of
+/// the same path; 0 if none was slowed. O(points).
 [[nodiscard]] std::vector<int> gains_of(const CuringSpeeds& cure, const JudgedRun& run, const JudgedRun& cured);
 
 }  // namespace clsurf

@@ -1,5 +1,6 @@
 #pragma once
-// Deviation: how far two programs' paths lie apart, and how far their tools point apart, measured on the whole of both.
+// Deviation: the distance between the paths of two programs and the angle between their tool axes, measured
+// along the whole of both.
 
 #include "optimize/orientation.h"
 #include "program/program.h"
@@ -14,22 +15,22 @@ struct Deviation {
     Vec3 position = Vec3::Zero();  ///< [mm] there
     double turned = 0;             ///< [rad] greatest angle between the tool axes
     LineNumber turned_line = 0;    ///< of the second program, there
-    /// The line (of the second program) of the first rapid, dwell, arc or turn in place that is not
-    /// the same in both, or of a way on which the axes are turned by more than a quarter turn else; its last line where the
-    /// second has fewer; 0: all are the same.
+    /// The line of the second program with the first rapid, dwell, arc or rotation in place that differs between both,
+    /// or with a path on which an axis is more than a quarter turn away; its last line if the second program has fewer
+    /// of them; 0: all agree.
     LineNumber disordered = 0;
 };
 
-/// Where the tools of two programs that are run on five axes point; nullptr: three axes.
+/// The tool axes of two programs that run on five axes; nullptr: three axes.
 struct Orientations {
     const Orientation *before = nullptr, *after = nullptr;
 };
 
-/// Both paths are walked side by side, forth and back: from each, the ends of motions and points every
-/// `step` [mm] between (on five axes every degree of turn as well) are measured against the other one within a millimetre
-/// of where the walk has come to; a pass that was left out shows as a step-over at least. Tool axes are those that the
-/// controller has there and at the nearest place of the other path; where there are several, as before and behind a
-/// turn in place, the one that fits. Motions as simulate_five_axis() wants them. O(way / step).
+/// Compares both paths in both directions: the ends of motions of each path and points every `step` [mm] between them
+/// (on five axes also every degree of rotation) are measured against the other path within a millimetre of the present
+/// position. A missing pass shows as at least one step-over. The tool axes compared are those of the controller there
+/// and at the nearest place of the other path; if there are several, as before and after a rotation in place, the one
+/// that fits. Motions as for simulate_five_axis(). O(path length / step).
 [[nodiscard]] Deviation measure_deviation(const Program& before, const Program& after,
                                           double step = Deviation::usual_step, const Orientations& orientations = {});
 

@@ -1,5 +1,5 @@
 #pragma once
-// Drafts: the program with new points where it is in need, before feeds are set.
+// Drafts: the program with new points where it needs repair, before feeds are set.
 
 #include <cstdint>
 #include <functional>
@@ -14,7 +14,7 @@ namespace clsurf {
 
 struct OptimizeRules;
 
-/// Reads a text in the program's dialect, as the program itself was read.
+/// Reads a text in the dialect of the program, with the same options.
 using ReadProgram = std::function<Program(const std::string& text)>;
 
 struct Draft {
@@ -28,12 +28,13 @@ struct Draft {
 
 class Drafter {
 public:
-    /// `shortest_line` [mm]: no new line is shorter but to keep the tolerance. `slows_anywhere`: also what is not in need may get feeds.
-    /// `orientation`: of a program that is run on five axes. All must outlive it. O(points).
+    /// `shortest_line` [mm]: new lines are shorter only to keep the tolerance. `slows_anywhere`: feeds may also change
+    /// outside the selected sections. `orientation`: of a program that runs on five axes. All must outlive it.
+    /// O(points).
     Drafter(const Program& program, const ReadProgram& read, const OptimizeRules& rules, double shortest_line,
             bool slows_anywhere, const Orientation* orientation = nullptr);
 
-    /// New points for the motions in need (one entry a motion).
+    /// New points for the motions that need repair (one entry per motion).
     [[nodiscard]] Draft draft(double chord_error, std::vector<std::uint8_t> needed) const;
     /// The program as it is.
     [[nodiscard]] Draft unchanged() const;

@@ -1,6 +1,6 @@
 #pragma once
-// Feeds for the points of a proposal: such as bring neighbour passes into step, and such as cure the defects that are left, as far as there
-// is time for.
+// Feeds for the points of a proposal: feeds that synchronise adjacent passes, and feeds that remove the
+// remaining defects, as far as the time budget allows.
 
 #include <vector>
 
@@ -11,7 +11,7 @@
 
 namespace clsurf {
 
-/// A cure that goes on: where it has come to.
+/// The state of a feed reduction over several rounds.
 struct Curing {
     static constexpr double usual_step = 0.7;
     Tried from;                    ///< the last one kept
@@ -25,14 +25,16 @@ public:
     /// The prover must outlive it.
     FeedSearch(Prover& prover, const Machine& machine);
 
-    /// Feeds that bring neighbour passes within a step [mm/s] of each other everywhere: as small a one as the time that `from` saves pays for.
+    /// Feeds that make adjacent passes equal everywhere within a step [mm/s], the smallest one that the time saved by
+    /// `from` allows.
     void level_in_time(const Tried& from);
 
-    /// The same with steps that are fixed shares of the speed.
+    /// The same with steps that are fixed fractions of the speed.
     void level(const Tried& from);
 
-    /// Round by round slower where defects are left, as long as there is time to lose. Each round is a cure, the same for the
-    /// defects alone that it helped, and the last of them with feeds as high as its speeds need.
+    /// Slows down around remaining defects, round by round, as long as the time budget lasts. Each round is one feed
+    /// reduction, the same only for the defects that it removed, and the last of these with feeds as high as its speeds
+    /// need.
     void cure(Curing& curing, int rounds);
 
 private:

@@ -1,12 +1,12 @@
 #pragma once
-// The speed that a constant-speed interval can be run at.
+// The speed at which a constant-speed interval can be run.
 
 #include "curve/speed_intervals.h"
 #include "machine/machine.h"
 
 namespace clsurf {
 
-/// What a speed is held against.
+/// Limits of the speed of an interval.
 struct SpeedLimits {
     double normal_acceleration = 1500;  ///< [mm/s²]
     double jerk = 0;                    ///< [mm/s³] of the path in a bend; 0: not held
@@ -15,7 +15,7 @@ struct SpeedLimits {
 };
 [[nodiscard]] SpeedLimits speed_limits_of(const Machine& machine);
 
-/// The speed that an interval can be run at [mm/s], at most `feed`.
+/// The highest speed of an interval [mm/s], at most `feed`.
 [[nodiscard]] double planned_speed(const SpeedInterval& interval, double feed, const SpeedLimits& limits);
 
 }  // namespace clsurf

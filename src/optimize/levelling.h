@@ -1,6 +1,6 @@
 #pragma once
-// Levelling: the speeds that neighbour passes can all hold. Where a run shows a pass faster than the one
-// beside it, its lines get a feed that brings both together.
+// Feed equalisation: speeds that all adjacent passes can keep. Where a pass is faster than the adjacent one,
+// its lines get a feed that makes both equal.
 
 #include <cstdint>
 #include <vector>
@@ -11,27 +11,27 @@
 
 namespace clsurf {
 
-/// The speed of each point of a run that is compared with the passes beside it [mm/s]; NaN elsewhere.
+/// The speed of each point of a run that is compared with the adjacent passes [mm/s]; NaN elsewhere.
 [[nodiscard]] std::vector<float> compared_speeds(const JudgedRun& run);
 
-/// How much faster than the pass beside it a place may be: by a share of that one's speed and by a speed.
+/// How much faster than the adjacent pass a place may be: a fraction of its speed plus a speed.
 struct LevelStep {
     double share = 0;
     double speed = 0;  ///< [mm/s]
     Ramp ramp{};       ///< … and how a pass comes back to its own speed
 };
 
-/// Speeds on their way to be levelled; all have one entry a point.
+/// Speeds during equalisation; one entry per point in each column.
 struct Levelling {
     std::vector<float> speeds;         ///< [mm/s]
     std::vector<std::int32_t> causes;  ///< what a point is lowered for, ≥ 0; −1: nothing
-    /// 1: is to be level with what lies beside it. Where neither of two points is, they may differ by as large a share as they did: beside
-    /// a lowered place there may be another slow one, which is not to be levelled with it.
+    /// 1: to be equalised with the adjacent points. Where neither of two points is, their old relative difference may
+    /// remain: next to a lowered place there may be another slow one that must not determine its speed.
     std::vector<std::uint8_t> levelled;
 };
 
-/// Brings the speeds of a run down to what the passes beside each other and the ramps allow. Any number of times: it keeps what
-/// lies beside each point. The run must outlive it. May be used by several threads.
+/// Lowers the speeds of a run to what adjacent passes and the ramps allow. Reusable: it keeps the neighbours of each
+/// point. The run must outlive it. Several threads may use it.
 class Leveller {
 public:
     /// O(points)
@@ -40,20 +40,21 @@ public:
     /// compared_speeds() of the run
     [[nodiscard]] const std::vector<float>& own() const { return own_; }
 
-    /// Lowers speeds, one a point of the run, until none is more than a step above that of the points beside it on
-    /// both neighbour passes. Only points that have a cause, or have one beside them, are lowered, and take over
-    /// the cause: where all begin with one, speeds are levelled everywhere. Before and behind a lowered place a pass keeps to the
-    /// ramp, so that the next one is levelled with what the machine will do. Two sweeps, forth and back, over the passes that have a
-    /// cause, or one beside them.
+    /// Lowers speeds, one per point of the run, until none exceeds that of its neighbours on both adjacent passes by
+    /// more than a step. Only points with a cause, or with a neighbour that has one, are lowered and take over the
+    /// cause: if all start with one, speeds are equalised everywhere. Before and after a lowered place a pass follows
+    /// the ramp, so the next pass is equalised with the real motion of the machine. Two sweeps, forward and backward,
+    /// over the passes with a cause or next to one.
     void level(const LevelStep& step, Levelling& levelling) const;
 
-    /// The greatest speeds that are level everywhere.
+    /// The highest speeds that are equal everywhere.
     [[nodiscard]] std::vector<float> everywhere(const LevelStep& step) const;
 
-    /// The least step [mm/s] to which all can be levelled so that no more than `budget` [s] is lost. Ten levellings: O(points).
+    /// The smallest step [mm/s] to which all speeds can be equalised without losing more than `budget` [s]. Ten
+    /// equalisations: O(points).
     [[nodiscard]] double affordable_step(const Ramp& ramp, double budget) const;
 
-    /// What the run would take longer at such speeds [s], by the points' own times.
+    /// The additional time of the run at such speeds [s], by the times of the points.
     [[nodiscard]] double lost(const std::vector<float>& speeds) const;
 
 private:
@@ -67,14 +68,15 @@ private:
     std::vector<std::vector<std::size_t>> passes_beside_;  ///< per pass, those that its points have beside them
 };
 
-/// The greatest over the points of each motion of the program, of one value per point; NaN: it has no point with one. As a feed it
-/// holds a motion to a curve that rises or falls along it; the mean would hold it below.
+/// The maximum over the points of each motion of the program, of one value per point; NaN: it has no point with a
+/// value. Used as a feed, the maximum lets a motion follow a curve that rises or falls along it; the mean would be too
+/// low.
 [[nodiscard]] std::vector<float> peaks_by_motion(const JudgedRun& run, const Program& program,
                                                  const std::vector<float>& values);
 
-/// Feeds that hold motions to a target [mm/s]; targets and feeds of 0: none. Motions whose entry in `may_slow` is 0 get none;
-/// empty: all may. Neighbouring motions with a feed form constant-speed intervals, inside which targets differ by less
-/// than `width` (a share); each has the lowest of them.
+/// Feeds that keep motions at a target [mm/s]; targets and feeds of 0: none. Motions whose entry in `may_slow` is 0 get
+/// none; empty: all may. Consecutive motions with a feed form constant-speed intervals, in which targets differ by less
+/// than `width` (a fraction). Each interval gets its lowest target.
 [[nodiscard]] std::vector<float> levelling_feeds(const std::vector<float>& target,
                                                  const std::vector<std::uint8_t>& may_slow, double width);
 

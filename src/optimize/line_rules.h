@@ -1,5 +1,5 @@
 #pragma once
-// LineRules: how far apart new points may lie, and how far from the programmed lines.
+// LineRules: the spacing of new points, and their largest distance from the programmed lines.
 
 namespace clsurf {
 

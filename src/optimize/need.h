@@ -1,5 +1,5 @@
 #pragma once
-// Need: which motions of a program a run shows to be in need of repair, the run simulated or recorded.
+// Need: the motions of a program that need repair, as shown by a simulated or recorded run.
 
 #include <cstdint>
 #include <vector>
@@ -14,14 +14,14 @@ struct NeedRules {
     int passes_aside = 4;  ///< which are repaired with it
 };
 
-/// Per motion of the program 1 where it has points that differ from those beside them in speed, or lie in a
-/// defect of motion or of point spacing, or near such a point; 0 elsewhere, and where the run does not tell. Lags alone are
-/// the machine's: no other points cure them. O(points).
+/// Per motion of the program: 1 if it has points whose speed differs from that of their neighbours, or that are in or
+/// near a defect of motion or of point spacing; 0 otherwise, and where the run has no data. Defects of lag alone belong
+/// to the machine: other points do not remove them. O(points).
 [[nodiscard]] std::vector<std::uint8_t> motions_in_need(const JudgedRun& run, const Program& program,
                                                         const NeedRules& rules);
 
-/// Per motion of the program 1 where a run has points with a mark, one a point; what lies between the lines of two marked points
-/// was passed within a period, and counts. O(points).
+/// Per motion of the program: 1 if a run has marked points on it, one flag per point. Motions between the lines of two
+/// consecutive marked points were passed within one period and count too. O(points).
 [[nodiscard]] std::vector<std::uint8_t> marked_motions(const JudgedRun& run, const Program& program,
                                                        const std::vector<std::uint8_t>& marks);
 

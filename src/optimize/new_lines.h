@@ -1,6 +1,6 @@
 #pragma once
-// New lines: which points of a smooth curve become the ends of lines, so that neighbour passes have theirs side by side and
-// no line leaves curve or programmed path by too much.
+// New lines: the points of a smooth curve that become the ends of lines. Adjacent passes get their points next
+// to each other, and no line leaves the curve or the programmed path by too much.
 
 #include <vector>
 
@@ -9,10 +9,10 @@
 
 namespace clsurf {
 
-/// The ends of the lines that take the place of a stretch, without its beginning; the last is the stretch's own end. Lines
-/// end at every first, second, fourth … station, as the chord error allows; which, hangs on the number of the station. Where a line would
-/// leave old points too far off, or turn the tool axis away, there are points beside those. `turning`: nullptr where
-/// the tool axis stands. O(points).
+/// The ends of the lines that replace a section, without its start; the last one is the end of the section. Lines end
+/// at every first, second, fourth … station, as the chord error permits; the station number determines which.
+/// Additional points are inserted where a line would be too far from old points or would turn the tool axis away.
+/// `turning`: nullptr if the tool axis does not move. O(points).
 [[nodiscard]] std::vector<NewPlace> new_lines(const OldStretch& old, const SmoothStretch& curve,
                                               const std::vector<StationOfPass>& stations, const LineRules& rules,
                                               const TurningStretch* turning);

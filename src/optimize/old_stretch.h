@@ -1,5 +1,5 @@
 #pragma once
-// OldStretch: what the program has between two fixed points of a pass.
+// OldStretch: the section of the program between two fixed points of a pass.
 
 #include <cstdint>
 #include <vector>
@@ -14,16 +14,16 @@ struct OldStretch {
     std::vector<std::int64_t> motion;  ///< that ends there
 
     [[nodiscard]] double length() const { return way.back(); }
-    /// Where the lines are after some way [mm]; before and behind them, where they begin and end.
+    /// The position on the lines at an arc length [mm]; before and after them, their start and end.
     [[nodiscard]] Vec3 at(double after) const;
-    /// The line that lies there: it ends at the next point.
+    /// The line at this place: it ends at the next point.
     [[nodiscard]] std::size_t line_at(double after) const;
 
     struct Foot {
         Vec3 position = Vec3::Zero();  ///< [mm]
         double way = 0;                ///< [mm]
     };
-    /// The nearest place to `p` on the lines about `after` [mm] of way.
+    /// The place nearest to `p` on the lines around arc length `after` [mm].
     [[nodiscard]] Foot foot(const Vec3& p, double after) const;
 };
 

@@ -1,7 +1,7 @@
 #pragma once
-// The optimiser: propose, simulate, accept or refuse. A proposal moves points of finishing passes (and only
-// those) so that neighbour passes are programmed alike; it is taken only where a run on the machine
-// shows it to be better in every respect.
+// The optimiser: propose, simulate, accept or refuse. A proposal moves points of finishing passes only, so
+// that adjacent passes are programmed alike. It is accepted only if a run on the machine is better in every
+// respect.
 
 #include <optional>
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace clsurf {
 
-/// What a recorded run of the program shows.
+/// Summary of a recorded run of the program.
 struct Measured {
     PointIndex points = 0;
     double duration = 0;  ///< [s]
@@ -28,10 +28,10 @@ struct Optimized {
     SimulationSummary run_before, run_after;
 };
 
-/// Runs the program, proposes, runs and judges the proposals. With a recorded run `measured` of the program, only what that
-/// run shows to be in need is changed; what a proposal is worth is found by simulation, before and after. A program that names
-/// rotary axes is run on five where the machine has them: its passes are those of the tip. Throws
-/// InputError where the program cannot be run or has no passes beside each other.
+/// Simulates the program, makes proposals, simulates and judges them. With a recorded run `measured` of the program,
+/// only sections that need repair in that run change; simulation evaluates the proposals before and after. A program
+/// with rotary axes runs on five axes if the machine has them, and its passes are those of the tip. Throws InputError
+/// if the program cannot be run or has no adjacent passes.
 [[nodiscard]] Optimized optimize(const Program& program, const ReadProgram& read, const Machine& machine,
                                  const OptimizeRules& rules, std::optional<Log> measured, const Progress& progress,
                                  Diagnostics& diagnostics);

@@ -1,6 +1,6 @@
 #pragma once
-// Orientation: where a program's tool points along its motions, as the controller stood in for turns it
-// (motion/tool_axis_path.h), and which lines may get new points for all of that.
+// Orientation: the tool axis along the motions of a program, as the simulated controller interpolates it
+// (motion/tool_axis_path.h), and the lines that may get new points in spite of it.
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@
 
 namespace clsurf {
 
-/// How far the rotary axis turns that turns more [rad].
+/// Angle of the rotary axis that turns more [rad].
 [[nodiscard]] inline double turn_between(const RotaryAngles& a, const RotaryAngles& b) {
     return std::max(std::abs(b.tilt - a.tilt), std::abs(b.rotation - a.rotation));
 }
@@ -25,16 +25,16 @@ public:
     /// Program and machine must outlive it. Throws InputError (feed 0). O(motions).
     Orientation(const Program& program, const Machine& machine, const Vec3& zero, const Vec3& start);
 
-    /// Angles after a part (0 … 1) of a motion's way.
+    /// Angles at a fraction (0 … 1) of the arc length of a motion.
     [[nodiscard]] RotaryAngles angles(std::int64_t motion, double part) const {
         return blocks_.way(static_cast<std::size_t>(motion)).at(part);
     }
     [[nodiscard]] Vec3 axis(const RotaryAngles& angles) const { return kinematics_->axis_of(angles); }
-    /// The sine of the angle between the tool axis and its pole: how far a turn of the table turns it.
+    /// The sine of the angle between the tool axis and its pole: the effect of a rotation of the table on it.
     [[nodiscard]] double from_pole(const RotaryAngles& angles) const {
         return axis({angles.tilt, 0}).cross(kinematics_->rotation.direction).norm();
     }
-    /// The way of the tool axis on a line between two places of lines that may be divided.
+    /// The motion of the tool axis on a line between two places of lines that may be divided.
     [[nodiscard]] ToolAxisPath between(const RotaryAngles& from, const RotaryAngles& to) const {
         return {*kinematics_, from, to, {}, std::numeric_limits<double>::infinity(), 0};
     }
@@ -42,8 +42,8 @@ public:
     /// A, B, C [rad] for angles inside a motion.
     [[nodiscard]] Vec3 programmed(std::int64_t motion, const RotaryAngles& angles) const;
     [[nodiscard]] bool turns(std::int64_t motion) const;
-    /// Whether points inside a motion can be programmed: its axes go where its words say, turn by no more than 30°, and the
-    /// tool axis keeps 2° from the pole. True where nothing turns.
+    /// Whether points inside a motion can be programmed: its axes move as its words say and turn by at most 30°, and
+    /// the tool axis stays at least 2° from the pole. True if nothing turns.
     [[nodiscard]] bool divisible(std::int64_t motion) const {
         return divisible_[static_cast<std::size_t>(motion)] != 0;
     }

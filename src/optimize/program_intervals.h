@@ -1,6 +1,6 @@
 #pragma once
-// The constant-speed intervals of a whole program: each pass divided, and the speed of each interval
-// planned from its curvature, the machine, and the intervals beside it on the neighbour passes.
+// The constant-speed intervals of a whole program. Each pass is divided. The speed of each interval follows
+// from its curvature, the machine, and the intervals on the adjacent passes.
 
 #include <vector>
 
@@ -26,9 +26,9 @@ struct ProgramIntervals {
     double step_over = 0;  ///< [mm]; 0: no neighbours
 };
 
-/// An interval that is faster than those before and behind it and too short to change speed takes the higher
-/// of theirs; intervals side by side whose speeds differ by less than 15 % get the lower one, in two sweeps over
-/// the passes, forth and back. O(points log points).
+/// An interval that is faster than its predecessor and successor and too short to change speed gets the higher speed of
+/// both. Adjacent intervals whose speeds differ by less than 15 % get the lower one, in two sweeps over the passes,
+/// forward and backward. O(points log points).
 [[nodiscard]] ProgramIntervals plan_intervals(const Program& program, const ProgrammedSurface& laid,
                                               const IntervalRules& rules, const Machine& machine);
 

@@ -1,8 +1,7 @@
 #pragma once
-// ProgrammedSurface: the CL surface of a program itself, without a log: its passes, and for each of
-// its points the places beside it on the neighbour passes. The rules are those for logs
-// (path/passes.h, surface/adjacency.h); the points lie on the programmed path instead of on what a
-// controller made of it.
+// ProgrammedSurface: the CL surface of a program without a log: its passes, and for each of its points the
+// adjacent places on both sides. The rules are those for logs (path/passes.h, surface/adjacency.h), but the
+// points are on the programmed path.
 
 #include <cstdint>
 #include <vector>
@@ -26,7 +25,7 @@ struct ProgrammedSurface {
 /// beyond which long motions get fewer.
 [[nodiscard]] ProgrammedSurface lay_out(const Program& program);
 
-/// The motions of a cut pass in order, as the points where they end; the first is where the pass begins.
+/// The motions of a cut pass in order, as the points where they end; the first point is the start of the pass.
 struct ProgrammedPass {
     std::int64_t number = 0;       ///< of the cut passes, from 1
     PointRange points;             ///< of the surface

@@ -1,5 +1,5 @@
 #pragma once
-// Proposals: changed programs, run and held against the program as it is.
+// Proposals: changed programs, simulated and compared with the original program.
 
 #include <memory>
 #include <string>
@@ -12,11 +12,11 @@
 
 namespace clsurf {
 
-/// How far the tool axis may be turned away from the programmed one: a hundredth of a degree takes the centre of a ball of
-/// 6 mm radius 1 µm aside.
+/// Largest angle between the new and the programmed tool axis: a hundredth of a degree moves the centre of a ball of 6
+/// mm radius by 1 µm.
 inline constexpr double most_turned = 0.01 * rad_per_deg;
 
-/// Each place of a systematic lag counts: each may be levelled.
+/// Each place of a systematic lag counts, because each may be equalised.
 [[nodiscard]] inline QualityRules judged_place_by_place() {
     QualityRules rules;
     rules.group_systematic = false;
@@ -33,7 +33,7 @@ struct OptimizeRules {
     std::string header;  ///< text of the comment that says where the program comes from
 };
 
-/// A proposal held against the program.
+/// The comparison of a proposal with the program.
 struct Proof {
     bool accepted = false;
     std::string reason;  ///< why not, or empty
@@ -44,7 +44,7 @@ struct Proof {
     std::size_t defects_before = 0, defects_after = 0;  ///< by the thresholds of the run before
 };
 
-/// A draft with feeds, its run, and how that holds against the program's.
+/// A draft with feeds, its run, and the comparison with the run of the program.
 struct Proposal {
     std::shared_ptr<const Draft> draft;
     std::vector<float> targets;  ///< [mm/s] per motion of the draft: speeds that feeds hold it to; 0: none
@@ -66,26 +66,26 @@ public:
     [[nodiscard]] const JudgedRun& before() const { return before_; }
     [[nodiscard]] JudgedRun take_before() { return std::move(before_); }
     [[nodiscard]] const SimulationSummary& summary_before() const { return summary_before_; }
-    /// How long a proposal may take [s]: not longer than the program did, until more is allowed.
+    /// The longest time of a proposal [s]: that of the program, unless more is allowed.
     [[nodiscard]] double longest() const { return before_.duration * (1 + more_time_); }
-    /// From now on what the rules allow. As much of the search is left, at least, as with half of it done.
+    /// Applies the time that the rules allow from now on. At least as much of the search remains as after half of it.
     void allow_more_time();
     /// nullptr: the program is not run on five axes.
     [[nodiscard]] const Orientation* orientation() const { return orientation_.get(); }
     [[nodiscard]] const std::shared_ptr<const Kinematics>& kinematics() const { return kinematics_; }
-    /// Whether there is time for one more (for the first one there always is): all runs together have a bound, of which a share may be
-    /// used, and so have those in a row that are no better than the best.
+    /// Whether one more proposal may be tried (always for the first one). The total number of simulated points is
+    /// limited, of which a share may be used, and so is the number of consecutive proposals without improvement.
     [[nodiscard]] bool has_time(double share = 1) const;
 
     /// `targets`: as those of a Proposal, or none at all.
     Tried propose(const std::shared_ptr<const Draft>& draft, std::vector<float> targets);
     [[nodiscard]] const Tried& best() const { return best_; }
 
-    /// Accepted ones are better than others; then what leaves less mismatch and defects, and of two that are nearly as good the shorter.
+    /// Accepted proposals are better than others; then the one with less remaining mismatch and fewer defects; of two
+    /// nearly equal ones the shorter.
     [[nodiscard]] bool better(const Proposal& a, const Proposal& b) const;
 
-    /// The less, the better: what is left of mismatch and defects, as shares, the growth, and the time beyond that before where
-    /// more is allowed.
+    /// Lower is better: the remaining mismatch and defects, as fractions, and the additional time if more is allowed.
     [[nodiscard]] double score(const Proposal& proposal) const;
 
 private:

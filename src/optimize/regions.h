@@ -1,5 +1,5 @@
 #pragma once
-// Regions: where a changed program runs worse than the one it comes from, so that the old points are better there.
+// Regions: where a changed program runs worse than its original, so that the old points are better there.
 
 #include <cstdint>
 #include <vector>
@@ -14,9 +14,10 @@ struct RegionRules {
     int cells_aside = 1;  ///< … what lies so many to each side counts with each: a region covers the passes beside, too
 };
 
-/// Per motion of the program 1 where `after`, a run of the program with other points, is worse in cells of space than
-/// `before`, its own run: more defects or larger differences of speed to the neighbour passes, each as a share of what `before` has in all. Where `after`
-/// takes longer on the whole, so are the cells that cost most time for what they gain, until the others do not. O(points).
+/// Per motion of the program: 1 if `after`, a run of the program with other points, is worse in cells of space than
+/// `before`, the run of the program itself: more defects or larger speed differences to the adjacent passes, each as a
+/// fraction of the total of `before`. If `after` takes longer in total, the cells that cost most time for their benefit
+/// count as well, until the rest takes no longer. O(points).
 [[nodiscard]] std::vector<std::uint8_t> worse_motions(const JudgedRun& before, const JudgedRun& after,
                                                       const Program& program, const RegionRules& rules);
 

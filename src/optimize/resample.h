@@ -1,6 +1,6 @@
 #pragma once
-// Resampling: new points for stretches of a program, in step with the neighbour passes, on the smoothest way
-// inside a tube round the programmed lines.
+// Resampling: new points for sections of a program, aligned with the adjacent passes, on the smoothest path
+// inside a tube around the programmed lines.
 
 #include <cstdint>
 #include <span>
@@ -23,21 +23,21 @@ struct ResampleRules {
     double most_turned = 0;     ///< [rad] that the tool axis may be off, all in all
 };
 
-/// Motions first … last (lines that may be rewritten, on one pass) and the points that take the place of
-/// their ends. The last point is where they ended.
+/// Motions first … last (lines that may be rewritten, on one pass) and the points that replace their ends. The last
+/// point is where they ended.
 struct ResampledStretch {
     std::int64_t first = 0, last = 0;
     std::vector<Vec3> points;          ///< [mm]
     std::vector<LineAngles> angles{};  ///< one a point; none in programs without rotary axes
 };
 
-/// The spacing that lines need where the path bends most [mm]: for a chord error at the 98th percentile of curvature, between
-/// a fifth of the program's own usual spacing and the whole of it.
+/// The spacing of lines where the path bends most [mm]: for a chord error at the 98th percentile of curvature, between
+/// a fifth of the usual spacing of the program and the whole of it.
 [[nodiscard]] double fitting_spacing(const Program& program, const ProgrammedSurface& laid, double chord_error);
 
-/// Stretches of all passes, in the order of the program. `needed`: one entry a motion, 0 where it is to stay; empty:
-/// all are looked at. `orientation`: of a program that is run on five axes; else nullptr, and angles stand. The tool
-/// axis at a new point is what it was at its foot on the old lines. O(points), parallel.
+/// Sections of all passes, in the order of the program. `needed`: one entry per motion, 0 if it must not change; empty:
+/// all may. `orientation`: of a program that runs on five axes; otherwise nullptr, and angles stay. The tool axis at a
+/// new point is that of its projection onto the old lines. O(points), parallel.
 [[nodiscard]] std::vector<ResampledStretch> resample(const Program& program, const ProgrammedSurface& laid,
                                                      const LineEditor& editor, const ResampleRules& rules,
                                                      std::span<const std::uint8_t> needed,

@@ -1,5 +1,5 @@
 #pragma once
-// SmoothStretch: the smoothest curve along a stretch of a pass, at its stations.
+// SmoothStretch: the smoothest curve along a section of a pass, at its stations.
 
 #include <vector>
 
@@ -10,20 +10,20 @@
 
 namespace clsurf {
 
-/// The curve at all stations of a stretch, its ends before and behind them.
+/// The curve at all stations of a section, with its ends as first and last point.
 struct SmoothStretch {
     std::vector<double> way;   ///< [mm] along the old lines
     std::vector<Vec3> places;  ///< [mm] there on the old lines
     std::vector<Vec3> points;  ///< [mm] on the curve; the ends are the old ones
 };
 
-/// Akima's curve through the smoothest way in the tube round the old lines; its knots are the stations and the old points, at which the
-/// tube is narrowest. Between them it is held to most of the tolerance.
+/// Akima's curve through the smoothest path in the tube around the old lines. Its knots are the stations and the old
+/// points, where the tube is narrowest. Between them it stays inside most of the tolerance.
 class SmoothCurve {
 public:
     /// `old` must outlive it. O(points).
     SmoothCurve(const OldStretch& old, const std::vector<StationOfPass>& stations, const LineRules& rules);
-    /// After some way along the old lines [mm].
+    /// At an arc length along the old lines [mm].
     [[nodiscard]] Vec3 at(double way) const;
 
 private:

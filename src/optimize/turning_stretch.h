@@ -1,6 +1,6 @@
 #pragma once
-// TurningStretch: where the tool points along the old lines of a stretch, where it is to point on new ones, and how far those turn it
-// away.
+// TurningStretch: the tool axis along the old lines of a section, the tool axis for new lines, and the angle
+// between both.
 
 #include "optimize/line_edit.h"
 #include "optimize/orientation.h"
@@ -14,7 +14,7 @@ struct NewPlace {
     Vec3 position = Vec3::Zero();  ///< [mm]
 };
 
-/// How far a new line turns the tool axis away from the old ones.
+/// The largest angle between the tool axis on a new line and on the old ones.
 struct AxisError {
     double greatest = 0;    ///< [rad]
     std::size_t point = 0;  ///< the old point between its ends where it is greatest; 0: there is none
@@ -28,18 +28,18 @@ public:
     TurningStretch(const TurningStretch&) = delete;
     TurningStretch& operator=(const TurningStretch&) = delete;
 
-    /// Angles of a new line at one of its ends: at the foot on the old lines what the smoothest way of the angles in a tube has there; at an old
-    /// point those that it had.
+    /// Angles of a new line at one of its ends: the smoothest path of the angles in a tube, at the projection onto the
+    /// old lines; at an old point, its own angles.
     [[nodiscard]] RotaryAngles angles(const NewPlace& place) const;
-    /// The words for them: those of an old point as they stand.
+    /// The words for them: those of an old point are unchanged.
     [[nodiscard]] LineAngles words(const NewPlace& place) const;
-    /// The axis along a new line against that at the same part of the old ones between its ends, at old points and half-way
-    /// between them. O(old points between).
+    /// The axis along a new line compared with the axis at the same fraction of the old lines between its ends, at old
+    /// points and half-way between them. O(old points between).
     [[nodiscard]] AxisError error_of(const NewPlace& from, const NewPlace& to) const;
 
 private:
     [[nodiscard]] RotaryAngles at(double way) const;
-    /// The old point that a place is; 0: none.
+    /// The old point at a place; 0: none.
     [[nodiscard]] std::size_t old_point(const NewPlace& place) const;
 
     const OldStretch& old_;
