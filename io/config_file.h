@@ -1,6 +1,5 @@
 #pragma once
-// .clsurf.toml: options that need not be typed. Its keys are names of options; what they may hold is
-// the caller's to judge.
+// .clsurf.toml: default options. Its keys are names of options; the caller judges their values.
 
 #include <string>
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
-// What a file is that is neither a program nor a log that can be read: a table whose columns nobody has named, a log
-// in the place of a program, binary data. Said before a parser trips over it.
+// What a file is, if it is neither a program nor a readable log: a table with unnamed columns, a log instead
+// of a program, binary data. Reported before a parser fails on it.
 
 #include <optional>
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-// Text as HTML: what a program, a comment or a file name says is shown, and does nothing else.
+// Text as HTML: programs, comments and file names are displayed and have no other effect.
 
 #include <string>
 #include <string_view>

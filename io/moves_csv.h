@@ -1,6 +1,6 @@
 #pragma once
-// The motions of a program as CSV, one row a motion, in the active work coordinate system: mm, deg,
-// mm/min. Columns: line,kind,x,y,z,a,b,c,ci,cj,ck,turns,plane,feed; empty where not meant.
+// The motions of a program as CSV, one row per motion, in the active work coordinate system: mm, deg, mm/min.
+// Columns: line,kind,x,y,z,a,b,c,ci,cj,ck,turns,plane,feed; empty where they do not apply.
 
 #include <functional>
 #include <string_view>

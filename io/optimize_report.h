@@ -1,5 +1,5 @@
 #pragma once
-// What the optimiser did and how it was proved, as text and JSON.
+// The result of the optimiser and its evaluation, as text and JSON.
 
 #include <string>
 

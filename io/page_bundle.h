@@ -1,5 +1,5 @@
 #pragma once
-// What viz/page is built to (viz/page/dist), as the build put it into the program.
+// The build result of viz/page (viz/page/dist), embedded in the program.
 
 #include <string_view>
 

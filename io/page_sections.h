@@ -1,5 +1,5 @@
 #pragma once
-// The parts of a page that are read without JavaScript. Used inside io only.
+// The parts of a page that need no JavaScript. Used inside io only.
 
 #include <string>
 

@@ -1,7 +1,7 @@
 #pragma once
-// The page that `clsurf report` writes: one HTML file that asks nobody for anything. Summary, pictures, tables
-// and log health are plain HTML; the part itself stands behind them as packed columns
-// (page_pack.h), which the page's own program (viz/page) turns into the view.
+// The page that `clsurf report` writes: one HTML file that requests nothing from a server. Summary, pictures,
+// tables and log health are plain HTML. The part follows as packed columns (page_pack.h), which the script of
+// the page (viz/page) turns into the view.
 
 #include <optional>
 #include <span>

@@ -1,5 +1,5 @@
 #pragma once
-// Runs held against another one, as JSON and as a table for people.
+// The comparison of runs with a reference run, as JSON and as a table for people.
 
 #include <optional>
 #include <string>

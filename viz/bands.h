@@ -1,8 +1,8 @@
 #pragma once
-// Bands: triangles between neighbour passes, over vertices chosen along the way. They leave no vertex
-// out, so that no cracks open; seams close what bands leave: turns, pass ends, corners, where a loop
-// begins. A missing pass stays open. What is drawn is chosen by pixels (detail.h), what a page is
-// sent by what it must show (report/kept_points.h).
+// Bands: triangles between adjacent passes, over vertices selected along the path. They use every vertex, so
+// no cracks open. Seams fill the gaps of bands: turns, ends of passes, corners, the start of a loop. A missing
+// pass stays open. Pixels determine what is drawn (detail.h); required detail determines what a page gets
+// (report/kept_points.h).
 
 #include <cstdint>
 #include <span>

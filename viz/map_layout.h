@@ -1,5 +1,5 @@
 #pragma once
-// MapLayout: the sizes of what stands on a map's sheet, from the picture's size, and its inks.
+// MapLayout: the sizes of the items on the sheet of a map, from the size of the picture, and its inks.
 
 #include "viz/scene.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// MapMargin: what stands round a map: title, legend, scale bar, axes.
+// MapMargin: the items around a map: title, legend, scale bar, axes.
 
 #include "viz/colour_map.h"
 #include "viz/map_layout.h"

@@ -1,5 +1,5 @@
 #pragma once
-// Relief: a height map as a mesh, for maps of what is not a point of the log.
+// Relief: a height map as a mesh, for maps of quantities that do not belong to a point of the log.
 
 #include <span>
 

@@ -1,7 +1,7 @@
 #pragma once
-// Diagnostic: something survivable that the user should know, with a stable code and a place.
-// Diagnostics: a list that keeps the first few of each code and counts the rest, so that a log with
-// a million gaps gives a readable answer in bounded memory.
+// Diagnostic: a problem that does not end the run and that the user should know, with a stable code and a
+// place. Diagnostics: a list that keeps the first few of each code and counts the rest, so that a log with a
+// million gaps gives a readable answer in bounded memory.
 
 #include <cstdint>
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-// Values that are no number, by name.
+// Names of values that are not finite numbers.
 
 #include <limits>
 

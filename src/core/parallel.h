@@ -1,5 +1,5 @@
 #pragma once
-// The only way to parallelism. Everything else in the project sees ranges of indices.
+// The only access to parallelism. Everything else in the project sees ranges of indices.
 
 #include <cstdint>
 #include <functional>

@@ -1,5 +1,5 @@
 #pragma once
-// Place: where in which input something was found, as people and editors can follow it.
+// Place: where in which input a finding is, in a form that people and editors can follow.
 
 #include <cstdint>
 #include <string>

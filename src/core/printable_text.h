@@ -1,5 +1,5 @@
 #pragma once
-// Text of foreign files in messages: what a terminal would obey is shown instead of sent.
+// Text of foreign files in messages: control sequences are shown instead of sent to the terminal.
 
 #include <string>
 #include <string_view>

@@ -1,5 +1,6 @@
 #pragma once
-// Queue: first in, first out, with its items side by side in memory, so that a look at neighbours costs no more than in a vector.
+// Queue: first in, first out, with its items contiguous in memory, so that access to neighbouring items costs
+// no more than in a vector.
 
 #include <cstddef>
 #include <span>

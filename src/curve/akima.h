@@ -1,17 +1,17 @@
 #pragma once
-// Akima: a local interpolating spline through points in space (H. Akima, J. ACM 17 (1970) 589–602), with
-// chord lengths as knots and the weights taken from the lengths of vectors, so that the curve does not
-// depend on how the axes lie.
+// Akima: a local interpolating spline through points in space (H. Akima, J. ACM 17 (1970) 589–602). Chord
+// lengths are the knots, and the weights use the lengths of vectors, so the curve does not depend on the
+// orientation of the axes.
 //
-// Span i runs from point i to i + 1 over a local parameter u ∈ [0, h], h the chord:
+// Span i runs from point i to i + 1 over a local parameter u ∈ [0, h], where h is the chord:
 //   r(u) = A + B u + C u² + D u³,  A = P_i, B = s_i, C = (3 m − 2 s_i − s_{i+1})/h, D = (s_i + s_{i+1} − 2 m)/h²
 // with the slope m = (P_{i+1} − P_i)/h and tangents
 //   s_i = (|m_{i+1} − m_i| m_{i−1} + |m_{i−1} − m_{i−2}| m_i) / (|m_{i+1} − m_i| + |m_{i−1} − m_{i−2}|),
 // where slopes beyond the ends are extrapolated linearly.
 //
-// A tangent hangs on two points to either side. Who fits while points still come must wait for them: a
-// span that is fitted as soon as its end is known has a one-sided tangent there, and a path that is
-// run forth and back then becomes two curves, which on the neighbour passes of a zigzag shows.
+// A tangent depends on two points on each side. Fitting must wait for them: a span that is fitted as soon as
+// its end is known has a one-sided tangent there. Forward and backward passes would then get different curves,
+// which shows on adjacent passes of a zigzag.
 
 #include <array>
 #include <cstddef>

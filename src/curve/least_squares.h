@@ -1,8 +1,8 @@
 #pragma once
-// Least squares by cubics in Hermite's form: a curve with a continuous derivative that passes beside its points
-// where they scatter. (Cubics of windows that are fitted apart jump where they meet: by 1.9 σ on the mean for windows of
-// ten points.) Each cubic has its own variable from 0 to 1, in which the equations are well
-// conditioned wherever the points lie.
+// Least-squares fit by cubics in Hermite form: a curve with a continuous derivative that smooths points with
+// scatter. (Cubics fitted separately per window jump where they meet: by 1.9 σ on average for windows of ten
+// points.) Each cubic has its own variable from 0 to 1, so the equations are well conditioned wherever the
+// points are.
 
 #include <cstddef>
 #include <span>

@@ -1,5 +1,5 @@
 #pragma once
-// What three points and two lines tell: curvature, chord error, distance.
+// Quantities of three points and two lines: curvature, chord error, distance.
 
 #include "core/geometry.h"
 

@@ -1,12 +1,12 @@
 #pragma once
-// Constant-speed intervals: a pass cut where its curvature or its points change, so that each piece can
-// be run at one speed.
+// Constant-speed intervals: a pass divided where its curvature or its point spacing changes, so that each
+// interval can be run at one speed.
 //
 // After Wu et al., Speed Planning in the Constant Speed Interval, Machines 10 (2022) 558, with these
-// differences: curvature is used in place of its radius (a line is 0, not infinite); characteristic points
-// are found by polyline reduction; a boundary is moved to the point that changes most, so that both
-// directions of travel give the same; an interval over which curvature drifts is cut; the speed
-// keeps the normal acceleration at the greatest curvature, not only at the mean (optimize/intervals.h).
+// differences: curvature replaces its radius (a line is 0, not infinite); polyline reduction finds the
+// characteristic points; a boundary moves to the point of largest change, so that both directions of travel
+// give the same result; an interval over which curvature drifts is divided; the speed limits the normal
+// acceleration at the maximum curvature, not only at the mean (optimize/intervals.h).
 
 #include <cstddef>
 #include <span>

@@ -1,7 +1,7 @@
 #pragma once
-// The smoothest way through a tube: points that may leave their places by so much, and lie so that
-// the path bends as evenly as it can. What an axis feels of a bend at speed v is x‴ v³, so the sum of the squares of
-// the third derivatives is what is made small.
+// The smoothest path inside a tube: points may leave their positions by a given distance, and the path bends
+// as evenly as possible. At speed v an axis feels x‴ v³ of a bend, so the sum of the squared third derivatives
+// is minimised.
 
 #include <span>
 #include <vector>

@@ -1,5 +1,5 @@
 #pragma once
-// The range that a map shows, by rule: outliers and what does not cut must not flatten the colours.
+// The range of a map, by rule: outliers and non-cutting points must not flatten the colours.
 
 #include <functional>
 #include <span>

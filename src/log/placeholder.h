@@ -1,5 +1,5 @@
 #pragma once
-// Placeholder: a position that stands in a log where none was recorded. The path jumps to it, always exactly the same, and
+// Placeholder: a position in a log where none was recorded. The path jumps to it, always exactly the same, and
 // returns to where it was.
 
 #include <array>

@@ -1,5 +1,5 @@
 #pragma once
-// The step in which a recorded position comes: what cannot be told from rounding must not be judged.
+// The step of recorded positions. Differences that rounding alone can explain must not be judged.
 
 #include "core/channel_view.h"
 

@@ -1,6 +1,6 @@
 #pragma once
-// Machine: what the controller's stand-in has to keep to, and how the drives follow. A value with
-// the defaults of `clsurf machine --defaults`; io/machine_file.h reads it from TOML.
+// Machine: the limits that the simulated controller keeps, and the dynamics of the drives. A value with the
+// defaults of `clsurf machine --defaults`; io/machine_file.h reads it from TOML.
 
 #include <array>
 #include <string>

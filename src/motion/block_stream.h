@@ -1,6 +1,6 @@
 #pragma once
-// BlockStream: a program's motions as path elements, in sections that lie between two exact stops.
-// What shapes the path on the way to PathStream takes its elements from such a source and is one itself.
+// BlockStream: the motions of a program as path elements, in sections between two exact stops. Each stage that
+// shapes the path before PathStream reads its elements from such a source and is one itself.
 
 #include "core/geometry.h"
 #include "machine/machine.h"

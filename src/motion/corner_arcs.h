@@ -1,6 +1,6 @@
 #pragma once
-// CornerArcs: puts a transition arc in the place of every corner that has one. The first half of an arc
-// belongs to the block before, the second to the one behind.
+// CornerArcs: replaces every corner that has a transition arc by this arc. The first half of an arc belongs to
+// the block before the corner, the second half to the block after it.
 
 #include <deque>
 

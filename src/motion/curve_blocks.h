@@ -1,13 +1,12 @@
 #pragma once
-// CurveBlocks: puts curves in the place of short lines that follow each other without a sharp corner. Akima's
-// curve goes through their points, one for each constant-speed interval (curve/speed_intervals.h), which is
-// known as a whole when its curve is made: a path that is run back is the same curve. Cubics of least
-// squares go beside the points, over windows of ten blocks.
-// Each block becomes the part of the curve that it stands for, so that lines, feeds and look-ahead stay
-// those of the program.
+// CurveBlocks: replaces consecutive short lines without a sharp corner by curves. An Akima curve goes through
+// their points, one per constant-speed interval (curve/speed_intervals.h). The interval is known as a whole
+// when its curve is made, so both directions of travel give the same curve. Least-squares cubics pass near the
+// points, over windows of ten blocks. Each block becomes its part of the curve, so that lines, feeds and
+// look-ahead remain those of the program.
 //
-// Curves may take half of the tolerance: a block that would leave it stays a line. The rest
-// is for the roundings where curves and lines meet.
+// Curves may use half of the tolerance. A block whose curve would exceed it stays a line. The rest is for the
+// roundings where curves and lines meet.
 
 #include <deque>
 #include <vector>

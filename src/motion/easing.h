@@ -1,5 +1,5 @@
 #pragma once
-// Easing: a lower speed on a span, that leaves some of the tangential limits to ramps through its bend.
+// Easing: a lower speed on a span, which leaves part of the tangential limits to ramps through its bend.
 
 #include "machine/machine.h"
 #include "motion/path_stream.h"

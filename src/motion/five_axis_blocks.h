@@ -1,6 +1,6 @@
 #pragma once
-// The blocks of a five-axis program as the simulator runs them: the way of the tip for the planner, the way
-// of the tool axis, and how fast the axes let each be run.
+// The blocks of a five-axis program as the simulator runs them: the tip path for the planner, the path of the
+// tool axis, and the speed that the axes allow on each block.
 
 #include <array>
 #include <limits>

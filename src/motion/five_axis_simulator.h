@@ -1,13 +1,12 @@
 #pragma once
-// Five axes: the way of the tool's tip is planned as that of three (motion/simulator.h); the tool axis goes
-// along, each period's tip and angles become positions of all five axes, and servo loops follow those.
+// Five axes: the tip path is planned as on three axes (motion/simulator.h). The tool axis moves along with it.
+// In each period the tip and the angles become positions of all five axes, and servo loops follow these.
 //
-// Angles are functions of the way within a block, smoothed in time over a few periods where blocks meet; what
-// a rounded corner skips of them is made up for behind it.
-// The tip keeps to its path meanwhile, because the linear axes are computed from what the angles are.
-// What the axes cannot run is found by running it: blocks on which speed, acceleration or jerk of an axis is too
-// great are made slower, in rounds, until all limits hold; after some rounds the tip's jerk is lowered, too. Cost: that of
-// the planner a round.
+// Within a block the angles are functions of arc length. Where blocks meet they are smoothed in time over a
+// few periods. Angles that a rounded corner skips are recovered after it. The tip stays on its path, because
+// the linear axes are computed from the smoothed angles. A trial run finds what the axes cannot follow: blocks
+// on which speed, acceleration or jerk of an axis is too high become slower, in rounds, until all limits hold.
+// After some rounds the jerk of the tip is lowered too. Cost: one planner run per round.
 
 #include <functional>
 #include <span>

@@ -1,6 +1,6 @@
 #pragma once
-// Interpolator: runs planned speeds against one clock for the whole program. Sample k is the position at
-// k T; what is left of a period at the end of a piece goes on into the next.
+// Interpolator: runs planned speeds against one clock for the whole program. Sample k is the position at k T;
+// the rest of a period at the end of a section continues in the next one.
 
 #include <span>
 

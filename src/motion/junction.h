@@ -1,5 +1,5 @@
 #pragma once
-// Where two blocks meet: how much the direction turns, and how fast a curvature may be passed.
+// Joints between two blocks: the change of direction, and the highest speed at a given curvature.
 
 #include "core/geometry.h"
 

@@ -1,9 +1,10 @@
 #pragma once
-// LimitRows: the limits of a SpeedProblem in the steps of its interior-point method, four side by side.
+// LimitRows: the limits of a SpeedProblem as rows of its interior-point method, four side by side.
 //
-// A row is −low/√m ≤ w · c ≤ 1/√m, c the three coefficients of b about its cell: for a jerk m is b at its place,
-// otherwise 1. Each side is g ≥ 0 with its slack s > 0, equal to g once a start that breaks limits has been mended,
-// and its multiplier. What is told of a row to the Newton matrix falls on its cell's three coefficients.
+// A row is −low/√m ≤ w · c ≤ 1/√m, where c are the three coefficients of b around its cell. For a jerk limit m
+// is b at this place, otherwise 1. Each side is g ≥ 0 with a slack s > 0 and a multiplier. The slack equals g
+// once an infeasible start has been corrected. The contribution of a row to the Newton matrix affects the
+// three coefficients of its cell.
 
 #include <array>
 #include <cstdint>

@@ -1,13 +1,13 @@
 #pragma once
 // Look-ahead: speeds at the nodes between blocks, and the planning of a window of spans as runs.
 //
-// The scan goes backward and forward once (jerk-limited: the reach of a ramp in place of v² = 2aL,
-// which leaves blocks that no jerk-limited profile can run). Zero acceleration at every node would
-// waste time in short blocks, so that spans are joined to *runs*, each planned as one seven-phase
-// profile. A run's profile is held against the limits of every span in it, with the speed and
-// acceleration it has there; where one does not hold, the run gets lower tangential limits or is
-// divided at the worst span. A single span always holds: the scan is the guarantee. How much of the limits
-// ramps through bends should get is tried in a few ways for each window, and the fastest plan is taken.
+// The scan goes backward and forward once. With a jerk limit it uses the reach of a ramp instead of v² = 2aL,
+// which would give blocks that no jerk-limited profile can run. Zero acceleration at every node would waste
+// time in short blocks, so spans are joined to *runs*, each planned as one seven-phase profile. The profile of
+// a run is checked against the limits of every span in it, at its speed and acceleration there. If one is
+// exceeded, the run gets lower tangential limits or is divided at the worst span. A single span never exceeds
+// its limits: the scan guarantees it. Several shares of the limits for ramps through bends are tried for each
+// window, and the fastest plan is used.
 
 #include <limits>
 #include <span>

@@ -1,6 +1,6 @@
 #pragma once
-// PathElement: one motion of a program, or a part of one, as a curve by its way: a line, an arc, a helix or
-// a cubic.
+// PathElement: one motion of a program, or a part of one, as a curve over arc length: a line, an arc, a helix
+// or a cubic.
 
 #include <limits>
 

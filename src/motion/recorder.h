@@ -1,6 +1,6 @@
 #pragma once
-// Recorder: takes the commanded positions, a period each, lets the servo loops follow them, measures
-// both and hands them on in blocks.
+// Recorder: receives the commanded position of each period, runs the servo loops, measures both and passes
+// them on in blocks.
 
 #include <algorithm>
 #include <array>

@@ -1,11 +1,11 @@
 #pragma once
-// Refiner: takes the runs of the look-ahead, whose acceleration is zero at every node, and makes nearly
-// time-optimal speeds of them, which carry acceleration through the nodes.
+// Refiner: turns the runs of the look-ahead, whose acceleration is zero at every node, into nearly
+// time-optimal speeds that carry acceleration through the nodes.
 //
-// A window of runs is divided into cells; SpeedProblem finds the fastest speeds between the states at its
-// ends. Most of a window is then run, the rest begins the next one. The runs are what it falls back on:
-// they hold every limit, and each window ends in their state. What cannot be made faster is
-// passed on as it is: a run on straight spans between rests, a long cruise at the speed allowed.
+// A window of runs is divided into cells. SpeedProblem finds the fastest speeds between the states at its
+// ends. Most of a window is then run; the rest begins the next window. The runs are the fallback: they keep
+// every limit, and each window ends in one of their states. Runs that cannot become faster pass unchanged: a
+// run on straight spans between rests, and a long cruise at the permitted speed.
 
 #include <deque>
 #include <vector>

@@ -1,8 +1,8 @@
 #pragma once
-// ScanDriver: runs sections of a path on a machine without a jerk limit, by SpeedScan.
+// ScanDriver: runs sections of a path on a machine without a jerk limit, with SpeedScan.
 //
-// The spans of a window of blocks are divided into cells; half of the window is driven, then it is planned
-// anew. As cells stay what they are and each plan ends at rest, there always is one that goes on from the last.
+// The spans of a window of blocks are divided into cells. Half of the window is run, then it is planned again.
+// The cells do not change and each plan ends at rest, so a plan that continues the last one always exists.
 
 #include <deque>
 #include <functional>

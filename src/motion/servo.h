@@ -1,13 +1,13 @@
 #pragma once
-// ServoLoop: where an axis is when it is told to be somewhere: a discrete position loop with velocity
-// feed-forward round a first-order velocity loop.
+// ServoLoop: the position of an axis for a given set point: a discrete position loop with velocity
+// feed-forward around a first-order velocity loop.
 //
 //     v_ref = Kv (cmd − x) + c_ff · cmd′,    T_v v′ + v = v_ref,    x′ = v
 //
-// At constant speed v the lag is v (1 − c_ff)/Kv. Coulomb friction takes f from v_ref in the direction of
-// motion, and holds an axis at rest while |v_ref| ≤ f: the lag grows by f/Kv, and after a reversal
-// the axis stands until the loop has wound up. The loop closes over the drive; the encoder is at the
-// table, which follows with the play of the backlash.
+// At constant speed v the lag is v (1 − c_ff)/Kv. Coulomb friction subtracts f from v_ref in the direction of
+// motion and holds an axis at rest while |v_ref| ≤ f: the lag grows by f/Kv, and after a reversal the axis
+// rests until the loop has built up enough error. The loop closes on the drive; the encoder is on the table,
+// which follows with the lost motion of the backlash.
 
 #include <algorithm>
 #include <cmath>

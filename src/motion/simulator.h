@@ -1,5 +1,5 @@
 #pragma once
-// The controller stood in for: a program and a machine → what its interpolation log would hold.
+// Controller simulation: from a program and a machine to the contents of the interpolation log.
 
 #include <functional>
 #include <span>

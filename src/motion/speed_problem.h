@@ -1,15 +1,15 @@
 #pragma once
 // SpeedProblem: the fastest speeds along a given path under limits of speed, acceleration and jerk.
 //
-// Unknown is b(u) = v², u the way, a quadratic spline with one coefficient c to a cell: then
-// a = b′/2 is continuous and the jerk is √b b″/2. With the path's derivatives x′, x″, x‴, an axis each,
+// The unknown is b(u) = v², where u is arc length: a quadratic spline with one coefficient c per cell. Then a
+// = b′/2 is continuous and the jerk is √b b″/2. With the derivatives of the path x′, x″, x‴ for each axis,
 //
-//     |x′ b′/2 + x″ b| ≤ A,      |x′ b″/2 + 3/2 x″ b′ + x‴ b| ≤ J/√b,
+//     |x′ b′/2 + x″ b| ≤ A,      |x′ b″/2 + 3/2 x″ b′ + x‴ b| ≤ J/√b.
 //
-// the first linear, the second with a right side convex in b: its tangent lies below it, so that every
-// step that holds the linearised limits holds the limits themselves. The time ∫ du/√b is convex.
-// Solved by a primal-dual interior-point method; c being coupled to two neighbours on either side, the
-// Newton matrix has five diagonals, and a step costs time linear in cells.
+// The first limit is linear. The second has a right side that is convex in b: its tangent lies below it, so
+// every step that keeps the linearised limits keeps the limits themselves. The time ∫ du/√b is convex. A
+// primal-dual interior-point method solves the problem. Each c is coupled to two neighbours on either side, so
+// the Newton matrix has five diagonals, and a step costs time linear in cells.
 
 #include <array>
 #include <cmath>

@@ -1,11 +1,11 @@
 #pragma once
-// SpeedScan: the fastest speeds along a given path under limits of speed and acceleration alone.
+// SpeedScan: the fastest speeds along a given path under limits of speed and acceleration only.
 //
-// Between two knots the acceleration a is constant, so that b = v² is linear in the way u. With the path's
-// derivatives x′, x″, an axis each, the limits |x′ a + x″ b| ≤ A at places of a cell are linear in a and in b at
-// its begin. Backward over the cells, the greatest b at each knot is found from which the rest can be
-// driven: a linear program in two unknowns. Forward, each cell takes the greatest a that stays below. Time and
-// memory are linear in the cells (Pham and Pham 2018, reachability analysis).
+// Between two knots the acceleration a is constant, so b = v² is linear in arc length u. With the derivatives
+// of the path x′, x″ for each axis, the limits |x′ a + x″ b| ≤ A at places of a cell are linear in a and in
+// the b at its start. The backward pass finds the largest b at each knot from which the rest of the path is
+// feasible: a linear program in two unknowns. In the forward pass each cell uses the largest a that stays
+// below. Time and memory are linear in the cells (Pham and Pham 2018, reachability analysis).
 
 #include <vector>
 

@@ -1,12 +1,12 @@
 #pragma once
-// ToolAxisPath: how the tool axis goes from one direction to the next within a block, as angles of the
+// ToolAxisPath: the motion of the tool axis from one direction to the next within a block, as angles of the
 // rotary axes.
 //
-// linear: both angles in proportion to the way; the axis leaves the plane of its two ends. vector: along
-// the great circle between them; near the pole the axis of rotation then runs away, with a peak of
-// 1/sin A per angle of the tool, A the least angle from the pole. safe: along the great circle but near
-// the pole, where the tilting axis goes on to the other side if the error of that is tolerated, or the
-// rotation follows an odd cubic that its axis can run.
+// linear: both angles are proportional to arc length; the axis leaves the plane of its two ends. vector: along
+// the great circle between them; near the pole the axis of rotation becomes very fast, with a peak of 1/sin A
+// per angle of the tool, where A is the smallest angle from the pole. safe: along the great circle, except
+// near the pole. There the tilting axis continues to the other side if the tolerance permits the deviation, or
+// the rotation follows an odd cubic that its axis can run.
 
 #include <span>
 

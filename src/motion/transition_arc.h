@@ -1,11 +1,11 @@
 #pragma once
-// The circular arc that takes a corner's place: tangent to both blocks, no farther from the corner than a
-// contour error allows, and on neither block longer than its share of it.
+// The circular arc that replaces a corner: tangent to both blocks, no farther from the corner than the contour
+// error permits, and on neither block longer than its share.
 //
-// After Li et al. 2025 (Eqs. 5, 6) and Shao 2022 (Eqs. 2 … 21), whose tangent in place of a given arc is
-// replaced by the arc itself. With the deflection α, between lines: e = l tan(α/4), r = l / tan(α/2). In
-// general a circle touches the blocks in Q0 and Q2 when its chord has the same angle to both tangents,
-// (Q2 − Q0) · (t0 − t2) = 0, and its radius is then |Q2 − Q0| / (2 sin(φ/2)), φ the angle between them.
+// After Li et al. 2025 (Eqs. 5, 6) and Shao 2022 (Eqs. 2 … 21), who use the tangent of a given arc; here the
+// arc itself is used. With the deflection α between lines: e = l tan(α/4), r = l / tan(α/2). In general a
+// circle touches the blocks in Q0 and Q2 if its chord has the same angle to both tangents, (Q2 − Q0) · (t0 −
+// t2) = 0. Its radius is then |Q2 − Q0| / (2 sin(φ/2)), where φ is the angle between the tangents.
 
 #include <cstdint>
 

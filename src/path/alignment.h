@@ -1,12 +1,12 @@
 #pragma once
-// Alignment of a log without line numbers and its program: points advance monotonically along the
-// programmed path.
+// Alignment of a log without line numbers with its program: points advance monotonically along the programmed
+// path.
 //
-// For each point the foot on the path is looked for from the last foot on, in a window of way that
-// the tool can have gone since (the chord between the points, more where a corner is cut). The
-// nearest foot wins; among equally near ones (out and back on the same way, a path that crosses
-// itself) the one whose way fits the chord. Where the foot stays far away the walk is lost and
-// starts again at the best place of the program, forward first, found by a grid over the motions.
+// Each point is projected onto the path. The search starts from the last projection and covers the arc length
+// that the tool can have travelled since (the chord between the points, more if a corner is cut). The nearest
+// projection wins. Among equally near ones (back and forth on the same line, a path that crosses itself), the
+// one whose arc length fits the chord wins. If the projection stays far away, the alignment is lost and starts
+// again at the best place of the program, forward first, found by a grid over the motions.
 
 #include "core/diagnostic.h"
 #include "path/line_map.h"

@@ -1,6 +1,6 @@
 #pragma once
-// Chords: for a point that moves along a run, the points a given way behind and ahead of it.
-// Direction over a way, not over a number of samples, does not drown in noise where the tool is slow.
+// Chords: for a point that moves along a run, the points a given arc length before and after it. A direction
+// over an arc length, not over a number of samples, is not lost in noise where the tool is slow.
 
 #include "core/point.h"
 #include "path/way.h"

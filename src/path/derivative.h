@@ -1,7 +1,7 @@
 #pragma once
-// Derivatives that are honest about quantised positions: Savitzky–Golay, a least-squares polynomial
-// over a window of about 20 ms (Savitzky, Golay 1964). Exact on polynomials of its order, no lag;
-// towards the ends of a piece the window stays inside it and the polynomial is read off centre.
+// Derivatives of quantised positions: Savitzky–Golay, a least-squares polynomial over a window of about 20 ms
+// (Savitzky, Golay 1964). Exact on polynomials of its order, without phase lag. Towards the ends of a section
+// the window stays inside it, and the polynomial is evaluated off centre.
 
 #include <span>
 #include <vector>

@@ -1,15 +1,15 @@
 #pragma once
-// Kalman smoother: position, speed, acceleration and jerk of an axis from all that was measured of it, as
-// one consistent estimate, with the standard deviation that is left.
+// Kalman smoother: position, speed, acceleration and jerk of an axis from all of its measurements, as one
+// consistent estimate with its standard deviation.
 //
-// Fixed-interval smoothing after Rauch, Tung, Striebel 1965 ("Maximum likelihood estimates of linear
-// dynamic systems"). State p, v, a, j; the jerk is constant but for white snap of density q:
+// Fixed-interval smoothing after Rauch, Tung, Striebel 1965 ("Maximum likelihood estimates of linear dynamic
+// systems"). State p, v, a, j; the jerk is constant except for white snap of density q:
 //
 //     p' = v,  v' = a,  a' = j,  j' = w,   E w(t) w(s) = q δ(t − s)
 //
-// Measured are positions, and where there are any, speeds and accelerations. The gains do not depend on the data:
-// they are computed once, from a start of which nothing is known until they settle, so that a point costs some
-// hundred operations. Estimates are exact on cubics. Away from both ends the variance is constant.
+// The measurements are positions, and speeds and accelerations if the log has them. The gains do not depend on
+// the data: they are computed once, from an unknown start until they settle, so a point costs some hundred
+// operations. Estimates are exact on cubics. Away from both ends the variance is constant.
 
 #include <array>
 #include <limits>

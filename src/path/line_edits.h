@@ -1,6 +1,6 @@
 #pragma once
-// Lines of a program that was edited after the run: the log's numbers are those of the old text. Where a number
-// belongs now is found by matching the logged path with the motions of the new text.
+// Lines of a program that was edited after the run. The line numbers of the log belong to the old text.
+// Matching the logged path with the motions of the new text gives the new line of each number.
 
 #include <optional>
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-// MotionGrid: which motions of a program come near a place. Built only where an alignment is lost.
+// MotionGrid: the motions of a program near a place. Built only if an alignment is lost.
 
 #include <cstdint>
 #include <unordered_map>

@@ -1,6 +1,6 @@
 #pragma once
-// Pieces: the stretches of a trajectory over which its points may be smoothed together. A window that
-// reached across a link or a gap in time would invent speeds that the tool never had.
+// Pieces: the sections of a trajectory over which its points may be smoothed together. A window across a link
+// or a gap in time would give speeds that the tool never had.
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 #pragma once
-// The step-over of a finishing program: how far neighbour passes are apart, estimated from the way
-// itself (median distance from a sample to the nearest part of the way that is not its own pass).
+// The step-over of a finishing program: the distance of adjacent passes, estimated from the path itself
+// (median distance from a sample to the nearest part of the path that is not its own pass).
 
 #include "path/passes.h"
 #include "path/way.h"

@@ -1,7 +1,6 @@
 #pragma once
-// The motions of a five-axis program as ways of the tool's tip in the workpiece, so that what is known of
-// three axes (lines, arcs, the nearest motion) serves five; and the angles of tool axes that a program
-// gives as vectors.
+// The motions of a five-axis program as tip paths in the workpiece, so that the geometry of three axes (lines,
+// arcs, the nearest motion) serves five; and the angles of tool axes that a program gives as vectors.
 
 #include "machine/machine.h"
 #include "program/program.h"

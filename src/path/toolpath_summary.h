@@ -1,5 +1,5 @@
 #pragma once
-// How much of what a program does: counts, cutting length, bounds.
+// The contents of a program in numbers: counts, cutting length, bounds.
 
 #include "core/geometry.h"
 #include "path/toolpath.h"

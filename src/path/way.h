@@ -1,6 +1,6 @@
 #pragma once
-// Way: how far the tool goes from point to point, and in all: a prefix sum for every 64th point only,
-// which is enough to know in O(1) that two points lie far apart along the way.
+// Way: arc length from point to point and in total. A prefix sum for every 64th point is enough to know in
+// O(1) that two points are far apart along the path.
 
 #include "core/column.h"
 #include "path/positions.h"

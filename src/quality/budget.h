@@ -1,5 +1,5 @@
 #pragma once
-// Budget: limits with names, and a report held against those that are set.
+// Budget: limits with names, and the comparison of a report with the ones that are set.
 
 #include <algorithm>
 #include <optional>

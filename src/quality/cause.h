@@ -1,6 +1,6 @@
 #pragma once
-// What makes a pass differ: read from the shape of the mismatch along the pass, and from what the
-// program does there.
+// The cause of a difference between passes, from the shape of the mismatch along the pass and from the program
+// at this place.
 
 #include <span>
 

@@ -1,7 +1,7 @@
 #pragma once
-// Contact: where a turning tool touches the surface that it forms, from its tip (the CL point) and the
-// surface normal. Three axes: the tool's axis is +z. A ball is a torus whose tube has the tool's own
-// radius, a flat tool one whose tube has none, so one formula serves all three.
+// Contact: where a rotating tool touches the surface, computed from its tip (the CL point) and the surface
+// normal. Three axes: the tool axis is +z. A ball is a torus whose tube has the radius of the tool, a flat
+// tool one whose tube has none, so one formula serves all three tools.
 
 #include "core/geometry.h"
 #include "quality/tool.h"

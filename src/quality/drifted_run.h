@@ -1,7 +1,6 @@
 #pragma once
-// The run that drifted: of three or more runs of a part, the one that departs from what the others do.
-// At each place the middle one of all runs is what is usual there, so that the run that all were
-// compared with may be the one that drifted.
+// The run that drifted: of three or more runs of a part, the one that departs from the others. At each place
+// the median of all runs is normal, so the reference run itself may be the one that drifted.
 
 #include <optional>
 #include <vector>

@@ -1,5 +1,5 @@
 #pragma once
-// Explanations: heights that lie where the motion differs are its effect.
+// Explanations: heights at places where the motion differs are the effect of that motion.
 
 #include <cstddef>
 #include <span>

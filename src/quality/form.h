@@ -1,12 +1,13 @@
 #pragma once
-// Form: the smooth surface that a formed one is measured against, since the design surface is not known:
-// the one through the commanded contact points, but for those that the tool cuts away again. What is left over it are scallops, lags and marks.
+// Form: the smooth surface from which deviations of the as-machined surface are measured, because the design
+// surface is unknown. It passes through the commanded contact points, except for those that the tool cuts away
+// again. Deviations from it are scallops, lags and marks.
 //
-// At the knots of a grid, a step-over apart, a quadratic is fitted to the contact points within three
-// step-overs (tricube weights by distance; the fit is repeated twice with bisquare weights, so that one
-// pass that the program put elsewhere does not bend it). Between knots their quadratics run into each
-// other. Three step-overs: a form of 0.1 mm⁻³ (fourth derivative) then gives less than 0.3 µm of error
-// at 0.3 mm, and ten would give 30 µm; sharp edges of the form are rounded within that distance.
+// At the knots of a grid, one step-over apart, a quadratic is fitted to the contact points within three
+// step-overs (tricube weights by distance; two repetitions with bisquare weights, so that one pass that is
+// programmed elsewhere does not bend it). Between knots the quadratics blend into each other. Three
+// step-overs: a form of 0.1 mm⁻³ (fourth derivative) then gives less than 0.3 µm of error at 0.3 mm, and ten
+// would give 30 µm; sharp edges of the form are rounded within that distance.
 
 #include <array>
 #include <vector>

@@ -1,7 +1,7 @@
 #pragma once
-// FormedReport: roughness and marks of a part, measured on its formed surface in patches, so that the
-// cost does not grow with the part: some patches spread evenly over the cutting points tell roughness,
-// and a profile across each defect tells how deep it is once its neighbours have cut.
+// FormedReport: roughness and marks of a part, measured on patches of its as-machined surface, so that the
+// cost does not grow with the part. Patches spread evenly over the cutting points give the roughness. A
+// profile across each defect gives its depth after its neighbours have cut.
 
 #include <vector>
 

@@ -1,16 +1,15 @@
 #pragma once
-// FormedSurface: what the tool leaves standing: over each place the lowest point of the tool's outline
-// on all of its way (the paper's fourth surface). Scallops, lags and differences between passes add
-// up in it as they do on the part: a pit goes through in full, a bulge is cut down by its neighbours.
+// FormedSurface: the as-machined surface. Over each place it is the lowest point of the tool outline along the
+// whole path (the fourth surface of Wu et al.). Scallops, lags and differences between passes add up as they
+// do on the part: a pit keeps its depth, and neighbours cut a bulge down.
 //
-// The tool is swept along the straight segments between positions, smoothed over a stated window inside
-// one piece of the way, since what an encoder rounds is not cut. Each segment is looked at only in a
-// strip about its contact line, where it can be the lowest one, so that the cost is that of the
-// points times few cells, whatever the tool's radius. What is swept: passes, and links between passes
-// of one cutting run that stay low (no more than a step-over above their ends). Rapids, approaches and
-// high links leave nothing.
+// The tool is swept along the straight segments between positions, smoothed over a stated window inside one
+// section, because the rounding of an encoder is not cut. Each segment is computed only in a strip around its
+// contact line, where it can be the lowest one, so the cost is that of the points times a few cells, whatever
+// the tool radius is. Swept are passes, and links between passes of one cutting run that stay low (at most a
+// step-over above their ends). Rapids, approaches and high links remove nothing.
 //
-// Three axes, axis +z. A height map has one height over each place: walls steeper than 87° are left out.
+// Three axes, tool axis +z. A height map has one height over each place: walls steeper than 87° have none.
 
 #include <functional>
 #include <span>

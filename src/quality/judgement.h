@@ -1,6 +1,7 @@
 #pragma once
-// Judgement: whether the data of a report allow a verdict at all. A report without defects says nothing where nothing could be
-// compared, so such a report is "not judged": it meets no budget, and `check` exits with its own code.
+// Judgement: whether the data of a report allow a verdict. A report without defects means nothing where
+// nothing could be compared. Such a report is "not judged": it meets no budget, and `check` exits with its own
+// code.
 
 #include <algorithm>
 #include <string>

@@ -1,6 +1,6 @@
 #pragma once
-// KnotPath: a run without the points at which the tool stood (almost) still: the chain of chords that
-// another run is laid onto. Noise of a standing axis is no way.
+// KnotPath: a run without the points at which the tool (almost) stopped: the chain of chords with which
+// another run is aligned. Noise of a resting axis adds no arc length.
 
 #include "surface/station.h"
 

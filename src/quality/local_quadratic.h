@@ -1,6 +1,6 @@
 #pragma once
-// LocalQuadratic: a quadratic fitted to places about a knot by weighted least squares, robust against some
-// that lie elsewhere (bisquare weights by what the fit before left over: Cleveland's local regression).
+// LocalQuadratic: a quadratic fitted to places around a knot by weighted least squares, robust against
+// outliers (bisquare weights from the residuals of the previous fit: Cleveland's local regression).
 
 #include <array>
 #include <cstddef>

@@ -1,5 +1,5 @@
 #pragma once
-// The median of what a few passes say of a quantity, where some say nothing.
+// The median over a few passes of a quantity that some of them may lack.
 
 #include <array>
 #include <cstddef>

@@ -1,11 +1,11 @@
 #pragma once
-// Mismatch: how a place of a pass differs from the places beside it on the neighbour passes.
+// Mismatch: how a place of a pass differs from the adjacent places on the neighbouring passes.
 //
-// Two measures for each quantity. The *step* is the largest difference to the two adjacent passes, less what goes on from them to
-// the next ones: it is what shows on the part. The *residual* is the difference to the median over up to five passes on
-// each side: it tells which of the two passes is at fault, and it is nothing where all passes change
-// together. Accelerations are compared as vectors in the workpiece frame: along the path, one pass of
-// a zigzag brakes where the next one speeds up.
+// Each quantity has two measures. The *step* is the largest difference to the two adjacent passes, minus the
+// trend that continues to the passes beyond them: it is what shows on the part. The *residual* is the
+// difference to the median over up to five passes on each side: it tells which of the two passes causes the
+// step, and it is zero where all passes change together. Accelerations are compared as vectors in workpiece
+// coordinates: along the path, one pass of a zigzag brakes where the next one accelerates.
 
 #include <array>
 #include <cstdint>

@@ -1,11 +1,12 @@
 #pragma once
-// Opposites: parts of a group of suspects that differ from the passes beside them in opposite directions. A pit beside a bulge
-// is two defects; as one, its depth would be that of the deeper one and its place between both.
+// Opposites: parts of a group of suspects that differ from the adjacent passes in opposite directions. A pit
+// next to a bulge is two defects; as one, its depth would be that of the deeper one and its place between
+// both.
 //
-// Three things have both signs and stay whole: what has one sign on the way forward and the other on the way back (the lag of
-// a zigzag), a swing, which changes its sign along one pass (a height's twice or more), and the
-// edge of a band of passes. There the passes on both sides of the edge differ from the median of both, in opposite
-// directions, and each agrees with the next one on its own side.
+// Three cases have both signs and stay whole: a difference that alternates with the direction of travel (the
+// lag of a zigzag); an oscillation, which changes its sign along one pass (a height at least twice); and the
+// edge of a band of passes. There the passes on both sides of the edge differ from the median of both, in
+// opposite directions, and each agrees with the next one on its own side.
 
 #include "path/way.h"
 #include "quality/suspects.h"

@@ -1,5 +1,5 @@
 #pragma once
-// The predictor's fields: what a point has against the passes beside it, as colours and curves.
+// The fields of the predictor: differences of a point to the adjacent passes, as colours and curves.
 
 #include <span>
 #include <string_view>

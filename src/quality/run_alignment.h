@@ -1,14 +1,14 @@
 #pragma once
-// Run alignment: two runs of a part laid onto each other by path, not by time: for each point of run A
-// the place of run B where the tool was at the same spot of the same pass.
+// Run alignment: two runs of a part aligned by path, not by time: for each point of run A the place of run B
+// where the tool was at the same spot of the same pass.
 //
-// Both walk along the same path, so the places of B only go forward: the foot of each point of A is
-// looked for from the last foot on, in a window of the way that the tool can have gone since, and among
-// equally near feet the one whose way fits wins (out and back on one way, a path that crosses itself).
-// Where A stands still the foot does; where B does, its points lie on one spot and cost no way. Walks
-// begin, and go on after a place that only one run has (a retract, another beginning), wherever the runs
-// lie on each other again; where that is several places (a contour cut three times) they are all walked
-// at once, and the one that fits longest is taken.
+// Both follow the same path, so the places of B only go forward. Each point of A is projected onto B. The
+// search starts from the last projection and covers the arc length that the tool can have travelled since.
+// Among equally near projections, the one whose arc length fits wins (back and forth on one line, a path that
+// crosses itself). If A rests, its projection rests; if B rests, its points are at one spot and add no arc
+// length. An alignment starts wherever the runs are close to each other, and starts again after a section that
+// only one run has (a retract, another beginning). If several places match (a contour that is cut three
+// times), all are followed at once, and the longest match wins.
 
 #include <vector>
 

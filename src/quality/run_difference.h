@@ -1,6 +1,6 @@
 #pragma once
-// Run difference: two runs of a part compared place by place. Everything is B minus A, at the points
-// of A, and weighted by way, not by time: a pause is one place.
+// Run difference: two runs of a part compared place by place. All values are B minus A, at the points of A,
+// weighted by arc length, not by time: a pause is one place.
 
 #include <array>
 #include <optional>

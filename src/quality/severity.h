@@ -1,5 +1,5 @@
 #pragma once
-// Severity: what a finding means to who inspects the part, from how deep it is and how far it stands out.
+// Severity: what a defect means to the person who inspects the part, from its depth and its score.
 
 #include <array>
 #include <string_view>

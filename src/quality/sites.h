@@ -1,7 +1,7 @@
 #pragma once
-// Sites: the points of a log at which passes are compared. They are chosen by where they lie and not by when they were
-// logged: where planes that stand fixed in the workpiece are crossed. A second log of the same path has its sites at the same
-// places, so that the same place is judged alike, and sites of passes side by side lie side by side.
+// Sites: the places of a log at which passes are compared. Position selects them, not time: a site is where
+// the path crosses planes that are fixed in the workpiece. A second log of the same path has the same sites,
+// so the same place is judged alike, and the sites of adjacent passes are next to each other.
 
 #include <bit>
 #include <cstdint>

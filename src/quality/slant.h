@@ -1,10 +1,10 @@
 #pragma once
-// Slant: how far along the feed what passes do moves on from one pass to the next.
+// Slant: the displacement along the feed, from one pass to the next, of what the passes do.
 //
-// Passes that follow each other round a corner, or along an edge that runs slantwise over them, slow
-// down one after the other: beside the place where one is slowest, the next is not yet or no longer. A
-// plane across the feed then meets each of them at another moment of the same manoeuvre, and sees
-// differences where all do the same. Along the slant they agree.
+// Passes that follow each other around a corner, or along an edge oblique to them, slow down one after the
+// other: next to the place where one is slowest, the next one is not yet slow or no longer. A plane normal to
+// the feed meets each of them at another moment of the same manoeuvre and shows differences where all do the
+// same. Along the oblique direction they agree.
 
 #include <array>
 #include <optional>

@@ -1,5 +1,5 @@
 #pragma once
-// Standing contacts: where the tool touched, but for the places that it cuts away again on another part of its way.
+// Standing contacts: contact points that the tool does not cut away again on another part of its path.
 
 #include <vector>
 

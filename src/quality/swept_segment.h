@@ -1,6 +1,6 @@
 #pragma once
-// SweptSegment: a tool that moves straight from one position to another, and what it leaves of a height
-// map: over every cell the lowest point of all its outlines on the way, not of those at the two ends.
+// SweptSegment: a tool that moves straight from one position to another, and the height map that it leaves:
+// over every cell the lowest point of all its outlines along the motion, not only of those at the two ends.
 
 #include "quality/tool.h"
 

@@ -1,11 +1,13 @@
 #pragma once
-// Systematic lag: a normal deviation that alternates with the direction of travel. In a zigzag, axes whose servo gains differ
-// run off the path to one side on the way forward and to the other side on the way back. Every pass then differs from both
-// neighbours, over a large part of the surface: that is one finding about the machine, not one about each place.
+// Systematic lag: a normal deviation that alternates with the direction of travel. In a zigzag, axes with
+// different servo gains leave the path to one side on forward passes and to the other side on backward passes.
+// Every pass then differs from both neighbours, over a large part of the surface: this is one finding about
+// the machine, not one about each place.
 //
-// The alternating part at a place is the median lag of the passes of its own direction minus that of the other direction, over
-// eight passes on each side and without the place itself. Where it is systematic, the lag of a place is compared with the passes of
-// its own direction alone, so that a local fault inside the region stays a finding of its own.
+// The alternating part at a place is the median lag of the passes of its own direction minus that of the other
+// direction, over eight passes on each side, without the place itself. Where it is systematic, the lag of a
+// place is compared only with passes of its own direction, so a local fault inside the region remains a
+// finding of its own.
 
 #include <vector>
 

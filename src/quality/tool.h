@@ -1,5 +1,5 @@
 #pragma once
-// Tool: the cutting edge's outline, as far as the formed surface needs it.
+// Tool: the outline of the cutting edge, as far as the as-machined surface needs it.
 
 #include <cstdint>
 #include <optional>

@@ -1,5 +1,5 @@
 #pragma once
-// Verdict: a report held against a budget.
+// Verdict: the comparison of a report with a budget.
 
 #include <optional>
 #include <span>

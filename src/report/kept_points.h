@@ -1,10 +1,10 @@
 #pragma once
-// Kept points: which points of a log a page is sent. All of them where they fit; else the way is cut
-// into windows of so many points, and of each window stay its first point and where a field is
-// lowest and highest in it, so that a curve drawn from them shows every extreme of the window.
-// Whatever the windows: the ends of passes, the first point of each line, every point of a defect and
-// of the passes beside it, and where a field or a position is lowest or highest of all. Defects that would need
-// more than a quarter of the room and starts of lines that would need half of it are left to the windows, which keep their extremes.
+// Kept points: the points of a log that a page gets. If they do not all fit, the path is divided into windows
+// of equal point count. Each window keeps its first point and the points where a field is lowest and highest,
+// so that a curve shows every extreme of the window. Also kept, whatever the windows: the ends of passes, the
+// first point of each line, every point of a defect and of the adjacent passes, and the points where a field
+// or position is lowest or highest overall. Defects that would need more than a quarter of the room, and
+// starts of lines that would need half of it, only get their windows, which keep their extremes.
 
 #include <span>
 

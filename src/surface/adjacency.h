@@ -1,11 +1,11 @@
 #pragma once
 // Adjacency: for each cutting point its neighbours on the passes to its left and right.
 //
-// A neighbour is the point next to where the way crosses the plane through the point normal to the feed, beside it
-// within 0.2 … 4 step-overs (steep flanks) and running along with it or against it (within 30°), however far apart the records are. Consecutive
-// points have consecutive neighbours, so the neighbour's pass is walked along with the own one, and
-// a grid of sparse points is asked only where the walk is lost. Adjacency is a relation between
-// points, not between pass numbers: a spiral is its own neighbour.
+// A neighbour is the point next to where an adjacent pass crosses the plane through the point and normal to
+// the feed. It is 0.2 … 4 step-overs away (steep flanks), and its direction is parallel or opposite (within
+// 30°), whatever the distance of the records. Consecutive points have consecutive neighbours, so the search
+// follows the adjacent pass together with the own one, and asks a grid of sparse points only if it is lost.
+// Adjacency is a relation between points, not between pass numbers: a spiral is its own neighbour.
 
 #include <cstdint>
 #include <limits>

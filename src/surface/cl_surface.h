@@ -1,7 +1,7 @@
 #pragma once
-// ClSurface: the tool's path put back together as a surface of cutter-location points: passes, and
-// for each point its neighbours on both adjacent passes. The mesh that is drawn, the mismatch that
-// is measured and the normal that turns a lag into a depth all come from it.
+// ClSurface: the cutter-location surface, rebuilt from the tool path: passes, and for each point its
+// neighbours on both adjacent passes. The drawn mesh, the measured mismatch and the normal that turns a lag
+// into a depth all come from it.
 
 #include <algorithm>
 #include <span>

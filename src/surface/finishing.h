@@ -1,6 +1,6 @@
 #pragma once
-// Which cut passes are finishing passes: they lie side by side, many of them, a step-over apart along the surface.
-// Pockets, single contours, drilling and helical plunges are none: nothing beside them could be compared with them.
+// Finishing passes: many adjacent passes, one step-over apart along the surface. Pockets, single contours,
+// drilling and helical plunges are not finishing, because they have no adjacent pass to compare.
 
 #include <vector>
 

@@ -1,8 +1,8 @@
 #pragma once
-// Station: a place on the way between two logged points, and where the plane across the feed at one
-// station meets the neighbour pass. Comparing with the nearest logged point instead would compare
-// places that lie up to half a period of way apart along the feed: while braking with 600 mm/s², that
-// alone is a speed difference of 0.3 mm/s.
+// Station: a place on the path between two logged points, and the point where the plane normal to the feed at
+// one station meets the adjacent pass. A comparison with the nearest logged point instead would compare places
+// up to half a period apart along the feed: while braking at 600 mm/s², this alone is a speed difference of
+// 0.3 mm/s.
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 #pragma once
-// WayGrid: sparse points of the cutting passes by cell, to find a part of the way that is near.
-// Used only where a walk along the neighbour pass starts or is lost.
+// WayGrid: sparse points of the cutting passes by cell, to find a nearby part of the path. Used only where a
+// search along the adjacent pass starts or is lost.
 
 #include <cstdint>
 #include <vector>
