@@ -39,14 +39,15 @@ std::string intervals_json(const ProgramIntervals& all, const Diagnostics& diagn
     for (const ProgramInterval& i : all.intervals) {
         intervals.push_back({{"pass", i.pass},
                              {"lines", Json::array({i.first_line, i.last_line})},
-                             {"length_mm", number(i.length)},
-                             {"mean_curvature_per_mm", number(i.mean_curvature)},
-                             {"greatest_curvature_per_mm", number(i.greatest_curvature)},
-                             {"feed_mm_min", number(i.feed * seconds_per_minute)},
-                             {"own_speed_mm_min", number(i.own_speed * seconds_per_minute)},
-                             {"speed_mm_min", number(i.speed * seconds_per_minute)}});
+                             {"length_mm", number(i.length, 4)},
+                             {"mean_curvature_per_mm", number(i.mean_curvature, 6)},
+                             {"greatest_curvature_per_mm", number(i.greatest_curvature, 6)},
+                             {"feed_mm_min", number(i.feed * seconds_per_minute, 2)},
+                             {"own_speed_mm_min", number(i.own_speed * seconds_per_minute, 2)},
+                             {"speed_mm_min", number(i.speed * seconds_per_minute, 2)}});
     }
-    Json summary{{"passes", all.passes}, {"intervals", all.intervals.size()}, {"step_over_mm", number(all.step_over)}};
+    Json summary{
+        {"passes", all.passes}, {"intervals", all.intervals.size()}, {"step_over_mm", number(all.step_over, 5)}};
     return dump(
         Json{{"intervals", std::move(intervals)}, {"summary", std::move(summary)}, {"diagnostics", list(diagnostics)}});
 }

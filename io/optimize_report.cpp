@@ -61,8 +61,8 @@ namespace {
 Json measured_json(const std::optional<Measured>& measured) {
     if (!measured) return nullptr;
     return Json{{"points", measured->points},
-                {"time_s", number(measured->duration)},
-                {"mismatch", number(measured->mismatch * seconds_per_minute)},
+                {"time_s", number(measured->duration, 6)},
+                {"mismatch", number(measured->mismatch * seconds_per_minute, 2)},
                 {"defects", measured->defects},
                 {"motions_in_need", measured->motions_in_need}};
 }
@@ -72,11 +72,11 @@ Json measured_json(const std::optional<Measured>& measured) {
 std::string optimize_json(const Optimized& r, const Diagnostics& diagnostics) {
     Json json{{"accepted", r.proof.accepted},
               {"reason", r.proof.accepted ? Json(nullptr) : Json(r.proof.reason)},
-              {"deviation_mm", number(r.proof.deviation.greatest)},
-              {"time_before_s", number(r.before.duration)},
-              {"time_after_s", number(r.after.duration)},
-              {"mismatch_before", number(r.before.mismatch * seconds_per_minute)},
-              {"mismatch_after", number(r.after.mismatch * seconds_per_minute)},
+              {"deviation_mm", number(r.proof.deviation.greatest, 6)},
+              {"time_before_s", number(r.before.duration, 6)},
+              {"time_after_s", number(r.after.duration, 6)},
+              {"mismatch_before", number(r.before.mismatch * seconds_per_minute, 2)},
+              {"mismatch_after", number(r.after.mismatch * seconds_per_minute, 2)},
               {"defects_before", r.proof.defects_before},
               {"defects_after", r.proof.defects_after},
               {"intervals", r.proof.intervals},
@@ -90,7 +90,7 @@ std::string optimize_json(const Optimized& r, const Diagnostics& diagnostics) {
     for (std::size_t k = 0; k < quantities; ++k)
         json["defects_by_quantity"][name_of(static_cast<Quantity>(k))] = Json::array({before[k], after[k]});
     if (r.proof.accepted) json["defects_left"] = list_defects(r.after.report.defects, 0);
-    if (r.five_axes) json["tool_axis_deviation_deg"] = number(r.proof.deviation.turned * deg_per_rad);
+    if (r.five_axes) json["tool_axis_deviation_deg"] = number(r.proof.deviation.turned * deg_per_rad, 5);
     return dump(json);
 }
 

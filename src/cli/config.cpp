@@ -92,12 +92,18 @@ UsedConfig store_config(const std::string& path, const po::options_description& 
         }
         if (entry.is_flag && !entry.on) continue;
         parsed.options.push_back(option);
-        used.keys.push_back(entry.key);
+        used.places.insert_or_assign(entry.key, entry.where);
     }
     po::variables_map read;
     po::store(parsed, read);
     for (const auto& [name, value] : read) values.insert({name, po::variable_value(value.value(), true)});
     return used;
+}
+
+const Place* UsedConfig::find(std::string_view message) const {
+    if (!message.starts_with("--")) return nullptr;
+    const auto at = places.find(std::string(message.substr(2, message.find_first_of(": ") - 2)));
+    return at == places.end() ? nullptr : &at->second;
 }
 
 UsedConfig& used_config() {

@@ -2,10 +2,12 @@
 // .clsurf.toml: a second source of option values, after the command line. Nobody who reads options
 // needs to know it; what comes from it is "defaulted" in Boost's words (given() in cli/options.h).
 
+#include <map>
 #include <string>
-#include <vector>
+#include <string_view>
 
 #include "cli/subcommand.h"
+#include "core/place.h"
 
 namespace clsurf::cli {
 
@@ -13,8 +15,11 @@ constexpr const char* config_name = ".clsurf.toml";
 
 /// What was taken from a configuration.
 struct UsedConfig {
-    std::string path;               ///< empty: there is none
-    std::vector<std::string> keys;  ///< those that this subcommand took
+    std::string path;                     ///< empty: there is none
+    std::map<std::string, Place> places;  ///< of the keys that this subcommand took
+
+    /// Where the value of an option stands that a message is about ("--tool: …"); nullptr: it is about none of these.
+    [[nodiscard]] const Place* find(std::string_view message) const;
 };
 
 /// The nearest .clsurf.toml at or above the folder of the first file that the command line names, else of the

@@ -1,5 +1,7 @@
 #include "cli/known_tool.h"
 
+#include <fmt/format.h>
+
 #include "io/part_file.h"
 
 namespace clsurf::cli {
@@ -17,7 +19,11 @@ ToolChoice read_tool(const po::variables_map& values) {
     if (values.count("tool") == 0) return choice;
     const std::string tool = values["tool"].as<std::string>();
     choice.none = tool == "none";
-    if (!choice.none) choice.tool = parse_tool(tool);
+    if (!choice.none) {
+        try {
+            choice.tool = parse_tool(tool);
+        } catch (const UsageError& error) { throw UsageError(fmt::format("--tool: {}", error.what()), error.hint()); }
+    }
     choice.by_config = !given(values, "tool");
     return choice;
 }

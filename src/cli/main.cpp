@@ -31,7 +31,7 @@ void say_config() {
     const UsedConfig& config = used_config();
     if (config.path.empty()) return;
     std::string keys;
-    for (const std::string& key : config.keys) keys += (keys.empty() ? "" : ", ") + key;
+    for (const auto& [key, where] : config.places) keys += (keys.empty() ? "" : ", ") + key;
     std::fprintf(stderr, "options from %s: %s\n", config.path.c_str(),
                  keys.empty() ? "none of use here" : keys.c_str());
 }
@@ -68,9 +68,14 @@ ExitCode run(const std::vector<std::string>& words) {
 }
 
 ExitCode report(const UsageError& error) {
+    // A value of the configuration is not the command line's mistake: its line is named.
+    if (const Place* where = used_config().find(error.what())) {
+        write_message(InputError(*where, error.what(), error.hint()).what());
+        return ExitCode::bad_input;
+    }
     write_message("clsurf: error: " + std::string(error.what()) + "\n");
     if (!error.hint().empty()) write_message("    hint: " + error.hint() + "\n");
-    if (!used_config().keys.empty()) say_config();
+    if (!used_config().places.empty()) say_config();
     return ExitCode::usage;
 }
 

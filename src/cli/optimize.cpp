@@ -108,7 +108,7 @@ ExitCode run_optimize(const po::variables_map& values) {
     const bool five_axes = runs_on_five_axes(program, machine);
     std::optional<Log> measured = read_measured(values, five_axes);
     FramePoses poses = read_work_offset(values);
-    if (!poses.zero && measured) poses.zero = pose_of(*measured);
+    if (measured) poses.zero = zero_of(poses, *measured, measured->diagnostics);
     poses.tool_by_kinematics = five_axes;
     // Its axes along those of the machine, whose limits count.
     const Eigen::Isometry3d zero = place_motions(program, poses, Coordinates::level);

@@ -95,7 +95,7 @@ LoadedRun load_run(const std::string& path, const RunOptions& options) {
     if (!is_program && io::recognise_log(source, options.log_options) != nullptr) {
         run.log = io::open_log(source, options.log_options);
         run.kinematics = options.kinematics;
-        run.pose = options.poses.zero.value_or(pose_of(run.log).value_or(Eigen::Isometry3d::Identity()));
+        run.pose = zero_of(options.poses, run.log, run.log.diagnostics).value_or(Eigen::Isometry3d::Identity());
         if (!run.kinematics) note_rotary(run.log, shown_role(run.log), run.log.diagnostics);
     } else {
         simulate_into(run, source, options);

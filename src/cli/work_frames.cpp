@@ -41,6 +41,7 @@ void declare_work_offset(po::options_description& options) {
 FramePoses read_work_offset(const po::variables_map& values) {
     FramePoses poses;
     if (values.count("work-offset") == 0) return poses;
+    poses.zero_is_default = !given(values, "work-offset");
     for (const std::string& text : values["work-offset"].as<std::vector<std::string>>()) {
         const std::size_t colon = text.find(':');
         if (colon != std::string::npos) {

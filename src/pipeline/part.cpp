@@ -55,7 +55,8 @@ void refuse_foreign(const ProgramMatch& match, const Program& program, const Log
 Part assemble(Log log, const PartRules& rules) {
     Part part = part_of(std::move(log), rules);
     part.program.files.emplace_back();
-    const Eigen::Isometry3d pose = rules.poses.zero.value_or(pose_of(part.log).value_or(Eigen::Isometry3d::Identity()));
+    const Eigen::Isometry3d pose =
+        zero_of(rules.poses, part.log, part.diagnostics).value_or(Eigen::Isometry3d::Identity());
     part.path = reconstruct(part.log, shown_role(part.log, rules.role), pose, rules.kinematics);
     part.diagnostics.append(part.log.diagnostics);
     part.lines = std::make_shared<const LineMap>(lines_without_program(part.log, part.path.count));

@@ -40,9 +40,21 @@ std::optional<Eigen::Isometry3d> pose_of(const Log& log) {
     return pose_of(*log.work_offset, log.work_rotation);
 }
 
+std::optional<Eigen::Isometry3d> zero_of(const FramePoses& given, const Log& log, Diagnostics& diagnostics) {
+    const std::optional<Eigen::Isometry3d> recorded = pose_of(log);
+    if (!given.zero || !recorded || !given.zero_is_default) return given.zero ? given.zero : recorded;
+    if (!given.zero->isApprox(*recorded, 1e-9)) {
+        diagnostics.add({Severity::note, "config.overruled", Place::of_file(log.name),
+                         fmt::format("the log says work-offset {}: the default {} is not used", pose_numbers(*recorded),
+                                     pose_numbers(*given.zero)),
+                         "--work-offset on the command line comes first"});
+    }
+    return recorded;
+}
+
 Eigen::Isometry3d place_with(Program& program, const Log& log, FramePoses given, const Kinematics* kinematics,
                              Diagnostics& diagnostics) {
-    if (!given.zero) given.zero = pose_of(log);
+    given.zero = zero_of(given, log, diagnostics);
     given.tool_by_kinematics = kinematics != nullptr;
     given.starts_anywhere = true;
     const std::vector<int> unknown = unknown_systems(program.motions);

@@ -13,8 +13,13 @@ namespace clsurf {
 /// The pose of the program's zero that a log's header gives; nullopt: it gives none.
 [[nodiscard]] std::optional<Eigen::Isometry3d> pose_of(const Log& log);
 
-/// Brings a program, read with its motions as programmed, into the coordinates of the workpiece. `given` goes before
-/// the log's own pose, that before the program's own offsets, which count unless the path fits better without
+/// The pose of the program's zero: what is given, else the log's own; a given default comes after the log's, with a
+/// note `config.overruled` where they differ. nullopt: neither tells it.
+[[nodiscard]] std::optional<Eigen::Isometry3d> zero_of(const FramePoses& given, const Log& log,
+                                                       Diagnostics& diagnostics);
+
+/// Brings a program, read with its motions as programmed, into the coordinates of the workpiece. The zero is that of
+/// zero_of(); it goes before the program's own offsets, which count unless the path fits better without
 /// (`map.coordinates`). Returns machine = pose · workpiece. Adds `program.work-offset` where the program cuts in
 /// several systems whose offsets are not known. O(motions), and O(points) where the program sets offsets.
 [[nodiscard]] Eigen::Isometry3d place_with(Program& program, const Log& log, FramePoses given,

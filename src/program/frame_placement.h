@@ -23,6 +23,7 @@ enum class Coordinates : std::uint8_t {
 /// What the program does not say: poses that lead from its coordinates to the machine's (or the log's).
 struct FramePoses {
     std::optional<Eigen::Isometry3d> zero;  ///< of the program's zero where it first cuts
+    bool zero_is_default = false;           ///< a log that gives another zero itself goes before it
     /// Of work systems (1: G54) that the program does not set, with G92 and tool where it first cuts there. Those
     /// that are missing here lie where the first one lies.
     std::map<int, Eigen::Isometry3d> systems;

@@ -38,7 +38,7 @@ clsurf_cli_test(NAME config_tool SETUP "${project}; echo 'tool = \"ball:6\"' > p
 clsurf_cli_test(NAME config_command_line_first SETUP "${project}; echo 'tool = \"ball:6\"' > parts/.clsurf.toml" ARGS check parts/deep/part.nc ${run} --tool ball:8 STDOUT "with ball:8")
 clsurf_cli_test(NAME config_not_wanted SETUP "${project}; echo 'tool = \"ball:4\"' > parts/.clsurf.toml" ARGS check parts/deep/part.nc ${run} --no-config NO_STDOUT "ball:4")
 clsurf_cli_test(NAME config_nearest SETUP "${project}; echo 'tool = \"ball:6\"' > parts/.clsurf.toml; echo 'tool = \"ball:4\"' > parts/deep/.clsurf.toml" ARGS check parts/deep/part.nc ${run} -v STDERR "options from [^\n]*/parts/deep/.clsurf.toml: tool" "ball:4 of .clsurf.toml is not used")
-clsurf_cli_test(NAME config_of_the_working_folder SETUP "echo 'threads = 0' > .clsurf.toml; echo 'G0 X1' > stdin" ARGS moves - EXIT 2 STDERR "--threads must be at least 1" "options from [^\n]*/.clsurf.toml: threads")
+clsurf_cli_test(NAME config_of_the_working_folder SETUP "echo 'threads = 0' > .clsurf.toml; echo 'G0 X1' > stdin" ARGS moves - EXIT 3 STDERR "[.]clsurf.toml:1:[0-9]+: error: --threads must be at least 1")
 clsurf_cli_test(NAME config_relative_paths SETUP "${project}; echo 'machine = \"mill.toml\"' > parts/.clsurf.toml; cd parts/deep; $CLSURF simulate part.nc -o run.biip -v 2>&1 | grep -q 'clsurf.toml: machine'"
   ARGS simulate parts/deep/part.nc -o run.biip FILE run.biip)
 clsurf_cli_test(NAME config_missing_machine SETUP "${project}; echo 'machine = \"nowhere.toml\"' > parts/.clsurf.toml" ARGS simulate parts/deep/part.nc -o run.biip EXIT 3 STDERR "parts/nowhere.toml: error: cannot open")
@@ -50,6 +50,13 @@ clsurf_cli_test(NAME config_list SETUP "printf 'G0 X0\nG1 X10 F600\nM2\n' > a.nc
 clsurf_cli_test(NAME config_unknown_key SETUP "${project}; printf '# mine\ntoool = \"ball:6\"\n' > parts/.clsurf.toml" ARGS check parts/deep/part.nc ${run} EXIT 3 STDERR "parts/.clsurf.toml:2:[0-9]+: error: unknown key 'toool'" "did you mean 'tool'")
 clsurf_cli_test(NAME config_wrong_value SETUP "${project}; printf 'threads = \"many\"\n' > parts/.clsurf.toml" ARGS check parts/deep/part.nc ${run} EXIT 3 STDERR "parts/.clsurf.toml:1:[0-9]+: error: --threads: 'many' is not a whole number")
 clsurf_cli_test(NAME config_wrong_word SETUP "${project}; printf 'gl = \"vulkan\"\n' > parts/.clsurf.toml" ARGS render parts/deep/part.nc ${run} -o map.png EXIT 3 STDERR "parts/.clsurf.toml:1:[0-9]+: error: --gl: 'vulkan' is not one of osmesa, egl")
+clsurf_cli_test(NAME config_wrong_tool SETUP "${project}; printf '# mine\ntool = \"cone:6\"\n' > parts/.clsurf.toml" ARGS check parts/deep/part.nc ${run} EXIT 3 STDERR "parts/.clsurf.toml:2:[0-9]+: error: --tool: tool 'cone:6'")
+clsurf_cli_test(NAME config_wrong_work_offset SETUP "${project}; printf 'work-offset = [1, 2]\n' > parts/.clsurf.toml" ARGS check parts/deep/part.nc ${run} EXIT 3 STDERR "parts/.clsurf.toml:1:[0-9]+: error: --work-offset: '1,2' is not 3 or 4 numbers")
+# Where the log itself says where the program's zero lies, the configuration does not move it.
+set(trunnion @DATA@/machines/five_axis_trunnion.toml)
+clsurf_cli_test(NAME config_after_the_work_offset_of_the_log
+  SETUP "printf 'G21 G90 G54\nG43.4 H1\nG0 X0 Y0 Z5 A10 C0\nG1 X10 F600\nM2\n' > a.nc; $CLSURF simulate a.nc --machine ${trunnion} --work-offset 1,2,3 -o a.biip; echo 'work-offset = [7, 7, 7]' > .clsurf.toml"
+  ARGS query a.nc a.biip --machine ${trunnion} --line 4 -v STDOUT "tool tip X 0[.]00.. Y -?0[.]0000 Z 4[.]99" STDERR "the log says work-offset 1,2,3: the default 7,7,7 is not used")
 clsurf_cli_test(NAME config_flag_with_a_value SETUP "${project}; printf 'quiet = 1\n' > parts/.clsurf.toml" ARGS check parts/deep/part.nc ${run} EXIT 3 STDERR "parts/.clsurf.toml:1:[0-9]+: error: 'quiet' is true or false")
 clsurf_cli_test(NAME config_malformed SETUP "${project}; printf 'tool = ball\n' > parts/.clsurf.toml" ARGS check parts/deep/part.nc ${run} EXIT 3 STDERR "parts/.clsurf.toml:1")
 clsurf_cli_test(NAME config_flag SETUP "${project}; printf 'quiet = true\n' > parts/.clsurf.toml" ARGS info parts/deep/part.nc NO_STDOUT ".")
