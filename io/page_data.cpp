@@ -219,31 +219,37 @@ Json runs_json(const std::vector<DefectRun>& runs) {
     return all;
 }
 
+Json lines_json(const std::vector<std::vector<Vec3>>& lines) {
+    Json all = Json::array();
+    for (const std::vector<Vec3>& line : lines) {
+        Json corners = Json::array();
+        for (const Vec3& corner : line) {
+            for (const double c : {corner.x(), corner.y(), corner.z()})
+                corners.push_back(std::round(c / position_quantum) * position_quantum);
+        }
+        all.push_back(std::move(corners));
+    }
+    return all;
+}
+
 Json defects_json(const ReportPage& page) {
     Json all = Json::array();
     for (std::size_t i = 0; i < page.defects.size(); ++i) {
         const Defect& d = page.quality.report->defects[i];
-        Json outlines = Json::array();
-        for (const std::vector<Vec3>& line : page.defects[i].outlines) {
-            Json corners = Json::array();
-            for (const Vec3& corner : line) {
-                for (const double c : {corner.x(), corner.y(), corner.z()})
-                    corners.push_back(std::round(c / position_quantum) * position_quantum);
-            }
-            outlines.push_back(std::move(corners));
-        }
         all.push_back({{"id", i + 1},
                        {"severity", d.severity},
                        {"cause", name_of(d.cause)},
                        {"text", sentence_of(d)},
-                       {"position_mm", vector(d.place.position())},
                        {"bounds_mm", box(d.contact_bounds.isEmpty() ? d.bounds : d.contact_bounds)},
                        {"depth_um", number(d.depth * um_per_mm, 2)},
                        {"shape", shape_of(d)},
                        {"point", d.point},
                        {"runs", runs_json(d.runs)},
                        {"neighbours", runs_json(d.neighbours)},
-                       {"outlines", std::move(outlines)}});
+                       {"outlines", lines_json(page.defects[i].outlines)}});
+        add_place(all.back(), d.place);
+        if (!page.defects[i].contact_outlines.empty())
+            all.back()["contact_outlines"] = lines_json(page.defects[i].contact_outlines);
     }
     return all;
 }

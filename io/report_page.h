@@ -39,8 +39,9 @@ struct PagePicture {
 };
 
 struct PageDefect {
-    std::vector<std::vector<Vec3>> outlines;  ///< closed lines [mm]
+    std::vector<std::vector<Vec3>> outlines;  ///< lines [mm] on the surface of the tool tips
     std::optional<PagePicture> picture;
+    std::vector<std::vector<Vec3>> contact_outlines = {};  ///< the same on the part; empty: no tool is known
 };
 
 struct PageColourMap {

@@ -12,6 +12,7 @@
 #include "cli/report_pictures.h"
 #include "io/atomic_file.h"
 #include "log/health.h"
+#include "pipeline/contacts.h"
 #include "quality/outline.h"
 #include "viz/image_library.h"
 
@@ -165,8 +166,14 @@ void add_pictures(io::ReportPage& page, const ReportLog& shown, const ReportOpti
                   const std::optional<Formed>& formed) {
     PicturedPart pictured{&shown.part, &shown.surface, shown.fields, page.ranges, &shown.quality.report,
                           {},          options.gl};
+    std::optional<PartContacts> contacts;
+    if (formed && shown.part.tool) contacts.emplace(shown.part, shown.surface, *shown.part.tool);
     for (std::size_t i = 0; i < shown.quality.report.defects.size(); ++i) {
-        page.defects.push_back({outlines_of(shown.quality.report.defects[i], shown.surface), {}});
+        const Defect& defect = shown.quality.report.defects[i];
+        page.defects.push_back({outlines_of(defect, shown.surface), {}});
+        if (contacts)
+            page.defects.back().contact_outlines =
+                outlines_of(defect, shown.surface, [&](PointIndex point) { return contacts->place(point).position(); });
         pictured.outlines.push_back({page.defects.back().outlines, fmt::format("{}", i + 1)});
     }
     page.pictures.push_back(picture_of_part(pictured, page.first_field));

@@ -39,7 +39,10 @@ export interface Defect {
     severity: number;
     cause: string;
     text: string;
-    position_mm: [number, number, number];
+    position_mm: [number, number, number]; // on the part where the tool is known
+    tip_mm: [number, number, number];
+    contact_mm?: [number, number, number];
+    contact_outlines?: number[][]; // as outlines, on the part
     bounds_mm: [[number, number, number], [number, number, number]];
     depth_um: number | null; // without a sign: `shape` is pit, bulge or alternating
     shape: string;

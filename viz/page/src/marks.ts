@@ -63,15 +63,18 @@ function addDefects(manifest: Manifest, state: Readonly<State>, marks: Marks): v
     const origin = manifest.surfaces[0].origin_mm;
     manifest.defects.forEach((defect, k) => {
         const chosen = state.defect === k;
+        // The surface that is drawn is that of the tool tips, unless it is what the tool formed.
+        const outlines = (state.formed && defect.contact_outlines) || defect.outlines;
+        const place = state.formed ? defect.position_mm : defect.tip_mm;
         if (k < mostTags || chosen)
             marks.tags.push({
-                at: defect.position_mm.map((c, i) => c - origin[i]),
+                at: place.map((c, i) => c - origin[i]),
                 text: String(defect.id),
                 severity: defect.severity,
                 chosen,
             });
         if (!chosen && !state.defects) return;
-        for (const corners of defect.outlines) {
+        for (const corners of outlines) {
             marks.polylines.push({
                 xyz: corners.map((c, i) => c - origin[i % 3]),
                 closed: true,
