@@ -57,6 +57,31 @@ TEST(LineEditor, LeavesLinesWithMoreInThemAlone) {
         << "F counts something else than lengths per minute";
 }
 
+// Klartext writes L on every line and a sign before every number; a feed alone is a block L F.
+TEST(LineEditor, WritesKlartext) {
+    const PlainLine line = *read_plain_line("12 L X+1.50 Y-2", "L");
+    EXPECT_EQ(line.number, "12 ");
+    EXPECT_EQ(line.code, "L ");
+    EXPECT_EQ(line.value[0], 1.5);
+    for (const char* text :
+         {"12 X+1", "12 LN X+1", "12 L X+1 R0", "12 L X+1 FMAX", "12 L IX+1", "12 L X+Q1", "L", "12 L"})
+        EXPECT_FALSE(read_plain_line(text, "L").has_value()) << text;
+    InterpreterOptions options;
+    options.dialect = find_dialect("klartext");
+    const auto text = std::make_shared<std::string>(
+        "0 BEGIN PGM A MM\n1 L X+0 Y+0 Z+0 R0 FMAX\n2 L X+1 F600\n3 L X+2.00\n4 L X+3.00\n5 L M30\n6 END PGM A MM\n");
+    const Program program = parse_program(SourceText("a.h", *text, text), options);
+    EXPECT_EQ(editable(program), (std::vector<std::int64_t>{2, 3}));
+    LineEditor points(program);
+    EXPECT_EQ(points.replace(2, 3, {Vec3(1.5, 0, 0), Vec3(2.25, -0.25, 0), Vec3(3, 0, 0)}), 3u);
+    EXPECT_NE(points.text("smoothed").find("MM\n; smoothed\n1 L"), std::string::npos) << points.text("smoothed");
+    EXPECT_NE(points.text("").find("3 L X+1.50\nL X+2.25 Y-0.25\n4 L X+3.00 Y+0.00\n5 L M30"), std::string::npos)
+        << points.text("");
+    LineEditor feeds(program);
+    feeds.set_feeds({0, 0, 5, 5});
+    EXPECT_NE(feeds.text("").find("3 L X+2.00 F300\n4 L X+3.00\nL F600\n5 L M30"), std::string::npos) << feeds.text("");
+}
+
 // Turned by 90° and 100 away: X 1.5 of the work system is Y 1.5 of the machine, where the points come from.
 TEST(LineEditor, WritesInTheFrameThatIsActive) {
     InterpreterOptions options;

@@ -36,6 +36,12 @@ void move_with(Line& line, const KlartextWords& words, int code);
 /// Whether a statement of that name may follow RND and CHF.
 [[nodiscard]] bool takes_corner(std::string_view name);
 
+// klartext_q.cpp
+/// Q5 = formula; words of a cycle that go on over several lines.
+void assign_formula(Line& line);
+/// FN 0: Q5 = +10 … FN 13: Q5 = +Q1 ANG +Q2
+void calculate(Line& line);
+
 // klartext_cycles.cpp
 void define_cycle(Line& line);
 void call_cycle(Line& line);

@@ -28,6 +28,10 @@ constexpr auto noted_words = std::to_array<std::string_view>({
 constexpr auto curve_words =
     std::to_array<std::string_view>({"ASPLINE", "BSPLINE", "CSPLINE", "POLY", "OEMIPO1", "OEMIPO2", "INVCW", "INVCCW"});
 
+std::string text_of(const Keyword& keyword) {
+    return keyword.has_arguments ? keyword.name + "(" + keyword.arguments + ")" : keyword.name;
+}
+
 template <typename List, typename Value>
 bool contains(const List& list, const Value& value) {
     return std::find(list.begin(), list.end(), value) != list.end();
@@ -173,76 +177,72 @@ void Interpreter::start_modal_call(const Keyword& called) {
     event("modal-call", "MCALL " + called.name + (called.has_arguments ? "(" + called.arguments + ")" : std::string()));
 }
 
-void Interpreter::apply_keyword(const Keyword& keyword, Block& block) {
+/// MCALL: what follows it in the block is called after every block that moves. True: the keyword was it, or follows it.
+bool Interpreter::modal_keyword(const Keyword& keyword, const Block& block) {
+    const auto at =
+        std::find_if(block.keywords.begin(), block.keywords.end(), [](const Keyword& k) { return k.name == "MCALL"; });
+    if (at == block.keywords.end()) return false;
+    if (keyword.name != "MCALL") return true;
+    if (at + 1 == block.keywords.end()) {
+        modal_call_ = {};
+        event("modal-call", "MCALL");
+    } else {
+        start_modal_call(*(at + 1));
+    }
+    return true;
+}
+
+/// EXTCALL "DIR/NAME.SPF"
+void Interpreter::call_by_path(const Keyword& keyword) {
+    std::string called = keyword.arguments;
+    std::erase(called, '"');
+    called = called.substr(called.find_last_of('/') + 1);
+    if (called.starts_with("_N_")) called = called.substr(3);
+    for (const std::string_view ending : {".SPF", ".spf", ".MPF", ".mpf", "_SPF", "_MPF"}) {
+        if (called.ends_with(ending)) called.resize(called.size() - ending.size());
+    }
+    if (called.empty() || !call_siemens(called, Keyword{keyword.name, {}, false, keyword.column}, 1))
+        fail(fmt::format("subprogram '{}' is neither in the program nor beside it", called), keyword.column);
+}
+
+/// Words that set a mode. True: the keyword was one.
+bool Interpreter::mode_keyword(const Keyword& keyword) {
     const std::string& name = keyword.name;
-    const auto text = [&] { return keyword.has_arguments ? name + "(" + keyword.arguments + ")" : name; };
     if (name == "SUPA" || name == "G153") {
         this_block_.machine_coordinates = true;
-        return;
-    }
-    if (name == "TRAORI" || name == "TRAFOOF") {
-        control_tool_centre_point(name == "TRAORI", text());
-        return;
-    }
-    if (name == "CYCLE800") {
+    } else if (name == "TRAORI" || name == "TRAFOOF") {
+        control_tool_centre_point(name == "TRAORI", text_of(keyword));
+    } else if (name == "CYCLE800") {
         swivel(keyword);
-        return;
-    }
-    if (name == "CYCLE832") {
+    } else if (name == "CYCLE832") {
         high_speed_settings(keyword);
-        return;
-    }
-    if (name == "MCALL") {
-        // What follows it in the block is called after every block that moves.
-        const auto at = std::find_if(block.keywords.begin(), block.keywords.end(),
-                                     [](const Keyword& k) { return k.name == "MCALL"; });
-        if (at + 1 == block.keywords.end()) {
-            modal_call_ = {};
-            event("modal-call", "MCALL");
-        } else {
-            start_modal_call(*(at + 1));
-        }
-        return;
-    }
-    const bool after_mcall =
-        std::any_of(block.keywords.begin(), block.keywords.end(), [](const Keyword& k) { return k.name == "MCALL"; });
-    if (after_mcall) return;
-    if (name == "T=") {
+    } else if (name == "T=") {
         event("tool", "T=\"" + keyword.arguments + "\"");
-        return;
-    }
-    if (name == "DIAMON" || name == "DIAMOF" || name == "DIAM90") {
+    } else if (name == "DIAMON" || name == "DIAMOF" || name == "DIAM90") {
         state_.diameter = name == "DIAMON";
         if (name == "DIAM90")
             note(Severity::warning, "program.unknown-word", "DIAM90 is read as DIAMOF", keyword.column);
         event("lathe", name);
-        return;
-    }
-    if (name == "CIP" || name == "CT") {
+    } else if (name == "CIP" || name == "CT") {
         state_.motion = MotionMode::cw;  // which way, the point between or the tangent tells
         arcs_.kind = name == "CIP" ? ArcKind::by_points : ArcKind::tangential;
-        return;
+    } else {
+        return false;
     }
+    return true;
+}
+
+void Interpreter::apply_keyword(const Keyword& keyword, Block& block) {
+    const std::string& name = keyword.name;
+    if (mode_keyword(keyword) || modal_keyword(keyword, block)) return;
     if (siemens_frame(keyword, block) || siemens_cycle(keyword)) return;
-    if (name == "EXTCALL" || name == "CALL" || name == "PCALL") {
-        std::string called = keyword.arguments;
-        std::erase(called, '"');
-        called = called.substr(called.find_last_of('/') + 1);
-        if (called.starts_with("_N_")) called = called.substr(3);
-        for (const std::string_view ending : {".SPF", ".spf", ".MPF", ".mpf", "_SPF", "_MPF"}) {
-            if (called.ends_with(ending)) called.resize(called.size() - ending.size());
-        }
-        if (called.empty() || !call_siemens(called, Keyword{name, {}, false, keyword.column}, 1)) {
-            fail(fmt::format("subprogram '{}' is neither in the program nor beside it", called), keyword.column);
-        }
-        return;
-    }
+    if (name == "EXTCALL" || name == "CALL" || name == "PCALL") return call_by_path(keyword);
     if (contains(curve_words, name)) {
         refuse_motion(name, block, keyword.column,
                       "splines and polynomials are not read: let the CAM system write lines");
     }
     if (contains(noted_words, name) || name.starts_with("COMP") || name.ends_with("=")) {
-        event("mode", text());
+        event("mode", text_of(keyword));
         return;
     }
     const int repeats = block.words.given('P') ? static_cast<int>(std::clamp(block.words.of('P'), 1.0, 9999.0)) : 1;

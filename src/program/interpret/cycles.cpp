@@ -34,32 +34,35 @@ Stroke stroke_of(int code, bool rs274) {
 
 }  // namespace
 
-void Interpreter::cycle(const Block& block) {
-    const int code = state_.cycle;
-    const bool rs274 = rules_->cycles.rs274;
-    if (code == 760 && rs274) {
-        thread_cycle(block);
-        return;
-    }
-    const bool from_below = code == 870;
-    const bool fine_bore = code == 760;
-    const Stroke stroke = stroke_of(code, rs274);
-    const double unit = state_.unit_mm;
-    const int c = state_.plane_axis;  // the drilling axis
-    const char depth_letter = "XYZ"[c];
+/// R, depth, Q, P and I J K, which stay from hole to hole.
+void Interpreter::read_cycle_words(const Block& block, const Stroke& stroke) {
     const auto word = [&](char letter, double& kept) {
         if (block.words.given(letter)) kept = block.words.of(letter);
     };
     word('R', cycle_.r);
-    word(depth_letter, cycle_.z);
+    word("XYZ"[state_.plane_axis], cycle_.z);
     word('Q', cycle_.q);
     if (block.words.given('P')) cycle_.p = block.words.of('P') * rules_->cycles.dwell_unit;
     for (int k = 0; k < 3; ++k) word("IJK"[k], cycle_.ijk[k]);
-    if (stroke.pecks && !(cycle_.q > 0)) {
-        if (rs274) fail(fmt::format("G{} needs Q greater than 0", code / 10));
-        note(Severity::warning, "program.cycle", fmt::format("G{} without Q: read as one stroke", code / 10));
-    }
+    if (!stroke.pecks || cycle_.q > 0) return;
+    const int code = state_.cycle / 10;
+    if (rules_->cycles.rs274) fail(fmt::format("G{} needs Q greater than 0", code));
+    note(Severity::warning, "program.cycle", fmt::format("G{} without Q: read as one stroke", code));
+}
 
+void Interpreter::cycle(const Block& block) {
+    const int code = state_.cycle;
+    const bool rs274 = rules_->cycles.rs274;
+    if (code == 76_g && rs274) {
+        thread_cycle(block);
+        return;
+    }
+    const bool from_below = code == 87_g;
+    const bool fine_bore = code == 76_g;
+    const Stroke stroke = stroke_of(code, rs274);
+    const double unit = state_.unit_mm;
+    const int c = state_.plane_axis;  // the drilling axis
+    read_cycle_words(block, stroke);
     state_.place(1u << state_.plane_axis, false);
     // Heights and holes count in the program's own frame.
     const Vec3 here = state_.programmed();
@@ -121,7 +124,7 @@ void Interpreter::drill(const Stroke& stroke, double r, double bottom, double cl
                         const Vec3& rotary) {
     const int c = state_.plane_axis;
     const bool rs274 = rules_->cycles.rs274;
-    if (rs274 && c != 2 && (state_.cycle == 740 || state_.cycle == 840)) {
+    if (rs274 && c != 2 && (state_.cycle == 74_g || state_.cycle == 84_g)) {
         tap_turned(bottom, clear, rotary);
         return;
     }

@@ -119,6 +119,9 @@ public:
 
     // siemens.cpp, siemens_cycles.cpp
     void apply_keyword(const Keyword& keyword, Block& block);
+    bool modal_keyword(const Keyword& keyword, const Block& block);
+    bool mode_keyword(const Keyword& keyword);
+    void call_by_path(const Keyword& keyword);
     bool arc_of_siemens(const Block& block, ArcWords& words);
     void set_pole(int code, const Block& block);                 ///< G110 … G112
     bool siemens_frame(const Keyword& keyword, Block& block);    ///< true: the keyword was one
@@ -213,6 +216,7 @@ public:
     void settle_work_frame();
     [[nodiscard]] float feed_for(double length);
     void cycle(const Block& block);
+    void read_cycle_words(const Block& block, const Stroke& stroke);
     void thread_cycle(const Block& block);                               ///< G76
     void tap(const Vec3& end, const Vec3& rotary);                       ///< G33.1
     void lathe_cycle(int code, const Block& words, std::size_t column);  ///< G70 … G72

@@ -45,11 +45,13 @@ void close_numbers(std::string& text) {
 
 }  // namespace
 
-Statement clean_line(std::string_view line, const TextRules& rules) {
-    Statement statement;
+namespace {
+
+using Offset = std::string::difference_type;
+
+/// Takes comments out of a line, and what no controller reads; in quotes all stays. True: it holds a formula.
+bool blank_comments(Statement& statement, const TextRules& rules) {
     std::string& text = statement.text;
-    text.assign(line);
-    // A byte order mark and bytes that no controller reads are blanks; in quotes all stays.
     if (text.starts_with("\xef\xbb\xbf")) text.replace(0, 3, "   ");
     bool quoted = false;
     bool formula = false;
@@ -69,59 +71,81 @@ Statement clean_line(std::string_view line, const TextRules& rules) {
         const std::size_t end = text.find(')', i);
         if (end == std::string::npos) statement.open_comment = true;
         const std::size_t stop = end == std::string::npos ? text.size() : end + 1;
-        std::fill(text.begin() + static_cast<std::ptrdiff_t>(i), text.begin() + static_cast<std::ptrdiff_t>(stop), ' ');
+        std::fill(text.begin() + static_cast<Offset>(i), text.begin() + static_cast<Offset>(stop), ' ');
         i = stop - 1;
     }
-    if (rules.star_ends_block) {
-        // '*' ends a block; in a formula (Q1 = Q2 * 3 *) the last one does.
-        while (!text.empty() && text.back() == ' ') text.pop_back();
-        if (!formula)
-            std::replace(text.begin(), text.end(), '*', ' ');
-        else if (text.back() == '*')
-            text.pop_back();
-        std::replace(text.begin(), text.end(), '~', ' ');  // a block that goes on
+    return formula;
+}
+
+/// '*' ends a block, in a formula (Q1 = Q2 * 3 *) the last one; '~' continues it.
+void blank_block_end(std::string& text, bool formula) {
+    while (!text.empty() && text.back() == ' ') text.pop_back();
+    if (!formula)
+        std::replace(text.begin(), text.end(), '*', ' ');
+    else if (text.back() == '*')
+        text.pop_back();
+    std::replace(text.begin(), text.end(), '~', ' ');
+}
+
+/// A block-delete sign, with a skip level (/1 … /9) where the dialect has them.
+void take_skip(Statement& statement, std::size_t slash, const TextRules& rules) {
+    std::string& text = statement.text;
+    if (slash >= text.size() || text[slash] != '/') return;
+    statement.deleted = true;
+    text[slash] = ' ';
+    if (slash + 1 < text.size() && is_digit(text[slash + 1]) && rules.skip_levels) text[slash + 1] = ' ';
+}
+
+/// "%" alone begins and ends a tape; "%name" is a program's name.
+bool take_tape_mark(Statement& statement, const TextRules& rules) {
+    std::string& text = statement.text;
+    const std::size_t at = text.find_first_not_of(' ');
+    if (at == std::string::npos || text[at] != '%') return false;
+    statement.tape_mark = true;
+    if (rules.named_titles) statement.title = text.substr(at + 1);
+    text.clear();
+    return true;
+}
+
+/// N10, or 10 where numbers need no N. True: there was one.
+bool take_block_number(Statement& statement, const TextRules& rules) {
+    std::string& text = statement.text;
+    const std::size_t at = text.find_first_not_of(' ');
+    if (at == std::string::npos) return false;
+    std::size_t end = at;
+    if (rules.block_numbers && is_digit(text[at])) {
+        while (end < text.size() && is_digit(text[end])) ++end;
+        while (end < text.size() && text[end] == ' ') ++end;
+    } else if (upper(text[at]) == 'N' && at + 1 < text.size() &&
+               (is_digit(text[at + 1]) || text[at + 1] == '.' || text[at + 1] == ' ')) {
+        ++end;
+        while (end < text.size() && (is_digit(text[end]) || text[end] == '.' || text[end] == ' ')) ++end;
+    } else {
+        return false;
     }
+    std::fill(text.begin() + static_cast<Offset>(at), text.begin() + static_cast<Offset>(end), ' ');
+    take_skip(statement, end, rules);
+    return true;
+}
+
+}  // namespace
+
+Statement clean_line(std::string_view line, const TextRules& rules) {
+    Statement statement;
+    std::string& text = statement.text;
+    text.assign(line);
+    const bool formula = blank_comments(statement, rules);
+    if (rules.star_ends_block) blank_block_end(text, formula);
     if (rules.blanks_in_numbers && text.find('"') == std::string::npos) close_numbers(text);
     while (!text.empty() && text.back() == ' ') text.pop_back();
-    std::size_t at = text.find_first_not_of(' ');
+    const std::size_t at = text.find_first_not_of(' ');
     if (at == std::string::npos) {
         text.clear();
         return statement;
     }
-    const auto take_skip = [&](std::size_t slash) {
-        if (slash >= text.size() || text[slash] != '/') return;
-        statement.deleted = true;
-        text[slash] = ' ';
-        // A skip level, /1 … /9.
-        if (slash + 1 < text.size() && is_digit(text[slash + 1]) && rules.skip_levels) text[slash + 1] = ' ';
-    };
-    take_skip(at);
-    if (rules.block_numbers) {
-        at = text.find_first_not_of(' ');
-        for (; at < text.size() && is_digit(text[at]); ++at) text[at] = ' ';
-        take_skip(text.find_first_not_of(' '));
-        at = std::min(text.find_first_not_of(' '), text.size() - 1);
-    }
-    // "%" alone begins and ends a tape; "%name" is a program's name.
-    const auto take_tape_mark = [&] {
-        if (at == std::string::npos || text[at] != '%') return false;
-        statement.tape_mark = true;
-        if (rules.named_titles) statement.title = text.substr(at + 1);
-        text.clear();
-        return true;
-    };
-    if (take_tape_mark()) return statement;
-    // The block number.
-    at = text.find_first_not_of(' ');
-    if (at != std::string::npos && upper(text[at]) == 'N' && at + 1 < text.size() &&
-        (is_digit(text[at + 1]) || text[at + 1] == '.' || text[at + 1] == ' ')) {
-        std::size_t end = at + 1;
-        while (end < text.size() && (is_digit(text[end]) || text[end] == '.' || text[end] == ' ')) ++end;
-        std::fill(text.begin() + static_cast<std::ptrdiff_t>(at), text.begin() + static_cast<std::ptrdiff_t>(end), ' ');
-        take_skip(end);
-        at = text.find_first_not_of(' ');
-        if (rules.named_titles) (void)take_tape_mark();
-    }
+    take_skip(statement, at, rules);
+    if (text[at] == '%' && take_tape_mark(statement, rules)) return statement;
+    if (take_block_number(statement, rules) && rules.named_titles) (void)take_tape_mark(statement, rules);
     return statement;
 }
 
