@@ -81,6 +81,7 @@ bool read_statement(std::string_view text, std::string_view word, PlainLine& lin
     if (after >= text.size() || !is_blank(text[after])) return false;
     const std::size_t end = skip_blanks(text, after);
     line.code = text.substr(at, end - at);
+    line.blanks = true;  // Klartext needs them between words
     at = end;
     return true;
 }

@@ -34,10 +34,10 @@ clsurf_cli_test(NAME binary_as_a_program SETUP "printf 'G0 X1\\n\\001\\033\\377\
   ARGS moves part.nc EXIT 3 STDERR "part.nc:2:[0-9]+: error: expected a word, found '.x01'")
 
 # ---- Klartext ----
-clsurf_cli_test(NAME klartext_is_recognised ARGS info @DATA@/programs/wave.h STDOUT "dialect klartext .a guess: 'BEGIN PGM' in line 1" "4 arcs")
-clsurf_cli_test(NAME klartext_corner_and_circle ARGS moves @DATA@/programs/wave.h
+clsurf_cli_test(NAME klartext_is_recognised ARGS info @DATA@/programs/wave.H STDOUT "dialect klartext .a guess: 'BEGIN PGM' in line 1" "4 arcs")
+clsurf_cli_test(NAME klartext_corner_and_circle ARGS moves @DATA@/programs/wave.H
   STDOUT "1592,ccw,29,-2,-4,,,,26,-2,-4,1,17,1200" "1597,ccw,0,-5,-4.5,,,,0,5,-4.5,1,17,1200")
-clsurf_cli_test(NAME klartext_lint ARGS lint @DATA@/programs/wave.h EXIT 1 STDOUT "wave.h:183-257: warning: points 0.021 mm apart")
+clsurf_cli_test(NAME klartext_lint ARGS lint @DATA@/programs/wave.H EXIT 1 STDOUT "wave.H:183-257: warning: points 0.021 mm apart")
 clsurf_cli_test(NAME klartext_approach SETUP "printf '0 BEGIN PGM A MM\\n1 L X+0 Y+0 Z+0 FMAX\\n2 APPR LT X+20 Y+20 LEN15 F100\\n3 END PGM A MM\\n' > part.h"
   ARGS moves part.h EXIT 3 STDERR "part.h:3:3: error: APPR is not read in klartext, and moves axes")
 clsurf_cli_test(NAME klartext_simulated SETUP "printf '0 BEGIN PGM A MM\\n1 CYCL DEF 32.1 T0.02\\n2 L X+0 Y+0 Z+0 FMAX\\n3 L X+20 F3000\\n4 L Y+20\\n5 END PGM A MM\\n' > part.h"
