@@ -19,6 +19,7 @@ std::string intervals_text(const ProgramIntervals& all) {
                             i.speed * seconds_per_minute);
     }
     text += fmt::format("\n{} intervals on {} passes\n", all.intervals.size(), all.passes);
+    if (all.passes == 0) text += "no pass has two cutting motions in a row: there is nothing to divide\n";
     return text;
 }
 

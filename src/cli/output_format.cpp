@@ -103,7 +103,8 @@ const OutputFormat& output_format(const std::string& path, OutputFormats formats
         if (!chosen.empty() && format == nullptr) format = &by_name(chosen, formats);
         if (format == nullptr)
             throw UsageError(fmt::format("{}: '{}' must end in {}", option, path, endings_of(formats)),
-                             "the ending chooses the format");
+                             path.ends_with(".csv") ? "the ending chooses the format; `clsurf export` writes CSV"
+                                                    : "the ending chooses the format");
     }
     if (format->binary && is_terminal(path))
         throw UsageError(fmt::format("{}: {} is binary and would be written to the terminal", option, format->name),
