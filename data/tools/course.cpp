@@ -145,6 +145,7 @@ public:
     [[nodiscard]] Vec3 at(const Vec2& p) const {
         switch (r_.layout) {
             case Layout::waterline:
+            case Layout::staggered:
             case Layout::helix: {
                 const double around = p.x() / (0.5 * r_.length);
                 const double radius = 0.5 * r_.length * (1 + 0.05 * std::cos(3 * around)) - p.y() * std::sin(r_.draft);
@@ -287,6 +288,11 @@ std::vector<PlanePass> round_a_tower(const CourseRecipe& r) {
     const bool helix = r.layout == Layout::helix;
     for (int k = 0; k < r.passes; ++k) {
         const double v = -k * r.step_over;
+        if (r.layout == Layout::staggered) {
+            const double start = 2.5 * k * r.step_over;  // links at 22° to the loops
+            passes.push_back({{{start, v}, {start + around, v}}, Joint::link});
+            continue;
+        }
         const double last = helix ? around - r.spacing : around;
         const double fall = helix ? r.step_over * last / around : 0;
         passes.push_back({{{0, v}, {last, v - fall}}, helix && k > 0 ? Joint::none : Joint::link});
@@ -301,6 +307,7 @@ std::vector<PlanePass> lay_on_plane(const CourseRecipe& r) {
         case Layout::islands: return contours(r);
         case Layout::spiral: return winding(r);
         case Layout::waterline:
+        case Layout::staggered:
         case Layout::helix: return round_a_tower(r);
         default: return to_and_fro(r);
     }
@@ -316,9 +323,9 @@ void move_to(std::vector<CoursePoint>& course, const Vec3& to, Motion motion, do
 }  // namespace
 
 std::string_view name_of(Layout layout) {
-    constexpr std::array<std::string_view, layouts> names{"zigzag",      "one-way",  "oblique", "arcs",
-                                                          "interrupted", "contours", "islands", "spiral",
-                                                          "waterline",   "helix",    "wall"};
+    constexpr std::array<std::string_view, layouts> names{"zigzag",      "one-way",   "oblique", "arcs",
+                                                          "interrupted", "contours",  "islands", "spiral",
+                                                          "waterline",   "staggered", "helix",   "wall"};
     return names[static_cast<std::size_t>(layout)];
 }
 

@@ -23,10 +23,11 @@ enum class Layout : std::uint8_t {
     islands,      ///< closed loops from the border of a rectangle and round two islands, which meet in rounded creases
     spiral,       ///< from outside inwards
     waterline,    ///< closed loops round a tower, level by level
+    staggered,    ///< the same, each level joined on a slant, farther on than the one before
     helix,        ///< the same as one continuous turn
     wall,         ///< a zigzag on a steep wall, level above level
 };
-inline constexpr int layouts = 11;
+inline constexpr int layouts = 12;
 [[nodiscard]] std::string_view name_of(Layout layout);
 
 struct CourseRecipe {

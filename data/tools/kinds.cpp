@@ -35,6 +35,8 @@ constexpr std::array kinds = std::to_array<LogKind>({
     {"waterline F4000", Layout::waterline, 4000, 0.001, 0.001, Fault::all},
     {"helix F4000 250 µs", Layout::helix, 4000, 0.00025, 0.001, Fault::all},
     {"waterline F4000 near ends", Layout::waterline, 4000, 0.001, 0.0001, Fault::end_dip},
+    {"staggered F3000", Layout::staggered, 3000, 0.001, 0.001, Fault::all},
+    {"staggered F6000 2 ms", Layout::staggered, 6000, 0.002, 0.001, Fault::dip},
     {"wall F4000 near ends", Layout::wall, 4000, 0.001, 0.001, Fault::end_dip},
     {"spiral F6000", Layout::spiral, 6000, 0.001, 0.001, Fault::all},
     {"contours F6000 2 ms", Layout::contours, 6000, 0.002, 0.001, Fault::all},
@@ -112,8 +114,8 @@ private:
         shape_.passes = slow ? whole(g, 18, 22) : whole(g, 24, 36);
         const double base = slow ? 14 : fast ? 60 : kind_.layout == Layout::interrupted ? 44 : 26;
         shape_.length = base * uniform(g, 1, 1.3);
-        const bool round =
-            kind_.layout == Layout::spiral || kind_.layout == Layout::waterline || kind_.layout == Layout::helix;
+        const bool round = kind_.layout == Layout::spiral || kind_.layout == Layout::waterline ||
+                           kind_.layout == Layout::staggered || kind_.layout == Layout::helix;
         if (round) shape_.length = std::max(0.6 * shape_.length, 2.2 * shape_.passes * shape_.step_over);
         shape_.angle = uniform(g, 0.35, 1.2);
         shape_.waviness = uniform(g, 0.2, slow ? 0.6 : 1.5);

@@ -5,13 +5,12 @@
 #include <cmath>
 #include <map>
 
-#include <fmt/format.h>
-
 #include "core/parallel.h"
 #include "core/statistics.h"
 #include "path/way.h"
 #include "quality/border.h"
 #include "quality/cause.h"
+#include "quality/coverage.h"
 #include "quality/explanations.h"
 #include "quality/opposites.h"
 #include "quality/subprogram_lines.h"
@@ -346,65 +345,72 @@ bool starts_defect(SuspectSpan sites, Family family) {
             any([](const Suspect* s) { return s->share[index_of(Quantity::speed)] >= least_speed_share; }));
 }
 
-/// The defects of one family of quantities, of an area of `smallest` [mm²] or more, at the border of the part or away from
-/// it: what is expected there must not swallow what lies beside it.
-std::vector<Built> build_family(const Suspects& suspects, Family family, bool at_border, double smallest,
-                                const Border& border, const Builder& builder) {
-    Suspects mine;
-    for (const Suspect* s : suspects) {
-        if (s->border == at_border && largest(s->share, family) >= half_of_peak) mine.push_back(s);
-    }
-    std::vector<Built> built;
-    std::vector<Suspects> groups = builder.regroup(mine);
-    for (std::size_t g = 0; g < groups.size(); ++g) {
-        const Suspects group = std::move(groups[g]);
-        if (!starts_defect(group, family)) continue;
-        const Quantity quantity = main_quantity(group, family);
-        // Cut back, a group may fall apart: weak suspects had joined several defects.
-        Suspects rest;
-        const Suspects strong_sites = builder.core_of(group, quantity, rest);
-        if (rest.size() < group.size()) {
-            for (Suspects& left : builder.regroup(rest)) groups.push_back(std::move(left));
-        }
-        for (Suspects& core : builder.parts_of(strong_sites, quantity)) {
-            if (core.size() < fewest_sites || !starts_defect(core, family)) continue;
-            Defect defect = builder.build(core, quantity, family);
-            if (defect.area < smallest) continue;
-            const bool expected = at_border ? !border.stands_out(core, quantity) : border.has_flank(core, quantity);
-            built.push_back({std::move(defect), std::move(core), expected});
-        }
-    }
-    return built;
-}
+/// Builds the defects of one family of quantities, of an area of `smallest` [mm²] or more, at the border of the part or away
+/// from it: what is expected there must not swallow what lies beside it.
+class FamilyBuilder {
+public:
+    FamilyBuilder(Family family, bool at_border, double smallest, const ClSurface& surface, const Border& border,
+                  const Builder& builder)
+        : family_(family),
+          at_border_(at_border),
+          smallest_(smallest),
+          surface_(surface),
+          border_(border),
+          builder_(builder) {}
 
-/// Refuses a verdict where too little could be compared.
-void judge_coverage(QualityReport& report) {
-    if (report.not_finishing_share() > 1 - least_coverage) {
-        report.judgement.refuse(fmt::format(
-            "{:.0f} % of the cutting points belong to no finishing passes, so nothing could be compared with them.",
-            100 * report.not_finishing_share()));
+    std::vector<Built> build(const Suspects& suspects) {
+        Suspects mine;
+        for (const Suspect* s : suspects) {
+            if (s->expected(family_.front()) == at_border_ && largest(s->share, family_) >= half_of_peak)
+                mine.push_back(s);
+        }
+        std::vector<Suspects> groups = builder_.regroup(mine);
+        for (std::size_t g = 0; g < groups.size(); ++g) {
+            const Suspects group = std::move(groups[g]);
+            if (!starts_defect(group, family_)) continue;
+            const Quantity quantity = main_quantity(group, family_);
+            // Cut back, a group may fall apart: weak suspects had joined several defects.
+            Suspects rest;
+            const Suspects strong_sites = builder_.core_of(group, quantity, rest);
+            if (rest.size() < group.size()) {
+                for (Suspects& left : builder_.regroup(rest)) groups.push_back(std::move(left));
+            }
+            for (Suspects& core : builder_.parts_of(strong_sites, quantity)) add(std::move(core), quantity);
+        }
+        return std::move(built_);
     }
-    if (report.points == 0 && report.not_finishing > 0) return;
-    if (report.points == 0) {
-        report.judgement.refuse("The log has no cutting points.");
-    } else if (report.step_over <= 0) {
-        report.judgement.refuse("No pass has another pass beside it, so nothing could be compared.");
-    } else if (report.coverage() < least_coverage) {
-        const double percent = std::floor(1000 * report.coverage()) / 10;  // never rounded up to what is enough
-        report.judgement.refuse(
-            fmt::format("Only {:.1f} % of {} cutting points could be compared with the passes on both sides. A verdict "
-                        "needs {:.0f} %.",
-                        percent, report.points, 100 * least_coverage));
-    }
-}
 
-/// Says so where it is the records that are too few to tell passes apart. `record` [mm]: way of one.
-void judge_records(double record, QualityReport& report) {
-    if (report.step_over <= 0 || report.coverage() >= least_coverage || !(record > report.step_over)) return;
-    report.judgement.refuse(fmt::format(
-        "Records are {:.2f} mm apart at the usual speed and passes {:.2f} mm: which pass lies beside a point cannot be told.",
-        record, report.step_over));
-}
+private:
+    void add(Suspects core, Quantity quantity) {
+        if (core.size() < fewest_sites || !starts_defect(core, family_)) return;
+        if (at_border_) return keep(core, quantity, !border_.stands_out(core, quantity));
+        const std::optional<PointIndex> flank = border_.flank_of(core, quantity);
+        if (!flank) return keep(core, quantity, false);
+        // A flank ends. What goes on beyond it is something of its own.
+        const double reach = border_.flank_reach(core, quantity);
+        const auto beyond = std::stable_partition(core.begin(), core.end(), [&](const Suspect* s) {
+            return (surface_.positions[s->point] - surface_.positions[*flank]).norm() < reach;
+        });
+        const Suspects rest(beyond, core.end());
+        core.erase(beyond, core.end());
+        keep(core, quantity, true);
+        for (Suspects& part : builder_.regroup(rest)) add(std::move(part), quantity);
+    }
+
+    void keep(const Suspects& core, Quantity quantity, bool expected) {
+        if (core.size() < fewest_sites) return;
+        Defect defect = builder_.build(core, quantity, family_);
+        if (defect.area >= smallest_) built_.push_back({std::move(defect), core, expected});
+    }
+
+    Family family_;
+    bool at_border_;
+    double smallest_;
+    const ClSurface& surface_;
+    const Border& border_;
+    const Builder& builder_;
+    std::vector<Built> built_;
+};
 
 }  // namespace
 
@@ -430,21 +436,21 @@ QualityReport find_defects(const ClSurface& surface, const Signals& signals, con
     report.not_finishing = surface.not_finishing;
     report.compared = count_compared(surface, signals);
     for (const std::string& reason : signals.unfit) report.judgement.refuse(reason);
-    judge_coverage(report);
-    judge_records(report.thresholds.usual_speed * period, report);
+    judge_coverage(report.thresholds.usual_speed * period, report);
 
-    FoundSuspects found = find_suspects(surface, signals, report.thresholds);
+    FoundSuspects found = find_suspects(surface, signals, way, report.thresholds);
     const SystematicLag systematic = rules.group_systematic
                                          ? take_systematic_lag(surface, signals, way, report.thresholds, joined, found)
                                          : SystematicLag{};
     const Suspects& suspects = found.suspects;
     const double smallest = smallest_area * surface.step_over * surface.step_over;
     const std::array<Family, 3> families{motion_family, lag_family, relief_family};
-    const Border border(surface, signals, way, suspects, joined);
+    const Border border(surface, signals, way, suspects, joined, report.thresholds);
     std::array<std::vector<Built>, 2 * families.size()> of_family;  // away from the border and at it
     parallel_for(of_family.size(), 1, [&](std::int64_t first, std::int64_t last) {
         for (auto k = static_cast<std::size_t>(first); k < static_cast<std::size_t>(last); ++k) {
-            of_family[k] = build_family(suspects, families[k / 2], k % 2 == 1, smallest, border, builder);
+            of_family[k] =
+                FamilyBuilder(families[k / 2], k % 2 == 1, smallest, surface, border, builder).build(suspects);
         }
     });
     std::vector<Built> all;

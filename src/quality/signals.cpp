@@ -27,6 +27,8 @@ constexpr double height_window = 0.015;     ///< window of the mean that heights
 constexpr PointIndex relief_every = 3;      ///< points: normals and reliefs are those of every third
 constexpr double longest_lag = 0.1;         ///< [s] that the measured position may come after the commanded one
 constexpr PointIndex shortest_reach = 64;   ///< points
+constexpr float least_chord_share =
+    0.33F;  ///< of the chord between both neighbours, on either side of a point that has a relief
 constexpr PointIndex longest_reach = 4096;
 constexpr PointIndex lead = 16;         ///< points that it may come before: logs that were put together
 constexpr float farthest_lag = 2.0F;    ///< step-overs; farther, the paths have nothing to do with each other
@@ -218,7 +220,7 @@ private:
         if (out_[left.nearest()].zone == Zone::outside || out_[right.nearest()].zone == Zone::outside)
             return missing<float>;
         const float share = (here - b).dot(across) / across.squaredNorm();
-        if (!(share > 0.2F && share < 0.8F)) return missing<float>;
+        if (!(share > least_chord_share && share < 1 - least_chord_share)) return missing<float>;
         return (here - b - share * across).dot(normal);
     }
 
@@ -372,6 +374,7 @@ Signals derive_signals(const ClSurface& surface, const Trajectory& path, const T
         cutter.cut(piece, [&](const PointRange& part, bool) { pieces.push_back(part); });
     signals.samples.resize(static_cast<std::size_t>(path.count));
     signals.measured = measured != nullptr;
+    signals.pieces = pieces;
     const float quantum = quantum_of_axes(path);
     signals.quantum = measured != nullptr ? std::max(quantum, quantum_of_axes(*measured)) : quantum;
     const Deriver deriver(surface, path, measured, usual_speed_of(surface, path.period), quantum, signals);

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "core/block.h"
+#include "quality/bend.h"
 #include "quality/sites.h"
 #include "quality/slant.h"
 
@@ -15,6 +16,8 @@ namespace {
 
 constexpr int fewest_alike = 2;  ///< passes of the same way on each side, where two ways cannot be told from a fault
 constexpr float suspect_share = 0.5F;  ///< of a threshold
+constexpr double ends_apart = 1;   ///< step-overs along the feed between ends of passes that do not end side by side
+constexpr double ramp_room = 1.5;  ///< times what the steeper one of both ramps makes of that way
 constexpr float joined_beside = 1.0F;  ///< step-overs along the feed between suspects of two passes
 
 /// How far residual and step pass the thresholds, together.
@@ -108,11 +111,13 @@ namespace {
 
 class SuspectFinder {
 public:
-    SuspectFinder(const ClSurface& surface, const Signals& signals, const Thresholds& thresholds)
+    SuspectFinder(const ClSurface& surface, const Signals& signals, const Way& way, const Thresholds& thresholds)
         : surface_(surface),
           signals_(signals),
+          way_(way),
           thresholds_(thresholds),
           comparer_(surface, signals, thresholds.least_speed),
+          bends_(surface, signals, thresholds),
           sites_(surface, signals),
           judged_(static_cast<std::size_t>(signals.size()), false) {}
 
@@ -164,6 +169,33 @@ private:
         return sites;
     }
 
+    /// A pass and the one beside it do not end side by side: one goes on, or its ramp lies farther on and so makes the difference.
+    [[nodiscard]] bool ends_elsewhere(PointIndex point, const Station& beside) const {
+        const PointIndex other = beside.nearest();
+        if (signals_[other].zone == Zone::inner) return true;
+        const double farther = way_to_end(point) - way_to_end(other);
+        const double faster = signals_[point].speed - signals_[other].speed;
+        if (std::abs(farther) < ends_apart * surface_.step_over || !(farther * faster > 0)) return false;
+        return std::abs(faster) <= ramp_room * std::abs(farther) * std::max(ramp_at(point), ramp_at(other));
+    }
+
+    /// How much the speed changes along the pass [1/s].
+    [[nodiscard]] double ramp_at(PointIndex point) const {
+        const double along = signals_.acceleration(point).dot(signals_.feed(point));
+        return std::abs(along) / std::max(signals_[point].speed, thresholds_.least_speed);
+    }
+
+    /// [mm] to the nearer end of what is judged of the pass there.
+    [[nodiscard]] double way_to_end(PointIndex point) const {
+        const std::vector<PointRange>& pieces = signals_.pieces;
+        const auto after = std::upper_bound(pieces.begin(), pieces.end(), point,
+                                            [](PointIndex p, const PointRange& r) { return p < r.first; });
+        if (after == pieces.begin()) return 0;
+        const PointRange& piece = *(after - 1);
+        const double here = way_.to(point);
+        return std::min(here - way_.to(piece.first), way_.to(piece.last) - here);
+    }
+
     /// Compares where passes begin or end. Beside one that goes on, and where there is no pass on one side, a
     /// difference is no surprise. Where all begin or end, the two ways of a zigzag differ by nature: there
     /// a suspect is what differs from passes of its own way.
@@ -172,15 +204,38 @@ private:
         suspect.border = c.left == 0 || c.right == 0;
         if (suspect.border) return;
         if (!c.ramp) return;
-        suspect.border = signals_[suspect.point].zone == Zone::inner ||
-                         signals_[c.beside_left.nearest()].zone == Zone::inner ||
-                         signals_[c.beside_right.nearest()].zone == Zone::inner;
-        if (suspect.border) return;
+        suspect.border = signals_[suspect.point].zone == Zone::inner || ends_elsewhere(suspect.point, c.beside_left) ||
+                         ends_elsewhere(suspect.point, c.beside_right);
+        if (suspect.border) {
+            // A ramp makes its pass the slower one. Where it is the faster one, something else is the matter.
+            constexpr std::size_t q = index_of(Quantity::speed);
+            const bool ramps = signals_[suspect.point].zone == Zone::ramp;
+            suspect.border = suspect.share[q] < suspect_share || (c.residual[q] < 0) == ramps;
+            return;
+        }
         const Comparison alike = comparer_.compare_at_end(place);
         suspect.border = std::min(alike.left, alike.right) < fewest_alike;
         if (suspect.border) return;
         suspect.comparison = alike;
         measure(suspect, thresholds_);
+    }
+
+    /// Where one of the passes turns, the chord over it does not lie straight across: its height is no relief.
+    void forget_relief_in_corner(Suspect& suspect) const {
+        constexpr std::size_t q = index_of(Quantity::relief);
+        if (suspect.share[q] < suspect_share) return;
+        const auto turns = [&](const Station& at) {
+            return at.exists() && turns_on_surface(surface_, signals_, at.nearest());
+        };
+        const Comparison& c = suspect.comparison;
+        if (!turns({suspect.point, 0}) && !turns(c.beside_left) && !turns(c.beside_right)) return;
+        suspect.comparison.residual[q] = suspect.comparison.step[q] = 0;
+        suspect.share[q] = suspect.score[q] = 0;
+    }
+
+    [[nodiscard]] static bool moves_otherwise(const Suspect& suspect) {
+        return std::max(suspect.share[index_of(Quantity::speed)], suspect.share[index_of(Quantity::acceleration)]) >=
+               suspect_share;
     }
 
     /// Looks at those that were not looked at yet. Returns the suspects among them.
@@ -205,10 +260,13 @@ private:
                 comparer_.compare_along_slant(place, suspect.comparison);
                 measure(suspect, thresholds_);
                 if (*std::max_element(suspect.share.begin(), suspect.share.end()) < suspect_share) continue;
+                forget_relief_in_corner(suspect);
+                if (*std::max_element(suspect.share.begin(), suspect.share.end()) < suspect_share) continue;
                 compare_at_end(place, suspect);
                 suspect.turns = suspect.border && turns_on_surface(surface_, signals_, suspect.point);
                 if (*std::max_element(suspect.share.begin(), suspect.share.end()) < suspect_share) continue;
                 suspect.pass = pass_of(surface_.passes, suspect.point);
+                suspect.bend = moves_otherwise(suspect) && bends_.explain(suspect.point, suspect.comparison);
                 of_piece[static_cast<std::size_t>(first / grain)].push_back(suspect);
             }
         });
@@ -222,8 +280,10 @@ private:
 
     const ClSurface& surface_;
     const Signals& signals_;
+    const Way& way_;
     const Thresholds& thresholds_;
     Comparer comparer_;
+    Bends bends_;
     Sites sites_;
     std::vector<bool> judged_;  ///< by point
     FoundSuspects found_;
@@ -231,8 +291,9 @@ private:
 
 }  // namespace
 
-FoundSuspects find_suspects(const ClSurface& surface, const Signals& signals, const Thresholds& thresholds) {
-    return SuspectFinder(surface, signals, thresholds).find();
+FoundSuspects find_suspects(const ClSurface& surface, const Signals& signals, const Way& way,
+                            const Thresholds& thresholds) {
+    return SuspectFinder(surface, signals, way, thresholds).find();
 }
 
 double joined_along(const ClSurface& surface, double record) {

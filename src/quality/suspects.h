@@ -15,9 +15,14 @@ struct Suspect {
     std::size_t pass = 0;  ///< index into surface.passes
     bool border = false;   ///< no pass on one side, or one begins or ends there: the difference is expected
     bool turns = false;    ///< at a border: the path turns there
+    bool bend = false;     ///< a bend explains its motion (bend.h): that difference is expected
     std::array<float, quantities> share{};  ///< |residual| over threshold
     std::array<float, quantities> score{};  ///< the same, where the step passes it too; from 1 on a defect starts
     Comparison comparison;
+
+    [[nodiscard]] bool bends(Quantity q) const { return bend && (q == Quantity::speed || q == Quantity::acceleration); }
+    /// What it shows of a quantity is expected there.
+    [[nodiscard]] bool expected(Quantity q) const { return border || bends(q); }
 };
 
 /// The pass that holds a point. O(log passes).
@@ -39,7 +44,7 @@ struct FoundSuspects {
 /// Sites (sites.h) whose residual passes half a threshold, in the order of their points. Only sites with a step are
 /// looked at with all passes around, and then what lies beside a suspect: the inner passes of a band
 /// have no step of their own. O(points), parallel; the same for any number of threads.
-[[nodiscard]] FoundSuspects find_suspects(const ClSurface& surface, const Signals& signals,
+[[nodiscard]] FoundSuspects find_suspects(const ClSurface& surface, const Signals& signals, const Way& way,
                                           const Thresholds& thresholds);
 
 /// How much way [mm] may lie between suspects of one pass that belong together: a millimetre, two step-overs or two records, with room.

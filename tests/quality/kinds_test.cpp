@@ -35,10 +35,36 @@ TEST(Kinds, CleanLogsAreClean) {
     for (const planted::LogKind& kind : planted::log_kinds()) {
         double coverage = 0;
         const planted::Score one = score_of(kind, 4, true, coverage);
-        // Where loops round islands meet in a crease, passes differ by more than the plan of the nearest one tells.
-        const int tolerated = kind.layout == planted::Layout::islands ? 6 : 0;
-        EXPECT_LE(one.reported - one.natural, tolerated) << kind.name;
+        // Still listed: a pass that begins in a crease, and links of which the planner's own speeds differ.
+        const bool known = kind.layout == planted::Layout::islands || kind.layout == planted::Layout::staggered;
+        EXPECT_LE(one.reported - one.natural, known ? 1 : 0) << kind.name;
     }
+}
+
+/// Where loops round islands meet, their tips turn sharply beside passes that run straight on, and begin beside passes that go on.
+TEST(Kinds, BendsOfLoopsRoundIslandsAreExpected) {
+    for (const planted::LogKind& kind : planted::log_kinds()) {
+        if (kind.layout != planted::Layout::islands) continue;
+        for (const std::uint64_t seed : {8, 104, 108}) {
+            double coverage = 0;
+            const planted::Score one = score_of(kind, seed, true, coverage);
+            EXPECT_EQ(one.reported - one.natural, 0) << kind.name << ' ' << seed;
+        }
+    }
+}
+
+/// A slow stretch that begins in a crease is more than the flank of what is expected there.
+TEST(Kinds, WhatIsExpectedInACreaseEndsThere) {
+    planted::Score all;
+    for (const planted::LogKind& kind : planted::log_kinds()) {
+        if (kind.layout != planted::Layout::islands) continue;
+        for (const std::uint64_t seed : {1, 2, 3}) {
+            double coverage = 0;
+            all += score_of(kind, seed, false, coverage);
+        }
+    }
+    EXPECT_EQ(all.found, all.planted);
+    EXPECT_EQ(all.right + all.natural, all.reported);
 }
 
 }  // namespace
