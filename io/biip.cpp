@@ -121,11 +121,9 @@ private:
     void check_crc() const {
         const auto stored = get<std::uint32_t>(bytes_, 44);
         const std::array<std::byte, 8> zeros{};
-        std::uint32_t crc = crc32c(bytes_.subspan(0, 24));
-        crc = crc32c(std::span(zeros).first(8), crc);
-        crc = crc32c(bytes_.subspan(32, 12), crc);
-        crc = crc32c(std::span(zeros).first(4), crc);
-        crc = crc32c(bytes_.subspan(fixed_bytes, header_bytes_ - fixed_bytes), crc);
+        const std::uint32_t crc =
+            crc32c({bytes_.subspan(0, 24), std::span(zeros).first(8), bytes_.subspan(32, 12), std::span(zeros).first(4),
+                    bytes_.subspan(fixed_bytes, header_bytes_ - fixed_bytes)});
         if (crc != stored)
             fail(44, fmt::format("header checksum {:08x}, computed {:08x}: the header is damaged", stored, crc));
     }

@@ -3,11 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <span>
 
 namespace clsurf::io {
 
-/// CRC of `bytes`, going on from `crc` (0 to begin).
-[[nodiscard]] std::uint32_t crc32c(std::span<const std::byte> bytes, std::uint32_t crc = 0);
+/// CRC of pieces, one after the other.
+[[nodiscard]] std::uint32_t crc32c(std::initializer_list<std::span<const std::byte>> pieces);
+[[nodiscard]] inline std::uint32_t crc32c(std::span<const std::byte> bytes) { return crc32c({bytes}); }
 
 }  // namespace clsurf::io

@@ -1,5 +1,5 @@
 #pragma once
-// SHA-256 (FIPS 180-4): which program a log belongs to, as BIIP metadata names it.
+// SHA-256 (FIPS 180-4), by OpenSSL: which program a log belongs to, as BIIP metadata names it.
 
 #include <cstddef>
 #include <span>
@@ -7,8 +7,7 @@
 
 namespace clsurf::io {
 
-/// 64 hexadecimal digits, lower case. Takes the machine's own instructions where it has them;
-/// `plain`: not even then (tests compare the two).
-[[nodiscard]] std::string sha256(std::span<const std::byte> bytes, bool plain = false);
+/// 64 hexadecimal digits, lower case. Throws SystemError where OpenSSL does not offer it.
+[[nodiscard]] std::string sha256(std::span<const std::byte> bytes);
 
 }  // namespace clsurf::io

@@ -22,15 +22,6 @@ TEST(Sha256, HasTheValuesOfItsDefinition) {
     EXPECT_EQ(hash_of(std::string(1'000'000, 'a')), "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
 }
 
-TEST(Sha256, IsTheSameWithAndWithoutTheMachinesInstructions) {
-    std::string text;
-    for (int i = 0; i < 200; ++i) {
-        const auto bytes = std::as_bytes(std::span(text.data(), text.size()));
-        EXPECT_EQ(sha256(bytes), sha256(bytes, true)) << i;
-        text += static_cast<char>(i * 37);
-    }
-}
-
 Source made(const std::string& name, std::string_view text) {
     return {name, std::as_bytes(std::span(text.data(), text.size())), nullptr};
 }
