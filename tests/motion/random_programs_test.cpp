@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <random>
 
 #include <fmt/format.h>
@@ -43,7 +45,8 @@ public:
         const double scale = spread(0.01, 20);
         std::string text = chance(0.15) ? "G61\n" : "G64\n";
         Vec3 at = Vec3::Zero(), before = Vec3::Zero();
-        for (int block = 0; block < 60; ++block) {
+        const int blocks = static_cast<int>(spread(3, 60));
+        for (int block = 0; block < blocks; ++block) {
             const double kind = uniform(0, 1);
             Vec3 to = at + scale * spread(0.02, 1) * Vec3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
             if (kind < 0.05)
@@ -130,14 +133,23 @@ struct Modes {
 
 class RandomPrograms : public testing::TestWithParam<Modes> {};
 
+/// Random programs in a mode: CLSURF_RANDOM_PROGRAMS of them in all modes together, else what the suite has time for.
+int rounds_of_a_mode() {
+    constexpr int modes = 10, usual = 1000;
+    const char* wanted = std::getenv("CLSURF_RANDOM_PROGRAMS");
+    return (wanted != nullptr ? std::atoi(wanted) : usual) / modes;
+}
+
 TEST_P(RandomPrograms, HoldLimitsToleranceAndEnd) {
     Maker maker(20260721);
-    constexpr int rounds = 6;
+    const int rounds = rounds_of_a_mode();
+    std::int64_t blocks = 0;
     for (int round = 0; round < rounds; ++round) {
         const Machine machine = maker.machine(GetParam().corner, GetParam().curve, GetParam().jerk);
         const std::string text = maker.program();
         const Program program = program_of(text);
         const Recorded r = run_program(program, machine);
+        blocks += static_cast<std::int64_t>(program.motions.size());
         EXPECT_TRUE(r.summary.limits_ok) << "round " << round << ": " << parts_of_limits(r.summary, machine);
         const double tolerance = greatest_tolerance(program, machine);
         EXPECT_LE(r.summary.path_deviation, tolerance * (1 + 1e-9)) << round;
@@ -147,13 +159,14 @@ TEST_P(RandomPrograms, HoldLimitsToleranceAndEnd) {
         ASSERT_LT((r.points.back().commanded - maker.end()).norm(), 1e-5) << round;
         for (const SimulatedPoint& p : r.points)
             ASSERT_TRUE(p.commanded.allFinite() && p.feedback.allFinite() && std::isfinite(p.speed)) << round;
-        if (round % 10 != 0) continue;
+        if (round % 10 != 0) continue;  // a second run for every tenth
         const Recorded again = run_program(program, machine);
         ASSERT_EQ(again.points.size(), r.points.size());
         for (std::size_t i = 0; i < r.points.size(); ++i)
             ASSERT_TRUE(again.points[i].commanded == r.points[i].commanded &&
                         again.points[i].feedback == r.points[i].feedback);
     }
+    std::printf("%d random programs, %lld motions\n", rounds, static_cast<long long>(blocks));
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -240,8 +240,8 @@ TEST(Simulator, TakesAsLongAsLinuxCncWithItsRules) {
                                                                {"petal_zigzag_g64.ngc", 137.09},
                                                                {"petal_zigzag_irregular.ngc", 163.22}};
     for (const auto& [name, seconds] : recorded) {
-        const Program program =
-            io::read_program(io::open_source(SAMPLE_DATA "/programs/" + name), {.dialect = "linuxcnc", .tools = {}});
+        const Program program = io::read_program(io::open_source(SAMPLE_DATA "/programs/" + name),
+                                                 {.dialect = "linuxcnc", .start = {}, .tools = {}});
         const SimulationSummary summary =
             simulate(program, machine, Vec3::Zero(), [](std::span<const SimulatedPoint>) {}, {});
         EXPECT_NEAR(summary.duration, seconds, 0.05 * seconds) << name;
@@ -251,7 +251,7 @@ TEST(Simulator, TakesAsLongAsLinuxCncWithItsRules) {
 // 52.3 s with zero acceleration at every node.
 TEST(Simulator, AZigzagUnderAJerkLimitIsNearItsOptimum) {
     const Program program = io::read_program(io::open_source(SAMPLE_DATA "/programs/bottle_zigzag.nc"),
-                                             {.dialect = "linuxcnc", .tools = {}});
+                                             {.dialect = "linuxcnc", .start = {}, .tools = {}});
     const SimulationSummary summary =
         simulate(program, Machine{}, Vec3::Zero(), [](std::span<const SimulatedPoint>) {}, {});
     EXPECT_TRUE(summary.limits_ok);

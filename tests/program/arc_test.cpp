@@ -1,5 +1,5 @@
-#include "program/dialects/known_dialects.h"
 #include "program/interpret/arc.h"
+#include "program/dialects/known_dialects.h"
 
 #include <cmath>
 #include <numbers>

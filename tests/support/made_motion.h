@@ -23,7 +23,7 @@ struct Recorded {
 inline Program program_of(const std::string& text, const std::string& dialect = "linuxcnc") {
     auto kept = std::make_shared<const std::string>(text);
     io::Source source{"made.ngc", std::as_bytes(std::span(kept->data(), kept->size())), kept};
-    return io::read_program(source, {.dialect = dialect, .tools = {}});
+    return io::read_program(source, {.dialect = dialect, .start = {}, .tools = {}});
 }
 
 inline Recorded run_program(const Program& program, const Machine& machine) {
