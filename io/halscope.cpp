@@ -1,4 +1,4 @@
-// halscope's log files, of two kinds (src/hal/utils/scope_files.c of LinuxCNC):
+// halscope's log files, of two kinds (scope_files.c of LinuxCNC):
 //   2.10:     "# Sampling period is 1000000 ns", then names and values separated by semicolons, with
 //             lines "# Position:" and "# Scale:" about the screen
 //   till 2.9: "Sampling period is 1000000 ns" (or nSec), then "NAME +1.5 NAME +2.5 " a record

@@ -1,5 +1,5 @@
 #pragma once
-// Reports as JSON text, with the keys that scripts rely on (docs/reference/json.md). Invalid UTF-8 in
+// Reports as JSON text, with the keys that scripts rely on. Invalid UTF-8 in
 // names and program lines becomes U+FFFD.
 
 #include <optional>

@@ -20,8 +20,8 @@ SourceText source_text(const Source& source) { return {source.name, source.text(
 
 /// Subprograms stand beside the program under their name, as the controls write it.
 std::optional<SourceText> load_beside(const std::filesystem::path& folder, const std::string& name) {
-    static constexpr std::array<std::string_view, 14> endings{"",     ".ngc", ".nc",  ".NC", ".spf", ".SPF",
-                                                              ".mpf", ".MPF", ".tap", ".i",  ".I",   ".txt", ".h", ".H"};
+    static constexpr std::array<std::string_view, 14> endings{"",     ".ngc", ".nc", ".NC", ".spf", ".SPF", ".mpf",
+                                                              ".MPF", ".tap", ".i",  ".I",  ".txt", ".h",   ".H"};
     // A name with a path would leave the folder.
     if (name.find('/') != std::string::npos) return std::nullopt;
     for (const std::string& stem :

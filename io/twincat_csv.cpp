@@ -36,38 +36,65 @@ struct Header {
 /// "mm (Length)" → "mm"; "(None)" → nothing.
 std::string unit_text(const std::string& cell) { return cell.substr(0, std::min(cell.find('('), cell.find(" ("))); }
 
-Header read_header(const Source& source, const Mapping* mapping) {
+/// The cells of the header's lines, from the names of the channels on.
+struct HeaderRows {
+    std::vector<std::vector<std::string>> rows;
+    std::uint64_t name_line = 0;
+};
+
+/// Reads them, and into `plan` the separator and where the records begin.
+HeaderRows read_rows(const Source& source, TextPlan& plan) {
     const std::string_view text = source.text();
     std::string_view rest = text_of(source.bytes);
-    Header header;
-    header.plan.separator = rest.size() > 4 ? rest[4] : '\t';  // behind "Name"
-    header.plan.decimal_comma = header.plan.separator != ',';
-    std::vector<std::vector<std::string>> rows;
+    plan.separator = rest.size() > 4 ? rest[4] : '\t';  // behind "Name"
+    plan.decimal_comma = plan.separator != ',';
+    HeaderRows header;
     std::uint64_t number = 0;
-    std::uint64_t name_line = 0;
     bool data = false;
     std::string_view before = rest;
     while (!rest.empty() && !data) {
         before = rest;
         const std::string_view line = first_line(rest);
         if (++number > most_header_lines) break;
-        const std::size_t end = std::min(line.find(header.plan.separator), line.size());
+        const std::size_t end = std::min(line.find(plan.separator), line.size());
         data = looks_like_number(line.substr(0, end));
         if (data) break;
         // The first "Name" is that of the file; the second begins the channels.
         if (number > 1 && line.substr(0, end) == "Name") {
-            rows.clear();
-            name_line = number;
+            header.rows.clear();
+            header.name_line = number;
         }
-        if (name_line > 0 && end > 0) rows.push_back(split(line, header.plan.separator));
+        if (header.name_line > 0 && end > 0) header.rows.push_back(split(line, plan.separator));
     }
-    if (name_line == 0)
+    if (header.name_line == 0)
         throw InputError(Place::of_line(source.name, std::min<std::uint64_t>(number, most_header_lines)),
                          "no line of channel names (\"Name\") in the header of a TwinCAT Scope export");
     if (!data) throw InputError(Place::of_line(source.name, number), "no records follow the header");
-    header.plan.data_begin = static_cast<std::size_t>(before.data() - text.data());
-    header.plan.first_data_line = number;
+    plan.data_begin = static_cast<std::size_t>(before.data() - text.data());
+    plan.first_data_line = number;
+    return header;
+}
 
+/// What the rows say of column i. `sample_time` [ms]: lowered to that of the column.
+SourceColumn read_column(const std::vector<std::vector<std::string>>& rows, std::size_t i, double& sample_time) {
+    const std::string& name = rows[0][i];
+    SourceColumn column{name, {}, {.name = name, .unit = {}}};
+    for (const std::vector<std::string>& row : rows) {
+        if (i >= row.size()) continue;
+        if (row[0] == "Unit") column.known.unit = unit_text(row[i]);
+        if (row[0] == "SymbolName") column.other = row[i];
+        if (row[0] == "SampleTime[ms]" || row[0] == "SampleTime") {
+            bool bad = false;
+            const double t = parse_number(row[i], true, bad);
+            if (t > 0 && (sample_time == 0 || t < sample_time)) sample_time = t;
+        }
+    }
+    return column;
+}
+
+Header read_header(const Source& source, const Mapping* mapping) {
+    Header header;
+    const auto [rows, name_line] = read_rows(source, header.plan);
     std::vector<SourceColumn> columns;
     std::size_t time = 0;
     for (std::size_t i = 0; i < rows[0].size(); ++i) {
@@ -78,18 +105,7 @@ Header read_header(const Source& source, const Mapping* mapping) {
             columns.emplace_back();
             continue;
         }
-        SourceColumn column{name, {}, {.name = name, .unit = {}}};
-        for (const std::vector<std::string>& row : rows) {
-            if (i >= row.size()) continue;
-            if (row[0] == "Unit") column.known.unit = unit_text(row[i]);
-            if (row[0] == "SymbolName") column.other = row[i];
-            if (row[0] == "SampleTime[ms]" || row[0] == "SampleTime") {
-                bool bad = false;
-                const double t = parse_number(row[i], true, bad);
-                if (t > 0 && (header.sample_time == 0 || t < header.sample_time)) header.sample_time = t;
-            }
-        }
-        columns.push_back(std::move(column));
+        columns.push_back(read_column(rows, i, header.sample_time));
     }
     const Place place = Place::of_line(source.name, name_line);
     header.plan.columns = plan_columns(columns, mapping, place);
@@ -135,6 +151,32 @@ std::vector<double> held(const Channel& channel, const std::vector<double>& time
     return values;
 }
 
+/// Times of the records [ms], for each column of times; the others are empty.
+struct TimeColumns {
+    std::vector<std::vector<double>> of;
+    std::size_t fastest = 0;  ///< gives the records: the one with the smallest first step
+};
+
+TimeColumns read_times(const Source& source, const Header& header, const Log& read) {
+    TimeColumns times;
+    times.of.resize(header.plan.columns.size());
+    bool found = false;
+    double least_step = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < header.time_column.size(); ++i) {
+        if (header.time_column[i] != i) continue;
+        std::vector<double>& own = times.of[i];
+        own = times_of(*read.find(header.plan.columns[i].name));
+        const double step = own.size() > 1 ? own[1] - own[0] : least_step;
+        if (!found || step < least_step) {
+            found = true;
+            times.fastest = i;
+            least_step = step;
+        }
+    }
+    if (!found) throw InputError(Place::of_line(source.name, header.plan.first_data_line), "no column of times");
+    return times;
+}
+
 }  // namespace
 
 int probe_twincat(std::span<const std::byte> head, const LogOptions&) {
@@ -153,25 +195,8 @@ Log open_twincat(const Source& source, const LogOptions& options) {
     header.plan.data_end = end_of_records(source.text());
     const Log read = read_table(source, header.plan, "twincat");
 
-    // The fastest column of times gives the records: the one with the smallest first step.
-    const Channel* base = nullptr;
-    double least_step = std::numeric_limits<double>::infinity();
-    std::vector<std::vector<double>> times(header.plan.columns.size());
-    for (std::size_t i = 0; i < header.time_column.size(); ++i) {
-        if (header.time_column[i] != i) continue;
-        const Channel* channel = read.find(header.plan.columns[i].name);
-        times[i] = times_of(*channel);
-        const double step = times[i].size() > 1 ? times[i][1] - times[i][0] : least_step;
-        if (base == nullptr || step < least_step) {
-            base = channel;
-            least_step = step;
-        }
-    }
-    if (base == nullptr)
-        throw InputError(Place::of_line(source.name, header.plan.first_data_line), "no column of times");
-    const auto base_column = static_cast<std::size_t>(std::distance(
-        header.plan.columns.begin(), std::find_if(header.plan.columns.begin(), header.plan.columns.end(),
-                                                  [&](const ColumnPlan& c) { return c.name == base->name; })));
+    const TimeColumns times = read_times(source, header, read);
+    const std::vector<double>& base = times.of[times.fastest];
 
     Log log;
     log.name = source.name;
@@ -184,15 +209,15 @@ Log open_twincat(const Source& source, const LogOptions& options) {
         const ColumnPlan& column = header.plan.columns[i];
         if (column.name.empty() || header.time_column[i] == i) continue;
         const Channel& channel = *read.find(column.name);
-        const std::vector<double>& own = times[header.time_column[i]];
-        const bool same = own == times[base_column];
+        const std::vector<double>& own = times.of[header.time_column[i]];
+        const bool same = own == base;
         if (same) {
             std::vector<double> values(static_cast<std::size_t>(log.records));
             copy_block(channel.values, 0, values);
             owned.add(column.name, column.unit, std::move(values));
         } else {
             ++held_channels;
-            owned.add(column.name, column.unit, held(channel, own, times[base_column]));
+            owned.add(column.name, column.unit, held(channel, own, base));
         }
     }
     if (held_channels > 0) {
@@ -205,7 +230,7 @@ Log open_twincat(const Source& source, const LogOptions& options) {
                  held_channels),
              {}});
     }
-    if (log.find("time") == nullptr) owned.add("time", "ms", times[base_column]);
+    if (log.find("time") == nullptr) owned.add("time", "ms", base);
     if (header.sample_time > 0) log.period = header.sample_time * seconds_per_millisecond;
     settle_period(log, options, map);
     add_event_lines(log, map);

@@ -1,6 +1,7 @@
 # clsurf_room(NAME NEEDS rooms… SOURCES … HEADERS … [LIBRARIES …]): a room of the project, as the
 # library clsurf::NAME. Sources are listed, never globbed; a room may include only what it NEEDS
-# (tests/architecture reads the includes, preset `rooms` links without undefined symbols).
+# (tests/architecture reads the includes, preset `rooms` links without undefined symbols). What rooms need is
+# written to arrows.txt in the build folder: the one table of allowed includes.
 
 add_library(clsurf_build_options INTERFACE)
 target_compile_features(clsurf_build_options INTERFACE cxx_std_20)
@@ -40,6 +41,12 @@ endif()
 # Where the rooms are listed for the package config: those that need VTK, and all others.
 set(CLSURF_ROOMS_WITH_VTK viz)
 
+# clsurf_arrows(NAME rooms…): what NAME may include.
+function(clsurf_arrows name)
+  list(JOIN ARGN " " needs)
+  set_property(GLOBAL APPEND_STRING PROPERTY CLSURF_ARROWS "${name}: ${needs}\n")
+endfunction()
+
 function(clsurf_room name)
   cmake_parse_arguments(PARSE_ARGV 1 ROOM "" "" "NEEDS;SOURCES;HEADERS;LIBRARIES")
   get_filename_component(base ${CMAKE_CURRENT_SOURCE_DIR} DIRECTORY)
@@ -47,6 +54,7 @@ function(clsurf_room name)
   add_library(clsurf::${name} ALIAS clsurf_${name})
   target_sources(clsurf_${name} PUBLIC FILE_SET HEADERS BASE_DIRS ${base} FILES ${ROOM_HEADERS})
   target_compile_features(clsurf_${name} PUBLIC cxx_std_20)
+  clsurf_arrows(${name} ${ROOM_NEEDS})
   # Rooms include each other as "room/header.h", users say <clsurf/room/header.h>.
   target_include_directories(clsurf_${name} INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   list(TRANSFORM ROOM_NEEDS PREPEND clsurf_)

@@ -198,6 +198,16 @@ private:
         (void)seam(b, -1, side, triangles);
     }
 
+    /// Whether a seam may move on at a vertex. Both passes lead into the link of a turn. Of passes that run alike only
+    /// the end of the earlier leads to the beginning of the later; their other links go to other passes.
+    [[nodiscard]] bool may_move(std::int64_t vertex, int step, bool leads_across, bool through_links,
+                                bool alike) const {
+        if (!goes_on(vertex, step)) return false;
+        const bool linked = link(vertex + step);
+        if (!through_links) return !linked;
+        return !alike || (leads_across && (linked || link(vertex)));
+    }
+
     /// Goes on from the band's edge at own vertex b in a direction: the edge moves on either pass, so that
     /// it stays short, until the passes meet. Where they do not, it stays between their ends.
     /// Returns whether it came to the next band.
@@ -215,18 +225,10 @@ private:
         float now = first;
         float way = 0;        // of both passes
         bool turned = false;  // both ways lead away from each other
-        // Both passes lead into the link of a turn. Of passes that run alike only the end of the earlier leads to
-        // the beginning of the later; their other links go to other passes.
-        const auto may = [&](std::int64_t vertex, int step, bool leads_across) {
-            if (!goes_on(vertex, step)) return false;
-            const bool linked = link(vertex + step);
-            if (!through_links) return !linked;
-            return a_step != b_step || (leads_across && (linked || link(vertex)));
-        };
         for (std::int64_t moved = 0; moved < longest_gap; ++moved) {
             if (a_step > 0 && b_step < 0 && b - a <= 1) return false;  // met in the turn
-            const bool a_may = may(a, a_step, b_step > 0);
-            const bool b_may = may(b, b_step, b_step < 0);
+            const bool a_may = may_move(a, a_step, b_step > 0, through_links, a_step == b_step);
+            const bool b_may = may_move(b, b_step, b_step < 0, through_links, a_step == b_step);
             if (!a_may && !b_may) {
                 if (through_links) break;
                 at_ends = triangles.size();
@@ -248,18 +250,13 @@ private:
             }
             now = length;
             if (narrow < closed_seam * width && length > std::max(1.5F * narrow, closed_seam * width)) break;
-            if (if_a <= if_b) {
-                add(triangles, static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(a + a_step),
-                    static_cast<std::uint32_t>(b));
-                a += a_step;
-            } else {
-                add(triangles, static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b + b_step),
-                    static_cast<std::uint32_t>(b));
-                b += b_step;
-                if (has_earlier(b, side)) {
-                    if (fan(b, a, earlier(b, side), 0, triangles)) return true;
-                    break;
-                }
+            const bool other_moves = if_a <= if_b;
+            add(triangles, static_cast<std::uint32_t>(a),
+                static_cast<std::uint32_t>(other_moves ? a + a_step : b + b_step), static_cast<std::uint32_t>(b));
+            (other_moves ? a : b) += other_moves ? a_step : b_step;
+            if (!other_moves && has_earlier(b, side)) {
+                if (fan(b, a, earlier(b, side), 0, triangles)) return true;
+                break;
             }
             // A pass ends somewhat before its corner: on to there.
             if (length <= most_at_ends)

@@ -118,6 +118,25 @@ std::vector<Vec2> thin_curve(std::span<const double> x, std::span<const double> 
     return out;
 }
 
+/// A cursor in the frame, with its value above it, where no curve runs, beside the curve's name.
+void add_cursor(Sheet& sheet, const Frame& f, const ChartCursor& cursor, const FlatText& name, std::size_t k) {
+    const double text = name.size;
+    const Vec2 p = f.at(cursor.x, f.y_low);
+    if (p.x() < f.rect.x || p.x() > f.rect.x + f.rect.width) return;
+    sheet.lines.push_back({{p, {p.x(), f.rect.y + f.rect.height}}, 1.4, cursor_colour});
+    const std::string value = tick_text(cursor.values[k], std::max(1e-4, (f.y_high - f.y_low) / 1000));
+    FlatText note{p.x(),
+                  f.rect.y + f.rect.height + 0.9 * text,
+                  k == 0 ? cursor.label + ": " + value : value,
+                  text,
+                  Align::left,
+                  true,
+                  cursor_colour};
+    const double least = f.rect.x + text_width({0, 0, name.text, text, Align::left, true, name.rgb}) + text;
+    note.x = std::max(least, std::min(note.x, f.rect.x + f.rect.width - text_width(note)));
+    sheet.texts.push_back(std::move(note));
+}
+
 Image draw_chart(std::span<const double> x, const std::vector<Curve>& curves, const std::vector<ChartCursor>& cursors,
                  const ChartLook& look) {
     const double text = std::clamp(std::min(look.width * 0.6, static_cast<double>(look.height)) / 44.0, 8.0, 40.0);
@@ -150,8 +169,9 @@ Image draw_chart(std::span<const double> x, const std::vector<Curve>& curves, co
         fit(f, curves[k]);
         add_grid(sheet, f, text, k + 1 == curves.size());
         const Rgb colour = curve_colours[k % std::size(curve_colours)];
-        sheet.texts.push_back(
-            {f.rect.x, f.rect.y + f.rect.height + 0.9 * text, curves[k].label, text, Align::left, true, colour});
+        const FlatText name{f.rect.x, f.rect.y + f.rect.height + 0.9 * text, curves[k].label, text, Align::left, true,
+                            colour};
+        sheet.texts.push_back(name);
         FlatLine line{{}, 1.4, colour};
         for (const Vec2& p : thin_curve(x, curves[k].values, f.x_low, f.x_high, static_cast<int>(f.rect.width))) {
             if (std::isfinite(p.y())) {
@@ -162,23 +182,7 @@ Image draw_chart(std::span<const double> x, const std::vector<Curve>& curves, co
             }
         }
         if (!line.points.empty()) sheet.lines.push_back(std::move(line));
-        for (const ChartCursor& cursor : cursors) {
-            const Vec2 p = f.at(cursor.x, f.y_low);
-            if (p.x() < f.rect.x || p.x() > f.rect.x + f.rect.width) continue;
-            sheet.lines.push_back({{p, {p.x(), f.rect.y + f.rect.height}}, 1.4, cursor_colour});
-            // Its value stands above the frame, where no curve runs, beside the curve's name.
-            const std::string value = tick_text(cursor.values[k], std::max(1e-4, (f.y_high - f.y_low) / 1000));
-            FlatText note{p.x(),
-                          f.rect.y + f.rect.height + 0.9 * text,
-                          k == 0 ? cursor.label + ": " + value : value,
-                          text,
-                          Align::left,
-                          true,
-                          cursor_colour};
-            const double least = f.rect.x + text_width({0, 0, curves[k].label, text, Align::left, true, colour}) + text;
-            note.x = std::max(least, std::min(note.x, f.rect.x + f.rect.width - text_width(note)));
-            sheet.texts.push_back(std::move(note));
-        }
+        for (const ChartCursor& cursor : cursors) add_cursor(sheet, f, cursor, name, k);
     }
     return draw(sheet, look.gl, look.supersample);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// GlWindow: a VTK window on a GL context of ours, without display (docs/design/rendering.md).
+// GlWindow: a VTK window on a GL context of ours, without display.
 
 #include <memory>
 #include <string>

@@ -117,6 +117,25 @@ void draw(const DiffOptions& options, const ComparedRun& a, const ClSurface& sur
                                     shown.field.info.unit.name));
 }
 
+bool lines_known(const LoadedRun& run, const RunOptions& options) {
+    return run.log.find("line") != nullptr || run.simulated || !options.program.empty();
+}
+
+void write_result(const io::ReportedRuns& reported, const Diagnostics& diagnostics, bool json,
+                  const po::variables_map& values) {
+    if (json) return write_to_stdout(io::runs_json(reported));
+    print(diagnostics, values);
+    write_answer(io::runs_text(reported), values);
+}
+
+/// No runs yet. Both must outlive it.
+io::ReportedRuns reported_against(const LoadedRun& reference, const Diagnostics& diagnostics) {
+    io::ReportedRuns reported;
+    reported.reference = reference.name;
+    reported.diagnostics = &diagnostics;
+    return reported;
+}
+
 ExitCode run_diff(const po::variables_map& values) {
     const DiffOptions options = read_diff_options(values);
     std::optional<PictureOutput> output;
@@ -126,9 +145,7 @@ ExitCode run_diff(const po::variables_map& values) {
     clock.begin("read the reference");
     LoadedRun reference = load_run(options.files.front(), options.runs);
     diagnostics.append(reference.log.diagnostics);
-    io::ReportedRuns reported;
-    reported.reference = reference.name;
-    reported.diagnostics = &diagnostics;
+    io::ReportedRuns reported = reported_against(reference, diagnostics);
 
     std::unique_ptr<LineMap> lines;
     ClSurface surface;
@@ -157,9 +174,8 @@ ExitCode run_diff(const po::variables_map& values) {
         clock.begin("compare the runs");
         RunDifferences differences = compare_runs(a, surface, b);
         require_alignment(differences, reference.name, loaded.name);
-        const bool lines_known =
-            reference.log.find("line") != nullptr || reference.simulated || !options.runs.program.empty();
-        RunReport report = report_run(a, surface, lines_known ? lines.get() : nullptr, b, differences);
+        RunReport report =
+            report_run(a, surface, lines_known(reference, options.runs) ? lines.get() : nullptr, b, differences);
         if (tool) PartContacts(reference.log, a.path, *lines, surface, *tool).locate(report);
         std::vector<BudgetLine> budget = hold(report, options.budget);
         reported.runs.push_back({loaded.name, std::move(report), std::move(budget)});
@@ -176,12 +192,7 @@ ExitCode run_diff(const po::variables_map& values) {
         draw(options, a, surface, *shown, threshold, *output);
     }
     clock.end();
-    if (options.json) {
-        write_to_stdout(io::runs_json(reported));
-    } else {
-        print(diagnostics, values);
-        write_answer(io::runs_text(reported), values);
-    }
+    write_result(reported, diagnostics, options.json, values);
     return reported.within_budget() ? ExitCode::done : ExitCode::check_failed;
 }
 

@@ -97,6 +97,13 @@ ProgramMatch judge_together(Program program, const Log& log, const FramePoses& g
     return lines.match();
 }
 
+void note_foreign(const Log& log, const Program& program, const std::string& reason, bool forced,
+                  Diagnostics& diagnostics) {
+    diagnostics.add({forced ? Severity::warning : Severity::error, "map.foreign", Place::of_file(log.name),
+                     "does not belong to " + program.main().name() + ": " + reason,
+                     "--work-offset or --machine may be missing"});
+}
+
 ExitCode run_info(const po::variables_map& values) {
     if (values.count("FILE") == 0) throw UsageError("missing argument: FILE");
     if (suggest_mapping_asked(values)) return ExitCode::done;
@@ -141,12 +148,8 @@ ExitCode run_info(const po::variables_map& values) {
             const ProgramIdentity identity = io::check_identity(program_source, log, diagnostics);
             const ProgramMatch match =
                 judge_together(*program, log, read_work_offset(values), kinematics, identity, diagnostics);
-            if (!match.foreign.empty() && (kinematics || diagnostics.count("path.rotary") == 0)) {
-                diagnostics.add({values.count("force") > 0 ? Severity::warning : Severity::error, "map.foreign",
-                                 Place::of_file(log.name),
-                                 "does not belong to " + program->main().name() + ": " + match.foreign,
-                                 "--work-offset or --machine may be missing"});
-            }
+            if (!match.foreign.empty() && (kinematics || diagnostics.count("path.rotary") == 0))
+                note_foreign(log, *program, match.foreign, values.count("force") > 0, diagnostics);
         }
         unusable = unusable || diagnostics.has_errors();
         print_errors(diagnostics);

@@ -189,29 +189,8 @@ io::PageRelief page_relief(const Formed& formed) {
         r.origin, r.pitch, r.columns, r.rows, r.z, formed.map.field.values, formed.range, formed.map.field.info.note};
 }
 
-ExitCode run_report(const po::variables_map& values) {
-    const ReportOptions options = read_report_options(values);
-    (void)output_format(options.output, page_formats());
-    io::AtomicFile output(options.output);  // a name that cannot be written fails before the work
-    const viz::ImageLibraryPreload preload;
-    StageClock clock(read_common(values), options.before.empty() ? 12 : 20);
-    std::vector<ReportLog> logs;
-    logs.push_back(prepare(options.part, options, clock));
-    print(logs.front().part.diagnostics, values);
-    if (!options.before.empty()) {
-        PartOptions other = options.part;
-        other.log = options.before;
-        logs.push_back(prepare(other, options, clock));
-        print(logs.back().part.diagnostics, values);
-        keep_common_fields(logs.front().fields, logs.back().fields);
-        keep_common_fields(logs.back().fields, logs.front().fields);
-    }
-    const ReportLog& shown = logs.front();
-    if (shown.fields.empty())
-        throw InputError(Place::of_file(shown.part.log.name), "no cutting point has a value to show",
-                         "too few points, or the program and the log do not belong together?");
-
-    clock.begin("measure");
+/// The page without its pictures and the machined surface.
+io::ReportPage page_of(const ReportLog& shown, const std::vector<ReportLog>& logs, const ReportOptions& options) {
     io::ReportPage page;
     page.program = options.part.program;
     page.log = options.part.log;
@@ -243,6 +222,33 @@ ExitCode run_report(const po::variables_map& values) {
             {field.info.name, percentiles_of_size(field, shown.surface.passes, io::page_percentiles)});
     }
     page.colour_maps = page_colour_maps();
+    return page;
+}
+
+ExitCode run_report(const po::variables_map& values) {
+    const ReportOptions options = read_report_options(values);
+    (void)output_format(options.output, page_formats());
+    io::AtomicFile output(options.output);  // a name that cannot be written fails before the work
+    const viz::ImageLibraryPreload preload;
+    StageClock clock(read_common(values), options.before.empty() ? 12 : 20);
+    std::vector<ReportLog> logs;
+    logs.push_back(prepare(options.part, options, clock));
+    print(logs.front().part.diagnostics, values);
+    if (!options.before.empty()) {
+        PartOptions other = options.part;
+        other.log = options.before;
+        logs.push_back(prepare(other, options, clock));
+        print(logs.back().part.diagnostics, values);
+        keep_common_fields(logs.front().fields, logs.back().fields);
+        keep_common_fields(logs.back().fields, logs.front().fields);
+    }
+    const ReportLog& shown = logs.front();
+    if (shown.fields.empty())
+        throw InputError(Place::of_file(shown.part.log.name), "no cutting point has a value to show",
+                         "too few points, or the program and the log do not belong together?");
+
+    clock.begin("measure");
+    io::ReportPage page = page_of(shown, logs, options);
     std::optional<Formed> formed;
     if (shown.part.tool && shown.surface.step_over > 0) {
         formed = form(shown, options, clock);

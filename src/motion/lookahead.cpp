@@ -163,10 +163,7 @@ bool WindowPlanner::plan(std::span<const Span> spans, double start_speed, std::s
     return std::isfinite(shortest);
 }
 
-bool WindowPlanner::plan_with(std::size_t easing, std::span<const Span> spans, double start_speed,
-                              std::span<const std::size_t> nodes) {
-    easing_ = easing;
-    eased_.assign(spans.size(), Easing{-1, 0, 0});
+void WindowPlanner::cut(std::span<const Span> spans, std::span<const std::size_t> nodes) {
     runs_.clear();
     std::size_t begin = 0;
     for (std::size_t n = 0; n <= nodes.size(); ++n) {
@@ -179,6 +176,13 @@ bool WindowPlanner::plan_with(std::size_t easing, std::span<const Span> spans, d
         runs_.push_back(run);
         begin = end;
     }
+}
+
+bool WindowPlanner::plan_with(std::size_t easing, std::span<const Span> spans, double start_speed,
+                              std::span<const std::size_t> nodes) {
+    easing_ = easing;
+    eased_.assign(spans.size(), Easing{-1, 0, 0});
+    cut(spans, nodes);
     const auto end_cap = [&](const SpeedRun& run, std::size_t span) {
         return run.eased ? eased(spans, span).cap : spans[span].cap;
     };

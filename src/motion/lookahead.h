@@ -59,6 +59,8 @@ private:
     [[nodiscard]] bool plan_with(std::size_t easing, std::span<const Span> spans, double start_speed,
                                  std::span<const std::size_t> nodes);
     [[nodiscard]] const Easing& eased(std::span<const Span> spans, std::size_t span);
+    /// The runs between the nodes, to begin with.
+    void cut(std::span<const Span> spans, std::span<const std::size_t> nodes);
     void set_limits(SpeedRun& run, std::span<const Span> spans);
     [[nodiscard]] double part_of_axes(const Span& span, double speed, double acceleration, double jerk) const;
     [[nodiscard]] Verdict judge(const SpeedRun& run, std::span<const Span> spans) const;

@@ -86,6 +86,35 @@ bool read_statement(std::string_view text, std::string_view word, PlainLine& lin
     return true;
 }
 
+/// How the lines that are replaced are written.
+struct OldLines {
+    std::array<std::string, axes> words;      ///< letters as they stand there
+    std::array<bool, axes> everywhere{};      ///< written on every line
+    std::vector<std::string_view> numbers{};  ///< of lines: "N10"
+    std::string first_code{};
+    bool code_everywhere = true, blanks = false;
+};
+
+OldLines read_old(const SourceText& main, LineNumber first, LineNumber last, std::string_view straight_word) {
+    OldLines old;
+    old.everywhere.fill(true);
+    for (std::size_t a = 0; a < axes; ++a) old.words[a] = letters[a];
+    for (LineNumber n = first; n <= last; ++n) {
+        const PlainLine line = *read_plain_line(main.line(n), straight_word);
+        for (std::size_t a = 0; a < axes; ++a) {
+            if (!line.axis[a].empty()) old.words[a] = line.axis[a];
+            old.everywhere[a] = old.everywhere[a] && !line.axis[a].empty();
+        }
+        if (!line.number.empty()) old.numbers.push_back(line.number);
+        if (n == first) old.first_code = line.code;
+        old.code_everywhere = old.code_everywhere && !line.code.empty();
+        old.blanks = old.blanks || line.blanks;
+    }
+    const bool all_linear = old.everywhere[0] && old.everywhere[1] && old.everywhere[2];
+    std::fill(old.everywhere.begin(), old.everywhere.begin() + linear, all_linear);
+    return old;
+}
+
 }  // namespace
 
 std::optional<PlainLine> read_plain_line(std::string_view text, std::string_view straight_word) {
@@ -187,26 +216,7 @@ std::size_t LineEditor::replace(std::int64_t first, std::int64_t last, const std
                      last_line = motions.line[static_cast<std::size_t>(last)];
     const std::size_t old_lines = last_line - first_line + 1;
     const std::size_t used = angles.empty() ? linear : axes;
-    std::array<std::string, axes> words;
-    std::array<bool, axes> everywhere;  // written on every line
-    everywhere.fill(true);
-    for (std::size_t a = 0; a < axes; ++a) words[a] = letters[a];
-    std::vector<std::string_view> numbers;
-    std::string first_code;
-    bool code_everywhere = true, blanks = false;
-    for (LineNumber n = first_line; n <= last_line; ++n) {
-        const PlainLine line = *read_plain_line(main.line(n), rules_->straight_word);
-        for (std::size_t a = 0; a < axes; ++a) {
-            if (!line.axis[a].empty()) words[a] = line.axis[a];
-            everywhere[a] = everywhere[a] && !line.axis[a].empty();
-        }
-        if (!line.number.empty()) numbers.push_back(line.number);
-        if (n == first_line) first_code = line.code;
-        code_everywhere = code_everywhere && !line.code.empty();
-        blanks = blanks || line.blanks;
-    }
-    const bool all_linear = everywhere[0] && everywhere[1] && everywhere[2];
-    std::fill(everywhere.begin(), everywhere.begin() + linear, all_linear);
+    const OldLines old = read_old(main, first_line, last_line, rules_->straight_word);
     Edit edit{first_line, last_line, {}};
     std::array<std::string, axes> modal;
     const auto text_of = [&](std::size_t axis, const Vec3& position, const Vec3& turned) {
@@ -217,18 +227,18 @@ std::size_t LineEditor::replace(std::int64_t first, std::int64_t last, const std
     };
     const Vec3 begin = in_words(motions, first, motions.begin_of(first).vec());
     for (std::size_t a = 0; a < used; ++a) modal[a] = text_of(a, begin, angles_before(motions, first));
-    const bool numbered = numbers.size() == old_lines;
+    const bool numbered = old.numbers.size() == old_lines;
     bool code_written = false;
     std::size_t written = 0;
     for (std::size_t k = 0; k < points.size(); ++k) {
         std::string text;
         const bool is_last = k + 1 == points.size();
         const auto add = [&](const std::string& word) {
-            if (blanks && !text.empty() && !is_blank(text.back())) text += ' ';
+            if (old.blanks && !text.empty() && !is_blank(text.back())) text += ' ';
             text += word;
         };
-        if (numbered && (k + 1 < old_lines || is_last)) text += is_last ? numbers.back() : numbers[k];
-        if (code_everywhere || !code_written) text += first_code;
+        if (numbered && (k + 1 < old_lines || is_last)) text += is_last ? old.numbers.back() : old.numbers[k];
+        if (old.code_everywhere || !code_written) text += old.first_code;
         bool moves = false;
         const Vec3 position = in_words(motions, first, points[k]);
         std::array<std::string, axes> now;
@@ -242,9 +252,10 @@ std::size_t LineEditor::replace(std::int64_t first, std::int64_t last, const std
             kept < 0 ? PlainLine{}
                      : *read_plain_line(main.line(motions.line[static_cast<std::size_t>(kept)]), rules_->straight_word);
         for (std::size_t a = 0; a < used; ++a) {
-            if (now[a] == modal[a] && !everywhere[a]) continue;
+            if (now[a] == modal[a] && !old.everywhere[a]) continue;
             const bool same_words = a >= linear && !as_written.axis[a].empty();
-            add(same_words ? std::string(as_written.axis[a]) + std::string(as_written.digits[a]) : words[a] + now[a]);
+            add(same_words ? std::string(as_written.axis[a]) + std::string(as_written.digits[a])
+                           : old.words[a] + now[a]);
             modal[a] = now[a];
         }
         code_written = true;

@@ -17,14 +17,14 @@ namespace clsurf {
 namespace {
 
 // Lengths in mm.
-constexpr double sure_distance = 0.02;    ///< a finishing tolerance: full confidence
-constexpr double off_distance = 0.1;      ///< the walk may be on the wrong way from here on
-constexpr double lost_way = 1.0;          ///< way gone off before the walk counts as lost
-constexpr double near_distance = 0.1;     ///< a new start must be this near
-constexpr PointIndex proof_points = 400;  ///< moving points over which a new start must stay near
-constexpr double least_jump = 10;         ///< to a placeholder
-constexpr double placeholder_reach = 1e-6;       ///< its position, moved to the workpiece
-constexpr double first_retry = 1.0;       ///< way until a failed search is repeated; doubles
+constexpr double sure_distance = 0.02;      ///< a finishing tolerance: full confidence
+constexpr double off_distance = 0.1;        ///< the walk may be on the wrong way from here on
+constexpr double lost_way = 1.0;            ///< way gone off before the walk counts as lost
+constexpr double near_distance = 0.1;       ///< a new start must be this near
+constexpr PointIndex proof_points = 400;    ///< moving points over which a new start must stay near
+constexpr double least_jump = 10;           ///< to a placeholder
+constexpr double placeholder_reach = 1e-6;  ///< its position, moved to the workpiece
+constexpr double first_retry = 1.0;         ///< way until a failed search is repeated; doubles
 
 class Aligner {
 public:

@@ -64,6 +64,35 @@ Eigen::Array4d lanes(const std::array<std::span<const double>, 3>& values, std::
     return {values[0][i], values[1][i], values[2][i], 0.0};
 }
 
+/// The greatest relative change of a variance.
+Real change_of(const RealMatrix& from, const RealMatrix& to) {
+    return ((to - from).diagonal().cwiseAbs().cwiseQuotient(to.diagonal())).maxCoeff();
+}
+
+/// What a step back adds to the variance: (1 − C F) P (1 − C F)ᵀ + C Q Cᵀ; nothing in it cancels.
+RealMatrix variance_alone(const RealMatrix& filtered, const RealMatrix& back, const RealMatrix& f,
+                          const RealMatrix& q) {
+    const RealMatrix stay = RealMatrix::Identity() - back * f;
+    return stay * filtered * stay.transpose() + back * q * back.transpose();
+}
+
+/// Variances backward from an end, all that went before being settled.
+std::vector<std::array<double, 4>> variances_at_end(const RealMatrix& last, const RealMatrix& back,
+                                                    const RealMatrix& alone) {
+    std::vector<std::array<double, 4>> variances;
+    RealMatrix smoothed = last;
+    while (variances.size() < most_steps) {
+        std::array<double, 4> variance{};
+        for (int k = 0; k < 4; ++k) variance[static_cast<std::size_t>(k)] = static_cast<double>(smoothed(k, k));
+        variances.push_back(variance);
+        const RealMatrix before = alone + back * smoothed * back.transpose();
+        const Real change = change_of(smoothed, before);
+        smoothed = before;
+        if (change < settled) break;
+    }
+    return variances;
+}
+
 }  // namespace
 
 KalmanSmoother::KalmanSmoother(const SmootherModel& model) : model_(model) {
@@ -80,7 +109,8 @@ KalmanSmoother::KalmanSmoother(const SmootherModel& model) : model_(model) {
         predicted(static_cast<int>(d), static_cast<int>(d)) =
             squared(std::clamp(greatest[d] / scale[d], least_unknown, most_unknown));
     }
-    std::vector<RealMatrix> filtered_all, predicted_all, back_all;
+    std::vector<RealMatrix> predicted_all;
+    RealMatrix last_filtered, last_back;
     while (forward_.size() < most_steps) {
         Step step;
         RealMatrix filtered = predicted;
@@ -100,40 +130,21 @@ KalmanSmoother::KalmanSmoother(const SmootherModel& model) : model_(model) {
                 step.back[i][j] = static_cast<double>(back(static_cast<int>(i), static_cast<int>(j)));
         }
         forward_.push_back(step);
-        filtered_all.push_back(filtered);
+        last_filtered = filtered;
+        last_back = back;
         predicted_all.push_back(predicted);
-        back_all.push_back(back);
-        // P_s = (1 − C F) P (1 − C F)ᵀ + C (P_s' + Q) Cᵀ: nothing in it cancels.
-        const RealMatrix stay = RealMatrix::Identity() - back * f;
-        alone_.push_back((stay * filtered * stay.transpose() + back * q * back.transpose()).cast<double>());
+        alone_.push_back(variance_alone(filtered, back, f, q).cast<double>());
         filtered_.push_back(filtered.cast<double>());
-        const Real change = ((next - predicted).diagonal().cwiseAbs().cwiseQuotient(next.diagonal())).maxCoeff();
+        const Real change = change_of(predicted, next);
         predicted = next;
         if (change < settled) break;
     }
     innovation_variance_ = static_cast<double>(predicted(0, 0) + 1);
-    // Backward from an end, all that went before being settled.
-    const RealMatrix& last = filtered_all.back();
-    const RealMatrix& back = back_all.back();
-    const RealMatrix stay = RealMatrix::Identity() - back * f;
-    const RealMatrix alone = stay * last * stay.transpose() + back * q * back.transpose();
-    RealMatrix smoothed = last;
-    while (end_variance_.size() < most_steps) {
-        std::array<double, 4> variance{};
-        for (int k = 0; k < 4; ++k) variance[static_cast<std::size_t>(k)] = static_cast<double>(smoothed(k, k));
-        end_variance_.push_back(variance);
-        const RealMatrix before = alone + back * smoothed * back.transpose();
-        const Real change = ((before - smoothed).diagonal().cwiseAbs().cwiseQuotient(before.diagonal())).maxCoeff();
-        smoothed = before;
-        if (change < settled) break;
-    }
+    end_variance_ = variances_at_end(last_filtered, last_back, variance_alone(last_filtered, last_back, f, q));
     // What a start of which nothing is known still does to later points.
     std::size_t reach = forward_.size();
     while (reach > 1) {
-        const Real off =
-            ((predicted_all[reach - 1] - predicted).diagonal().cwiseAbs().cwiseQuotient(predicted.diagonal()))
-                .maxCoeff();
-        if (off > far_away) break;
+        if (change_of(predicted_all[reach - 1], predicted) > far_away) break;
         --reach;
     }
     const auto n = std::min(forward_.size(), reach + 1);

@@ -119,6 +119,49 @@ std::vector<PointIndex> sample_judged(const Signals& signals) {
     return points;
 }
 
+/// The passes beside a place, the adjacent one first, on the left and on the right.
+struct PassesBeside {
+    std::array<std::array<Compared, Comparer::passes_aside>, 2> of;
+    std::array<int, 2> count{0, 0};
+};
+
+/// Fills in residuals against the passes beside, and the jump of the speed. Returns the speed that differences of the
+/// speed are relative to [mm/s].
+float fill_residuals(const Compared& mine, const PassesBeside& others, float least_speed, Comparison& result) {
+    const auto& [beside_it, count] = others;
+    // As many on either side, so that what changes evenly from pass to pass drops out; all of one side
+    // where the other has none.
+    const int even = std::min(count[0], count[1]);
+    std::array<Compared, 2 * Comparer::passes_aside> all;
+    std::size_t n = 0;
+    for (std::size_t s = 0; s < 2; ++s) {
+        for (int k = 0; k < (even > 0 ? even : count[s]); ++k) all[n++] = beside_it[s][static_cast<std::size_t>(k)];
+    }
+    const std::span<const Compared> reliefs(all.data(), n);
+    // Of one pass on either side the median would be their mean, half of whatever one of them has.
+    std::array<Compared, 3> three;
+    std::span<const Compared> places = reliefs;
+    if (even == 1 && std::max(count[0], count[1]) >= 3) {
+        three = expected_from_three(beside_it[count[0] == 1 ? 0 : 1][0], beside_it[count[0] == 1 ? 1 : 0]);
+        places = three;
+    }
+    const float usual = median_of(places, fewest_passes, [](const Compared& v) { return v.speed; });
+    const float reference = std::max(usual == usual ? usual : mine.speed, least_speed);
+    result.speed_jump = mine.speed - usual;
+    result.residual[index_of(Quantity::speed)] = result.speed_jump / reference;
+    result.residual[index_of(Quantity::lag)] =
+        mine.lag - median_of(places, fewest_passes, [](const Compared& v) { return v.lag; });
+    const float usual_relief = median_of(reliefs, fewest_passes, [](const Compared& v) { return v.relief; });
+    result.residual[index_of(Quantity::relief)] =
+        even > 0 && is_shape(mine.relief, beside_it[0][0], beside_it[1][0], reliefs) ? 0 : mine.relief - usual_relief;
+    Eigen::Vector3f consensus;
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+        consensus[axis] = median_of(places, fewest_passes, [axis](const Compared& v) { return v.acceleration[axis]; });
+    }
+    result.residual[index_of(Quantity::acceleration)] = (mine.acceleration - consensus).norm();
+    return reference;
+}
+
 }  // namespace
 
 std::string_view name_of(Quantity quantity) {
@@ -237,8 +280,9 @@ Comparison Comparer::compare_with(Peers peers, const Station& here, int aside) c
     const Compared mine = compared_at(signals_, here, normal);
     result.ramp = signals_[point].zone == Zone::ramp;
 
-    std::array<std::array<Compared, passes_aside>, 2> beside_it;
-    std::array<int, 2> count{0, 0};
+    PassesBeside others;
+    auto& beside_it = others.of;
+    auto& count = others.count;
     for (const Side side : {Side::left, Side::right}) {
         const auto s = static_cast<std::size_t>(side);
         bool against = false;  // as in a zigzag: the next pass of this way is the second one
@@ -264,42 +308,13 @@ Comparison Comparer::compare_with(Peers peers, const Station& here, int aside) c
         widen(Quantity::lag, step_beyond_trend(mine.lag, adjacent.lag, next.lag));
         widen(Quantity::relief, step_beyond_trend(mine.relief, adjacent.relief, next.relief));
     }
-    result.left = count[0];
-    result.right = count[1];
-    // As many on either side, so that what changes evenly from pass to pass drops out; all of one side
-    // where the other has none.
-    const int even = std::min(count[0], count[1]);
-    std::array<Compared, 2 * passes_aside> all;
-    std::size_t n = 0;
-    for (std::size_t s = 0; s < 2; ++s) {
-        for (int k = 0; k < (even > 0 ? even : count[s]); ++k) all[n++] = beside_it[s][static_cast<std::size_t>(k)];
-    }
-    const std::span<const Compared> reliefs(all.data(), n);
-    // Of one pass on either side the median would be their mean, half of whatever one of them has.
-    std::array<Compared, 3> three;
-    std::span<const Compared> places = reliefs;
-    if (even == 1 && std::max(count[0], count[1]) >= 3) {
-        three = expected_from_three(beside_it[count[0] == 1 ? 0 : 1][0], beside_it[count[0] == 1 ? 1 : 0]);
-        places = three;
-    }
-    const float usual = median_of(places, fewest_passes, [](const Compared& v) { return v.speed; });
-    const float reference = std::max(usual == usual ? usual : mine.speed, least_speed_);
+    result.left = others.count[0];
+    result.right = others.count[1];
+    const float reference = fill_residuals(mine, others, least_speed_, result);
     result.step[index_of(Quantity::speed)] /= reference;
     result.lesser_step[index_of(Quantity::speed)] /= reference;
     result.play[index_of(Quantity::speed)] = change_of_two_periods(signals_, &Sample::speed, point) / reference;
     if (signals_.measured) result.play[index_of(Quantity::lag)] = change_of_two_periods(signals_, &Sample::lag, point);
-    result.speed_jump = mine.speed - usual;
-    result.residual[index_of(Quantity::speed)] = result.speed_jump / reference;
-    result.residual[index_of(Quantity::lag)] =
-        mine.lag - median_of(places, fewest_passes, [](const Compared& v) { return v.lag; });
-    const float usual_relief = median_of(reliefs, fewest_passes, [](const Compared& v) { return v.relief; });
-    result.residual[index_of(Quantity::relief)] =
-        even > 0 && is_shape(mine.relief, beside_it[0][0], beside_it[1][0], reliefs) ? 0 : mine.relief - usual_relief;
-    Eigen::Vector3f consensus;
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-        consensus[axis] = median_of(places, fewest_passes, [axis](const Compared& v) { return v.acceleration[axis]; });
-    }
-    result.residual[index_of(Quantity::acceleration)] = (mine.acceleration - consensus).norm();
     return result;
 }
 

@@ -103,19 +103,24 @@ private:
                 retry_after = 2 * off_way + lost_way;
                 continue;
             }
-            // From where it went off on, another beginning is looked for.
-            std::fill(stations.begin() + off_since, stations.begin() + i + 1, Station{});
-            while (!begins_.empty() && begins_.back() >= off_since) begins_.pop_back();
             stand_ = stand;
             last_point = -1;
             to_search = 0;
-            if (rewinds_ >= i - off_since) {
-                rewinds_ -= i - off_since;
+            if (leave(off_since, i, stations)) {
                 i = off_since - 1;
                 before.setConstant(std::numeric_limits<float>::quiet_NaN());
             }
             off_since = -1;
         }
+    }
+
+    /// Forgets the walk from A's point `since` to `now`. True: another beginning is looked for from `since` on.
+    bool leave(PointIndex since, PointIndex now, Column<Station>& stations) {
+        std::fill(stations.begin() + since, stations.begin() + now + 1, Station{});
+        while (!begins_.empty() && begins_.back() >= since) begins_.pop_back();
+        if (rewinds_ < now - since) return false;
+        rewinds_ -= now - since;
+        return true;
     }
 
     /// Places of B from which a walk at A's point `i` could begin: those after the last stand first.

@@ -14,7 +14,7 @@ namespace {
 
 using Vec3f = Eigen::Vector3f;
 
-// All in step-overs, after docs/design/surface.md.
+// All in step-overs.
 constexpr float nearest_neighbour = 0.2F;   ///< nearer is the same pass cut again
 constexpr float usual_neighbour = 1.6F;     ///< farther, a nearer one may have begun: it is sought
 constexpr float farthest_neighbour = 4.0F;  ///< on steep flanks passes are so far apart

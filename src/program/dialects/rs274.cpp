@@ -1,5 +1,5 @@
 // LinuxCNC: RS274/NGC (NIST IR 6556) with its extensions, as its own interpreter carries it out.
-// Facts: LinuxCNC 2.9, "G Codes", "O Codes", "Overview: Parameters"; src/emc/rs274ngc.
+// Facts: LinuxCNC 2.9, "G Codes", "O Codes", "Overview: Parameters"; emc/rs274ngc.
 
 #include <algorithm>
 #include <array>

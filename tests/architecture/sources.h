@@ -1,0 +1,102 @@
+#pragma once
+// The project's sources, as the tests of the house rules read them.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace clsurf::test {
+
+namespace fs = std::filesystem;
+using Complaints = std::vector<std::string>;
+
+struct SourceFile {
+    std::string path;  // from the project's root, "src/core/place.h"
+    std::string text;
+};
+
+inline std::vector<std::string> lines_of(const std::string& text) {
+    std::vector<std::string> lines;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) lines.push_back(line);
+    return lines;
+}
+
+/// What stands in a C++ text where: its code with comments, strings and characters as blanks, or its comments with
+/// all else as blanks. Ends of lines stay, so that places are the text's own.
+struct Parted {
+    std::string code, comments;
+};
+
+inline Parted part(const std::string& text) {
+    Parted parted{text, text};
+    const auto blank = [&](std::string& in, std::size_t from, std::size_t to) {
+        for (std::size_t k = from; k < to; ++k) {
+            if (in[k] != '\n') in[k] = ' ';
+        }
+    };
+    std::size_t i = 0;
+    while (i < text.size()) {
+        const std::string_view rest = std::string_view(text).substr(i);
+        const bool after_name = i > 0 && (std::isalnum(static_cast<unsigned char>(text[i - 1])) != 0);
+        std::size_t end = i + 1;
+        if (rest.starts_with("//") || rest.starts_with("/*")) {
+            end = std::min(rest[1] == '/' ? text.find('\n', i) : text.find("*/", i) + 2, text.size());
+            blank(parted.code, i, end);
+            i = end;
+            continue;
+        }
+        if (rest.starts_with("R\"")) {
+            const std::size_t open = text.find('(', i);
+            const std::string close = ")" + text.substr(i + 2, open - i - 2) + "\"";
+            end = std::min(text.find(close, open) + close.size(), text.size());
+            blank(parted.code, i, end);
+        } else if (rest[0] == '"' || (rest[0] == '\'' && !after_name)) {  // not 1'000
+            while (end < text.size() && text[end] != rest[0]) end += text[end] == '\\' ? 2 : 1;
+            end = std::min(end + 1, text.size());
+            blank(parted.code, i, end);
+        }
+        blank(parted.comments, i, end);
+        i = end;
+    }
+    return parted;
+}
+
+inline std::string read(const fs::path& path) {
+    std::ifstream stream(path, std::ios::binary);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    return text.str();
+}
+
+/// The files of folders with one of the endings, by path.
+inline std::vector<SourceFile> sources_in(const std::vector<std::string>& folders,
+                                          const std::vector<std::string>& endings = {".cpp", ".h"}) {
+    std::vector<SourceFile> files;
+    const fs::path root(PROJECT_ROOT);
+    for (const std::string& folder : folders) {
+        for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+            const std::string path = fs::relative(entry.path(), root).generic_string();
+            const bool wanted = std::any_of(endings.begin(), endings.end(),
+                                            [&](const std::string& ending) { return path.ends_with(ending); });
+            // Klartext programs end in ".h" too.
+            if (wanted && entry.is_regular_file() && !(path.starts_with("data/programs/") && path.ends_with(".h")))
+                files.push_back({path, read(entry.path())});
+        }
+    }
+    std::sort(files.begin(), files.end(), [](const SourceFile& a, const SourceFile& b) { return a.path < b.path; });
+    return files;
+}
+
+inline void expect_none(const Complaints& complaints) {
+    for (const std::string& complaint : complaints) ADD_FAILURE() << complaint;
+}
+
+}  // namespace clsurf::test
