@@ -6,32 +6,19 @@
 #include <fmt/format.h>
 
 #include "cli/part.h"
+#include "cli/quality_limits.h"
 #include "cli/report_output.h"
 #include "cli/stage_clock.h"
-#include "core/units.h"
 #include "field/field_set.h"
 #include "field/range.h"
-#include "io/budget_file.h"
-#include "io/joined_reports.h"
-#include "io/json_text.h"
 #include "io/quality_report.h"
 #include "pipeline/judge.h"
-#include "quality/severity.h"
 #include "viz/colour_difference.h"
 
 namespace clsurf::cli {
 namespace {
 
 constexpr const char* check_formats = "text|json|csv|sarif";
-
-/// By name and by number (quality/severity.h).
-constexpr const char* severity_words = "trace|visible|distinct|reject|1|2|3|4";
-
-int severity_of(const std::string& word) {
-    int severity = 1;
-    while (severity < severities && word != name_of_severity(severity) && word != std::to_string(severity)) ++severity;
-    return severity;
-}
 
 using QualityWriter = std::string (*)(const io::ReportedQuality&);
 
@@ -88,33 +75,6 @@ Checked check_log(const PartOptions& options, std::optional<Role> measured, cons
     return {writer_of(format)(reported), code};
 }
 
-/// The limits of --budget, and those of the command line, which come first.
-QualityBudget read_limits(const po::variables_map& values) {
-    QualityBudget budget;
-    if (values.count("budget") > 0) budget = io::read_budget(values["budget"].as<std::string>());
-    if (values.count("fail-on") > 0)
-        budget.max_severity = severity_of(values["fail-on"].as<std::string>()) - 1.0;  // those below do not fail
-    if (values.count("max-depth") > 0)
-        budget.max_depth_um = um_per_mm * parse_length(values["max-depth"].as<std::string>(), "--max-depth");
-    return budget;
-}
-
-/// The reports of several logs as one.
-std::string joined(const std::vector<std::string>& logs, const std::vector<std::string>& texts,
-                   const std::string& format) {
-    if (format == "json") return io::list_json("logs", texts);
-    if (texts.size() == 1) return texts.front();
-    if (format == "sarif") return io::joined_sarif(logs, texts);
-    std::string all;
-    for (std::size_t i = 0; i < texts.size(); ++i) {
-        if (format == "csv")
-            all += io::csv_with_column("log", logs[i], texts[i], i == 0);
-        else
-            all += fmt::format("{}{}:\n{}", i == 0 ? "" : "\n", logs[i], texts[i]);
-    }
-    return all;
-}
-
 ExitCode run_check(const po::variables_map& values) {
     PartOptions options = read_part_options(values);
     const std::optional<Role> measured = take_measured_role(options);
@@ -131,7 +91,7 @@ ExitCode run_check(const po::variables_map& values) {
         texts.push_back(std::move(checked.text));
         worst = std::max(worst, checked.code);
     }
-    output.write(joined(logs, texts, output.format()));
+    output.write(joined_reports(logs, texts, output.format()));
     return worst;
 }
 

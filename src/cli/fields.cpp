@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/error.h"
 #include "machine/machine.h"
 #include "optimize/program_intervals.h"
 #include "pipeline/signals_of.h"

@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "cli/options.h"
 #include "cli/vocabulary.h"
+#include "io/joined_reports.h"
+#include "io/json_text.h"
 
 namespace clsurf::cli {
 namespace {
@@ -50,6 +54,21 @@ void ReportOutput::write(std::string_view text) {
     } else if (!quiet_ || format_ != "text") {
         write_to_stdout(text);
     }
+}
+
+std::string joined_reports(const std::vector<std::string>& logs, const std::vector<std::string>& texts,
+                           const std::string& format) {
+    if (format == "json") return io::list_json("logs", texts);
+    if (texts.size() == 1) return texts.front();
+    if (format == "sarif") return io::joined_sarif(logs, texts);
+    std::string all;
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+        if (format == "csv")
+            all += io::csv_with_column("log", logs[i], texts[i], i == 0);
+        else
+            all += fmt::format("{}{}:\n{}", i == 0 ? "" : "\n", logs[i], texts[i]);
+    }
+    return all;
 }
 
 }  // namespace clsurf::cli

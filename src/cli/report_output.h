@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "cli/output_format.h"
 #include "cli/subcommand.h"
@@ -31,5 +32,9 @@ private:
     bool quiet_ = false;
     std::unique_ptr<io::AtomicFile> file_;
 };
+
+/// The reports of several logs as one. `format`: as ReportOutput has it.
+[[nodiscard]] std::string joined_reports(const std::vector<std::string>& logs, const std::vector<std::string>& texts,
+                                         const std::string& format);
 
 }  // namespace clsurf::cli

@@ -7,6 +7,7 @@
 #include "cli/options.h"
 #include "cli/output_format.h"
 #include "cli/progress_bar.h"
+#include "cli/simulation_text.h"
 #include "cli/work_frames.h"
 #include "core/units.h"
 #include "io/compressed.h"
@@ -14,42 +15,10 @@
 #include "io/program_file.h"
 #include "io/program_identity.h"
 #include "io/simulated_log.h"
-#include "motion/five_axis_simulator.h"
 #include "pipeline/simulated_log.h"
 
 namespace clsurf::cli {
 namespace {
-
-std::string summary_text(const SimulationSummary& s) {
-    std::string text = fmt::format("{} points, {:.3f} s\n", s.points, s.duration);
-    text += fmt::format("{:<24} {:.0f} mm/min\n", "greatest path speed", s.max_speed * seconds_per_minute);
-    const auto row = [&](const char* name, const Vec3& v, const char* unit) {
-        text += fmt::format("{:<24} x {:.0f}, y {:.0f}, z {:.0f} {}\n", name, v.x(), v.y(), v.z(), unit);
-    };
-    row("greatest acceleration", s.max_acceleration, "mm/s²");
-    row("greatest jerk", s.max_jerk, "mm/s³");
-    text += fmt::format("{:<24} {:.4f} mm\n", "off the path", s.path_deviation);
-    for (std::size_t i = 0; i < s.ruled.size(); ++i) {
-        if (s.ruled[i] == 0) continue;
-        text += fmt::format("{:<24} {:5.1f} % of the points\n", name_of(static_cast<Ruling>(i)),
-                            100.0 * static_cast<double>(s.ruled[i]) / static_cast<double>(s.points));
-    }
-    return text;
-}
-
-/// The rows of rotary axes, and how far the tool axis leaves its great circles.
-std::string rotary_text(const FiveAxisSummary& s, const Kinematics& k) {
-    std::string text;
-    const auto row = [&](const char* name, const std::array<double, 2>& v, double factor, const char* unit) {
-        text += fmt::format("{:<24} {} {:.0f}, {} {:.0f} {}\n", name, k.tilt.letter, v[0] * factor, k.rotation.letter,
-                            v[1] * factor, unit);
-    };
-    row("greatest axis speed", s.max_speed, deg_per_rad * seconds_per_minute, "deg/min");
-    row("greatest acceleration", s.max_acceleration, deg_per_rad, "deg/s²");
-    row("greatest jerk", s.max_jerk, deg_per_rad, "deg/s³");
-    return text +
-           fmt::format("{:<24} {:.4f} deg off the great circles\n", "tool axis", s.orientation_error * deg_per_rad);
-}
 
 /// The program is gone through many times, and stands in memory.
 ExitCode run_five_axis(const Program& program, const Machine& machine, const Vec3& zero, const Vec3& start,
