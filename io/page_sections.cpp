@@ -130,8 +130,9 @@ std::string defect_list_section(const ReportPage& page) {
             "<tr data-defect=\"{}\"><td>{}</td><td><span class=\"severity s{}\">{}</span> {}</td><td>{}</td><td>{:.1f}</td><td>{:.1f} {}</td>{}<td>{:+.1f}</td><td>{:.1f}</td><td>{:.2f} {:.2f} {:.2f}</td><td>{}</td></tr>\n",
             i + 1, i + 1, d.severity, d.severity, name_of_severity(d.severity), html(sentence_of(d)), d.score,
             d.depth * um_per_mm, shape_of(d),
-            formed ? fmt::format("<td>{}</td>", um_text(page.quality.formed->marks[i])) : "", 100 * d.speed_mismatch,
-            d.length, d.place.position().x(), d.place.position().y(), d.place.position().z(), html(defect_lines(d)));
+            formed ? fmt::format("<td>{}</td>", um_text(page.quality.formed->marks[i].depth)) : "",
+            100 * d.speed_mismatch, d.length, d.place.position().x(), d.place.position().y(), d.place.position().z(),
+            html(defect_lines(d)));
     }
     text += "</tbody></table></div>\n";
     if (report.defects.size() > defects_in_table)
@@ -165,6 +166,8 @@ std::string numbers_section(const ReportPage& page) {
             "<p>Formed surface with {}, {} patches: Ra {:.2f}, Rz {:.2f} (at most {:.2f}), Sa {:.2f}, Sz {:.2f} µm, cut-off {:g} mm.</p>\n",
             html(to_text(*page.quality.tool)), f.patches.size(), f.ra * um_per_mm, f.rz * um_per_mm,
             f.patches[f.roughest].profile.rz * um_per_mm, f.sa * um_per_mm, f.sz * um_per_mm, f.cutoff);
+        text += fmt::format("<p>The form is not known on {:.0f} % of these patches: nothing is measured there.</p>\n",
+                            100 * f.unknown);
     } else {
         text += "<p>Roughness needs the tool: <code>--tool ball:D</code>.</p>\n";
     }

@@ -14,6 +14,8 @@
 namespace clsurf::io {
 namespace {
 
+constexpr double worth_saying = 0.005;  ///< share without a form that the text names
+
 double um(double mm) { return mm * um_per_mm; }
 double per_minute(double per_second) { return per_second * seconds_per_minute; }
 
@@ -21,7 +23,11 @@ double per_minute(double per_second) { return per_second * seconds_per_minute; }
 Json looked_at_defects(const ReportedQuality& q) {
     Json all = list_defects(q.report->defects, q.scallop);
     for (std::size_t i = 0; i < all.size(); ++i) {
-        if (q.formed != nullptr) all[i]["formed_um"] = number(um(q.formed->marks[i]), 2);
+        if (q.formed != nullptr) {
+            const FormedMark& mark = q.formed->marks[i];
+            all[i]["formed_um"] = number(um(mark.depth), 2);
+            all[i]["formed_note"] = mark.note == MarkNote::none ? Json(nullptr) : Json(std::string(name_of(mark.note)));
+        }
         if (i < q.colour_differences.size()) all[i]["delta_e00"] = number(q.colour_differences[i], 1);
     }
     return all;
@@ -37,6 +43,7 @@ void add_roughness(Json& summary, const FormedReport& f) {
     summary["sz_um"] = known(f.sz);
     summary["roughness_cutoff_mm"] = number(f.cutoff);
     summary["roughness_patches"] = f.patches.size();
+    summary["form_unknown_percent"] = number(100 * f.unknown, 1);
 }
 
 Json patches_json(const FormedReport& f) {
@@ -49,7 +56,8 @@ Json patches_json(const FormedReport& f) {
                        {"rz_um", number(um(patch.profile.rz), 3)},
                        {"sa_um", number(um(patch.area.sa), 3)},
                        {"sq_um", number(um(patch.area.sq), 3)},
-                       {"sz_um", number(um(patch.area.sz), 3)}});
+                       {"sz_um", number(um(patch.area.sz), 3)},
+                       {"form_unknown_percent", number(100 * patch.unknown, 1)}});
     }
     return all;
 }
@@ -80,6 +88,21 @@ std::string lines_column(const Defect& d) {
     return text;
 }
 
+/// Why depths in the as-machined surface are missing, or other than those of the passes alone: a line a reason.
+std::string formed_notes(const ReportedQuality& q) {
+    std::string text;
+    for (const MarkNote note :
+         {MarkNote::unknown_form, MarkNote::uneven_passes, MarkNote::cut_away, MarkNote::other_passes}) {
+        std::string ranks;
+        for (std::size_t i = 0; i < q.formed->marks.size(); ++i) {
+            if (q.formed->marks[i].note == note && !q.report->defects[i].systematic)
+                ranks += fmt::format("{}{}", ranks.empty() ? "" : ", ", i + 1);
+        }
+        if (!ranks.empty()) text += fmt::format("formed {}: {}\n", ranks, sentence_of(note));
+    }
+    return text.empty() ? text : "\n" + text;
+}
+
 /// A row each, at most 120 columns wide.
 std::string defects_table(const ReportedQuality& q) {
     const QualityReport& r = *q.report;
@@ -93,7 +116,8 @@ std::string defects_table(const ReportedQuality& q) {
     for (std::size_t i = 0; i < r.defects.size(); ++i) {
         const Defect& d = r.defects[i];
         const Vec3& at = d.place.position();
-        const double mark = formed && !d.systematic ? um(q.formed->marks[i]) : std::numeric_limits<double>::quiet_NaN();
+        const double mark =
+            formed && !d.systematic ? um(q.formed->marks[i].depth) : std::numeric_limits<double>::quiet_NaN();
         const std::string depth = d.systematic         ? fmt::format("±{:.1f}", um(d.depth))
                                   : um(d.depth) < 0.05 ? "0.0"
                                                        : fmt::format("{:.1f} {}", um(d.depth), shape_of(d));
@@ -105,6 +129,7 @@ std::string defects_table(const ReportedQuality& q) {
                                            : "       -",
                             fmt::format("{:.2f} {:.2f} {:.2f}", at.x(), at.y(), at.z()), lines_column(d));
     }
+    if (formed) text += formed_notes(q);
     return text + "\n";
 }
 
@@ -199,6 +224,10 @@ std::string quality_text(const ReportedQuality& q) {
                 "formed surface, {} patches: Ra {:.2f}, Rz {:.2f} (at most {:.2f}, at {:.2f} {:.2f} {:.2f}), Sa {:.2f}, Sz {:.2f} µm, cut-off {:g} mm\n",
                 f.patches.size(), um(f.ra), um(f.rz), um(roughest.profile.rz), roughest.contact.x(),
                 roughest.contact.y(), roughest.contact.z(), um(f.sa), um(f.sz), f.cutoff);
+            if (f.unknown >= worth_saying)
+                text += fmt::format(
+                    "form not known on {:.0f} % of these patches (creases, fillets, borders): not measured there\n",
+                    100 * f.unknown);
         }
         if (!r.has_lag) text += "no measured positions: depths are those of the commanded path alone\n";
         if (!r.expected.empty())

@@ -165,6 +165,17 @@ std::string sentence_of(const Defect& d) {
     return capitalised(text);
 }
 
+std::string_view sentence_of(MarkNote note) {
+    switch (note) {
+        case MarkNote::none: return "";
+        case MarkNote::unknown_form: return "the form is not known here (a crease, a fillet or a border)";
+        case MarkNote::uneven_passes: return "the adjacent passes differ from each other by as much as the mark";
+        case MarkNote::cut_away: return "the adjacent passes cut the bulge down";
+        case MarkNote::other_passes: return "adjacent passes run off, too: the depth is that of all of them together";
+    }
+    return "";
+}
+
 std::string verdict_of(const QualityReport& report) {
     std::string text;
     const bool judged = report.judgement.judged();

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "quality/defects.h"
+#include "quality/formed_report.h"
 
 namespace clsurf::io {
 
@@ -21,6 +22,9 @@ namespace clsurf::io {
 
 /// What is wrong, as a sentence without its full stop: "Pass 14 runs 82 % slower than its neighbours over 3.4 mm".
 [[nodiscard]] std::string sentence_of(const Defect& defect);
+
+/// Why a defect has no depth in the as-machined surface, or another one than its pass alone, without full stop; none: "".
+[[nodiscard]] std::string_view sentence_of(MarkNote note);
 
 /// What was found in one sentence, what stands out most first, and "No defects …" or "Not judged …" where that is so.
 [[nodiscard]] std::string verdict_of(const QualityReport& report);

@@ -1,6 +1,7 @@
 #include "quality/form.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -16,8 +17,13 @@ namespace {
 
 constexpr double fit_reach = 3;          ///< step-overs round a knot that its fit looks at
 constexpr double least_spread = 0.0003;  ///< [mm] what rounding to a micrometre leaves
+constexpr double least_scatter = 0.001;  ///< [mm] beside which contact points of a smooth form do not lie …
+constexpr double knots_differ = 2;       ///< most_scatter_ between fits of neighbouring knots at one place
+constexpr double scallop_share = 0.5;    ///< … or this share of a scallop
 
-constexpr std::int64_t finer = 4;        ///< squares of a knot's, a side, that lie inside or not
+constexpr double covered = 1.1;    ///< step-overs from the nearest contact point in space; beyond, no pass has made
+                                   ///< the surface: half a step-over is usual, one stands where a pass is missing
+constexpr std::int64_t finer = 4;  ///< squares of a knot's, a side, that lie inside or not
 constexpr double sample_spacing = 0.25;  ///< step-overs along the passes
 constexpr double on_line = 0.15;         ///< step-overs: so near to a contact point is inside
 constexpr double opposite = -0.9;        ///< cosine to the nearest contact point of what lies on the other side: along
@@ -70,6 +76,8 @@ private:
 
 Form::Form(const FormedSurface& formed, const Box2& region) {
     pitch_ = formed.surface().step_over > 0 ? formed.surface().step_over : 10 * formed.usual_cell();
+    // Of the flat formula, with the tool's radius: a measure of size.
+    most_scatter_ = std::max(least_scatter, scallop_share * pitch_ * pitch_ / (8 * formed.tool().radius));
     if (region.isEmpty()) return;
     corner_ = region.min() - Vec2::Constant(pitch_);
     columns_ = static_cast<std::int64_t>(std::ceil(region.sizes().x() / pitch_)) + 3;
@@ -132,7 +140,7 @@ bool Form::is_inside(const Vec2& place, const Samples& samples) const {
         // What lies in the rings beyond is farther away than that.
         if (std::sqrt(nearest) <= static_cast<double>(ring) * pitch_) break;
     }
-    if (!(nearest <= fit_reach * fit_reach * pitch_ * pitch_)) return false;
+    if (!(nearest <= covered * covered * pitch_ * pitch_)) return false;
     if (std::sqrt(nearest) < on_line * pitch_) return true;
     for (std::int64_t ring = 0; ring <= rings; ++ring) {
         const bool one_sided = samples.for_each_in_ring(column, row, ring, [&](const Vec3& p) {
@@ -171,6 +179,11 @@ void Form::fit(std::int64_t column, std::int64_t row, const Samples& samples, Lo
     if (quadratic.size() < 6) return;
     const LocalQuadratic::Terms solution = quadratic.fit(least_spread);
     if (!solution.allFinite()) return;
+    const double slope = solution.segment<2>(1).norm() / pitch_;
+    if (quadratic.scatter(solution) > most_scatter_ * std::sqrt(1 + slope * slope)) {
+        knot[1] = 0;  // a[0] NaN, a[1] not: there are points, but they have no form
+        return;
+    }
     for (std::size_t k = 0; k < 6; ++k) knot[k] = static_cast<float>(solution[static_cast<Eigen::Index>(k)]);
     knot[0] += static_cast<float>(base - samples.level);
 }
@@ -182,6 +195,8 @@ Form::Facet Form::at(const Vec2& place) const {
     const auto r = static_cast<std::int64_t>(std::floor(v));
     Facet sum;
     double weights = 0;
+    double lowest = std::numeric_limits<double>::infinity();
+    double highest = -lowest;
     const bool on_grid = c >= 0 && r >= 0 && c + 1 < columns_ && r + 1 < rows_;
     if (on_grid && inside_[static_cast<std::size_t>(static_cast<std::int64_t>(v * finer) * finer * columns_ +
                                                     static_cast<std::int64_t>(u * finer))] != 0) {
@@ -189,39 +204,57 @@ Form::Facet Form::at(const Vec2& place) const {
             const std::int64_t kc = c + k % 2;
             const std::int64_t kr = r + k / 2;
             const Knot& a = knots_[static_cast<std::size_t>(kr * columns_ + kc)];
-            if (!(a[0] == a[0])) continue;
+            if (!(a[0] == a[0])) {
+                sum.unknown = sum.unknown || a[1] == a[1];
+                continue;
+            }
             const double x = u - static_cast<double>(kc);
             const double y = v - static_cast<double>(kr);
             const double w = (1 - std::abs(x)) * (1 - std::abs(y));
             weights += w;
-            sum.z += w * (a[0] + a[1] * x + a[2] * y + a[3] * x * x + a[4] * x * y + a[5] * y * y);
+            const double z = a[0] + a[1] * x + a[2] * y + a[3] * x * x + a[4] * x * y + a[5] * y * y;
+            sum.z += w * z;
+            lowest = std::min(lowest, z);
+            highest = std::max(highest, z);
             sum.zx += w * (a[1] + 2 * a[3] * x + a[4] * y);
             sum.zy += w * (a[2] + a[4] * x + 2 * a[5] * y);
         }
     }
-    if (!(weights > 0)) return {missing<float>, missing<float>, missing<float>};
-    return {sum.z / weights, sum.zx / (weights * pitch_), sum.zy / (weights * pitch_)};
+    sum.z /= weights;
+    sum.zx /= weights * pitch_;
+    sum.zy /= weights * pitch_;
+    const double steep = std::sqrt(1 + sum.zx * sum.zx + sum.zy * sum.zy);
+    sum.unknown = sum.unknown || highest - lowest > knots_differ * most_scatter_ * steep;
+    if (sum.unknown || !(weights > 0)) sum.z = sum.zx = sum.zy = missing<double>;
+    return sum;
 }
 
-void Form::subtract(const MapFrame& frame, std::int64_t first_row, std::span<float> z) const {
+std::int64_t Form::subtract(const MapFrame& frame, std::int64_t first_row, std::span<float> z) const {
+    std::atomic<std::int64_t> unknown = 0;
     const auto count = static_cast<std::int64_t>(z.size());
     constexpr std::int64_t grain = 4096;
     parallel_for(count, grain, [&](std::int64_t first, std::int64_t last) {
+        std::int64_t here = 0;
         for (std::int64_t k = first; k < last; ++k) {
             float& height = z[static_cast<std::size_t>(k)];
             if (!(height == height)) continue;
             const Facet form = at(
                 frame.at(static_cast<double>(k % frame.columns), static_cast<double>(first_row + k / frame.columns)));
             height = static_cast<float>((height - form.z) / std::sqrt(1 + form.zx * form.zx + form.zy * form.zy));
+            here += form.unknown ? 1 : 0;
         }
+        unknown += here;
     });
+    return unknown;
 }
 
-void map_deviation(const FormedSurface& formed, const Form& form, const MapFrame& frame, const TakeRows& take) {
+std::int64_t map_deviation(const FormedSurface& formed, const Form& form, const MapFrame& frame, const TakeRows& take) {
+    std::int64_t unknown = 0;
     formed.map(frame, [&](std::int64_t first_row, std::span<float> z) {
-        form.subtract(frame, first_row, z);
+        unknown += form.subtract(frame, first_row, z);
         take(first_row, z);
     });
+    return unknown;
 }
 
 }  // namespace clsurf

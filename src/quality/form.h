@@ -7,7 +7,9 @@
 // step-overs (tricube weights by distance; two repetitions with bisquare weights, so that one pass that is
 // programmed elsewhere does not bend it). Between knots the quadratics blend into each other. Three
 // step-overs: a form of 0.1 mm⁻³ (fourth derivative) then gives less than 0.3 µm of error at 0.3 mm, and ten
-// would give 30 µm; sharp edges of the form are rounded within that distance.
+// would give 30 µm. The form is unknown where more than a third of the contact points' weight lies farther
+// from the fit than half a scallop (1 µm at least), or where the fits of adjacent knots differ by more than
+// twice that, as at creases; and farther than 1.1 step-overs from any contact point. Nothing is measured there.
 
 #include <array>
 #include <vector>
@@ -24,12 +26,14 @@ public:
     Form(const FormedSurface& formed, const Box2& region);
 
     /// Turns heights of FormedSurface::map() into deviations [mm] along the form's normal, + outside
-    /// of it; NaN stays, and becomes what has no form: beyond the outermost contact points. Parallel.
-    void subtract(const MapFrame& frame, std::int64_t first_row, std::span<float> z) const;
+    /// of it; NaN stays, and becomes what has no form: beyond the outermost contact points, and where the form
+    /// is not known. Returns how many heights that were. Parallel.
+    std::int64_t subtract(const MapFrame& frame, std::int64_t first_row, std::span<float> z) const;
 
     /// The form's height [mm] over FormedSurface::level(), and its slopes; NaN: none there.
     struct Facet {
         double z = 0, zx = 0, zy = 0;
+        bool unknown = false;  ///< contact points lie about, but no smooth form goes through them
     };
     [[nodiscard]] Facet at(const Vec2& place) const;
 
@@ -46,10 +50,12 @@ private:
     double pitch_ = 1;
     std::int64_t columns_ = 0, rows_ = 0;
     std::vector<Knot> knots_;
+    double most_scatter_ = 0;           ///< [mm] along the normal, of contact points about a form
     std::vector<std::uint8_t> inside_;  ///< on a grid four times as fine
 };
 
-/// FormedSurface::map() with the form taken off: deviations [mm].
-void map_deviation(const FormedSurface& formed, const Form& form, const MapFrame& frame, const TakeRows& take);
+/// FormedSurface::map() with the form taken off: deviations [mm]. Returns how many
+/// cells were cut where the form is not known.
+std::int64_t map_deviation(const FormedSurface& formed, const Form& form, const MapFrame& frame, const TakeRows& take);
 
 }  // namespace clsurf

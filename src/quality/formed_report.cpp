@@ -16,7 +16,12 @@ constexpr double profile_cutoffs = 6;  ///< five sampling lengths and half of on
 constexpr double patch_cutoffs = 2;    ///< side of a patch
 constexpr double passes_aside = 6.5;  ///< of a mark's profile: a mark of two passes leaves most pairs of it as they are
 constexpr double mark_within = 1.0;   ///< step-overs from the middle that the mark lies in
-constexpr std::size_t fewest_pairs = 2;   ///< of a mark's profile …
+constexpr double coarse_spread = 0.001;  ///< [mm] by which pieces of an even surface do not differ
+constexpr double certain_share = 0.5;    ///< of a depth: spread of the level that it is measured from
+constexpr double agreement = 0.002;      ///< [mm] between the depth of a pass alone and the as-machined one …
+constexpr double agreement_share = 0.3;  ///< … or this share of it
+constexpr double normal_mad = 1.4826;    ///< standard deviation over median absolute deviation of a normal distribution
+constexpr std::size_t fewest_pairs = 2;  ///< of a mark's profile …
 constexpr std::size_t fewest_pieces = 4;  ///< … or pieces of one
 
 /// Deviations of a row of a map that begins at `from`.
@@ -76,19 +81,56 @@ std::vector<PointIndex> spread_points(const Signals& signals) {
     return found;
 }
 
-/// The value that is usual in the middle of a row: the median of means of two as far from it on either
-/// side, so that what changes evenly across the row drops out. At a border, where there are too few of
-/// these, of all that are known; NaN where those are too few.
-double usual(const std::vector<double>& row) {
+/// What is usual about the middle of a row, and how far it is certain.
+struct Level {
+    double value = missing<double>, spread = 0;
+};
+
+/// The median, and how far the values scatter about it (1.4826 times the median absolute deviation).
+Level level_of(std::vector<double> values) {
+    Level middle_level{median(values), 0};
+    for (double& value : values) value = std::abs(value - middle_level.value);
+    middle_level.spread = normal_mad * median(values);
+    return middle_level;
+}
+
+/// The value that is usual in the middle of a row: of means of two as far from it on either side, so that
+/// what changes evenly across the row drops out. Where they scatter by more than `coarse`, only those of
+/// every second pass, which runs like the one in the middle. At a border, where there are too few of these,
+/// of all values that are known; NaN where those are too few.
+Level usual(const std::vector<double>& row, double coarse) {
     std::vector<double> means;
+    std::vector<double> alike;
     std::vector<double> known;
+    const std::size_t middle = row.size() / 2;
     for (std::size_t k = 0; k < row.size(); ++k) {
         if (std::isfinite(row[k])) known.push_back(row[k]);
         const double mean = 0.5 * (row[k] + row[row.size() - 1 - k]);
-        if (2 * k + 1 < row.size() && std::isfinite(mean)) means.push_back(mean);
+        if (k >= middle || !std::isfinite(mean)) continue;
+        means.push_back(mean);
+        if ((middle - k) % 2 == 0) alike.push_back(mean);
     }
-    if (means.size() >= fewest_pairs) return median(means);
-    return known.size() >= fewest_pieces ? median(known) : missing<double>;
+    Level middle_level;
+    if (means.size() >= fewest_pairs) {
+        middle_level = level_of(means);
+        if (middle_level.spread > coarse && alike.size() >= fewest_pairs) middle_level = level_of(alike);
+    } else if (known.size() >= fewest_pieces) {
+        middle_level = level_of(known);
+    }
+    return middle_level;
+}
+
+/// Whether the depth in the as-machined surface is that of the pass alone, as far as both are known.
+bool agree(double formed, double alone) {
+    return std::abs(formed - alone) <= std::max(agreement, agreement_share * alone);
+}
+
+/// What there is to say of a mark whose pass alone would leave `alone` mm.
+FormedMark with_note(FormedMark mark, const Defect& defect) {
+    const double alone = std::abs(defect.depth);
+    if (!std::isfinite(mark.depth) || mark.note != MarkNote::none || agree(mark.depth, alone)) return mark;
+    mark.note = !defect.pit && mark.depth < alone ? MarkNote::cut_away : MarkNote::other_passes;
+    return mark;
 }
 
 }  // namespace
@@ -113,35 +155,44 @@ FormedProfile measure_profile(const FormedSurface& formed, const Vec2& from, con
     return profile;
 }
 
-double mark_depth(std::span<const double> deviation, double step, double step_over, bool pit) {
+FormedMark mark_depth(std::span<const double> deviation, double step, double step_over, bool pit) {
     const auto piece = static_cast<std::size_t>(std::max(1.0, std::round(step_over / step)));
-    std::vector<double> valleys;
-    std::vector<double> cusps;
+    std::vector<double> levels;
     for (std::size_t first = 0; first + piece <= deviation.size(); first += piece) {
         const auto part = deviation.subspan(first, piece);
         const bool known = std::all_of(part.begin(), part.end(), [](double v) { return std::isfinite(v); });
         const auto [low, high] = std::minmax_element(part.begin(), part.end());
-        valleys.push_back(known ? *low : missing<double>);
-        cusps.push_back(known ? *high : missing<double>);
+        levels.push_back(known ? (pit ? *low : *high) : missing<double>);
     }
-    double low = usual(valleys);
-    double high = usual(cusps);
-    if (!std::isfinite(low)) return missing<double>;
     const double middle = 0.5 * static_cast<double>(deviation.size() - 1);
-    const double valley = low;
-    const double cusp = high;
+    double most = missing<double>;
     for (std::size_t k = 0; k < deviation.size(); ++k) {
         if (!std::isfinite(deviation[k]) || std::abs(static_cast<double>(k) - middle) * step > mark_within * step_over)
             continue;
-        low = std::min(low, deviation[k]);
-        high = std::max(high, deviation[k]);
+        if (!std::isfinite(most) || (pit ? deviation[k] < most : deviation[k] > most)) most = deviation[k];
     }
-    return pit ? valley - low : high - cusp;
+    const Level usual_level = usual(levels, coarse_spread);
+    if (!std::isfinite(usual_level.value) || !std::isfinite(most)) return {missing<double>, MarkNote::unknown_form};
+    const double depth = std::max(0.0, pit ? usual_level.value - most : most - usual_level.value);
+    if (usual_level.spread > coarse_spread && usual_level.spread > certain_share * depth)
+        return {missing<double>, MarkNote::uneven_passes};
+    return {depth, MarkNote::none};
+}
+
+std::string_view name_of(MarkNote note) {
+    switch (note) {
+        case MarkNote::none: return "";
+        case MarkNote::unknown_form: return "unknown_form";
+        case MarkNote::uneven_passes: return "uneven_passes";
+        case MarkNote::cut_away: return "cut_away";
+        case MarkNote::other_passes: return "other_passes";
+    }
+    return "";
 }
 
 FormedReport measure_formed(const FormedSurface& formed, const Signals& signals, const QualityReport& report) {
     FormedReport result;
-    result.marks.assign(report.defects.size(), missing<double>);
+    result.marks.assign(report.defects.size(), FormedMark{missing<double>, MarkNote::unknown_form});
     const double s = formed.surface().step_over;
     if (s <= 0) return result;
     result.cutoff = cutoff_for(s);
@@ -165,21 +216,25 @@ FormedReport measure_formed(const FormedSurface& formed, const Signals& signals,
                     const Box2 box(across.at - corner, across.at + corner);
                     const Form form(formed, box);
                     std::vector<float> cells;
-                    map_deviation(
+                    const std::int64_t unknown = map_deviation(
                         formed, form, frame_of(box, formed.usual_cell()),
                         [&](std::int64_t, std::span<float> z) { cells.insert(cells.end(), z.begin(), z.end()); });
                     patches[at].area = area_heights(cells);
+                    const auto cut = static_cast<double>(unknown) + static_cast<double>(patches[at].area.cells);
+                    patches[at].unknown = cut > 0 ? static_cast<double>(unknown) / cut : 1;
                     continue;
                 }
                 const double step = across.step_over / steps_per_pass;
                 const auto count = static_cast<std::int64_t>(2 * passes_aside * steps_per_pass) + 1;
                 const Vec2 from = across.at - passes_aside * across.step_over * across.direction;
                 const Defect& defect = report.defects[at - points.size()];
-                result.marks[at - points.size()] =
-                    mark_depth(row_of(formed, from, across.direction, step, count), step, across.step_over, defect.pit);
+                result.marks[at - points.size()] = with_note(
+                    mark_depth(row_of(formed, from, across.direction, step, count), step, across.step_over, defect.pit),
+                    defect);
             }
         });
     for (const RoughPatch& patch : patches) {
+        result.unknown += patch.unknown / static_cast<double>(patches.size());
         if (patch.profile.length <= 0 || patch.area.cells == 0) continue;
         result.patches.push_back(patch);
         if (patch.profile.rz > result.patches[result.roughest].profile.rz) result.roughest = result.patches.size() - 1;

@@ -52,7 +52,7 @@ TEST(FormedReport, APlantedPitOfFiveMicrometresShowsAsFive) {
         const Planted pit(recipe_with(-0.005, shape, planted::Surface::transition));
         ASSERT_GE(pit.report.defects.size(), 1U) << planted::name_of(shape);
         EXPECT_TRUE(pit.report.defects[0].pit);
-        EXPECT_NEAR(pit.result.marks[0], 0.005, 0.0005)
+        EXPECT_NEAR(pit.result.marks[0].depth, 0.005, 0.0005)
             << planted::name_of(shape) << ", found " << pit.report.defects[0].depth;
     }
 }
@@ -63,7 +63,7 @@ TEST(FormedReport, APlantedBulgeIsCutDownByItsNeighbours) {
     ASSERT_EQ(bulge.report.defects.size(), 1U);
     // Its cusps are h (1 + δ/4h)², those beside it h: less than half of the 6 µm are left over them.
     const double cusp = h * (1 + 0.006 / (4 * h)) * (1 + 0.006 / (4 * h));
-    EXPECT_NEAR(bulge.result.marks[0], cusp - h, 0.0006);
+    EXPECT_NEAR(bulge.result.marks[0].depth, cusp - h, 0.0006);
 }
 
 TEST(FormedReport, RoughnessOfACleanPartIsThatOfItsScallops) {
@@ -88,6 +88,34 @@ TEST(FormedReport, RoughnessOfACleanPartIsThatOfItsScallops) {
     }
 }
 
+TEST(FormedReport, WhereTheFormHasCreasesNothingIsMeasured) {
+    planted::Recipe recipe = recipe_with(0, planted::Shape::zigzag, planted::Surface::transition);
+    recipe.noise = 0;
+    recipe.give = 0;
+    recipe.height = 2;
+    recipe.width = 0.2;  // two bends of some 0.2 mm, less than the step-over
+    const Planted creased(recipe);
+    const double h = scallop_height(3, 0.3, std::numeric_limits<double>::infinity());
+    EXPECT_GT(creased.result.unknown, 0.02);
+    EXPECT_LT(creased.result.unknown, 0.5);
+    // A fit through a crease would leave some hundred micrometres.
+    EXPECT_LT(creased.result.sz, 2 * h);
+    EXPECT_NEAR(creased.result.rz, h, 0.15 * h);
+}
+
+TEST(FormedReport, AMarkAmongPassesToAndFroIsReadAgainstItsOwnDirection) {
+    // Thirteen passes, every second one 0.04 mm lower, and the one in the middle, of the lower ones, 0.01 mm lower than these.
+    std::vector<double> z;
+    for (int k = 0; k < 1300; ++k) z.push_back((k / 100 % 2 == 0 ? -0.04 : 0) - (k / 100 == 6 ? 0.01 : 0));
+    EXPECT_NEAR(mark_depth(z, 0.01, 1, true).depth, 0.01, 1e-12);
+    // Where all passes differ by more than the mark, there is no level to measure it from.
+    const double off[] = {0, 0.03, -0.02, 0.05, -0.04, 0.01, 0, 0.06, 0.03, -0.05, 0.02, -0.01, 0.04};
+    for (std::size_t k = 0; k < z.size(); ++k) z[k] = off[k / 100] - (k / 100 == 6 ? 0.01 : 0);
+    const FormedMark uneven = mark_depth(z, 0.01, 1, true);
+    EXPECT_TRUE(std::isnan(uneven.depth));
+    EXPECT_EQ(uneven.note, MarkNote::uneven_passes);
+}
+
 TEST(FormedReport, AMarkIsReadAgainstTheUsualValleysAndCusps) {
     // Eleven pieces of a parabola 4 high; in the middle one that is 3 lower, and one 2 higher at its edge.
     std::vector<double> z;
@@ -96,21 +124,23 @@ TEST(FormedReport, AMarkIsReadAgainstTheUsualValleysAndCusps) {
         z.push_back(4 * x * x);
     }
     const std::vector<double> clean = z;
-    EXPECT_NEAR(mark_depth(clean, 0.01, 1, true), 0, 1e-12);
-    EXPECT_NEAR(mark_depth(clean, 0.01, 1, false), 0, 1e-12);
+    EXPECT_NEAR(mark_depth(clean, 0.01, 1, true).depth, 0, 1e-12);
+    EXPECT_NEAR(mark_depth(clean, 0.01, 1, false).depth, 0, 1e-12);
     for (std::size_t k = 500; k < 600; ++k) z[k] -= 3;
-    EXPECT_NEAR(mark_depth(z, 0.01, 1, true), 3, 1e-12);
+    EXPECT_NEAR(mark_depth(z, 0.01, 1, true).depth, 3, 1e-12);
     z = clean;
     for (std::size_t k = 500; k < 600; ++k) z[k] += 2;
-    EXPECT_NEAR(mark_depth(z, 0.01, 1, false), 2, 1e-12);
+    EXPECT_NEAR(mark_depth(z, 0.01, 1, false).depth, 2, 1e-12);
     // What changes evenly across the row is no part of it.
     for (std::size_t k = 0; k < z.size(); ++k) z[k] += 0.005 * static_cast<double>(k);
-    EXPECT_NEAR(mark_depth(z, 0.01, 1, false), 2, 0.5);
+    EXPECT_NEAR(mark_depth(z, 0.01, 1, false).depth, 2, 0.5);
     // Far from the middle, it is another mark.
     z = clean;
     for (std::size_t k = 100; k < 200; ++k) z[k] -= 3;
-    EXPECT_NEAR(mark_depth(z, 0.01, 1, true), 0, 1e-12);
-    EXPECT_TRUE(std::isnan(mark_depth(std::vector<double>(1100, std::nan("")), 0.01, 1, true)));
+    EXPECT_NEAR(mark_depth(z, 0.01, 1, true).depth, 0, 1e-12);
+    const FormedMark nothing = mark_depth(std::vector<double>(1100, std::nan("")), 0.01, 1, true);
+    EXPECT_TRUE(std::isnan(nothing.depth));
+    EXPECT_EQ(nothing.note, MarkNote::unknown_form);
 }
 
 TEST(Form, OnACurvedSurfaceItPassesThroughTheContacts) {
