@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "core/vectorised.h"
 
@@ -95,49 +96,51 @@ void lower_ball(float radius, const SweptSegment& g, const CellBlock& cells) {
     }
 }
 
-/// For a bull-nose tool: how far before the axis its section, `across` beside the axis, is touched by a
-/// tangent of this slope; by halving, the slope of the section rises all the way.
-float touched_before(const CuttingTool& tool, float across, float slope) {
-    const auto radius = static_cast<float>(tool.radius);
-    const auto corner = static_cast<float>(tool.corner);
+constexpr int intervals = 32;  ///< of a bull-nose tool's table across the segment
+
+/// For a bull-nose tool: how far before the axis its sections, `low` + k `step` beside the axis, are touched
+/// by a tangent of this slope; by halving, since the slope of a section rises all the way.
+CLSURF_VECTORISED void touched_before(float* before, float low, float step, float radius, float corner, float slope) {
     const float bottom = radius - corner;
-    const float end = std::sqrt(std::max(0.0F, radius * radius - across * across));
-    float low = std::sqrt(std::max(0.0F, bottom * bottom - across * across));
-    float high = end;
-    if (slope == 0) return 0;
-    constexpr int halvings = 20;
-    for (int k = 0; k < halvings; ++k) {
-        const float u = 0.5F * (low + high);
-        const float rho = std::sqrt(u * u + across * across);
-        const float out = rho - bottom;
-        const float up = corner * corner - out * out;
-        const bool steeper = up <= 0 || out * u > std::abs(slope) * rho * std::sqrt(up);
-        (steeper ? high : low) = u;
+    float inner[intervals + 1];
+    float outer[intervals + 1];
+    for (int k = 0; k <= intervals; ++k) {
+        const float across = low + static_cast<float>(k) * step;
+        const float from = bottom * bottom - across * across;
+        const float to = radius * radius - across * across;
+        inner[k] = std::sqrt(from > 0 ? from : 0.0F);
+        outer[k] = std::sqrt(to > 0 ? to : 0.0F);
     }
-    return std::copysign(0.5F * (low + high), slope);
+    constexpr int halvings = 20;
+    for (int n = 0; n < halvings; ++n) {
+        for (int k = 0; k <= intervals; ++k) {
+            const float across = low + static_cast<float>(k) * step;
+            const float u = 0.5F * (inner[k] + outer[k]);
+            const float rho = std::sqrt(u * u + across * across);
+            const float out = rho - bottom;
+            const float up = corner * corner - out * out;
+            const bool steeper = (up <= 0) | (out * u > std::abs(slope) * rho * std::sqrt(up > 0 ? up : 0.0F));
+            outer[k] = steeper ? u : outer[k];
+            inner[k] = steeper ? inner[k] : u;
+        }
+    }
+    const float sign = slope > 0 ? 0.5F : slope < 0 ? -0.5F : 0.0F;
+    for (int k = 0; k <= intervals; ++k) before[k] = sign * (inner[k] + outer[k]);
 }
 
-/// The same for many places across: it depends on nothing else.
-class Touched {
-public:
-    Touched(const CuttingTool& tool, const SweptSegment& g)
-        : low_(std::max(g.across_low, static_cast<float>(-tool.radius))) {
-        const float high = std::min(g.across_high, static_cast<float>(tool.radius));
-        const float step = std::max(high - low_, 1e-6F) / intervals;
-        per_mm_ = 1 / step;
-        for (std::size_t k = 0; k < before_.size(); ++k)
-            before_[k] = touched_before(tool, low_ + static_cast<float>(k) * step, g.slope);
-    }
-    [[nodiscard]] float before(float across) const {
-        const float at = std::clamp((across - low_) * per_mm_, 0.0F, static_cast<float>(intervals) - 0.001F);
-        const auto k = static_cast<std::size_t>(at);
-        return before_[k] + (at - static_cast<float>(k)) * (before_[k + 1] - before_[k]);
-    }
+/// The same for all places across: it depends on nothing else. Linear between the places of a table.
+struct Touched {
+    float low = 0, per_mm = 1;
+    std::array<float, intervals + 1> before{};
 
-private:
-    static constexpr int intervals = 32;
-    float low_, per_mm_ = 1;
-    std::array<float, intervals + 1> before_{};
+    Touched(const CuttingTool& tool, const SweptSegment& g)
+        : low(std::max(g.across_low, static_cast<float>(-tool.radius))) {
+        const float high = std::min(g.across_high, static_cast<float>(tool.radius));
+        const float step = std::max(high - low, 1e-6F) / intervals;
+        per_mm = 1 / step;
+        touched_before(before.data(), low, step, static_cast<float>(tool.radius), static_cast<float>(tool.corner),
+                       g.slope);
+    }
 };
 
 /// `lower(along, across, z)` for every cell in reach: its place in the frame of the segment, mm.
@@ -154,19 +157,48 @@ void lower_cells(const SweptSegment& g, const CellBlock& cells, Lower&& lower) {
     }
 }
 
-void lower_bull(const CuttingTool& tool, const SweptSegment& g, const CellBlock& cells) {
-    const Touched touched(tool, g);
-    const auto radius = static_cast<float>(tool.radius);
-    const auto corner = static_cast<float>(tool.corner);
+/// One row under a bull-nose tool.
+CLSURF_VECTORISED void lower_bull_row(float* z, int count, float s, float ds, float w, float dw, float radius,
+                                      float corner, const Touched& touched, float slope, float length, float tip) {
     const float bottom = radius - corner;
-    lower_cells(g, cells, [&](float along, float across, float& z) {
-        const float at = std::clamp(along - touched.before(across), 0.0F, g.length);
+    const float* const before = touched.before.data();
+    const float low = touched.low;
+    const float per_mm = touched.per_mm;
+    for (int k = 0; k < count; ++k) {
+        const auto x = static_cast<float>(k);
+        const float along = s + ds * x;
+        const float across = w + dw * x;
+        float place = (across - low) * per_mm;
+        place = place < 0 ? 0.0F : place;
+        place = place > intervals - 0.001F ? intervals - 0.001F : place;
+        const int left = static_cast<int>(place);
+        const float share = place - static_cast<float>(left);
+        float at = along - (before[left] + share * (before[left + 1] - before[left]));
+        at = at < 0 ? 0.0F : at;
+        at = at > length ? length : at;
         const float off = along - at;
         const float rho = std::sqrt(off * off + across * across);
-        if (rho > radius) return;
-        const float out = std::max(0.0F, rho - bottom);
-        z = std::min(z, g.z + g.slope * at + (corner - std::sqrt(std::max(0.0F, corner * corner - out * out))));
-    });
+        const float out = rho - bottom > 0 ? rho - bottom : 0.0F;
+        const float up = corner * corner - out * out;
+        const float height = tip + slope * at + (corner - std::sqrt(up > 0 ? up : 0.0F));
+        const float lowered = height < z[k] ? height : z[k];
+        z[k] = rho <= radius ? lowered : z[k];
+    }
+}
+
+void lower_bull(const CuttingTool& tool, const SweptSegment& g, const CellBlock& cells) {
+    const Columns rows = rows_of(g, cells);
+    std::optional<Touched> touched;
+    for (int row = rows.first; row < rows.last; ++row) {
+        const Row r = row_of(g, cells, row);
+        if (r.columns.first >= r.columns.last) continue;
+        if (!touched) touched.emplace(tool, g);  // many segments lie beside the cells
+        const float x = static_cast<float>(r.columns.first) * cells.cell;
+        lower_bull_row(cells.z + static_cast<std::ptrdiff_t>(row) * cells.columns + r.columns.first,
+                       r.columns.last - r.columns.first, r.s + g.dx * x, g.dx * cells.cell, r.w - g.dy * x,
+                       -g.dy * cells.cell, static_cast<float>(tool.radius), static_cast<float>(tool.corner), *touched,
+                       g.slope, g.length, g.z);
+    }
 }
 
 void lower_flat(const CuttingTool& tool, const SweptSegment& g, const CellBlock& cells) {
