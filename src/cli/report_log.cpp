@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/error.h"
 #include "viz/colour_map.h"
 
 namespace clsurf::cli {
