@@ -1,6 +1,5 @@
 #include "pipeline/judge.h"
 
-#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -8,7 +7,6 @@
 #include "pipeline/contacts.h"
 #include "pipeline/formed_part.h"
 #include "quality/axis_delay.h"
-#include "quality/scallop.h"
 
 namespace clsurf {
 namespace {
@@ -19,11 +17,8 @@ void measure_formed_surface(const Part& part, const ClSurface& surface, std::opt
     const CuttingTool tool = *part.tool;
     const std::unique_ptr<const UprightPart> upright = upright_part(part, measured, tool);
     const ToolRun run = upright ? upright->run() : ToolRun{part.path, surface, read};
-    const double step_over = run.surface.step_over;
-    if (tool.kind == ToolKind::ball && step_over > 0 && step_over < 2 * tool.radius) {
-        quality.scallop = scallop_height(tool.radius, step_over, std::numeric_limits<double>::infinity());
-    }
     quality.formed = measure_formed(run.formed(tool), run.read.signals, quality.report);
+    quality.scallop = quality.formed->scallop;
     for (RoughPatch& patch : quality.formed->patches)
         patch.contact = contacts.place(patch.point).contact.value_or(patch.contact);
 }

@@ -2,16 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/not_finite.h"
 #include "core/parallel.h"
 #include "core/statistics.h"
+#include "quality/scallop.h"
 
 namespace clsurf {
 namespace {
 
 constexpr double steps_per_pass = 200;  ///< a cusp's tip is then met to a hundredth of its height
 constexpr std::size_t patches_wanted = 24;
+constexpr PointIndex scallop_places = 10'000;
 constexpr double profile_cutoffs = 6;  ///< five sampling lengths and half of one at both ends
 constexpr double patch_cutoffs = 2;    ///< side of a patch
 constexpr double passes_aside = 6.5;  ///< of a mark's profile: a mark of two passes leaves most pairs of it as they are
@@ -190,12 +193,40 @@ std::string_view name_of(MarkNote note) {
     return "";
 }
 
+double usual_scallop(const FormedSurface& formed, const Signals& signals) {
+    if (formed.tool().kind != ToolKind::ball) return 0;
+    const double ball = formed.tool().radius;
+    const Adjacency& neighbours = formed.surface().neighbours;
+    const PointIndex stride = std::max<PointIndex>(1, signals.size() / scallop_places);
+    std::vector<double> heights;
+    for (PointIndex i = 0; i < signals.size(); i += stride) {
+        const Vec3 here = formed.contact(i);
+        if (signals[i].zone < Zone::near_end || !here.allFinite()) continue;
+        const Vec3 feed = signals.feed(i).cast<double>();
+        for (const Side side : {Side::left, Side::right}) {
+            if (!neighbours.has(side, i)) continue;
+            const PointIndex j = neighbours.neighbour(side, i);
+            Vec3 apart = formed.contact(j) - here;
+            apart -= apart.dot(feed) * feed;
+            const double chord = apart.norm();
+            const double turn = (signals.normal(j) - signals.normal(i)).cast<double>().dot(apart);
+            if (!std::isfinite(turn) || !(chord > 0) || chord >= 2 * ball) continue;
+            const double curvature = turn / (chord * chord);  // > 0: normals spread, the surface is convex
+            if (curvature * ball <= -1) continue;             // the ball would gouge: no closed form
+            heights.push_back(
+                scallop_height(ball, chord, curvature != 0 ? 1 / curvature : std::numeric_limits<double>::infinity()));
+        }
+    }
+    return heights.empty() ? 0 : median(heights);
+}
+
 FormedReport measure_formed(const FormedSurface& formed, const Signals& signals, const QualityReport& report) {
     FormedReport result;
     result.marks.assign(report.defects.size(), FormedMark{missing<double>, MarkNote::unknown_form});
     const double s = formed.surface().step_over;
     if (s <= 0) return result;
     result.cutoff = cutoff_for(s);
+    result.scallop = usual_scallop(formed, signals);
 
     const std::vector<PointIndex> points = spread_points(signals);
     std::vector<RoughPatch> patches(points.size());

@@ -49,6 +49,7 @@ struct FormedReport {
     double sa = 0, sq = 0;     ///< [mm] mean over the patches, form taken off
     double sz = 0;             ///< [mm] of the roughest patch; cells see the tip of a cusp to a tenth of it
     double cutoff = 0;         ///< [mm] of the profiles' filter
+    double scallop = 0;        ///< [mm] usual_scallop(); 0: not known
     double unknown = 0;  ///< share of the patches' cut cells where the form is not known: nothing is measured there
     std::vector<FormedMark> marks;  ///< per defect of the report
 };
@@ -69,6 +70,11 @@ struct FormedProfile {
 /// over pieces of a step-over's length, paired about the middle; where these differ (passes to and fro lag
 /// to opposite sides), over every second pair, which are passes of the mark's own direction.
 [[nodiscard]] FormedMark mark_depth(std::span<const double> deviation, double step, double step_over, bool pit);
+
+/// The usual height [mm] of the cusp between adjacent passes of a ball: the median over places spread over the part, each
+/// with the distance between its contact points and the surface's curvature across the feed (scallop.h). 0: not a
+/// ball, or no place has neighbours. O(10⁴ points).
+[[nodiscard]] double usual_scallop(const FormedSurface& formed, const Signals& signals);
 
 /// Some 24 patches and every defect of `report`. Parallel.
 [[nodiscard]] FormedReport measure_formed(const FormedSurface& formed, const Signals& signals,

@@ -88,6 +88,20 @@ TEST(FormedReport, RoughnessOfACleanPartIsThatOfItsScallops) {
     }
 }
 
+TEST(FormedReport, ScallopsFollowTheCurvatureAcrossTheFeed) {
+    // Tips on a sphere of radius r: the ball's centres lie on one as large, and it touches one of r − 3 mm.
+    planted::Recipe recipe = recipe_with(0, planted::Shape::one_way, planted::Surface::dome);
+    recipe.noise = 0;
+    recipe.give = 0;
+    const Planted dome(recipe);
+    const double tips = 1.3 * std::hypot(0.5 * recipe.length, recipe.passes * recipe.step_over);
+    const double rho = tips - 3;
+    const double expected = scallop_height(3, dome.surface.step_over * rho / tips, rho);
+    EXPECT_NEAR(dome.result.scallop, expected, 0.05 * expected);
+    const double flat = scallop_height(3, dome.surface.step_over, std::numeric_limits<double>::infinity());
+    EXPECT_GT(std::abs(dome.result.scallop - flat), 0.1 * flat);
+}
+
 TEST(FormedReport, WhereTheFormHasCreasesNothingIsMeasured) {
     planted::Recipe recipe = recipe_with(0, planted::Shape::zigzag, planted::Surface::transition);
     recipe.noise = 0;
