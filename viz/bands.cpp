@@ -379,9 +379,9 @@ WayVertices way_vertices(const ClSurface& surface, std::span<const PointIndex> p
     const Passes pieces = pieces_of_way(surface);
     for (std::size_t k = 0; k < pieces.size(); ++k) {
         const Pass& piece = pieces[k];
-        const bool rapid = piece.kind == PassKind::rapid;
+        const bool rapid = !is_of_surface(piece.kind);
         // Neighbouring pieces of one run (pass, link, the next turn of a spiral) hang together.
-        bool joins = k > 0 && pieces[k - 1].kind != PassKind::rapid;
+        bool joins = k > 0 && is_of_surface(pieces[k - 1].kind);
         for (; at < points.size() && points[at] <= piece.last; ++at) {
             vertices.points.push_back(points[at]);
             vertices.joined.push_back(joins && !rapid ? 1 : 0);

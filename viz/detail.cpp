@@ -74,9 +74,9 @@ std::vector<Part> parts_of(const Passes& passes) {
     std::vector<Part> parts;
     for (std::size_t k = 0; k < passes.size(); ++k) {
         const Pass& pass = passes[k];
-        if (pass.kind == PassKind::rapid) continue;
+        if (!is_of_surface(pass.kind)) continue;
         // Neighbouring pieces of one run (pass, link, the next turn of a spiral) are drawn on.
-        const bool continues = k > 0 && passes[k - 1].kind != PassKind::rapid;
+        const bool continues = k > 0 && is_of_surface(passes[k - 1].kind);
         for (PointIndex first = pass.first; first <= pass.last; first += part_points) {
             parts.push_back({first, std::min(pass.last, first + part_points - 1), first == pass.first && !continues,
                              pass.kind == PassKind::link});

@@ -92,7 +92,7 @@ Box3 extent_of(const ClSurface& surface, const ViewAxes& axes) {
     };
     std::vector<Piece> pieces;
     for (const Pass& pass : surface.passes) {
-        if (pass.kind == PassKind::rapid) continue;
+        if (!is_of_surface(pass.kind)) continue;
         for (PointIndex first = pass.first; first <= pass.last; first += block_points) {
             pieces.push_back({first, std::min(pass.last, first + block_points - 1), {}});
         }

@@ -18,7 +18,11 @@
 
 namespace clsurf {
 
-enum class PassKind : std::uint8_t { cut, link, rapid };
+/// `other` is cutting that makes no finished surface: pockets, drilling, single contours (surface/finishing.h).
+enum class PassKind : std::uint8_t { cut, link, rapid, other };
+
+/// Whether the surface has points of this kind.
+[[nodiscard]] constexpr bool is_of_surface(PassKind kind) { return kind == PassKind::cut || kind == PassKind::link; }
 
 struct Pass {
     PointIndex first = 0;

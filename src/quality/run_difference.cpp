@@ -134,13 +134,14 @@ void smooth(Column<float>& values, const std::vector<PointRange>& stretches, Poi
     }
 }
 
-float percentile_where_cut(const Column<float>& values, const Passes& passes, double p) {
+/// Of all that is compared, finishing or not: rapids are left out.
+float percentile_at_feed(const Column<float>& values, const Passes& passes, double p) {
     Column<float> sampled;
     PointIndex cutting = 0;
-    for (const Pass& pass : passes) cutting += pass.kind == PassKind::cut ? pass.size() : 0;
+    for (const Pass& pass : passes) cutting += pass.kind != PassKind::rapid ? pass.size() : 0;
     const PointIndex step = std::max<PointIndex>(1, cutting / points_for_usual);
     for (const Pass& pass : passes) {
-        if (pass.kind != PassKind::cut) continue;
+        if (pass.kind == PassKind::rapid) continue;
         for (PointIndex i = pass.first; i <= pass.last; i += step) {
             const float value = values[static_cast<std::size_t>(i)];
             if (std::isfinite(value)) sampled.push_back(value);
@@ -182,12 +183,12 @@ void compare_motion(const ComparedRun& a, const ComparedRun& b, const ClSurface&
     const FieldSet of_a(*a.log, a.path, whole_a, {nullptr, b.log->period});
     const FieldSet of_b(*b.log, b.path, whole_b, {nullptr, a.log->period});
     out.speed_of_a = of_a.get("speed").values;
-    out.usual_speed = percentile_where_cut(out.speed_of_a, surface.passes, 0.95);
+    out.usual_speed = percentile_at_feed(out.speed_of_a, surface.passes, 0.95);
     out.of[index_of(RunQuantity::speed)] = out.speed_of_a;
     subtract(of_b.get("speed").values, out.alignment, out.of[index_of(RunQuantity::speed)]);
     Column<float>& acceleration = out.of[index_of(RunQuantity::acceleration)];
     acceleration = of_a.get("acceleration").values;
-    out.usual_acceleration = percentile_where_cut(acceleration, surface.passes, 0.99);
+    out.usual_acceleration = percentile_at_feed(acceleration, surface.passes, 0.99);
     subtract(of_b.get("acceleration").values, out.alignment, acceleration);
 }
 

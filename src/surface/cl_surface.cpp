@@ -126,7 +126,7 @@ Passes without_other_cutting(const ClSurface& surface, const Passes& runs, Point
             const Pass& pass = surface.passes[k];
             if (pass.kind != PassKind::cut || pass.last < run.first || finishing[k]) continue;
             append({next, pass.first - 1, PassKind::cut});
-            append({pass.first, pass.last, PassKind::rapid});
+            append({pass.first, pass.last, PassKind::other});
             left_out += pass.size();
             next = pass.last + 1;
         }
