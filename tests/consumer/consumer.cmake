@@ -18,5 +18,5 @@ if(CLSURF_SANITIZE STREQUAL "none")
                               ${PROJECT_BINARY_DIR}/samples/bottle_uneven.biip)
   set_tests_properties(consumer.install PROPERTIES FIXTURES_SETUP installed_tree)
   set_tests_properties(consumer.uses_the_installed_package PROPERTIES FIXTURES_REQUIRED installed_tree
-    PASS_REGULAR_EXPRESSION "lines [0-9]+ to [0-9]+: [0-9]+ mm/min, [0-9]+ mm/min beside them.*[0-9]+ to [0-9]+ mm/min.*[0-9.]+ s simulated")
+    PASS_REGULAR_EXPRESSION "lines [0-9]+ to [0-9]+: [0-9]+ mm/min, adjacent passes [0-9]+ mm/min.*[0-9]+ to [0-9]+ mm/min.*[0-9.]+ s simulated")
 endif()

@@ -14,7 +14,7 @@ int main(int, char** arguments) {
     const clsurf::Quality quality = clsurf::judge(part, surface);
     for (const clsurf::Defect& defect : quality.report.defects) {
         const clsurf::DefectRun& run = defect.runs.front();
-        std::printf("lines %u to %u: %.0f mm/min, %.0f mm/min beside them\n", run.first_line, run.last_line,
+        std::printf("lines %u to %u: %.0f mm/min, adjacent passes %.0f mm/min\n", run.first_line, run.last_line,
                     60 * defect.speed, 60 * defect.speed_beside);
     }
 
