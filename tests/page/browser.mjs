@@ -141,7 +141,7 @@ export async function clickView(page, x, y) {
 }
 
 export async function goTo(page, kind, value) {
-    await page.getByLabel('what to go to').selectOption(kind);
+    await page.getByLabel('target', { exact: true }).selectOption(kind);
     await page.getByLabel('go to', { exact: true }).fill(String(value));
     await page.getByLabel('go to', { exact: true }).press('Enter');
     await settled(page);

@@ -160,10 +160,10 @@ test('colour maps and steps', async () => {
         seen.add(await picture());
     }
     assert.equal(seen.size, 6);
-    await page.getByLabel('steps of colour').selectOption('8');
+    await page.getByLabel('colour steps').selectOption('8');
     await settled(page);
     assert.ok(!seen.has(await picture()));
-    await page.getByLabel('steps of colour').selectOption('0');
+    await page.getByLabel('colour steps').selectOption('0');
 });
 
 test('the range is typed, dragged, and usual again', async () => {

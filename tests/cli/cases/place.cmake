@@ -92,10 +92,11 @@ clsurf_cli_test(NAME query_nothing_below_the_tip ARGS query ${bottle} --tool non
 # In a groove where the ball touches both walls the passes' fitted normals are of no use: line 11571 made this place.
 clsurf_cli_test(NAME query_in_a_groove ARGS query @DATA@/programs/petal_zigzag_g64.ngc @LOGS@/petal_zigzag_g64.biip --tool ball:6 --at -10.7886,14.3171,-3.3252 STDOUT "^line 11571:")
 
+string(JOIN " " bottle_words ${bottle})
 # The page has both: marks on the surface of the tool tips, and on the formed one.
 clsurf_cli_test(NAME page_has_tips_and_contacts
-  SETUP "$CLSURF report ${bottle} --tool ball:6 -o r.html --max-size 4; grep -q '\"tip_mm\":' r.html; grep -q '\"contact_mm\":' r.html; grep -q '\"contact_outlines\":' r.html"
+  SETUP "$CLSURF report ${bottle_words} --tool ball:6 -o r.html --max-size 4; grep -q '\"tip_mm\":' r.html; grep -q '\"contact_mm\":' r.html; grep -q '\"contact_outlines\":' r.html"
   ARGS --version)
 clsurf_cli_test(NAME page_without_a_tool_has_tips
-  SETUP "$CLSURF report ${bottle} --tool none -o r.html --max-size 4; grep -q '\"tip_mm\":' r.html; ! grep -q '\"contact_mm\":' r.html"
+  SETUP "$CLSURF report ${bottle_words} --tool none -o r.html --max-size 4; grep -q '\"tip_mm\":' r.html; ! grep -q '\"contact_mm\":' r.html"
   ARGS --version)
