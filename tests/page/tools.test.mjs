@@ -17,7 +17,16 @@ const view = () => page.getAttribute('.view', 'data-view');
 const field = () => page.getByLabel('field').evaluate((select) => select.selectedOptions[0].text);
 const range = async () =>
     [await page.getByLabel('lower end').inputValue(), await page.getByLabel('upper end').inputValue()].map(Number);
-const picture = async () => (await page.locator('.overlay').screenshot()).toString('base64');
+/** At rest: where a machine draws slowly, points stand for the mesh until nothing has moved for a quarter of a second. */
+const picture = async () => {
+    const drawn = () => page.getAttribute('.view', 'data-drawn');
+    for (let before = null, now = await drawn(); now !== before; ) {
+        before = now;
+        await page.waitForTimeout(400);
+        now = await drawn();
+    }
+    return (await page.locator('.overlay').screenshot()).toString('base64');
+};
 
 test('views', async () => {
     for (const [name, key] of [
