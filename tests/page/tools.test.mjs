@@ -20,7 +20,7 @@ const range = async () =>
 /** At rest: where a machine draws slowly, points stand for the mesh until nothing has moved for a quarter of a second. */
 const picture = async () => {
     const drawn = () => page.getAttribute('.view', 'data-drawn');
-    for (let before = null, now = await drawn(); now !== before; ) {
+    for (let before = null, now = await drawn(); now !== before;) {
         before = now;
         await page.waitForTimeout(400);
         now = await drawn();
