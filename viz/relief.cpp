@@ -37,7 +37,7 @@ Detail relief_detail(const Relief& relief, std::span<const float> values, const 
     std::vector<std::uint32_t> vertex(static_cast<std::size_t>(count), none);
     for (std::int64_t i = 0; i < count; ++i) {
         const auto k = static_cast<std::size_t>(i);
-        if (!(relief.z[k] == relief.z[k]) || !(values[k] == values[k])) continue;
+        if (!(relief.z[k] == relief.z[k])) continue;
         const Vec3 p = relief.at(i);
         if (!request.box.isEmpty() && !request.box.contains(p)) continue;
         const Eigen::Vector2d pixel = request.projection * p.homogeneous();

@@ -24,7 +24,7 @@ struct Relief {
 /// Extent along the axes of a view [mm]. O(vertices).
 [[nodiscard]] Box3 extent_of(const Relief& relief, const Eigen::Matrix3d& axes);
 
-/// Its triangles with `values` per vertex, lit; vertices without a height or a value, and those outside of the
+/// Its triangles with `values` per vertex, lit; vertices without a height, and those outside of the
 /// request's box, are left out. O(vertices).
 [[nodiscard]] Detail relief_detail(const Relief& relief, std::span<const float> values, const DetailRequest& request);
 

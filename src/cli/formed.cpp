@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "quality/form.h"
 
 namespace clsurf::cli {
@@ -46,6 +47,23 @@ std::pair<double, double> heights_of(const ClSurface& surface) {
     return {low + surface.positions.origin.z(), high + surface.positions.origin.z()};
 }
 
+/// Heights beyond the outermost contact points are those of the tool's flank, not of the part: NaN. Where the form is
+/// not known they stay.
+void leave_out_flanks(const Form& form, const MapFrame& frame, std::int64_t first_row, std::span<float> heights,
+                      std::span<const float> deviation) {
+    constexpr std::int64_t grain = 4096;
+    parallel_for(static_cast<std::int64_t>(heights.size()), grain, [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t k = first; k < last; ++k) {
+            float& height = heights[static_cast<std::size_t>(k)];
+            const float over = deviation[static_cast<std::size_t>(k)];
+            if (!(height == height) || over == over) continue;
+            const Vec2 place =
+                frame.at(static_cast<double>(k % frame.columns), static_cast<double>(first_row + k / frame.columns));
+            if (!form.at(place).unknown) height = std::numeric_limits<float>::quiet_NaN();
+        }
+    });
+}
+
 /// Means of blocks of cells, filled row by row.
 class Means {
 public:
@@ -61,11 +79,11 @@ public:
     void add(std::int64_t row, std::span<const float> z, std::span<const float> deviation) {
         for (std::int64_t c = 0; c < columns_; ++c) {
             const auto k = static_cast<std::size_t>(c);
-            if (!(z[k] == z[k]) || !(deviation[k] == deviation[k])) continue;
+            if (!(z[k] == z[k])) continue;
             const auto at = static_cast<std::size_t>(c / per_vertex_);
             if (at >= z_.size()) break;
             z_[at] += z[k];
-            d_[at] += deviation[k];
+            d_[at] += deviation[k];  // NaN: the form is not known there, and the vertex has no value
             n_[at] += 1;
         }
         if (row % per_vertex_ == per_vertex_ - 1) put(row / per_vertex_);
@@ -124,6 +142,7 @@ FormedMap make_formed_map(const FormedPart& part, const Box3& box, const viz::Ca
     formed.map(frame, [&](std::int64_t first_row, std::span<float> z) {
         heights.assign(z.begin(), z.end());
         form.subtract(frame, first_row, z);
+        leave_out_flanks(form, frame, first_row, heights, z);
         const auto wide = static_cast<std::size_t>(frame.columns);
         for (std::size_t r = 0; r < z.size() / wide; ++r) {
             means.add(first_row + static_cast<std::int64_t>(r), std::span(heights).subspan(r * wide, wide),
