@@ -275,7 +275,7 @@ void add_relief(Blocks& blocks, Json& manifest, const PageRelief& relief) {
     };
     std::string missing;
     for (std::size_t k = 0; k < relief.z.size(); ++k)
-        missing += std::isfinite(relief.z[k]) && std::isfinite(relief.deviation[k]) ? '\0' : '\1';
+        missing += !std::isfinite(relief.z[k]) ? '\1' : !std::isfinite(relief.deviation[k]) ? '\2' : '\0';
     blocks.add(at("/relief", "z"), [&relief, steps] { return steps(relief.z, position_quantum); });
     blocks.add(at("/relief", "deviation"),
                [&relief, steps] { return steps(relief.deviation, quantum_um / um_per_mm); });

@@ -7,14 +7,17 @@ export interface Relief {
     info: ReliefInfo;
     xyz: Float32Array; // 3 per vertex [mm] from `origin`
     triangles: Uint32Array;
-    deviation: Float32Array; // [µm]
-    missing: Uint8Array; // per vertex: 1, there is none
+    deviation: Float32Array; // [µm]; NaN where the form is not known
+    missing: Uint8Array; // per vertex: 1, there is none; 2, it has no deviation
 }
 
 export async function readRelief(info: ReliefInfo, origin: readonly number[]): Promise<Relief> {
     const z = await readNumbers(info.z, info.z_quantum_mm);
     const deviation = Float32Array.from(await readNumbers(info.deviation, info.deviation_quantum_um));
     const missing = await readBytes(info.missing);
+    missing.forEach((flag, i) => {
+        if (flag === 2) deviation[i] = NaN;
+    });
     const xyz = new Float32Array(3 * z.length);
     for (let i = 0; i < z.length; ++i) {
         xyz[3 * i] = info.origin_mm[0] - origin[0] + info.pitch_mm * (i % info.columns);
@@ -22,7 +25,7 @@ export async function readRelief(info: ReliefInfo, origin: readonly number[]): P
         xyz[3 * i + 2] = info.origin_mm[2] - origin[2] + z[i];
     }
     const triangles: number[] = [];
-    const there = (...corners: number[]) => corners.every((c) => missing[c] === 0);
+    const there = (...corners: number[]) => corners.every((c) => missing[c] !== 1);
     for (let row = 0; row + 1 < info.rows; ++row) {
         for (let column = 0; column + 1 < info.columns; ++column) {
             const a = row * info.columns + column;

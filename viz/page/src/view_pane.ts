@@ -183,7 +183,7 @@ export class ViewPane {
     extent(): Extent {
         const { surface, relief } = this;
         if (this.store.state.formed && relief)
-            return extentAlong(this.camera.axes, relief.xyz, (i) => relief.missing[i] === 0);
+            return extentAlong(this.camera.axes, relief.xyz, (i) => relief.missing[i] !== 1);
         return extentAlong(this.camera.axes, this.xyzOf(surface), (i) => surface.kind(i) !== Kind.rapid);
     }
     fit(): void {
