@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/fields.h"
 #include "core/error.h"
 #include "viz/colour_map.h"
 
@@ -39,7 +40,55 @@ io::PageSurface page_surface(const ReportLog& shown) {
     return page;
 }
 
+/// The fields that a log has values for.
+std::vector<std::string> usual_fields(const Log& log) {
+    std::vector<std::string> names{"speed", "acceleration", "tangential_acceleration", "jerk"};
+    if (log.has(Role::commanded) && (log.has(Role::feedback) || log.has(Role::actual)))
+        names.insert(names.end(), {"following_error", "contour_error"});
+    names.insert(names.end(), {"speed_mismatch", "acceleration_mismatch", "height"});
+    constexpr std::size_t most = 16;
+    for (const Channel& channel : log.channels) {
+        const bool position =
+            channel.name.starts_with("cmd.") || channel.name.starts_with("fb.") || channel.name.starts_with("act.");
+        const bool known = std::find(names.begin(), names.end(), channel.name) != names.end();
+        if (!position && !known && channel.name != "time" && channel.name != "line" && channel.name != "program" &&
+            names.size() < most)
+            names.push_back(channel.name);
+    }
+    return names;
+}
+
+bool has_values(const Field& field, const Passes& passes) {
+    for (const Pass& pass : passes) {
+        if (pass.kind != PassKind::cut) continue;
+        for (PointIndex i = pass.first; i <= pass.last; ++i) {
+            if (std::isfinite(field.values[static_cast<std::size_t>(i)])) return true;
+        }
+    }
+    return false;
+}
+
 }  // namespace
+
+ReportLog load_report_log(const PartOptions& part_options, const ReportOptions& options, StageClock& clock) {
+    ReportLog shown;
+    shown.part = load_part(part_options, clock);
+    clock.begin("stitch the surface");
+    shown.surface = stitch(shown.part);
+    shown.quality = judge(shown.part, shown.surface, options.measured, {}, clock.stages());
+    shown.part.diagnostics.append(shown.quality.diagnostics);
+    clock.begin("compute the fields");
+    Fields fields(shown.part, shown.surface);
+    const bool usual = options.fields.empty();
+    for (const std::string& name : usual ? usual_fields(shown.part.log) : options.fields) {
+        Field field = fields.get(name);
+        // What was asked for by name must be there; of the usual ones a log has some.
+        if (!usual || has_values(field, shown.surface.passes)) shown.fields.push_back(std::move(field));
+    }
+    shown.other_roles = other_roles(shown.part);
+    clock.end();
+    return shown;
+}
 
 std::string fit_page(io::ReportPage& page, std::vector<ReportLog>& logs) {
     PointIndex all = 0;

@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include "cli/report_options.h"
+#include "cli/stage_clock.h"
 #include "io/report_page.h"
 #include "pipeline/judge.h"
 #include "viz/bands.h"
@@ -20,6 +22,10 @@ struct ReportLog {
     viz::WayVertices vertices;
     viz::Bands bands;
 };
+
+/// Reads and judges a log, and computes its fields. Throws InputError, UsageError.
+[[nodiscard]] ReportLog load_report_log(const PartOptions& part_options, const ReportOptions& options,
+                                        StageClock& clock);
 
 /// The page with all points of its logs, or with as many as its `most_bytes` allow. Throws UsageError where the
 /// least that a page must hold is more than that.

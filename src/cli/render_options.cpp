@@ -1,0 +1,61 @@
+#include "cli/render_options.h"
+
+#include "core/error.h"
+
+namespace clsurf::cli {
+namespace {
+
+void read_formed(const po::variables_map& values, RenderOptions& options) {
+    if (!options.part.formed) {
+        if (given(values, "swept"))
+            throw UsageError("--swept is of the formed surface only", "--surface formed --tool ball:6");
+        return;
+    }
+    if (values.count("swept") > 0) options.swept = parse_role(values["swept"].as<std::string>());
+    if (given(values, "color"))
+        throw UsageError("--color is not of the formed surface: it shows micrometres over its form");
+    if (given(values, "style") && options.shown.look.style != viz::Style::surface)
+        throw UsageError("--style is not of the formed surface: it is drawn as one");
+}
+
+}  // namespace
+
+void declare_render(po::options_description& options) {
+    declare_part(options, true);
+    declare_derivative(options);
+    declare_tool(options);
+    // clang-format off
+    options.add_options()
+        ("swept", po::value<std::string>()->value_name("commanded|feedback|actual"), "positions that the formed surface's tool runs along (default: actual, else feedback, else commanded)")
+        ("output,o", po::value<std::string>()->value_name("FILE"), "the picture: .png, .jpg, .tif or .webp")
+        ("color", po::value<std::string>()->value_name("FIELD"), "what is coloured (default: speed; `clsurf help fields`)")
+        ("mark-point", po::value<std::vector<long long>>()->value_name("N"), "ring a point; may be repeated")
+        ("mark-line", po::value<std::vector<long long>>()->value_name("N"), "draw the points of a line bold; may be repeated")
+        ("defects", "outline and number what `clsurf check` finds")
+        ("before", po::value<std::string>()->value_name("LOG"), "another log of the program, drawn beside it on the same scale");
+    // clang-format on
+    declare_look(options);
+}
+
+RenderOptions read_render_options(const po::variables_map& values) {
+    RenderOptions options;
+    options.part = read_part_options(values);
+    options.output = required(values, "output");
+    options.before = text_of(values, "before", "");
+    options.field = text_of(values, "color", "speed");
+    options.shown = read_look_options(values);
+    if (values.count("mark-point") > 0) {
+        for (const long long n : values["mark-point"].as<std::vector<long long>>()) options.points.push_back(n);
+    }
+    if (values.count("mark-line") > 0) {
+        for (const long long n : values["mark-line"].as<std::vector<long long>>()) {
+            if (n < 1 || n > 0xffffffffLL) throw UsageError("--mark-line: lines count from 1");
+            options.lines.push_back(static_cast<LineNumber>(n));
+        }
+    }
+    options.defects = values.count("defects") > 0;
+    read_formed(values, options);
+    return options;
+}
+
+}  // namespace clsurf::cli

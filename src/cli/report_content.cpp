@@ -1,0 +1,112 @@
+#include "cli/report_content.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "cli/fields.h"
+#include "cli/report_pictures.h"
+#include "log/health.h"
+#include "pipeline/contacts.h"
+#include "quality/outline.h"
+
+namespace clsurf::cli {
+namespace {
+
+constexpr std::size_t pictured_defects = 6;
+constexpr int relief_pixels = 700;  ///< of the formed surface across the page
+
+std::vector<ShownRange> ranges_of(const std::vector<ReportLog>& logs) {
+    std::vector<ShownRange> ranges;
+    for (std::size_t k = 0; k < logs.front().fields.size(); ++k) {
+        ShownRange range = find_range(logs.front().fields[k], logs.front().surface.passes, {});
+        for (std::size_t other = 1; other < logs.size(); ++other) {
+            range = wider(range, find_range(logs[other].fields[k], logs[other].surface.passes, {}));
+        }
+        ranges.push_back(std::move(range));
+    }
+    return ranges;
+}
+
+}  // namespace
+
+ReportedForm form_for_report(const ReportLog& shown, const ReportOptions& options, StageClock& clock) {
+    clock.begin("sweep the tool");
+    const FormedPart formed(shown.part, shown.surface, options.measured, *shown.part.tool);
+    viz::MapPanel panel;
+    panel.surface = &shown.surface;
+    viz::Look look;
+    look.width = relief_pixels;
+    look.height = relief_pixels;
+    look.view = viz::parse_view("top");
+    look.legend = false;
+    ReportedForm made;
+    made.map = make_formed_map(formed, {}, viz::map_camera({panel}, look));
+    made.range = find_range(made.map.field, all_as_one_cut(static_cast<PointIndex>(made.map.field.values.size())), {});
+    return made;
+}
+
+void add_report_pictures(io::ReportPage& page, const ReportLog& shown, const ReportOptions& options,
+                         const std::optional<ReportedForm>& formed) {
+    PicturedPart pictured{&shown.part, &shown.surface, shown.fields, page.ranges, &shown.quality.report,
+                          {},          options.gl};
+    std::optional<PartContacts> contacts;
+    if (formed && shown.part.tool) contacts.emplace(shown.part, shown.surface, *shown.part.tool);
+    for (std::size_t i = 0; i < shown.quality.report.defects.size(); ++i) {
+        const Defect& defect = shown.quality.report.defects[i];
+        page.defects.push_back({outlines_of(defect, shown.surface), {}});
+        if (contacts)
+            page.defects.back().contact_outlines =
+                outlines_of(defect, shown.surface, [&](PointIndex point) { return contacts->place(point).position(); });
+        pictured.outlines.push_back({page.defects.back().outlines, fmt::format("{}", i + 1)});
+    }
+    page.pictures.push_back(picture_of_part(pictured, page.first_field));
+    if (formed)
+        page.pictures.push_back(picture_of_relief(pictured, formed->map.relief, formed->map.field, formed->range));
+    for (std::size_t i = 0; i < std::min(pictured_defects, page.defects.size()); ++i)
+        page.defects[i].picture = picture_of_defect(pictured, i);
+}
+
+io::PageRelief page_relief_of(const ReportedForm& formed) {
+    const viz::Relief& r = formed.map.relief;
+    return {
+        r.origin, r.pitch, r.columns, r.rows, r.z, formed.map.field.values, formed.range, formed.map.field.info.note};
+}
+
+io::ReportPage report_page_of(const ReportLog& shown, const std::vector<ReportLog>& logs,
+                              const ReportOptions& options) {
+    io::ReportPage page;
+    page.program = options.part.program;
+    page.log = options.part.log;
+    page.before = options.before;
+    page.reading_options = options.reading_options;
+    page.most_bytes = options.most_bytes;
+    page.ranges = ranges_of(logs);
+    page.first_field = options.first_field.empty() ? shown.fields.front().info.name
+                                                   : std::string(usual_name(options.first_field, shown.part.log));
+    if (std::none_of(shown.fields.begin(), shown.fields.end(),
+                     [&](const Field& f) { return f.info.name == page.first_field; })) {
+        std::vector<FieldInfo> infos;
+        for (const Field& field : shown.fields) infos.push_back(field.info);
+        unknown_field(page.first_field, infos);
+    }
+    page.quality.report = &shown.quality.report;
+    page.quality.program = &shown.part.program;
+    page.quality.log = shown.part.log.name;
+    page.quality.tool = shown.part.tool;
+    page.quality.scallop = shown.quality.scallop;
+    page.quality.formed = shown.quality.formed ? &*shown.quality.formed : nullptr;
+    page.health = shown.part.diagnostics;
+    page.health.append(check_health(shown.part.log, shown.part.program.main().line_count()));
+    for (const Field& field : shown.fields) {
+        if (field.info.name.find("mismatch") == std::string::npos && field.info.name != "height" &&
+            field.info.name != "contour_error")
+            continue;
+        page.percentiles.push_back(
+            {field.info.name, percentiles_of_size(field, shown.surface.passes, io::page_percentiles)});
+    }
+    page.colour_maps = page_colour_maps();
+    return page;
+}
+
+}  // namespace clsurf::cli

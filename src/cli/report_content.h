@@ -1,0 +1,34 @@
+#pragma once
+// What `report` puts on its page.
+
+#include <optional>
+#include <vector>
+
+#include "cli/formed.h"
+#include "cli/report_log.h"
+#include "cli/report_options.h"
+#include "field/range.h"
+#include "io/report_page.h"
+
+namespace clsurf::cli {
+
+/// The formed surface as a height map that a page can carry.
+struct ReportedForm {
+    FormedMap map;
+    ShownRange range;
+};
+
+/// Sweeps the tool of the part, which is known.
+[[nodiscard]] ReportedForm form_for_report(const ReportLog& shown, const ReportOptions& options, StageClock& clock);
+[[nodiscard]] io::PageRelief page_relief_of(const ReportedForm& formed);
+
+/// The page without its pictures and the machined surface. Refers to `shown`. Throws UsageError: none of its fields is
+/// called --color.
+[[nodiscard]] io::ReportPage report_page_of(const ReportLog& shown, const std::vector<ReportLog>& logs,
+                                            const ReportOptions& options);
+
+/// The pictures of the part, of its machined surface and of the first defects.
+void add_report_pictures(io::ReportPage& page, const ReportLog& shown, const ReportOptions& options,
+                         const std::optional<ReportedForm>& formed);
+
+}  // namespace clsurf::cli

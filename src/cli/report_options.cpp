@@ -1,0 +1,51 @@
+#include "cli/report_options.h"
+
+#include "core/error.h"
+
+namespace clsurf::cli {
+namespace {
+
+/// What `render` needs to read the same, as words of a command line. Which positions are shown the page itself knows.
+std::vector<std::string> reading_options_of(const po::variables_map& values) {
+    po::options_description reading;
+    declare_part(reading);
+    return words_of(reading, values, {"surface"});
+}
+
+}  // namespace
+
+void declare_report(po::options_description& options) {
+    // clang-format off
+    options.add_options()
+        ("output,o", po::value<std::string>()->value_name("FILE"), "the page (HTML)")
+        ("before", po::value<std::string>()->value_name("LOG"), "another log of the program, shown on the same scale")
+        ("fields", po::value<std::string>()->value_name("FIELD,…"), "what can be coloured and plotted (default: motion, errors, differences to the passes beside, the log's own channels)")
+        ("color", po::value<std::string>()->value_name("FIELD"), "what is coloured at first (default: the first of the fields)")
+        ("max-size", po::value<double>()->value_name("MB"), "most that the file may have; points are left out where it needs more (default: 30)")
+        ("gl", po::value<std::string>()->value_name("osmesa|egl"), "what draws the pictures: the processor, or a graphics card (default: osmesa)");
+    // clang-format on
+    declare_tool(options);
+    declare_part(options);
+}
+
+ReportOptions read_report_options(const po::variables_map& values) {
+    ReportOptions options;
+    options.part = read_part_options(values);
+    options.measured = take_measured_role(options.part);
+    options.output = required(values, "output");
+    if (values.count("before") > 0) options.before = values["before"].as<std::string>();
+    options.gl = values.count("gl") > 0 ? values["gl"].as<std::string>() : "osmesa";
+    if (values.count("fields") > 0) {
+        options.fields = split_names(values["fields"].as<std::string>());
+        if (options.fields.empty() || options.fields.size() > 32)
+            throw UsageError("--fields: 1 to 32 names separated by commas");
+    }
+    if (values.count("color") > 0) options.first_field = values["color"].as<std::string>();
+    const double megabytes = values.count("max-size") > 0 ? values["max-size"].as<double>() : 30.0;
+    if (!(megabytes >= 2 && megabytes <= 2000)) throw UsageError("--max-size must be 2 … 2000 MB");
+    options.most_bytes = static_cast<std::uint64_t>(megabytes * 1e6);
+    options.reading_options = reading_options_of(values);
+    return options;
+}
+
+}  // namespace clsurf::cli

@@ -1,0 +1,27 @@
+#pragma once
+// The options of `report`.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/part.h"
+
+namespace clsurf::cli {
+
+struct ReportOptions {
+    PartOptions part;
+    std::optional<Role> measured;
+    std::string before, output, gl;
+    std::vector<std::string> fields;  ///< empty: the usual ones
+    std::string first_field;
+    std::uint64_t most_bytes = 0;
+    std::vector<std::string> reading_options;
+};
+
+void declare_report(po::options_description& options);
+/// Throws UsageError.
+[[nodiscard]] ReportOptions read_report_options(const po::variables_map& values);
+
+}  // namespace clsurf::cli

@@ -1,0 +1,108 @@
+#include "cli/shown_part.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "cli/fields.h"
+#include "cli/formed.h"
+#include "pipeline/judge.h"
+#include "quality/outline.h"
+
+namespace clsurf::cli {
+namespace {
+
+/// What `check` finds, as outlines: passes are compared where they were commanded, heights measured
+/// from the positions that are shown. With `tool` they are drawn where it touches the part. Adds why nothing was judged
+/// to the part's diagnostics.
+std::vector<viz::OutlineMark> outline_defects(Part& part, const ClSurface& surface,
+                                              const std::optional<CuttingTool>& tool, StageClock& clock) {
+    std::vector<viz::OutlineMark> outlines;
+    const auto add = [&](const Trajectory& path, const ClSurface& judged, std::optional<Role> measured) {
+        clock.begin("derive the signals");
+        const PartSignals read = signals_along(part.log, path, judged, measured);
+        clock.begin("find the defects");
+        const QualityReport report = find_defects(part, path, judged, read);
+        note_reasons(report, part, part.diagnostics);
+        std::optional<PartContacts> contacts;
+        if (tool) contacts.emplace(part.log, path, *part.lines, judged, *tool);
+        const auto place_of = [&](PointIndex i) {
+            return contacts ? contacts->place(i).position() : judged.positions.absolute(i);
+        };
+        for (std::size_t i = 0; i < report.defects.size(); ++i)
+            outlines.push_back({outlines_of(report.defects[i], judged, place_of), fmt::format("{}", i + 1)});
+    };
+    if (part.path.role == Role::commanded || !part.log.has(Role::commanded)) {
+        add(part.path, surface, std::nullopt);
+        return outlines;
+    }
+    const Trajectory commanded = reconstruct_like(part.log, Role::commanded, part.path);
+    add(commanded, stitch(gather(commanded), *part.lines), part.path.role);
+    return outlines;
+}
+
+}  // namespace
+
+Shown load_shown(const PartOptions& options, const std::string& field, bool defects, StageClock& clock) {
+    Shown shown;
+    shown.part = load_part(options, clock);
+    clock.begin("stitch the surface");
+    shown.surface = stitch(shown.part);
+    clock.begin("compute the field");
+    if (!options.formed) shown.field = Fields(shown.part, shown.surface).get(field);
+    if (defects)
+        shown.defects = outline_defects(shown.part, shown.surface,
+                                        options.formed ? shown.part.tool : std::optional<CuttingTool>(), clock);
+    clock.end();
+    return shown;
+}
+
+void show_formed(Shown& shown, const RenderOptions& options, StageClock& clock) {
+    viz::MapPanel panel;
+    panel.surface = &shown.surface;
+    const viz::Camera camera = viz::map_camera({panel}, options.shown.look);
+    const CuttingTool tool = required_tool(shown.part, "--surface formed", "--surface formed --tool ball:6");
+    clock.begin("sweep the tool");
+    const FormedPart formed(shown.part, shown.surface, options.swept, tool);
+    FormedMap map = make_formed_map(formed, options.shown.look.box, camera);
+    clock.end();
+    shown.field = std::move(map.field);
+    shown.relief = std::move(map.relief);
+    shown.contacts = std::make_unique<const PartContacts>(shown.part, shown.surface, tool);
+}
+
+ShownRange range_in_picture(const Shown& shown, const RenderOptions& options, const viz::Camera& camera) {
+    const viz::Zoom& zoom = options.shown.look.zoom;
+    const bool whole = zoom.x0 <= 0 && zoom.y0 <= 0 && zoom.x1 >= 1 && zoom.y1 >= 1 && options.shown.look.box.isEmpty();
+    const auto in_picture = [&](PointIndex i) {
+        return viz::shows(camera, options.shown.look,
+                          shown.relief ? shown.relief->at(i) : shown.surface.positions.absolute(i));
+    };
+    const ShownPoints points = whole ? ShownPoints() : ShownPoints(in_picture);
+    if (!shown.relief) return find_range(shown.field, shown.surface.passes, options.shown.range, points);
+    return find_range(shown.field, all_as_one_cut(static_cast<PointIndex>(shown.field.values.size())),
+                      options.shown.range, points);
+}
+
+void warn_of_marks_outside(const Shown& shown, const RenderOptions& options, const viz::Camera& camera,
+                           const po::variables_map& values) {
+    Diagnostics diagnostics;
+    const auto outside = [&](PointIndex i) { return !viz::shows(camera, options.shown.look, shown.place_of(i)); };
+    const auto warn = [&](const std::string& what) {
+        diagnostics.add(
+            {Severity::warning, "render.mark-outside", Place(), what + " lies outside the part that is shown", {}});
+    };
+    for (const PointIndex point : options.points) {
+        if (outside(point)) warn(fmt::format("point {}", point));
+    }
+    for (const LineNumber line : options.lines) {
+        bool seen = false;
+        for (const PointRange& range : shown.part.lines->points_of(line)) {
+            for (PointIndex i = range.first; i <= range.last && !seen; ++i) seen = !outside(i);
+        }
+        if (!seen) warn(fmt::format("line {}", line));
+    }
+    print(diagnostics, values);
+}
+
+}  // namespace clsurf::cli

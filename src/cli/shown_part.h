@@ -1,0 +1,48 @@
+#pragma once
+// What `render` shows of one log.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/render_options.h"
+#include "cli/stage_clock.h"
+#include "field/field.h"
+#include "field/range.h"
+#include "pipeline/contacts.h"
+#include "pipeline/part.h"
+#include "viz/relief.h"
+#include "viz/scene.h"
+
+namespace clsurf::cli {
+
+/// A part with its surface and its field.
+struct Shown {
+    Part part;
+    ClSurface surface;
+    Field field;
+    std::optional<viz::Relief> relief;  ///< the formed surface, whose vertices have the field then
+    std::vector<viz::OutlineMark> defects;
+    std::unique_ptr<const PartContacts> contacts;  ///< of the formed surface; `this` does not move any more
+
+    /// Where a point is marked in the picture [mm].
+    [[nodiscard]] Vec3 place_of(PointIndex i) const {
+        return contacts ? contacts->place(i).position() : surface.positions.absolute(i);
+    }
+};
+
+/// Reads a part and computes its field; with `defects` their outlines. Throws InputError, UsageError.
+[[nodiscard]] Shown load_shown(const PartOptions& options, const std::string& field, bool defects, StageClock& clock);
+
+/// The formed surface in place of the positions', as fine as the picture shows it.
+void show_formed(Shown& shown, const RenderOptions& options, StageClock& clock);
+
+/// The range of what lies in the picture.
+[[nodiscard]] ShownRange range_in_picture(const Shown& shown, const RenderOptions& options, const viz::Camera& camera);
+
+/// A mark that the picture cannot show is said on stderr, since its lack may not be noticed.
+void warn_of_marks_outside(const Shown& shown, const RenderOptions& options, const viz::Camera& camera,
+                           const po::variables_map& values);
+
+}  // namespace clsurf::cli
