@@ -2,7 +2,7 @@
 // Bands: triangles between adjacent passes, over vertices selected along the path. They use every vertex, so
 // no cracks open. Seams fill the gaps of bands: turns, ends of passes, corners, the start of a loop. A missing
 // pass stays open. Pixels determine what is drawn (detail.h); required detail determines what a page gets
-// (report/kept_points.h).
+// (io/page/kept_points.h).
 
 #include <cstdint>
 #include <span>

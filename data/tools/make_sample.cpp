@@ -13,9 +13,9 @@
 
 #include "core/error.h"
 #include "core/geometry.h"
-#include "io/biip.h"
-#include "io/mapped_file.h"
-#include "io/program_identity.h"
+#include "io/files/mapped_file.h"
+#include "io/formats/biip.h"
+#include "io/formats/program_identity.h"
 
 namespace clsurf {
 namespace {

@@ -17,8 +17,8 @@
 #include <fmt/format.h>
 
 #include "core/statistics.h"
-#include "io/atomic_file.h"
-#include "io/biip.h"
+#include "io/files/atomic_file.h"
+#include "io/formats/biip.h"
 #include "kinds.h"
 #include "planted_score.h"
 

@@ -3,8 +3,8 @@
 // off its places, lines and depths are.
 
 #include "planted_log.h"
+#include "predictor/defects.h"
 #include "program/program.h"
-#include "quality/defects.h"
 
 namespace clsurf::planted {
 

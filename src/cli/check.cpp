@@ -11,7 +11,7 @@
 #include "cli/stage_clock.h"
 #include "field/field_set.h"
 #include "field/range.h"
-#include "io/quality_report.h"
+#include "io/reports/quality_report.h"
 #include "pipeline/judge.h"
 #include "viz/colour_difference.h"
 

@@ -7,8 +7,8 @@
 
 #include "cli/options.h"
 #include "cli/picture_output.h"
-#include "io/atomic_file.h"
-#include "io/json_text.h"
+#include "io/files/atomic_file.h"
+#include "io/reports/json_text.h"
 #include "viz/image_compare.h"
 
 namespace clsurf::cli {

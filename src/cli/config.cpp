@@ -7,7 +7,7 @@
 #include "cli/command_line.h"
 #include "cli/help.h"
 #include "core/spelling.h"
-#include "io/config_file.h"
+#include "io/readers/config_file.h"
 
 namespace clsurf::cli {
 namespace {

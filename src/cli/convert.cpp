@@ -2,9 +2,9 @@
 
 #include "cli/options.h"
 #include "cli/output_format.h"
-#include "io/biip.h"
-#include "io/compressed.h"
-#include "io/program_identity.h"
+#include "io/files/compressed.h"
+#include "io/formats/biip.h"
+#include "io/formats/program_identity.h"
 
 namespace clsurf::cli {
 namespace {

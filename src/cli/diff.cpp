@@ -7,7 +7,7 @@
 #include "cli/difference_map.h"
 #include "cli/runs.h"
 #include "cli/stage_clock.h"
-#include "io/run_report.h"
+#include "io/reports/run_report.h"
 #include "pipeline/contacts.h"
 
 namespace clsurf::cli {

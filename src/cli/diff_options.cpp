@@ -1,7 +1,7 @@
 #include "cli/diff_options.h"
 
 #include "cli/difference_map.h"
-#include "io/budget_file.h"
+#include "io/readers/budget_file.h"
 
 namespace clsurf::cli {
 

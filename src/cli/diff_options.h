@@ -6,8 +6,8 @@
 
 #include "cli/look.h"
 #include "cli/runs.h"
-#include "quality/run_budget.h"
-#include "quality/run_difference.h"
+#include "compare/run_budget.h"
+#include "compare/run_difference.h"
 
 namespace clsurf::cli {
 

@@ -5,8 +5,8 @@
 
 #include "cli/look.h"
 #include "cli/picture_output.h"
+#include "compare/run_difference.h"
 #include "field/field.h"
-#include "quality/run_difference.h"
 #include "surface/cl_surface.h"
 
 namespace clsurf::cli {

@@ -7,8 +7,8 @@
 #include "cli/fields.h"
 #include "cli/output_format.h"
 #include "core/block.h"
-#include "io/atomic_file.h"
-#include "io/export_table.h"
+#include "io/files/atomic_file.h"
+#include "io/reports/export_table.h"
 #include "viz/export_vtk.h"
 
 namespace clsurf::cli {

@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "intervals/program_intervals.h"
 #include "machine/machine.h"
-#include "optimize/program_intervals.h"
 #include "pipeline/signals_of.h"
-#include "quality/quality_fields.h"
+#include "predictor/quality_fields.h"
 
 namespace clsurf::cli {
 

@@ -7,7 +7,7 @@
 
 #include "field/field_set.h"
 #include "pipeline/part.h"
-#include "quality/signals.h"
+#include "predictor/signals.h"
 
 namespace clsurf::cli {
 

@@ -9,16 +9,16 @@
 #include "cli/work_frames.h"
 #include "core/printable_text.h"
 #include "core/units.h"
-#include "io/compressed.h"
-#include "io/json_text.h"
-#include "io/program_file.h"
-#include "io/program_identity.h"
+#include "io/files/compressed.h"
+#include "io/formats/program_identity.h"
+#include "io/readers/program_file.h"
+#include "io/reports/json_text.h"
 #include "log/health.h"
-#include "path/line_map.h"
-#include "path/tip_motions.h"
-#include "path/toolpath_summary.h"
+#include "mapping/line_map.h"
 #include "pipeline/placement.h"
 #include "pipeline/roles.h"
+#include "toolpath/tip_motions.h"
+#include "toolpath/toolpath_summary.h"
 
 namespace clsurf::cli {
 namespace {

@@ -6,10 +6,10 @@
 #include "cli/output_format.h"
 #include "cli/terminal.h"
 #include "core/file_name.h"
-#include "io/atomic_file.h"
-#include "io/compressed.h"
-#include "io/foreign_content.h"
-#include "io/json_text.h"
+#include "io/files/atomic_file.h"
+#include "io/files/compressed.h"
+#include "io/formats/foreign_content.h"
+#include "io/reports/json_text.h"
 
 namespace clsurf::cli {
 

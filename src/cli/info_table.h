@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cli/subcommand.h"
-#include "io/mapped_file.h"
+#include "io/files/mapped_file.h"
 
 namespace clsurf::cli {
 

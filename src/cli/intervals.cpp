@@ -4,9 +4,9 @@
 
 #include "cli/options.h"
 #include "cli/report_output.h"
-#include "io/intervals_report.h"
-#include "io/machine_file.h"
-#include "io/program_file.h"
+#include "io/readers/machine_file.h"
+#include "io/readers/program_file.h"
+#include "io/reports/intervals_report.h"
 
 namespace clsurf::cli {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "io/part_file.h"
+#include "io/readers/part_file.h"
 
 namespace clsurf::cli {
 

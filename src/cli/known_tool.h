@@ -6,8 +6,8 @@
 
 #include "cli/options.h"
 #include "log/log.h"
+#include "machined/tool.h"
 #include "program/program.h"
-#include "quality/tool.h"
 
 namespace clsurf::cli {
 

@@ -7,9 +7,9 @@
 #include "cli/options.h"
 #include "cli/report_output.h"
 #include "core/parallel.h"
-#include "io/lint_report.h"
-#include "io/program_file.h"
-#include "quality/contact_points.h"
+#include "io/readers/program_file.h"
+#include "io/reports/lint_report.h"
+#include "machined/contact_points.h"
 
 namespace clsurf::cli {
 namespace {

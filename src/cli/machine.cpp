@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "cli/options.h"
-#include "io/machine_file.h"
+#include "io/readers/machine_file.h"
 
 namespace clsurf::cli {
 namespace {

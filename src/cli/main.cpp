@@ -19,8 +19,8 @@
 #include "cli/version_text.h"
 #include "core/error.h"
 #include "core/parallel.h"
-#include "io/mapped_file.h"
-#include "io/overwrite_guard.h"
+#include "io/files/mapped_file.h"
+#include "io/files/overwrite_guard.h"
 
 namespace clsurf::cli {
 

@@ -13,7 +13,7 @@
 #include "cli/text.h"
 #include "cli/vocabulary.h"
 #include "core/version.h"
-#include "io/atomic_file.h"
+#include "io/files/atomic_file.h"
 
 namespace clsurf::cli {
 namespace {

@@ -4,11 +4,11 @@
 
 #include "cli/options.h"
 #include "cli/output_format.h"
-#include "io/atomic_file.h"
-#include "io/machine_file.h"
-#include "io/moves_csv.h"
-#include "io/program_file.h"
-#include "path/tip_motions.h"
+#include "io/files/atomic_file.h"
+#include "io/readers/machine_file.h"
+#include "io/readers/program_file.h"
+#include "io/reports/moves_csv.h"
+#include "toolpath/tip_motions.h"
 
 namespace clsurf::cli {
 namespace {

@@ -14,7 +14,7 @@
 #include "cli/output_format.h"
 #include "cli/terminal.h"
 #include "core/units.h"
-#include "io/machine_file.h"
+#include "io/readers/machine_file.h"
 
 namespace clsurf::cli {
 

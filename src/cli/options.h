@@ -11,8 +11,8 @@
 #include "cli/subcommand.h"
 #include "core/diagnostic.h"
 #include "core/geometry.h"
-#include "io/log_format.h"
-#include "io/program_file.h"
+#include "io/formats/log_format.h"
+#include "io/readers/program_file.h"
 #include "machine/kinematics.h"
 
 namespace clsurf::cli {

@@ -5,7 +5,7 @@
 #include "cli/work_frames.h"
 #include "core/error.h"
 #include "core/spelling.h"
-#include "io/part_file.h"
+#include "io/readers/part_file.h"
 
 namespace clsurf::cli {
 

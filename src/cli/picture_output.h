@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "io/atomic_file.h"
+#include "io/files/atomic_file.h"
 #include "viz/image.h"
 #include "viz/image_library.h"
 

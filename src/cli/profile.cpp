@@ -4,11 +4,11 @@
 
 #include <fmt/format.h>
 
-#include "cli/formed.h"
+#include "cli/as_machined.h"
 #include "cli/picture_output.h"
 #include "core/file_name.h"
-#include "io/profile_report.h"
-#include "quality/formed_report.h"
+#include "io/reports/profile_report.h"
+#include "machined/as_machined_report.h"
 
 namespace clsurf::cli {
 

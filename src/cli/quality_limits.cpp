@@ -3,8 +3,8 @@
 #include <string>
 
 #include "core/units.h"
-#include "io/budget_file.h"
-#include "quality/severity.h"
+#include "io/readers/budget_file.h"
+#include "predictor/severity.h"
 
 namespace clsurf::cli {
 namespace {

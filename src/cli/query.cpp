@@ -12,7 +12,7 @@
 #include "core/file_name.h"
 #include "core/units.h"
 #include "field/field_set.h"
-#include "io/json_text.h"
+#include "io/reports/json_text.h"
 #include "pipeline/contacts.h"
 
 namespace clsurf::cli {

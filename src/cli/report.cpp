@@ -6,7 +6,7 @@
 #include "cli/report_content.h"
 #include "cli/report_log.h"
 #include "cli/report_options.h"
-#include "io/atomic_file.h"
+#include "io/files/atomic_file.h"
 #include "viz/image_library.h"
 
 namespace clsurf::cli {

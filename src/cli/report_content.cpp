@@ -8,7 +8,7 @@
 #include "cli/report_pictures.h"
 #include "log/health.h"
 #include "pipeline/contacts.h"
-#include "quality/outline.h"
+#include "predictor/outline.h"
 
 namespace clsurf::cli {
 namespace {

@@ -4,11 +4,11 @@
 #include <optional>
 #include <vector>
 
-#include "cli/formed.h"
+#include "cli/as_machined.h"
 #include "cli/report_log.h"
 #include "cli/report_options.h"
 #include "field/range.h"
-#include "io/report_page.h"
+#include "io/page/report_page.h"
 
 namespace clsurf::cli {
 

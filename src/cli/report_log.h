@@ -5,7 +5,7 @@
 
 #include "cli/report_options.h"
 #include "cli/stage_clock.h"
-#include "io/report_page.h"
+#include "io/page/report_page.h"
 #include "pipeline/judge.h"
 #include "viz/bands.h"
 

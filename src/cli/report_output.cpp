@@ -7,8 +7,8 @@
 
 #include "cli/options.h"
 #include "cli/vocabulary.h"
-#include "io/joined_reports.h"
-#include "io/json_text.h"
+#include "io/reports/joined_reports.h"
+#include "io/reports/json_text.h"
 
 namespace clsurf::cli {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "cli/output_format.h"
 #include "cli/subcommand.h"
-#include "io/atomic_file.h"
+#include "io/files/atomic_file.h"
 
 namespace clsurf::cli {
 

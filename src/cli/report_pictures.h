@@ -6,7 +6,7 @@
 
 #include "cli/part.h"
 #include "field/range.h"
-#include "io/report_page.h"
+#include "io/page/report_page.h"
 #include "viz/scene.h"
 
 namespace clsurf::cli {

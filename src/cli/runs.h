@@ -7,12 +7,12 @@
 
 #include "cli/known_tool.h"
 #include "cli/options.h"
+#include "compare/run_difference.h"
 #include "log/log.h"
 #include "machine/machine.h"
-#include "path/line_map.h"
+#include "mapping/line_map.h"
 #include "program/frame_placement.h"
 #include "program/program.h"
-#include "quality/run_difference.h"
 
 namespace clsurf::cli {
 

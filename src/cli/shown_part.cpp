@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 
+#include "cli/as_machined.h"
 #include "cli/fields.h"
-#include "cli/formed.h"
 #include "pipeline/judge.h"
-#include "quality/outline.h"
+#include "predictor/outline.h"
 
 namespace clsurf::cli {
 namespace {

@@ -10,11 +10,11 @@
 #include "cli/simulation_text.h"
 #include "cli/work_frames.h"
 #include "core/units.h"
-#include "io/compressed.h"
-#include "io/machine_file.h"
-#include "io/program_file.h"
-#include "io/program_identity.h"
-#include "io/simulated_log.h"
+#include "io/files/compressed.h"
+#include "io/formats/program_identity.h"
+#include "io/readers/machine_file.h"
+#include "io/readers/program_file.h"
+#include "io/reports/simulated_log.h"
 #include "pipeline/simulated_log.h"
 
 namespace clsurf::cli {

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "machine/kinematics.h"
-#include "motion/five_axis_simulator.h"
-#include "motion/simulator.h"
+#include "simulation/run/five_axis_simulator.h"
+#include "simulation/run/simulator.h"
 
 namespace clsurf::cli {
 

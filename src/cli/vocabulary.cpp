@@ -4,7 +4,7 @@
 #include <array>
 
 #include "cli/fields.h"
-#include "io/log_format.h"
+#include "io/formats/log_format.h"
 #include "log/channel.h"
 #include "program/dialects/dialect.h"
 #include "viz/colour_map.h"

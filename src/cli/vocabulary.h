@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/listing_json.h"
+#include "io/reports/listing_json.h"
 
 namespace clsurf::cli {
 

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "cli/options.h"
-#include "path/work_offset.h"
+#include "mapping/work_offset.h"
 
 namespace clsurf::cli {
 namespace {

@@ -12,8 +12,8 @@
 #include "core/error.h"
 #include "core/spelling.h"
 #include "field/field_table.h"
-#include "path/derivative.h"
-#include "path/pieces.h"
+#include "numeric/derivative.h"
+#include "surface/smoothing_segments.h"
 
 namespace clsurf {
 namespace {

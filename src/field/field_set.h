@@ -10,9 +10,9 @@
 
 #include "field/field.h"
 #include "log/log.h"
-#include "path/motion_estimate.h"
-#include "path/passes.h"
-#include "path/trajectory.h"
+#include "surface/passes.h"
+#include "toolpath/motion_estimate.h"
+#include "toolpath/trajectory.h"
 
 namespace clsurf {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "field/field.h"
-#include "path/passes.h"
+#include "surface/passes.h"
 
 namespace clsurf {
 

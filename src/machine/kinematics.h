@@ -29,7 +29,7 @@ enum class KinematicsType : std::uint8_t { xyz, table_table, head_head, table_he
 [[nodiscard]] std::string_view name_of(KinematicsType type);
 [[nodiscard]] std::span<const KinematicsType> kinematics_types();
 
-/// How the controller takes the tool axis from block to block (motion/tool_axis_path.h).
+/// How the controller takes the tool axis from block to block (simulation/path/tool_axis_path.h).
 enum class ToolAxisInterpolation : std::uint8_t {
     linear,  ///< angles in proportion to the way
     vector,  ///< along the great circle

@@ -1,6 +1,6 @@
 #pragma once
 // Machine: the limits that the simulated controller keeps, and the dynamics of the drives. A value with the
-// defaults of `clsurf machine --defaults`; io/machine_file.h reads it from TOML.
+// defaults of `clsurf machine --defaults`; io/readers/machine_file.h reads it from TOML.
 
 #include <array>
 #include <string>

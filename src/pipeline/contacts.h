@@ -5,11 +5,11 @@
 #include <optional>
 #include <vector>
 
+#include "compare/run_report.h"
+#include "machined/contact_points.h"
+#include "machined/place_search.h"
 #include "pipeline/part.h"
-#include "quality/contact_points.h"
-#include "quality/defects.h"
-#include "quality/place_search.h"
-#include "quality/run_report.h"
+#include "predictor/defects.h"
 
 namespace clsurf {
 

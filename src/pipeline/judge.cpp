@@ -4,9 +4,9 @@
 #include <string>
 #include <utility>
 
+#include "pipeline/as_machined_part.h"
 #include "pipeline/contacts.h"
-#include "pipeline/formed_part.h"
-#include "quality/axis_delay.h"
+#include "predictor/axis_delay.h"
 
 namespace clsurf {
 namespace {

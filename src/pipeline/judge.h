@@ -4,11 +4,11 @@
 #include <optional>
 
 #include "core/diagnostic.h"
+#include "machined/as_machined_report.h"
 #include "pipeline/part.h"
 #include "pipeline/signals_of.h"
 #include "pipeline/stages.h"
-#include "quality/defects.h"
-#include "quality/formed_report.h"
+#include "predictor/defects.h"
 
 namespace clsurf {
 

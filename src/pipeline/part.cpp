@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "core/error.h"
-#include "path/pieces.h"
 #include "pipeline/placement.h"
 #include "pipeline/roles.h"
+#include "surface/smoothing_segments.h"
 
 namespace clsurf {
 namespace {

@@ -9,15 +9,15 @@
 #include "core/diagnostic.h"
 #include "log/log.h"
 #include "machine/kinematics.h"
-#include "path/line_map.h"
-#include "path/motion_estimate.h"
-#include "path/passes.h"
-#include "path/program_match.h"
-#include "path/trajectory.h"
+#include "machined/tool.h"
+#include "mapping/line_map.h"
+#include "mapping/program_match.h"
 #include "program/frame_placement.h"
 #include "program/program.h"
-#include "quality/tool.h"
 #include "surface/cl_surface.h"
+#include "surface/passes.h"
+#include "toolpath/motion_estimate.h"
+#include "toolpath/trajectory.h"
 
 namespace clsurf {
 
@@ -27,7 +27,7 @@ struct PartRules {
     std::shared_ptr<const Kinematics> kinematics;  ///< of a machine with rotary axes; nullptr: three axes
     bool use_line_channel = true;                  ///< false: lines are found by geometry alone
     bool accept_foreign = false;                   ///< a log of another program is a warning, not an error
-    ProgramIdentity identity = ProgramIdentity::unknown;  ///< what hashes say (io/program_identity.h)
+    ProgramIdentity identity = ProgramIdentity::unknown;  ///< what hashes say (io/formats/program_identity.h)
     std::optional<CuttingTool> tool;
     DerivativeMethod derivative = DerivativeMethod::savgol;
 };

@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
-#include "path/tip_motions.h"
-#include "path/trajectory.h"
-#include "path/work_offset.h"
+#include "mapping/work_offset.h"
 #include "pipeline/roles.h"
+#include "toolpath/tip_motions.h"
+#include "toolpath/trajectory.h"
 
 namespace clsurf {
 namespace {

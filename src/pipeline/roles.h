@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "log/log.h"
-#include "path/trajectory.h"
+#include "toolpath/trajectory.h"
 
 namespace clsurf {
 

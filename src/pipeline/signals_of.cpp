@@ -1,7 +1,7 @@
 #include "pipeline/signals_of.h"
 
-#include "path/pieces.h"
 #include "pipeline/roles.h"
+#include "surface/smoothing_segments.h"
 
 namespace clsurf {
 

@@ -5,16 +5,16 @@
 #include <vector>
 
 #include "core/point.h"
-#include "path/trajectory.h"
 #include "pipeline/part.h"
-#include "quality/signals.h"
+#include "predictor/signals.h"
+#include "toolpath/trajectory.h"
 
 namespace clsurf {
 
 /// What the predictor reads of a part.
 struct PartSignals {
     std::optional<Trajectory> measured;  ///< positions that heights are measured from; nothing: those that are shown
-    std::vector<PointRange> pieces;      ///< of smooth path (path/pieces.h)
+    std::vector<PointRange> pieces;      ///< of smooth path (surface/smoothing_segments.h)
     Signals signals;
 
     /// Where the tool cuts.

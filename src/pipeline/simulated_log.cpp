@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/units.h"
-#include "motion/five_axis_simulator.h"
-#include "path/tip_motions.h"
+#include "simulation/run/five_axis_simulator.h"
+#include "toolpath/tip_motions.h"
 
 namespace clsurf {
 namespace {

@@ -4,9 +4,9 @@
 #include "core/progress.h"
 #include "log/log.h"
 #include "machine/machine.h"
-#include "motion/simulator.h"
 #include "program/frame_placement.h"
 #include "program/program.h"
+#include "simulation/run/simulator.h"
 
 namespace clsurf {
 
@@ -16,7 +16,7 @@ namespace clsurf {
 /// Brings a program, read with its motions as programmed, to where it is simulated on five axes: zero in its own, axes
 /// along those of the machine, motions those of the tip. `poses`: where its zero lies, both angles zero. Returns
 /// machine = pose · workpiece, whose translation is the `zero` of simulate_to_log(). Throws what solve_tool_axes()
-/// throws (path/tip_motions.h). O(motions).
+/// throws (toolpath/tip_motions.h). O(motions).
 [[nodiscard]] Eigen::Isometry3d prepare_five_axes(Program& program, const Machine& machine, FramePoses poses);
 
 struct SimulatedRun {
@@ -25,7 +25,7 @@ struct SimulatedRun {
 };
 
 /// Runs a program from `start`, where the axes stand [mm]. `program` is in the coordinates that the log is to have. Of a
-/// program that runs on five axes the motions are those of the tip (path/tip_motions.h), and `zero` is the machine
+/// program that runs on five axes the motions are those of the tip (toolpath/tip_motions.h), and `zero` is the machine
 /// position of its zero [mm], which the log names as its work offset. Throws what simulate() and simulate_five_axis()
 /// throw. O(points), in the caller's thread; memory: 52 bytes a point, 84 on five axes.
 [[nodiscard]] SimulatedRun simulate_to_log(const Program& program, const Machine& machine,

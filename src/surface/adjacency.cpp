@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/block.h"
-#include "path/chords.h"
-#include "surface/way_grid.h"
+#include "surface/path_grid.h"
+#include "toolpath/chords.h"
 
 namespace clsurf {
 namespace {

@@ -11,8 +11,8 @@
 #include <limits>
 
 #include "core/column.h"
-#include "path/passes.h"
-#include "path/way.h"
+#include "surface/passes.h"
+#include "toolpath/arc_length.h"
 
 namespace clsurf {
 

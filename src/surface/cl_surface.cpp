@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "path/step_over.h"
 #include "surface/finishing.h"
+#include "surface/step_over.h"
 
 namespace clsurf {
 namespace {

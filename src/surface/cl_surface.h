@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "path/passes.h"
-#include "path/positions.h"
 #include "surface/adjacency.h"
+#include "surface/passes.h"
+#include "toolpath/positions.h"
 
 namespace clsurf {
 

@@ -111,7 +111,7 @@ Complaints check_unused(const std::vector<SourceFile>& files, Arrows arrows) {
     return complaints;
 }
 
-// The table of rooms in docs/design/map.md: "| src/path | … | core log |".
+// The table of rooms in docs/design/map.md: "| src/toolpath | … | core log |".
 Complaints check_map(const std::string& map, const Arrows& arrows) {
     Complaints complaints;
     for (const auto& [room, needs] : arrows) {

@@ -1,4 +1,4 @@
-// Why motion/root_between.h and not Boost.Math: the root that S-curves look for, by both. The counter is the number of
+// Why numeric/root_between.h and not Boost.Math: the root that S-curves look for, by both. The counter is the number of
 // times that the function is asked.
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include <benchmark/benchmark.h>
 #include <boost/math/tools/toms748_solve.hpp>
 
-#include "motion/root_between.h"
+#include "numeric/root_between.h"
 
 namespace clsurf {
 namespace {

@@ -7,10 +7,10 @@
 #include <nanoflann.hpp>
 
 #include "core/block.h"
-#include "path/step_over.h"
 #include "program/interpreter.h"
 #include "support/made_path.h"
 #include "surface/adjacency.h"
+#include "surface/step_over.h"
 
 namespace clsurf {
 namespace {

@@ -1,4 +1,4 @@
-# What a page of `clsurf report` holds, decoded as io/page_pack.h says.
+# What a page of `clsurf report` holds, decoded as io/page/page_pack.h says.
 #
 # read_page.py options PAGE  the options that its command line reads with, for a shell
 # read_page.py roles PAGE    a line for each other role: its name and how far its positions lie from those shown, at most [mm]

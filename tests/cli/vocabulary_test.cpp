@@ -8,8 +8,8 @@
 #include "cli/command_line.h"
 #include "cli/help.h"
 #include "field/field_table.h"
-#include "io/log_format.h"
-#include "quality/quality_fields.h"
+#include "io/formats/log_format.h"
+#include "predictor/quality_fields.h"
 
 namespace clsurf::cli {
 namespace {

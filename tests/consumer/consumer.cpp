@@ -4,7 +4,7 @@
 
 #include <clsurf/field/field_set.h>
 #include <clsurf/field/range.h>
-#include <clsurf/io/part_file.h>
+#include <clsurf/io/readers/part_file.h>
 #include <clsurf/pipeline/judge.h>
 #include <clsurf/pipeline/simulated_log.h>
 

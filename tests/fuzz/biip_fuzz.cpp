@@ -1,6 +1,6 @@
 // BIIP, whatever their first bytes say.
 #include "fuzz/fuzz_input.h"
-#include "io/biip.h"
+#include "io/formats/biip.h"
 
 using namespace clsurf;
 

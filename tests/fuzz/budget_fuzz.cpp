@@ -1,6 +1,6 @@
 // Budget files.
 #include "fuzz/fuzz_input.h"
-#include "io/budget_file.h"
+#include "io/readers/budget_file.h"
 
 using namespace clsurf;
 

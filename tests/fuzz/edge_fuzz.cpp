@@ -1,6 +1,6 @@
 // SINUMERIK Edge recordings, whatever their first bytes say.
 #include "fuzz/fuzz_input.h"
-#include "io/edge_json.h"
+#include "io/formats/edge_json.h"
 
 using namespace clsurf;
 

@@ -15,8 +15,8 @@
 #include <utility>
 
 #include "core/error.h"
-#include "io/compressed.h"
-#include "io/log_format.h"
+#include "io/files/compressed.h"
+#include "io/formats/log_format.h"
 #include "log/health.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);

@@ -1,6 +1,6 @@
 // halscope logs, whatever their first bytes say.
 #include "fuzz/fuzz_input.h"
-#include "io/halscope.h"
+#include "io/formats/halscope.h"
 
 using namespace clsurf;
 

@@ -2,7 +2,7 @@
 #include <cstdlib>
 
 #include "fuzz/fuzz_input.h"
-#include "io/machine_file.h"
+#include "io/readers/machine_file.h"
 
 using namespace clsurf;
 

@@ -1,6 +1,6 @@
 // The JSON metadata of a log, to which the programs that ran are added.
 #include "fuzz/fuzz_input.h"
-#include "io/program_identity.h"
+#include "io/formats/program_identity.h"
 
 using namespace clsurf;
 

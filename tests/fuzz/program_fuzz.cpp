@@ -1,7 +1,7 @@
 // NC programs: the first byte picks the dialect (its number among all, else detected), and their motions.
 #include "fuzz/fuzz_input.h"
-#include "path/toolpath_summary.h"
 #include "program/interpreter.h"
+#include "toolpath/toolpath_summary.h"
 
 using namespace clsurf;
 

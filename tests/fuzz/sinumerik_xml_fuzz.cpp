@@ -1,6 +1,6 @@
 // SINUMERIK trace sessions, whatever their first bytes say.
 #include "fuzz/fuzz_input.h"
-#include "io/sinumerik_xml.h"
+#include "io/formats/sinumerik_xml.h"
 
 using namespace clsurf;
 

@@ -1,6 +1,6 @@
 // Tool tables.
 #include "fuzz/fuzz_input.h"
-#include "io/tool_table_file.h"
+#include "io/readers/tool_table_file.h"
 
 using namespace clsurf;
 

@@ -1,6 +1,6 @@
 // TwinCAT Scope exports, whatever their first bytes say.
 #include "fuzz/fuzz_input.h"
-#include "io/twincat_csv.h"
+#include "io/formats/twincat_csv.h"
 
 using namespace clsurf;
 

@@ -1,11 +1,11 @@
-#include "io/biip.h"
+#include "io/formats/biip.h"
 
 #include <cstring>
 
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "io/crc32c.h"
+#include "io/files/crc32c.h"
 #include "support/temporary_folder.h"
 
 namespace clsurf::io {

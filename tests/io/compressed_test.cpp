@@ -1,4 +1,4 @@
-#include "io/compressed.h"
+#include "io/files/compressed.h"
 
 #include <algorithm>
 #include <cstring>
@@ -10,8 +10,8 @@
 #include <zstd.h>
 
 #include "core/error.h"
-#include "io/log_format.h"
-#include "io/program_file.h"
+#include "io/formats/log_format.h"
+#include "io/readers/program_file.h"
 #include "support/temporary_folder.h"
 
 namespace clsurf::io {

@@ -1,11 +1,11 @@
-#include "io/delimited.h"
+#include "io/formats/delimited.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "io/text_head.h"
+#include "io/formats/text_head.h"
 #include "support/temporary_folder.h"
 
 namespace clsurf::io {

@@ -1,4 +1,4 @@
-#include "io/edge_json.h"
+#include "io/formats/edge_json.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "io/halscope.h"
+#include "io/formats/halscope.h"
 
 #include <gtest/gtest.h>
 

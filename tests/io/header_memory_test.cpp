@@ -18,7 +18,7 @@
 #include <zlib.h>
 
 #include "fuzz/fuzz_input.h"
-#include "io/crc32c.h"
+#include "io/files/crc32c.h"
 #include "support/temporary_folder.h"
 
 namespace clsurf::io {

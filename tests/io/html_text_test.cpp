@@ -1,6 +1,6 @@
 // Text of programs and file names in a page.
 
-#include "io/html_text.h"
+#include "io/page/html_text.h"
 
 #include <gtest/gtest.h>
 

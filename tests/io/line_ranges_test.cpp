@@ -1,4 +1,4 @@
-#include "io/line_ranges.h"
+#include "io/reports/line_ranges.h"
 
 #include <vector>
 

@@ -1,10 +1,10 @@
-#include "io/overwrite_guard.h"
+#include "io/files/overwrite_guard.h"
 
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "io/atomic_file.h"
-#include "io/mapped_file.h"
+#include "io/files/atomic_file.h"
+#include "io/files/mapped_file.h"
 #include "support/temporary_folder.h"
 
 namespace clsurf::io {

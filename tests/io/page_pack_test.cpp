@@ -1,6 +1,6 @@
 // Columns of a page: what a browser reads back (its own code is tried in tests/page).
 
-#include "io/page_pack.h"
+#include "io/page/page_pack.h"
 
 #include <zlib.h>
 

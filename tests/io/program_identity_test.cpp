@@ -1,9 +1,9 @@
-#include "io/program_identity.h"
+#include "io/formats/program_identity.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "io/sha256.h"
+#include "io/files/sha256.h"
 
 namespace clsurf::io {
 namespace {

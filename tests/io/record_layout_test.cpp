@@ -1,4 +1,4 @@
-#include "io/record_layout.h"
+#include "io/formats/record_layout.h"
 
 #include <gtest/gtest.h>
 

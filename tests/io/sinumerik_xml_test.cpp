@@ -1,4 +1,4 @@
-#include "io/sinumerik_xml.h"
+#include "io/formats/sinumerik_xml.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "io/tool_table_file.h"
+#include "io/readers/tool_table_file.h"
 
 #include <gtest/gtest.h>
 

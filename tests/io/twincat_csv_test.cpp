@@ -1,4 +1,4 @@
-#include "io/twincat_csv.h"
+#include "io/formats/twincat_csv.h"
 
 #include <algorithm>
 #include <cmath>

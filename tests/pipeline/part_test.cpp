@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "core/error.h"
-#include "io/part_file.h"
-#include "optimize/parts.h"
+#include "io/readers/part_file.h"
 #include "pipeline/judge.h"
 #include "pipeline/simulated_log.h"
+#include "repair/parts.h"
 
 namespace clsurf {
 namespace {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "io/program_file.h"
+#include "io/readers/program_file.h"
 #include "program/motion_rows.h"
 
 namespace clsurf {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "io/compressed.h"
-#include "io/program_file.h"
+#include "io/files/compressed.h"
+#include "io/readers/program_file.h"
 #include "program/motion_rows.h"
 #include "program/program_reader.h"
 

@@ -12,9 +12,9 @@
 #include "core/units.h"
 #include "log/log.h"
 #include "machine/kinematics.h"
-#include "path/toolpath.h"
 #include "program/interpreter.h"
 #include "program/tool_centre_point.h"
+#include "toolpath/toolpath.h"
 
 namespace clsurf::test {
 

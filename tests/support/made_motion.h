@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "io/compressed.h"
-#include "io/program_file.h"
-#include "motion/path_element.h"
-#include "motion/simulator.h"
+#include "io/files/compressed.h"
+#include "io/readers/program_file.h"
+#include "simulation/path/path_element.h"
+#include "simulation/run/simulator.h"
 
 namespace clsurf {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "path/passes.h"
+#include "surface/passes.h"
 
 namespace clsurf::test {
 

@@ -9,9 +9,9 @@
 #include <numbers>
 #include <vector>
 
+#include "compare/run_difference.h"
 #include "log/log.h"
-#include "path/trajectory.h"
-#include "quality/run_difference.h"
+#include "toolpath/trajectory.h"
 
 namespace clsurf::test {
 

@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "path/pieces.h"
-#include "quality/signals.h"
+#include "predictor/signals.h"
+#include "surface/smoothing_segments.h"
 
 namespace clsurf::test {
 

@@ -3,9 +3,9 @@
 
 #include <utility>
 
-#include "path/way.h"
 #include "support/made_path.h"
 #include "surface/cl_surface.h"
+#include "toolpath/arc_length.h"
 
 namespace clsurf::test {
 

@@ -17,7 +17,7 @@ constexpr double shallow_lead_mm = 0.6;
 constexpr double lead_share = 50;  ///< deeper: depth / 50, at most 7 mm
 constexpr double most_lead_mm = 7;
 constexpr int most_holes = 100'000;
-constexpr std::size_t most_pecks = 1'000'000;
+constexpr std::size_t most_drill_pecks = 1'000'000;
 
 /// Places of a cycle's parameters.
 constexpr std::size_t rtp = 0, rfp = 1, sdis = 2, dp = 3, dpr = 4, dtb = 5;
@@ -42,7 +42,7 @@ std::vector<double> strokes(double whole, double first, double damp) {
     std::vector<double> depths;  // of each stroke's end
     double left = whole;
     double step = std::min(first, whole);
-    while (left > 1e-9 && depths.size() < most_pecks) {
+    while (left > 1e-9 && depths.size() < most_drill_pecks) {
         if (damp > 0 && !depths.empty()) {
             step = step - damp > damp ? step - damp : damp;
             if (step == damp && left > damp && left <= 2 * damp) step = left / 2;

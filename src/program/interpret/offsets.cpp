@@ -12,7 +12,7 @@ namespace {
 
 constexpr int last_work_system = 9;  ///< G59.3
 
-bool is(const Block& block, char letter) { return block.words.given(letter); }
+bool is_given(const Block& block, char letter) { return block.words.given(letter); }
 
 }  // namespace
 
@@ -62,13 +62,13 @@ void Interpreter::settle_work_frame() {
 
 void Interpreter::set_offsets(const Block& block) {
     this_block_.motion_suppressed = true;
-    const int level = is(block, 'L') ? static_cast<int>(std::clamp(block.words.of('L'), -1e6, 1e6)) : 0;
+    const int level = is_given(block, 'L') ? static_cast<int>(std::clamp(block.words.of('L'), -1e6, 1e6)) : 0;
     if (level != 2 && level != 20) {
         if (rules_->offsets.tool_data) set_tool(level, block);
         event("tool-table", "G10" + words_text(block, "LPRZXYIJQ"));
         return;
     }
-    int system = is(block, 'P') ? static_cast<int>(std::clamp(block.words.of('P'), -1e6, 1e6)) : 0;
+    int system = is_given(block, 'P') ? static_cast<int>(std::clamp(block.words.of('P'), -1e6, 1e6)) : 0;
     if (system == 0) system = state_.work_system;
     const Vec3 machine = state_.to_machine(state_.position);
     const Vec3 machine_rotary = state_.rotary + state_.rotary_offset();
@@ -76,7 +76,7 @@ void Interpreter::set_offsets(const Block& block) {
     state_.rebase([&] {
         WorkOffset& offset = state_.work_offsets[system];
         unsigned named = axes_named(block.words);
-        if (is(block, 'R') && level == 2 && rules_->offsets.rotation) {
+        if (is_given(block, 'R') && level == 2 && rules_->offsets.rotation) {
             offset.rotation = block.words.of('R');
             named |= WorkFrame::rotation;
         }
@@ -89,14 +89,14 @@ void Interpreter::set_offsets(const Block& block) {
         Vec3 reads = position;  // L20: the present position reads as the words, in that system
         for (int axis = 0; axis < 3; ++axis) {
             const char letter = "XYZ"[axis];
-            if (!is(block, letter)) continue;
+            if (!is_given(block, letter)) continue;
             const double value = block.words.of(letter) * state_.unit_mm;
             reads[axis] = value;
             if (level == 2) { offset.shift[axis] = value; }
         }
         for (int axis = 0; axis < 3; ++axis) {
             const char letter = "ABC"[axis];
-            if (!rules_->offsets.rotary || !is(block, letter)) continue;
+            if (!rules_->offsets.rotary || !is_given(block, letter)) continue;
             const double value = block.words.of(letter);
             offset.rotary[axis] = level == 2 ? value : machine_rotary[axis] - state_.rotary_shift[axis] - value;
         }
@@ -104,7 +104,7 @@ void Interpreter::set_offsets(const Block& block) {
             const Vec3 turned = ModalState::rotated(reads + state_.shift, offset.rotation);
             for (int axis = 0; axis < 3; ++axis) {
                 const bool turns = axis < 2 && offset.rotation != 0;  // one word moves both zeros then
-                if (is(block, "XYZ"[axis]) || turns)
+                if (is_given(block, "XYZ"[axis]) || turns)
                     offset.shift[axis] = machine[axis] - state_.tool_offset[axis] - turned[axis];
             }
         }
@@ -119,7 +119,7 @@ void Interpreter::shift_position(const Block& block) {
         const Vec3 position = state_.position;
         for (int axis = 0; axis < 3; ++axis) {
             const char letter = "XYZ"[axis];
-            if (!is(block, letter)) continue;
+            if (!is_given(block, letter)) continue;
             const double value = block.words.of(letter) * state_.unit_mm;
             if (local) {
                 state_.shift[axis] = value;
@@ -129,7 +129,7 @@ void Interpreter::shift_position(const Block& block) {
             }
         }
         for (int axis = 0; axis < 3; ++axis) {
-            if (!rules_->offsets.rotary || !is(block, "ABC"[axis])) continue;
+            if (!rules_->offsets.rotary || !is_given(block, "ABC"[axis])) continue;
             const double value = block.words.of("ABC"[axis]);
             state_.rotary_shift[axis] = local ? value : state_.rotary_shift[axis] + state_.rotary[axis] - value;
         }
@@ -202,7 +202,7 @@ void Interpreter::select_work_system(int number) {
 /// position reads as the words, in the active system or (L11) in G59.3 without G92.
 void Interpreter::set_tool(int level, const Block& block) {
     if (level != 1 && level != 10 && level != 11) fail(fmt::format("G10 L{} is not known", level));
-    if (!is(block, 'P')) fail("G10 L1, L10 and L11 need the tool's number (P)");
+    if (!is_given(block, 'P')) fail("G10 L1, L10 and L11 need the tool's number (P)");
     const int number = static_cast<int>(std::clamp(std::round(block.words.of('P')), 0.0, 1e6));
     Tool tool = tools_.table.find(number) != nullptr ? *tools_.table.find(number) : Tool{number};
     const auto length = [&](char letter) { return block.words.of(letter) * state_.unit_mm; };
@@ -213,17 +213,17 @@ void Interpreter::set_tool(int level, const Block& block) {
     }
     Vec3 reads = fixture.from_machine(state_.to_machine(state_.position));
     for (int axis = 0; axis < 3; ++axis) {
-        if (is(block, "XYZ"[axis])) reads[axis] = length("XYZ"[axis]);
+        if (is_given(block, "XYZ"[axis])) reads[axis] = length("XYZ"[axis]);
     }
     const Vec3 wanted = fixture.tool_offset + state_.to_machine(state_.position) - fixture.to_machine(reads);
     for (int axis = 0; axis < 3; ++axis) {
-        if (is(block, "XYZ"[axis])) tool.offset[axis] = level == 1 ? length("XYZ"[axis]) : wanted[axis];
+        if (is_given(block, "XYZ"[axis])) tool.offset[axis] = level == 1 ? length("XYZ"[axis]) : wanted[axis];
     }
     tool.assumed = false;
-    if (is(block, 'R')) tool.diameter = 2 * length('R');
-    if (is(block, 'I')) tool.front_angle = block.words.of('I');
-    if (is(block, 'J')) tool.back_angle = block.words.of('J');
-    if (is(block, 'Q')) tool.orientation = static_cast<int>(std::clamp(block.words.of('Q'), 0.0, 9.0));
+    if (is_given(block, 'R')) tool.diameter = 2 * length('R');
+    if (is_given(block, 'I')) tool.front_angle = block.words.of('I');
+    if (is_given(block, 'J')) tool.back_angle = block.words.of('J');
+    if (is_given(block, 'Q')) tool.orientation = static_cast<int>(std::clamp(block.words.of('Q'), 0.0, 9.0));
     tools_.table.tools[number] = tool;
     if (tools_.in_spindle.number == number) tools_.in_spindle = tool;
 }
@@ -242,10 +242,10 @@ void Interpreter::change_tool(const Block& block) {
     const auto whole = [&](char letter) {
         return static_cast<int>(std::clamp(std::round(block.words.of(letter)), 0.0, 1e8));
     };
-    if (is(block, 'T')) tools_.next = whole('T');
+    if (is_given(block, 'T')) tools_.next = whole('T');
     // A block with T calls the tool in Heidenhain's dialect; Siemens takes its length with the edge D1.
     bool changed = false;
-    if (rules_->tools.t_changes && is(block, 'T')) {
+    if (rules_->tools.t_changes && is_given(block, 'T')) {
         tools_.in_spindle =
             tools_.table.tools.empty() ? Tool{tools_.next} : tool_of(tools_.next, block.words.column['T' - 'A']);
         changed = true;
@@ -254,13 +254,13 @@ void Interpreter::change_tool(const Block& block) {
     for (const std::int32_t code : std::vector<std::int32_t>(first, first + block.words.m_count)) {
         if (code != 6 && (code != 61 || !rules_->tools.m61)) continue;
         if (compensation_.path.on()) fail("a tool cannot be changed while cutter compensation is on");
-        if (code == 61 && !is(block, 'Q')) fail("M61 needs the tool's number (Q)");
+        if (code == 61 && !is_given(block, 'Q')) fail("M61 needs the tool's number (Q)");
         // Without a table the other dialects have nothing to look up.
         const bool known = rules_->tools.always_looks_up || !tools_.table.tools.empty();
         tools_.in_spindle = known ? tool_of(code == 61 ? whole('Q') : tools_.next, 0) : Tool{tools_.next};
         changed = true;
     }
-    const bool edge = rules_->tools.edges && is(block, 'D');
+    const bool edge = rules_->tools.edges && is_given(block, 'D');
     if (!rules_->tools.length_with_tool || tools_.table.tools.empty() || !(changed || edge)) return;
     const Vec3 offset = edge && block.words.of('D') == 0 ? Vec3(Vec3::Zero()) : tools_.in_spindle.offset;
     state_.rebase([&] { state_.tool_offset = offset; });
@@ -289,7 +289,7 @@ void Interpreter::read_machine_position(const Block& block) {
 void Interpreter::tool_length(int code, const Block& block) {
     const auto words_move = [&](Vec3 offset) {
         for (int axis = 0; axis < 3; ++axis) {
-            if (is(block, "XYZ"[axis])) offset[axis] = block.words.of("XYZ"[axis]) * state_.unit_mm;
+            if (is_given(block, "XYZ"[axis])) offset[axis] = block.words.of("XYZ"[axis]) * state_.unit_mm;
         }
         return offset;
     };
@@ -305,23 +305,24 @@ void Interpreter::tool_length(int code, const Block& block) {
         this_block_.motion_suppressed = true;
         offset = words_move(offset);
         for (int axis = 0; axis < 3; ++axis) {
-            if (is(block, "XYZ"[axis])) assumed[axis] = 0;
+            if (is_given(block, "XYZ"[axis])) assumed[axis] = 0;
         }
     } else if (code == 49_g) {
         offset = assumed = Vec3::Zero();
     } else if (rules_->tools.length_of == LengthOf::tool_in_spindle && code == 43_g) {
-        const Tool tool = tool_named(!is(block, 'H') || block.words.of('H') == 0);
+        const Tool tool = tool_named(!is_given(block, 'H') || block.words.of('H') == 0);
         offset = tool.offset;
         assumed = assumed_in(tool);
     } else if (rules_->tools.length_of == LengthOf::tool_in_spindle && code == 43.2_g) {
-        if (!is(block, 'H')) fail("G43.2 needs the tool's number (H)");
+        if (!is_given(block, 'H')) fail("G43.2 needs the tool's number (H)");
         const Tool tool = tool_named(false);
         offset += tool.offset;
         assumed += assumed_in(tool);
     } else if (rules_->tools.length_of == LengthOf::row_of_h && code >= 43_g && code <= 44_g && code != 43.2_g &&
                !tools_.table.tools.empty()) {
-        if (is(block, 'H')) tools_.length_row = static_cast<int>(std::clamp(std::round(block.words.of('H')), 0.0, 1e8));
-        offset = tool_of(tools_.length_row, is(block, 'H') ? block.words.column['H' - 'A'] : 0).offset *
+        if (is_given(block, 'H'))
+            tools_.length_row = static_cast<int>(std::clamp(std::round(block.words.of('H')), 0.0, 1e8));
+        offset = tool_of(tools_.length_row, is_given(block, 'H') ? block.words.column['H' - 'A'] : 0).offset *
                  (code == 44_g ? -1.0 : 1.0);
     }
     part_from_machine(offset - state_.tool_offset);
@@ -354,8 +355,8 @@ void Interpreter::reference(int code, const Block& block) {
     Vec3 end = state_.position;
     Vec3 rotary = state_.rotary;
     for (int axis = 0; axis < 3; ++axis) {
-        if (named == 0 || is(block, "XYZ"[axis])) end[axis] = home[axis];
-        if (named == 0 || (is(block, "ABC"[axis]) && rules_->offsets.rotary)) rotary[axis] = home_rotary[axis];
+        if (named == 0 || is_given(block, "XYZ"[axis])) end[axis] = home[axis];
+        if (named == 0 || (is_given(block, "ABC"[axis]) && rules_->offsets.rotary)) rotary[axis] = home_rotary[axis];
     }
     straight(MotionKind::rapid, end, rotary);
 }

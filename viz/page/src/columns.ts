@@ -1,4 +1,4 @@
-// Packed columns (io/page_pack.h says how) → numbers.
+// Packed columns (io/page/page_pack.h says how) → numbers.
 
 import type { PackedColumn } from './manifest';
 

@@ -1,4 +1,4 @@
-// What io/page_data.cpp writes: the names are the same there.
+// What io/page/page_data.cpp writes: the names are the same there.
 
 export interface PackedColumn {
     block: number;

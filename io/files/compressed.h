@@ -1,0 +1,21 @@
+#pragma once
+// Compressed inputs: gzip (RFC 1952), Zstandard (RFC 8878) and xz, recognised by their first bytes
+// whatever the file is called. Logs and programs are read through open_source(), so every format can
+// come compressed.
+
+#include <string>
+
+#include "io/files/mapped_file.h"
+
+namespace clsurf::io {
+
+/// The source itself where it is not compressed, else its unpacked bytes under the same name. Several
+/// members one after the other are one text, as `cat a.gz b.gz` makes them.
+/// Throws InputError with the byte: damaged or cut data; more than 256 MiB + 100 times the input
+/// (a decompression bomb); a dictionary that is not there. Memory: bounded by that limit.
+[[nodiscard]] Source unpacked(Source source);
+
+/// Maps a file and unpacks it where it is compressed. Throws InputError.
+[[nodiscard]] Source open_source(const std::string& path);
+
+}  // namespace clsurf::io

@@ -1,0 +1,50 @@
+#pragma once
+// A TOML file read strictly: keys that are not known and values of the wrong type are errors with
+// file and line. Layout, mapping, budget and machine files are read through it.
+
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <toml++/toml.h>
+
+#include "io/files/mapped_file.h"
+
+namespace clsurf::io {
+
+class TomlFile {
+public:
+    /// Throws InputError (missing, malformed).
+    explicit TomlFile(const std::string& path);
+
+    [[nodiscard]] const toml::table& root() const { return root_; }
+    /// Throws InputError at the place of a node.
+    [[noreturn]] void fail(const toml::node& node, const std::string& what, const std::string& hint = {}) const;
+    [[noreturn]] void fail(const std::string& what) const;
+    /// Every key of the table is one of these; a suggestion otherwise.
+    void allow(const toml::table& table, std::initializer_list<std::string_view> keys) const {
+        allow(table, std::vector<std::string_view>(keys));
+    }
+    void allow(const toml::table& table, const std::vector<std::string_view>& keys) const;
+    [[nodiscard]] std::optional<double> number(const toml::table& table, std::string_view key) const;
+    [[nodiscard]] std::optional<std::string> text(const toml::table& table, std::string_view key) const;
+    /// A whole number in [low, high].
+    [[nodiscard]] std::optional<std::int64_t> integer(const toml::table& table, std::string_view key, std::int64_t low,
+                                                      std::int64_t high) const;
+    /// A table below `table`; nullptr: not there.
+    [[nodiscard]] const toml::table* section(const toml::table& table, std::string_view key) const;
+    /// An array of tables, `[[key]]`; nullptr: not there.
+    [[nodiscard]] const toml::array* tables(const toml::table& table, std::string_view key) const;
+
+private:
+    std::string name_;
+    toml::table root_;
+};
+
+/// A number of twelve digits, so that what is scaled when it is read and when it is written stays the same; no −0, which
+/// TOML does not have for whole numbers.
+[[nodiscard]] double settled_number(double value);
+
+}  // namespace clsurf::io

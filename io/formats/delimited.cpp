@@ -1,0 +1,73 @@
+// Text with one record a line. Separator: tab, semicolon, comma or blanks, whichever the first data
+// lines have. With semicolons a decimal comma is understood. Comments: text_table.h.
+// halsampler writes "sample value value …" separated by blanks, and "overrun" where it lost samples.
+#include "io/formats/delimited.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "io/formats/text_head.h"
+#include "io/formats/text_mapping.h"
+#include "log/channel.h"
+
+namespace clsurf::io {
+
+namespace {
+
+Log open_text(const Source& source, const LogOptions& options, const char* format) {
+    const std::optional<Mapping> mapping = mapping_of(options);
+    const Mapping* map = mapping ? &*mapping : nullptr;
+    TextPlan plan = plan_text(source, map);
+    plan.overruns = mapping && mapping->halsampler;
+    Log log = read_table(source, plan, format);
+    settle_period(log, options, map);
+    add_event_lines(log, map, plan.day);
+    return log;
+}
+
+}  // namespace
+
+int probe_delimited(std::span<const std::byte> head, const LogOptions& options) {
+    if (head.empty() || !is_text(head)) return 0;
+    // A program beside the log is not what the mapping describes.
+    if (!options.mapping.empty()) {
+        const std::vector<std::string> first = read_head(text_of(head)).first;
+        return std::any_of(first.begin(), first.end(), is_value) ? 60 : 0;
+    }
+    // A header that names a position by its role, or all three of them without.
+    std::size_t axes = 0;
+    for (const ColumnPlan& column : read_head(text_of(head)).columns) {
+        const std::string name = settled_name(column.name);
+        if (is_position(name)) return 80;
+        axes += name == "x" || name == "y" || name == "z" ? 1 : 0;
+    }
+    return axes == 3 ? 70 : 0;
+}
+
+int probe_halsampler(std::span<const std::byte> head, const LogOptions& options) {
+    if (head.empty() || !is_text(head)) return 0;
+    std::string_view rest = text_of(head);
+    const std::vector<std::string> first = split(first_line(rest), ' ');
+    const std::vector<std::string> second = split(first_line(rest), ' ');
+    if (first.size() < 4 || first.size() != second.size()) return 0;
+    for (const std::string& field : first) {
+        if (!looks_like_number(field)) return 0;
+    }
+    // The sampler counts its samples in the first column.
+    bool bad = false;
+    const double step = parse_number(second[0], false, bad) - parse_number(first[0], false, bad);
+    if (step != 1) return 0;
+    return options.mapping.empty() ? 40 : 70;
+}
+
+Log open_delimited(const Source& source, const LogOptions& options) { return open_text(source, options, "delimited"); }
+
+Log open_halsampler(const Source& source, const LogOptions& options) {
+    if (options.mapping.empty()) {
+        throw InputError(Place::of_file(source.name), "halsampler text has no names for its columns",
+                         "name them with --mapping FILE (docs/formats/csv.md)");
+    }
+    return open_text(source, options, "halsampler");
+}
+
+}  // namespace clsurf::io

@@ -1,0 +1,210 @@
+// A recording is one JSON object:
+//   Header.SignalListHFData[]   the columns: Name ("DES_POS|1"), Axis ("X1")
+//   Header.CycleTimeMs          the sampling period
+//   Payload[]                   in order of time, one of
+//     HFData          rows of numbers; the first column counts cycles (CYCLE)
+//     HFBlockEvent    HFProbeCounter: cycle from which the block runs; SeekOffset: its line
+//     HFCallEvent     CallStackLevel, Path: this program runs at that level, at line SeekOffset
+//     HFTimestamp, LFData         read over
+#include "io/formats/edge_json.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "io/formats/edge_recording.h"
+#include "io/formats/line_events.h"
+#include "io/formats/owned_columns.h"
+#include "io/formats/program_identity.h"
+#include "io/formats/text_mapping.h"
+
+namespace clsurf::io {
+namespace {
+
+constexpr double seconds_per_millisecond = 1e-3;
+constexpr std::int64_t deepest_call = 64;
+constexpr const char* unknown_program = "(not recorded)";
+
+/// Signals whose channel is known; the axis letter follows.
+struct Known {
+    std::string_view signal;
+    std::string_view channel;
+    std::string_view unit;
+    std::string_view rotary_unit;
+};
+constexpr auto known_signals = std::to_array<Known>({
+    {"DES_POS", "cmd.", "mm", "deg"},
+    {"ENC_POS", "fb.", "mm", "deg"},
+    {"LOAD", "load.", "%", "%"},
+    {"CURRENT", "current.", "A", "A"},
+    {"TORQUE", "torque.", "N·m", "N·m"},
+});
+
+/// "X1" → 'x'; a spindle or an unknown name: '\0'.
+char axis_letter(std::string_view axis) {
+    constexpr std::string_view letters = "XYZABCUVW";
+    if (axis.empty() || letters.find(axis[0]) == std::string_view::npos) return '\0';
+    const bool digits = std::all_of(axis.begin() + 1, axis.end(), [](char c) { return c >= '0' && c <= '9'; });
+    return digits ? static_cast<char>(std::tolower(static_cast<unsigned char>(axis[0]))) : '\0';
+}
+
+SourceColumn column_of(const EdgeRecording::Signal& signal) {
+    SourceColumn column{signal.name, {}, {.name = signal.name, .unit = {}}};
+    const std::size_t bar = signal.name.find('|');
+    const char axis = axis_letter(signal.axis);
+    for (const Known& known : known_signals) {
+        if (bar == std::string::npos || axis == '\0' || signal.name.compare(0, bar, known.signal) != 0) continue;
+        const bool rotary = axis >= 'a' && axis <= 'c';
+        column.known = {.name = std::string(known.channel) + axis,
+                        .unit = std::string(rotary ? known.rotary_unit : known.unit)};
+    }
+    return column;
+}
+
+/// The events as lines: a block belongs to the deepest program that has been called.
+class CallStack {
+public:
+    explicit CallStack(Log& log) : log_(log) {}
+
+    void add(const EdgeEvent& event) {
+        if (event.cycle < 0) {
+            ++incomplete_;
+            return;
+        }
+        if (event.call) {
+            if (event.level < 0 || event.level > deepest_call) {
+                ++incomplete_;
+                return;
+            }
+            // What was called from here has ended.
+            paths_.resize(static_cast<std::size_t>(event.level) + 1);
+            paths_.back() = event.path;
+        }
+        if (event.line < 0 || event.line > most_line) {
+            ++incomplete_;
+            return;
+        }
+        lines_.push_back({static_cast<double>(event.cycle), static_cast<LineNumber>(event.line), program()});
+    }
+
+    std::vector<LineEvent> finish() {
+        if (incomplete_ > 0) {
+            log_.diagnostics.add(
+                {Severity::warning,
+                 "log.bad-event",
+                 Place::of_file(log_.name),
+                 fmt::format("{} block or call events lack their cycle, line or level and are passed over",
+                             incomplete_),
+                 {}});
+        }
+        return std::move(lines_);
+    }
+
+private:
+    static constexpr std::int64_t most_line = 0xfffffffe;
+
+    std::uint32_t program() {
+        std::string path = paths_.empty() ? std::string() : paths_.back();
+        if (path.empty()) path = unknown_program;
+        const auto [found, is_new] = numbers_.try_emplace(path, static_cast<std::uint32_t>(log_.programs.size()));
+        if (is_new) log_.programs.push_back({path, {}, {}, {}});
+        return found->second;
+    }
+
+    Log& log_;
+    std::vector<std::string> paths_;  ///< by level
+    std::map<std::string, std::uint32_t> numbers_;
+    std::vector<LineEvent> lines_;
+    std::size_t incomplete_ = 0;
+};
+
+void add_lines(Log& log, OwnedColumns& owned, std::vector<EdgeEvent>& events, const std::vector<double>& cycles) {
+    // Announced twice, and not always in order.
+    std::stable_sort(events.begin(), events.end(),
+                     [](const EdgeEvent& a, const EdgeEvent& b) { return a.cycle < b.cycle; });
+    CallStack stack(log);
+    for (const EdgeEvent& event : events) stack.add(event);
+    std::vector<LineEvent> lines = stack.finish();
+    if (lines.empty()) return;
+    std::vector<std::uint32_t> line(cycles.size(), 0);
+    std::vector<std::uint32_t> program(cycles.size(), lines.front().program);
+    const std::size_t outside = for_each_event(
+        lines, log.records, [&](PointIndex i) { return cycles[static_cast<std::size_t>(i)]; },
+        [&](PointIndex i, const LineEvent* event) {
+            if (event == nullptr) return;
+            line[static_cast<std::size_t>(i)] = event->line;
+            program[static_cast<std::size_t>(i)] = event->program;
+        });
+    if (outside > 0) {
+        log.diagnostics.add(
+            {Severity::note,
+             "log.events-outside",
+             Place::of_file(log.name),
+             fmt::format("{} of {} block and call events lie outside the records", outside, lines.size()),
+             {}});
+    }
+    owned.add("line", "", std::move(line));
+    owned.add("program", "", std::move(program));
+}
+
+}  // namespace
+
+int probe_edge(std::span<const std::byte> head, const LogOptions&) {
+    const std::string_view text = text_of(head);
+    const std::size_t first = text.find_first_not_of(" \t\r\n");
+    if (first == std::string_view::npos || text[first] != '{') return 0;
+    return text.find("\"SignalListHFData\"") != std::string_view::npos ||
+                   text.find("\"HFData\"") != std::string_view::npos
+               ? 95
+               : 0;
+}
+
+Log open_edge(const Source& source, const LogOptions& options) {
+    const std::optional<Mapping> mapping = mapping_of(options);
+    const Mapping* map = mapping ? &*mapping : nullptr;
+    EdgeRecording recording = read_edge_recording(source);
+    if (recording.rows == 0) throw InputError(Place::of_file(source.name), "holds no records");
+
+    Log log;
+    log.name = source.name;
+    log.format = "edge";
+    log.closed = recording.closed;
+    log.records = static_cast<PointIndex>(recording.rows);
+    log.diagnostics = std::move(recording.diagnostics);
+    OwnedColumns owned(log);
+    std::vector<SourceColumn> columns;
+    std::size_t cycle_column = recording.signals.size();
+    for (std::size_t i = 0; i < recording.signals.size(); ++i) {
+        if (recording.signals[i].name == "CYCLE") cycle_column = i;
+        columns.push_back(column_of(recording.signals[i]));
+    }
+    if (cycle_column == recording.signals.size())
+        throw InputError(Place::of_file(source.name), "no signal 'CYCLE' counts the records",
+                         "expected it in Header.SignalListHFData");
+    const std::vector<double> cycles = recording.columns[cycle_column];
+    const std::vector<ColumnPlan> plans = plan_columns(columns, map, Place::of_file(source.name));
+    for (std::size_t i = 0; i < plans.size(); ++i) {
+        if (plans[i].name.empty() || (i == cycle_column && map == nullptr)) continue;
+        if (log.find(plans[i].name) != nullptr)
+            throw InputError(Place::of_file(source.name), "channel '" + plans[i].name + "' is there twice");
+        for (double& value : recording.columns[i]) value = value * plans[i].scale + plans[i].bias;
+        owned.add(plans[i].name, plans[i].unit, std::move(recording.columns[i]));
+    }
+    log.period = recording.cycle_ms * seconds_per_millisecond;
+    settle_period(log, options, map);
+    if (log.find("time") == nullptr && log.period > 0) {
+        std::vector<double> time(cycles.size());
+        for (std::size_t i = 0; i < time.size(); ++i) time[i] = (cycles[i] - cycles[0]) * log.period;
+        owned.add("time", "s", std::move(time));
+    }
+    add_event_lines(log, map);
+    if (log.find("line") == nullptr) add_lines(log, owned, recording.events, cycles);
+    log.metadata = with_programs(recording.about, log.programs);
+    return log;
+}
+
+}  // namespace clsurf::io

@@ -1,0 +1,46 @@
+#pragma once
+// LogFormat: one row per readable log format. The registry picks by content, not by file name.
+// To add one: io/formats/<format>.cpp, and its line in io/formats/log_formats.cpp.
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "io/files/mapped_file.h"
+#include "log/log.h"
+
+namespace clsurf::io {
+
+/// What the user may say about a log that the log does not say itself.
+struct LogOptions {
+    std::string layout;            ///< file: layout of a foreign fixed-record log (TOML); empty: none
+    std::string mapping;           ///< file: column mapping of a text log (TOML); empty: none
+    std::optional<double> period;  ///< [s]; where the log has none
+};
+
+/// Whether a layout or a mapping says how the bytes are read: any file can be such a log.
+[[nodiscard]] inline bool forces_log(const LogOptions& options) {
+    return !options.layout.empty() || !options.mapping.empty();
+}
+
+struct LogFormat {
+    std::string_view name;
+    std::string_view summary;
+    /// 0: certainly not … 100: certain.
+    int (*probe)(std::span<const std::byte> head, const LogOptions& options);
+    /// Throws InputError with the place.
+    Log (*open)(const Source& source, const LogOptions& options);
+};
+
+/// All formats, in the order of the help text.
+[[nodiscard]] std::span<const LogFormat> log_formats();
+
+/// The format that the content looks most like, or nullptr.
+[[nodiscard]] const LogFormat* recognise_log(const Source& source, const LogOptions& options);
+
+/// Opens a log of any format. Throws InputError; unknown content names the formats tried.
+[[nodiscard]] Log open_log(const std::string& path, const LogOptions& options);
+[[nodiscard]] Log open_log(const Source& source, const LogOptions& options);
+
+}  // namespace clsurf::io

@@ -1,0 +1,101 @@
+#include <algorithm>
+#include <array>
+
+#include "core/error.h"
+#include "io/files/compressed.h"
+#include "io/formats/biip.h"
+#include "io/formats/delimited.h"
+#include "io/formats/edge_json.h"
+#include "io/formats/foreign_content.h"
+#include "io/formats/halscope.h"
+#include "io/formats/log_format.h"
+#include "io/formats/record_layout.h"
+#include "io/formats/sinumerik_xml.h"
+#include "io/formats/twincat_csv.h"
+#include "log/channel.h"
+
+namespace clsurf::io {
+namespace {
+
+/// One line a format. Later lines win only with a better score.
+constexpr auto known_formats = std::to_array<LogFormat>({
+    {"biip", "BIIP v1: self-describing fixed records (docs/formats/biip.md)", probe_biip, open_biip},
+    {"layout", "foreign fixed records, described by --layout FILE", probe_layout, open_layout},
+    {"halsampler", "LinuxCNC halsampler text, columns named by --mapping FILE", probe_halsampler, open_halsampler},
+    {"halscope", "LinuxCNC halscope's saved log", probe_halscope, open_halscope},
+    {"twincat", "TwinCAT Scope's text export", probe_twincat, open_twincat},
+    {"edge", "SINUMERIK Edge high-frequency recording (JSON)", probe_edge, open_edge},
+    {"sinumerik-xml", "SINUMERIK Operate trace session (XML)", probe_sinumerik_xml, open_sinumerik_xml},
+    {"delimited", "CSV or TSV with a header of channel names, or with --mapping FILE", probe_delimited, open_delimited},
+});
+
+/// A lathe has no Y; a typing error in a mapping looks the same.
+void note_still_axes(Log& log) {
+    for (const Role role : {Role::commanded, Role::feedback, Role::actual}) {
+        if (!log.has(role)) continue;
+        for (const char* axis : {".x", ".y", ".z"}) {
+            const std::string name = std::string(prefix_of(role)) + axis;
+            if (log.find(name) != nullptr) continue;
+            log.diagnostics.add({Severity::warning,
+                                 "log.axis-missing",
+                                 Place::of_file(log.name),
+                                 "no channel '" + name + "': that axis is taken to stand at 0",
+                                 {}});
+        }
+    }
+}
+
+constexpr std::size_t probed_bytes = 65536;
+
+}  // namespace
+
+std::span<const LogFormat> log_formats() { return known_formats; }
+
+const LogFormat* recognise_log(const Source& source, const LogOptions& options) {
+    const std::span<const std::byte> head = source.bytes.first(std::min(probed_bytes, source.bytes.size()));
+    const LogFormat* best = nullptr;
+    int best_score = 0;
+    for (const LogFormat& format : known_formats) {
+        const int score = format.probe(head, options);
+        if (score > best_score) {
+            best_score = score;
+            best = &format;
+        }
+    }
+    return best;
+}
+
+Log open_log(const std::string& path, const LogOptions& options) { return open_log(open_source(path), options); }
+
+Log open_log(const Source& source, const LogOptions& options) {
+    if (source.bytes.empty()) throw InputError(Place::of_file(source.name), "is empty, expected a log");
+    const LogFormat* format = recognise_log(source, options);
+    if (format == nullptr) {
+        const std::string_view text(reinterpret_cast<const char*>(source.bytes.data()), source.bytes.size());
+        if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) {
+            throw InputError(Place::of_file(source.name), "is UTF-16 text, expected ASCII or UTF-8",
+                             "convert it first, as with iconv -f UTF-16 -t UTF-8");
+        }
+        if (const std::optional<ForeignTable> table = recognise_table(source))
+            throw InputError(Place::of_file(source.name),
+                             "is a table of " + describe(*table) + "; no name is that of a position",
+                             "it needs --mapping FILE; clsurf info --suggest-mapping " + source.name +
+                                 " -o mapping.toml writes one to start from");
+        std::string names;
+        for (const LogFormat& f : known_formats) names += (names.empty() ? "" : ", ") + std::string(f.name);
+        throw InputError(Place::of_file(source.name), "is no log of a known format (" + names + ")",
+                         "a foreign binary needs --layout FILE, a text without channel names --mapping FILE");
+    }
+    Log log = format->open(source, options);
+    settle_names(log);
+    settle_units(log);
+    note_still_axes(log);
+    if (!(log.period > 0)) log.period = log.measured_period();
+    if (!(log.period > 0)) {
+        throw InputError(Place::of_file(source.name), "the sampling period is not known: no rising channel 'time'",
+                         "give it with --period S, or as period_s in a mapping");
+    }
+    return log;
+}
+
+}  // namespace clsurf::io

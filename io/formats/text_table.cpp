@@ -1,0 +1,302 @@
+#include "io/formats/text_table.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/not_finite.h"
+#include "core/parallel.h"
+#include "io/formats/clock_time.h"
+#include "io/formats/owned_columns.h"
+
+namespace clsurf::io {
+namespace {
+
+constexpr std::size_t stretch_bytes = std::size_t{4} << 20;
+/// Fields that may be missing per byte of text: a header of a million columns above empty rows would
+/// otherwise ask for any amount of memory.
+constexpr std::size_t most_missing_of_byte = 8;
+
+/// The next field of a line, without blanks and quotes; false: no more.
+bool next_field(std::string_view line, std::size_t& at, char separator, std::string_view& field) {
+    if (separator == ' ') {
+        while (at < line.size() && (line[at] == ' ' || line[at] == '\t')) ++at;
+        if (at >= line.size()) return false;
+        const std::size_t begin = at;
+        while (at < line.size() && line[at] != ' ' && line[at] != '\t') ++at;
+        field = line.substr(begin, at - begin);
+        return true;
+    }
+    if (at > line.size()) return false;
+    std::size_t end = at;
+    if (end < line.size() && line[end] == '"') {
+        end = line.find('"', end + 1);
+        end = end == std::string_view::npos ? line.size() : end + 1;
+    }
+    end = std::min(line.find(separator, end), line.size());
+    field = line.substr(at, end - at);
+    at = end + 1;
+    while (!field.empty() && (field.front() == ' ' || field.front() == '"')) field.remove_prefix(1);
+    while (!field.empty() && (field.back() == ' ' || field.back() == '"')) field.remove_suffix(1);
+    return true;
+}
+
+/// Seconds since midnight of a day, or NaN.
+double parse_time(std::string_view field, std::int64_t day, bool& bad) {
+    const std::optional<ClockTime> time = parse_clock(field);
+    bad = !time && !field.empty();
+    return time ? time->since(day) : missing<double>;
+}
+
+/// A clock without a date begins anew at midnight.
+void go_on_after_midnight(std::vector<double>& seconds) {
+    constexpr double day = 86400;
+    double days = 0;
+    double before = missing<double>;
+    for (double& second : seconds) {
+        second += days;
+        if (second < before - 0.5 * day) {
+            days += day;
+            second += day;
+        }
+        if (std::isfinite(second)) before = second;
+    }
+}
+
+/// What one stretch of the text holds.
+struct Stretch {
+    std::size_t begin = 0, end = 0;
+    std::uint64_t lines = 0;
+    std::vector<std::vector<double>> columns;
+    std::size_t rows = 0;
+    std::size_t missing = 0;  ///< fields that rows lack
+    Diagnostics diagnostics;
+};
+
+void read_stretch(const Source& source, const TextPlan& plan, Stretch& stretch) {
+    std::string_view rest = source.text().substr(stretch.begin, stretch.end - stretch.begin);
+    stretch.columns.resize(plan.columns.size());
+    std::uint64_t number = 0;  // of the line in this stretch
+    while (!rest.empty()) {
+        const std::string_view line = first_line(rest);
+        ++number;
+        if (is_comment(line)) continue;
+        if (plan.overruns && line.starts_with("overrun")) {
+            stretch.diagnostics.add({Severity::warning,
+                                     "log.overrun",
+                                     Place::of_line(source.name, number),
+                                     "the sampler lost records here (overrun)",
+                                     {}});
+            continue;
+        }
+        std::size_t at = 0;
+        std::size_t column = 0;
+        std::string_view field;
+        while (next_field(line, at, plan.separator, field)) {
+            if (column >= plan.columns.size()) {
+                ++column;
+                continue;
+            }
+            const ColumnPlan& c = plan.columns[column];
+            if (!c.name.empty()) {
+                bool bad = false;
+                const double value =
+                    c.clock ? parse_time(field, plan.day, bad) : parse_number(field, plan.decimal_comma, bad);
+                if (bad) {
+                    stretch.diagnostics.add(
+                        {Severity::warning,
+                         "log.bad-number",
+                         Place::of_line(source.name, number,
+                                        static_cast<std::uint32_t>(field.data() - line.data() + 1)),
+                         fmt::format("'{}' of channel '{}' is no {}; taken as missing", field.substr(0, 40), c.name,
+                                     c.clock ? "time of day" : "number"),
+                         {}});
+                }
+                stretch.columns[column].push_back(value * c.scale + c.bias);
+            }
+            ++column;
+        }
+        if (column != plan.columns.size()) {
+            stretch.diagnostics.add(
+                {Severity::warning,
+                 "log.ragged-row",
+                 Place::of_line(source.name, number),
+                 fmt::format("{} fields, expected {}; missing ones are taken as missing", column, plan.columns.size()),
+                 {}});
+            for (; column < plan.columns.size(); ++column) {
+                if (plan.columns[column].name.empty()) continue;
+                if (++stretch.missing > most_missing_of_byte * (stretch.end - stretch.begin)) return;
+                stretch.columns[column].push_back(missing<double>);
+            }
+        }
+        ++stretch.rows;
+    }
+    stretch.lines = number;
+}
+
+std::vector<Stretch> cut(std::string_view text, std::size_t begin) {
+    std::vector<Stretch> stretches;
+    while (begin < text.size()) {
+        std::size_t end = std::min(text.size(), begin + stretch_bytes);
+        if (end < text.size()) {
+            end = text.find('\n', end);
+            end = end == std::string_view::npos ? text.size() : end + 1;
+        }
+        stretches.push_back({});
+        stretches.back().begin = begin;
+        stretches.back().end = end;
+        begin = end;
+    }
+    return stretches;
+}
+
+}  // namespace
+
+std::string_view first_line(std::string_view& rest) {
+    const std::size_t end = rest.find('\n');
+    std::string_view line = rest.substr(0, end);
+    rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    return line;
+}
+
+bool is_comment(std::string_view line) {
+    const std::size_t at = line.find_first_not_of(" \t");
+    if (at == std::string_view::npos || line[at] == '#' || line[at] == '%') return true;
+    return line.substr(at).starts_with("//") || line.starts_with("sep=");  // Excel's separator
+}
+
+char detect_separator(std::string_view line) {
+    for (const char c : {'\t', ';', ','}) {
+        if (line.find(c) != std::string_view::npos) return c;
+    }
+    return ' ';
+}
+
+std::vector<std::string> split(std::string_view line, char separator) {
+    std::vector<std::string> fields;
+    std::string_view field;
+    std::size_t at = 0;
+    while (fields.size() <= most_columns && next_field(line, at, separator, field)) fields.emplace_back(field);
+    return fields;
+}
+
+/// A number as text logs write it; NaN where it is none (and `bad` set, unless the field says so).
+double parse_number(std::string_view field, bool decimal_comma, bool& bad) {
+    bad = false;
+    if (!field.empty() && field.front() == '+') field.remove_prefix(1);
+    if (field.empty() || field == "nan" || field == "NaN" || field == "-nan") return missing<double>;
+    std::array<char, 64> buffer;
+    if (decimal_comma && field.size() < buffer.size() && field.find(',') != std::string_view::npos) {
+        std::copy(field.begin(), field.end(), buffer.begin());
+        std::replace(buffer.begin(), buffer.begin() + static_cast<std::ptrdiff_t>(field.size()), ',', '.');
+        field = {buffer.data(), field.size()};
+    }
+    double value = 0;
+    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+    if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(value)) {
+        bad = true;
+        return missing<double>;
+    }
+    return value;
+}
+
+bool looks_like_number(std::string_view field) {
+    bool bad = false;
+    (void)parse_number(field, true, bad);
+    return !bad && !field.empty();
+}
+
+bool is_value(std::string_view field) { return looks_like_number(field) || parse_clock(field); }
+
+/// "cmd.x [mm]", "Time (ms)" → name and unit.
+ColumnPlan plan_from_header(std::string_view field) {
+    ColumnPlan plan;
+    const char close = field.empty() ? ' ' : field.back();
+    const std::size_t open = close == ']' ? field.rfind('[') : close == ')' ? field.rfind('(') : std::string_view::npos;
+    if (open != std::string_view::npos) {
+        plan.unit = std::string(field.substr(open + 1, field.size() - open - 2));
+        field = field.substr(0, open);
+        while (!field.empty() && field.back() == ' ') field.remove_suffix(1);
+    }
+    plan.name = std::string(field);
+    return plan;
+}
+
+bool is_text(std::span<const std::byte> head) {
+    return std::none_of(head.begin(), head.end(), [](std::byte b) {
+        const auto c = static_cast<unsigned char>(b);
+        return c < 0x20 && c != '\n' && c != '\r' && c != '\t';
+    });
+}
+
+std::string_view text_of(std::span<const std::byte> bytes) {
+    std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+    return text;
+}
+
+Log read_table(const Source& source, const TextPlan& plan, const char* format) {
+    if (plan.columns.size() > most_columns) {
+        throw InputError(Place::of_line(source.name, plan.first_data_line),
+                         fmt::format("more than {} columns", most_columns));
+    }
+    std::vector<Stretch> stretches = cut(source.text().substr(0, plan.data_end), plan.data_begin);
+    parallel_for(static_cast<std::int64_t>(stretches.size()), 1, [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t k = first; k < last; ++k) read_stretch(source, plan, stretches[static_cast<std::size_t>(k)]);
+    });
+    Log log;
+    log.name = source.name;
+    log.format = format;
+    std::size_t rows = 0;
+    std::uint64_t line_offset = plan.first_data_line - 1;
+    for (const Stretch& stretch : stretches) {
+        rows += stretch.rows;
+        Diagnostics placed;
+        for (Diagnostic d : stretch.diagnostics.kept()) {
+            d.where.number += line_offset;
+            placed.add(std::move(d));
+        }
+        if (stretch.missing > most_missing_of_byte * (stretch.end - stretch.begin)) {
+            throw InputError(
+                placed.kept().front().where,
+                fmt::format("most rows lack nearly all of the {} columns that the header names", plan.columns.size()));
+        }
+        log.diagnostics.append(placed);
+        line_offset += stretch.lines;
+    }
+    if (rows == 0) throw InputError(Place::of_file(source.name), "holds no records");
+    log.records = static_cast<PointIndex>(rows);
+    if (!plan.words.empty()) {
+        const std::string more = plan.words.size() > 1 ? fmt::format(" (and {} more)", plan.words.size() - 1) : "";
+        log.diagnostics.add(
+            {Severity::note,
+             "log.words",
+             Place::of_line(source.name, plan.first_data_line),
+             fmt::format("column '{}'{} begins with a word and is passed over", plan.words.front().substr(0, 40), more),
+             {}});
+    }
+    OwnedColumns owned(log);
+    for (std::size_t c = 0; c < plan.columns.size(); ++c) {
+        if (plan.columns[c].name.empty()) continue;
+        if (log.find(plan.columns[c].name) != nullptr) {
+            throw InputError(Place::of_line(source.name, plan.first_data_line),
+                             "channel '" + plan.columns[c].name + "' is there twice");
+        }
+        std::vector<double> column;
+        column.reserve(rows);
+        for (Stretch& stretch : stretches) {
+            column.insert(column.end(), stretch.columns[c].begin(), stretch.columns[c].end());
+            stretch.columns[c] = {};
+        }
+        if (plan.columns[c].clock) go_on_after_midnight(column);
+        owned.add(plan.columns[c].name, plan.columns[c].unit, std::move(column));
+    }
+    return log;
+}
+
+}  // namespace clsurf::io

@@ -1,0 +1,318 @@
+#include "io/page/page_data.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "core/block.h"
+#include "core/units.h"
+#include "io/reports/quality_words.h"
+
+namespace clsurf::io {
+namespace {
+
+constexpr double position_quantum = 1e-4;  ///< [mm]
+constexpr double time_quantum = 1e-6;      ///< [s]
+constexpr double field_steps = 32768;      ///< in the range that is shown
+
+/// Columns are packed side by side once all are known.
+class Blocks {
+public:
+    using Make = std::function<PackedColumn()>;
+
+    /// Where in the manifest the column will be told, and what makes it.
+    void add(Json::json_pointer where, Make make) { columns_.push_back({std::move(where), std::move(make), {}}); }
+
+    void pack(PageData& data) {
+        parallel_for(static_cast<std::int64_t>(columns_.size()), 1, [&](std::int64_t first, std::int64_t last) {
+            for (std::int64_t i = first; i < last; ++i) {
+                Planned& column = columns_[static_cast<std::size_t>(i)];
+                column.packed = column.make();
+            }
+        });
+        for (Planned& column : columns_) {
+            const PackedColumn& p = column.packed;
+            data.manifest[column.where] = {{"block", data.blocks.size()},
+                                           {"count", p.count},
+                                           {"order", p.order},
+                                           {"stride", p.stride},
+                                           {"planes", p.planes}};
+            data.blocks.push_back(std::move(column.packed.base64));
+        }
+    }
+
+private:
+    struct Planned {
+        Json::json_pointer where;
+        Make make;
+        PackedColumn packed;
+    };
+    std::vector<Planned> columns_;
+};
+
+/// A value per kept point, in steps of `quantum`.
+template <typename Value>
+PackedColumn pack_kept(const KeptPoints& kept, double quantum, Value&& value) {
+    std::vector<std::int64_t> steps(kept.points.size());
+    std::int64_t before = 0;
+    for (std::size_t k = 0; k < steps.size(); ++k) {
+        const double v = value(kept.points[k]) / quantum;
+        if (std::abs(v) < 4e15) before = std::llround(v);  // a missing one repeats the one before
+        steps[k] = before;
+    }
+    return pack_integers(steps);
+}
+
+template <typename T>
+PackedColumn pack_numbers(std::span<const T> numbers, int stride) {
+    return pack_integers(std::vector<std::int64_t>(numbers.begin(), numbers.end()), stride);
+}
+
+Json::json_pointer at(const std::string& base, const std::string& name) { return Json::json_pointer(base) / name; }
+
+void add_field(Blocks& blocks, Json& json, const std::string& base, const PageSurface& surface, const Field& field,
+               const ShownRange& range) {
+    const double unit = field.info.unit.per_inside;
+    double quantum = (range.high - range.low) / field_steps;
+    if (!(quantum > 0))
+        quantum = std::max({std::abs(range.low), std::abs(range.lowest), std::abs(range.highest), 1e-9}) / field_steps;
+    const KeptPoints& kept = *surface.kept;
+    const float* values = field.values.data();
+    const auto value = [values, unit](PointIndex i) { return static_cast<double>(values[i]) * unit; };
+    json.push_back({{"name", field.info.name}, {"quantum", quantum}});
+    const std::string here = base + "/fields/" + std::to_string(json.size() - 1);
+    blocks.add(at(here, "values"), [&kept, quantum, value] { return pack_kept(kept, quantum, value); });
+    std::string missing(kept.points.size(), '\0');
+    for (std::size_t k = 0; k < missing.size(); ++k) missing[k] = std::isfinite(value(kept.points[k])) ? '\0' : '\1';
+    if (missing.find('\1') == std::string::npos) return;
+    blocks.add(at(here, "missing"), [flags = std::move(missing)] { return pack_bytes(flags); });
+}
+
+void add_positions(Blocks& blocks, const std::string& base, const PageSurface& s) {
+    const KeptPoints& kept = *s.kept;
+    const Positions& p = s.surface->positions;
+    const Column<float>* axes[] = {&p.x, &p.y, &p.z};
+    const char* names[] = {"x", "y", "z"};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const float* values = axes[k]->data();
+        blocks.add(at(base + "/columns", names[k]), [&kept, values] {
+            return pack_kept(kept, position_quantum, [values](PointIndex i) { return values[i]; });
+        });
+    }
+}
+
+/// Positions of the other roles, as differences from those that the surface is of.
+void add_roles(Blocks& blocks, Json& surface_json, const std::string& base, const PageSurface& s) {
+    Json roles = Json::array();
+    const char* names[] = {"x", "y", "z"};
+    for (const Trajectory& other : s.other_roles) {
+        const std::string here = base + "/roles/" + std::to_string(roles.size());
+        roles.push_back({{"name", name_of(other.role)}});
+        for (int axis = 0; axis < 3; ++axis) {
+            blocks.add(at(here, names[axis]), [&s, &other, axis] {
+                return pack_kept(*s.kept, position_quantum,
+                                 [&](PointIndex i) { return other.at(i)[axis] - s.path->at(i)[axis]; });
+            });
+        }
+    }
+    surface_json["roles"] = std::move(roles);
+}
+
+/// Where each run of points with one line begins, whether that point is kept or not, and the line.
+struct LineRuns {
+    std::vector<std::int64_t> points, lines;
+};
+LineRuns line_runs(const LineMap& map) {
+    LineRuns runs;
+    std::vector<LineNumber> block;
+    for (PointIndex begin = 0; begin < map.count(); begin += block_points) {
+        block.resize(static_cast<std::size_t>(std::min(block_points, map.count() - begin)));
+        map.read(begin, block);
+        for (std::size_t i = 0; i < block.size(); ++i) {
+            if (!runs.lines.empty() && runs.lines.back() == block[i]) continue;
+            runs.points.push_back(begin + static_cast<PointIndex>(i));
+            runs.lines.push_back(block[i]);
+        }
+    }
+    return runs;
+}
+
+/// Per kept point: how it belongs to the way.
+std::string kinds_of(const PageSurface& s) {
+    std::string kinds(s.kept->points.size(), '\0');
+    std::size_t at = 0;
+    for (const Pass& pass : s.surface->passes) {
+        for (; at < kinds.size() && s.kept->points[at] <= pass.last; ++at)
+            kinds[at] = static_cast<char>(static_cast<int>(pass.kind) | (s.joined[at] != 0 ? 4 : 0));
+    }
+    return kinds;
+}
+
+Json surface_json(Blocks& blocks, const std::string& base, const ReportPage& page, const PageSurface& s,
+                  const std::string& name) {
+    const ClSurface& surface = *s.surface;
+    Json json{{"log", name},
+              {"role", name_of(s.path->role)},
+              {"records", s.log->records},
+              {"period_s", s.log->period},
+              {"step_over_mm", surface.step_over},
+              {"origin_mm", exact_vector(surface.positions.origin)},
+              {"position_quantum_mm", position_quantum},
+              {"time_quantum_s", time_quantum},
+              {"points", s.kept->all},
+              {"window", s.kept->window},
+              {"line_starts", s.kept->line_starts}};
+    json["columns"] = Json::object();
+    blocks.add(at(base + "/columns", "point"),
+               [&s] { return pack_numbers(std::span<const PointIndex>(s.kept->points), 1); });
+    LineRuns runs = line_runs(*s.lines);
+    blocks.add(at(base + "/columns", "run_points"),
+               [points = std::move(runs.points)] { return pack_integers(points); });
+    blocks.add(at(base + "/columns", "run_lines"), [lines = std::move(runs.lines)] { return pack_integers(lines); });
+    blocks.add(at(base + "/columns", "kind"), [&s] { return pack_bytes(kinds_of(s)); });
+    blocks.add(at(base + "/columns", "triangles"), [&s] { return pack_numbers(s.triangles, 3); });
+    blocks.add(at(base + "/columns", "segments"), [&s] { return pack_numbers(s.segments, 2); });
+    if (s.log->find("time") != nullptr) {
+        blocks.add(at(base + "/columns", "time"),
+                   [&s] { return pack_kept(*s.kept, time_quantum, [&](PointIndex i) { return s.log->time_of(i); }); });
+    }
+    add_positions(blocks, base, s);
+    std::vector<std::int64_t> passes;
+    for (const Pass& pass : surface.passes) {
+        if (pass.kind == PassKind::cut) passes.insert(passes.end(), {pass.first, pass.last});
+    }
+    json["pass_count"] = passes.size() / 2;
+    blocks.add(at(base + "/columns", "passes"), [passes = std::move(passes)] { return pack_integers(passes, 2); });
+    add_roles(blocks, json, base, s);
+    json["fields"] = Json::array();
+    for (std::size_t k = 0; k < s.fields.size(); ++k)
+        add_field(blocks, json["fields"], base, s, s.fields[k], page.ranges[k]);
+    return json;
+}
+
+Json fields_json(const ReportPage& page) {
+    Json all = Json::array();
+    for (std::size_t k = 0; k < page.surfaces.front().fields.size(); ++k) {
+        const FieldInfo& info = page.surfaces.front().fields[k].info;
+        const ShownRange& range = page.ranges[k];
+        all.push_back({{"name", info.name},
+                       {"label", info.label},
+                       {"unit", info.unit.name},
+                       {"diverging", info.scale == FieldScale::diverging},
+                       {"note", info.note},
+                       {"low", number(range.low)},
+                       {"high", number(range.high)},
+                       {"lowest", number(range.lowest)},
+                       {"highest", number(range.highest)},
+                       {"range_note", range.note}});
+    }
+    return all;
+}
+
+Json runs_json(const std::vector<DefectRun>& runs) {
+    Json all = Json::array();
+    for (const DefectRun& run : runs) {
+        all.push_back({{"pass", run.pass},
+                       {"points", {run.points.first, run.points.last}},
+                       {"lines", {run.first_line, run.last_line}}});
+    }
+    return all;
+}
+
+Json lines_json(const std::vector<std::vector<Vec3>>& lines) {
+    Json all = Json::array();
+    for (const std::vector<Vec3>& line : lines) {
+        Json corners = Json::array();
+        for (const Vec3& corner : line) {
+            for (const double c : {corner.x(), corner.y(), corner.z()})
+                corners.push_back(std::round(c / position_quantum) * position_quantum);
+        }
+        all.push_back(std::move(corners));
+    }
+    return all;
+}
+
+Json defects_json(const ReportPage& page) {
+    Json all = Json::array();
+    for (std::size_t i = 0; i < page.defects.size(); ++i) {
+        const Defect& d = page.quality.report->defects[i];
+        all.push_back({{"id", i + 1},
+                       {"severity", d.severity},
+                       {"cause", name_of(d.cause)},
+                       {"text", sentence_of(d)},
+                       {"bounds_mm", box(d.contact_bounds.isEmpty() ? d.bounds : d.contact_bounds)},
+                       {"depth_um", number(d.depth * um_per_mm, 2)},
+                       {"shape", shape_of(d)},
+                       {"point", d.point},
+                       {"runs", runs_json(d.runs)},
+                       {"neighbours", runs_json(d.neighbours)},
+                       {"outlines", lines_json(page.defects[i].outlines)}});
+        add_place(all.back(), d.place);
+        if (!page.defects[i].contact_outlines.empty())
+            all.back()["contact_outlines"] = lines_json(page.defects[i].contact_outlines);
+    }
+    return all;
+}
+
+void add_relief(Blocks& blocks, Json& manifest, const PageRelief& relief) {
+    constexpr double quantum_um = 1e-2;
+    manifest["relief"] = {{"origin_mm", exact_vector(relief.origin)},
+                          {"pitch_mm", relief.pitch},
+                          {"columns", relief.columns},
+                          {"rows", relief.rows},
+                          {"z_quantum_mm", position_quantum},
+                          {"deviation_quantum_um", quantum_um},
+                          {"low", number(relief.range.low)},
+                          {"high", number(relief.range.high)},
+                          {"lowest", number(relief.range.lowest)},
+                          {"highest", number(relief.range.highest)},
+                          {"note", relief.note}};
+    const auto steps = [](std::span<const float> values, double quantum) {
+        std::vector<std::int64_t> out;
+        std::int64_t before = 0;
+        for (const float v : values) out.push_back(before = std::isfinite(v) ? std::llround(v / quantum) : before);
+        return pack_integers(out);
+    };
+    std::string missing;
+    for (std::size_t k = 0; k < relief.z.size(); ++k)
+        missing += !std::isfinite(relief.z[k]) ? '\1' : !std::isfinite(relief.deviation[k]) ? '\2' : '\0';
+    blocks.add(at("/relief", "z"), [&relief, steps] { return steps(relief.z, position_quantum); });
+    blocks.add(at("/relief", "deviation"),
+               [&relief, steps] { return steps(relief.deviation, quantum_um / um_per_mm); });
+    blocks.add(at("/relief", "missing"), [flags = std::move(missing)] { return pack_bytes(flags); });
+}
+
+}  // namespace
+
+PageData page_data(const ReportPage& page) {
+    PageData data;
+    Blocks blocks;
+    const SourceText& text = page.quality.program->main();
+    Json& m = data.manifest;
+    m = {{"version", 1},
+         {"program", {{"name", text.name()}, {"lines", text.line_count()}}},
+         {"command",
+          {{"program", page.program},
+           {"log", page.log},
+           {"before", page.before},
+           {"options", page.reading_options},
+           {"formed", page.formed_options}}},
+         {"first_field", page.first_field}};
+    m["colour_maps"] = Json::array();
+    for (const PageColourMap& map : page.colour_maps)
+        m["colour_maps"].push_back(
+            {{"name", map.name}, {"summary", map.summary}, {"centred", map.centred}, {"rgb", to_base64(map.rgb)}});
+    m["fields"] = fields_json(page);
+    m["defects"] = defects_json(page);
+    m["surfaces"] = Json::array();
+    const std::string names[] = {page.log, page.before};
+    for (std::size_t k = 0; k < page.surfaces.size(); ++k)
+        m["surfaces"].push_back(
+            surface_json(blocks, "/surfaces/" + std::to_string(k), page, page.surfaces[k], names[k]));
+    if (page.relief) add_relief(blocks, m, *page.relief);
+    blocks.add(at("/program", "text"), [&text] { return pack_bytes(text.text()); });
+    blocks.pack(data);
+    return data;
+}
+
+}  // namespace clsurf::io

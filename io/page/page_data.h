@@ -1,0 +1,21 @@
+#pragma once
+// The data of a page: a manifest in JSON that names packed columns, and these. Used inside io only;
+// viz/page/src/manifest.ts has the same names.
+
+#include <string>
+#include <vector>
+
+#include "io/files/json_value.h"
+#include "io/page/page_pack.h"
+#include "io/page/report_page.h"
+
+namespace clsurf::io {
+
+struct PageData {
+    Json manifest;
+    std::vector<std::string> blocks;  ///< base64, by number; columns name theirs
+};
+
+[[nodiscard]] PageData page_data(const ReportPage& page);
+
+}  // namespace clsurf::io

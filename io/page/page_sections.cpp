@@ -1,0 +1,288 @@
+#include "io/page/page_sections.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/file_name.h"
+#include "core/units.h"
+#include "io/files/json_value.h"
+#include "io/page/html_text.h"
+#include "io/page/page_pack.h"
+#include "io/reports/quality_words.h"
+
+namespace clsurf::io {
+namespace {
+
+constexpr std::size_t defects_in_table = 200;
+
+/// "12 345 678" with thin spaces.
+std::string count_text(std::int64_t number) {
+    std::string digits = std::to_string(number);
+    for (auto at = static_cast<std::ptrdiff_t>(digits.size()) - 3; at > 0; at -= 3)
+        digits.insert(static_cast<std::size_t>(at), "\u202f");
+    return digits;
+}
+
+std::string duration_text(double seconds) {
+    if (seconds < 120) return fmt::format("{:.3f} s", seconds);
+    const auto whole = static_cast<long long>(seconds);
+    if (whole < 7200) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+    return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
+}
+
+/// Four digits, without an exponent where it can be avoided.
+std::string number_text(double value) {
+    return std::abs(value) >= 1e3 && std::abs(value) < 1e7 ? fmt::format("{:.0f}", value)
+                                                           : fmt::format("{:.4g}", value);
+}
+
+std::string um_text(double mm) { return std::isfinite(mm) ? fmt::format("{:.1f}", mm * um_per_mm) : "–"; }
+
+/// One fact of the summary: what it is, and its value.
+std::string fact(std::string_view name, const std::string& value, std::string_view note = {},
+                 std::string_view kind = {}) {
+    return fmt::format("<div{}><dt>{}</dt><dd>{}{}</dd></div>\n",
+                       kind.empty() ? "" : fmt::format(" class=\"{}\"", kind), html(name), html(value),
+                       note.empty() ? "" : fmt::format(" <small>{}</small>", html(note)));
+}
+
+/// What the log's metadata say of a name; empty: nothing, or no text.
+std::string metadata_text(const Log& log, const char* name) {
+    const Json json = Json::parse(log.metadata, nullptr, false);
+    if (!json.is_object() || !json.contains(name) || !json[name].is_string()) return {};
+    return json[name].get<std::string>();
+}
+
+std::string picture_html(const PagePicture& picture) {
+    return fmt::format(
+        "<figure><img alt=\"{}\" src=\"data:image/png;base64,{}\"><figcaption><b>{}</b> {}</figcaption></figure>\n",
+        html(picture.title), to_base64(picture.png), html(picture.title), html(picture.text));
+}
+
+std::string lines_text(const DefectRun& run) {
+    if (run.first_line == 0) return "–";
+    return run.first_line == run.last_line ? fmt::format("{}", run.first_line)
+                                           : fmt::format("{}–{}", run.first_line, run.last_line);
+}
+
+std::string defect_lines(const Defect& d) {
+    std::string text;
+    constexpr std::size_t shown = 4;
+    for (std::size_t k = 0; k < std::min(shown, d.runs.size()); ++k)
+        text += (k > 0 ? ", " : "") + lines_text(d.runs[k]);
+    if (d.runs.size() > shown) text += fmt::format(" and {} more", d.runs.size() - shown);
+    return text;
+}
+
+/// A bar across the page where there is no verdict.
+std::string not_judged_bar(const QualityReport& report) {
+    if (report.judgement.judged()) return {};
+    std::string text = "<p class=\"not-judged\" role=\"alert\"><b>Not judged.</b>";
+    for (const std::string& reason : report.judgement.reasons) text += " " + html(reason);
+    return text + "</p>\n";
+}
+
+/// "1 trace (in the data, hardly on the part), 2 visible (…), …".
+std::string severities_text() {
+    std::string text;
+    for (int k = 1; k <= severities; ++k)
+        text += fmt::format("{}{} {} ({})", k > 1 ? ", " : "", k, name_of_severity(k), meaning_of_severity(k));
+    return text;
+}
+
+std::string defects_section(const ReportPage& page) {
+    const QualityReport& report = *page.quality.report;
+    std::string text = "<section id=\"defects\"><h2>Defects</h2>\n";
+    if (report.step_over <= 0)
+        return text + "<p>No pass has an adjacent pass, so nothing can be compared.</p></section>\n";
+    text += fmt::format(
+        "<p><b>{}</b> {} passes, {:.3g} mm apart. A defect is a place where a pass differs from its neighbours enough to leave a mark.</p>\n",
+        html(verdict_of(report)), report.passes, report.step_over);
+    if (!report.defects.empty()) {
+        text += fmt::format(
+            "<p><a href=\"#defect-list\">All defects are listed below</a>, worst first. Severity: {}.</p>\n<div class=\"pictures\">\n",
+            severities_text());
+        for (const PageDefect& defect : page.defects) {
+            if (defect.picture) text += picture_html(*defect.picture);
+        }
+        text += "</div>\n";
+    }
+    if (!report.expected.empty())
+        text += fmt::format("<p>Not counted: {} at the border of the part, where a pass has only one neighbour.</p>\n",
+                            report.expected.size());
+    return text + "</section>\n";
+}
+
+/// At the end, because it can fill many sheets.
+std::string defect_list_section(const ReportPage& page) {
+    const QualityReport& report = *page.quality.report;
+    if (report.defects.empty()) return "";
+    const bool formed = page.quality.formed != nullptr;
+    std::string text = fmt::format(
+        "<section id=\"defect-list\"><h2>All defects</h2>\n<div class=\"wide\"><table><thead><tr><th>Rank</th><th>Severity</th><th>Finding</th><th>Times the threshold</th><th>Depth [µm]</th>{}<th>Speed [%]</th>"
+        "<th>Length [mm]</th><th>X Y Z [mm]</th><th>Lines</th></tr></thead><tbody>\n",
+        formed ? "<th>Formed [µm]</th>" : "");
+    for (std::size_t i = 0; i < std::min(defects_in_table, report.defects.size()); ++i) {
+        const Defect& d = report.defects[i];
+        text += fmt::format(
+            "<tr data-defect=\"{}\"><td>{}</td><td><span class=\"severity s{}\">{}</span> {}</td><td>{}</td><td>{:.1f}</td><td>{:.1f} {}</td>{}<td>{:+.1f}</td><td>{:.1f}</td><td>{:.2f} {:.2f} {:.2f}</td><td>{}</td></tr>\n",
+            i + 1, i + 1, d.severity, d.severity, name_of_severity(d.severity), html(sentence_of(d)), d.score,
+            d.depth * um_per_mm, shape_of(d),
+            formed ? fmt::format("<td>{}</td>", um_text(page.quality.formed->marks[i].depth)) : "",
+            100 * d.speed_mismatch, d.length, d.place.position().x(), d.place.position().y(), d.place.position().z(),
+            html(defect_lines(d)));
+    }
+    text += "</tbody></table></div>\n";
+    if (report.defects.size() > defects_in_table)
+        text += fmt::format("<p>The table stops at the first {}; <code>clsurf check</code> lists all.</p>\n",
+                            defects_in_table);
+    return text + "</section>\n";
+}
+
+std::string numbers_section(const ReportPage& page) {
+    const QualityReport& report = *page.quality.report;
+    std::string text =
+        "<section id=\"numbers\"><h2>Adjacent passes in numbers</h2>\n<div class=\"wide\"><table><thead><tr><th>Size of</th><th>50 %</th><th>90 %</th><th>99 %</th><th>maximum</th><th>unit</th></tr></thead><tbody>\n";
+    for (const PagePercentiles& row : page.percentiles) {
+        const FieldInfo* info = nullptr;
+        for (const Field& field : page.surfaces.front().fields) {
+            if (field.info.name == row.field) info = &field.info;
+        }
+        if (info == nullptr) continue;
+        text += fmt::format("<tr><td>{}</td>", html(info->label));
+        for (const double value : row.of_magnitude)
+            text += std::isfinite(value) ? fmt::format("<td>{}</td>", number_text(value)) : "<td>–</td>";
+        text += fmt::format("<td>{}</td></tr>\n", html(info->unit.name));
+    }
+    text += "</tbody></table></div>\n";
+    const std::string thresholds = thresholds_text(report);
+    if (!thresholds.empty())
+        text += fmt::format("<p>Thresholds of a defect: {}; {}.</p>\n", html(thresholds), html(report.note));
+    if (page.quality.formed != nullptr && !page.quality.formed->patches.empty()) {
+        const FormedReport& f = *page.quality.formed;
+        text += fmt::format(
+            "<p>Formed surface with {}, {} patches: Ra {:.2f}, Rz {:.2f} (at most {:.2f}), Sa {:.2f}, Sz {:.2f} µm, cut-off {:g} mm.</p>\n",
+            html(to_text(*page.quality.tool)), f.patches.size(), f.ra * um_per_mm, f.rz * um_per_mm,
+            f.patches[f.roughest].profile.rz * um_per_mm, f.sa * um_per_mm, f.sz * um_per_mm, f.cutoff);
+        text += fmt::format("<p>The form is not known on {:.0f} % of these patches: nothing is measured there.</p>\n",
+                            100 * f.unknown);
+    } else {
+        text += "<p>Roughness needs the tool: <code>--tool ball:D</code>.</p>\n";
+    }
+    return text + "</section>\n";
+}
+
+std::string health_section(const ReportPage& page) {
+    std::string text = "<section id=\"health\"><h2>Can the log be trusted?</h2>\n";
+    if (page.health.empty()) return text + "<p>No problems found.</p></section>\n";
+    text += "<ul>\n";
+    for (const Diagnostic& d : page.health.summary()) {
+        const std::string where = d.where.text();
+        text += fmt::format("<li class=\"{}\"><b>{}</b> {}{}{}{}</li>\n", name_of(d.severity), name_of(d.severity),
+                            html(where), where.empty() ? "" : ": ", html(d.text),
+                            d.hint.empty() ? "" : fmt::format(" <small>{}</small>", html(d.hint)));
+    }
+    return text + "</ul></section>\n";
+}
+
+std::string kept_text(const PageSurface& surface) {
+    const KeptPoints& kept = *surface.kept;
+    const std::string log = html(file_name(surface.log->name));
+    if (!kept.reduced())
+        return fmt::format("<li>{}: all {} points are in this page.</li>\n", log, count_text(kept.all));
+    return fmt::format(
+        "<li>{}: {} of {} points are in this page. Of each {} consecutive points of a pass, the page keeps the first one and the lowest and highest value of each field. It also keeps "
+        "the ends of passes, {}and {}. The first and last point of each line is known for all lines. Numbers, percentiles, "
+        "defects and pictures on this page use all points.</li>\n",
+        log, count_text(static_cast<std::int64_t>(kept.points.size())), count_text(kept.all), count_text(kept.window),
+        kept.line_starts ? "the first point of each line, " : "",
+        kept.whole_defects == kept.defects
+            ? "every point of a defect and of the passes adjacent to it"
+            : fmt::format(
+                  "every point of {} of {} defects and of the passes adjacent to them (the others are too large)",
+                  kept.whole_defects, kept.defects));
+}
+
+std::string contents_section(const ReportPage& page) {
+    std::string text = "<section id=\"contents\"><h2>Contents of this page</h2>\n<ul>\n";
+    for (const PageSurface& surface : page.surfaces) text += kept_text(surface);
+    text += fmt::format(
+        "<li>Positions in steps of 0.1 µm, values in steps of 1/32768 of the colour range; size limit {:.4g} MB (<code>--max-size</code>).</li>\n",
+        static_cast<double>(page.most_bytes) / 1e6);
+    for (const Field& field : page.surfaces.front().fields) {
+        if (!field.info.note.empty())
+            text += fmt::format("<li>{}: {}.</li>\n", html(field.info.label), html(field.info.note));
+    }
+    return text + "</ul></section>\n";
+}
+
+}  // namespace
+
+std::string page_title(const ReportPage& page) { return file_name(page.program) + " · " + file_name(page.log); }
+
+std::string page_summary(const ReportPage& page) {
+    const PageSurface& s = page.surfaces.front();
+    const QualityReport& report = *page.quality.report;
+    const Log& log = *s.log;
+    std::string text =
+        fmt::format("<header id=\"summary\">\n<h1>{} <small>{}{}</small></h1>\n<dl>\n", html(file_name(page.program)),
+                    html(file_name(page.log)), page.before.empty() ? "" : html(" · before: " + file_name(page.before)));
+    const std::string machine = metadata_text(log, "machine");
+    if (!machine.empty()) text += fact("Machine", machine);
+    text +=
+        fact("Duration", duration_text(log.time_of(log.records - 1)), fmt::format("every {:g} ms", log.period * 1e3));
+    text += fact("Points", count_text(log.records), fmt::format("{} log", log.format));
+    text += fact("Passes", count_text(report.passes),
+                 report.step_over > 0 ? fmt::format("{:.3g} mm apart", report.step_over) : "");
+    int worst = 0;
+    double deepest = 0;
+    for (const Defect& d : report.defects) {
+        worst = std::max(worst, d.severity);
+        deepest = std::max(deepest, d.depth);
+    }
+    const bool judged = report.judgement.judged();
+    text += fact("Defects", judged ? fmt::format("{}", report.defects.size()) : "not judged",
+                 judged                   ? worst > 0 ? name_of_severity(worst) : std::string_view()
+                                   : report.defects.empty() ? ""
+                                          : fmt::format("{} found", report.defects.size()),
+                 !judged || worst > 2 ? "bad"
+                 : worst > 0          ? "fair"
+                                      : "good");
+    if (worst > 0) text += fact("Deepest", um_text(deepest) + " µm");
+    for (const PagePercentiles& row : page.percentiles) {
+        if (row.field == "speed_mismatch" && std::isfinite(row.of_magnitude[2]))
+            text += fact("Speed mismatch",
+                         fmt::format("{:.{}f} mm/min", row.of_magnitude[2], row.of_magnitude[2] < 10 ? 2 : 0), "99 %");
+    }
+    if (page.quality.formed != nullptr && !page.quality.formed->patches.empty()) {
+        text += fact("Roughness", fmt::format("Rz {:.2f} µm", page.quality.formed->rz * um_per_mm),
+                     fmt::format("Ra {:.2f} µm, {}", page.quality.formed->ra * um_per_mm, to_text(*page.quality.tool)));
+    }
+    std::size_t warnings = 0;
+    for (const Diagnostic& d : page.health.kept()) warnings += d.severity == Severity::note ? 0 : 1;
+    text += fact("Log health",
+                 page.health.has_errors() ? "errors"
+                 : warnings > 0           ? "warnings"
+                                          : "sound",
+                 warnings > 0 ? fmt::format("{} found", warnings) : "",
+                 page.health.has_errors() ? "bad"
+                 : warnings > 0           ? "fair"
+                                          : "good");
+    return text + "</dl>\n" + not_judged_bar(report) + "</header>\n";
+}
+
+std::string page_sections(const ReportPage& page) {
+    std::string text = "<main id=\"report\">\n";
+    if (!page.pictures.empty()) {
+        text += "<section id=\"maps\"><h2>Maps</h2>\n<div class=\"pictures large\">\n";
+        for (const PagePicture& picture : page.pictures) text += picture_html(picture);
+        text += "</div></section>\n";
+    }
+    text += defects_section(page) + numbers_section(page) + health_section(page) + defect_list_section(page) +
+            contents_section(page);
+    return text + "</main>\n";
+}
+
+}  // namespace clsurf::io

@@ -1,0 +1,11 @@
+#pragma once
+// The tool that a log's metadata name: {"tool": "ball:6"}, in the words of machined/tool.h.
+
+#include <string>
+
+namespace clsurf::io {
+
+/// Empty: they name none.
+[[nodiscard]] std::string tool_of_metadata(const std::string& metadata);
+
+}  // namespace clsurf::io

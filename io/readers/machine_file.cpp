@@ -1,0 +1,218 @@
+// Machine files: speeds mm/min, accelerations mm/s², jerks mm/s³, lengths mm, times s; rotary axes in
+// deg in place of mm.
+#include "io/readers/machine_file.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/spelling.h"
+#include "core/units.h"
+#include "io/files/toml_table.h"
+#include "io/readers/kinematics_section.h"
+
+namespace clsurf::io {
+namespace {
+
+constexpr double no_bound = std::numeric_limits<double>::infinity();
+
+enum class Low : unsigned char { above_zero, zero };
+
+/// Takes the value of a key, if it is given and possible: value = given · factor.
+void take(const TomlFile& file, const toml::table& table, std::string_view key, double& value, Low low,
+          double factor = 1.0, double high = no_bound) {
+    const std::optional<double> given = file.number(table, key);
+    if (!given) return;
+    const bool possible = (low == Low::zero ? *given >= 0 : *given > 0) && *given <= high;
+    if (!possible) {
+        const std::string from = low == Low::zero ? "0 or more" : "more than 0";
+        const std::string to = high < no_bound ? fmt::format(", at most {}", high) : std::string();
+        file.fail(*table.get(key), fmt::format("'{}' is {}, expected {}{}", key, *given, from, to));
+    }
+    value = *given * factor;
+}
+
+/// One of the words of a key.
+std::string_view take_word(const TomlFile& file, const toml::table& table, std::string_view key,
+                           std::span<const std::string_view> words) {
+    const std::optional<std::string> given = file.text(table, key);
+    if (!given) return {};
+    const auto found = std::find(words.begin(), words.end(), *given);
+    if (found == words.end()) {
+        std::string hint = did_you_mean(*given, words);
+        if (hint.empty()) hint = fmt::format("one of: {}", fmt::join(words, ", "));
+        file.fail(*table.get(key), fmt::format("'{}' is '{}', which is not known", key, *given), hint);
+    }
+    return *found;
+}
+
+/// One of the values of an enumeration, by its name.
+template <std::size_t Count, typename Mode>
+void take_mode(const TomlFile& file, const toml::table& table, std::string_view key, Mode& value) {
+    std::array<std::string_view, Count> names;
+    for (std::size_t i = 0; i < Count; ++i) names[i] = name_of(static_cast<Mode>(i));
+    const std::string_view name = take_word(file, table, key, names);
+    if (!name.empty()) value = static_cast<Mode>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+void read_controller(const TomlFile& file, const toml::table& table, ControllerSettings& c) {
+    file.allow(table, {"period", "lookahead_blocks", "corner", "curve", "tolerance", "chord_tolerance", "block_time",
+                       "feed_override"});
+    take(file, table, "period", c.period, Low::above_zero, 1.0, 1.0);
+    if (const auto blocks = file.integer(table, "lookahead_blocks", 2, 100000))
+        c.lookahead_blocks = static_cast<int>(*blocks);
+    take_mode<3>(file, table, "corner", c.corner);
+    take_mode<3>(file, table, "curve", c.curve);
+    take(file, table, "tolerance", c.tolerance, Low::above_zero);
+    take(file, table, "chord_tolerance", c.chord_tolerance, Low::above_zero);
+    take(file, table, "block_time", c.block_time, Low::zero, 1.0, 1.0);
+    constexpr double percent = 0.01;
+    take(file, table, "feed_override", c.feed_override, Low::above_zero, percent, 1000);
+}
+
+void read_path(const TomlFile& file, const toml::table& table, PathLimits& path) {
+    file.allow(table, {"max_speed", "max_acceleration", "max_normal_acceleration", "max_jerk"});
+    take(file, table, "max_speed", path.max_speed, Low::above_zero, 1 / seconds_per_minute);
+    take(file, table, "max_acceleration", path.max_acceleration, Low::above_zero);
+    take(file, table, "max_normal_acceleration", path.max_normal_acceleration, Low::above_zero);
+    take(file, table, "max_jerk", path.max_jerk, Low::above_zero);
+}
+
+void read_travel(const TomlFile& file, const toml::table& table, double factor, MachineAxis& axis) {
+    const toml::node* node = table.get("travel");
+    if (node == nullptr) return;
+    const toml::array* ends = node->as_array();
+    if (ends == nullptr || ends->size() != 2 || !ends->get(0)->is_number() || !ends->get(1)->is_number()) {
+        file.fail(*node, "'travel' must be two numbers, [low, high]");
+    }
+    const double low = *ends->get(0)->value<double>();
+    const double high = *ends->get(1)->value<double>();
+    if (!(low < high)) file.fail(*node, fmt::format("travel is reversed: [{}, {}]", low, high));
+    axis.travel_low = low * factor;
+    axis.travel_high = high * factor;
+}
+
+void read_servo(const TomlFile& file, const toml::table& table, double period, double factor, ServoModel& servo) {
+    file.allow(table, {"position_gain", "velocity_feedforward", "velocity_time_constant", "quantum", "noise",
+                       "backlash", "friction"});
+    // A discrete loop with a gain of more than 1/period per step swings up.
+    take(file, table, "position_gain", servo.position_gain, Low::above_zero, 1.0, 1 / period);
+    take(file, table, "velocity_feedforward", servo.velocity_feedforward, Low::zero, 1.0, 2.0);
+    take(file, table, "velocity_time_constant", servo.velocity_time_constant, Low::zero);
+    take(file, table, "quantum", servo.quantum, Low::zero, factor);
+    take(file, table, "noise", servo.noise, Low::zero, factor);
+    take(file, table, "backlash", servo.backlash, Low::zero, factor);
+    take(file, table, "friction", servo.friction, Low::zero, factor / seconds_per_minute);
+    // Kv·T_v of 1 and more: the loop s(1 + s T_v) + Kv rings with hardly any damping.
+    if (servo.position_gain * servo.velocity_time_constant >= 1) {
+        file.fail(
+            table,
+            fmt::format("the loop does not settle: position_gain {} · velocity_time_constant {} must be less than 1",
+                        servo.position_gain, servo.velocity_time_constant));
+    }
+}
+
+void read_axis(const TomlFile& file, const toml::table& table, std::vector<std::string_view>& seen, Machine& machine) {
+    file.allow(table, {"name", "travel", "max_speed", "max_acceleration", "max_jerk", "servo"});
+    std::vector<std::string_view> names(axis_names.begin(), axis_names.end());
+    const Kinematics& kinematics = machine.kinematics;
+    if (kinematics.has_rotary())
+        names.insert(names.end(), {{&kinematics.tilt.letter, 1}, {&kinematics.rotation.letter, 1}});
+    const std::string_view name = take_word(file, table, "name", names);
+    if (name.empty()) file.fail(table, "axis without 'name'");
+    if (std::find(seen.begin(), seen.end(), name) != seen.end())
+        file.fail(*table.get("name"), fmt::format("axis '{}' is there twice", name));
+    seen.push_back(name);
+    const auto index = static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+    const bool rotary = index >= axis_names.size();
+    MachineAxis& axis = rotary ? machine.rotary[index - axis_names.size()] : machine.axes[index];
+    const double factor = rotary ? rad_per_deg : 1.0;
+    read_travel(file, table, factor, axis);
+    take(file, table, "max_speed", axis.max_speed, Low::above_zero, factor / seconds_per_minute);
+    take(file, table, "max_acceleration", axis.max_acceleration, Low::above_zero, factor);
+    take(file, table, "max_jerk", axis.max_jerk, Low::zero, factor);
+    if (const toml::table* servo = file.section(table, "servo"))
+        read_servo(file, *servo, machine.controller.period, factor, axis.servo);
+}
+
+std::string axis_text(std::string_view name, const MachineAxis& a, double factor) {
+    const auto whole = [&](double value) { return settled_number(value / factor); };
+    std::string text =
+        fmt::format("\n[[axis]]\nname = \"{}\"\ntravel = [{}, {}]\n", name, whole(a.travel_low), whole(a.travel_high));
+    text += fmt::format("max_speed = {}\nmax_acceleration = {}\n", whole(a.max_speed * seconds_per_minute),
+                        whole(a.max_acceleration));
+    text += fmt::format("max_jerk = {}               # 0: not limited\n[axis.servo]\n", whole(a.max_jerk));
+    text += fmt::format("position_gain = {}            # 1/s\n", a.servo.position_gain);
+    text += fmt::format("velocity_feedforward = {}    # 1: no lag at constant speed\n", a.servo.velocity_feedforward);
+    text += fmt::format("velocity_time_constant = {}\n", a.servo.velocity_time_constant);
+    text += fmt::format("quantum = {}               # encoder step; 0: none\n", whole(a.servo.quantum));
+    text += fmt::format("noise = {}                    # rms\n", whole(a.servo.noise));
+    text += fmt::format("backlash = {}                 # play between drive and table\n", whole(a.servo.backlash));
+    return text + fmt::format("friction = {}                 # speed lost to Coulomb friction, {}/min\n",
+                              whole(a.servo.friction * seconds_per_minute), factor == 1 ? "mm" : "deg");
+}
+
+/// A text as TOML writes it: in quotes, with what may not stand there escaped.
+std::string quoted(const std::string& text) {
+    std::ostringstream out;
+    const toml::value<std::string> value(text);
+    out << toml::toml_formatter(value, toml::format_flags::none);
+    return out.str();
+}
+
+}  // namespace
+
+Machine read_machine(const std::string& path) {
+    const TomlFile file(path);
+    const toml::table& root = file.root();
+    file.allow(root, {"name", "controller", "path", "axis", "kinematics"});
+    Machine machine;
+    machine.name = file.text(root, "name").value_or(machine.name);
+    if (const toml::table* table = file.section(root, "controller")) read_controller(file, *table, machine.controller);
+    if (const toml::table* table = file.section(root, "path")) read_path(file, *table, machine.path);
+    // Which rotary axes there can be, the kinematics say.
+    if (const toml::table* table = file.section(root, "kinematics")) machine.kinematics = read_kinematics(file, *table);
+    if (const toml::array* axes = file.tables(root, "axis")) {
+        std::vector<std::string_view> seen;
+        for (const toml::node& node : *axes) read_axis(file, *node.as_table(), seen, machine);
+    }
+    return machine;
+}
+
+std::string machine_text(const Machine& machine) {
+    const ControllerSettings& c = machine.controller;
+    const PathLimits& p = machine.path;
+    std::string text = "# Speeds mm/min, accelerations mm/s², jerks mm/s³, lengths mm, times s.\n";
+    text += fmt::format("name = {}\n\n[controller]\n", quoted(machine.name));
+    text += fmt::format("period = {}                # interpolation period\n", c.period);
+    text += fmt::format("lookahead_blocks = {}\n", c.lookahead_blocks);
+    text += fmt::format(
+        "corner = \"{}\"                # rounded inside the tolerance: by arcs, with a jerk limit by a spline; spline: always; stop: exact stop\n",
+        name_of(c.corner));
+    text += fmt::format("curve = \"{}\"                   # through short lines: akima, least-squares or none\n",
+                        name_of(c.curve));
+    text +=
+        fmt::format("tolerance = {}              # of corners and path; G64 P in a program replaces it\n", c.tolerance);
+    text += fmt::format("chord_tolerance = {}       # of the steps of a period against arcs\n", c.chord_tolerance);
+    text += fmt::format("block_time = {}                # s, a block takes no less; 0: not limited\n", c.block_time);
+    text += fmt::format("feed_override = {}           # %, of programmed feeds\n\n[path]\n",
+                        settled_number(c.feed_override * 100));
+    text += fmt::format("max_speed = {}\n", settled_number(p.max_speed * seconds_per_minute));
+    text += fmt::format("max_acceleration = {}        # tangential\n", p.max_acceleration);
+    text += fmt::format("max_normal_acceleration = {}\n", p.max_normal_acceleration);
+    text += fmt::format("max_jerk = {}               # tangential\n", p.max_jerk);
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) text += axis_text(axis_names[i], machine.axes[i], 1);
+    const Kinematics& k = machine.kinematics;
+    if (k.has_rotary()) {
+        text += axis_text({&k.tilt.letter, 1}, machine.rotary[0], rad_per_deg);
+        text += axis_text({&k.rotation.letter, 1}, machine.rotary[1], rad_per_deg);
+    }
+    return text + kinematics_text(k);
+}
+
+}  // namespace clsurf::io

@@ -1,0 +1,71 @@
+#include "io/readers/part_file.h"
+
+#include <charconv>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "io/files/compressed.h"
+#include "io/formats/program_identity.h"
+#include "io/readers/log_tool.h"
+#include "io/readers/tool_table_file.h"
+
+namespace clsurf::io {
+std::optional<CuttingTool> tool_of_log(const Log& log) {
+    const std::string recorded = tool_of_metadata(log.metadata);
+    if (recorded.empty()) return std::nullopt;
+    try {
+        return parse_tool(recorded);
+    } catch (const UsageError& error) {
+        throw InputError(Place::of_file(log.name), fmt::format("its metadata: {}", error.what()));
+    }
+}
+
+std::optional<CuttingTool> tool_of_table(const std::string& path, const Program& program) {
+    const ToolTable table = read_tool_table(open_source(path));
+    std::optional<CuttingTool> known;
+    for (const ProgramEvent& event : program.events) {
+        if (event.name != "tool" || !event.value.starts_with("T")) continue;
+        int number = 0;
+        const char* end = event.value.data() + event.value.size();
+        if (std::from_chars(event.value.data() + 1, end, number).ec != std::errc()) return std::nullopt;
+        if (number == 0) continue;
+        const Tool* row = table.find(number);
+        const std::optional<CuttingTool> tool =
+            row != nullptr ? tool_of_remark(row->remark, row->diameter) : std::nullopt;
+        if (!tool || (known && *known != *tool)) return std::nullopt;
+        known = tool;
+    }
+    return known;
+}
+
+Part read_part(const PartFiles& files, PartRules rules, const Stages& stages) {
+    if (files.program.empty()) {
+        begin_stage(stages, "open the log");
+        return assemble(open_log(files.log, files.log_options), rules);
+    }
+    begin_stage(stages, "read the program");
+    const Source source = open_source(files.program);
+    ProgramOptions as_programmed = files.program_options;
+    as_programmed.coordinates.reset();  // the log may say where the program's zero lies
+    Program program = read_program(source, as_programmed);
+    begin_stage(stages, "open the log");
+    Log log = open_log(files.log, files.log_options);
+    rules.identity = check_identity(source, log, log.diagnostics);
+    begin_stage(stages, "map points to lines");
+    Part part = assemble(std::move(program), std::move(log), rules);
+    if (!part.tool && files.recorded_tool) {
+        part.tool = tool_of_log(part.log);
+        const std::string& table = files.program_options.tools;
+        if (!part.tool && !table.empty()) part.tool = tool_of_table(table, part.program);
+    }
+    return part;
+}
+
+Part read_part(const std::string& program, const std::string& log, const PartRules& rules) {
+    return read_part(PartFiles{program, log, {}, {}, true}, rules);
+}
+
+}  // namespace clsurf::io

@@ -1,0 +1,246 @@
+#include "io/reports/quality_report.h"
+
+#include <algorithm>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "io/files/json_value.h"
+#include "io/reports/defect_json.h"
+#include "io/reports/line_ranges.h"
+#include "io/reports/quality_words.h"
+
+namespace clsurf::io {
+namespace {
+
+constexpr double worth_saying = 0.005;  ///< share without a form that the text names
+
+double um(double mm) { return mm * um_per_mm; }
+double per_minute(double per_second) { return per_second * seconds_per_minute; }
+
+/// The defects, with what the formed surface and the colours say of each.
+Json looked_at_defects(const ReportedQuality& q) {
+    Json all = list_defects(q.report->defects, q.scallop);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (q.formed != nullptr) {
+            const FormedMark& mark = q.formed->marks[i];
+            all[i]["formed_um"] = number(um(mark.depth), 2);
+            all[i]["formed_note"] = mark.note == MarkNote::none ? Json(nullptr) : Json(std::string(name_of(mark.note)));
+        }
+        if (i < q.colour_differences.size()) all[i]["delta_e00"] = number(q.colour_differences[i], 1);
+    }
+    return all;
+}
+
+void add_roughness(Json& summary, const FormedReport& f) {
+    const auto known = [&](double mm) { return f.patches.empty() ? Json(nullptr) : number(um(mm), 3); };
+    summary["ra_um"] = known(f.ra);
+    summary["rz_um"] = known(f.rz);
+    summary["rz_most_um"] = known(f.patches.empty() ? 0 : f.patches[f.roughest].profile.rz);
+    summary["sa_um"] = known(f.sa);
+    summary["sq_um"] = known(f.sq);
+    summary["sz_um"] = known(f.sz);
+    summary["roughness_cutoff_mm"] = number(f.cutoff);
+    summary["roughness_patches"] = f.patches.size();
+    summary["form_unknown_percent"] = number(100 * f.unknown, 1);
+}
+
+Json patches_json(const FormedReport& f) {
+    Json all = Json::array();
+    for (const RoughPatch& patch : f.patches) {
+        all.push_back({{"point", patch.point},
+                       {"position_mm", vector(patch.contact)},
+                       {"ra_um", number(um(patch.profile.ra), 3)},
+                       {"rq_um", number(um(patch.profile.rq), 3)},
+                       {"rz_um", number(um(patch.profile.rz), 3)},
+                       {"sa_um", number(um(patch.area.sa), 3)},
+                       {"sq_um", number(um(patch.area.sq), 3)},
+                       {"sz_um", number(um(patch.area.sz), 3)},
+                       {"form_unknown_percent", number(100 * patch.unknown, 1)}});
+    }
+    return all;
+}
+
+/// The verdict, and what stands out most.
+std::string verdict_text(const QualityReport& r) {
+    std::string text;
+    if (r.judgement.judged()) {
+        text = verdict_of(r) + "\n";
+    } else {
+        for (const std::string& reason : r.judgement.reasons) text += fmt::format("NOT JUDGED: {}\n", reason);
+    }
+    if (r.defects.empty()) return text;
+    constexpr std::size_t most_ranges = 3;
+    const Defect& worst = r.defects.front();
+    return text +
+           fmt::format("Stands out most: {}, lines {}.\n\n", sentence_of(worst), line_ranges(worst.runs, most_ranges));
+}
+
+/// Few enough to fit beside the numbers.
+std::string lines_column(const Defect& d) {
+    constexpr std::size_t widest = 21;
+    std::string text;
+    for (std::size_t shown = 3; shown > 0; --shown) {
+        text = line_ranges(d.runs, shown);
+        if (text.size() <= widest) break;
+    }
+    return text;
+}
+
+/// Why depths in the as-machined surface are missing, or other than those of the passes alone: a line a reason.
+std::string formed_notes(const ReportedQuality& q) {
+    std::string text;
+    for (const MarkNote note :
+         {MarkNote::unknown_form, MarkNote::uneven_passes, MarkNote::cut_away, MarkNote::other_passes}) {
+        std::string ranks;
+        for (std::size_t i = 0; i < q.formed->marks.size(); ++i) {
+            if (q.formed->marks[i].note == note && !q.report->defects[i].systematic)
+                ranks += fmt::format("{}{}", ranks.empty() ? "" : ", ", i + 1);
+        }
+        if (!ranks.empty()) text += fmt::format("formed {}: {}\n", ranks, sentence_of(note));
+    }
+    return text.empty() ? text : "\n" + text;
+}
+
+/// A row each, at most 120 columns wide.
+std::string defects_table(const ReportedQuality& q) {
+    const QualityReport& r = *q.report;
+    if (r.defects.empty()) return {};
+    const bool formed = q.formed != nullptr;
+    std::string text = fmt::format("{:>4} {:<8} {:<13} {:>7} {:>7} {:>14} {:>7}{}  {:<22} {}\n", "rank", "severity",
+                                   "cause", "times", "speed", "depth", "length", formed ? "  formed" : "",
+                                   fmt::format("{} X Y Z", place_word(r.defects.front().place)), "lines");
+    text += fmt::format("{:>4} {:<8} {:<13} {:>7} {:>7} {:>14} {:>7}{}  {:<22}\n", "", "", "", "limit", "[%]", "[µm]",
+                        "[mm]", formed ? "    [µm]" : "", "[mm]");
+    for (std::size_t i = 0; i < r.defects.size(); ++i) {
+        const Defect& d = r.defects[i];
+        const Vec3& at = d.place.position();
+        const double mark =
+            formed && !d.systematic ? um(q.formed->marks[i].depth) : std::numeric_limits<double>::quiet_NaN();
+        const std::string depth = d.systematic         ? fmt::format("±{:.1f}", um(d.depth))
+                                  : um(d.depth) < 0.05 ? "0.0"
+                                                       : fmt::format("{:.1f} {}", um(d.depth), shape_of(d));
+        text += fmt::format("{:>4} {:<8} {:<13} {:>7.1f} {:>+7.1f} {:>14} {:>7.1f}{}  {:<22} {}\n", i + 1,
+                            name_of_severity(d.severity), name_of(d.cause), d.score, 100 * d.speed_mismatch + 0.0,
+                            depth, d.length,
+                            !formed        ? ""
+                            : mark == mark ? fmt::format(" {:>7.1f}", mark)
+                                           : "       -",
+                            fmt::format("{:.2f} {:.2f} {:.2f}", at.x(), at.y(), at.z()), lines_column(d));
+    }
+    if (formed) text += formed_notes(q);
+    return text + "\n";
+}
+
+}  // namespace
+
+std::string quality_json(const ReportedQuality& q) {
+    const QualityReport& r = *q.report;
+    Json budget = Json::array();
+    for (const BudgetLine& line : q.budget) {
+        budget.push_back({{"name", line.name},
+                          {"limit", number(line.limit)},
+                          {"measured", number(line.measured, 3)},
+                          {"held", line.held}});
+    }
+    const auto quantity = [&](const std::array<float, quantities>& values, Quantity which) {
+        return static_cast<double>(values[index_of(which)]);
+    };
+    Json thresholds{{"speed_percent", number(100 * quantity(r.thresholds.of, Quantity::speed), 3)},
+                    {"acceleration_mm_s2", number(quantity(r.thresholds.of, Quantity::acceleration), 2)},
+                    {"lag_um", r.has_lag ? number(um(quantity(r.thresholds.of, Quantity::lag)), 3) : Json(nullptr)},
+                    {"relief_um", number(um(quantity(r.thresholds.of, Quantity::relief)), 3)}};
+    Json summary{{"judged", r.judgement.judged()},
+                 {"not_judged_reasons", r.judgement.reasons},
+                 {"verdict", verdict_of(r)},
+                 {"points", r.points},
+                 {"passes", r.passes},
+                 {"defects", r.defects.size()},
+                 {"expected", r.expected.size()},
+                 {"worst_severity", r.worst_severity()},
+                 {"scallop_um", number(um(q.scallop), 3)},
+                 {"step_over_mm", number(r.step_over, 4)},
+                 {"coverage_percent", number(100 * r.coverage(), 2)},
+                 {"not_finishing_percent", number(100 * r.not_finishing_share(), 2)},
+                 {"measured_positions", r.has_lag},
+                 {"speed_mismatch_p99_percent", number(100 * quantity(r.thresholds.p99, Quantity::speed), 3)},
+                 {"acceleration_mismatch_p99_mm_s2", number(quantity(r.thresholds.p99, Quantity::acceleration), 2)},
+                 {"thresholds", std::move(thresholds)},
+                 {"filter", r.note},
+                 {"tool", q.tool ? Json(to_text(*q.tool)) : Json(nullptr)},
+                 {"budget", std::move(budget)},
+                 {"within_budget", r.judgement.judged() && all_held(q.budget)}};
+    if (q.formed != nullptr) add_roughness(summary, *q.formed);
+    Json json{{"defects", looked_at_defects(q)},
+              {"expected", list_defects(q.report->expected, q.scallop)},
+              {"summary", std::move(summary)}};
+    if (q.formed != nullptr) json["roughness"] = patches_json(*q.formed);
+    json["diagnostics"] = list(*q.diagnostics);
+    return dump(json);
+}
+
+std::string quality_csv(const ReportedQuality& q) {
+    std::string text =
+        "id,severity,cause,pass,first_line,last_line,first_point,last_point,x [mm],y [mm],z [mm],depth [µm],shape,"
+        "speed jump [mm/min],acceleration jump [mm/s²],length [mm],area [mm²],score,speed jump [%],quantity,systematic,place\n";
+    for (std::size_t i = 0; i < q.report->defects.size(); ++i) {
+        const Defect& d = q.report->defects[i];
+        const Vec3& at = d.place.position();
+        for (const DefectRun& run : d.runs) {
+            text += fmt::format(
+                "{},{},{},{},{},{},{},{},{:.4f},{:.4f},{:.4f},{:.3f},{},{:.1f},{:.1f},{:.3f},{:.4f},{:.2f},{:.1f},{},{},{}\n",
+                i + 1, d.severity, name_of(d.cause), run.pass, run.first_line, run.last_line, run.points.first,
+                run.points.last, at.x(), at.y(), at.z(), um(d.depth), shape_of(d), per_minute(d.speed_jump),
+                d.acceleration_jump, d.length, d.area, d.score, 100 * d.speed_mismatch, name_of(d.quantity),
+                d.systematic, place_word(d.place));
+        }
+    }
+    return text;
+}
+
+std::string quality_text(const ReportedQuality& q) {
+    const QualityReport& r = *q.report;
+    std::string text = verdict_text(r) + defects_table(q);
+    if (r.passes < 2 || r.step_over <= 0) {
+        text += "no adjacent passes: nothing to compare\n";
+    } else {
+        text += fmt::format(
+            "{} {} on {} passes, {:.3g} mm apart; {:.1f} % of {} cutting points compared with both neighbours\n",
+            r.defects.size(), r.defects.size() == 1 ? "defect" : "defects", r.passes, r.step_over, 100 * r.coverage(),
+            r.points);
+        if (r.not_finishing > 0)
+            text += fmt::format(
+                "{:.1f} % of all cutting points belong to pockets, drilling or single contours: not finishing passes\n",
+                100 * r.not_finishing_share());
+        const std::string thresholds = thresholds_text(r);
+        if (!thresholds.empty()) text += fmt::format("thresholds: {}; {}\n", thresholds, r.note);
+        if (q.scallop > 0)
+            text += fmt::format("scallop between clean passes with {}: {:.2f} µm\n", to_text(*q.tool), um(q.scallop));
+        if (q.formed != nullptr && !q.formed->patches.empty()) {
+            const FormedReport& f = *q.formed;
+            const RoughPatch& roughest = f.patches[f.roughest];
+            text += fmt::format(
+                "formed surface, {} patches: Ra {:.2f}, Rz {:.2f} (at most {:.2f}, at {:.2f} {:.2f} {:.2f}), Sa {:.2f}, Sz {:.2f} µm, cut-off {:g} mm\n",
+                f.patches.size(), um(f.ra), um(f.rz), um(roughest.profile.rz), roughest.contact.x(),
+                roughest.contact.y(), roughest.contact.z(), um(f.sa), um(f.sz), f.cutoff);
+            if (f.unknown >= worth_saying)
+                text += fmt::format(
+                    "form not known on {:.0f} % of these patches (creases, fillets, borders): not measured there\n",
+                    100 * f.unknown);
+        }
+        if (!r.has_lag) text += "no measured positions: depths are those of the commanded path alone\n";
+        if (!r.expected.empty())
+            text += fmt::format("{} more at the border of the part, where a pass has one neighbour only: not counted\n",
+                                r.expected.size());
+    }
+    for (const BudgetLine& line : q.budget) {
+        text += fmt::format("budget {:<28} {:>10.4g} of {:<10.4g} {}\n", line.name, line.measured, line.limit,
+                            !r.judgement.judged() ? "NOT JUDGED"
+                            : line.held           ? "held"
+                                                  : "NOT HELD");
+    }
+    return text;
+}
+
+}  // namespace clsurf::io

@@ -1,0 +1,38 @@
+#pragma once
+// The predictor's report as JSON, CSV, SARIF 2.1.0 and as a table for people.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/diagnostic.h"
+#include "machined/as_machined_report.h"
+#include "machined/tool.h"
+#include "predictor/defects.h"
+#include "predictor/verdict.h"
+#include "program/program.h"
+
+namespace clsurf::io {
+
+/// A report with what it was made from.
+struct ReportedQuality {
+    const QualityReport* report = nullptr;
+    const Program* program = nullptr;
+    std::string log;  ///< its name
+    std::optional<CuttingTool> tool;
+    double scallop = 0;                      ///< [mm] between clean passes; 0: not known
+    std::vector<double> colour_differences;  ///< ΔE00 of each defect's speed and that beside it, in the map of speeds
+    const FormedReport* formed = nullptr;    ///< nullptr: the tool is not known
+    std::vector<BudgetLine> budget;
+    const Diagnostics* diagnostics = nullptr;
+};
+
+/// Keys: docs/predictor.md.
+[[nodiscard]] std::string quality_json(const ReportedQuality& quality);
+/// One row per run of a defect, columns named with their units.
+[[nodiscard]] std::string quality_csv(const ReportedQuality& quality);
+/// One result per defect on the program's line, so that editors and code review show it.
+[[nodiscard]] std::string quality_sarif(const ReportedQuality& quality);
+[[nodiscard]] std::string quality_text(const ReportedQuality& quality);
+
+}  // namespace clsurf::io

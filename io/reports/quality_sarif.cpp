@@ -1,0 +1,129 @@
+// SARIF 2.1.0 (OASIS, Static Analysis Results Interchange Format): a defect is a result at the lines of
+// its first run; its other runs and the passes beside it are related locations.
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "io/files/json_value.h"
+#include "io/reports/quality_report.h"
+#include "io/reports/quality_words.h"
+#include "io/reports/sarif.h"
+
+namespace clsurf::io {
+namespace {
+
+constexpr std::size_t most_related = 20;  ///< locations: a systematic lag has hundreds
+
+std::string_view level_of(int severity) { return severity >= 4 ? "error" : severity >= 2 ? "warning" : "note"; }
+
+Json location(const std::string& uri, const DefectRun& run, const std::string& message) {
+    return sarif_location(uri, run.first_line, run.last_line, message);
+}
+
+std::string message_of(const Defect& d) {
+    const Vec3& at = d.place.position();
+    return fmt::format("{} at the {} X {:.2f} Y {:.2f} Z {:.2f} mm. Severity {} ({}), {:.1f} times the threshold.",
+                       sentence_of(d), d.place.contact ? "contact point" : "tool tip", at.x(), at.y(), at.z(),
+                       d.severity, name_of_severity(d.severity), d.score);
+}
+
+std::string markdown_of(const Defect& d) {
+    const Vec3& at = d.place.position();
+    return fmt::format(
+        "**{}** (severity {}, {:.1f} × threshold): {}\n\n| depth | speed | length | place [mm] |\n|---|---|---|---|\n"
+        "| {:.1f} µm {} | {:+.1f} % ({:+.0f} mm/min) | {:.1f} mm | X {:.2f} Y {:.2f} Z {:.2f} |\n",
+        name_of_severity(d.severity), d.severity, d.score, sentence_of(d), d.depth * um_per_mm, shape_of(d),
+        100 * d.speed_mismatch, d.speed_jump * seconds_per_minute, d.length, at.x(), at.y(), at.z());
+}
+
+/// The same on every run of the program: what, on which pass, and about where, in cells of 5 mm.
+std::string fingerprint_of(const Defect& d, std::map<std::string, int>& seen) {
+    constexpr double cell = 5;
+    const auto coarse = [](double mm) { return static_cast<long>(std::floor(mm / cell)); };
+    std::string text = d.systematic ? std::string(rule_of(d).id)
+                                    : fmt::format("{}/{}/{}/{}/{}/{}", name_of(d.cause), name_of(d.quantity),
+                                                  d.runs.empty() ? 0 : d.runs.front().pass, coarse(d.place.tip.x()),
+                                                  coarse(d.place.tip.y()), coarse(d.place.tip.z()));
+    const int number = ++seen[text];
+    return number == 1 ? text : fmt::format("{}/{}", text, number);
+}
+
+Json rule_json(const RuleText& rule) {
+    return {{"id", rule.id},
+            {"shortDescription", {{"text", rule.what}}},
+            {"help", {{"text", rule.help}, {"markdown", rule.help}}}};
+}
+
+Json related_locations(const std::string& uri, const Defect& d) {
+    Json related = Json::array();
+    for (std::size_t k = 1; k < std::min(d.runs.size(), most_related); ++k)
+        related.push_back(location(uri, d.runs[k], fmt::format("The same defect on pass {}.", d.runs[k].pass)));
+    for (std::size_t k = 0; k < std::min(d.neighbours.size(), most_related); ++k)
+        related.push_back(location(uri, d.neighbours[k], fmt::format("Neighbouring pass {}.", d.neighbours[k].pass)));
+    for (std::size_t k = 0; k < related.size(); ++k) related[k]["id"] = k + 1;
+    return related;
+}
+
+}  // namespace
+
+std::string quality_sarif(const ReportedQuality& q) {
+    const std::string uri = sarif_uri(q.program->main().name());
+    const std::vector<Defect>& defects = q.report->defects;
+    Json rules = Json::array();
+    std::map<std::string_view, std::size_t> index_of_rule;
+    for (const Defect& d : defects) {
+        if (index_of_rule.try_emplace(rule_of(d).id, rules.size()).second) rules.push_back(rule_json(rule_of(d)));
+    }
+    std::map<std::string, int> seen;
+    Json results = Json::array();
+    for (std::size_t i = 0; i < defects.size(); ++i) {
+        const Defect& d = defects[i];
+        const std::string_view rule = rule_of(d).id;
+        Json result{
+            {"ruleId", rule},
+            {"ruleIndex", index_of_rule.at(rule)},
+            {"level", level_of(d.severity)},
+            {"message", {{"text", message_of(d)}, {"markdown", markdown_of(d)}}},
+            {"locations", Json::array({location(uri, d.runs.empty() ? DefectRun{} : d.runs.front(), "")})},
+            {"rank", number(100.0 * static_cast<double>(defects.size() - i) / static_cast<double>(defects.size()), 1)},
+            {"partialFingerprints", {{"clsurfDefect/v1", fingerprint_of(d, seen)}}},
+            {"properties",
+             {{"id", i + 1},
+              {"severity", d.severity},
+              {"score", number(static_cast<double>(d.score), 2)},
+              {"depth_um", number(d.depth * um_per_mm, 2)},
+              {"shape", shape_of(d)},
+              {"speed_jump_percent", number(100 * d.speed_mismatch, 1)},
+              {"log", q.log}}}};
+        add_place(result["properties"], d.place);
+        Json related = related_locations(uri, d);
+        if (!related.empty()) result["relatedLocations"] = std::move(related);
+        results.push_back(std::move(result));
+    }
+    Json notifications = Json::array();
+    if (!q.report->judgement.judged()) {
+        rules.push_back(
+            {{"id", "not_judged"},
+             {"shortDescription", {{"text", "The data do not allow a verdict."}}},
+             {"help",
+              {{"text",
+                "Check that the log belongs to the program, holds whole passes, and was recorded every few milliseconds."}}}});
+        for (const std::string& reason : q.report->judgement.reasons) {
+            notifications.push_back({{"level", "error"}, {"message", {{"text", "Not judged: " + reason}}}});
+            results.push_back({{"ruleId", "not_judged"},
+                               {"ruleIndex", rules.size() - 1},
+                               {"level", "error"},
+                               {"message", {{"text", "Not judged: " + reason}}},
+                               {"locations", Json::array({sarif_location(uri, 0, 0, "")})}});
+        }
+    }
+    return sarif_text(std::move(rules), std::move(results), std::move(notifications));
+}
+
+}  // namespace clsurf::io

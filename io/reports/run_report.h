@@ -1,0 +1,38 @@
+#pragma once
+// The comparison of runs with a reference run, as JSON and as a table for people.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compare/drifted_run.h"
+#include "compare/run_budget.h"
+#include "core/diagnostic.h"
+
+namespace clsurf::io {
+
+struct ReportedRun {
+    std::string name;
+    RunReport report;
+    std::vector<BudgetLine> budget;
+};
+
+struct ReportedRuns {
+    std::string reference;  ///< the run that all are compared with
+    std::vector<ReportedRun> runs;
+    std::vector<RunDeparture> departures;  ///< of the reference, then of the runs; empty: too few
+    std::optional<std::size_t> drifted;    ///< among `departures`
+    const Diagnostics* diagnostics = nullptr;
+
+    [[nodiscard]] bool within_budget() const;
+    /// Name of a run among `departures`.
+    [[nodiscard]] const std::string& name_of(std::size_t departure) const {
+        return departure == 0 ? reference : runs[departure - 1].name;
+    }
+};
+
+/// Keys: docs/diff.md.
+[[nodiscard]] std::string runs_json(const ReportedRuns& runs);
+[[nodiscard]] std::string runs_text(const ReportedRuns& runs);
+
+}  // namespace clsurf::io

@@ -1,0 +1,110 @@
+#include "compare/knot_path.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace clsurf {
+namespace {
+
+// Lengths in mm.
+constexpr float spacing = 0.005F;            ///< of knots at least: coarser than the noise of axes that stand
+constexpr float play = 0.05F;                ///< way that the window always has
+constexpr float window_of_chord = 2.0F;      ///< way per chord: corners are cut, the chord is shorter
+constexpr float window_of_distance = 10.0F;  ///< way per distance: a foot jumps over a cut corner
+constexpr float farthest = 0.5F;             ///< distance beyond which the window grows no more
+constexpr float way_penalty = 0.02F;         ///< mm of distance per mm that way and chord differ
+constexpr float same_place = 1e-6F;          ///< of a chord
+constexpr float same_spot = 1e-6F;
+
+}  // namespace
+
+KnotPath::KnotPath(const Positions& b, const Eigen::Vector3f& shift) : b_(b), shift_(shift) {
+    Eigen::Vector3f last = Eigen::Vector3f::Zero();
+    PointIndex last_known = -1;
+    for (PointIndex i = 0; i < b.size(); ++i) {
+        const Eigen::Vector3f p = b[i];
+        if (!p.allFinite()) continue;
+        last_known = i;
+        if (!knots_.empty() && (p - last).squaredNorm() < spacing * spacing) continue;
+        knots_.push_back(i);
+        last = p;
+    }
+    // The end belongs to the path however near it lies.
+    if (last_known >= 0 && knots_.back() != last_known) knots_.push_back(last_known);
+}
+
+std::int64_t KnotPath::knot_at(PointIndex point) const {
+    const PointIndex* after = std::upper_bound(knots_.begin(), knots_.end(), point);
+    return std::max<std::int64_t>(0, after - knots_.begin() - 1);
+}
+
+PathFoot KnotPath::foot(std::int64_t knot, const Eigen::Vector3f& p, float from) const {
+    const Eigen::Vector3f a = at(point(knot));
+    const Eigen::Vector3f chord = at(point(knot + 1)) - a;
+    const float squared = chord.squaredNorm();
+    const float fraction = squared > 0 ? std::clamp((p - a).dot(chord) / squared, from, 1.0F) : 1.0F;
+    return {knot, fraction, (a + fraction * chord - p).norm()};
+}
+
+PathFoot KnotPath::advance(const PathFoot& from, const Eigen::Vector3f& p, float chord) const {
+    PathFoot best = from;
+    float best_cost = std::numeric_limits<float>::infinity();
+    float nearest = best_cost;
+    float way = 0;  // from the stand to the start of the chord in turn; negative on its own
+    for (std::int64_t k = from.knot; k + 1 < size(); ++k) {
+        const float length = (at(point(k + 1)) - at(point(k))).norm();
+        if (k == from.knot) way = -from.fraction * length;
+        const PathFoot here = foot(k, p, k == from.knot ? from.fraction : 0.0F);
+        const float cost = here.distance + way_penalty * std::abs(way + here.fraction * length - chord);
+        nearest = std::min(nearest, here.distance);
+        if (cost < best_cost) {
+            best_cost = cost;
+            best = here;
+        }
+        way += length;
+        if (way > play + window_of_chord * chord + window_of_distance * std::min(nearest, farthest)) break;
+    }
+    // The end of a chord is the start of the next, where pauses are found.
+    if (best.fraction == 1.0F && best.knot + 2 < size()) best = {best.knot + 1, 0.0F, best.distance};
+    return best;
+}
+
+Station KnotPath::station(const PathFoot& stand, const Eigen::Vector3f& p, PointIndex expected) const {
+    // Runs in step are in step: in a corner a chord cannot tell which of the points on it comes first.
+    const PointIndex before = point(std::max<std::int64_t>(0, stand.knot - 1));
+    const PointIndex after = point(std::min(size() - 1, stand.knot + 2));
+    if (expected >= before && expected <= after && (at(expected) - p).squaredNorm() < same_spot * same_spot)
+        return {expected, 0};
+    const PointIndex first = point(stand.knot);
+    const PointIndex last = point(stand.knot + 1);
+    if (last == first + 1) return stand.fraction == 1.0F ? Station{last, 0} : Station{first, stand.fraction};
+    // Points between two knots lie on their chord, in order but for what a standing axis trembles.
+    const Eigen::Vector3f a = at(first);
+    const Eigen::Vector3f chord = at(last) - a;
+    const float squared = chord.squaredNorm();
+    if (!(squared > 0)) return {std::clamp(expected, first, last), 0};
+    const auto along = [&](PointIndex i) { return (at(i) - a).dot(chord) / squared; };
+    const auto first_where = [&](auto&& holds) {
+        PointIndex low = first;
+        PointIndex high = last + 1;
+        while (low < high) {
+            const PointIndex middle = low + (high - low) / 2;
+            if (holds(along(middle)))
+                high = middle;
+            else
+                low = middle + 1;
+        }
+        return low;
+    };
+    const PointIndex from = first_where([&](float s) { return s >= stand.fraction - same_place; });
+    const PointIndex behind = first_where([&](float s) { return s > stand.fraction + same_place; });
+    if (behind > from) return {std::clamp(expected, from, behind - 1), 0};
+    if (from == first || from > last) return {std::min(from, last), 0};
+    const float low = along(from - 1);
+    const float high = along(from);
+    const float share = high > low ? std::clamp((stand.fraction - low) / (high - low), 0.0F, 1.0F) : 0.0F;
+    return share == 1.0F ? Station{from, 0} : Station{from - 1, share};
+}
+
+}  // namespace clsurf

@@ -1,0 +1,248 @@
+#include "compare/run_difference.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/block.h"
+#include "core/not_finite.h"
+#include "core/statistics.h"
+#include "field/field_set.h"
+#include "log/quantum.h"
+
+namespace clsurf {
+namespace {
+
+constexpr double smoothing_seconds = 0.015;         ///< window of the mean of lags and heights
+constexpr PointIndex feed_reach = 8;                ///< points before and after one that tell the feed there
+constexpr double least_feed = 1e-4;                 ///< [mm] of way that has a direction
+constexpr float least_tilt = 0.1F;                  ///< sine of the feed's angle to Z: steeper, it has no upper side
+constexpr std::int64_t points_for_usual = 200'000;  ///< that usual values are taken from
+
+constexpr auto quantity_table = std::to_array<RunQuantityInfo>({
+    {RunQuantity::speed, "speed", "Path speed", unit::mm_min, "mm_min"},
+    {RunQuantity::acceleration, "acceleration", "Acceleration", unit::mm_s2, "mm_s2"},
+    {RunQuantity::lag, "lag", "Lag along the feed", unit::um, "um"},
+    {RunQuantity::height, "height", "Height of the path", unit::um, "um"},
+});
+
+/// The unit vector of the feed at a point of a trajectory; NaN where the tool stands.
+Vec3 feed_at(const Trajectory& path, PointIndex i) {
+    for (PointIndex reach = 1; reach <= feed_reach; reach *= 2) {
+        const Vec3 chord = path.at(std::min(path.count - 1, i + reach)) - path.at(std::max<PointIndex>(0, i - reach));
+        const double length = chord.norm();
+        if (length > least_feed) return chord / length;
+    }
+    return Vec3::Constant(missing<float>);
+}
+
+/// How far the measured positions trail the commanded ones [mm].
+Column<float> lags_of(const ComparedRun& run) {
+    Column<float> lags(static_cast<std::size_t>(run.path.count));
+    for_each_block(run.path.count, [&](PointIndex first, PointIndex last) {
+        for (PointIndex i = first; i < last; ++i) {
+            const Vec3 behind = run.commanded->at(i) - run.measured->at(i);
+            lags[static_cast<std::size_t>(i)] = static_cast<float>(behind.dot(feed_at(*run.commanded, i)));
+        }
+    });
+    return lags;
+}
+
+/// Upper side of the CL surface; where a pass has no other beside it, of the path.
+Eigen::Vector3f normal_at(const ClSurface& surface, PointIndex i, const Eigen::Vector3f& feed) {
+    const Positions& p = surface.positions;
+    const Station left = beside(surface, {i, 0}, feed, Side::left);
+    const Station right = beside(surface, {i, 0}, feed, Side::right);
+    const Eigen::Vector3f a = left.exists() ? position_at(p, left) : p[i];
+    const Eigen::Vector3f b = right.exists() ? position_at(p, right) : p[i];
+    const Eigen::Vector3f across = feed.cross(a - b);
+    if (across.norm() > 0) return across.normalized();
+    const Eigen::Vector3f up = Eigen::Vector3f::UnitZ() - feed.z() * feed;
+    return up.norm() > least_tilt ? Eigen::Vector3f(up.normalized()) : Eigen::Vector3f::Constant(missing<float>);
+}
+
+/// A position between two points, from the cubic through the points round it (Catmull, Rom 1974): a
+/// chord would cut off a T²/8, 5 µm at 600 mm/s² and 8 ms.
+Vec3 position_between(const Trajectory& path, const Station& at) {
+    const Vec3 p1 = path.at(at.point);
+    if (at.fraction == 0) return p1;
+    const double f = at.fraction;
+    const Vec3 p2 = path.at(at.point + 1);
+    const Vec3 step = p2 - p1;
+    const Vec3 before = 0.5 * (p2 - path.at(std::max<PointIndex>(0, at.point - 1))) - step;
+    const Vec3 after = 0.5 * (path.at(std::min(path.count - 1, at.point + 2)) - p1) - step;
+    const Vec3 chord = p1 + f * step;
+    const Vec3 bend = f * (1 - f) * ((1 - f) * before - f * after);
+    return bend.allFinite() ? Vec3(chord + bend) : chord;
+}
+
+/// How far `b` lies above `a` along A's surface [mm].
+Column<float> heights_of(const Trajectory& a, const Trajectory& b, const RunAlignment& alignment,
+                         const ClSurface& surface, const Trajectory& path) {
+    Column<float> heights(static_cast<std::size_t>(a.count));
+    for_each_block(a.count, [&](PointIndex first, PointIndex last) {
+        for (PointIndex i = first; i < last; ++i) {
+            float& height = heights[static_cast<std::size_t>(i)];
+            height = missing<float>;
+            const Station& at = alignment.stations[static_cast<std::size_t>(i)];
+            if (!at.exists()) continue;
+            const Vec3 feed = feed_at(path, i);
+            if (!feed.allFinite()) continue;
+            height = static_cast<float>(
+                (position_between(b, at) - a.at(i)).dot(normal_at(surface, i, feed.cast<float>()).cast<double>()));
+        }
+    });
+    return heights;
+}
+
+/// values := B's at the stations minus A's.
+void subtract(const Column<float>& of_b, const RunAlignment& alignment, Column<float>& values) {
+    for_each_block(static_cast<PointIndex>(values.size()), [&](PointIndex first, PointIndex last) {
+        for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i) {
+            const Station& at = alignment.stations[i];
+            values[i] = at.exists() ? interpolate(of_b, at) - values[i] : missing<float>;
+        }
+    });
+}
+
+/// Means over `points` round each point, of what is known, inside the stretches. O(points).
+void smooth(Column<float>& values, const std::vector<PointRange>& stretches, PointIndex points) {
+    const PointIndex half = points / 2;
+    std::vector<float> raw;
+    for (const PointRange& stretch : stretches) {
+        raw.assign(values.begin() + stretch.first, values.begin() + stretch.last + 1);
+        double sum = 0;
+        PointIndex known = 0;
+        PointIndex begin = 0;
+        PointIndex end = 0;
+        const PointIndex size = stretch.size();
+        const auto take = [&](PointIndex k, int sign) {
+            const float value = raw[static_cast<std::size_t>(k)];
+            if (!(value == value)) return;
+            sum += sign * static_cast<double>(value);
+            known += sign;
+        };
+        for (PointIndex k = 0; k < size; ++k) {
+            // The window shrinks evenly towards the ends.
+            const PointIndex reach = std::min({half, k, size - 1 - k});
+            while (end <= k + reach) take(end++, +1);
+            while (begin < k - reach) take(begin++, -1);
+            float& value = values[static_cast<std::size_t>(stretch.first + k)];
+            if (value == value)
+                value = known > 0 ? static_cast<float>(sum / static_cast<double>(known)) : missing<float>;
+        }
+    }
+}
+
+/// Of all that is compared, finishing or not: rapids are left out.
+float percentile_at_feed(const Column<float>& values, const Passes& passes, double p) {
+    Column<float> sampled;
+    PointIndex cutting = 0;
+    for (const Pass& pass : passes) cutting += pass.kind != PassKind::rapid ? pass.size() : 0;
+    const PointIndex step = std::max<PointIndex>(1, cutting / points_for_usual);
+    for (const Pass& pass : passes) {
+        if (pass.kind == PassKind::rapid) continue;
+        for (PointIndex i = pass.first; i <= pass.last; i += step) {
+            const float value = values[static_cast<std::size_t>(i)];
+            if (std::isfinite(value)) sampled.push_back(value);
+        }
+    }
+    return sampled.empty() ? 0.0F : quantile_below(sampled, p);
+}
+
+/// The step of the positions, that of the finest axis: one that hardly moves would seem to have a coarse one.
+float quantum_of(const Trajectory& path) {
+    double finest = 0;
+    for (const ChannelView& axis : path.axes) {
+        const double quantum = clsurf::quantum_of(axis);
+        if (quantum > 0 && (finest == 0 || quantum < finest)) finest = quantum;
+    }
+    return static_cast<float>(finest);
+}
+
+/// Nothing of a rapid is compared.
+void leave_out_rapids(const Passes& passes, RunDifferences& differences) {
+    for (const Pass& pass : passes) {
+        if (pass.kind != PassKind::rapid) continue;
+        for (Column<float>& values : differences.of) {
+            if (!values.empty()) std::fill(values.begin() + pass.first, values.begin() + pass.last + 1, missing<float>);
+        }
+    }
+}
+
+/// The whole log as one pass: windows end at gaps in time only, in both runs alike.
+Passes whole(const Trajectory& path) {
+    Passes passes;
+    passes.push_back({0, path.count - 1, PassKind::cut});
+    return passes;
+}
+
+void compare_motion(const ComparedRun& a, const ComparedRun& b, const ClSurface& surface, RunDifferences& out) {
+    const Passes whole_a = whole(a.path);
+    const Passes whole_b = whole(b.path);
+    const FieldSet of_a(*a.log, a.path, whole_a, {nullptr, b.log->period});
+    const FieldSet of_b(*b.log, b.path, whole_b, {nullptr, a.log->period});
+    out.speed_of_a = of_a.get("speed").values;
+    out.usual_speed = percentile_at_feed(out.speed_of_a, surface.passes, 0.95);
+    out.of[index_of(RunQuantity::speed)] = out.speed_of_a;
+    subtract(of_b.get("speed").values, out.alignment, out.of[index_of(RunQuantity::speed)]);
+    Column<float>& acceleration = out.of[index_of(RunQuantity::acceleration)];
+    acceleration = of_a.get("acceleration").values;
+    out.usual_acceleration = percentile_at_feed(acceleration, surface.passes, 0.99);
+    subtract(of_b.get("acceleration").values, out.alignment, acceleration);
+}
+
+}  // namespace
+
+std::span<const RunQuantityInfo> run_quantity_table() { return quantity_table; }
+
+float RunDifferences::speed_base(PointIndex i) const {
+    const float own = speed_of_a[static_cast<std::size_t>(i)];
+    return std::max(own == own ? own : 0.0F, rules.least_speed * usual_speed);
+}
+
+float RunDifferences::threshold_at(RunQuantity q, PointIndex i) const {
+    return q == RunQuantity::speed ? rules.speed * speed_base(i) + speed_play : threshold[index_of(q)];
+}
+
+RunDifferences compare_runs(const ComparedRun& a, const ClSurface& surface, const ComparedRun& b,
+                            const RunThresholds& rules) {
+    RunDifferences out;
+    out.rules = rules;
+    {
+        const Positions path_b = gather(b.path);
+        out.alignment = align_runs(surface.positions, path_b);
+    }
+    compare_motion(a, b, surface, out);
+    const auto window = std::max<PointIndex>(1, std::lround(std::min(smoothing_seconds / a.log->period, 1e6)));
+    float lag_quantum = 0;
+    if (a.commanded && a.measured && b.commanded && b.measured) {
+        Column<float>& lag = out.of[index_of(RunQuantity::lag)];
+        lag = lags_of(a);
+        subtract(lags_of(b), out.alignment, lag);
+        smooth(lag, out.alignment.stretches, window);
+        for (const ComparedRun* run : {&a, &b})
+            lag_quantum = std::max({lag_quantum, quantum_of(*run->commanded), quantum_of(*run->measured)});
+    }
+    const bool measured = a.truest && b.truest;
+    const Trajectory& height_a = measured ? *a.truest : a.path;
+    const Trajectory& height_b = measured ? *b.truest : b.path;
+    Column<float>& height = out.of[index_of(RunQuantity::height)];
+    if (measured) {
+        const RunAlignment alignment = align_runs(gather(height_a), gather(height_b));
+        height = heights_of(height_a, height_b, alignment, surface, a.path);
+        smooth(height, alignment.stretches, window);
+    } else {
+        height = heights_of(height_a, height_b, out.alignment, surface, a.path);
+        smooth(height, out.alignment.stretches, window);
+    }
+    const float height_quantum = std::max(quantum_of(height_a), quantum_of(height_b));
+    out.speed_play = rules.period * static_cast<float>(std::max(a.log->period, b.log->period)) * out.usual_acceleration;
+    out.threshold = {rules.speed * out.usual_speed + out.speed_play, rules.acceleration * out.usual_acceleration,
+                     std::max(rules.height, rules.lag_quanta * lag_quantum),
+                     std::max(rules.height, rules.height_quanta * height_quantum)};
+    leave_out_rapids(surface.passes, out);
+    return out;
+}
+
+}  // namespace clsurf

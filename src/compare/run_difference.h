@@ -1,0 +1,77 @@
+#pragma once
+// Run difference: two runs of a part compared place by place. All values are B minus A, at the points of A,
+// weighted by arc length, not by time: a pause is one place.
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "compare/run_alignment.h"
+#include "core/units.h"
+#include "log/log.h"
+#include "surface/cl_surface.h"
+#include "toolpath/trajectory.h"
+
+namespace clsurf {
+
+enum class RunQuantity : std::uint8_t {
+    speed,         ///< of the path [mm/s]
+    acceleration,  ///< its length [mm/s²]
+    lag,           ///< how far the measured position trails the commanded one along the feed [mm]
+    height,        ///< how far B's path lies above that of A along the surface normal [mm]
+};
+inline constexpr std::size_t run_quantities = 4;
+[[nodiscard]] constexpr std::size_t index_of(RunQuantity q) { return static_cast<std::size_t>(q); }
+
+struct RunQuantityInfo {
+    RunQuantity quantity;
+    std::string_view name, label;
+    Unit unit;                     ///< as shown
+    std::string_view json_suffix;  ///< "mm_min"
+};
+/// All four, in order.
+[[nodiscard]] std::span<const RunQuantityInfo> run_quantity_table();
+
+/// A run as it is compared.
+struct ComparedRun {
+    const Log* log = nullptr;
+    Trajectory path;                                ///< runs are laid onto each other by it
+    std::optional<Trajectory> commanded, measured;  ///< both: lags are compared
+    std::optional<Trajectory> truest;               ///< heights are compared along it; none: along `path`
+};
+
+struct RunThresholds {
+    float speed = 0.03F;         ///< of the speed there …
+    float least_speed = 0.25F;   ///< … which counts as at least so much of the usual speed
+    float period = 0.25F;        ///< plus what the usual acceleration makes of the speed in this part of a period
+    float acceleration = 0.15F;  ///< of the usual acceleration
+    float height = 0.0015F;      ///< [mm], lags and heights …
+    float lag_quanta = 1.5F;     ///< … and at least so many steps of the positions
+    float height_quanta = 2.4F;
+};
+
+struct RunDifferences {
+    RunAlignment alignment;
+    std::array<Column<float>, run_quantities>
+        of;  ///< per point of A, inside units; NaN: not compared; empty: not known
+    std::array<float, run_quantities> threshold{};  ///< above which a place differs; of the speed: at usual speed
+    RunThresholds rules;
+    float usual_speed = 0;         ///< [mm/s] 95th percentile of A where it cuts
+    float usual_acceleration = 0;  ///< [mm/s²] 99th percentile
+    float speed_play = 0;          ///< [mm/s] that sampling alone may make of a speed
+    Column<float> speed_of_a;      ///< [mm/s]
+
+    [[nodiscard]] bool has(RunQuantity q) const { return !of[index_of(q)].empty(); }
+    /// Above which a quantity differs at a point.
+    [[nodiscard]] float threshold_at(RunQuantity q, PointIndex i) const;
+    /// The speed that differences at a point are relative to [mm/s].
+    [[nodiscard]] float speed_base(PointIndex i) const;
+};
+
+/// `surface` is stitched from A's path. Points of rapids are not compared. Windows of derivatives are
+/// those of the coarser period; lags and heights are means over 15 ms. O(points of both).
+[[nodiscard]] RunDifferences compare_runs(const ComparedRun& a, const ClSurface& surface, const ComparedRun& b,
+                                          const RunThresholds& rules = {});
+
+}  // namespace clsurf

@@ -1,0 +1,207 @@
+#include "compare/run_report.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/statistics.h"
+
+namespace clsurf {
+namespace {
+
+constexpr double joined_way = 1.0;          ///< [mm] between two stretches that are one
+constexpr double least_seconds = 0.005;     ///< of a stretch …
+constexpr PointIndex least_points = 3;      ///< … and its points
+constexpr double sampled_by_way = 200'000;  ///< by way, of percentiles
+constexpr std::size_t most_kept = 1000;     ///< stretches of a quantity
+constexpr double end_share = 0.1;           ///< of the way, that a drift is told from
+
+/// The middle value of some.
+double middle(std::vector<float> values) { return median(values); }
+
+bool worse(const RunDifferenceStretch& x, const RunDifferenceStretch& y) { return x.score > y.score; }
+
+/// The worst stretches first, no more than `most_kept`; memory stays bounded on runs that differ everywhere.
+void keep_worst(std::vector<RunDifferenceStretch>& stretches) {
+    std::stable_sort(stretches.begin(), stretches.end(), worse);
+    if (stretches.size() > most_kept) stretches.resize(most_kept);
+}
+
+class Reporter {
+public:
+    Reporter(const ComparedRun& a, const ClSurface& surface, const LineMap* lines, const ComparedRun& b,
+             const RunDifferences& differences)
+        : a_(a), b_(b), lines_(lines), differences_(differences), way_(surface.positions) {}
+
+    [[nodiscard]] RunQuantitySummary summarise(RunQuantity q) const {
+        RunQuantitySummary summary;
+        summary.quantity = q;
+        summary.threshold = differences_.threshold[index_of(q)];
+        const Column<float>& values = differences_.of[index_of(q)];
+        double sum = 0;
+        double squares = 0;
+        std::vector<float> sampled;
+        const double every = way_.to(static_cast<PointIndex>(values.size()) - 1) / sampled_by_way;
+        double since = every;
+        for (const PointRange& stretch : differences_.alignment.stretches) {
+            for (PointIndex i = stretch.first; i <= stretch.last; ++i) {
+                const float value = values[static_cast<std::size_t>(i)];
+                if (!(value == value)) continue;
+                const double step = i < stretch.last ? way_.step(i) : 0;
+                summary.lowest = std::min<double>(summary.lowest, value);
+                summary.highest = std::max<double>(summary.highest, value);
+                if (q == RunQuantity::speed)
+                    summary.relative_most =
+                        std::max<double>(summary.relative_most, std::abs(value) / differences_.speed_base(i));
+                if (std::abs(value) > differences_.threshold_at(q, i)) summary.over += step;
+                summary.way += step;
+                sum += step * value;
+                squares += step * value * value;
+                since += step;
+                if (since < every || !(step > 0)) continue;
+                since = 0;
+                sampled.push_back(value);
+            }
+        }
+        if (!(summary.way > 0)) return summary;
+        summary.mean = sum / summary.way;
+        summary.rms = std::sqrt(squares / summary.way);
+        summary.over /= summary.way;
+        const auto tenth = static_cast<std::ptrdiff_t>(end_share * static_cast<double>(sampled.size())) + 1;
+        if (tenth <= static_cast<std::ptrdiff_t>(sampled.size())) {
+            summary.begin = middle({sampled.begin(), sampled.begin() + tenth});
+            summary.end = middle({sampled.end() - tenth, sampled.end()});
+        }
+        if (sampled.empty()) return summary;
+        for (float& value : sampled) value = std::abs(value);
+        summary.p95 = nearest_quantile(sampled, 0.95);
+        return summary;
+    }
+
+    /// Their number; the worst are added to `report`.
+    [[nodiscard]] PointIndex find_stretches(RunQuantity q, RunReport& report) const {
+        std::vector<RunDifferenceStretch> found;
+        PointIndex count = 0;
+        const Column<float>& values = differences_.of[index_of(q)];
+        const auto sign_of = [&](PointIndex i) {
+            const float value = values[static_cast<std::size_t>(i)];
+            if (!(std::abs(value) > differences_.threshold_at(q, i))) return 0;
+            return value > 0 ? 1 : -1;
+        };
+        const PointIndex least =
+            std::max<PointIndex>(least_points, std::lround(std::min(least_seconds / a_.log->period, 1e6)));
+        for (const PointRange& stretch : differences_.alignment.stretches) {
+            PointRange open;
+            int sign = 0;
+            PointIndex over = 0;
+            const auto close = [&] {
+                if (over >= least) {
+                    found.push_back(measure(q, open));
+                    ++count;
+                    if (found.size() >= 10 * most_kept) keep_worst(found);
+                }
+                over = 0;
+                sign = 0;
+            };
+            for (PointIndex i = stretch.first; i <= stretch.last; ++i) {
+                const int here = sign_of(i);
+                if (here == 0) continue;
+                if (sign != 0 && (here != sign || way_.at_least(open.last, i, joined_way))) close();
+                if (sign == 0) open.first = i;
+                sign = here;
+                open.last = i;
+                ++over;
+            }
+            close();
+        }
+        keep_worst(found);
+        report.stretches.insert(report.stretches.end(), found.begin(), found.end());
+        return count;
+    }
+
+    void measure_time(RunReport& report) const {
+        for (const PointRange& stretch : differences_.alignment.stretches) {
+            report.time += a_.log->time_of(stretch.last) - a_.log->time_of(stretch.first);
+            report.time_of_b += time_of_b(stretch);
+        }
+    }
+
+private:
+    [[nodiscard]] double time_at_b(PointIndex i) const {
+        const Station& at = differences_.alignment.stations[static_cast<std::size_t>(i)];
+        const double time = b_.log->time_of(at.point);
+        return at.fraction > 0 ? time + at.fraction * (b_.log->time_of(at.point + 1) - time) : time;
+    }
+    [[nodiscard]] double time_of_b(const PointRange& points) const {
+        return time_at_b(points.last) - time_at_b(points.first);
+    }
+
+    [[nodiscard]] RunDifferenceStretch measure(RunQuantity q, const PointRange& points) const {
+        RunDifferenceStretch d;
+        d.quantity = q;
+        d.points = points;
+        const auto& stations = differences_.alignment.stations;
+        d.points_of_b = {stations[static_cast<std::size_t>(points.first)].nearest(),
+                         stations[static_cast<std::size_t>(points.last)].nearest()};
+        const Column<float>& values = differences_.of[index_of(q)];
+        double weights = 0;
+        for (PointIndex i = points.first; i <= points.last; ++i) {
+            const double value = values[static_cast<std::size_t>(i)];
+            const double step = i < points.last ? way_.step(i) : 0;
+            d.length += step;
+            if (!(value == value)) continue;
+            // A little for standing still, so that a pause has a mean too.
+            const double weight = step + 1e-9;
+            weights += weight;
+            d.mean += weight * value;
+            if (q == RunQuantity::speed) d.relative_mean += weight * value / differences_.speed_base(i);
+            const double score = std::abs(value) / differences_.threshold_at(q, i);
+            if (score > d.score) {
+                d.score = score;
+                d.point = i;
+            }
+        }
+        d.mean /= weights;
+        d.relative_mean /= weights;
+        d.peak = values[static_cast<std::size_t>(d.point)];
+        if (q == RunQuantity::speed) d.relative_peak = d.peak / differences_.speed_base(d.point);
+        d.place.tip = a_.path.at(d.point);
+        d.time = time_of_b(points) - (a_.log->time_of(points.last) - a_.log->time_of(points.first));
+        if (lines_ != nullptr) {
+            d.first_line = lines_->line_at(points.first);
+            d.last_line = std::max(d.first_line, lines_->line_at(points.last));
+        }
+        return d;
+    }
+
+    const ComparedRun& a_;
+    const ComparedRun& b_;
+    const LineMap* lines_;
+    const RunDifferences& differences_;
+    Way way_;
+};
+
+}  // namespace
+
+const RunQuantitySummary* RunReport::find(RunQuantity q) const {
+    const auto at = std::find_if(quantities.begin(), quantities.end(),
+                                 [&](const RunQuantitySummary& s) { return s.quantity == q; });
+    return at == quantities.end() ? nullptr : &*at;
+}
+
+RunReport report_run(const ComparedRun& a, const ClSurface& surface, const LineMap* lines, const ComparedRun& b,
+                     const RunDifferences& differences) {
+    RunReport report;
+    report.aligned = differences.alignment.aligned;
+    report.way = differences.alignment.way;
+    const Reporter reporter(a, surface, lines, b, differences);
+    for (const RunQuantityInfo& info : run_quantity_table()) {
+        if (!differences.has(info.quantity)) continue;
+        report.quantities.push_back(reporter.summarise(info.quantity));
+        report.quantities.back().stretches = reporter.find_stretches(info.quantity, report);
+    }
+    reporter.measure_time(report);
+    std::stable_sort(report.stretches.begin(), report.stretches.end(), worse);
+    return report;
+}
+
+}  // namespace clsurf

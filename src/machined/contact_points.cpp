@@ -1,0 +1,224 @@
+#include "machined/contact_points.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/not_finite.h"
+#include "log/quantum.h"
+#include "machined/contact.h"
+
+namespace clsurf {
+namespace {
+
+constexpr double carried_along = 3;        ///< step-overs along the path that a normal may come from
+constexpr PointIndex longest_walk = 4096;  ///< points: the tool may stand still
+constexpr double straight = 0.35;          ///< [rad] between directions across that are carried on
+constexpr double rounding = 1e-6;          ///< [mm] of positions that have no grid
+constexpr double level_steps = 1.5;        ///< quanta per step-over that rounding tilts a level surface by
+constexpr double least_square = 0.1;       ///< sine between a normal and the feed that it can be made square to
+constexpr int most_iterations = 12;        ///< of a normal under a tool that turns
+constexpr double near_end = 0.5;           ///< shorter than that against the other side: half a chord
+constexpr double settled = 1e-5;           ///< change of a normal that ends them
+
+double finest_quantum(const Trajectory& path) {
+    double finest = 0;
+    for (const ChannelView& axis : path.axes) {
+        const double quantum = quantum_of(axis);
+        if (quantum > 0 && (finest == 0 || quantum < finest)) finest = quantum;
+    }
+    return std::max(finest, rounding);
+}
+
+Vec3 no_normal() { return Vec3::Constant(missing<double>); }
+
+}  // namespace
+
+bool stays_low(const Positions& p, const Pass& link, double step_over) {
+    const auto before = static_cast<std::size_t>(std::max<PointIndex>(0, link.first - 1));
+    const auto after = static_cast<std::size_t>(std::min(p.size() - 1, link.last + 1));
+    const float most = std::max(p.z[before], p.z[after]) + static_cast<float>(step_over);
+    for (PointIndex i = link.first; i <= link.last; ++i) {
+        if (!(p.z[static_cast<std::size_t>(i)] <= most)) return false;
+    }
+    return true;
+}
+
+ContactPoints::ContactPoints(const ClSurface& surface, const Trajectory& path, const Trajectory* axes,
+                             const CuttingTool& tool)
+    : surface_(surface), path_(path), axes_(axes), tool_(tool) {
+    half_chord_ = 0.5 * (surface.step_over > 0 ? surface.step_over : 0.1 * tool.radius);
+    level_ = level_steps * finest_quantum(path) / (2 * half_chord_);
+}
+
+double ContactPoints::reach() const { return std::hypot(tool_.radius, tool_.corner); }
+
+bool ContactPoints::cuts(const Pass& piece) const {
+    if (piece.kind == PassKind::cut) return true;
+    return piece.kind == PassKind::link && stays_low(surface_.positions, piece, surface_.step_over);
+}
+
+std::optional<Vec3> ContactPoints::at(PointIndex point) const {
+    Vec3 n = normal(point);
+    if (!n.allFinite()) return std::nullopt;
+    const Vec3 axis = axis_at({point, 0});
+    if ((n - n.dot(axis) * axis).norm() < level_) n = axis;
+    const Vec3 contact = path_.at(point) + contact_offset(tool_, n, axis);
+    if (!contact.allFinite()) return std::nullopt;
+    return contact;
+}
+
+Vec3 ContactPoints::normal(PointIndex point) const {
+    const Pass* pass = pass_of(point);
+    if (pass == nullptr || !cuts(*pass) || !surface_.positions[point].allFinite()) return no_normal();
+    const PointRange range{pass->first, pass->last};
+    if (pass->kind == PassKind::cut && surface_.step_over > 0) {
+        const Vec3 found = normal_by_neighbours(point, range);
+        if (found.allFinite()) return found;
+    }
+    return normal_from_along(point, range);
+}
+
+const Pass* ContactPoints::pass_of(PointIndex point) const {
+    const auto after = std::upper_bound(surface_.passes.begin(), surface_.passes.end(), point,
+                                        [](PointIndex i, const Pass& pass) { return i < pass.first; });
+    if (after == surface_.passes.begin()) return nullptr;
+    const Pass& pass = *std::prev(after);
+    return point <= pass.last ? &pass : nullptr;
+}
+
+/// The first point that lies `distance` [mm] along the path from another, < 0 before it, or the last one within a range.
+PointIndex ContactPoints::walk(PointIndex point, PointRange within, double distance) const {
+    const Positions& p = surface_.positions;
+    const PointIndex step = distance < 0 ? -1 : 1;
+    double gone = 0;
+    PointIndex at = point;
+    for (PointIndex walked = 0; walked < longest_walk && gone < std::abs(distance); ++walked) {
+        const PointIndex next = at + step;
+        if (next < within.first || next > within.last || !p[next].allFinite()) break;
+        gone += (p[next] - p[at]).norm();
+        at = next;
+    }
+    return at;
+}
+
+std::optional<ContactPoints::Direction> ContactPoints::across_at(PointIndex point, const Eigen::Vector3f& feed) const {
+    const Station here{point, 0};
+    const Station left = beside(surface_, here, feed, Side::left);
+    const Station right = beside(surface_, here, feed, Side::right);
+    if (!left.exists() && !right.exists()) return std::nullopt;
+    if (left.exists() && right.exists()) return Direction{right, left, {}, {}};
+    // Every second pass of a zigzag may lie a little off: steps of two passes do not see that.
+    const Station first = left.exists() ? left : right;
+    const Station second = beyond(surface_, here, first, feed);
+    if (!second.exists()) return Direction{first, here, {}, {}};
+    const Station third = beyond(surface_, first, second, feed);
+    return third.exists() ? Direction{second, here, third, first} : Direction{second, here, {}, {}};
+}
+
+ContactPoints::Frame ContactPoints::make_frame(PointIndex point, PointRange pass) const {
+    const Positions& p = surface_.positions;
+    PointIndex first = walk(point, pass, -half_chord_);
+    PointIndex last = walk(point, pass, half_chord_);
+    const auto apart = [&](PointIndex a, PointIndex b) { return static_cast<double>((p[b] - p[a]).norm()); };
+    Frame frame{{{first, 0}, {last, 0}, {}, {}}, {}};
+    // At an end of the pass there is a chord on one side only: the next one says how it goes on.
+    if (apart(first, point) < near_end * apart(point, last)) {
+        first = point;
+        frame.along = {{point, 0}, {last, 0}, {last, 0}, {walk(last, pass, half_chord_), 0}};
+    } else if (apart(point, last) < near_end * apart(first, point)) {
+        last = point;
+        frame.along = {{first, 0}, {point, 0}, {walk(first, pass, -half_chord_), 0}, {first, 0}};
+    }
+    const Eigen::Vector3f chord = p[last] - p[first];
+    if (!(chord.squaredNorm() > 0)) return frame;
+    for (const PointIndex i : {point, first, last}) {
+        if (const std::optional<Direction> across = across_at(i, chord)) frame.across.push_back(*across);
+        // The others lie on one side of an end.
+        if ((first == point || last == point) && !frame.across.empty()) break;
+    }
+    return frame;
+}
+
+Vec3 ContactPoints::axis_at(const Station& at) const {
+    if (axes_ == nullptr) return Vec3::UnitZ();
+    const Vec3 axis = axes_->at(at.point);
+    if (at.fraction == 0) return axis;
+    return (axis + static_cast<double>(at.fraction) * (axes_->at(at.point + 1) - axis)).normalized();
+}
+
+/// The point of the tool whose surface has a normal of its own there (head of the file) [mm], from the positions' origin.
+Vec3 ContactPoints::tool_point(const Station& at, const Vec3& normal) const {
+    const Vec3 tip = position_at(surface_.positions, at).cast<double>();
+    if (axes_ == nullptr) return tip;
+    const Vec3 axis = axis_at(at);
+    const Vec3 aside = normal - normal.dot(axis) * axis;
+    const double tilt = aside.norm();
+    const double bottom = tilt > level_ ? (tool_.radius - tool_.corner) / tilt : 0;
+    return tip + tool_.corner * axis - bottom * aside;
+}
+
+Vec3 ContactPoints::normal_by_neighbours(PointIndex point, PointRange pass) const {
+    const Frame frame = make_frame(point, pass);
+    if (frame.across.empty()) return no_normal();
+    const Vec3 axis = axis_at({point, 0});
+    const auto estimate = [&](const Vec3& normal) {
+        const auto from_to = [&](const Station& from, const Station& to) {
+            return Vec3((tool_point(to, normal) - tool_point(from, normal)).normalized());
+        };
+        const auto direction_of = [&](const Direction& d) {
+            const Vec3 here = from_to(d.from, d.to);
+            if (!d.before.exists()) return here;
+            const Vec3 inner = from_to(d.before, d.towards);
+            const bool smooth = inner.cross(here).norm() < straight && inner.dot(here) > 0;
+            return smooth ? Vec3((2 * here - inner).normalized()) : here;
+        };
+        const Vec3 along = direction_of(frame.along);
+        Vec3 across = Vec3::Zero();
+        for (const Direction& a : frame.across) {
+            const Vec3 direction = direction_of(a);
+            across += across.dot(direction) < 0 ? Vec3(-direction) : direction;
+        }
+        const Vec3 n = along.cross(across).normalized();
+        return n.dot(axis) < 0 ? Vec3(-n) : n;
+    };
+    Vec3 normal = estimate(axis);
+    if (axes_ == nullptr || tool_.radius == tool_.corner) return normal;
+    for (int k = 0; k < most_iterations && normal.allFinite(); ++k) {
+        const Vec3 next = (normal + 2 * estimate(normal)).normalized();
+        const bool done = (next - normal).norm() < settled;
+        normal = next;
+        if (done) break;
+    }
+    return normal;
+}
+
+/// Of links, and of points without a pass beside them.
+Vec3 ContactPoints::normal_from_along(PointIndex point, PointRange piece) const {
+    const Positions& p = surface_.positions;
+    const Eigen::Vector3f chord = p[walk(point, piece, half_chord_)] - p[walk(point, piece, -half_chord_)];
+    const Vec3 feed = chord.cast<double>().normalized();
+    if (!feed.allFinite()) return no_normal();
+    Vec3 sum = Vec3::Zero();
+    if (surface_.step_over <= 0) sum = axis_at({point, 0});  // a single pass: upright but for its slope
+    for (const PointIndex step : {PointIndex{-1}, PointIndex{1}}) {
+        if (surface_.step_over <= 0) break;
+        double gone = 0;
+        PointIndex at = point;
+        for (PointIndex walked = 0; walked < longest_walk && gone < carried_along * surface_.step_over; ++walked) {
+            const PointIndex next = at + step;
+            if (next < 0 || next >= p.size() || !p[next].allFinite()) break;
+            gone += (p[next] - p[at]).norm();
+            at = next;
+            if (!surface_.neighbours.has(Side::left, at) && !surface_.neighbours.has(Side::right, at)) continue;
+            const Pass* pass = pass_of(at);
+            const Vec3 there = normal_by_neighbours(at, {pass->first, pass->last});
+            if (!there.allFinite()) continue;
+            sum += there / (gone + half_chord_);
+            break;
+        }
+    }
+    const Vec3 square = sum.normalized() - sum.normalized().dot(feed) * feed;
+    return square.norm() > least_square ? Vec3(square.normalized()) : no_normal();
+}
+
+}  // namespace clsurf

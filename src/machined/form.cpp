@@ -1,0 +1,260 @@
+#include "machined/form.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/grouping.h"
+#include "core/not_finite.h"
+#include "core/parallel.h"
+#include "machined/local_quadratic.h"
+#include "machined/ungouged_contacts.h"
+
+namespace clsurf {
+namespace {
+
+constexpr double fit_reach = 3;          ///< step-overs round a knot that its fit looks at
+constexpr double least_spread = 0.0003;  ///< [mm] what rounding to a micrometre leaves
+constexpr double least_scatter = 0.001;  ///< [mm] beside which contact points of a smooth form do not lie …
+constexpr double knots_differ = 2;       ///< most_scatter_ between fits of neighbouring knots at one place
+constexpr double scallop_share = 0.5;    ///< … or this share of a scallop
+
+constexpr double covered = 1.1;    ///< step-overs from the nearest contact point in space; beyond, no pass has made
+                                   ///< the surface: half a step-over is usual, one stands where a pass is missing
+constexpr std::int64_t finer = 4;  ///< squares of a knot's, a side, that lie inside or not
+constexpr double sample_spacing = 0.25;  ///< step-overs along the passes
+constexpr double on_line = 0.15;         ///< step-overs: so near to a contact point is inside
+constexpr double opposite = -0.9;        ///< cosine to the nearest contact point of what lies on the other side: along
+                                         ///< an outermost pass, points to both sides of the nearest one do not count
+
+}  // namespace
+
+/// Contact points by squares of the knots' pitch.
+struct Form::Samples {
+    std::vector<Vec3> points;        ///< sorted by square
+    std::vector<std::size_t> start;  ///< of each square
+    std::int64_t columns = 0, rows = 0;
+    double level = 0;
+
+    /// f(point) for those in the squares about a square.
+    template <typename F>
+    void for_each_near(std::int64_t column, std::int64_t row, std::int64_t squares, F&& f) const {
+        const auto always = [&](const Vec3& p) {
+            f(p);
+            return true;
+        };
+        for (std::int64_t r = row - squares; r <= row + squares; ++r)
+            (void)for_each_in_run(r, column - squares, column + squares, always);
+    }
+
+    /// f(point) for those in the squares that lie `ring` squares from a square, until it returns false. Whether it never did.
+    template <typename F>
+    [[nodiscard]] bool for_each_in_ring(std::int64_t column, std::int64_t row, std::int64_t ring, F&& f) const {
+        for (std::int64_t r = row - ring; r <= row + ring; ++r) {
+            const bool whole = std::abs(r - row) == ring;
+            if (!for_each_in_run(r, column - ring, whole ? column + ring : column - ring, f)) return false;
+            if (!whole && !for_each_in_run(r, column + ring, column + ring, f)) return false;
+        }
+        return true;
+    }
+
+private:
+    template <typename F>
+    [[nodiscard]] bool for_each_in_run(std::int64_t row, std::int64_t from, std::int64_t to, F&& f) const {
+        from = std::max<std::int64_t>(0, from);
+        to = std::min(columns - 1, to);
+        if (row < 0 || row >= rows || from > to) return true;
+        const std::size_t end = start[static_cast<std::size_t>(row * columns + to) + 1];
+        for (std::size_t k = start[static_cast<std::size_t>(row * columns + from)]; k < end; ++k) {
+            if (!f(points[k])) return false;
+        }
+        return true;
+    }
+};
+
+Form::Form(const FormedSurface& formed, const Box2& region) {
+    pitch_ = formed.surface().step_over > 0 ? formed.surface().step_over : 10 * formed.usual_cell();
+    // Of the flat formula, with the tool's radius: a measure of size.
+    most_scatter_ = std::max(least_scatter, scallop_share * pitch_ * pitch_ / (8 * formed.tool().radius));
+    if (region.isEmpty()) return;
+    corner_ = region.min() - Vec2::Constant(pitch_);
+    columns_ = static_cast<std::int64_t>(std::ceil(region.sizes().x() / pitch_)) + 3;
+    rows_ = static_cast<std::int64_t>(std::ceil(region.sizes().y() / pitch_)) + 3;
+    knots_.resize(static_cast<std::size_t>(columns_ * rows_));
+
+    Box2 wide = region;
+    const Vec2 room = Vec2::Constant((fit_reach + 1) * pitch_);
+    wide.extend(Vec2(region.min() - room));
+    wide.extend(Vec2(region.max() + room));
+    std::vector<Vec3> found = standing_contacts(formed, wide, sample_spacing * pitch_);
+    Samples samples;
+    samples.level = formed.level();
+    samples.columns = columns_;
+    samples.rows = rows_;
+    // Points beside the grid belong to its outermost squares.
+    const auto square = [&](const Vec3& p) {
+        const auto c = std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor((p.x() - corner_.x()) / pitch_)),
+                                                0, columns_ - 1);
+        const auto r = std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor((p.y() - corner_.y()) / pitch_)),
+                                                0, rows_ - 1);
+        return static_cast<std::size_t>(r * columns_ + c);
+    };
+    Grouping by_square = group_numbers(found.size(), static_cast<std::size_t>(columns_ * rows_),
+                                       [&](std::size_t k) { return square(found[k]); });
+    samples.start = std::move(by_square.start);
+    samples.points.reserve(found.size());
+    for (const std::uint32_t k : by_square.order) samples.points.push_back(found[k]);
+    found = {};
+    parallel_for(columns_ * rows_, 64, [&](std::int64_t first, std::int64_t last) {
+        LocalQuadratic quadratic;
+        for (std::int64_t k = first; k < last; ++k) fit(k % columns_, k / columns_, samples, quadratic);
+    });
+    const std::int64_t fine_columns = finer * columns_;
+    inside_.resize(static_cast<std::size_t>(fine_columns * finer * rows_));
+    parallel_for(static_cast<std::int64_t>(inside_.size()), 1024, [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t k = first; k < last; ++k) {
+            const Vec2 off(static_cast<double>(k % fine_columns), static_cast<double>(k / fine_columns));
+            inside_[static_cast<std::size_t>(k)] =
+                is_inside(corner_ + pitch_ / finer * (off + Vec2::Constant(0.5)), samples) ? 1 : 0;
+        }
+    });
+}
+
+bool Form::is_inside(const Vec2& place, const Samples& samples) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    Vec2 way = Vec2::Zero();
+    const Vec2 at = (place - corner_) / pitch_;
+    const auto column = static_cast<std::int64_t>(at.x());
+    const auto row = static_cast<std::int64_t>(at.y());
+    constexpr auto rings = static_cast<std::int64_t>(fit_reach);
+    for (std::int64_t ring = 0; ring <= rings; ++ring) {
+        (void)samples.for_each_in_ring(column, row, ring, [&](const Vec3& p) {
+            const Vec2 off = p.head<2>() - place;
+            if (off.squaredNorm() >= nearest) return true;
+            nearest = off.squaredNorm();
+            way = off;
+            return true;
+        });
+        // What lies in the rings beyond is farther away than that.
+        if (std::sqrt(nearest) <= static_cast<double>(ring) * pitch_) break;
+    }
+    if (!(nearest <= covered * covered * pitch_ * pitch_)) return false;
+    if (std::sqrt(nearest) < on_line * pitch_) return true;
+    for (std::int64_t ring = 0; ring <= rings; ++ring) {
+        const bool one_sided = samples.for_each_in_ring(column, row, ring, [&](const Vec3& p) {
+            const Vec2 off = p.head<2>() - place;
+            return !(off.dot(way) < opposite * off.norm() * way.norm());
+        });
+        if (!one_sided) return true;
+    }
+    return false;
+}
+
+void Form::fit(std::int64_t column, std::int64_t row, const Samples& samples, LocalQuadratic& quadratic) {
+    Knot& knot = knots_[static_cast<std::size_t>(row * columns_ + column)];
+    knot.fill(missing<float>);
+    const Vec2 here = corner_ + pitch_ * Vec2(static_cast<double>(column), static_cast<double>(row));
+    constexpr std::int64_t squares =
+        static_cast<std::int64_t>(fit_reach) + 1;  // a knot stands at the corner of four of them
+    double nearest = std::numeric_limits<double>::infinity();
+    double base = 0;
+    samples.for_each_near(column, row, squares, [&](const Vec3& p) {
+        const double d = (p.head<2>() - here).squaredNorm();
+        if (d >= nearest) return;
+        nearest = d;
+        base = p.z();
+    });
+    if (!(nearest <= 4 * pitch_ * pitch_)) return;
+    quadratic.clear();
+    samples.for_each_near(column, row, squares, [&](const Vec3& p) {
+        const Vec2 off = (p.head<2>() - here) / pitch_;
+        const double rise = (p.z() - base) / pitch_;
+        const double d = std::sqrt(off.squaredNorm() + rise * rise) / fit_reach;
+        if (d >= 1) return;
+        const double tricube = 1 - d * d * d;
+        quadratic.add(off.x(), off.y(), p.z() - base, tricube * tricube * tricube);
+    });
+    if (quadratic.size() < 6) return;
+    const LocalQuadratic::Terms solution = quadratic.fit(least_spread);
+    if (!solution.allFinite()) return;
+    const double slope = solution.segment<2>(1).norm() / pitch_;
+    if (quadratic.scatter(solution) > most_scatter_ * std::sqrt(1 + slope * slope)) {
+        knot[1] = 0;  // a[0] NaN, a[1] not: there are points, but they have no form
+        return;
+    }
+    for (std::size_t k = 0; k < 6; ++k) knot[k] = static_cast<float>(solution[static_cast<Eigen::Index>(k)]);
+    knot[0] += static_cast<float>(base - samples.level);
+}
+
+Form::Facet Form::at(const Vec2& place) const {
+    const double u = (place.x() - corner_.x()) / pitch_;
+    const double v = (place.y() - corner_.y()) / pitch_;
+    const auto c = static_cast<std::int64_t>(std::floor(u));
+    const auto r = static_cast<std::int64_t>(std::floor(v));
+    Facet sum;
+    double weights = 0;
+    double lowest = std::numeric_limits<double>::infinity();
+    double highest = -lowest;
+    const bool on_grid = c >= 0 && r >= 0 && c + 1 < columns_ && r + 1 < rows_;
+    if (on_grid && inside_[static_cast<std::size_t>(static_cast<std::int64_t>(v * finer) * finer * columns_ +
+                                                    static_cast<std::int64_t>(u * finer))] != 0) {
+        for (int k = 0; k < 4; ++k) {
+            const std::int64_t kc = c + k % 2;
+            const std::int64_t kr = r + k / 2;
+            const Knot& a = knots_[static_cast<std::size_t>(kr * columns_ + kc)];
+            if (!(a[0] == a[0])) {
+                sum.unknown = sum.unknown || a[1] == a[1];
+                continue;
+            }
+            const double x = u - static_cast<double>(kc);
+            const double y = v - static_cast<double>(kr);
+            const double w = (1 - std::abs(x)) * (1 - std::abs(y));
+            weights += w;
+            const double z = a[0] + a[1] * x + a[2] * y + a[3] * x * x + a[4] * x * y + a[5] * y * y;
+            sum.z += w * z;
+            lowest = std::min(lowest, z);
+            highest = std::max(highest, z);
+            sum.zx += w * (a[1] + 2 * a[3] * x + a[4] * y);
+            sum.zy += w * (a[2] + a[4] * x + 2 * a[5] * y);
+        }
+    }
+    sum.z /= weights;
+    sum.zx /= weights * pitch_;
+    sum.zy /= weights * pitch_;
+    const double steep = std::sqrt(1 + sum.zx * sum.zx + sum.zy * sum.zy);
+    sum.unknown = sum.unknown || highest - lowest > knots_differ * most_scatter_ * steep;
+    if (sum.unknown || !(weights > 0)) sum.z = sum.zx = sum.zy = missing<double>;
+    return sum;
+}
+
+std::int64_t Form::subtract(const MapFrame& frame, std::int64_t first_row, std::span<float> z) const {
+    std::atomic<std::int64_t> unknown = 0;
+    const auto count = static_cast<std::int64_t>(z.size());
+    constexpr std::int64_t grain = 4096;
+    parallel_for(count, grain, [&](std::int64_t first, std::int64_t last) {
+        std::int64_t here = 0;
+        for (std::int64_t k = first; k < last; ++k) {
+            float& height = z[static_cast<std::size_t>(k)];
+            if (!(height == height)) continue;
+            const Facet form = at(
+                frame.at(static_cast<double>(k % frame.columns), static_cast<double>(first_row + k / frame.columns)));
+            height = static_cast<float>((height - form.z) / std::sqrt(1 + form.zx * form.zx + form.zy * form.zy));
+            here += form.unknown ? 1 : 0;
+        }
+        unknown += here;
+    });
+    return unknown;
+}
+
+std::int64_t map_deviation(const FormedSurface& formed, const Form& form, const MapFrame& frame, const TakeRows& take) {
+    std::int64_t unknown = 0;
+    formed.map(frame, [&](std::int64_t first_row, std::span<float> z) {
+        unknown += form.subtract(frame, first_row, z);
+        take(first_row, z);
+    });
+    return unknown;
+}
+
+}  // namespace clsurf

@@ -1,0 +1,61 @@
+#pragma once
+// Form: the smooth surface from which deviations of the as-machined surface are measured, because the design
+// surface is unknown. It passes through the commanded contact points, except for those that the tool cuts away
+// again. Deviations from it are scallops, lags and marks.
+//
+// At the knots of a grid, one step-over apart, a quadratic is fitted to the contact points within three
+// step-overs (tricube weights by distance; two repetitions with bisquare weights, so that one pass that is
+// programmed elsewhere does not bend it). Between knots the quadratics blend into each other. Three
+// step-overs: a form of 0.1 mm⁻³ (fourth derivative) then gives less than 0.3 µm of error at 0.3 mm, and ten
+// would give 30 µm. The form is unknown where more than a third of the contact points' weight lies farther
+// from the fit than half a scallop (1 µm at least), or where the fits of adjacent knots differ by more than
+// twice that, as at creases; and farther than 1.1 step-overs from any contact point. Nothing is measured there.
+
+#include <array>
+#include <vector>
+
+#include "machined/as_machined_surface.h"
+
+namespace clsurf {
+
+class LocalQuadratic;
+
+class Form {
+public:
+    /// For places inside `region`. O(contact points near it + knots), parallel.
+    Form(const FormedSurface& formed, const Box2& region);
+
+    /// Turns heights of FormedSurface::map() into deviations [mm] along the form's normal, + outside
+    /// of it; NaN stays, and becomes what has no form: beyond the outermost contact points, and where the form
+    /// is not known. Returns how many heights that were. Parallel.
+    std::int64_t subtract(const MapFrame& frame, std::int64_t first_row, std::span<float> z) const;
+
+    /// The form's height [mm] over FormedSurface::level(), and its slopes; NaN: none there.
+    struct Facet {
+        double z = 0, zx = 0, zy = 0;
+        bool unknown = false;  ///< contact points lie about, but no smooth form goes through them
+    };
+    [[nodiscard]] Facet at(const Vec2& place) const;
+
+private:
+    /// a0 + a1 x + a2 y + a3 x² + a4 xy + a5 y², x and y in pitches from the knot; a0 NaN: no fit.
+    using Knot = std::array<float, 6>;
+
+    struct Samples;
+    void fit(std::int64_t column, std::int64_t row, const Samples& samples, LocalQuadratic& quadratic);
+    /// Whether contact points lie on all sides of a place: beyond the outermost pass stands the tool's flank.
+    [[nodiscard]] bool is_inside(const Vec2& place, const Samples& samples) const;
+
+    Vec2 corner_ = Vec2::Zero();
+    double pitch_ = 1;
+    std::int64_t columns_ = 0, rows_ = 0;
+    std::vector<Knot> knots_;
+    double most_scatter_ = 0;           ///< [mm] along the normal, of contact points about a form
+    std::vector<std::uint8_t> inside_;  ///< on a grid four times as fine
+};
+
+/// FormedSurface::map() with the form taken off: deviations [mm]. Returns how many
+/// cells were cut where the form is not known.
+std::int64_t map_deviation(const FormedSurface& formed, const Form& form, const MapFrame& frame, const TakeRows& take);
+
+}  // namespace clsurf

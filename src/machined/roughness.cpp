@@ -1,0 +1,110 @@
+#include "machined/roughness.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace clsurf {
+namespace {
+
+const double alpha =
+    std::sqrt(std::numbers::ln2 / std::numbers::pi);  ///< half of a wave of the cut-off's length goes through
+constexpr int most_lengths = 5;
+
+}  // namespace
+
+ProfileHeights profile_heights(std::span<const double> z) {
+    if (z.empty()) return {};
+    const auto n = static_cast<double>(z.size());
+    double mean = 0;
+    for (const double v : z) mean += v / n;
+    ProfileHeights h;
+    for (const double v : z) {
+        h.ra += std::abs(v - mean) / n;
+        h.rq += (v - mean) * (v - mean) / n;
+    }
+    h.rq = std::sqrt(h.rq);
+    const auto [low, high] = std::minmax_element(z.begin(), z.end());
+    h.rz = *high - *low;
+    return h;
+}
+
+std::vector<double> gaussian_mean_line(std::span<const double> z, double step, double cutoff) {
+    // Beyond one cut-off the weight is below 10^-6 of that in the middle.
+    const auto half = static_cast<std::ptrdiff_t>(cutoff / step);
+    std::vector<double> weights(static_cast<std::size_t>(half) + 1);
+    for (std::size_t k = 0; k < weights.size(); ++k) {
+        const double x = static_cast<double>(k) * step / (alpha * cutoff);
+        weights[k] = std::exp(-std::numbers::pi * x * x);
+    }
+    const auto n = static_cast<std::ptrdiff_t>(z.size());
+    std::vector<double> line(z.size());
+    for (std::ptrdiff_t i = 0; i < n; ++i) {
+        double sum = 0;
+        double weight = 0;
+        for (std::ptrdiff_t k = std::max<std::ptrdiff_t>(0, i - half); k <= std::min(n - 1, i + half); ++k) {
+            const double w = weights[static_cast<std::size_t>(std::abs(k - i))];
+            sum += w * z[static_cast<std::size_t>(k)];
+            weight += w;
+        }
+        line[static_cast<std::size_t>(i)] = sum / weight;
+    }
+    return line;
+}
+
+double cutoff_for(double step_over) { return step_over > 1.3 ? 8.0 : step_over > 0.4 ? 2.5 : 0.8; }
+
+Roughness roughness_of(std::span<const double> z, double step, double cutoff) {
+    Roughness result;
+    result.cutoff = cutoff;
+    if (z.size() < 2) return result;
+    const std::vector<double> line = gaussian_mean_line(z, step, cutoff);
+    std::vector<double> rough(z.size());
+    for (std::size_t k = 0; k < z.size(); ++k) rough[k] = z[k] - line[k];
+    const double length = step * static_cast<double>(z.size());
+    const int whole = std::min(most_lengths, static_cast<int>(std::floor(length / cutoff - 1 + 1e-9)));
+    result.sampling_lengths = std::max(1, whole);
+    const auto each = whole >= 1 ? static_cast<std::size_t>(std::lround(cutoff / step)) : z.size();
+    const std::size_t used = std::min(z.size(), each * static_cast<std::size_t>(result.sampling_lengths));
+    const std::size_t first = (z.size() - used) / 2;
+    for (std::size_t k = first; k < first + used; ++k) {
+        result.ra += std::abs(rough[k]);
+        result.rq += rough[k] * rough[k];
+    }
+    result.ra /= static_cast<double>(used);
+    result.rq = std::sqrt(result.rq / static_cast<double>(used));
+    for (int s = 0; s < result.sampling_lengths; ++s) {
+        const std::size_t begin = first + static_cast<std::size_t>(s) * each;
+        const std::size_t end = std::min(first + used, begin + each);
+        result.rz += profile_heights(std::span(rough).subspan(begin, end - begin)).rz / result.sampling_lengths;
+    }
+    result.length = step * static_cast<double>(used);
+    return result;
+}
+
+AreaHeights area_heights(std::span<const float> z) {
+    AreaHeights h;
+    double sum = 0;
+    float low = 0;
+    float high = 0;
+    for (const float v : z) {
+        if (!(v == v)) continue;
+        low = h.cells == 0 ? v : std::min(low, v);
+        high = h.cells == 0 ? v : std::max(high, v);
+        sum += v;
+        ++h.cells;
+    }
+    if (h.cells == 0) return h;
+    const auto n = static_cast<double>(h.cells);
+    const double mean = sum / n;
+    for (const float v : z) {
+        if (!(v == v)) continue;
+        h.sa += std::abs(v - mean) / n;
+        h.sq += (v - mean) * (v - mean) / n;
+    }
+    h.sq = std::sqrt(h.sq);
+    h.sz = static_cast<double>(high) - low;
+    return h;
+}
+
+}  // namespace clsurf

@@ -1,0 +1,31 @@
+#include "machined/scallop.h"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace clsurf {
+
+double scallop_height(double ball, double step_over, double rho) {
+    if (!(ball > 0) || !(step_over >= 0)) throw std::domain_error("a ball and a step-over are positive");
+    if (step_over >= 2 * ball)
+        throw std::domain_error("the passes do not meet: the step-over is the ball's diameter or more");
+    if (std::isinf(rho)) return ball - std::sqrt(ball * ball - 0.25 * step_over * step_over);
+    const double radius = std::abs(rho);
+    if (!(radius > 0) || step_over >= 2 * radius)
+        throw std::domain_error("the step-over is wider than the surface is round");
+    const double sine = step_over / (2 * radius);
+    const double cosine = std::sqrt(1 - sine * sine);
+    if (rho > 0) {
+        const double centre = radius + ball;
+        if (centre * sine >= ball) throw std::domain_error("the passes do not meet on a surface as round as this");
+        return centre * cosine - std::sqrt(ball * ball - centre * centre * sine * sine) - radius;
+    }
+    if (ball >= radius) throw std::domain_error("the ball is larger than the hollow: it gouges");
+    const double centre = radius - ball;
+    return radius - centre * cosine - std::sqrt(ball * ball - centre * centre * sine * sine);
+}
+
+double scallop_ra(double height) { return 4 * height / (9 * std::sqrt(3.0)); }
+double scallop_rq(double height) { return height * std::sqrt(4.0 / 45.0); }
+
+}  // namespace clsurf

@@ -1,0 +1,229 @@
+#include "mapping/alignment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "log/placeholder.h"
+#include "mapping/motion_grid.h"
+#include "mapping/path_walk.h"
+#include "toolpath/toolpath.h"
+
+namespace clsurf {
+namespace {
+
+// Lengths in mm.
+constexpr double sure_distance = 0.02;      ///< a finishing tolerance: full confidence
+constexpr double off_distance = 0.1;        ///< the walk may be on the wrong way from here on
+constexpr double lost_way = 1.0;            ///< way gone off before the walk counts as lost
+constexpr double near_distance = 0.1;       ///< a new start must be this near
+constexpr PointIndex proof_points = 400;    ///< moving points over which a new start must stay near
+constexpr double least_jump = 10;           ///< to a placeholder
+constexpr double placeholder_reach = 1e-6;  ///< its position, moved to the workpiece
+constexpr double first_retry = 1.0;         ///< way until a failed search is repeated; doubles
+
+class Aligner {
+public:
+    Aligner(const Trajectory& log, const Program& program, Diagnostics& diagnostics)
+        : log_(log), path_(program.motions, first_position(log)), walk_(path_), diagnostics_(diagnostics) {
+        motion_.resize(static_cast<std::size_t>(log.count));
+        confidence_.resize(static_cast<std::size_t>(log.count));
+    }
+
+    void run() {
+        Stand stand;
+        Vec3 before = first_position(log_);
+        double off_way = 0;         // gone since the walk went off
+        PointIndex off_since = -1;  // first point of that
+        double retry_after = lost_way;
+        bool reported = false;
+        for (PointIndex i = 0; i < log_.count; ++i) {
+            const Vec3 p = position(i);
+            if (!p.allFinite()) {
+                put(i, LineMap::no_motion, 0.0);
+                continue;
+            }
+            const double chord = (p - before).norm();
+            if (chord > least_jump && is_placeholder(p)) {
+                put(i, LineMap::no_motion, 0.0);
+                continue;
+            }
+            stand = walk_.advance(stand, p, chord);
+            before = p;
+            put(i, static_cast<std::uint32_t>(stand.motion), confidence_of(stand.distance));
+            if (stand.distance < off_distance) {
+                off_since = -1;
+                off_way = 0;
+                retry_after = lost_way;
+                reported = false;
+                continue;
+            }
+            if (off_since < 0) off_since = i;
+            off_way += chord;
+            if (stand.distance < PathWalk::lost_distance || off_way < retry_after) continue;
+            if (const std::optional<Rejoined> found = rejoin(off_since, i, stand.motion)) {
+                diagnostics_.add({Severity::note,
+                                  "map.resumed",
+                                  Place::of_point(log_.name, found->point),
+                                  fmt::format("the log goes on at line {}, not after line {}",
+                                              line_of(found->stand.motion), line_of(stand.motion)),
+                                  {}});
+                stand = found->stand;
+                i = found->point;
+                before = position(i);
+                put(i, static_cast<std::uint32_t>(stand.motion), confidence_of(stand.distance));
+                off_since = -1;
+                off_way = 0;
+                retry_after = lost_way;
+                continue;
+            }
+            retry_after = 2 * off_way + first_retry;
+            if (!reported) {
+                diagnostics_.add({Severity::warning, "map.lost", Place::of_point(log_.name, off_since),
+                                  fmt::format("the log leaves the programmed path after line {} and "
+                                              "is {:.3f} mm off",
+                                              line_of(stand.motion), stand.distance),
+                                  "another program, another version of it, or another work offset?"});
+            }
+            reported = true;
+        }
+    }
+
+    /// A record stands for the period that begins with it: its line is the one in which the tool is
+    /// at the period's end. (The kernel wrote the record when it planned that way.)
+    LineMap take(const Program& program) {
+        for (std::size_t i = 1; i < motion_.size(); ++i) {
+            if (motion_[i] == LineMap::no_motion || motion_[i - 1] == LineMap::no_motion) continue;
+            motion_[i - 1] = motion_[i];
+            confidence_[i - 1] = confidence_[i];
+        }
+        return {std::move(motion_), std::move(confidence_), program};
+    }
+
+private:
+    static Vec3 first_position(const Trajectory& log) {
+        for (PointIndex i = 0; i < log.count; ++i) {
+            const Vec3 p = log.at(i);
+            if (p.allFinite()) return p;
+        }
+        return Vec3::Zero();
+    }
+
+    /// Reads through a window, since channels are gathered by block.
+    Vec3 position(PointIndex i) {
+        constexpr PointIndex window = 4096;
+        if (i < window_begin_ || i >= window_begin_ + static_cast<PointIndex>(x_.size())) {
+            const auto n = static_cast<std::size_t>(std::min(window, log_.count - i));
+            x_.resize(n);
+            y_.resize(n);
+            z_.resize(n);
+            log_.read(i, x_, y_, z_);
+            window_begin_ = i;
+        }
+        const auto k = static_cast<std::size_t>(i - window_begin_);
+        return {x_[k], y_[k], z_[k]};
+    }
+
+    static double confidence_of(double distance) { return distance <= sure_distance ? 1.0 : sure_distance / distance; }
+    [[nodiscard]] LineNumber line_of(std::int64_t motion) const {
+        return path_.motions().line[static_cast<std::size_t>(motion)];
+    }
+    void put(PointIndex i, std::uint32_t motion, double confidence) {
+        motion_[static_cast<std::size_t>(i)] = motion;
+        confidence_[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(std::lround(confidence * 255));
+    }
+
+    /// Where the walk begins anew.
+    struct Rejoined {
+        PointIndex point = 0;
+        Stand stand;
+    };
+
+    /// From point `off` on, where the walk went off, or, after a way that is none of the program's (a
+    /// retract, the way back to where a run is resumed), from the first point that is back on it; `now`
+    /// is the last point that was looked at. O(log(now − off)) searches.
+    std::optional<Rejoined> rejoin(PointIndex off, PointIndex now, std::int64_t from) {
+        if (const std::optional<Stand> stand = search(off, from)) return Rejoined{off, *stand};
+        const std::optional<Stand> stand = search(now, from);
+        if (!stand) return std::nullopt;
+        Rejoined back{now, *stand};
+        for (PointIndex still_off = off; back.point - still_off > 1;) {
+            const PointIndex middle = still_off + (back.point - still_off) / 2;
+            if (const std::optional<Stand> earlier = search(middle, from))
+                back = {middle, *earlier};
+            else
+                still_off = middle;
+        }
+        return back;
+    }
+
+    /// The first place at or after motion `from` (then: of the whole program) from where the walk
+    /// stays near for the points that follow.
+    std::optional<Stand> search(PointIndex point, std::int64_t from) {
+        if (!grid_) grid_.emplace(path_);
+        const Vec3 p = log_.at(point);
+        std::vector<std::int64_t> near = grid_->near(p, near_distance);
+        const auto after = std::lower_bound(near.begin(), near.end(), from);
+        std::rotate(near.begin(), after, near.end());
+        for (const std::int64_t motion : near) {
+            const Foot foot = path_.foot(motion, p);
+            const Stand start{motion, foot.fraction, foot.distance};
+            if (stays_near(start, point)) return start;
+        }
+        return std::nullopt;
+    }
+
+    bool stays_near(Stand stand, PointIndex point) {
+        Vec3 before = log_.at(point);
+        PointIndex moving = 0;
+        for (PointIndex i = point + 1; i < log_.count && moving < proof_points; ++i) {
+            const Vec3 p = log_.at(i);
+            const double chord = (p - before).norm();
+            if (!(chord > 0) || (chord > least_jump && is_placeholder(p))) continue;
+            ++moving;
+            stand = walk_.advance(stand, p, chord);
+            before = p;
+            if (stand.distance > near_distance) return false;
+        }
+        return moving > 0;
+    }
+
+    /// Whether the log has this position where none was recorded.
+    bool is_placeholder(const Vec3& p) {
+        if (!placeholder_) {
+            const std::optional<Placeholder> found = find_placeholder(log_.axes);
+            placeholder_ = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+            if (found) placeholder_ = log_.pose().inverse() * Vec3(found->position.data());
+        }
+        return (p - *placeholder_).squaredNorm() < placeholder_reach * placeholder_reach;
+    }
+
+    const Trajectory& log_;
+    Toolpath path_;
+    PathWalk walk_;
+    Diagnostics& diagnostics_;
+    std::optional<MotionGrid> grid_;
+    std::optional<Vec3> placeholder_;  ///< NaN: the log has none; empty: nobody looked
+    Column<std::uint32_t> motion_;
+    Column<std::uint8_t> confidence_;
+    std::vector<double> x_, y_, z_;
+    PointIndex window_begin_ = 0;
+};
+
+}  // namespace
+
+LineMap align_lines(const Trajectory& path, const Program& program, Diagnostics& diagnostics) {
+    if (program.motions.size() == 0) {
+        const auto n = static_cast<std::size_t>(path.count);
+        return {Column<std::uint32_t>(n, LineMap::no_motion), Column<std::uint8_t>(n, 0), program};
+    }
+    Aligner aligner(path, program, diagnostics);
+    aligner.run();
+    return aligner.take(program);
+}
+
+}  // namespace clsurf

@@ -1,0 +1,17 @@
+#pragma once
+// Feeds that were changed after the run: stretches that ran at a constant speed which is not the programmed one.
+
+#include "mapping/line_map.h"
+#include "program/program.h"
+#include "toolpath/trajectory.h"
+
+namespace clsurf {
+
+/// Adds a warning `map.feed` for each stretch of one programmed feed (per minute) that mostly ran at another constant
+/// speed, by more than 3 %, or faster than the feed. Stretches of fewer than 200 points, and five axes, are not looked
+/// at. A feed override looks the same, and a new feed that the machine did not reach shows no difference. `period`: of
+/// the log [s]. O(points).
+void note_changed_feeds(const Trajectory& path, double period, const Program& program, const LineMap& map,
+                        Diagnostics& diagnostics);
+
+}  // namespace clsurf

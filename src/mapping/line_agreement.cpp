@@ -1,0 +1,120 @@
+// How well lines and geometry fit: check_lines() and what goes with it (mapping/line_map.h).
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "core/statistics.h"
+#include "mapping/allowed_motions.h"
+#include "mapping/line_map.h"
+#include "toolpath/toolpath.h"
+
+namespace clsurf {
+namespace {
+
+constexpr PointIndex checked_stretches = 64;  ///< evenly spaced over the log
+constexpr PointIndex checked_stretch = 1600;  ///< points
+/// A reported line agrees when the point lies this near to it [mm]: a corner tolerance of finishing
+/// (0.01 mm) with room for the two records by which a kernel's line leads its axes.
+constexpr double agreeing_distance = 0.05;
+constexpr double blending_distance = 1.0;  ///< [mm] G64 without a tolerance
+
+/// Distance of a position to the motions that are allowed; NaN: none.
+double allowed_distance(const Toolpath& path, std::int64_t before, std::int64_t motion, const Vec3& position) {
+    double best = std::numeric_limits<double>::quiet_NaN();
+    if (motion < 0) return best;
+    const MotionRange range = allowed_motions(before, motion, path.size());
+    for (std::int64_t m = range.first; m <= range.last; ++m) {
+        const double distance = path.foot(m, position).distance;
+        if (!(best <= distance)) best = distance;
+    }
+    return best;
+}
+
+/// 1 within a finishing tolerance; 0 where there is no motion.
+double off_confidence(double distance) {
+    if (!(distance == distance)) return 0.0;
+    return distance <= agreeing_distance ? 1.0 : agreeing_distance / distance;
+}
+
+}  // namespace
+
+double corner_play(const Program& program) {
+    double play = agreeing_distance;
+    for (const ProgramEvent& event : program.events) {
+        if (!event.path_mode || event.path_mode->block_end != BlockEnd::rounded) continue;
+        // What a corner may lose, and what merging short blocks may add.
+        const double tolerance = event.path_mode->tolerance + event.path_mode->merging_tolerance;
+        if (!std::isnan(tolerance)) play = std::max(play, std::min(tolerance, blending_distance));
+    }
+    return play;
+}
+
+LineAgreement check_lines(const Trajectory& path, const Program& program, const LineMap& map) {
+    LineAgreement agreement;
+    agreement.tolerance = corner_play(program);
+    const Toolpath toolpath(program.motions, path.count > 0 ? path.at(0) : Vec3::Zero());
+    const PointIndex stretch = std::min(path.count, checked_stretch);
+    const PointIndex stretches = std::min<PointIndex>(checked_stretches, stretch > 0 ? path.count / stretch : 0);
+    Column<double> distances;
+    std::vector<double> x(static_cast<std::size_t>(stretch)), y(x.size()), z(x.size());
+    std::vector<LineNumber> lines(x.size());
+    for (PointIndex s = 0; s < stretches; ++s) {
+        const PointIndex begin = stretches == 1 ? 0 : (path.count - stretch) / (stretches - 1) * s;
+        path.read(begin, x, y, z);
+        map.read(begin, lines);
+        std::int64_t earlier = -1, before = -1;
+        std::int64_t motion = map.motion_at(begin);
+        // The first line of a stretch has no known one before it.
+        bool known = begin == 0;
+        for (std::size_t i = 1; i < x.size(); ++i) {
+            const PointIndex point = begin + static_cast<PointIndex>(i);
+            if (const std::int64_t now = map.motion_at(point, lines[i]); now != motion) {
+                earlier = before;
+                before = motion;
+                motion = now;
+                known = true;
+            }
+            const Vec3 p(x[i], y[i], z[i]);
+            const bool moved = (p - Vec3(x[i - 1], y[i - 1], z[i - 1])).squaredNorm() > 0;
+            if (!moved || !known || lines[i] == 0) continue;
+            const double distance = allowed_distance(toolpath, begin_of_merge(earlier, before), motion, p);
+            if (!std::isfinite(distance)) continue;
+            distances.push_back(distance);
+            if (distance > agreement.tolerance) ++agreement.disagreeing;
+            if (distance > agreement.worst_distance) {
+                agreement.worst_distance = distance;
+                agreement.worst = point;
+            }
+        }
+    }
+    agreement.checked = static_cast<PointIndex>(distances.size());
+    if (distances.empty()) return agreement;
+    agreement.median_distance = quantile_below(distances, 0.5);
+    agreement.p95_distance = quantile_below(distances, 0.95);
+    return agreement;
+}
+
+void read_confidences(const Trajectory& path, const Program& program, const LineMap& map, PointIndex begin,
+                      std::span<double> out) {
+    if (out.empty()) return;
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = map.confidence_at(begin + static_cast<PointIndex>(i));
+    if (!map.from_log()) return;
+    const Toolpath toolpath(program.motions, path.at(0));
+    // Where the first point's run begins, what was reported before it is known.
+    std::int64_t motion = map.motion_at(begin);
+    PointIndex first = begin;
+    while (first > 0 && begin - first < checked_stretch && map.motion_at(first) == motion) --first;
+    std::int64_t before = map.motion_at(first);
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        const PointIndex point = begin + static_cast<PointIndex>(i);
+        if (const std::int64_t now = map.motion_at(point); now != motion) {
+            before = motion;
+            motion = now;
+        }
+        if (out[i] > 0) out[i] *= off_confidence(allowed_distance(toolpath, before, motion, path.at(point)));
+    }
+}
+
+}  // namespace clsurf

@@ -1,0 +1,122 @@
+#pragma once
+// LineMap: which line of the program each logged point belongs to.
+//
+// Where the log has a line channel it is taken as it is and checked against the geometry. A kernel
+// reports the line of its planner, which leads the axes by a few records, changes where a blend
+// begins and reports the last line of what it merged, so the check allows the line before as well.
+// Where the log has none, log and program are aligned in order (mapping/alignment.h).
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/channel_view.h"
+#include "core/column.h"
+#include "core/diagnostic.h"
+#include "core/point.h"
+#include "log/log.h"
+#include "mapping/program_match.h"
+#include "program/program.h"
+#include "toolpath/trajectory.h"
+
+namespace clsurf {
+
+/// What a point does, as far as the program tells.
+enum class PointKind : std::uint8_t {
+    idle,  ///< no block, a dwell, or before the first motion
+    rapid,
+    cut,  ///< line, arc or spline at feed
+};
+
+class LineMap {
+public:
+    /// Lines from the log's channel. `motion_of_point`: as track_motions() has them, where a line has several
+    /// motions; else empty.
+    LineMap(const ChannelView& channel, const Program& program, std::shared_ptr<const void> keep_alive,
+            Column<std::uint32_t> motion_of_point = {});
+    /// Lines from an alignment: a motion per point (no_motion: none) and a confidence of 0 … 255.
+    LineMap(Column<std::uint32_t> motion_of_point, Column<std::uint8_t> confidence, const Program& program);
+
+    static constexpr std::uint32_t no_motion = 0xffffffffu;
+
+    [[nodiscard]] bool from_log() const { return from_log_; }
+    [[nodiscard]] PointIndex count() const { return count_; }
+
+    /// Lines of points [begin, begin + out.size()), in the main program: for what runs in another file, the line
+    /// that called it; 0: none.
+    void read(PointIndex begin, std::span<LineNumber> out) const;
+    /// What these points do. Domain as read().
+    void read_kinds(PointIndex begin, std::span<PointKind> out) const;
+    [[nodiscard]] LineNumber line_at(PointIndex point) const;
+    /// Motions of a line of the main program, and of other files that it called, in the order in which they run.
+    [[nodiscard]] std::span<const std::uint32_t> motions_of(LineNumber line) const;
+    /// What a line does: what cuts most among its motions.
+    [[nodiscard]] PointKind kind_of(LineNumber line) const {
+        return line < kind_of_line_.size() ? kind_of_line_[line] : PointKind::idle;
+    }
+
+    /// The motion of a point; −1: none. Lines of a channel: the one that the line's run is at.
+    [[nodiscard]] std::int64_t motion_at(PointIndex point) const { return motion_at(point, line_at(point)); }
+    /// The same where the line of the point is known.
+    [[nodiscard]] std::int64_t motion_at(PointIndex point, LineNumber line) const;
+
+    /// Every run of consecutive points with that line, in order. O(points).
+    [[nodiscard]] std::vector<PointRange> points_of(LineNumber line) const;
+
+    /// How sure the line of a point is, 0 … 1, by what gave it: a log's line is certain unless the program was
+    /// edited. confidences() adds what the geometry says.
+    [[nodiscard]] double confidence_at(PointIndex point) const;
+
+    /// Whether the log belongs to the program.
+    [[nodiscard]] const ProgramMatch& match() const { return match_; }
+    void set_match(ProgramMatch match) { match_ = std::move(match); }
+
+private:
+    void index_lines(const Program& program);
+
+    PointIndex count_ = 0;
+    ProgramMatch match_;
+    bool from_log_ = false;
+    ChannelView channel_;
+    std::shared_ptr<const void> keep_alive_;
+    Column<std::uint32_t> motion_of_point_;  ///< empty: each line has one motion, or none
+    Column<std::uint8_t> confidence_;
+    Column<LineNumber> line_of_motion_;  ///< in the main program
+    Column<char> in_main_;               ///< by motion: it is in the main file; empty: all are
+    Column<PointKind> kind_of_motion_;
+    Column<PointKind> kind_of_line_;       ///< by line number
+    Column<std::uint32_t> first_of_line_;  ///< by line number: where in by_line_ its motions begin
+    Column<std::uint32_t> by_line_;        ///< motions sorted by line
+};
+
+/// How well the lines of a map and the geometry of the program fit.
+struct LineAgreement {
+    PointIndex checked = 0;      ///< moving points with a line
+    PointIndex disagreeing = 0;  ///< farther than `tolerance` from what their line allows
+    double median_distance = 0;  ///< [mm] over the checked points
+    double p95_distance = 0;     ///< [mm]
+    double tolerance = 0;        ///< [mm]
+    PointIndex worst = -1;
+    double worst_distance = 0;  ///< [mm]
+};
+
+/// Checks a map against the geometry on about 10^5 points in evenly spaced stretches. A point may
+/// lie on the motions from its previous distinct line to its line, one more on each side: a kernel
+/// changes the number where a blend begins, and reports the last line of those that it merged.
+[[nodiscard]] LineAgreement check_lines(const Trajectory& path, const Program& program, const LineMap& map);
+
+/// How sure the lines of points [begin, begin + out.size()) are, 0 … 1: as confidence_at() has it, and less where a
+/// point is off what its line allows by more than a finishing tolerance. O(points).
+void read_confidences(const Trajectory& path, const Program& program, const LineMap& map, PointIndex begin,
+                      std::span<double> out);
+
+/// The lines of a log: its channel where it has one (and `use_channel`), an alignment otherwise. Where
+/// the log names several programs, lines of the others are not taken for this one's. Where the program was edited
+/// after the run (`identity`, or lines that lie beside their motions all along), the log's lines are moved to where
+/// they stand now (mapping/line_edits.h). match() of the result says whether the log belongs to the program.
+/// Adds diagnostics `map.…` about disagreement; where most points are off by the same translation,
+/// `map.work-offset` with the offset that brings them onto the path.
+[[nodiscard]] LineMap map_lines(const Trajectory& path, const Log& log, const Program& program, bool use_channel,
+                                Diagnostics& diagnostics, ProgramIdentity identity = ProgramIdentity::unknown);
+
+}  // namespace clsurf

@@ -1,0 +1,28 @@
+#pragma once
+// MotionGrid: the motions of a program near a place. Built only if an alignment is lost.
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "toolpath/toolpath.h"
+
+namespace clsurf {
+
+class MotionGrid {
+public:
+    /// Cells of about the motions' mean length. O(length / cell). `path` must outlive it.
+    explicit MotionGrid(const Toolpath& path);
+
+    /// Motions that come within `distance` [mm] of p, in order. `distance` ≤ a cell, or fewer are found.
+    [[nodiscard]] std::vector<std::int64_t> near(const Vec3& p, double distance) const;
+
+private:
+    [[nodiscard]] Eigen::Vector3i cell_of(const Vec3& p) const { return (p / cell_).array().floor().cast<int>(); }
+
+    const Toolpath& path_;
+    double cell_ = 1;
+    std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
+};
+
+}  // namespace clsurf

@@ -1,0 +1,291 @@
+#include "mapping/motion_track.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "mapping/allowed_motions.h"
+#include "mapping/line_map.h"
+#include "mapping/path_walk.h"
+#include "mapping/program_lines.h"
+
+namespace clsurf {
+namespace {
+
+constexpr std::int64_t look_elsewhere = 8;  ///< motions that may be searched per point, on the average
+constexpr std::int64_t group_window = 256;  ///< motions of one line that a walk sees ahead of it
+
+/// Motions that run one after the other and stand in the same line of the same file, or are made by the same
+/// line that calls.
+struct Stretch {
+    std::uint32_t first = 0, last = 0;
+};
+
+/// The stretches of each line of each file, in the order in which they run.
+class LineStretches {
+public:
+    explicit LineStretches(const Program& program) {
+        const Motions& motions = program.motions;
+        for (const SourceText& file : program.files) {
+            base_.push_back(keys_);
+            keys_ += std::size_t{file.line_count()} + 1;
+        }
+        std::vector<std::size_t> own(motions.kind.size());
+        for (std::size_t i = 0; i < own.size(); ++i)
+            own[i] = key(motions.file.empty() ? 0 : motions.file[i], motions.line[i]);
+        Column<std::uint32_t> with_own(keys_, 0);
+        for (const std::size_t k : own) with_own[k] = 1;
+        // A line that calls and moves nothing itself stands for what it called.
+        const std::vector<std::size_t> caller = callers(program);
+        const auto called = [&](std::size_t i) {
+            const std::size_t k = motions.call.empty() ? no_key : caller[motions.call[i]];
+            return k != no_key && with_own[k] == 0 ? k : no_key;
+        };
+        first_of_key_ = Column<std::uint32_t>(keys_ + 1, 0);
+        const auto for_each = [&](auto&& body) {
+            for_each_stretch(
+                own.size(), [&](std::size_t i) { return own[i]; }, body);
+            if (!motions.call.empty()) for_each_stretch(own.size(), called, body);
+        };
+        for_each([&](std::size_t k, Stretch) { ++first_of_key_[k + 1]; });
+        for (std::size_t k = 0; k < keys_; ++k) first_of_key_[k + 1] += first_of_key_[k];
+        stretches_.resize(first_of_key_[keys_]);
+        Column<std::uint32_t> next = first_of_key_;
+        for_each([&](std::size_t k, Stretch s) { stretches_[next[k]++] = s; });
+    }
+
+    [[nodiscard]] std::size_t files() const { return base_.size(); }
+    /// Those of a line; none where the file does not have it.
+    [[nodiscard]] std::span<const Stretch> of(std::size_t file, LineNumber line) const {
+        const std::size_t end = file + 1 < base_.size() ? base_[file + 1] : keys_;
+        if (base_[file] + line >= end) return {};
+        const std::size_t k = base_[file] + line;
+        return {stretches_.data() + first_of_key_[k], stretches_.data() + first_of_key_[k + 1]};
+    }
+
+private:
+    static constexpr std::size_t no_key = std::numeric_limits<std::size_t>::max();
+
+    [[nodiscard]] std::size_t key(std::size_t file, LineNumber line) const { return base_[file] + line; }
+
+    /// By call: the line of the main program that led to it.
+    [[nodiscard]] std::vector<std::size_t> callers(const Program& program) const {
+        std::vector<std::size_t> keys(program.motions.calls.size() + 1, no_key);
+        for (std::size_t k = 0; k < program.motions.calls.size(); ++k) {
+            const Call& call = program.motions.calls[k];
+            keys[k + 1] = call.caller == 0 ? key(call.file, call.line) : keys[call.caller];
+        }
+        return keys;
+    }
+
+    template <typename KeyOf, typename Body>
+    static void for_each_stretch(std::size_t count, const KeyOf& key_of, const Body& body) {
+        for (std::size_t i = 0; i < count;) {
+            const std::size_t k = key_of(i);
+            const std::size_t first = i;
+            while (i < count && key_of(i) == k) ++i;
+            if (k != no_key) body(k, {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(i - 1)});
+        }
+    }
+
+    std::size_t keys_ = 0;
+    std::vector<std::size_t> base_;       ///< by file: key of its line 0
+    Column<std::uint32_t> first_of_key_;  ///< by key: where in stretches_ its own begin
+    Column<Stretch> stretches_;           ///< sorted by key, then by motion
+};
+
+class MotionTracker {
+public:
+    MotionTracker(const Trajectory& path, const Program& program, double tolerance)
+        : path_(path),
+          toolpath_(program.motions, path.count > 0 ? path.at(0) : Vec3::Zero()),
+          walk_(toolpath_),
+          stretches_(program),
+          tolerance_(tolerance) {}
+
+    static constexpr std::int32_t any_file = -1, unknown_file = -2;
+
+    /// The motion of the next point, or −1.
+    std::int64_t add(LineNumber line, std::int32_t file, const Vec3& p) {
+        budget_ += look_elsewhere;
+        const double chord = p.allFinite() && before_.allFinite() ? (p - before_).norm() : 0.0;
+        before_ = p;
+        if (line == 0 || file == unknown_file) {
+            line_ = 0;
+            return -1;
+        }
+        if (line != line_ || file != file_) {
+            line_ = line;
+            file_ = file;
+            begin_run(p);
+        } else if (has_motion_ && p.allFinite()) {
+            go_on(p, chord);
+        }
+        return has_motion_ ? stand_.motion : -1;
+    }
+
+private:
+    /// The first stretch of the run's line that begins behind `motion`; nullptr: none.
+    [[nodiscard]] const Stretch* next_after(std::int64_t motion) const {
+        const Stretch* next = nullptr;
+        for_files([&](std::size_t file) {
+            const std::span<const Stretch> all = stretches_.of(file, line_);
+            const auto at = std::upper_bound(all.begin(), all.end(), motion,
+                                             [](std::int64_t m, const Stretch& s) { return m < s.first; });
+            if (at != all.end() && (next == nullptr || at->first < next->first)) next = &*at;
+        });
+        return next;
+    }
+
+    template <typename Body>
+    void for_files(const Body& body) const {
+        if (file_ >= 0) {
+            body(static_cast<std::size_t>(file_));
+            return;
+        }
+        for (std::size_t file = 0; file < stretches_.files(); ++file) body(file);
+    }
+
+    void begin_run(const Vec3& p) {
+        const std::int64_t from = has_motion_ ? stand_.motion : -1;
+        const Stretch* next = next_after(from);
+        if (next == nullptr) next = next_after(-1);  // the program begins again
+        has_motion_ = next != nullptr;
+        if (next == nullptr) return;
+        stretch_ = *next;
+        if (p.allFinite() && allowed_distance(from, stretch_, p) > tolerance_) look_for(from, p);
+        stand_ = {stretch_.first, 0, 0};
+        if (p.allFinite() && stretch_.last > stretch_.first) stand_ = walk_.advance(stand_, p, 0, reach());
+    }
+
+    void go_on(const Vec3& p, double chord) {
+        const Stand next = walk_.advance(stand_, p, chord, reach());
+        if (next.distance > settled && next.motion == stretch_.last) {
+            // A kernel that merges lines may report one line through several of its runs.
+            const Stretch* again = next_after(stretch_.last);
+            if (again != nullptr && again->first - stand_.motion <= longest_merge) {
+                const Stand beyond = walk_.advance(stand_, p, chord, again->last);
+                if (beyond.distance < next.distance && beyond.motion > stretch_.last) {
+                    stretch_.last = again->last;
+                    stand_ = beyond;
+                    return;
+                }
+            }
+        }
+        stand_ = next;
+    }
+
+    /// The last motion of the stretch that the walk may see.
+    [[nodiscard]] std::int64_t reach() const {
+        return std::min<std::int64_t>(stretch_.last,
+                                      std::max<std::int64_t>(stand_.motion, stretch_.first) + group_window);
+    }
+
+    /// To the motions that the line allows where the walk was on `from` before.
+    double allowed_distance(std::int64_t from, const Stretch& of, const Vec3& p) {
+        const MotionRange range = allowed_motions(from, of.first, toolpath_.size());
+        const std::int64_t last =
+            std::max<std::int64_t>(range.last, std::min<std::int64_t>(of.last, of.first + group_window));
+        double best = std::numeric_limits<double>::infinity();
+        for (std::int64_t m = range.first; m <= last && !(best <= tolerance_); ++m) {
+            best = std::min(best, toolpath_.foot(m, p).distance);
+            --budget_;
+        }
+        return best;
+    }
+
+    /// The first run of the line, ahead and then from the start, on which the point is; the order of the
+    /// runs holds where it is on none, or where too many have been looked at.
+    void look_for(std::int64_t from, const Vec3& p) {
+        const Stretch in_order = stretch_;
+        const Stretch* candidate = next_after(in_order.first);
+        while (candidate != nullptr && budget_ > 0) {
+            if (allowed_distance(-1, *candidate, p) <= tolerance_) {
+                stretch_ = *candidate;
+                return;
+            }
+            candidate = next_after(candidate->first);
+        }
+        for (candidate = next_after(-1); candidate != nullptr && candidate->first <= from && budget_ > 0;
+             candidate = next_after(candidate->first)) {
+            if (allowed_distance(-1, *candidate, p) <= tolerance_) {
+                stretch_ = *candidate;
+                return;
+            }
+        }
+    }
+
+    static constexpr double settled = 0.01;  ///< [mm] a point as near as that has not left its motion
+
+    const Trajectory& path_;
+    Toolpath toolpath_;
+    PathWalk walk_;
+    LineStretches stretches_;
+    double tolerance_;
+    LineNumber line_ = 0;  ///< of the run
+    std::int32_t file_ = any_file;
+    bool has_motion_ = false;
+    Stretch stretch_;  ///< of the run
+    Stand stand_;
+    Vec3 before_ = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+    std::int64_t budget_ = 100'000;
+};
+
+/// By program of the log: the program's file of that name.
+std::vector<std::int32_t> files_of_programs(const Log& log, const Program& program) {
+    std::vector<std::int32_t> files;
+    for (const ProgramReference& known : log.programs) {
+        const std::string name = plain_program_name(known.name);
+        const auto same = std::find_if(program.files.begin(), program.files.end(),
+                                       [&](const SourceText& file) { return plain_program_name(file.name()) == name; });
+        files.push_back(same == program.files.end() ? MotionTracker::unknown_file
+                                                    : static_cast<std::int32_t>(same - program.files.begin()));
+    }
+    return files;
+}
+
+}  // namespace
+
+bool lines_are_ambiguous(const Motions& motions) {
+    if (!motions.file.empty()) return true;
+    LineNumber most = 0;
+    for (const LineNumber line : motions.line) most = std::max(most, line);
+    std::vector<bool> seen(std::size_t{most} + 1);
+    for (const LineNumber line : motions.line) {
+        if (seen[line]) return true;
+        seen[line] = true;
+    }
+    return false;
+}
+
+Column<std::uint32_t> track_motions(const Trajectory& path, const Log& log, const Program& program,
+                                    const ChannelView& lines, double tolerance) {
+    constexpr std::size_t block = 4096;
+    constexpr std::uint32_t none = 0xffffffffu;
+    Column<std::uint32_t> motion_of_point(static_cast<std::size_t>(path.count), LineMap::no_motion);
+    const Channel* index = log.programs.size() < 2 ? nullptr : log.find("program");
+    const std::vector<std::int32_t> file_of = files_of_programs(log, program);
+    MotionTracker tracker(path, program, tolerance);
+    std::array<LineNumber, block> numbers;
+    std::array<std::uint32_t, block> programs;
+    std::array<double, block> x, y, z;
+    for (PointIndex begin = 0; begin < path.count; begin += static_cast<PointIndex>(block)) {
+        const auto n =
+            static_cast<std::size_t>(std::min<PointIndex>(static_cast<PointIndex>(block), path.count - begin));
+        copy_block(lines, begin, {numbers.data(), n}, 0);
+        if (index != nullptr) copy_block(index->values, begin, {programs.data(), n}, none);
+        path.read(begin, {x.data(), n}, {y.data(), n}, {z.data(), n});
+        for (std::size_t i = 0; i < n; ++i) {
+            const std::int32_t file = index == nullptr               ? MotionTracker::any_file
+                                      : programs[i] < file_of.size() ? file_of[programs[i]]
+                                                                     : MotionTracker::unknown_file;
+            const std::int64_t motion = tracker.add(numbers[i], file, {x[i], y[i], z[i]});
+            if (motion >= 0) motion_of_point[static_cast<std::size_t>(begin) + i] = static_cast<std::uint32_t>(motion);
+        }
+    }
+    return motion_of_point;
+}
+
+}  // namespace clsurf

@@ -1,0 +1,48 @@
+#include "mapping/path_walk.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace clsurf {
+namespace {
+
+// Lengths in mm.
+constexpr double window_play = 0.05;         ///< length that the window always has
+constexpr double window_of_chord = 2.0;      ///< length per chord: corners are cut, the chord is shorter
+constexpr double window_of_distance = 10.0;  ///< length per distance: a foot jumps over a cut corner
+constexpr double way_penalty = 0.02;         ///< mm of distance per mm that arc length and chord differ
+
+}  // namespace
+
+PathWalk::PathWalk(const Toolpath& path) : path_(path) {
+    const auto n = static_cast<std::size_t>(path.size());
+    length_.resize(n);
+    for (std::size_t i = 0; i < n; ++i) length_[i] = path.length(static_cast<std::int64_t>(i));
+}
+
+Stand PathWalk::advance(const Stand& from, const Vec3& p, double chord, std::int64_t last) const {
+    Stand best = from;
+    double best_cost = std::numeric_limits<double>::infinity();
+    double nearest = std::numeric_limits<double>::infinity();
+    double gone = -from.fraction * length(from.motion);  // to the start of motion m
+    for (std::int64_t m = from.motion; m <= last; ++m) {
+        const bool moves = length(m) > 0;
+        if (moves || m == from.motion) {
+            const Foot foot = path_.foot(m, p, m == from.motion ? from.fraction : 0.0);
+            const double advance = gone + foot.fraction * length(m);
+            const double cost = foot.distance + way_penalty * std::abs(advance - chord);
+            nearest = std::min(nearest, foot.distance);
+            if (cost < best_cost) {
+                best_cost = cost;
+                best = {m, foot.fraction, foot.distance};
+            }
+        }
+        gone += length(m);
+        // Farther than lost the walk finds nothing: a whole program would be searched for each point.
+        if (gone > window_play + window_of_chord * chord + window_of_distance * std::min(nearest, lost_distance)) break;
+    }
+    return best;
+}
+
+}  // namespace clsurf

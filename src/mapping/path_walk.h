@@ -1,0 +1,41 @@
+#pragma once
+// PathWalk: follows a tool along the programmed path, forward only, from one logged point to the next.
+
+#include <cstdint>
+
+#include "core/column.h"
+#include "toolpath/toolpath.h"
+
+namespace clsurf {
+
+/// Where a walk is on the path.
+struct Stand {
+    std::int64_t motion = 0;
+    double fraction = 0;  ///< of the motion's length, 0 … 1
+    double distance = 0;  ///< [mm] from the point to the path there
+};
+
+class PathWalk {
+public:
+    /// `path` must outlive it. O(motions).
+    explicit PathWalk(const Toolpath& path);
+
+    /// The foot of `p` at or after `from`, on no motion beyond `last`, for a tool that moved by `chord` [mm].
+    /// Looks as far ahead as the tool can have gone. Where several feet are equally near (out and back on
+    /// the same line), the one whose arc length fits the chord.
+    [[nodiscard]] Stand advance(const Stand& from, const Vec3& p, double chord, std::int64_t last) const;
+    /// As above, to the end of the program.
+    [[nodiscard]] Stand advance(const Stand& from, const Vec3& p, double chord) const {
+        return advance(from, p, chord, path_.size() - 1);
+    }
+
+    static constexpr double lost_distance = 0.5;  ///< [mm] a walk that is farther off is lost
+
+private:
+    [[nodiscard]] double length(std::int64_t m) const { return length_[static_cast<std::size_t>(m)]; }
+
+    const Toolpath& path_;
+    Column<double> length_;
+};
+
+}  // namespace clsurf

@@ -1,0 +1,57 @@
+#include "numeric/cubic_span.h"
+
+#include <cmath>
+
+namespace clsurf {
+namespace {
+
+constexpr double way_exact = 1e-12;  ///< of the chord: where Newton's steps end
+constexpr int most_steps = 60;
+
+}  // namespace
+
+Vec3 CubicSpan::at(double u) const {
+    return coefficients[0] + u * (coefficients[1] + u * (coefficients[2] + u * coefficients[3]));
+}
+
+Vec3 CubicSpan::derivative(double u) const {
+    return coefficients[1] + u * (2 * coefficients[2] + 3 * u * coefficients[3]);
+}
+
+Vec3 CubicSpan::second_derivative(double u) const { return 2 * coefficients[2] + 6 * u * coefficients[3]; }
+
+double CubicSpan::way_to(double u) const {
+    static constexpr std::array<double, 5> node{0, -0.5384693101056831, 0.5384693101056831, -0.9061798459386640,
+                                                0.9061798459386640};
+    static constexpr std::array<double, 5> weight{0.5688888888888889, 0.4786286704993665, 0.4786286704993665,
+                                                  0.2369268850561891, 0.2369268850561891};
+    double sum = 0;
+    for (std::size_t k = 0; k < node.size(); ++k) sum += weight[k] * derivative(0.5 * u * (1 + node[k])).norm();
+    return 0.5 * u * sum;
+}
+
+double CubicSpan::at_way(double way, double length) const {
+    double low = 0, high = chord;
+    if (way <= 0) return low;
+    if (way >= length) return high;
+    double u = chord * way / length;
+    for (int step = 0; step < most_steps; ++step) {
+        const double over = way_to(u) - way;
+        if (std::abs(over) <= way_exact * chord) break;
+        (over > 0 ? high : low) = u;
+        const double speed = derivative(u).norm();
+        const double next = speed > 0 ? u - over / speed : high;
+        u = next > low && next < high ? next : 0.5 * (low + high);
+    }
+    return u;
+}
+
+CubicSpan hermite(const Vec3& begin, const Vec3& end, const Vec3& derivative_at_begin, const Vec3& derivative_at_end,
+                  double chord) {
+    const Vec3 slope = (end - begin) / chord;
+    return {{begin, derivative_at_begin, (3 * slope - 2 * derivative_at_begin - derivative_at_end) / chord,
+             (derivative_at_begin + derivative_at_end - 2 * slope) / (chord * chord)},
+            chord};
+}
+
+}  // namespace clsurf

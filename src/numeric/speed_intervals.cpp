@@ -1,0 +1,187 @@
+#include "numeric/speed_intervals.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "numeric/polyline.h"
+
+namespace clsurf {
+namespace {
+
+constexpr double just_a_boundary = 1 - 1e-9;
+constexpr double same_score = 1e-9;
+constexpr double closed_share = 1e-6;  ///< of the pass's extent: ends this near make it closed
+
+void reduce(std::span<const Vec3> points, std::size_t first, std::size_t last, double error,
+            std::vector<std::size_t>& kept) {
+    std::vector<std::pair<std::size_t, std::size_t>> open{{first, last}};
+    while (!open.empty()) {
+        const auto [from, to] = open.back();
+        open.pop_back();
+        double farthest = error;
+        std::size_t at = from;
+        for (std::size_t i = from + 1; i < to; ++i) {
+            const double distance = (points[i] - nearest_on_line(points[i], points[from], points[to])).norm();
+            if (distance > farthest) farthest = distance, at = i;
+        }
+        if (at == from) continue;
+        kept.push_back(at);
+        open.emplace_back(from, at);
+        open.emplace_back(at, to);
+    }
+}
+
+double rounded(double score) { return std::isfinite(score) ? std::round(score / same_score) * same_score : score; }
+
+/// How much a pass changes at its points: 1 is a boundary.
+class Scores {
+public:
+    Scores(std::span<const Vec3> points, std::span<const double> curvature, const IntervalRules& rules)
+        : points_(points), curvature_(curvature), rules_(rules) {}
+
+    /// Domain: an inner point.
+    [[nodiscard]] double at(std::size_t i) const {
+        const double length = std::log((points_[i + 1] - points_[i]).norm() / (points_[i] - points_[i - 1]).norm());
+        const double before = bend(i - 1), here = bend(i), after = bend(i + 1);
+        if (std::isinf(here)) return here;  // turns back
+        const double change = std::isinf(before) || std::isinf(after) ? 0 : std::log(after / before);
+        const double spike = std::log(here / std::max(before, after));
+        const double by_curvature = std::log(rules_.curvature_ratio);
+        return rounded(std::max(
+            {std::abs(length) / std::log(rules_.length_ratio), std::abs(change) / by_curvature, spike / by_curvature}));
+    }
+
+private:
+    [[nodiscard]] double bend(std::size_t i) const { return std::max(curvature_[i], rules_.flat_curvature); }
+
+    std::span<const Vec3> points_;
+    std::span<const double> curvature_;
+    const IntervalRules& rules_;
+};
+
+/// Cuts where curvature drifts by more than the ratio over the inner points, from left to right.
+void cut_drifts(std::vector<std::size_t>& boundaries, std::span<const double> curvature, const IntervalRules& rules) {
+    std::vector<std::size_t> all{boundaries.front()};
+    for (std::size_t k = 1; k < boundaries.size(); ++k) {
+        double low = std::numeric_limits<double>::infinity(), high = 0;
+        for (std::size_t i = all.back() + 1; i < boundaries[k]; ++i) {
+            const double bend = std::max(curvature[i], rules.flat_curvature);
+            const double lower = std::min(low, bend), higher = std::max(high, bend);
+            if (higher > rules.drift_ratio * lower && std::isfinite(higher)) {
+                all.push_back(i);
+                low = std::numeric_limits<double>::infinity();
+                high = 0;
+            } else {
+                low = lower;
+                high = higher;
+            }
+        }
+        all.push_back(boundaries[k]);
+    }
+    boundaries = std::move(all);
+}
+
+}  // namespace
+
+std::vector<double> curvatures(std::span<const Vec3> points, double reach) {
+    const std::size_t n = points.size();
+    std::vector<double> result(n, 0);
+    if (n < 3) return result;
+    std::vector<double> way(n, 0);
+    for (std::size_t i = 1; i < n; ++i) way[i] = way[i - 1] + (points[i] - points[i - 1]).norm();
+    std::size_t before = 0, after = 1;
+    for (std::size_t i = 1; i + 1 < n; ++i) {
+        while (before + 1 < i && way[i] - way[before + 1] >= reach) ++before;
+        after = std::max(after, i + 1);
+        while (after + 1 < n && way[after] - way[i] < reach) ++after;
+        result[i] = three_point_curvature(points[before], points[i], points[after]);
+    }
+    result.front() = result[1];
+    result.back() = result[n - 2];
+    return result;
+}
+
+std::vector<std::size_t> characteristic_points(std::span<const Vec3> points, double error) {
+    if (points.empty()) return {};
+    const std::size_t last = points.size() - 1;
+    std::vector<std::size_t> kept{0};
+    if (last == 0) return kept;
+    kept.push_back(last);
+    std::size_t farthest = 0;
+    for (std::size_t i = 1; i < last; ++i) {
+        if ((points[i] - points[0]).norm() > (points[farthest] - points[0]).norm()) farthest = i;
+    }
+    const double extent = (points[farthest] - points[0]).norm();
+    if (farthest > 0 && (points[last] - points[0]).norm() <= closed_share * extent) {
+        kept.push_back(farthest);
+        reduce(points, 0, farthest, error, kept);
+        reduce(points, farthest, last, error, kept);
+    } else {
+        reduce(points, 0, last, error, kept);
+    }
+    std::sort(kept.begin(), kept.end());
+    return kept;
+}
+
+std::vector<std::size_t> interval_boundaries(std::span<const Vec3> points, std::span<const double> curvature,
+                                             const IntervalRules& rules) {
+    const std::vector<std::size_t> corners = characteristic_points(points, rules.error);
+    if (corners.size() < 2) return corners;
+    const Scores scores(points, curvature, rules);
+    // A step of curvature shows at two neighbour points: of a run of them the one that changes most.
+    struct Choice {
+        std::size_t corner = 0;
+        double score = 0;
+    };
+    std::vector<Choice> chosen;
+    std::size_t run_end = 0;
+    for (std::size_t k = 1; k + 1 < corners.size(); ++k) {
+        const double score = scores.at(corners[k]);
+        if (score < just_a_boundary) continue;
+        const bool same_run = !chosen.empty() && corners[k] == run_end + 1;
+        if (!same_run)
+            chosen.push_back({k, score});
+        else if (score > chosen.back().score)
+            chosen.back() = {k, score};
+        run_end = corners[k];
+    }
+    std::vector<std::size_t> boundaries{corners.front()};
+    for (const Choice& choice : chosen) {
+        const std::size_t at = corners[choice.corner];
+        const std::size_t first = at - (at - corners[choice.corner - 1]) / 2,
+                          last = at + (corners[choice.corner + 1] - at) / 2;
+        std::size_t best = at;
+        double most = choice.score;
+        for (std::size_t i = std::max<std::size_t>(first, 1); i <= last && i + 1 < points.size(); ++i) {
+            if (const double score = scores.at(i); score > most) best = i, most = score;
+        }
+        if (best > boundaries.back()) boundaries.push_back(best);
+    }
+    if (boundaries.back() == corners.back()) return boundaries;
+    boundaries.push_back(corners.back());
+    return boundaries;
+}
+
+std::vector<SpeedInterval> divide(std::span<const Vec3> points, const IntervalRules& rules) {
+    if (points.size() < 2) return {};
+    const std::vector<double> curvature = curvatures(points, rules.reach);
+    std::vector<std::size_t> boundaries = interval_boundaries(points, curvature, rules);
+    if (rules.drift_ratio > 0) cut_drifts(boundaries, curvature, rules);
+    std::vector<SpeedInterval> intervals;
+    for (std::size_t k = 1; k < boundaries.size(); ++k) {
+        SpeedInterval interval{boundaries[k - 1], boundaries[k], 0, 0};
+        double sum = 0, way = 0;
+        for (std::size_t i = interval.first + 1; i < interval.last; ++i) {
+            const double mine = 0.5 * ((points[i] - points[i - 1]).norm() + (points[i + 1] - points[i]).norm());
+            sum += curvature[i] * mine;
+            way += mine;
+            interval.greatest_curvature = std::max(interval.greatest_curvature, curvature[i]);
+        }
+        if (way > 0) interval.mean_curvature = sum / way;
+        intervals.push_back(interval);
+    }
+    return intervals;
+}
+
+}  // namespace clsurf

@@ -1,0 +1,50 @@
+#pragma once
+// Constant-speed intervals: a pass divided where its curvature or its point spacing changes, so that each
+// interval can be run at one speed.
+//
+// After Wu et al., Speed Planning in the Constant Speed Interval, Machines 10 (2022) 558, with these
+// differences: curvature replaces its radius (a line is 0, not infinite); polyline reduction finds the
+// characteristic points; a boundary moves to the point of largest change, so that both directions of travel
+// give the same result; an interval over which curvature drifts is divided; the speed limits the normal
+// acceleration at the maximum curvature, not only at the mean (intervals/intervals.h).
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "core/geometry.h"
+
+namespace clsurf {
+
+struct IntervalRules {
+    double error = 0.01;           ///< [mm] how far characteristic points may leave the pass
+    double length_ratio = 5;       ///< of neighbour lines, from which a point bounds an interval
+    double curvature_ratio = 2;    ///< of the curvatures before and behind, likewise
+    double flat_curvature = 1e-3;  ///< [1/mm] less counts as this much
+    double drift_ratio = 4;        ///< greatest over least curvature inside; 0: not looked at
+    double reach = 0;              ///< [mm] of way to each side that a curvature is measured over, at least
+};
+
+/// Points first … last of a pass; neighbours share the point between them.
+struct SpeedInterval {
+    std::size_t first = 0, last = 0;
+    double mean_curvature = 0;      ///< [1/mm] over the way of the inner points
+    double greatest_curvature = 0;  ///< [1/mm] of the inner points
+};
+
+/// Curvature at each point [1/mm], those of the ends copied from beside them; infinite where the path turns back.
+[[nodiscard]] std::vector<double> curvatures(std::span<const Vec3> points, double reach = 0);
+
+/// Indices of the points of a polyline that leaves no point farther out than `error` [mm] (Douglas and
+/// Peucker), both ends among them; a closed one is cut at the point farthest from its start first.
+[[nodiscard]] std::vector<std::size_t> characteristic_points(std::span<const Vec3> points, double error);
+
+/// Where the intervals of a pass meet, both ends included. No two neighbour points are the same.
+[[nodiscard]] std::vector<std::size_t> interval_boundaries(std::span<const Vec3> points,
+                                                           std::span<const double> curvature,
+                                                           const IntervalRules& rules);
+
+/// The intervals of a pass; a single point: none. O(points log points).
+[[nodiscard]] std::vector<SpeedInterval> divide(std::span<const Vec3> points, const IntervalRules& rules);
+
+}  // namespace clsurf

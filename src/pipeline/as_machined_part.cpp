@@ -1,0 +1,33 @@
+#include "pipeline/as_machined_part.h"
+
+#include "core/error.h"
+
+namespace clsurf {
+
+FormedSurface ToolRun::formed(const CuttingTool& tool) const {
+    return {surface, read.signals, path.role, read.swept(path), read.pieces, tool};
+}
+
+std::unique_ptr<const UprightPart> upright_part(const Part& part, std::optional<Role> wanted, const CuttingTool& tool) {
+    if (!tilts(part.log, part.path)) return nullptr;
+    if (tool.kind != ToolKind::ball) {
+        throw UsageError(
+            to_text(tool) +
+                " is tilted: where a tool that is no ball touches, its axis decides, and only tools along z are known",
+            "a ball-end tool may be tilted: --tool ball:D");
+    }
+    auto upright = std::make_unique<UprightPart>();
+    upright->path = upright_ball(part.log, part.path, tool.radius);
+    upright->surface = stitch(gather(upright->path), *part.lines);
+    upright->read = signals_along(part.log, upright->path, upright->surface, wanted);
+    return upright;
+}
+
+FormedPart::FormedPart(const Part& part, const ClSurface& surface, std::optional<Role> role, const CuttingTool& tool)
+    : upright_(upright_part(part, role, tool)) {
+    if (!upright_) read_ = signals_of(part, surface, role);
+    const ToolRun run = upright_ ? upright_->run() : ToolRun{part.path, surface, read_};
+    formed_.emplace(run.formed(tool));
+}
+
+}  // namespace clsurf

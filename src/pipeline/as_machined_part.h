@@ -1,0 +1,57 @@
+#pragma once
+// FormedPart: the surface that the tool leaves, swept along the positions of a part.
+
+#include <memory>
+#include <optional>
+
+#include "machined/as_machined_surface.h"
+#include "pipeline/part.h"
+#include "pipeline/signals_of.h"
+
+namespace clsurf {
+
+/// What a tool is swept along. Refers to its members, which must outlive it.
+struct ToolRun {
+    const Trajectory& path;
+    const ClSurface& surface;
+    const PartSignals& read;
+
+    /// Refers to what this refers to.
+    [[nodiscard]] FormedSurface formed(const CuttingTool& tool) const;
+};
+
+/// A part as an upright tool that cuts the same goes over it.
+struct UprightPart {
+    Trajectory path;
+    ClSurface surface;
+    PartSignals read;
+
+    [[nodiscard]] ToolRun run() const { return {path, surface, read}; }
+};
+
+/// nullptr: the tool stands along z all the time. Else it must be a ball, whose centre is what counts; throws
+/// UsageError for other tools.
+[[nodiscard]] std::unique_ptr<const UprightPart> upright_part(const Part& part, std::optional<Role> wanted,
+                                                              const CuttingTool& tool);
+
+/// A formed surface with what it refers to; does not move once it is made.
+class FormedPart {
+public:
+    /// Sweeps `tool` along the role's positions (none: the most truthful ones of the log) of the part,
+    /// whose path is the commanded one where the log has it. Part and surface must outlive it. Throws UsageError as
+    /// upright_part() does. O(points), parallel.
+    FormedPart(const Part& part, const ClSurface& surface, std::optional<Role> role, const CuttingTool& tool);
+    FormedPart(const FormedPart&) = delete;
+    FormedPart& operator=(const FormedPart&) = delete;
+
+    [[nodiscard]] const FormedSurface& surface() const { return *formed_; }
+    [[nodiscard]] const Signals& signals() const { return upright_ ? upright_->read.signals : read_.signals; }
+
+private:
+    std::unique_ptr<const UprightPart>
+        upright_;  ///< of a tool that is tilted; then nothing was read of the part itself
+    PartSignals read_;
+    std::optional<FormedSurface> formed_;
+};
+
+}  // namespace clsurf

@@ -1,0 +1,183 @@
+#include "predictor/bend.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace clsurf {
+namespace {
+
+constexpr float bend_cosine = 0.906F;  ///< cos 25°: the path bends where it turns more than that …
+constexpr float net_reach = 2;         ///< … and still does so many step-overs away on both sides: no jog to and fro
+constexpr float turn_reach = 1;        ///< step-overs on either side, over which a turn is measured
+constexpr float link_reach = 5;        ///< step-overs on either side, within which a link leads to the next pass
+constexpr float link_cosine = 0.94F;   ///< cos 20°: the runs that it joins are hardly turned against each other …
+constexpr float link_aside = 0.6F;     ///< … and lie so many step-overs apart
+constexpr float link_sine = 0.24F;     ///< sin 14°: of the link against these runs
+constexpr float beside_reach = 1.5F;   ///< step-overs along the feed within which a pass beside has its bend
+constexpr float look_every = 0.1F;     ///< step-overs
+constexpr float accelerates = 0.35F;   ///< of the usual acceleration, at least: jerk limits and windows take the rest
+constexpr float ramp_share = 0.2F;     ///< the same along the path, between the bend and its ramp's end
+constexpr float accelerates_more = 1.35F;  ///< a bend that is taken 16 % faster
+constexpr float rises_again = 1.03F;       ///< of the least speed: beyond, it was another slow place
+constexpr float hardly_slower = 0.5F;      ///< of the threshold
+
+}  // namespace
+
+Bends::Bends(const ClSurface& surface, const Signals& signals, const Thresholds& thresholds)
+    : surface_(surface),
+      signals_(signals),
+      thresholds_(thresholds),
+      step_over_(static_cast<float>(surface.step_over)) {}
+
+bool Bends::explain(PointIndex point, const Comparison& comparison) const {
+    constexpr std::size_t q = index_of(Quantity::speed);
+    const float residual = comparison.residual[q], slight = hardly_slower * thresholds_.of[q];
+    const std::array<Station, 2> sides{comparison.beside_left, comparison.beside_right};
+    if (residual < -slight) return slows_for_bend(point);
+    if (!(residual > slight)) {  // the accelerations differ alone
+        return slows_for_bend(point) || std::any_of(sides.begin(), sides.end(), [&](const Station& at) {
+                   return at.exists() && slows_for_bend(at.nearest());
+               });
+    }
+    const float least = signals_[point].speed * (1 - slight);
+    int explained = 0;
+    for (const Station& at : sides) {
+        if (!at.exists() || !(signals_[at.nearest()].speed < least)) continue;
+        if (!slows_for_bend(at.nearest())) return false;
+        ++explained;
+    }
+    return explained > 0;
+}
+
+PointIndex Bends::stride_at(PointIndex point) const {
+    const PointIndex other = point > 0 ? point - 1 : point + 1;
+    const float record = (surface_.positions[point] - surface_.positions[other]).norm();
+    return record > 0 ? std::clamp<PointIndex>(std::lround(look_every * step_over_ / record), 1, 512) : 1;
+}
+
+/// The point of its pass so far along, or the last one before its end.
+PointIndex Bends::at_distance(PointIndex from, int direction, float distance) const {
+    const PointIndex stride = stride_at(from);
+    float way = 0;
+    PointIndex at = from;
+    while (way < distance) {
+        const PointIndex next = at + direction * stride;
+        if (next < 0 || next >= signals_.size() || !(signals_[next].speed > 0)) break;
+        const float step = (surface_.positions[next] - surface_.positions[at]).norm();
+        if (!(step >= 0)) break;
+        way += step + look_every * look_every * step_over_;  // a tool that stands still does not hold the search
+        at = next;
+    }
+    return at;
+}
+
+Bends::Turn Bends::turn_at(PointIndex point) const {
+    Eigen::Vector3f normal = signals_.normal(point);
+    if (!normal.allFinite()) normal.setZero();  // a tip may have no pass beside it: its turn is taken in space
+    const auto along_surface = [&](PointIndex i) {
+        const Eigen::Vector3f feed = signals_.feed(i);
+        return Eigen::Vector3f((feed - feed.dot(normal) * normal).normalized());
+    };
+    Turn turn;
+    for (const float share : {0.25F, 0.5F, 1.0F}) {
+        const float reach = share * turn_reach * step_over_;
+        const PointIndex before = at_distance(point, -1, reach), after = at_distance(point, +1, reach);
+        const float cosine = along_surface(before).dot(along_surface(after));
+        const float arc = (surface_.positions[point] - surface_.positions[before]).norm() +
+                          (surface_.positions[after] - surface_.positions[point]).norm();
+        if (!(cosine == cosine) || !(arc > 0)) continue;
+        const float speed = signals_[point].speed;
+        turn.acceleration =
+            std::max(turn.acceleration, speed * speed * std::acos(std::clamp(cosine, -1.0F, 1.0F)) / arc);
+        turn.cosine = cosine;
+    }
+    const PointIndex before = at_distance(point, -1, net_reach * step_over_);
+    const PointIndex after = at_distance(point, +1, net_reach * step_over_);
+    turn.cosine = std::max(turn.cosine, along_surface(before).dot(along_surface(after)));
+    return turn;
+}
+
+/// A pass beside it takes a bend like it, and takes it faster.
+bool Bends::taken_faster_beside(PointIndex bend, const Turn& turn) const {
+    for (const Side side : {Side::left, Side::right}) {
+        const Station at = beside(surface_, {bend, 0}, signals_.feed(bend), side);
+        if (!at.exists() || signals_[at.nearest()].zone == Zone::outside) continue;
+        PointIndex slowest = at.nearest();
+        for (const int direction : {-1, 1}) {
+            const PointIndex end = at_distance(at.nearest(), direction, beside_reach * step_over_);
+            for (PointIndex i = at.nearest(); i != end; i += direction) {
+                if (signals_[i].speed < signals_[slowest].speed) slowest = i;
+            }
+        }
+        const Turn there = turn_at(slowest);
+        if (there.cosine < bend_cosine && there.acceleration > accelerates_more * turn.acceleration) return true;
+    }
+    return false;
+}
+
+bool Bends::is_link(PointIndex point) const {
+    const Positions& p = surface_.positions;
+    const PointIndex before = at_distance(point, -1, link_reach * step_over_);
+    const PointIndex after = at_distance(point, +1, link_reach * step_over_);
+    const Eigen::Vector3f in = signals_.feed(before), out = signals_.feed(after);
+    if (!(in.dot(out) > link_cosine)) return false;
+    const Eigen::Vector3f along = (in + out).normalized(), way = p[after] - p[before];
+    const Eigen::Vector3f aside = way - way.dot(along) * along;
+    if (!(aside.norm() > link_aside * step_over_)) return false;
+    const Eigen::Vector3f sideways = aside.normalized();
+    float steepest = 0;  // against a path that turns evenly from one run to the other
+    for (PointIndex i = before; i <= after; ++i) {
+        const float share = static_cast<float>(i - before) / static_cast<float>(after - before);
+        const float even = (in + share * (out - in)).dot(sideways);
+        steepest = std::max(steepest, signals_.feed(i).dot(sideways) - even);
+    }
+    return steepest > link_sine;
+}
+
+bool Bends::is_bend(PointIndex point) const {
+    const Turn turn = turn_at(point);
+    if (is_link(point)) return turn.acceleration >= accelerates * thresholds_.usual_acceleration;
+    return turn.cosine < bend_cosine && turn.acceleration >= accelerates * thresholds_.usual_acceleration &&
+           !taken_faster_beside(point, turn);
+}
+
+/// Where the speed, falling all the way, is least; none where the tool speeds up after it less than its acceleration lets it.
+std::optional<PointIndex> Bends::slowest_ahead(PointIndex point, int direction) const {
+    const float a = 2 * accelerates * thresholds_.usual_acceleration;
+    const float speed = signals_[point].speed;
+    const PointIndex stride = stride_at(point);
+    PointIndex slowest = point, at = point;
+    float way = 0, way_to_slowest = 0;
+    while (speed * speed > a * (way - net_reach * step_over_)) {
+        const PointIndex next = at + direction * stride;
+        if (next < 0 || next >= signals_.size() || !(signals_[next].speed > 0)) break;
+        way += (surface_.positions[next] - surface_.positions[at]).norm() + look_every * look_every * step_over_;
+        at = next;
+        const float least = signals_[slowest].speed, there = signals_[at].speed;
+        if (there < least) {
+            slowest = at;
+            way_to_slowest = way;
+        } else if (!(there <= rises_again * least)) {
+            break;
+        }
+    }
+    const float least = signals_[slowest].speed;
+    const float ramp = std::max(0.0F, way_to_slowest - turn_reach * step_over_);
+    if (speed * speed < least * least + a * ramp) return std::nullopt;
+    return slowest;
+}
+
+bool Bends::slows_for_bend(PointIndex point) const {
+    for (const int direction : {-1, 1}) {
+        const std::optional<PointIndex> slowest = slowest_ahead(point, direction);
+        if (!slowest) continue;
+        const float distance = (surface_.positions[*slowest] - surface_.positions[point]).norm();
+        const bool ramp = std::abs(signals_.acceleration(point).dot(signals_.feed(point))) >=
+                          ramp_share * thresholds_.usual_acceleration;
+        if ((ramp || distance < beside_reach * step_over_) && is_bend(*slowest)) return true;
+    }
+    return false;
+}
+
+}  // namespace clsurf

@@ -1,0 +1,48 @@
+#pragma once
+// Bends: differences of speed that the layout of the passes explains.
+//
+// Where contour-parallel loops round two borders meet, their tips lie side by side with passes that run straight on. A tip turns
+// sharply, so the tool slows down for it, and the passes beside it have no reason to. The planner's look-ahead explains such a
+// difference: it is expected. It explains no more than that: the tool must take the bend about as fast as the machine's
+// acceleration lets it, brake for it and speed up after it at once, and no slower than a pass beside it takes a bend like it.
+// Both corners of a link that leads from a loop to the next one are bends, too.
+
+#include <optional>
+
+#include "predictor/mismatch.h"
+
+namespace clsurf {
+
+class Bends {
+public:
+    /// All must outlive it.
+    Bends(const ClSurface& surface, const Signals& signals, const Thresholds& thresholds);
+
+    /// The slower side of the comparison, the point or the passes next to it, slows down for a bend of its own path.
+    /// O(points within the braking distance).
+    [[nodiscard]] bool explain(PointIndex point, const Comparison& comparison) const;
+
+private:
+    /// How the path turns about a point.
+    struct Turn {
+        float cosine = 1;        ///< between the feed a step-over before it and a step-over after it, on the surface
+        float acceleration = 0;  ///< [mm/s²] that it takes at the speed that is there
+    };
+
+    [[nodiscard]] bool slows_for_bend(PointIndex point) const;
+    [[nodiscard]] bool is_bend(PointIndex point) const;
+    /// There the path leads on and sideways, from a closed loop to the next one.
+    [[nodiscard]] bool is_link(PointIndex point) const;
+    [[nodiscard]] bool taken_faster_beside(PointIndex bend, const Turn& turn) const;
+    [[nodiscard]] std::optional<PointIndex> slowest_ahead(PointIndex point, int direction) const;
+    [[nodiscard]] Turn turn_at(PointIndex point) const;
+    [[nodiscard]] PointIndex at_distance(PointIndex from, int direction, float distance) const;
+    [[nodiscard]] PointIndex stride_at(PointIndex point) const;
+
+    const ClSurface& surface_;
+    const Signals& signals_;
+    const Thresholds& thresholds_;
+    float step_over_;
+};
+
+}  // namespace clsurf

@@ -1,0 +1,109 @@
+#include "predictor/border.h"
+
+#include <algorithm>
+
+namespace clsurf {
+namespace {
+
+constexpr float clear_score = 2;
+constexpr int passes_enough = 3;  ///< on the side where there are some
+constexpr std::size_t sites_enough = 3;
+constexpr double flank_seconds = 0.020;  ///< by which a height may outlast the motion that makes it
+constexpr double flank_ramps = 1.5;      ///< jerk makes ramps longer than the acceleration alone
+
+}  // namespace
+
+Border::Border(const ClSurface& surface, const Signals& signals, const Way& way, const Suspects& suspects, double along,
+               const Thresholds& thresholds)
+    : surface_(surface), signals_(signals), way_(way), along_(along), thresholds_(thresholds) {
+    for (const Suspect* s : suspects) {
+        if (s->border || s->bend) at_border_.push_back(s);
+    }
+}
+
+std::optional<PointIndex> Border::as_strong_near(PointIndex point, std::size_t pass, float share,
+                                                 Quantity quantity) const {
+    const auto by_point = [](const Suspect* s, PointIndex p) { return s->point < p; };
+    const auto after = std::lower_bound(at_border_.begin(), at_border_.end(), point, by_point);
+    const auto strong = [&](const Suspect* s) {
+        return s->pass == pass && s->expected(quantity) && s->share[index_of(quantity)] >= share &&
+               !way_.at_least(s->point, point, along_);
+    };
+    // Within that way there are few of them.
+    for (auto k = after; k != at_border_.end() && !way_.at_least(point, (*k)->point, along_); ++k) {
+        if (strong(*k)) return (*k)->point;
+    }
+    for (auto k = after; k != at_border_.begin() && !way_.at_least((*(k - 1))->point, point, along_); --k) {
+        if (strong(*(k - 1))) return (*(k - 1))->point;
+    }
+    return std::nullopt;
+}
+
+std::optional<PointIndex> Border::flank_of(const Suspects& core, Quantity quantity) const {
+    const std::size_t q = index_of(quantity);
+    const auto weaker = [q](const Suspect* a, const Suspect* b) { return a->share[q] < b->share[q]; };
+    const auto strongest = std::max_element(core.begin(), core.end(), weaker);
+    const float peak = (*strongest)->share[q];
+    const auto hangs = [&](const Suspect* a, const Suspect* b) {
+        return a->pass == b->pass && !way_.at_least(a->point, b->point, along_);
+    };
+    auto first = strongest, last = strongest;
+    while (first != core.begin() && hangs(*(first - 1), *first)) --first;
+    while (last + 1 != core.end() && hangs(*last, *(last + 1))) ++last;
+    const std::size_t pass = (*strongest)->pass;
+    for (const Suspect* end : {*first, *last}) {
+        if (const auto at = as_strong_near(end->point, pass, peak, quantity)) return at;
+    }
+    const Comparison& c = (*strongest)->comparison;
+    for (const Station& at : {c.beside_left, c.beside_right}) {
+        if (!at.exists()) continue;
+        if (const auto near = as_strong_near(at.nearest(), pass_of(surface_.passes, at.nearest()), peak, quantity))
+            return near;
+    }
+    return std::nullopt;
+}
+
+double Border::flank_reach(const Suspects& core, Quantity quantity) const {
+    double ramp = thresholds_.usual_speed * flank_seconds;
+    if (quantity == Quantity::speed || quantity == Quantity::acceleration) {
+        float jump = 0;
+        for (const Suspect* s : core) jump = std::max(jump, std::abs(s->comparison.speed_jump));
+        if (thresholds_.usual_acceleration > 0)
+            ramp = std::max<double>(ramp, thresholds_.usual_speed * jump / thresholds_.usual_acceleration);
+    }
+    return 2 * along_ + flank_ramps * ramp;
+}
+
+bool Border::goes_on(PointIndex point, int direction) const {
+    for (PointIndex i = point; i >= 0 && i < signals_.size(); i += direction) {
+        if (signals_[i].zone == Zone::outside) return false;
+        if (way_.at_least(std::min(i, point), std::max(i, point), along_)) return true;
+    }
+    return false;
+}
+
+bool Border::stands_out(const Suspects& core, Quantity quantity) const {
+    const std::size_t q = index_of(quantity);
+    const auto clear = [&](const Suspect* s) {
+        const Comparison& c = s->comparison;
+        if (s->turns || s->bends(quantity) || std::min(s->score[q], s->share[q]) < clear_score) return false;
+        if (!s->border) return true;
+        if (c.left == 0 || c.right == 0) return std::max(c.left, c.right) >= passes_enough;
+        return quantity == Quantity::speed && c.residual[q] < 0 && signals_[s->point].zone != Zone::ramp;
+    };
+    for (std::size_t k = 0; k < core.size();) {
+        std::size_t end = k + 1;
+        while (end < core.size() && core[end]->pass == core[k]->pass &&
+               !way_.at_least(core[end - 1]->point, core[end]->point, along_))
+            ++end;
+        const auto first = core.begin() + static_cast<std::ptrdiff_t>(k);
+        const auto last = core.begin() + static_cast<std::ptrdiff_t>(end);
+        if (static_cast<std::size_t>(std::count_if(first, last, clear)) >= sites_enough &&
+            goes_on(core[k]->point, -1) && goes_on(core[end - 1]->point, +1))
+            return true;
+        k = end;
+    }
+    return false;
+}
+
+}  // namespace clsurf

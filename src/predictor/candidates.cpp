@@ -1,0 +1,358 @@
+#include "predictor/candidates.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <numeric>
+
+#include "core/block.h"
+#include "predictor/bend.h"
+#include "predictor/oblique_alignment.h"
+#include "predictor/sites.h"
+
+namespace clsurf {
+namespace {
+
+constexpr int fewest_alike = 2;  ///< passes of the same way on each side, where two ways cannot be told from a fault
+constexpr float suspect_share = 0.5F;  ///< of a threshold
+constexpr double ends_apart = 1;   ///< step-overs along the feed between ends of passes that do not end side by side
+constexpr double ramp_room = 1.5;  ///< times what the steeper one of both ramps makes of that way
+constexpr float joined_beside = 1.0F;  ///< step-overs along the feed between suspects of two passes
+
+/// How far residual and step pass the thresholds, together.
+void measure(Suspect& suspect, const Thresholds& thresholds) {
+    suspect.share.fill(0);
+    suspect.score.fill(0);
+    for (std::size_t q = 0; q < quantities; ++q) {
+        const Comparison& c = suspect.comparison;
+        const float share =
+            std::max(std::abs(c.residual[q]) - c.slack[q], 0.0F) / thresholds.of[q];  // NaN stays NaN in this order
+        if (!(share == share)) continue;
+        suspect.share[q] = share;
+        const float step = (c.step[q] - c.play[q] - c.slack[q]) / thresholds.of[q];
+        suspect.score[q] = step == step ? std::min(step, 2 * share) : 0;
+    }
+}
+
+/// Sets of suspects that were joined, from any number of threads: roots are hung below lower ones only,
+/// so that the sets do not depend on who joins first.
+class Groups {
+public:
+    explicit Groups(std::size_t count) : parent_(count) {
+        for (std::size_t i = 0; i < count; ++i) parent_[i].store(i, std::memory_order_relaxed);
+    }
+    /// The lowest of a set.
+    std::size_t root(std::size_t i) {
+        for (;;) {
+            std::size_t parent = parent_[i].load(std::memory_order_relaxed);
+            if (parent == i) return i;
+            const std::size_t above = parent_[parent].load(std::memory_order_relaxed);
+            if (above != parent) parent_[i].compare_exchange_weak(parent, above, std::memory_order_relaxed);
+            i = above;
+        }
+    }
+    void join(std::size_t a, std::size_t b) {
+        for (;;) {
+            a = root(a);
+            b = root(b);
+            if (a == b) return;
+            if (a < b) std::swap(a, b);
+            std::size_t still_root = a;
+            if (parent_[a].compare_exchange_strong(still_root, b, std::memory_order_relaxed)) return;
+        }
+    }
+
+private:
+    std::vector<std::atomic<std::size_t>> parent_;
+};
+
+/// Index of the first of `points`, which ascend, that is not below `point`: steps that double away
+/// from `hint`, since what is looked up one after the other lies side by side.
+std::size_t lower_bound_near(const std::vector<PointIndex>& points, std::size_t hint, PointIndex point) {
+    std::size_t low = std::min(hint, points.size());
+    std::size_t high = low;
+    for (std::size_t step = 1; low > 0 && points[low - 1] >= point; step *= 2) {
+        high = low - 1;
+        low -= std::min(step, low);
+    }
+    for (std::size_t step = 1; high < points.size() && points[high] < point; step *= 2) {
+        low = high + 1;
+        high = std::min(high + step, points.size());
+    }
+    const auto begin = points.begin() + static_cast<std::ptrdiff_t>(low);
+    return static_cast<std::size_t>(std::lower_bound(begin, points.begin() + static_cast<std::ptrdiff_t>(high), point) -
+                                    points.begin());
+}
+
+}  // namespace
+
+std::size_t pass_of(const Passes& passes, PointIndex point) {
+    const auto after = std::upper_bound(passes.begin(), passes.end(), point,
+                                        [](PointIndex p, const Pass& pass) { return p < pass.first; });
+    return static_cast<std::size_t>(after - passes.begin()) - 1;
+}
+
+PointIndex count_compared(const ClSurface& surface, const Signals& signals) {
+    const PointIndex count = surface.positions.size();
+    std::vector<PointIndex> of_block(static_cast<std::size_t>((count + block_points - 1) / block_points));
+    for_each_block(count, [&](PointIndex first, PointIndex last) {
+        PointIndex& mine = of_block[static_cast<std::size_t>(first / block_points)];
+        for (PointIndex i = first; i < last; ++i) {
+            if (signals[i].zone != Zone::outside && surface.neighbours.has(Side::left, i) &&
+                surface.neighbours.has(Side::right, i))
+                ++mine;
+        }
+    });
+    return std::accumulate(of_block.begin(), of_block.end(), PointIndex{0});
+}
+
+namespace {
+
+class SuspectFinder {
+public:
+    SuspectFinder(const ClSurface& surface, const Signals& signals, const Way& way, const Thresholds& thresholds)
+        : surface_(surface),
+          signals_(signals),
+          way_(way),
+          thresholds_(thresholds),
+          comparer_(surface, signals, thresholds.least_speed),
+          bends_(surface, signals, thresholds),
+          sites_(surface, signals),
+          judged_(static_cast<std::size_t>(signals.size()), false) {}
+
+    FoundSuspects find() {
+        std::vector<PointIndex> frontier = judge(sites_with_step());
+        const auto in_order = static_cast<std::ptrdiff_t>(frontier.size());
+        while (!frontier.empty()) frontier = judge(beside_all(frontier));
+        for (const std::vector<Suspect>& piece : found_.kept) {
+            for (const Suspect& suspect : piece) found_.suspects.push_back(&suspect);
+        }
+        const auto by_point = [](const Suspect* a, const Suspect* b) { return a->point < b->point; };
+        Suspects& all = found_.suspects;
+        std::sort(all.begin() + in_order, all.end(), by_point);
+        std::inplace_merge(all.begin(), all.begin() + in_order, all.end(), by_point);
+        return std::move(found_);
+    }
+
+private:
+    /// Sites whose step to an adjacent pass is half a threshold or more.
+    [[nodiscard]] std::vector<PointIndex> sites_with_step() const {
+        const PointIndex count = signals_.size();
+        std::vector<std::vector<PointIndex>> of_block(
+            static_cast<std::size_t>((count + block_points - 1) / block_points));
+        for_each_block(count, [&](PointIndex first, PointIndex last) {
+            std::vector<PointIndex>& mine = of_block[static_cast<std::size_t>(first / block_points)];
+            sites_.for_each(first, last, [&](PointIndex i) {
+                const Comparison c = comparer_.compare(sites_.place(i), 1);
+                bool steps = false;
+                for (std::size_t q = 0; q < quantities; ++q)
+                    steps = steps || c.step[q] >= suspect_share * thresholds_.of[q];
+                if (steps) mine.push_back(i);
+            });
+        });
+        std::vector<PointIndex> sites;
+        for (const std::vector<PointIndex>& block : of_block) sites.insert(sites.end(), block.begin(), block.end());
+        return sites;
+    }
+
+    /// The sites on both sides of suspects.
+    [[nodiscard]] std::vector<PointIndex> beside_all(const std::vector<PointIndex>& points) const {
+        std::vector<PointIndex> sites;
+        for (const PointIndex i : points) {
+            for (const Side side : {Side::left, Side::right}) {
+                if (!surface_.neighbours.has(side, i)) continue;
+                const PointIndex site = sites_.nearest(surface_.neighbours.neighbour(side, i));
+                if (site >= 0) sites.push_back(site);
+            }
+        }
+        return sites;
+    }
+
+    /// A pass and the one beside it do not end side by side: one goes on, or its ramp lies farther on and so makes the difference.
+    [[nodiscard]] bool ends_elsewhere(PointIndex point, const Station& beside) const {
+        const PointIndex other = beside.nearest();
+        if (signals_[other].zone == Zone::inner) return true;
+        const double farther = way_to_end(point) - way_to_end(other);
+        const double faster = signals_[point].speed - signals_[other].speed;
+        if (std::abs(farther) < ends_apart * surface_.step_over || !(farther * faster > 0)) return false;
+        return std::abs(faster) <= ramp_room * std::abs(farther) * std::max(ramp_at(point), ramp_at(other));
+    }
+
+    /// How much the speed changes along the pass [1/s].
+    [[nodiscard]] double ramp_at(PointIndex point) const {
+        const double along = signals_.acceleration(point).dot(signals_.feed(point));
+        return std::abs(along) / std::max(signals_[point].speed, thresholds_.least_speed);
+    }
+
+    /// [mm] to the nearer end of what is judged of the pass there.
+    [[nodiscard]] double way_to_end(PointIndex point) const {
+        const std::vector<PointRange>& pieces = signals_.pieces;
+        const auto after = std::upper_bound(pieces.begin(), pieces.end(), point,
+                                            [](PointIndex p, const PointRange& r) { return p < r.first; });
+        if (after == pieces.begin()) return 0;
+        const PointRange& piece = *(after - 1);
+        const double here = way_.to(point);
+        return std::min(here - way_.to(piece.first), way_.to(piece.last) - here);
+    }
+
+    /// Compares where passes begin or end. Beside one that goes on, and where there is no pass on one side, a
+    /// difference is no surprise. Where all begin or end, the two ways of a zigzag differ by nature: there
+    /// a suspect is what differs from passes of its own way.
+    void compare_at_end(const Station& place, Suspect& suspect) const {
+        const Comparison& c = suspect.comparison;
+        suspect.border = c.left == 0 || c.right == 0;
+        if (suspect.border) return;
+        if (!c.ramp) return;
+        suspect.border = signals_[suspect.point].zone == Zone::inner || ends_elsewhere(suspect.point, c.beside_left) ||
+                         ends_elsewhere(suspect.point, c.beside_right);
+        if (suspect.border) {
+            // A ramp makes its pass the slower one. Where it is the faster one, something else is the matter.
+            constexpr std::size_t q = index_of(Quantity::speed);
+            const bool ramps = signals_[suspect.point].zone == Zone::ramp;
+            suspect.border = suspect.share[q] < suspect_share || (c.residual[q] < 0) == ramps;
+            return;
+        }
+        const Comparison alike = comparer_.compare_at_end(place);
+        suspect.border = std::min(alike.left, alike.right) < fewest_alike;
+        if (suspect.border) return;
+        suspect.comparison = alike;
+        measure(suspect, thresholds_);
+    }
+
+    /// Where one of the passes turns, the chord over it does not lie straight across: its height is no relief.
+    void forget_relief_in_corner(Suspect& suspect) const {
+        constexpr std::size_t q = index_of(Quantity::relief);
+        if (suspect.share[q] < suspect_share) return;
+        const auto turns = [&](const Station& at) {
+            return at.exists() && turns_on_surface(surface_, signals_, at.nearest());
+        };
+        const Comparison& c = suspect.comparison;
+        if (!turns({suspect.point, 0}) && !turns(c.beside_left) && !turns(c.beside_right)) return;
+        suspect.comparison.residual[q] = suspect.comparison.step[q] = 0;
+        suspect.share[q] = suspect.score[q] = 0;
+    }
+
+    [[nodiscard]] static bool moves_otherwise(const Suspect& suspect) {
+        return std::max(suspect.share[index_of(Quantity::speed)], suspect.share[index_of(Quantity::acceleration)]) >=
+               suspect_share;
+    }
+
+    /// Looks at those that were not looked at yet. Returns the suspects among them.
+    std::vector<PointIndex> judge(const std::vector<PointIndex>& sites) {
+        std::vector<PointIndex> fresh;
+        for (const PointIndex site : sites) {
+            std::vector<bool>::reference judged = judged_[static_cast<std::size_t>(site)];
+            if (!judged) fresh.push_back(site);
+            judged = true;
+        }
+        constexpr std::int64_t grain = 1024;
+        const auto count = static_cast<std::int64_t>(fresh.size());
+        std::vector<std::vector<Suspect>> of_piece(static_cast<std::size_t>((count + grain - 1) / grain));
+        parallel_for(count, grain, [&](std::int64_t first, std::int64_t last) {
+            for (std::int64_t k = first; k < last; ++k) {
+                Suspect suspect;
+                suspect.point = fresh[static_cast<std::size_t>(k)];
+                const Station place = sites_.place(suspect.point);
+                suspect.comparison = comparer_.compare(place);
+                measure(suspect, thresholds_);
+                if (*std::max_element(suspect.share.begin(), suspect.share.end()) < suspect_share) continue;
+                comparer_.compare_along_slant(place, suspect.comparison);
+                measure(suspect, thresholds_);
+                if (*std::max_element(suspect.share.begin(), suspect.share.end()) < suspect_share) continue;
+                forget_relief_in_corner(suspect);
+                if (*std::max_element(suspect.share.begin(), suspect.share.end()) < suspect_share) continue;
+                compare_at_end(place, suspect);
+                suspect.turns = suspect.border && turns_on_surface(surface_, signals_, suspect.point);
+                if (*std::max_element(suspect.share.begin(), suspect.share.end()) < suspect_share) continue;
+                suspect.pass = pass_of(surface_.passes, suspect.point);
+                suspect.bend = moves_otherwise(suspect) && bends_.explain(suspect.point, suspect.comparison);
+                of_piece[static_cast<std::size_t>(first / grain)].push_back(suspect);
+            }
+        });
+        std::vector<PointIndex> found;
+        for (std::vector<Suspect>& piece : of_piece) {
+            for (const Suspect& suspect : piece) found.push_back(suspect.point);
+            if (!piece.empty()) found_.kept.push_back(std::move(piece));
+        }
+        return found;
+    }
+
+    const ClSurface& surface_;
+    const Signals& signals_;
+    const Way& way_;
+    const Thresholds& thresholds_;
+    Comparer comparer_;
+    Bends bends_;
+    Sites sites_;
+    std::vector<bool> judged_;  ///< by point
+    FoundSuspects found_;
+};
+
+}  // namespace
+
+FoundSuspects find_suspects(const ClSurface& surface, const Signals& signals, const Way& way,
+                            const Thresholds& thresholds) {
+    return SuspectFinder(surface, signals, way, thresholds).find();
+}
+
+double joined_along(const ClSurface& surface, double record) {
+    constexpr double least = 1.0;  // [mm]
+    constexpr double step_overs = 2, records = 2.5;
+    return std::max({least, step_overs * surface.step_over, records * record});
+}
+
+std::vector<Suspects> group_suspects(const Suspects& suspects, const ClSurface& surface, const Way& way, double along) {
+    const auto count = static_cast<std::int64_t>(suspects.size());
+    std::vector<PointIndex> points;  // side by side, to be searched
+    points.reserve(suspects.size());
+    for (const Suspect* s : suspects) points.push_back(s->point);
+    Groups groups(suspects.size());
+    const float beside = joined_beside * static_cast<float>(surface.step_over);
+    /// Joins a suspect with those of another pass round a point of it. `hint`: where the last one was.
+    const auto join_near = [&](std::size_t k, PointIndex point, std::size_t& hint) {
+        const std::size_t after = hint = lower_bound_near(points, hint, point);
+        const Eigen::Vector3f place = surface.positions[point];
+        for (const std::size_t found : {after, after == 0 ? after : after - 1}) {
+            if (found == points.size() || (surface.positions[points[found]] - place).norm() > beside) continue;
+            groups.join(k, found);
+        }
+    };
+    using Hints = std::array<std::array<std::size_t, 3>, 2>;  // by side: beside, and over that pass
+    const auto join = [&](std::size_t k, Hints& hints) {
+        const PointIndex point = points[k];
+        if (k > 0 && !way.at_least(points[k - 1], point, along)) groups.join(k - 1, k);
+        for (const Side side : {Side::left, Side::right}) {
+            if (!surface.neighbours.has(side, point)) continue;
+            const PointIndex adjacent = surface.neighbours.neighbour(side, point);
+            std::array<std::size_t, 3>& near = hints[static_cast<std::size_t>(side)];
+            join_near(k, adjacent, near[2]);
+            // Over one clean pass.
+            for (const Side other : {Side::left, Side::right}) {
+                if (!surface.neighbours.has(other, adjacent)) continue;
+                const PointIndex next = surface.neighbours.neighbour(other, adjacent);
+                const Eigen::Vector3f on = surface.positions[next] - surface.positions[adjacent];
+                if (on.dot(surface.positions[adjacent] - surface.positions[point]) > 0)
+                    join_near(k, next, near[static_cast<std::size_t>(other)]);
+            }
+        }
+    };
+    constexpr std::int64_t grain = 4096;
+    parallel_for(count, grain, [&](std::int64_t first, std::int64_t last) {
+        Hints hints{};
+        for (std::int64_t k = first; k < last; ++k) join(static_cast<std::size_t>(k), hints);
+    });
+    std::vector<Suspects> result;
+    std::vector<std::size_t> number(suspects.size());  // of the group, by its root
+    for (std::size_t k = 0; k < suspects.size(); ++k) {
+        const std::size_t root = groups.root(k);
+        if (root == k) {
+            number[k] = result.size();
+            result.emplace_back();
+        }
+        result[number[root]].push_back(suspects[k]);
+    }
+    return result;
+}
+
+}  // namespace clsurf

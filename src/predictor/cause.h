@@ -1,0 +1,36 @@
+#pragma once
+// The cause of a difference between passes, from the shape of the mismatch along the pass and from the program
+// at this place.
+
+#include <span>
+
+#include "predictor/candidates.h"
+#include "predictor/defects.h"
+#include "toolpath/toolpath.h"
+
+namespace clsurf {
+
+class CauseFinder {
+public:
+    /// All must outlive it.
+    CauseFinder(const ClSurface& surface, const Signals& signals, const LineMap& lines, const Program& program,
+                const Way& way)
+        : surface_(surface), signals_(signals), lines_(lines), toolpath_(program.motions, Vec3::Zero()), way_(way) {}
+
+    /// `sites`: those of the defect's runs, in order; its neighbours are known.
+    [[nodiscard]] Cause cause_of(const Defect& defect, std::span<const Suspect* const> sites) const;
+
+private:
+    [[nodiscard]] bool spaced_otherwise(const Defect& defect) const;
+    [[nodiscard]] bool turns(const DefectRun& run) const;
+    [[nodiscard]] bool begins_with_reversal(const DefectRun& run) const;
+    [[nodiscard]] double spacing(std::span<const DefectRun> runs) const;
+
+    const ClSurface& surface_;
+    const Signals& signals_;
+    const LineMap& lines_;
+    Toolpath toolpath_;
+    const Way& way_;
+};
+
+}  // namespace clsurf

@@ -1,0 +1,46 @@
+#include "predictor/coverage.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace clsurf {
+namespace {
+
+/// Refuses a verdict where too little could be compared.
+void judge_passes(QualityReport& report) {
+    if (report.not_finishing_share() > 1 - least_coverage) {
+        report.judgement.refuse(fmt::format(
+            "{:.0f} % of the cutting points belong to no finishing passes, so nothing could be compared with them.",
+            100 * report.not_finishing_share()));
+    }
+    if (report.points == 0 && report.not_finishing > 0) return;
+    if (report.points == 0) {
+        report.judgement.refuse("The log has no cutting points.");
+    } else if (report.step_over <= 0) {
+        report.judgement.refuse("No pass has another pass beside it, so nothing could be compared.");
+    } else if (report.coverage() < least_coverage) {
+        const double percent = std::floor(1000 * report.coverage()) / 10;  // never rounded up to what is enough
+        report.judgement.refuse(
+            fmt::format("Only {:.1f} % of {} cutting points could be compared with the passes on both sides. A verdict "
+                        "needs {:.0f} %.",
+                        percent, report.points, 100 * least_coverage));
+    }
+}
+
+/// Says so where it is the records that are too few to tell passes apart. `record` [mm]: way of one.
+void judge_records(double record, QualityReport& report) {
+    if (report.step_over <= 0 || report.coverage() >= least_coverage || !(record > report.step_over)) return;
+    report.judgement.refuse(fmt::format(
+        "Records are {:.2f} mm apart at the usual speed and passes {:.2f} mm: which pass lies beside a point cannot be told.",
+        record, report.step_over));
+}
+
+}  // namespace
+
+void judge_coverage(double record, QualityReport& report) {
+    judge_passes(report);
+    judge_records(record, report);
+}
+
+}  // namespace clsurf

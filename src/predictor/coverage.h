@@ -1,0 +1,12 @@
+#pragma once
+// Coverage: whether enough of a part could be compared for a verdict.
+
+#include "predictor/defects.h"
+
+namespace clsurf {
+
+/// Refuses a verdict in `report` where too little could be compared, and says why. `record` [mm]: the way of one record at the
+/// usual speed.
+void judge_coverage(double record, QualityReport& report);
+
+}  // namespace clsurf

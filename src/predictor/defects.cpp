@@ -1,0 +1,479 @@
+#include "predictor/defects.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "core/parallel.h"
+#include "core/statistics.h"
+#include "predictor/border.h"
+#include "predictor/candidates.h"
+#include "predictor/cause.h"
+#include "predictor/coverage.h"
+#include "predictor/explanations.h"
+#include "predictor/opposites.h"
+#include "predictor/subprogram_lines.h"
+#include "predictor/systematic_lag.h"
+#include "toolpath/arc_length.h"
+
+namespace clsurf {
+namespace {
+
+constexpr float half_of_peak = 0.5F;
+constexpr float weak_run = 0.25F;          ///< of the strongest run of its group
+constexpr double shown_share = 0.9;        ///< of a plateau: its height without the noise's own peak
+constexpr double smallest_area = 1.0;      ///< squared step-overs
+constexpr float least_speed_share = 0.6F;  ///< of its threshold, for what only the acceleration shows …
+constexpr float strong_alone = 1.5F;       ///< … and of the acceleration's own
+constexpr std::size_t fewest_sites = 2;
+constexpr std::size_t most_systematic_runs = 300;  ///< that are listed: the longest
+constexpr double systematic_depth = 0.99;          ///< quantile of the steps of a systematic lag
+constexpr double effect_seconds = 0.020;           ///< by which a height may outlast the motion that makes it
+
+/// The largest of values; NaN are left out.
+double largest_of(const std::vector<double>& values) {
+    double largest = 0;
+    for (const double v : values) {
+        if (std::abs(v) > std::abs(largest)) largest = v;
+    }
+    return largest;
+}
+
+/// The height of a plateau of values, signed: of those with the sign of `sign`. NaN are left out.
+double plateau(const std::vector<double>& values, double sign) {
+    std::vector<double> same;
+    for (const double v : values) {
+        if (v * sign > 0) same.push_back(std::abs(v));
+    }
+    return same.empty() ? 0 : std::copysign(nearest_quantile(same, shown_share), sign);
+}
+
+/// Suspects in the order of their points.
+using SuspectSpan = std::span<const Suspect* const>;
+
+/// Quantities that are grouped together.
+using Family = std::span<const Quantity>;
+constexpr std::array motion_family{Quantity::speed, Quantity::acceleration};
+constexpr std::array lag_family{Quantity::lag};
+constexpr std::array relief_family{Quantity::relief};
+
+float largest(const std::array<float, quantities>& values, Family family) {
+    float most = 0;
+    for (const Quantity q : family) most = std::max(most, values[index_of(q)]);
+    return most;
+}
+
+/// The quantity that shows a group best: the first of its family that is there at all. Accelerations
+/// are the edges of something else, and speak only where nothing else does.
+Quantity main_quantity(SuspectSpan group, Family family) {
+    for (const Quantity q : family) {
+        const bool there = std::any_of(group.begin(), group.end(),
+                                       [&](const Suspect* s) { return s->share[index_of(q)] >= half_of_peak; });
+        if (there) return q;
+    }
+    return family.back();
+}
+
+class Builder {
+public:
+    Builder(const ClSurface& surface, const Signals& signals, const LineMap& lines, const CauseFinder& causes,
+            const Way& way, double joined, const Thresholds& thresholds, const QualityRules& rules)
+        : surface_(surface),
+          signals_(signals),
+          lines_(lines),
+          causes_(causes),
+          way_(way),
+          thresholds_(thresholds),
+          rules_(rules),
+          joined_(joined) {
+        std::int64_t number = 0;
+        for (const Pass& pass : surface.passes) numbers_.push_back(pass.kind == PassKind::cut ? ++number : 0);
+    }
+
+    /// Sets of sites that each make a defect: what hangs together and differs in one direction.
+    [[nodiscard]] std::vector<Suspects> parts_of(const Suspects& sites, Quantity quantity) const {
+        std::vector<Suspects> parts;
+        for (Suspects& core : regroup(sites)) {
+            std::vector<Suspects> signs = split_opposites(core, quantity, signals_, way_, joined_);
+            if (signs.size() == 1) {
+                parts.push_back(std::move(core));
+                continue;
+            }
+            for (const Suspects& sign : signs) {
+                for (Suspects& part : regroup(sign)) parts.push_back(std::move(part));
+            }
+        }
+        return parts;
+    }
+    [[nodiscard]] std::vector<Suspects> regroup(const Suspects& sites) const {
+        return group_suspects(sites, surface_, way_, joined_);
+    }
+
+    [[nodiscard]] std::int64_t cut_passes() const {
+        return numbers_.empty() ? 0 : *std::max_element(numbers_.begin(), numbers_.end());
+    }
+
+    /// The sites of a group that are its defect: on each pass, where the main quantity reaches half of
+    /// its peak there; short dips between are its own (an oscillation crosses zero).
+    /// Runs that are much weaker than the strongest go to `rest`: something else, that hangs together
+    /// with it by chance.
+    [[nodiscard]] Suspects core_of(SuspectSpan group, Quantity quantity, Suspects& rest) const {
+        const std::size_t q = index_of(quantity);
+        const auto share = [q](const Suspect* s) { return s->share[q]; };
+        float peak = 0;
+        for (const Suspect* s : group) peak = std::max(peak, share(s));
+        const float enough = std::max(std::min(1.0F, half_of_peak * peak),
+                                      weak_run * peak);  // a pass that is hardly suspect is not at fault
+        Suspects core;
+        for_each_run(group, [&](SuspectSpan run) {
+            float run_peak = 0;
+            for (const Suspect* s : run) run_peak = std::max(run_peak, share(s));
+            if (run_peak < enough) {
+                rest.insert(rest.end(), run.begin(), run.end());
+                return;
+            }
+            const auto strong = [&](const Suspect* s) { return share(s) >= half_of_peak * run_peak; };
+            for (std::size_t k = 0; k < run.size(); ++k) {
+                if (!strong(run[k])) continue;
+                std::size_t last = k;
+                for (std::size_t j = k + 1; j < run.size() && !way_.at_least(run[last]->point, run[j]->point, joined_);
+                     ++j) {
+                    if (strong(run[j])) last = j;
+                }
+                core.insert(core.end(), run.begin() + static_cast<std::ptrdiff_t>(k),
+                            run.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+                k = last;
+            }
+        });
+        return core;
+    }
+
+    /// The defect that the sites of a core make, in the order of their points.
+    [[nodiscard]] Defect build(SuspectSpan core, Quantity quantity, Family family) const {
+        Defect defect;
+        defect.quantity = quantity;
+        const auto weaker = [&](const Suspect* a, const Suspect* b) {
+            return a->share[index_of(quantity)] < b->share[index_of(quantity)];
+        };
+        const Suspect& strongest = **std::max_element(core.begin(), core.end(), weaker);
+        defect.point = strongest.point;
+        defect.speed = signals_[strongest.point].speed;
+        defect.speed_beside = defect.speed - strongest.comparison.speed_jump;
+        defect.place.tip = surface_.positions.absolute(defect.point);
+        for (const Suspect* s : core) defect.score = std::max(defect.score, largest(s->score, family));
+        for_each_run(core, [&](SuspectSpan run) {
+            defect.runs.push_back(run_of(run.front()->pass, {run.front()->point, run.back()->point}));
+        });
+        measure(core, defect);
+        defect.neighbours = neighbours_of(core, defect.runs);
+        defect.cause = causes_.cause_of(defect, core);
+        const bool motion = defect.quantity == Quantity::speed || defect.quantity == Quantity::acceleration;
+        defect.severity = severity_of({defect.depth, defect.score, motion, false}, rules_.severity);
+        return defect;
+    }
+
+    /// The one defect that systematic lag is.
+    [[nodiscard]] Defect build(const SystematicLag& lag) const {
+        Defect defect;
+        defect.quantity = Quantity::lag;
+        defect.cause = Cause::lag_step;
+        defect.systematic = true;
+        std::vector<double> steps;
+        const AlternatingSite* strongest = &lag.sites.front();
+        for (const AlternatingSite& site : lag.sites) {
+            steps.push_back(std::abs(site.step));
+            defect.bounds.extend(surface_.positions.absolute(site.point));
+            if (std::abs(site.step) > std::abs(strongest->step)) strongest = &site;
+        }
+        defect.point = strongest->point;
+        defect.place.tip = surface_.positions.absolute(defect.point);
+        defect.speed = defect.speed_beside = signals_[defect.point].speed;
+        defect.depth = nearest_quantile(steps, systematic_depth);
+        defect.score = static_cast<float>(defect.depth) / thresholds_.of[index_of(Quantity::lag)];
+        for (std::size_t k = 0; k < lag.sites.size();) {
+            std::size_t end = k + 1;
+            while (end < lag.sites.size() && lag.sites[end].pass == lag.sites[k].pass &&
+                   !way_.at_least(lag.sites[end - 1].point, lag.sites[end].point, joined_))
+                ++end;
+            defect.runs.push_back(run_of(lag.sites[k].pass, {lag.sites[k].point, lag.sites[end - 1].point}));
+            k = end;
+        }
+        const double way = add_up_runs(defect);
+        double all = 0;
+        for (const Pass& pass : surface_.passes)
+            all += pass.kind == PassKind::cut ? way_.to(pass.last) - way_.to(pass.first) : 0;
+        defect.share = way / all;
+        keep_longest(most_systematic_runs, defect.runs);
+        defect.severity = severity_of({defect.depth, defect.score, false, true}, rules_.severity);
+        return defect;
+    }
+
+private:
+    [[nodiscard]] DefectRun run_of(std::size_t pass, PointRange points) const {
+        DefectRun run{numbers_[pass], points, 0, 0};
+        std::vector<LineNumber> lines(static_cast<std::size_t>(points.size()));
+        lines_.read(points.first, lines);
+        for (const LineNumber line : lines) {
+            if (line == 0) continue;
+            run.first_line = run.first_line == 0 ? line : std::min(run.first_line, line);
+            run.last_line = std::max(run.last_line, line);
+        }
+        return run;
+    }
+
+    /// f(run) for the stretches of sites of one pass that hang together.
+    template <typename F>
+    void for_each_run(SuspectSpan sites, F&& f) const {
+        for (std::size_t k = 0; k < sites.size();) {
+            std::size_t end = k + 1;
+            while (end < sites.size() && sites[end]->pass == sites[k]->pass &&
+                   !way_.at_least(sites[end - 1]->point, sites[end]->point, joined_))
+                ++end;
+            f(sites.subspan(k, end - k));
+            k = end;
+        }
+    }
+
+    void measure(SuspectSpan core, Defect& defect) const {
+        std::vector<double> heights;
+        std::vector<double> speeds;
+        std::vector<double> mismatches;
+        std::vector<double> accelerations;
+        for (const Suspect* s : core) {
+            const Comparison& c = s->comparison;
+            // Measured and commanded relief differ by the lag; where nothing was measured the relief is all.
+            const bool by_relief = defect.quantity == Quantity::relief || !signals_.measured;
+            heights.push_back(c.residual[index_of(by_relief ? Quantity::relief : Quantity::lag)]);
+            speeds.push_back(c.speed_jump);
+            mismatches.push_back(c.residual[index_of(Quantity::speed)]);
+            accelerations.push_back(c.step[index_of(Quantity::acceleration)]);
+            defect.bounds.extend(surface_.positions.absolute(s->point));
+        }
+        const double height = plateau(heights, largest_of(heights));
+        defect.depth = std::abs(height);
+        defect.pit = height < 0;
+        // Both of the side on which it differs most from the neighbours: a loss of 80 % is no gain of 400 %.
+        const double side = largest_of(mismatches);
+        defect.speed_jump = plateau(speeds, side);
+        defect.speed_mismatch = plateau(mismatches, side);
+        defect.acceleration_jump = plateau(accelerations, 1);
+        (void)add_up_runs(defect);
+    }
+
+    /// In the order of their points.
+    void keep_longest(std::size_t most, std::vector<DefectRun>& runs) const {
+        if (runs.size() <= most) return;
+        const auto length = [&](const DefectRun& run) { return way_.to(run.points.last) - way_.to(run.points.first); };
+        std::nth_element(runs.begin(), runs.begin() + static_cast<std::ptrdiff_t>(most), runs.end(),
+                         [&](const DefectRun& a, const DefectRun& b) {
+                             const double in_a = length(a), in_b = length(b);
+                             return in_a != in_b ? in_a > in_b : a.points.first < b.points.first;
+                         });
+        runs.resize(most);
+        std::sort(runs.begin(), runs.end(),
+                  [](const DefectRun& a, const DefectRun& b) { return a.points.first < b.points.first; });
+    }
+
+    /// Length and area of a defect from its runs. Returns the way of all runs [mm].
+    double add_up_runs(Defect& defect) const {
+        double way = 0;
+        for (const DefectRun& run : defect.runs) {
+            const double length = way_.to(run.points.last) - way_.to(run.points.first);
+            defect.length = std::max(defect.length, length);
+            way += length;
+        }
+        defect.area = way * surface_.step_over;
+        return way;
+    }
+
+    /// The stretches beside `runs` on passes that are not at fault.
+    [[nodiscard]] std::vector<DefectRun> neighbours_of(SuspectSpan core, const std::vector<DefectRun>& runs) const {
+        std::map<std::size_t, PointRange> found;  // by pass
+        for (const Suspect* s : core) {
+            for (const Station& at : {s->comparison.beside_left, s->comparison.beside_right}) {
+                if (!at.exists()) continue;
+                const PointIndex n = at.nearest();
+                PointRange& points = found.try_emplace(pass_of(surface_.passes, n), PointRange{n, n}).first->second;
+                points.first = std::min(points.first, n);
+                points.last = std::max(points.last, n);
+            }
+        }
+        std::vector<DefectRun> clean;
+        for (const auto& [pass, points] : found) {
+            const bool at_fault =
+                std::any_of(runs.begin(), runs.end(),
+                            [&, number = numbers_[pass]](const DefectRun& r) { return r.pass == number; });
+            if (!at_fault) clean.push_back(run_of(pass, points));
+        }
+        std::sort(clean.begin(), clean.end(),
+                  [](const DefectRun& a, const DefectRun& b) { return a.points.first < b.points.first; });
+        return clean;
+    }
+
+    const ClSurface& surface_;
+    const Signals& signals_;
+    const LineMap& lines_;
+    const CauseFinder& causes_;
+    const Way& way_;
+    const Thresholds& thresholds_;
+    const QualityRules& rules_;
+    double joined_;                      ///< [mm] of way between sites that hang together
+    std::vector<std::int64_t> numbers_;  ///< of the cut passes, by index
+};
+
+bool worse(const Defect& a, const Defect& b) {
+    if (a.score != b.score) return a.score > b.score;
+    if (a.depth != b.depth) return a.depth > b.depth;
+    return a.point < b.point;
+}
+
+/// A defect with the sites that it was built from.
+struct Built {
+    Defect defect;
+    Suspects core;
+    bool expected = false;
+};
+
+/// A start: where a score reaches 1. In the motion, accelerations start a defect only where they are
+/// strong and change the speed by something: noise of the second derivative leaves no mark.
+bool starts_defect(SuspectSpan sites, Family family) {
+    const auto any = [&](auto&& test) { return std::any_of(sites.begin(), sites.end(), test); };
+    if (family.size() == 1) return any([&](const Suspect* s) { return s->score[index_of(family.front())] >= 1; });
+    return any([](const Suspect* s) { return s->score[index_of(Quantity::speed)] >= 1; }) ||
+           (any([](const Suspect* s) { return s->score[index_of(Quantity::acceleration)] >= strong_alone; }) &&
+            any([](const Suspect* s) { return s->share[index_of(Quantity::speed)] >= least_speed_share; }));
+}
+
+/// Builds the defects of one family of quantities, of an area of `smallest` [mm²] or more, at the border of the part or away
+/// from it: what is expected there must not swallow what lies beside it.
+class FamilyBuilder {
+public:
+    FamilyBuilder(Family family, bool at_border, double smallest, const ClSurface& surface, const Border& border,
+                  const Builder& builder)
+        : family_(family),
+          at_border_(at_border),
+          smallest_(smallest),
+          surface_(surface),
+          border_(border),
+          builder_(builder) {}
+
+    std::vector<Built> build(const Suspects& suspects) {
+        Suspects mine;
+        for (const Suspect* s : suspects) {
+            if (s->expected(family_.front()) == at_border_ && largest(s->share, family_) >= half_of_peak)
+                mine.push_back(s);
+        }
+        std::vector<Suspects> groups = builder_.regroup(mine);
+        for (std::size_t g = 0; g < groups.size(); ++g) {
+            const Suspects group = std::move(groups[g]);
+            if (!starts_defect(group, family_)) continue;
+            const Quantity quantity = main_quantity(group, family_);
+            // Cut back, a group may fall apart: weak suspects had joined several defects.
+            Suspects rest;
+            const Suspects strong_sites = builder_.core_of(group, quantity, rest);
+            if (rest.size() < group.size()) {
+                for (Suspects& left : builder_.regroup(rest)) groups.push_back(std::move(left));
+            }
+            for (Suspects& core : builder_.parts_of(strong_sites, quantity)) add(std::move(core), quantity);
+        }
+        return std::move(built_);
+    }
+
+private:
+    void add(Suspects core, Quantity quantity) {
+        if (core.size() < fewest_sites || !starts_defect(core, family_)) return;
+        if (at_border_) return keep(core, quantity, !border_.stands_out(core, quantity));
+        const std::optional<PointIndex> flank = border_.flank_of(core, quantity);
+        if (!flank) return keep(core, quantity, false);
+        // A flank ends. What goes on beyond it is something of its own.
+        const double reach = border_.flank_reach(core, quantity);
+        const auto beyond = std::stable_partition(core.begin(), core.end(), [&](const Suspect* s) {
+            return (surface_.positions[s->point] - surface_.positions[*flank]).norm() < reach;
+        });
+        const Suspects rest(beyond, core.end());
+        core.erase(beyond, core.end());
+        keep(core, quantity, true);
+        for (Suspects& part : builder_.regroup(rest)) add(std::move(part), quantity);
+    }
+
+    void keep(const Suspects& core, Quantity quantity, bool expected) {
+        if (core.size() < fewest_sites) return;
+        Defect defect = builder_.build(core, quantity, family_);
+        if (defect.area >= smallest_) built_.push_back({std::move(defect), core, expected});
+    }
+
+    Family family_;
+    bool at_border_;
+    double smallest_;
+    const ClSurface& surface_;
+    const Border& border_;
+    const Builder& builder_;
+    std::vector<Built> built_;
+};
+
+}  // namespace
+
+int QualityReport::worst_severity() const {
+    int worst = 0;
+    for (const Defect& defect : defects) worst = std::max(worst, defect.severity);
+    return worst;
+}
+
+QualityReport find_defects(const ClSurface& surface, const Signals& signals, const LineMap& lines,
+                           const Program& program, double period, const QualityRules& rules) {
+    QualityReport report;
+    report.step_over = surface.step_over;
+    report.has_lag = signals.measured;
+    report.note = signals.speed_note + ", " + signals.acceleration_note + ", " + signals.height_note;
+    report.thresholds = rules.fixed ? *rules.fixed : measure_thresholds(surface, signals, rules.thresholds);
+    const Way way(surface.positions);
+    const CauseFinder causes(surface, signals, lines, program, way);
+    const double joined = joined_along(surface, report.thresholds.usual_speed * period);
+    const Builder builder(surface, signals, lines, causes, way, joined, report.thresholds, rules);
+    report.passes = builder.cut_passes();
+    for (const Pass& pass : surface.passes) report.points += pass.kind == PassKind::cut ? pass.size() : 0;
+    report.not_finishing = surface.not_finishing;
+    report.compared = count_compared(surface, signals);
+    for (const std::string& reason : signals.unfit) report.judgement.refuse(reason);
+    judge_coverage(report.thresholds.usual_speed * period, report);
+
+    FoundSuspects found = find_suspects(surface, signals, way, report.thresholds);
+    const SystematicLag systematic = rules.group_systematic
+                                         ? take_systematic_lag(surface, signals, way, report.thresholds, joined, found)
+                                         : SystematicLag{};
+    const Suspects& suspects = found.suspects;
+    const double smallest = smallest_area * surface.step_over * surface.step_over;
+    const std::array<Family, 3> families{motion_family, lag_family, relief_family};
+    const Border border(surface, signals, way, suspects, joined, report.thresholds);
+    std::array<std::vector<Built>, 2 * families.size()> of_family;  // away from the border and at it
+    parallel_for(of_family.size(), 1, [&](std::int64_t first, std::int64_t last) {
+        for (auto k = static_cast<std::size_t>(first); k < static_cast<std::size_t>(last); ++k) {
+            of_family[k] =
+                FamilyBuilder(families[k / 2], k % 2 == 1, smallest, surface, border, builder).build(suspects);
+        }
+    });
+    std::vector<Built> all;
+    const PointIndex room = std::lround(std::min(effect_seconds / period, 1e6));
+    for (std::size_t family = 0; family < families.size(); ++family) {
+        Explanations before;
+        for (const Built& built : all) before.add(built.defect.runs, room);
+        for (std::size_t k = 2 * family; k < 2 * family + 2; ++k) {
+            for (Built& built : of_family[k]) {
+                if (!before.explain(built.core)) all.push_back(std::move(built));
+            }
+        }
+    }
+    for (Built& built : all) {
+        if (built.expected) built.defect.cause = Cause::pass_end;
+        (built.expected ? report.expected : report.defects).push_back(std::move(built.defect));
+    }
+    if (!systematic.sites.empty()) report.defects.push_back(builder.build(systematic));
+    name_subprograms(program, lines, report.defects);
+    name_subprograms(program, lines, report.expected);
+    std::sort(report.defects.begin(), report.defects.end(), worse);
+    std::sort(report.expected.begin(), report.expected.end(), worse);
+    return report;
+}
+
+}  // namespace clsurf

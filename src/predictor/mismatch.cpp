@@ -1,0 +1,372 @@
+#include "predictor/mismatch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include "core/block.h"
+#include "core/not_finite.h"
+#include "core/statistics.h"
+#include "predictor/median_of.h"
+#include "predictor/oblique_alignment.h"
+
+namespace clsurf {
+namespace {
+
+constexpr std::size_t sampled_points = 50'000;
+constexpr float normal_deviation = 1.4826F;  ///< standard deviations per median absolute deviation
+constexpr float along_or_against = 0.866F;   ///< cos 30°: neighbours run along with the feed or against it
+constexpr float round_a_corner = 0.5F;       ///< cos 60°: straight across a corner they have turned more than that
+constexpr std::size_t fewest_passes = 2;     ///< for a median
+constexpr float slack_step_overs = 0.5F;     ///< along the feed between the ends of passes that end side by side
+constexpr float shape_left = 0.35F;          ///< of a relief: more is left of it beside it where it is the part's own
+constexpr float shape_beside = 0.6F;         ///< of the largest relief around: a smaller one lies beside an edge
+
+/// a · x + b · y.
+Compared mixed(float a, const Compared& x, float b, const Compared& y) {
+    return {a * x.speed + b * y.speed, a * x.lag + b * y.lag, a * x.relief + b * y.relief,
+            a * x.acceleration + b * y.acceleration};
+}
+
+/// What a place should have by the one pass on its one side and three on the other: the mean of both sides, and two ways in which the
+/// three go on. Each is exact where all change evenly; of a fault of one pass their median has half at most, and that
+/// only where it is the next one of the three.
+template <std::size_t n>
+std::array<Compared, 3> expected_from_three(const Compared& one, const std::array<Compared, n>& others) {
+    return {mixed(0.5F, one, 0.5F, others[0]), mixed(2, others[0], -1, others[1]), mixed(3, others[1], -2, others[2])};
+}
+
+/// What is compared, where there is nothing.
+Compared no_pass() {
+    return {missing<float>, missing<float>, missing<float>, Eigen::Vector3f::Constant(missing<float>)};
+}
+
+bool runs_against(const Signals& signals, PointIndex point, const Station& at) {
+    return signals.feed(at.nearest()).dot(signals.feed(point)) < 0;
+}
+
+float larger(float a, float b) { return !(a == a) || b > a ? b : a; }
+
+/// The step from a pass to the one beside it, less what goes on from there to the next: what changes evenly from pass to pass
+/// is no step. `next` NaN: there is none.
+float step_beyond_trend(float own, float adjacent, float next) {
+    const float step = own - adjacent, trend = adjacent - next;
+    if (!(trend * step > 0)) return std::abs(step);
+    return std::max(0.0F, std::abs(step) - std::abs(trend));
+}
+float step_beyond_trend(const Eigen::Vector3f& own, const Eigen::Vector3f& adjacent, const Eigen::Vector3f& next) {
+    const Eigen::Vector3f step = own - adjacent;
+    const float along = step.dot(adjacent - next);
+    const float length = step.norm();
+    if (!(along > 0)) return length;
+    return std::max(0.0F, length - along / length);
+}
+
+/// How much a signal changes over two periods at a point: commanded and measured positions of a
+/// record may be taken a period apart, on each of two passes.
+float change_of_two_periods(const Signals& signals, float Sample::*signal, PointIndex point) {
+    constexpr PointIndex reach = 3;
+    if (point < reach || point + reach >= signals.size()) return 0;
+    const float change = std::abs(signals[point + reach].*signal - signals[point - reach].*signal) / reach;
+    return change == change ? change : 0;
+}
+
+/// Whether a relief is the part's own. A pass that lies off lifts the chords of its neighbours, or lowers them, by
+/// as much as it stands out: with the pass beside it, or both, its relief adds up to nothing. That of an edge
+/// or a fillet of the part adds up to the angle by which the surface turns there, and beside one reliefs may add up
+/// to anything, but are smaller. Counted from the mean of all `places` around.
+bool is_shape(float relief, const Compared& left, const Compared& right, std::span<const Compared> places) {
+    float sum = relief;
+    int known = 1;
+    for (const Compared& place : places) {
+        if (!(place.relief == place.relief)) continue;  // a pass at the border
+        sum += place.relief;
+        ++known;
+    }
+    const float mean = sum / static_cast<float>(known);
+    const float own = relief - mean, l = left.relief - mean, r = right.relief - mean;
+    if (std::min({std::abs(own + l), std::abs(own + r), std::abs(own + l + r)}) > shape_left * std::abs(own))
+        return true;
+    return std::any_of(places.begin(), places.end(),
+                       [&](const Compared& v) { return std::abs(own) < shape_beside * std::abs(v.relief - mean); });
+}
+
+float quantile(std::vector<float>& values, double share) {
+    return values.empty() ? missing<float> : quantile_below(values, share);
+}
+
+/// Evenly spaced judged points, some `sampled_points`. O(points), parallel.
+std::vector<PointIndex> sample_judged(const Signals& signals) {
+    const PointIndex count = signals.size();
+    const auto judged = [&](PointIndex i) { return signals[i].zone != Zone::outside; };
+    const auto block_of = [](PointIndex first) { return static_cast<std::size_t>(first / block_points); };
+    std::vector<PointIndex> before(block_of(count + block_points - 1) + 1);  // judged points before each block
+    for_each_block(count, [&](PointIndex first, PointIndex last) {
+        for (PointIndex i = first; i < last; ++i) before[block_of(first) + 1] += judged(i) ? 1 : 0;
+    });
+    std::partial_sum(before.begin(), before.end(), before.begin());
+    const PointIndex stride = std::max<PointIndex>(1, before.back() / static_cast<PointIndex>(sampled_points));
+    std::vector<PointIndex> points(static_cast<std::size_t>((before.back() + stride - 1) / stride));
+    for_each_block(count, [&](PointIndex first, PointIndex last) {
+        PointIndex seen = before[block_of(first)];
+        for (PointIndex i = first; i < last; ++i) {
+            if (judged(i) && seen++ % stride == 0) points[static_cast<std::size_t>((seen - 1) / stride)] = i;
+        }
+    });
+    return points;
+}
+
+/// The passes beside a place, the adjacent one first, on the left and on the right.
+struct PassesBeside {
+    std::array<std::array<Compared, Comparer::passes_aside>, 2> of;
+    std::array<int, 2> count{0, 0};
+};
+
+/// Fills in residuals against the passes beside, and the jump of the speed. Returns the speed that differences of the
+/// speed are relative to [mm/s].
+float fill_residuals(const Compared& mine, const PassesBeside& others, float least_speed, Comparison& result) {
+    const auto& [beside_it, count] = others;
+    // As many on either side, so that what changes evenly from pass to pass drops out; all of one side
+    // where the other has none.
+    const int even = std::min(count[0], count[1]);
+    std::array<Compared, 2 * Comparer::passes_aside> all;
+    std::size_t n = 0;
+    for (std::size_t s = 0; s < 2; ++s) {
+        for (int k = 0; k < (even > 0 ? even : count[s]); ++k) all[n++] = beside_it[s][static_cast<std::size_t>(k)];
+    }
+    const std::span<const Compared> reliefs(all.data(), n);
+    // Of one pass on either side the median would be their mean, half of whatever one of them has.
+    std::array<Compared, 3> three;
+    std::span<const Compared> places = reliefs;
+    if (even == 1 && std::max(count[0], count[1]) >= 3) {
+        three = expected_from_three(beside_it[count[0] == 1 ? 0 : 1][0], beside_it[count[0] == 1 ? 1 : 0]);
+        places = three;
+    }
+    const float usual = median_of(places, fewest_passes, [](const Compared& v) { return v.speed; });
+    const float reference = std::max(usual == usual ? usual : mine.speed, least_speed);
+    result.speed_jump = mine.speed - usual;
+    result.residual[index_of(Quantity::speed)] = result.speed_jump / reference;
+    result.residual[index_of(Quantity::lag)] =
+        mine.lag - median_of(places, fewest_passes, [](const Compared& v) { return v.lag; });
+    const float usual_relief = median_of(reliefs, fewest_passes, [](const Compared& v) { return v.relief; });
+    result.residual[index_of(Quantity::relief)] =
+        even > 0 && is_shape(mine.relief, beside_it[0][0], beside_it[1][0], reliefs) ? 0 : mine.relief - usual_relief;
+    Eigen::Vector3f consensus;
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+        consensus[axis] = median_of(places, fewest_passes, [axis](const Compared& v) { return v.acceleration[axis]; });
+    }
+    result.residual[index_of(Quantity::acceleration)] = (mine.acceleration - consensus).norm();
+    return reference;
+}
+
+}  // namespace
+
+std::string_view name_of(Quantity quantity) {
+    switch (quantity) {
+        case Quantity::speed: return "speed";
+        case Quantity::acceleration: return "acceleration";
+        case Quantity::lag: return "lag";
+        case Quantity::relief: return "relief";
+    }
+    return "";
+}
+
+Compared compared_at(const Signals& signals, const Station& at, const Eigen::Vector3f& normal) {
+    const Sample& a = signals[at.point];
+    Compared result{a.speed, a.lag, a.relief, vector_of(a.acceleration)};
+    if (at.fraction > 0) {
+        const Sample& b = signals[at.point + 1];
+        result.speed += at.fraction * (b.speed - a.speed);
+        result.lag += at.fraction * (b.lag - a.lag);
+        result.relief += at.fraction * (b.relief - a.relief);
+        result.acceleration += at.fraction * (vector_of(b.acceleration) - vector_of(a.acceleration));
+    }
+    if (signals.normal(at.nearest()).dot(normal) < 0) {
+        result.lag = -result.lag;
+        result.relief = -result.relief;
+    }
+    return result;
+}
+
+template <typename F>
+Station Comparer::for_each_beside(const Station& from, Side side, int aside, float least_cosine, F&& f) const {
+    Station before = from;
+    Station at = beside(surface_, before, signals_.feed(before.nearest()), side);
+    const Station adjacent = at;
+    for (int passes = 1; passes <= aside && at.exists(); ++passes) {
+        const Eigen::Vector3f feed = signals_.feed(at.nearest());
+        const bool runs_along = std::abs(feed.dot(signals_.feed(before.nearest()))) > least_cosine;
+        if (signals_[at.nearest()].zone == Zone::outside || !runs_along) break;
+        f(at, passes);
+        if (passes == aside) break;
+        const Station next = beyond(surface_, before, at, feed);
+        before = at;
+        at = next;
+    }
+    return adjacent;
+}
+
+void Comparer::compare_along_slant(const Station& here, Comparison& comparison) const {
+    constexpr int aside = 3;
+    std::array<Beside, 2 * aside> places;
+    std::size_t count = 0;
+    for (const Side side : {Side::left, Side::right}) {
+        (void)for_each_beside(here, side, aside, round_a_corner, [&](const Station& at, int passes) {
+            places[count++] = {at, side == Side::left ? passes : -passes};
+        });
+    }
+    const std::optional<AlongSlant> slanted = along_slant(surface_, signals_, here, std::span(places).first(count));
+    if (!slanted) return;
+    const Compared mine = compared_at(signals_, here, signals_.normal(here.nearest()));
+    const float reference = std::max(slanted->speed, least_speed_);
+    const auto lessen = [&](Quantity q, float residual, float step) {
+        if (std::abs(residual) < std::abs(comparison.residual[index_of(q)]))
+            comparison.residual[index_of(q)] = residual;
+        comparison.step[index_of(q)] = std::min(comparison.step[index_of(q)], step);
+    };
+    lessen(Quantity::speed, (mine.speed - slanted->speed) / reference, slanted->speed_step / reference);
+    lessen(Quantity::acceleration, (mine.acceleration - slanted->acceleration).norm(), slanted->acceleration_step);
+    if (slanted->corner) lessen(Quantity::relief, mine.relief - slanted->relief, slanted->relief_step);
+}
+
+Comparison Comparer::compare(const Station& here, int aside) const { return compare_with(Peers::all, here, aside); }
+
+std::array<float, quantities> Comparer::change_nearby(PointIndex point, float reference) const {
+    std::array<float, quantities> change{};
+    const Positions& p = surface_.positions;
+    const Sample& mine = signals_[point];
+    const auto widen = [&](Quantity q, float value) { change[index_of(q)] = larger(change[index_of(q)], value); };
+    for (const PointIndex direction : {-1, 1}) {
+        for (PointIndex i = point + direction; i >= 0 && i < p.size() && signals_[i].zone != Zone::outside;
+             i += direction) {
+            const Sample& there = signals_[i];
+            widen(Quantity::speed, std::abs(there.speed - mine.speed) / reference);
+            widen(Quantity::lag, std::abs(there.lag - mine.lag));
+            widen(Quantity::relief, std::abs(there.relief - mine.relief));
+            widen(Quantity::acceleration, (signals_.acceleration(i) - signals_.acceleration(point)).norm());
+            if (!((p[i] - p[point]).norm() < slack_step_overs * static_cast<float>(surface_.step_over))) break;
+        }
+    }
+    return change;
+}
+
+Comparison Comparer::compare_at_end(const Station& here) const {
+    const PointIndex point = here.nearest();
+    Comparison result = compare_with(Peers::same_way, here, passes_aside);
+    const float reference = std::max(signals_[point].speed, least_speed_);
+    result.slack = change_nearby(point, reference);
+    // What the others do not, it does by itself.
+    std::array<float, quantities> others{};
+    for (const Side side : {Side::left, Side::right}) {
+        (void)for_each_beside(here, side, passes_aside, along_or_against, [&](const Station& at, int) {
+            if (runs_against(signals_, point, at)) return;
+            const std::array<float, quantities> there = change_nearby(at.nearest(), reference);
+            for (std::size_t q = 0; q < quantities; ++q) others[q] = std::max(others[q], there[q]);
+        });
+    }
+    for (std::size_t q = 0; q < quantities; ++q) result.slack[q] = std::min(result.slack[q], others[q]);
+    return result;
+}
+
+Comparison Comparer::compare_with(Peers peers, const Station& here, int aside) const {
+    Comparison result;
+    result.step.fill(missing<float>);
+    result.residual.fill(missing<float>);
+    const PointIndex point = here.nearest();
+    const Eigen::Vector3f normal = signals_.normal(point);
+    const Compared mine = compared_at(signals_, here, normal);
+    result.ramp = signals_[point].zone == Zone::ramp;
+
+    PassesBeside others;
+    auto& beside_it = others.of;
+    auto& count = others.count;
+    for (const Side side : {Side::left, Side::right}) {
+        const auto s = static_cast<std::size_t>(side);
+        bool against = false;  // as in a zigzag: the next pass of this way is the second one
+        Station& adjacent_place = side == Side::left ? result.beside_left : result.beside_right;
+        adjacent_place = for_each_beside(here, side, aside, along_or_against, [&](const Station& at, int passes) {
+            if (passes == 1) against = runs_against(signals_, point, at);
+            if ((passes == 1 || (passes == 2 && against)) && signals_[at.nearest()].zone == Zone::ramp)
+                result.ramp = true;
+            if (peers == Peers::same_way && runs_against(signals_, point, at)) return;
+            beside_it[s][static_cast<std::size_t>(count[s]++)] = compared_at(signals_, at, normal);
+        });
+        if (count[s] == 0) continue;
+        const Compared& adjacent = beside_it[s][0];
+        const auto widen = [&](Quantity q, float difference) {
+            float& step = result.step[index_of(q)];
+            float& lesser = result.lesser_step[index_of(q)];
+            lesser = step == step ? std::min(step, difference) : difference;
+            step = larger(step, difference);
+        };
+        const Compared next = count[s] > 1 ? beside_it[s][1] : no_pass();
+        widen(Quantity::speed, step_beyond_trend(mine.speed, adjacent.speed, next.speed));
+        widen(Quantity::acceleration, step_beyond_trend(mine.acceleration, adjacent.acceleration, next.acceleration));
+        widen(Quantity::lag, step_beyond_trend(mine.lag, adjacent.lag, next.lag));
+        widen(Quantity::relief, step_beyond_trend(mine.relief, adjacent.relief, next.relief));
+    }
+    result.left = others.count[0];
+    result.right = others.count[1];
+    const float reference = fill_residuals(mine, others, least_speed_, result);
+    result.step[index_of(Quantity::speed)] /= reference;
+    result.lesser_step[index_of(Quantity::speed)] /= reference;
+    result.play[index_of(Quantity::speed)] = change_of_two_periods(signals_, &Sample::speed, point) / reference;
+    if (signals_.measured) result.play[index_of(Quantity::lag)] = change_of_two_periods(signals_, &Sample::lag, point);
+    return result;
+}
+
+Thresholds measure_thresholds(const ClSurface& surface, const Signals& signals, const ThresholdRule& rule) {
+    Thresholds thresholds;
+    const std::vector<PointIndex> points = sample_judged(signals);
+    std::vector<float> values;
+    for (const PointIndex i : points) {
+        const float speed = signals[i].speed;
+        if (speed == speed) values.push_back(speed);
+    }
+    thresholds.usual_speed = quantile(values, 0.95);
+    values.clear();
+    for (const PointIndex i : points) {
+        const float a = signals.acceleration(i).norm();
+        if (a == a) values.push_back(a);
+    }
+    thresholds.usual_acceleration = quantile(values, 0.99);
+
+    const std::array<float, quantities> least{
+        larger(rule.speed, signals.speed_noise / thresholds.usual_speed),
+        std::max(rule.acceleration * thresholds.usual_acceleration, signals.acceleration_noise),
+        std::max(rule.height, rule.lag_quanta * signals.quantum),
+        std::max(rule.height, rule.relief_quanta * signals.quantum)};
+    thresholds.least_speed =
+        std::max(rule.least_speed * thresholds.usual_speed, signals.speed_noise / least[index_of(Quantity::speed)]);
+
+    const Comparer comparer(surface, signals, thresholds.least_speed);
+    std::vector<std::array<float, quantities>> steps(points.size());
+    parallel_for(static_cast<std::int64_t>(points.size()), 4096, [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t k = first; k < last; ++k)
+            steps[static_cast<std::size_t>(k)] = comparer.compare({points[static_cast<std::size_t>(k)], 0}, 1).step;
+    });
+    for (std::size_t q = 0; q < quantities; ++q) {
+        values.clear();
+        for (const auto& step : steps) {
+            if (step[q] == step[q]) values.push_back(step[q]);
+        }
+        thresholds.p99[q] = quantile(values, 0.99);
+        const float median = quantile(values, 0.5);
+        for (float& v : values) v = std::abs(v - median);
+        const float spread = normal_deviation * quantile(values, 0.5);
+        thresholds.median[q] = median;
+        thresholds.spread[q] = spread;
+        const float own =
+            median + (q == index_of(Quantity::acceleration) ? rule.acceleration_spreads : rule.spreads) * spread;
+        // Facets of the program itself are texture, however high, where they are everywhere: no cap.
+        const float most =
+            q == index_of(Quantity::relief) ? std::numeric_limits<float>::infinity() : rule.most * least[q];
+        thresholds.of[q] = own == own ? std::max(least[q], std::min(own, most)) : least[q];
+    }
+    return thresholds;
+}
+
+}  // namespace clsurf

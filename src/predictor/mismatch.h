@@ -1,0 +1,114 @@
+#pragma once
+// Mismatch: how a place of a pass differs from the adjacent places on the neighbouring passes.
+//
+// Each quantity has two measures. The *step* is the largest difference to the two adjacent passes, minus the
+// trend that continues to the passes beyond them: it is what shows on the part. The *residual* is the
+// difference to the median over up to five passes on each side: it tells which of the two passes causes the
+// step, and it is zero where all passes change together. Accelerations are compared as vectors in workpiece
+// coordinates: along the path, one pass of a zigzag brakes where the next one accelerates.
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "predictor/signals.h"
+#include "surface/path_location.h"
+
+namespace clsurf {
+
+enum class Quantity : std::uint8_t { speed, acceleration, lag, relief };
+inline constexpr std::size_t quantities = 4;
+[[nodiscard]] constexpr std::size_t index_of(Quantity q) { return static_cast<std::size_t>(q); }
+[[nodiscard]] std::string_view name_of(Quantity quantity);  ///< "speed"
+
+/// What is compared, at a place.
+struct Compared {
+    float speed, lag, relief;
+    Eigen::Vector3f acceleration;
+};
+
+/// The signals at a station, linear between the points. Heights are counted along `normal`: normals of
+/// steep walls turn round with the feed.
+[[nodiscard]] Compared compared_at(const Signals& signals, const Station& at, const Eigen::Vector3f& normal);
+
+/// Speeds relative to that of the neighbours, accelerations [mm/s²], heights [mm].
+struct Comparison {
+    std::array<float, quantities> step;           ///< ≥ 0; NaN: not known
+    std::array<float, quantities> lesser_step{};  ///< the smaller one of both sides: of a band's edge it is nothing
+    std::array<float, quantities> residual;       ///< signed; of the acceleration the length; NaN: not known
+    std::array<float, quantities> play{};         ///< of the step, where log and place agree to a period only
+    std::array<float, quantities> slack{};        ///< of step and residual, where passes begin and end a little apart
+    float speed_jump = 0;                         ///< residual of the speed [mm/s]
+    int left = 0, right = 0;                      ///< passes that were compared with
+    bool ramp = false;  ///< it lies in the ramp of its pass, of an adjacent one, or of the next of its own way
+    Station beside_left, beside_right;  ///< on the adjacent passes
+};
+
+class Comparer {
+public:
+    static constexpr int passes_aside = 5;
+
+    /// Both must outlive it. `least_speed` [mm/s]: speeds below it are not compared relative to themselves.
+    Comparer(const ClSurface& surface, const Signals& signals, float least_speed)
+        : surface_(surface), signals_(signals), least_speed_(least_speed) {}
+
+    /// O(1): up to `aside` passes on each side. With one, the steps are the same, residuals mean little.
+    [[nodiscard]] Comparison compare(const Station& here, int aside = passes_aside) const;
+
+    /// Among passes of the place's own way, where all of them begin or end there. They do so a little apart,
+    /// and change fast: as much as all of them change within half a step-over is slack.
+    [[nodiscard]] Comparison compare_at_end(const Station& here) const;
+
+    /// Where the passes round a place do one after the other what it does too, its motion is
+    /// compared along their slant (oblique_alignment.h), in corners its relief too: they differ by the lesser of both.
+    void compare_along_slant(const Station& here, Comparison& comparison) const;
+
+private:
+    /// What a place is compared with: all passes, or those only that run the same way, of a zigzag every
+    /// second one.
+    enum class Peers : std::uint8_t { all, same_way };
+
+    [[nodiscard]] Comparison compare_with(Peers peers, const Station& here, int aside) const;
+
+    /// How much each quantity changes along the pass within half a step-over; speeds over `reference`.
+    [[nodiscard]] std::array<float, quantities> change_nearby(PointIndex point, float reference) const;
+
+    /// f(station, passes away: from 1) for the passes on one side, at most `aside`, as long as each turns
+    /// by less than the angle of that cosine from the one before. Returns the place on the adjacent pass.
+    template <typename F>
+    Station for_each_beside(const Station& from, Side side, int aside, float least_cosine, F&& f) const;
+
+    const ClSurface& surface_;
+    const Signals& signals_;
+    float least_speed_;
+};
+
+/// Above which step a place is a discontinuity, per quantity, and what it was found from.
+struct Thresholds {
+    std::array<float, quantities> of{};
+    std::array<float, quantities> median{};  ///< of the steps
+    std::array<float, quantities> spread{};  ///< robust standard deviation of the steps
+    std::array<float, quantities> p99{};     ///< 99th percentile of the steps
+    float usual_speed = 0;                   ///< [mm/s] 95th percentile of the judged points
+    float least_speed = 0;                   ///< [mm/s] slower, differences are relative to this
+    float usual_acceleration = 0;            ///< [mm/s²] 99th percentile
+};
+
+struct ThresholdRule {
+    float speed = 0.03F;  ///< least threshold, relative to the neighbours' speed
+    float acceleration =
+        0.15F;  ///< least threshold, relative to the usual acceleration; neither is less than rounding makes
+    float least_speed = 0.25F;   ///< of the usual speed, and no less than where rounding alone reaches the threshold
+    float height = 0.0015F;      ///< least threshold [mm] …
+    float lag_quanta = 1.5F;     ///< … and in steps of the positions: all of a pass may be rounded the same way,
+    float relief_quanta = 2.4F;  ///< and a relief hangs on three passes
+    float spreads = 6;           ///< above the median; a part's own scatter is no defect …
+    float acceleration_spreads = 9;  ///< (the length of a vector of noise reaches farther)
+    float most = 3;                  ///< … but at most so many times the least one: a bad part must not hide itself
+};
+
+/// Thresholds from some 50,000 evenly spaced judged points. The same for any number of threads.
+[[nodiscard]] Thresholds measure_thresholds(const ClSurface& surface, const Signals& signals,
+                                            const ThresholdRule& rule);
+
+}  // namespace clsurf

@@ -1,0 +1,21 @@
+#pragma once
+// Opposites: parts of a group of suspects that differ from the adjacent passes in opposite directions. A pit
+// next to a bulge is two defects; as one, its depth would be that of the deeper one and its place between
+// both.
+//
+// Three cases have both signs and stay whole: a difference that alternates with the direction of travel (the
+// lag of a zigzag); an oscillation, which changes its sign along one pass (a height at least twice); and the
+// edge of a band of passes. There the passes on both sides of the edge differ from the median of both, in
+// opposite directions, and each agrees with the next one on its own side.
+
+#include "predictor/candidates.h"
+#include "toolpath/arc_length.h"
+
+namespace clsurf {
+
+/// The parts of `core`, each in the order of its points: one, or those above and those below. `along`: joined_along(). Accelerations
+/// have no sign. O(sites log sites).
+[[nodiscard]] std::vector<Suspects> split_opposites(const Suspects& core, Quantity quantity, const Signals& signals,
+                                                    const Way& way, double along);
+
+}  // namespace clsurf

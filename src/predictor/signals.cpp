@@ -1,0 +1,394 @@
+#include "predictor/signals.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "core/block.h"
+#include "core/not_finite.h"
+#include "core/statistics.h"
+#include "log/health.h"
+#include "log/placeholder.h"
+#include "log/quantum.h"
+#include "surface/path_location.h"
+#include "toolpath/arc_length.h"
+
+namespace clsurf {
+namespace {
+
+constexpr double speed_seconds = 0.010;  ///< longest window: an oscillation of 20 ms keeps four fifths of its height …
+constexpr double speed_way = 0.4;  ///< [mm] … and of fast passes one of 0.8 mm, since marks are seen by their length
+constexpr double speed_steps = 150;         ///< steps of the positions, of way: rounding is then 1 % of the speed …
+constexpr double acceleration_windows = 2;  ///< … and accelerations of slow passes are taken over twice the way
+constexpr double height_window = 0.015;     ///< window of the mean that heights are smoothed with
+constexpr PointIndex relief_every = 3;      ///< points: normals and reliefs are those of every third
+constexpr double longest_lag = 0.1;         ///< [s] that the measured position may come after the commanded one
+constexpr PointIndex shortest_reach = 64;   ///< points
+constexpr float least_chord_share =
+    0.33F;  ///< of the chord between both neighbours, on either side of a point that has a relief
+constexpr PointIndex longest_reach = 4096;
+constexpr PointIndex lead = 16;         ///< points that it may come before: logs that were put together
+constexpr float farthest_lag = 2.0F;    ///< step-overs; farther, the paths have nothing to do with each other
+constexpr double longest_ramp = 20.0;   ///< [mm] 100 mm/s are reached over 17 mm at 300 mm/s²
+constexpr double rise_seconds = 0.005;  ///< in which the speed of a ramp rises …
+constexpr float least_rise = 0.005F;    ///< … by this share at least
+constexpr float slowest = 1e-3F;        ///< [mm/s]; slower, the feed has no direction
+
+int window_points(double seconds, double period, int least) {
+    return std::max(least, static_cast<int>(std::lround(std::min(seconds / period, 2000.0))) | 1);
+}
+
+/// The window of the speed [s] for a usual speed [mm/s] and positions that come in steps of `quantum` [mm].
+double speed_window(double usual_speed, double quantum) {
+    const double rounded = usual_speed > 0 ? std::min(speed_steps * quantum, speed_way) / usual_speed : 0;
+    return std::max(std::min(speed_seconds, speed_way / usual_speed), rounded);
+}
+
+DerivativeFilter speed_filter(double usual_speed, double quantum, double period) {
+    return {window_points(speed_window(usual_speed, quantum), period, 5), 2, 1, period};
+}
+
+DerivativeFilter acceleration_filter(double usual_speed, double quantum, double period) {
+    DerivativeFilter filter = derivative_filter(2, period);
+    const double seconds = acceleration_windows * speed_window(usual_speed, quantum);
+    if (seconds > acceleration_windows * speed_seconds)
+        filter.points = std::max(filter.points, window_points(seconds, period, 5));
+    return filter;
+}
+
+using Axes = std::array<std::vector<double>, 3>;
+
+void read(const Trajectory& path, PointIndex first, PointIndex last, Axes& out) {
+    for (std::vector<double>& axis : out) axis.resize(static_cast<std::size_t>(last - first + 1));
+    path.read(first, out[0], out[1], out[2]);
+}
+
+/// Mean over the window round a value, of those that are there; at least half the window must be.
+class Smoother {
+public:
+    explicit Smoother(int points) : half_(points / 2) {}
+    [[nodiscard]] PointIndex reach() const { return half_; }
+
+    /// Means for raw[skip …], out.size() of them, from sums up to each value. `every`: one in so many
+    /// points has a value at all.
+    void apply(std::span<const float> raw, std::size_t skip, std::size_t every, std::span<float> out) const {
+        std::vector<double> sums(raw.size() + 1);
+        std::vector<std::uint32_t> counts(raw.size() + 1);
+        for (std::size_t i = 0; i < raw.size(); ++i) {
+            const bool there = raw[i] == raw[i];
+            sums[i + 1] = sums[i] + (there ? static_cast<double>(raw[i]) : 0.0);
+            counts[i + 1] = counts[i] + (there ? 1 : 0);
+        }
+        const auto half = static_cast<std::size_t>(half_);
+        // The window shrinks evenly towards the ends: an uneven one would lean on slopes.
+        for (std::size_t k = 0; k < out.size(); ++k) {
+            const std::size_t at = skip + k;
+            const std::size_t reach = std::min({half, at, raw.size() - 1 - at});
+            const std::uint32_t count = counts[at + reach + 1] - counts[at - reach];
+            const bool enough = count > 0 && 2 * every * count >= 2 * reach + 1;
+            out[k] = enough ? static_cast<float>((sums[at + reach + 1] - sums[at - reach]) / count) : missing<float>;
+        }
+    }
+
+private:
+    int half_;
+};
+
+/// f(piece, first, last) for every stretch of every piece, last inclusive, in parallel.
+template <typename F>
+void for_each_stretch(PointIndex count, const std::vector<PointRange>& pieces, F&& f) {
+    for_each_block(count, [&](PointIndex begin, PointIndex end) {
+        auto piece = std::upper_bound(pieces.begin(), pieces.end(), begin,
+                                      [](PointIndex p, const PointRange& r) { return p < r.first; });
+        if (piece != pieces.begin()) --piece;
+        for (; piece != pieces.end() && piece->first < end; ++piece) {
+            const PointIndex first = std::max(begin, piece->first);
+            const PointIndex last = std::min(end - 1, piece->last);
+            if (first <= last) f(*piece, first, last);
+        }
+    });
+}
+
+class Deriver {
+public:
+    /// `usual_speed` [mm/s]; `quantum` [mm] of the path's positions.
+    Deriver(const ClSurface& surface, const Trajectory& path, const Trajectory* measured, double usual_speed,
+            double quantum, Signals& out)
+        : surface_(surface),
+          path_(path),
+          measured_(measured),
+          out_(out),
+          speed_(speed_filter(usual_speed, quantum, path.period)),
+          acceleration_(acceleration_filter(usual_speed, quantum, path.period)),
+          smoother_(window_points(height_window, path.period, 1)),
+          reach_(std::clamp(static_cast<PointIndex>(std::lround(std::min(longest_lag / path.period, 1e6))),
+                            shortest_reach, longest_reach)) {}
+
+    void note_noise(double quantum, Signals& signals) const {
+        signals.speed_noise = static_cast<float>(2 * quantum * speed_.filter().step_response());
+        signals.acceleration_noise = static_cast<float>(2 * quantum * acceleration_.filter().step_response());
+    }
+    void note_windows(Signals& signals) const {
+        const auto note = [&](std::string_view what, int points) {
+            return fmt::format("{} over {} points ({:.3g} ms)", what, points, 1e3 * points * path_.period);
+        };
+        signals.speed_note = note("speed", speed_.filter().points);
+        signals.acceleration_note = note("acceleration", acceleration_.filter().points);
+        signals.height_note = note("heights", static_cast<int>(2 * smoother_.reach() + 1));
+    }
+
+    void derive_motion(PointRange piece, PointIndex first, PointIndex last) const {
+        const PointIndex reach = std::max(speed_.reach(), acceleration_.reach());
+        const PointIndex from = std::max(piece.first, first - reach);
+        const PointIndex to = std::min(piece.last, last + reach);
+        Axes samples;
+        read(path_, from, to, samples);
+        const auto n = static_cast<std::size_t>(last - first + 1);
+        Axes v;
+        Axes a;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            v[axis].resize(n);
+            a[axis].resize(n);
+            speed_.apply(samples[axis], from, piece, first, v[axis]);
+            acceleration_.apply(samples[axis], from, piece, first, a[axis]);
+        }
+        for (std::size_t k = 0; k < n; ++k) {
+            const auto i = first + static_cast<PointIndex>(k);
+            const Vec3 velocity(v[0][k], v[1][k], v[2][k]);
+            const double speed = velocity.norm();
+            Sample& sample = out_[i];
+            sample.speed = static_cast<float>(speed);
+            sample.lag = missing<float>;
+            for (Eigen::Index axis = 0; axis < 3; ++axis) {
+                sample.feed[axis] = speed > slowest ? static_cast<float>(velocity[axis] / speed) : missing<float>;
+                sample.acceleration[axis] = static_cast<float>(a[static_cast<std::size_t>(axis)][k]);
+            }
+        }
+    }
+
+    /// Normals and heights; after derive_motion() and mark_zones() of everything.
+    void derive_heights(PointRange piece, PointIndex first, PointIndex last) const {
+        const PointIndex from = std::max(piece.first, first - smoother_.reach());
+        const PointIndex to = std::min(piece.last, last + smoother_.reach());
+        std::vector<Eigen::Vector3f> normals(static_cast<std::size_t>(to - from + 1));
+        std::vector<float> relief(normals.size());
+        for (PointIndex i = from; i <= to; ++i) {
+            const auto k = static_cast<std::size_t>(i - from);
+            if (i % relief_every == 0 || i == piece.first) {
+                relief[k] = measure_relief(i, normals[k]);
+            } else {
+                // Between two of them the normal hardly turns.
+                relief[k] = missing<float>;
+                const PointIndex before = std::max(piece.first, i - i % relief_every);
+                if (before >= from)
+                    normals[k] = normals[static_cast<std::size_t>(before - from)];
+                else
+                    (void)measure_relief(before, normals[k]);
+            }
+            if (i >= first && i <= last) Eigen::Map<Eigen::Vector3f>(out_[i].normal) = normals[k];
+        }
+        const auto skip = static_cast<std::size_t>(first - from);
+        std::vector<float> smooth(static_cast<std::size_t>(last - first + 1));
+        smoother_.apply(relief, skip, static_cast<std::size_t>(relief_every), smooth);
+        for (std::size_t k = 0; k < smooth.size(); ++k) out_[first + static_cast<PointIndex>(k)].relief = smooth[k];
+        if (measured_ == nullptr) return;
+        std::vector<float>& lag = relief;
+        measure_lag(from, to, normals, lag);
+        smoother_.apply(lag, skip, 1, smooth);
+        for (std::size_t k = 0; k < smooth.size(); ++k) out_[first + static_cast<PointIndex>(k)].lag = smooth[k];
+    }
+
+private:
+    /// The normal at a point, and how far the point lies above the chord between its neighbours.
+    float measure_relief(PointIndex i, Eigen::Vector3f& normal) const {
+        normal.setConstant(missing<float>);
+        const Eigen::Vector3f feed = out_.feed(i);
+        const Positions& p = surface_.positions;
+        const Eigen::Vector3f here = p[i];
+        const Station left = beside(surface_, {i, 0}, feed, Side::left);
+        const Station right = beside(surface_, {i, 0}, feed, Side::right);
+        if (!left.exists() && !right.exists()) return missing<float>;
+        const Eigen::Vector3f a = left.exists() ? position_at(p, left) : here;
+        const Eigen::Vector3f b = right.exists() ? position_at(p, right) : here;
+        const Eigen::Vector3f across = a - b;
+        normal = feed.cross(across).normalized();
+        if (!left.exists() || !right.exists()) return missing<float>;
+        // Where a pass is interrupted, by an island, what lies beside is its retract or its end.
+        if (out_[left.nearest()].zone == Zone::outside || out_[right.nearest()].zone == Zone::outside)
+            return missing<float>;
+        const float share = (here - b).dot(across) / across.squaredNorm();
+        if (!(share > least_chord_share && share < 1 - least_chord_share)) return missing<float>;
+        return (here - b - share * across).dot(normal);
+    }
+
+    void measure_lag(PointIndex from, PointIndex to, const std::vector<Eigen::Vector3f>& normals,
+                     std::vector<float>& lag) const {
+        const PointIndex begin = std::max<PointIndex>(0, from - lead - 1);
+        const PointIndex end = std::min(path_.count - 1, to + reach_);
+        Axes commanded;
+        Axes measured;
+        read(path_, from, to, commanded);
+        read(*measured_, begin, end, measured);
+        const auto at = [&](PointIndex m) {
+            const auto k = static_cast<std::size_t>(m - begin);
+            return Vec3(measured[0][k], measured[1][k], measured[2][k]);
+        };
+        PointIndex m = from;
+        for (PointIndex i = from; i <= to; ++i) {
+            const auto k = static_cast<std::size_t>(i - from);
+            lag[k] = missing<float>;
+            const Vec3 here(commanded[0][k], commanded[1][k], commanded[2][k]);
+            const Vec3 feed = out_.feed(i).cast<double>();
+            const auto along = [&](PointIndex q) { return (at(q) - here).dot(feed); };
+            // The first crossing after where the last one was; a little before it where it went back.
+            m = std::clamp(m, std::max(begin + 1, i - lead), std::min(end, i + reach_));
+            while (m > std::max(begin + 1, i - lead) && along(m - 1) >= 0) --m;
+            while (m < std::min(end, i + reach_) && along(m) < 0) ++m;
+            const double after = along(m);
+            const double before = along(m - 1);
+            if (!(after >= 0 && before < 0)) continue;
+            const double share = before / (before - after);
+            const Vec3 off = at(m - 1) + share * (at(m) - at(m - 1)) - here;
+            if (off.norm() > farthest_lag * surface_.step_over) continue;
+            lag[k] = static_cast<float>(off.dot(normals[k].cast<double>()));
+        }
+    }
+
+    const ClSurface& surface_;
+    const Trajectory& path_;
+    const Trajectory* measured_;
+    Signals& out_;
+    Differentiator speed_, acceleration_;
+    Smoother smoother_;
+    PointIndex reach_;
+};
+
+/// Speed [mm/s] that a twentieth of the points of cut passes, evenly chosen, exceed; 0: none moves.
+double usual_speed_of(const ClSurface& surface, double period) {
+    constexpr PointIndex chosen = 20'000;
+    constexpr double chord_seconds = 0.010;
+    const Positions& positions = surface.positions;
+    const PointIndex every = std::max<PointIndex>(1, positions.size() / chosen);
+    const PointIndex chord = std::max<PointIndex>(1, std::lround(std::min(chord_seconds / period, 1e6)));
+    std::vector<float> speeds;
+    for (const Pass& pass : surface.passes) {
+        if (pass.kind != PassKind::cut) continue;
+        for (PointIndex i = (pass.first + every - 1) / every * every; i + chord <= pass.last; i += every) {
+            const float way = (positions[i + chord] - positions[i]).norm();
+            if (way > 0) speeds.push_back(way / static_cast<float>(static_cast<double>(chord) * period));
+        }
+    }
+    return speeds.empty() ? 0 : quantile_below(speeds, 0.95);
+}
+
+/// The finest step of the axes: one that moves in step-overs only would seem to have a coarse one.
+float quantum_of_axes(const Trajectory& role) {
+    double finest = 0;
+    for (const ChannelView& axis : role.axes) {
+        const double quantum = quantum_of(axis);
+        if (quantum > 0 && (finest == 0 || quantum < finest)) finest = quantum;
+    }
+    return static_cast<float>(finest);
+}
+
+/// The zones at one end of a piece, walked from `end` inwards in `direction`.
+void mark_end(PointIndex end, PointIndex count, int direction, double end_zone, PointIndex stride, const Way& way,
+              Signals& signals) {
+    double gone = 0;
+    float before = 0;
+    bool ramp = true;
+    for (PointIndex k = 0; k < count; ++k) {
+        const PointIndex i = end + direction * k;
+        Sample& sample = signals[i];
+        ramp = ramp && gone < end_zone + longest_ramp;
+        if (gone < end_zone)
+            sample.zone = Zone::outside;
+        else if (gone > 2 * end_zone + longest_ramp)
+            return;
+        else if (sample.zone != Zone::outside)
+            sample.zone = std::min(sample.zone, ramp ? Zone::ramp : Zone::near_end);
+        if (k % stride == 0) {
+            const float speed = sample.speed;
+            if (gone >= end_zone && !(speed > (1 + least_rise) * before)) ramp = false;
+            before = speed;
+        }
+        if (k + 1 < count) gone += way.step(direction > 0 ? i : i - 1);
+    }
+}
+
+/// Marks what may be compared with what.
+void mark_zones(const ClSurface& surface, const std::vector<PointRange>& pieces, double end_zone, double period,
+                Signals& signals) {
+    const Way way(surface.positions);
+    for (const Pass& pass : surface.passes) {
+        const Zone zone = pass.kind == PassKind::cut ? Zone::inner : Zone::outside;
+        for (PointIndex i = pass.first; i <= pass.last; ++i) signals[i].zone = zone;
+    }
+    const auto stride = std::max<PointIndex>(1, std::lround(std::min(rise_seconds / period, 1e6)));
+    for (const PointRange& piece : pieces) {
+        mark_end(piece.first, piece.size(), +1, end_zone, stride, way, signals);
+        mark_end(piece.last, piece.size(), -1, end_zone, stride, way, signals);
+    }
+}
+
+}  // namespace
+
+double usual_end_zone(double step_over) {
+    constexpr double least = 1.0;  // [mm]
+    constexpr double step_overs = 2;
+    return std::max(least, step_overs * step_over);
+}
+
+namespace {
+
+std::vector<std::string> reasons_against(const Trajectory& path) {
+    std::vector<std::string> reasons;
+    if (path.period > longest_judged_period) {
+        reasons.push_back(
+            fmt::format("A record comes every {:.4g} ms. Marks last some hundredths of a second: they show in "
+                        "records every {:g} ms or faster.",
+                        1e3 * path.period, 1e3 * longest_judged_period));
+    }
+    if (const std::optional<Placeholder> placeholder = find_placeholder(path.axes)) {
+        const auto& [x, y, z] = placeholder->position;
+        reasons.push_back(
+            fmt::format("The log's position jumps to X{:g} Y{:g} Z{:g} and back {} times, over up to {:.1f} mm: "
+                        "a placeholder for positions that were not recorded.",
+                        x, y, z, placeholder->times, placeholder->farthest));
+    }
+    return reasons;
+}
+
+}  // namespace
+
+Signals derive_signals(const ClSurface& surface, const Trajectory& path, const Trajectory* measured,
+                       const std::vector<PointRange>& smooth, double end_zone) {
+    Signals signals;
+    // Where loops are joined the speed sideways is not that of the pass.
+    std::vector<PointRange> pieces;
+    JogCutter cutter(surface.jogs);
+    for (const PointRange& piece : smooth)
+        cutter.cut(piece, [&](const PointRange& part, bool) { pieces.push_back(part); });
+    signals.samples.resize(static_cast<std::size_t>(path.count));
+    signals.measured = measured != nullptr;
+    signals.pieces = pieces;
+    const float quantum = quantum_of_axes(path);
+    signals.quantum = measured != nullptr ? std::max(quantum, quantum_of_axes(*measured)) : quantum;
+    const Deriver deriver(surface, path, measured, usual_speed_of(surface, path.period), quantum, signals);
+    deriver.note_windows(signals);
+    signals.unfit = reasons_against(path);
+    deriver.note_noise(quantum, signals);
+    for_each_stretch(path.count, pieces, [&](PointRange piece, PointIndex first, PointIndex last) {
+        deriver.derive_motion(piece, first, last);
+    });
+    mark_zones(surface, pieces, end_zone, path.period, signals);
+    for_each_stretch(path.count, pieces, [&](PointRange piece, PointIndex first, PointIndex last) {
+        deriver.derive_heights(piece, first, last);
+    });
+    return signals;
+}
+
+}  // namespace clsurf

@@ -1,0 +1,61 @@
+#include "predictor/sites.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/block.h"
+
+namespace clsurf {
+namespace {
+
+constexpr double site_length = 0.2;    ///< [mm] marks are seen by their length; halved where the tool …
+constexpr float slow_from = 70.7107F;  ///< [mm/s] … moves at half of this or less, and so on: 3 to 6 ms between sites
+constexpr double site_way = 0.1;       ///< step-overs between sites, at least
+constexpr PointIndex farthest = 128;   ///< points from a point to its site
+
+static_assert(block_points % 64 == 0);  // blocks share no word
+
+}  // namespace
+
+Sites::Sites(const ClSurface& surface, const Signals& signals)
+    : surface_(surface),
+      signals_(signals),
+      most_halvings_(
+          static_cast<int>(std::clamp(std::floor(std::log2(site_length / (site_way * surface.step_over))), 0.0, 30.0))),
+      words_(static_cast<std::size_t>((signals.size() + 63) / 64), 0) {
+    for_each_block(signals.size(), [&](PointIndex first, PointIndex last) {
+        for (PointIndex i = std::max<PointIndex>(first, 1); i < last; ++i) {
+            if (signals[i].zone != Zone::outside && crossing(i).crosses)
+                words_[static_cast<std::size_t>(i / 64)] |= std::uint64_t{1} << (i % 64);
+        }
+    });
+}
+
+Sites::Crossing Sites::crossing(PointIndex point) const {
+    const float speed = signals_[point].speed;
+    if (!(speed > 0)) return {};
+    const Eigen::Vector3f feed = signals_.feed(point);
+    Eigen::Index axis = 0;
+    feed.cwiseAbs().maxCoeff(&axis);
+    // The distance is halved where the tool is slow, so that there are the same planes and more.
+    const int halvings = std::clamp(std::ilogb(slow_from / speed), 0, most_halvings_);
+    const double planes = std::ldexp(1 / site_length, halvings);  // a millimetre
+    const Positions& p = surface_.positions;
+    const double before = (p.origin[axis] + static_cast<double>(p[point - 1][axis])) * planes,
+                 now = (p.origin[axis] + static_cast<double>(p[point][axis])) * planes;
+    const double plane = std::floor(std::max(before, now));
+    if (!(plane > std::min(before, now)) || plane == before) return {};
+    return {true, static_cast<float>((plane - before) / (now - before))};
+}
+
+Station Sites::place(PointIndex site) const { return {site - 1, crossing(site).fraction}; }
+
+PointIndex Sites::nearest(PointIndex point) const {
+    for (PointIndex k = 0; k < farthest; ++k) {
+        if (point + k < signals_.size() && at(point + k)) return point + k;
+        if (point >= k && at(point - k)) return point - k;
+    }
+    return -1;
+}
+
+}  // namespace clsurf

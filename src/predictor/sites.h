@@ -1,0 +1,51 @@
+#pragma once
+// Sites: the places of a log at which passes are compared. Position selects them, not time: a site is where
+// the path crosses planes that are fixed in the workpiece. A second log of the same path has the same sites,
+// so the same place is judged alike, and the sites of adjacent passes are next to each other.
+
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+#include "predictor/signals.h"
+#include "surface/path_location.h"
+
+namespace clsurf {
+
+class Sites {
+public:
+    /// A site is the first point of a cut pass behind a plane across that axis along which the tool moves most there. The planes are
+    /// 0.2 mm apart, below 35 mm/s half of it, below 18 mm/s a quarter …, but no less than a tenth of a step-over.
+    /// O(points), parallel.
+    Sites(const ClSurface& surface, const Signals& signals);
+
+    [[nodiscard]] bool at(PointIndex point) const {
+        return (words_[static_cast<std::size_t>(point / 64)] >> (point % 64) & 1) != 0;
+    }
+    /// Where the plane is crossed before a site. Domain: at(site).
+    [[nodiscard]] Station place(PointIndex site) const;
+    /// The site nearest to a point; −1: none is near.
+    [[nodiscard]] PointIndex nearest(PointIndex point) const;
+    /// f(site) for those from `first` to `last`, `last` exclusive, in order. Both are multiples of 64, or the end.
+    template <typename F>
+    void for_each(PointIndex first, PointIndex last, F&& f) const {
+        for (PointIndex word = first / 64; word * 64 < last; ++word) {
+            for (std::uint64_t left = words_[static_cast<std::size_t>(word)]; left != 0; left &= left - 1)
+                f(word * 64 + std::countr_zero(left));
+        }
+    }
+
+private:
+    struct Crossing {
+        bool crosses = false;
+        float fraction = 0;  ///< of the way from the point before
+    };
+    [[nodiscard]] Crossing crossing(PointIndex point) const;
+
+    const ClSurface& surface_;
+    const Signals& signals_;
+    int most_halvings_;
+    Column<std::uint64_t> words_;  ///< a bit a point
+};
+
+}  // namespace clsurf

@@ -1,0 +1,254 @@
+#include "predictor/systematic_lag.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <span>
+
+#include "core/not_finite.h"
+#include "core/parallel.h"
+#include "predictor/median_of.h"
+
+namespace clsurf {
+namespace {
+
+constexpr int lag_passes_aside = 8;     ///< looked at on each side: a fault on every second pass must be wider to count
+constexpr float same_line = 0.866F;     ///< cos 30°: neighbours run along with the feed or against it
+constexpr float one_sided_bend = 1.5F;  ///< as far again to the place as from ring to ring of the passes on one side
+constexpr float alternates = 0.5F;      ///< of the threshold
+constexpr std::size_t fewest_of_a_kind = 2;  ///< passes of each direction, for a median
+constexpr std::size_t fewest_passes = 8;     ///< that a region spans
+constexpr double least_share = 0.05;         ///< of the way of all cut passes, that is systematic
+constexpr float shift_step_overs =
+    2;  ///< along the feed: beside an edge at 45° the next pass of its direction changes so much later
+
+/// The lag of a place among the passes around it.
+struct LagAround {
+    float alternating = missing<float>;  ///< [mm] own direction minus the other one, without the place itself
+    float residual = missing<float>;     ///< [mm] to the median of its own direction
+    float step = missing<float>;         ///< [mm] ≥ 0, to the next passes of its own direction
+    float slack = 0;                     ///< [mm] of both: what all of them change nearby
+};
+
+class LagComparer {
+public:
+    LagComparer(const ClSurface& surface, const Signals& signals) : surface_(surface), signals_(signals) {}
+
+    [[nodiscard]] LagAround around(const Station& here) const {
+        const PointIndex point = here.nearest();
+        const Eigen::Vector3f normal = signals_.normal(point);
+        std::array<Directions, 2> sides;
+        float slack_of_others = 0;
+        for (const Side side : {Side::left, Side::right}) {
+            Directions& mine = sides[static_cast<std::size_t>(side)];
+            walk(here, side, [&](const Station& at) {
+                const float lag = compared_at(signals_, at, normal).lag;
+                if (!(lag == lag)) return;
+                const bool against = signals_.feed(at.nearest()).dot(signals_.feed(point)) < 0;
+                (against ? mine.other : mine.own).add(lag);
+                if (!against) slack_of_others = std::max(slack_of_others, change_nearby(at.nearest()));
+            });
+        }
+        const float lag = compared_at(signals_, here, normal).lag;
+        const float usual = balanced_median(sides[0].own, sides[1].own);
+        const float bend = bend_across(sides[0].own, sides[1].own);
+        LagAround result;
+        result.alternating = usual - balanced_median(sides[0].other, sides[1].other);
+        result.residual = lag - usual;
+        for (const Directions& side : sides) {
+            if (side.own.count == 0) continue;
+            const float step = std::abs(lag - side.own.values[0]);
+            if (!(result.step >= step)) result.step = step;
+        }
+        result.slack = std::max(std::min(change_nearby(point), slack_of_others), bend);
+        return result;
+    }
+
+private:
+    /// Lags of passes, the nearest first.
+    struct Lags {
+        std::array<float, lag_passes_aside> values{};
+        std::size_t count = 0;
+        void add(float lag) { values[count++] = lag; }
+    };
+    struct Directions {
+        Lags own, other;
+    };
+
+    /// As many of either side, so that what changes evenly from pass to pass drops out; all of one side where the other has none.
+    [[nodiscard]] static float balanced_median(const Lags& left, const Lags& right) {
+        std::array<float, lag_passes_aside> all{};
+        const std::size_t even = std::min({left.count, right.count, all.size() / 2});
+        std::size_t n = 0;
+        for (const Lags* side : {&left, &right}) {
+            const std::size_t count = even > 0 ? even : side->count;
+            for (std::size_t k = 0; k < count; ++k) all[n++] = side->values[k];
+        }
+        return median_of(std::span<const float>(all.data(), n), fewest_of_a_kind, [](float v) { return v; });
+    }
+
+    /// How much the lag of one direction changes from the nearer passes to the farther ones: as much may a place differ from
+    /// them all. 0 where it is not known.
+    [[nodiscard]] static float bend_across(const Lags& left, const Lags& right) {
+        constexpr std::size_t near = lag_passes_aside / 4;
+        const auto ring = [&](std::size_t first, std::size_t last) {
+            std::array<float, lag_passes_aside> values{};
+            std::size_t n = 0;
+            for (const Lags* side : {&left, &right}) {
+                for (std::size_t k = first; k < std::min(last, side->count); ++k) values[n++] = side->values[k];
+            }
+            return median_of(std::span<const float>(values.data(), n), 1, [](float v) { return v; });
+        };
+        const bool one_sided = left.count == 0 || right.count == 0;
+        const float bend = std::abs(ring(0, near) - ring(near, 2 * near)) * (one_sided ? one_sided_bend : 1);
+        return bend == bend ? bend : 0;
+    }
+
+    template <typename F>
+    void walk(const Station& from, Side side, F&& f) const {
+        Station before = from;
+        Station at = beside(surface_, before, signals_.feed(before.nearest()), side);
+        for (int passes = 1; at.exists(); ++passes) {
+            const Eigen::Vector3f feed = signals_.feed(at.nearest());
+            const bool in_line = std::abs(feed.dot(signals_.feed(before.nearest()))) > same_line;
+            if (signals_[at.nearest()].zone == Zone::outside || !in_line) return;
+            f(at);
+            if (passes == lag_passes_aside) return;
+            const Station next = beyond(surface_, before, at, feed);
+            before = at;
+            at = next;
+        }
+    }
+
+    /// How much the lag changes along its pass within `shift_step_overs`.
+    [[nodiscard]] float change_nearby(PointIndex point) const {
+        const Positions& p = surface_.positions;
+        float change = 0;
+        for (const PointIndex direction : {-1, 1}) {
+            for (PointIndex i = point + direction; i >= 0 && i < p.size() && signals_[i].zone != Zone::outside;
+                 i += direction) {
+                change = std::max(change, std::abs(signals_[i].lag - signals_[point].lag));
+                if (!((p[i] - p[point]).norm() < shift_step_overs * static_cast<float>(surface_.step_over))) break;
+            }
+        }
+        return change;
+    }
+
+    const ClSurface& surface_;
+    const Signals& signals_;
+};
+
+/// A suspect round which the passes alternate, or where that is not known: too few of them run on.
+struct Candidate {
+    Suspect* suspect = nullptr;
+    LagAround lag;
+    [[nodiscard]] bool known() const { return lag.alternating == lag.alternating; }
+};
+
+/// Those of `found` round which the lag alternates, in the order of their points.
+std::vector<Candidate> find_candidates(const LagComparer& comparer, const Thresholds& thresholds,
+                                       FoundSuspects& found) {
+    std::vector<Candidate> all;
+    const std::size_t lag = index_of(Quantity::lag);
+    for (std::vector<Suspect>& piece : found.kept) {
+        for (Suspect& suspect : piece) {
+            if (suspect.share[lag] > 0) all.push_back({&suspect, {}});
+        }
+    }
+    constexpr std::int64_t grain = 1024;
+    parallel_for(static_cast<std::int64_t>(all.size()), grain, [&](std::int64_t first, std::int64_t last) {
+        for (auto k = static_cast<std::size_t>(first); k < static_cast<std::size_t>(last); ++k)
+            all[k].lag = comparer.around({all[k].suspect->point, 0});
+    });
+    std::erase_if(all, [&](const Candidate& c) {
+        return std::abs(c.lag.alternating) < alternates * thresholds.of[index_of(Quantity::lag)];
+    });
+    std::sort(all.begin(), all.end(),
+              [](const Candidate& a, const Candidate& b) { return a.suspect->point < b.suspect->point; });
+    return all;
+}
+
+double cut_way(const ClSurface& surface, const Way& way) {
+    double sum = 0;
+    for (const Pass& pass : surface.passes) {
+        if (pass.kind == PassKind::cut) sum += way.to(pass.last) - way.to(pass.first);
+    }
+    return sum;
+}
+
+/// The way between sites of one pass that follow each other [mm].
+double way_of(std::span<const AlternatingSite> sites, const Way& way, double joined) {
+    double sum = 0;
+    for (std::size_t k = 1; k < sites.size(); ++k) {
+        if (sites[k].pass == sites[k - 1].pass && !way.at_least(sites[k - 1].point, sites[k].point, joined))
+            sum += way.to(sites[k].point) - way.to(sites[k - 1].point);
+    }
+    return sum;
+}
+
+/// Whether places spread over so many passes that they are no fault of some of them. In the order of their points.
+bool is_wide(std::span<const std::size_t> region, const std::vector<Candidate>& candidates) {
+    std::size_t passes = 0;
+    const Suspect* before = nullptr;
+    for (const std::size_t k : region) {
+        if (!candidates[k].known()) continue;
+        const Suspect* here = candidates[k].suspect;
+        passes += before == nullptr || here->pass != before->pass ? 1 : 0;
+        before = here;
+    }
+    return passes >= fewest_passes;
+}
+
+/// From now on its lag is what the passes of its own direction do not explain; nothing where that is not known.
+void subtract(const Candidate& candidate, const Thresholds& thresholds) {
+    constexpr std::size_t q = index_of(Quantity::lag);
+    Suspect& s = *candidate.suspect;
+    const LagAround& lag = candidate.lag;
+    const float left = candidate.known() ? std::max(std::abs(lag.residual) - lag.slack, 0.0F) : 0;
+    const float step = candidate.known() ? std::max(lag.step - lag.slack, 0.0F) : 0;
+    s.comparison.residual[q] = std::copysign(left, lag.residual);
+    s.comparison.step[q] = step;
+    s.comparison.slack[q] = 0;
+    s.share[q] = left / thresholds.of[q];
+    s.score[q] = std::max(0.0F, std::min((step - s.comparison.play[q]) / thresholds.of[q], 2 * s.share[q]));
+}
+
+/// Domain: a suspect of that point is there. O(log suspects).
+std::size_t index_by_point(const Suspects& suspects, PointIndex point) {
+    const auto at = std::lower_bound(suspects.begin(), suspects.end(), point,
+                                     [](const Suspect* s, PointIndex p) { return s->point < p; });
+    return static_cast<std::size_t>(at - suspects.begin());
+}
+
+}  // namespace
+
+SystematicLag take_systematic_lag(const ClSurface& surface, const Signals& signals, const Way& way,
+                                  const Thresholds& thresholds, double along, FoundSuspects& found) {
+    SystematicLag result;
+    if (!signals.measured) return result;
+    const std::vector<Candidate> candidates = find_candidates(LagComparer(surface, signals), thresholds, found);
+    Suspects suspects;
+    for (const Candidate& candidate : candidates) suspects.push_back(candidate.suspect);
+    std::vector<std::size_t> wide;  // candidates of wide regions
+    for (const Suspects& region : group_suspects(suspects, surface, way, along)) {
+        std::vector<std::size_t> members;
+        for (const Suspect* s : region) members.push_back(index_by_point(suspects, s->point));
+        if (is_wide(members, candidates)) wide.insert(wide.end(), members.begin(), members.end());
+    }
+    std::sort(wide.begin(), wide.end());
+    const float threshold = thresholds.of[index_of(Quantity::lag)];
+    for (const std::size_t k : wide) {
+        const Candidate& c = candidates[k];
+        if (std::abs(c.lag.alternating) >= threshold)
+            result.sites.push_back({c.suspect->point, c.suspect->pass, c.lag.alternating});
+    }
+    if (way_of(result.sites, way, along) < least_share * cut_way(surface, way)) {
+        result.sites.clear();
+        return result;
+    }
+    for (const std::size_t k : wide) subtract(candidates[k], thresholds);
+    return result;
+}
+
+}  // namespace clsurf

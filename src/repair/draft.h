@@ -1,0 +1,52 @@
+#pragma once
+// Drafts: the program with new points where it needs repair, before feeds are set.
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "program/program.h"
+#include "repair/points/orientation.h"
+#include "surface/programmed_surface.h"
+
+namespace clsurf {
+
+struct OptimizeRules;
+
+/// Reads a text in the dialect of the program, with the same options.
+using ReadProgram = std::function<Program(const std::string& text)>;
+
+struct Draft {
+    Program program;
+    std::string text;
+    std::size_t stretches = 0, changed_lines = 0;
+    double chord_error = 0;                ///< [mm] of its lines against the smooth curve
+    std::vector<std::uint8_t> needed{};    ///< per motion of the old program: 0 has kept its points
+    std::vector<std::uint8_t> may_slow{};  ///< per motion of the draft, whether it may get a feed; empty: all may
+};
+
+class Drafter {
+public:
+    /// `shortest_line` [mm]: new lines are shorter only to keep the tolerance. `slows_anywhere`: feeds may also change
+    /// outside the selected sections. `orientation`: of a program that runs on five axes. All must outlive it.
+    /// O(points).
+    Drafter(const Program& program, const ReadProgram& read, const OptimizeRules& rules, double shortest_line,
+            bool slows_anywhere, const Orientation* orientation = nullptr);
+
+    /// New points for the motions that need repair (one entry per motion).
+    [[nodiscard]] Draft draft(double chord_error, std::vector<std::uint8_t> needed) const;
+    /// The program as it is.
+    [[nodiscard]] Draft unchanged() const;
+
+private:
+    const Program& program_;
+    const ReadProgram& read_;
+    const OptimizeRules& rules_;
+    double shortest_line_;
+    bool slows_anywhere_;
+    const Orientation* orientation_;
+    ProgrammedSurface laid_;
+};
+
+}  // namespace clsurf

@@ -1,0 +1,140 @@
+#include "repair/feed_search.h"
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include "repair/feeds/feed_equalisation.h"
+
+namespace clsurf {
+namespace {
+
+constexpr std::array<double, 3> steps_between_passes{0.1, 0.05, 0.02};
+constexpr double play_of_feeds = 0.003;  ///< a motion this little too fast (a share) gets no feed
+constexpr int levelling_rounds = 3;      ///< with the time that there is
+constexpr double most_share = 0.65;      ///< of the time there is, that a round may reckon with: feeds hold whole lines
+constexpr double time_used = 0.95;       ///< of what is there: enough
+
+/// The targets of a proposal, and lower ones from a speed per point of its run [mm/s]; its own where none is lower.
+std::vector<float> lowered_targets(const Proposal& proposal, const std::vector<float>& speeds) {
+    const std::vector<float> own =
+        peaks_by_motion(proposal.run, proposal.draft->program, compared_speeds(proposal.run));
+    const std::vector<float> wanted = peaks_by_motion(proposal.run, proposal.draft->program, speeds);
+    std::vector<float> targets = proposal.targets;
+    targets.resize(wanted.size(), 0);
+    bool any = false;
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+        const bool too_fast = wanted[i] < (1 - play_of_feeds) * own[i];
+        if (!too_fast || (targets[i] > 0 && targets[i] <= wanted[i])) continue;
+        targets[i] = wanted[i];
+        any = true;
+    }
+    return any ? targets : proposal.targets;
+}
+
+/// The targets of a proposal, raised where its run fell below the speeds that they were made for on the run of `from`.
+std::vector<float> eased_targets(const Proposal& from, const Proposal& made, const std::vector<float>& speeds) {
+    const std::vector<float> wanted = peaks_by_motion(from.run, from.draft->program, speeds);
+    const std::vector<float> reached = peaks_by_motion(made.run, from.draft->program, compared_speeds(made.run));
+    std::vector<float> targets = made.targets;
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+        const float old = from.targets.empty() ? 0 : from.targets[i];
+        if (targets[i] == old || !(reached[i] < wanted[i])) continue;
+        targets[i] += wanted[i] - reached[i];
+        if (old > 0) targets[i] = std::min(targets[i], old);
+    }
+    return targets;
+}
+
+/// Whether a cure left fewer defects about some of those that it was for and not about others; such become hopeless.
+bool gives_up_losses(const Proposal& from, const CuringSpeeds& cure, const Proposal& cured,
+                     std::vector<Vec3>& hopeless) {
+    const std::vector<int> gains = gains_of(cure, from.run, cured.run);
+    std::set<std::size_t> tried;
+    for (const std::int32_t cause : cure.causes) {
+        if (cause >= 0) tried.insert(static_cast<std::size_t>(cause));
+    }
+    std::size_t lost = 0;
+    for (const std::size_t k : tried) {
+        if (gains[k] > 0) continue;
+        hopeless.push_back(from.run.report.defects[k].place.tip);
+        ++lost;
+    }
+    return lost > 0 && lost < tried.size();
+}
+
+}  // namespace
+
+FeedSearch::FeedSearch(Prover& prover, const Machine& machine)
+    : prover_(prover), lag_power_(lag_power(machine)), ramp_(ramp_of(machine)) {}
+
+void FeedSearch::level(const Tried& from) {
+    const Leveller leveller(from->run);
+    for (const double step : steps_between_passes) {
+        if (!prover_.has_time()) return;
+        const Tried levelled =
+            prover_.propose(from->draft, lowered_targets(*from, leveller.everywhere({step, 0, ramp_})));
+        if (levelled->run.duration > prover_.longest()) return;  // lower feeds take longer still
+    }
+}
+
+void FeedSearch::level_in_time(const Tried& from) {
+    const double there = prover_.longest() - from->run.duration;
+    const Leveller leveller(from->run);
+    double budget = most_share * there;
+    for (int round = 0; round < levelling_rounds && budget > 0 && prover_.has_time(); ++round) {
+        const std::vector<float> targets =
+            lowered_targets(*from, leveller.everywhere({0, leveller.affordable_step(ramp_, budget), ramp_}));
+        if (targets == from->targets) return;
+        const Tried levelled = prover_.propose(from->draft, targets);
+        const double taken = levelled->run.duration - from->run.duration;
+        if (taken <= there && taken > time_used * there) return;
+        if (taken <= 0) return;
+        budget *= std::clamp(0.5 * (1 + time_used) * there / taken, 0.2, 2.0);
+    }
+}
+
+void FeedSearch::cure(Curing& curing, int rounds) {
+    const JudgedRun& before = prover_.before();
+    CureRules rules;
+    rules.step = curing.step * before.report.thresholds.of[index_of(Quantity::speed)];
+    rules.lag_power = lag_power_;
+    rules.ramp = ramp_;
+    Tried last_from;
+    std::vector<float> last_targets;
+    for (int round = 0; round < rounds && prover_.has_time(); ++round) {
+        const Tried from = curing.from;
+        rules.budget = curing.share * (prover_.longest() - from->run.duration);
+        if (rules.budget <= 0) return;
+        rules.hopeless = curing.hopeless;
+        CuringSpeeds cure = curing_speeds(from->run, rules);
+        std::vector<float> targets = lowered_targets(*from, cure.speeds);
+        if (targets == from->targets) {
+            if (curing.share == most_share) return;
+            curing.share = std::min(2 * curing.share, most_share);
+            continue;
+        }
+        if (from == last_from && targets == last_targets) {
+            curing.share /= 2;  // it was tried: for less time there may be another one
+            continue;
+        }
+        last_from = from;
+        last_targets = targets;
+        std::vector<Tried> attempts{prover_.propose(from->draft, targets)};
+        if (gives_up_losses(*from, cure, *attempts.back(), rules.hopeless) && prover_.has_time()) {
+            cure = curing_speeds(from->run, rules);
+            targets = lowered_targets(*from, cure.speeds);
+            if (targets != from->targets) attempts.push_back(prover_.propose(from->draft, targets));
+        }
+        if (prover_.has_time())
+            attempts.push_back(prover_.propose(from->draft, eased_targets(*from, *attempts.back(), cure.speeds)));
+        for (const Tried& tried : attempts) {
+            if (tried->run.duration <= prover_.longest() && prover_.score(*tried) < prover_.score(*curing.from))
+                curing.from = tried;
+        }
+        curing.hopeless = rules.hopeless;
+        curing.share = curing.from == from ? curing.share / 2 : std::min(2 * curing.share, most_share);
+    }
+}
+
+}  // namespace clsurf

@@ -1,0 +1,195 @@
+#include "repair/feeds/feed_equalisation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "core/not_finite.h"
+#include "core/parallel.h"
+
+namespace clsurf {
+namespace {
+
+constexpr int halvings = 10;  ///< in search of a step
+
+/// Speeds that are brought down pass by pass.
+class Sweep {
+public:
+    Sweep(const JudgedRun& run, const LevelStep& step, const std::vector<float>& own, Levelling& levelling)
+        : run_(run),
+          ratio_(static_cast<float>(1 + step.share)),
+          more_(static_cast<float>(step.speed)),
+          ramp_(step.ramp),
+          own_(own),
+          speeds_(levelling.speeds),
+          causes_(levelling.causes),
+          levelled_(levelling.levelled) {}
+
+    void bring_down(PointIndex i, const Station& left, const Station& right) {
+        const auto k = static_cast<std::size_t>(i);
+        float& mine = speeds_[k];
+        if (!(mine == mine)) return;
+        std::int32_t& cause = causes_[k];
+        for (const Station* at : {&left, &right}) {
+            if (!at->exists()) continue;
+            const auto other = static_cast<std::size_t>(at->nearest());
+            if (cause < 0 && causes_[other] < 0) continue;
+            float ratio = ratio_;
+            if (levelled_[k] == 0 && levelled_[other] == 0) ratio = std::max(ratio, own_[k] / value_at(own_, *at));
+            const float limit = ratio * value_at(speeds_, *at) + more_;
+            if (!(limit < mine)) continue;
+            mine = limit;
+            if (cause < 0) cause = causes_[other];
+        }
+    }
+
+    /// Each stretch of the pass that is compared.
+    void keep_to_ramps(const Pass& pass) {
+        const auto end = static_cast<std::size_t>(pass.last) + 1;
+        for (auto first = static_cast<std::size_t>(pass.first); first < end;) {
+            std::size_t behind = first;
+            while (behind < end && speeds_[behind] == speeds_[behind]) ++behind;
+            if (const std::size_t count = behind - first; count > 0)
+                keep_to_ramp(ramp_, run_.log.period, std::span(own_).subspan(first, count),
+                             std::span(speeds_).subspan(first, count), std::span(causes_).subspan(first, count));
+            first = behind + 1;
+        }
+    }
+
+private:
+    static float value_at(const std::vector<float>& values, const Station& at) {
+        const auto j = static_cast<std::size_t>(at.point);
+        return at.fraction > 0 ? values[j] + at.fraction * (values[j + 1] - values[j]) : values[j];
+    }
+
+    const JudgedRun& run_;
+    float ratio_, more_;
+    Ramp ramp_;
+    const std::vector<float>& own_;
+    std::vector<float>& speeds_;
+    std::vector<std::int32_t>& causes_;
+    const std::vector<std::uint8_t>& levelled_;
+};
+
+}  // namespace
+
+std::vector<float> compared_speeds(const JudgedRun& run) {
+    std::vector<float> speeds(static_cast<std::size_t>(run.surface.positions.size()), missing<float>);
+    for (std::size_t i = 0; i < speeds.size(); ++i) {
+        if (run.signals.samples[i].zone != Zone::outside) speeds[i] = run.signals.samples[i].speed;
+    }
+    return speeds;
+}
+
+Leveller::Leveller(const JudgedRun& run)
+    : run_(run), own_(compared_speeds(run)), beside_(own_.size()), passes_beside_(run.surface.passes.size()) {
+    const Passes& passes = run.surface.passes;
+    std::vector<std::size_t> pass_of(own_.size(), passes.size());
+    for (std::size_t k = 0; k < passes.size(); ++k)
+        std::fill(pass_of.begin() + passes[k].first, pass_of.begin() + passes[k].last + 1, k);
+    parallel_for(static_cast<std::int64_t>(passes.size()), 1, [&](std::int64_t first, std::int64_t last) {
+        for (auto k = static_cast<std::size_t>(first); k < static_cast<std::size_t>(last); ++k) {
+            std::vector<std::size_t>& others = passes_beside_[k];
+            for (PointIndex i = passes[k].first; i <= passes[k].last; ++i) {
+                const auto point = static_cast<std::size_t>(i);
+                if (!(own_[point] == own_[point])) continue;
+                const Eigen::Vector3f feed = run.signals.feed(i);
+                beside_[point] = {beside(run.surface, {i, 0}, feed, Side::left),
+                                  beside(run.surface, {i, 0}, feed, Side::right)};
+                for (const Station& at : {beside_[point].left, beside_[point].right}) {
+                    if (!at.exists()) continue;
+                    const std::size_t other = pass_of[static_cast<std::size_t>(at.nearest())];
+                    if (other == passes.size()) continue;
+                    if (std::find(others.begin(), others.end(), other) == others.end()) others.push_back(other);
+                }
+            }
+        }
+    });
+}
+
+void Leveller::level(const LevelStep& step, Levelling& levelling) const {
+    const Passes& passes = run_.surface.passes;
+    std::vector<std::uint8_t> has_cause(passes.size(), 0);
+    const auto look_for_cause = [&](std::size_t k) {
+        const auto first = levelling.causes.begin() + passes[k].first, last = levelling.causes.begin() + passes[k].last;
+        has_cause[k] = std::any_of(first, last + 1, [](std::int32_t cause) { return cause >= 0; }) ? 1 : 0;
+    };
+    for (std::size_t k = 0; k < passes.size(); ++k) look_for_cause(k);
+    Sweep sweep(run_, step, own_, levelling);
+    const auto over = [&](std::size_t k) {
+        const Pass& pass = passes[k];
+        const bool concerned =
+            has_cause[k] != 0 || std::any_of(passes_beside_[k].begin(), passes_beside_[k].end(),
+                                             [&](std::size_t other) { return has_cause[other] != 0; });
+        if (!concerned || pass.kind != PassKind::cut) return;
+        for (PointIndex i = pass.first; i <= pass.last; ++i) {
+            const Beside& at = beside_[static_cast<std::size_t>(i)];
+            sweep.bring_down(i, at.left, at.right);
+        }
+        sweep.keep_to_ramps(pass);
+        look_for_cause(k);
+    };
+    for (std::size_t k = 0; k < passes.size(); ++k) over(k);
+    for (std::size_t k = passes.size(); k-- > 0;) over(k);
+}
+
+std::vector<float> Leveller::everywhere(const LevelStep& step) const {
+    Levelling all{own_, std::vector<std::int32_t>(own_.size(), 0), std::vector<std::uint8_t>(own_.size(), 1)};
+    level(step, all);
+    return std::move(all.speeds);
+}
+
+double Leveller::affordable_step(const Ramp& ramp, double budget) const {
+    double low = 0, high = 2 * run_.greatest_mismatch;
+    for (int k = 0; k < halvings; ++k) {
+        const double middle = 0.5 * (low + high);
+        (lost(everywhere({0, middle, ramp})) > budget ? low : high) = middle;
+    }
+    return high;
+}
+
+double Leveller::lost(const std::vector<float>& speeds) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < own_.size(); ++i) {
+        if (speeds[i] > 0) sum += run_.log.period * (own_[i] / speeds[i] - 1);
+    }
+    return sum;
+}
+
+std::vector<float> peaks_by_motion(const JudgedRun& run, const Program& program, const std::vector<float>& values) {
+    std::vector<float> peaks(static_cast<std::size_t>(program.motions.size()), missing<float>);
+    for (PointIndex i = 0; i < run.surface.positions.size(); ++i) {
+        const float value = values[static_cast<std::size_t>(i)];
+        if (!(value == value)) continue;
+        for (const std::uint32_t motion : run.lines->motions_of(run.lines->line_at(i))) {
+            if (motion < peaks.size() && !(peaks[motion] >= value)) peaks[motion] = value;
+        }
+    }
+    return peaks;
+}
+
+std::vector<float> levelling_feeds(const std::vector<float>& target, const std::vector<std::uint8_t>& may_slow,
+                                   double width) {
+    std::vector<float> feeds(target.size(), 0);
+    const auto apart = static_cast<float>(1 + width);
+    std::size_t first = 0;  // of the interval
+    float low = 0, high = 0;
+    for (std::size_t i = 0; i < target.size(); ++i) {
+        if (target[i] <= 0 || (!may_slow.empty() && may_slow[i] == 0)) {
+            low = 0;
+            continue;
+        }
+        const bool joins = low > 0 && std::max(high, target[i]) <= apart * std::min(low, target[i]);
+        if (!joins) {
+            first = i;
+            low = high = target[i];
+        }
+        low = std::min(low, target[i]);
+        high = std::max(high, target[i]);
+        std::fill(feeds.begin() + static_cast<std::ptrdiff_t>(first),
+                  feeds.begin() + static_cast<std::ptrdiff_t>(i) + 1, low);
+    }
+    return feeds;
+}
+
+}  // namespace clsurf

@@ -1,0 +1,83 @@
+#pragma once
+// Feed equalisation: speeds that all adjacent passes can keep. Where a pass is faster than the adjacent one,
+// its lines get a feed that makes both equal.
+
+#include <cstdint>
+#include <vector>
+
+#include "repair/feeds/ramp.h"
+#include "repair/judged_run.h"
+#include "surface/path_location.h"
+
+namespace clsurf {
+
+/// The speed of each point of a run that is compared with the adjacent passes [mm/s]; NaN elsewhere.
+[[nodiscard]] std::vector<float> compared_speeds(const JudgedRun& run);
+
+/// How much faster than the adjacent pass a place may be: a fraction of its speed plus a speed.
+struct LevelStep {
+    double share = 0;
+    double speed = 0;  ///< [mm/s]
+    Ramp ramp{};       ///< … and how a pass comes back to its own speed
+};
+
+/// Speeds during equalisation; one entry per point in each column.
+struct Levelling {
+    std::vector<float> speeds;         ///< [mm/s]
+    std::vector<std::int32_t> causes;  ///< what a point is lowered for, ≥ 0; −1: nothing
+    /// 1: to be equalised with the adjacent points. Where neither of two points is, their old relative difference may
+    /// remain: next to a lowered place there may be another slow one that must not determine its speed.
+    std::vector<std::uint8_t> levelled;
+};
+
+/// Lowers the speeds of a run to what adjacent passes and the ramps allow. Reusable: it keeps the neighbours of each
+/// point. The run must outlive it. Several threads may use it.
+class Leveller {
+public:
+    /// O(points)
+    explicit Leveller(const JudgedRun& run);
+
+    /// compared_speeds() of the run
+    [[nodiscard]] const std::vector<float>& own() const { return own_; }
+
+    /// Lowers speeds, one per point of the run, until none exceeds that of its neighbours on both adjacent passes by
+    /// more than a step. Only points with a cause, or with a neighbour that has one, are lowered and take over the
+    /// cause: if all start with one, speeds are equalised everywhere. Before and after a lowered place a pass follows
+    /// the ramp, so the next pass is equalised with the real motion of the machine. Two sweeps, forward and backward,
+    /// over the passes with a cause or next to one.
+    void level(const LevelStep& step, Levelling& levelling) const;
+
+    /// The highest speeds that are equal everywhere.
+    [[nodiscard]] std::vector<float> everywhere(const LevelStep& step) const;
+
+    /// The smallest step [mm/s] to which all speeds can be equalised without losing more than `budget` [s]. Ten
+    /// equalisations: O(points).
+    [[nodiscard]] double affordable_step(const Ramp& ramp, double budget) const;
+
+    /// The additional time of the run at such speeds [s], by the times of the points.
+    [[nodiscard]] double lost(const std::vector<float>& speeds) const;
+
+private:
+    struct Beside {
+        Station left, right;
+    };
+
+    const JudgedRun& run_;
+    std::vector<float> own_;
+    std::vector<Beside> beside_;                           ///< one entry a point
+    std::vector<std::vector<std::size_t>> passes_beside_;  ///< per pass, those that its points have beside them
+};
+
+/// The maximum over the points of each motion of the program, of one value per point; NaN: it has no point with a
+/// value. Used as a feed, the maximum lets a motion follow a curve that rises or falls along it; the mean would be too
+/// low.
+[[nodiscard]] std::vector<float> peaks_by_motion(const JudgedRun& run, const Program& program,
+                                                 const std::vector<float>& values);
+
+/// Feeds that keep motions at a target [mm/s]; targets and feeds of 0: none. Motions whose entry in `may_slow` is 0 get
+/// none; empty: all may. Consecutive motions with a feed form constant-speed intervals, in which targets differ by less
+/// than `width` (a fraction). Each interval gets its lowest target.
+[[nodiscard]] std::vector<float> levelling_feeds(const std::vector<float>& target,
+                                                 const std::vector<std::uint8_t>& may_slow, double width);
+
+}  // namespace clsurf

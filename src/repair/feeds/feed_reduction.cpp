@@ -1,0 +1,214 @@
+#include "repair/feeds/feed_reduction.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <span>
+
+#include "core/parallel.h"
+#include "repair/feeds/feed_equalisation.h"
+#include "surface/path_location.h"
+
+namespace clsurf {
+namespace {
+
+constexpr double levelled_reach = 1;  ///< [mm] of way before and behind a defect that is levelled with it
+constexpr double lag_aim = 0.95;      ///< of the threshold, that a lag step is brought down to
+constexpr double slowest = 0.6;       ///< of its speed, to which a place is slowed at most for that
+constexpr double most_levelled =
+    2;  ///< times what slowing alone costs, that a lag step may cost that is levelled as well
+
+/// Which defect the points in each cell of space are levelled for.
+class CauseMap {
+public:
+    void add(const Vec3& p, std::int32_t cause) { causes_.insert_or_assign(cell_of(p), cause); }
+    /// That of the nearest cell about a place; −1: none is near.
+    [[nodiscard]] std::int32_t near(const Vec3& p) const {
+        const Cell centre = cell_of(p);
+        std::int32_t found = -1;
+        std::int64_t nearest = cells_around * cells_around * 3 + 1;
+        for (std::int64_t x = -cells_around; x <= cells_around; ++x) {
+            for (std::int64_t y = -cells_around; y <= cells_around; ++y) {
+                for (std::int64_t z = -cells_around; z <= cells_around; ++z) {
+                    const auto at = x * x + y * y + z * z < nearest
+                                        ? causes_.find({centre[0] + x, centre[1] + y, centre[2] + z})
+                                        : causes_.end();
+                    if (at == causes_.end()) continue;
+                    nearest = x * x + y * y + z * z;
+                    found = at->second;
+                }
+            }
+        }
+        return found;
+    }
+
+private:
+    using Cell = std::array<std::int64_t, 3>;
+    static constexpr std::int64_t cells_around = 3;
+    static Cell cell_of(const Vec3& p) {
+        return {std::llround(p.x()), std::llround(p.y()), std::llround(p.z())};
+    }  // 1 mm wide
+
+    std::map<Cell, std::int32_t> causes_;
+};
+
+class Cure {
+public:
+    Cure(const JudgedRun& run, const CureRules& rules)
+        : run_(run), rules_(rules), leveller_(run), levelled_(run.report.defects.size(), 1) {}
+
+    /// For the cheapest defects, each by what it costs alone: as many of them as the budget pays for together.
+    CuringSpeeds speeds() {
+        const std::vector<std::int32_t> order = by_cost();
+        std::size_t paid = 0, too_many = order.size() + 1;
+        CuringSpeeds best = level({});
+        for (std::size_t many = order.size(); paid + 1 < too_many; many = (paid + too_many) / 2) {
+            CuringSpeeds cure = level(std::span(order).first(many));
+            const bool holds = leveller_.lost(cure.speeds) <= rules_.budget;
+            (holds ? paid : too_many) = many;
+            if (holds) best = std::move(cure);
+        }
+        return best;
+    }
+
+private:
+    /// Those that can be cured, the cheapest first.
+    [[nodiscard]] std::vector<std::int32_t> by_cost() {
+        std::vector<std::int32_t> order;
+        for (std::size_t k = 0; k < run_.report.defects.size(); ++k) {
+            if (can_be_cured(run_.report.defects[k])) order.push_back(static_cast<std::int32_t>(k));
+        }
+        std::vector<double> costs(run_.report.defects.size(), 0);
+        parallel_for(static_cast<std::int64_t>(order.size()), 1, [&](std::int64_t first, std::int64_t last) {
+            for (std::int64_t n = first; n < last; ++n) {
+                const std::int32_t k = order[static_cast<std::size_t>(n)];
+                costs[static_cast<std::size_t>(k)] = cost_alone(k);
+            }
+        });
+        std::stable_sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
+            return costs[static_cast<std::size_t>(a)] < costs[static_cast<std::size_t>(b)];
+        });
+        return order;
+    }
+
+    /// … and whether it is levelled: a lag step lies beside other slow places, which may cost much more than it does.
+    [[nodiscard]] double cost_alone(std::int32_t k) {
+        const double cost = leveller_.lost(level({&k, 1}).speeds);
+        if (run_.report.defects[static_cast<std::size_t>(k)].quantity != Quantity::lag) return cost;
+        levelled_[static_cast<std::size_t>(k)] = 0;
+        const double slowed = leveller_.lost(level({&k, 1}).speeds);
+        if (cost >= most_levelled * slowed) return slowed;
+        levelled_[static_cast<std::size_t>(k)] = 1;
+        return cost;
+    }
+
+    [[nodiscard]] bool can_be_cured(const Defect& defect) const {
+        if (defect.quantity == Quantity::relief) return false;
+        return std::none_of(rules_.hopeless.begin(), rules_.hopeless.end(),
+                            [&](const Vec3& place) { return (place - defect.place.tip).norm() < levelled_reach; });
+    }
+
+    /// The speeds for some of the defects.
+    [[nodiscard]] CuringSpeeds level(std::span<const std::int32_t> taken) const {
+        const std::size_t n = leveller_.own().size();
+        Levelling levelling{leveller_.own(), std::vector<std::int32_t>(n, -1), std::vector<std::uint8_t>(n, 0)};
+        for (const std::int32_t k : taken) {
+            const Defect& defect = run_.report.defects[static_cast<std::size_t>(k)];
+            for (const auto* stretches : {&defect.runs, &defect.neighbours}) {
+                for (const DefectRun& stretch : *stretches) mark(stretch.points, k, levelling);
+            }
+            if (defect.quantity == Quantity::lag) slow_for_lag(defect, levelling.speeds);
+        }
+        leveller_.level({rules_.step, 0, rules_.ramp}, levelling);
+        return {std::move(levelling.speeds), std::move(levelling.causes)};
+    }
+
+    /// A stretch and what lies within `levelled_reach` before and behind it.
+    void mark(const PointRange& points, std::int32_t cause, Levelling& levelling) const {
+        const bool levelled = levelled_[static_cast<std::size_t>(cause)] != 0;
+        const auto mark_point = [&](PointIndex i) {
+            levelling.causes[static_cast<std::size_t>(i)] = cause;
+            if (levelled) levelling.levelled[static_cast<std::size_t>(i)] = 1;
+        };
+        for (PointIndex i = points.first; i <= points.last; ++i) mark_point(i);
+        const std::vector<float>& own = leveller_.own();
+        const auto walk = [&](PointIndex from, PointIndex step) {
+            double left = levelled_reach;
+            for (PointIndex i = from + step; left > 0 && i >= 0 && i < run_.signals.size() &&
+                                             own[static_cast<std::size_t>(i)] == own[static_cast<std::size_t>(i)];
+                 i += step) {
+                mark_point(i);
+                left -= (run_.surface.positions[i] - run_.surface.positions[i - step]).norm();
+            }
+        };
+        walk(points.first, -1);
+        walk(points.last, 1);
+    }
+
+    void slow_for_lag(const Defect& defect, std::vector<float>& speeds) const {
+        const double most = lag_aim * run_.report.thresholds.of[index_of(Quantity::lag)];
+        for (const auto* stretches : {&defect.runs, &defect.neighbours}) {
+            for (const DefectRun& stretch : *stretches) {
+                for (PointIndex i = stretch.points.first; i <= stretch.points.last; ++i) {
+                    const double share = std::pow(std::max(1.0, lag_step(i) / most), -1 / rules_.lag_power);
+                    float& speed = speeds[static_cast<std::size_t>(i)];
+                    if (share >= slowest)
+                        speed =
+                            std::min(speed, static_cast<float>(share) * leveller_.own()[static_cast<std::size_t>(i)]);
+                }
+            }
+        }
+    }
+
+    /// How far the lag differs from that of the neighbour pass that differs most [mm].
+    [[nodiscard]] double lag_step(PointIndex i) const {
+        double most = 0;
+        for (const Side side : {Side::left, Side::right}) {
+            const Station at = beside(run_.surface, {i, 0}, run_.signals.feed(i), side);
+            if (!at.exists()) continue;
+            const double step =
+                std::abs(run_.signals[i].lag - compared_at(run_.signals, at, run_.signals.normal(i)).lag);
+            if (step > most) most = step;
+        }
+        return most;
+    }
+
+    const JudgedRun& run_;
+    const CureRules& rules_;
+    Leveller leveller_;
+    std::vector<std::uint8_t> levelled_;  ///< per defect, whether the speeds about it are
+};
+
+}  // namespace
+
+double lag_power(const Machine& machine) {
+    const ServoModel& x = machine.axes[0].servo;
+    const bool alike = std::all_of(machine.axes.begin(), machine.axes.begin() + 3, [&](const MachineAxis& axis) {
+        return axis.servo.position_gain == x.position_gain &&
+               axis.servo.velocity_feedforward == x.velocity_feedforward &&
+               axis.servo.velocity_time_constant == x.velocity_time_constant;
+    });
+    return alike ? 3 : 1;
+}
+
+CuringSpeeds curing_speeds(const JudgedRun& run, const CureRules& rules) { return Cure(run, rules).speeds(); }
+
+std::vector<int> gains_of(const CuringSpeeds& cure, const JudgedRun& run, const JudgedRun& cured) {
+    CauseMap map;
+    for (std::size_t i = 0; i < cure.causes.size(); ++i) {
+        if (cure.causes[i] >= 0) map.add(run.surface.positions.absolute(static_cast<PointIndex>(i)), cure.causes[i]);
+    }
+    std::vector<int> gains(run.report.defects.size(), 0);
+    const auto count = [&](const JudgedRun& of, int each) {
+        for (const Defect& defect : of.report.defects) {
+            if (const std::int32_t cause = map.near(defect.place.tip); cause >= 0)
+                gains[static_cast<std::size_t>(cause)] += each;
+        }
+    };
+    count(run, 1);
+    count(cured, -1);
+    return gains;
+}
+
+}  // namespace clsurf

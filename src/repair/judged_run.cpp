@@ -1,0 +1,38 @@
+#include "repair/judged_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "core/statistics.h"
+#include "pipeline/placement.h"
+#include "pipeline/roles.h"
+#include "pipeline/signals_of.h"
+#include "predictor/quality_fields.h"
+
+namespace clsurf {
+
+JudgedRun judge_run(Log log, const Program& program, const QualityRules& rules, Diagnostics& diagnostics,
+                    std::shared_ptr<const Kinematics> kinematics) {
+    JudgedRun run;
+    run.log = std::move(log);
+    const Eigen::Isometry3d pose = pose_of(run.log).value_or(Eigen::Isometry3d::Identity());
+    run.path = reconstruct(run.log, shown_role(run.log), pose, std::move(kinematics));
+    run.lines = std::make_unique<LineMap>(map_lines(run.path, run.log, program, true, diagnostics));
+    run.surface = stitch(gather(run.path), *run.lines);
+    run.signals = signals_along(run.log, run.path, run.surface).signals;
+    run.report = find_defects(run.surface, run.signals, *run.lines, program, run.log.period, rules);
+    run.duration = static_cast<double>(std::max<PointIndex>(0, run.log.records - 1)) * run.log.period;
+    run.speed_differences = quality_field("speed_mismatch", run.surface, run.signals).values;
+    std::vector<float> sizes;
+    for (const float value : run.speed_differences) {
+        if (value == value) sizes.push_back(std::abs(value));
+    }
+    if (sizes.empty()) return run;
+    run.mismatch = quantile_below(sizes, 0.95);
+    run.greatest_mismatch = quantile_below(sizes, 0.999);
+    return run;
+}
+
+}  // namespace clsurf

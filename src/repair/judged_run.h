@@ -1,0 +1,34 @@
+#pragma once
+// JudgedRun: a run of a program, simulated or recorded, with what the predictor says of it.
+
+#include <memory>
+#include <string>
+
+#include "log/log.h"
+#include "machine/machine.h"
+#include "mapping/line_map.h"
+#include "pipeline/simulated_log.h"
+#include "predictor/defects.h"
+
+namespace clsurf {
+
+struct JudgedRun {
+    Log log;
+    Trajectory path;  ///< commanded, or what the log has
+    std::unique_ptr<LineMap> lines;
+    ClSurface surface;
+    Signals signals;
+    QualityReport report;
+    double duration = 0;  ///< [s]
+    double mismatch = 0;  ///< [mm/s] 95th percentile of the speed difference to the neighbour passes
+    Column<float>
+        speed_differences;         ///< [mm/s] per point, to the neighbour pass that differs most; NaN: none beside it
+    double greatest_mismatch = 0;  ///< [mm/s] 99.9th percentile of it
+};
+
+/// Stitches the surface of a log and judges it by `rules`. Adds diagnostics about lines to `diagnostics`. `kinematics`: of a
+/// machine whose rotary axes the log has; the program's motions are then those of the tip. O(points), parallel.
+[[nodiscard]] JudgedRun judge_run(Log log, const Program& program, const QualityRules& rules, Diagnostics& diagnostics,
+                                  std::shared_ptr<const Kinematics> kinematics = nullptr);
+
+}  // namespace clsurf

@@ -1,0 +1,341 @@
+#include "repair/line_edit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "program/dialects/dialect_rules.h"
+#include "program/feed_per_minute.h"
+#include "program/frame_placement.h"
+#include "program/text/lexer.h"
+
+namespace clsurf {
+namespace {
+
+constexpr double same_coordinate = 1e-7;  ///< [mm] a word and where its motion ends
+constexpr double same_axis_angle = 1e-9;  ///< [rad]
+constexpr std::string_view letters = "XYZABC";
+constexpr std::size_t linear = 3, axes = 6;  ///< words: X, Y, Z and A, B, C behind them
+constexpr double feed_steps = 10;            ///< per unit and minute of a feed word
+
+std::size_t skip_blanks(std::string_view text, std::size_t at) {
+    while (at < text.size() && is_blank(text[at])) ++at;
+    return at;
+}
+
+/// Digits behind the point of the number that ends before `end`.
+int decimals_of(std::string_view number) {
+    const std::size_t point = number.find('.');
+    return point == std::string_view::npos ? 0 : static_cast<int>(number.size() - point - 1);
+}
+
+/// A number as the lines around write theirs: with a point where they had decimals.
+std::string number_text(double value, int decimals) {
+    std::string text = fmt::format("{:.{}f}", value, decimals);
+    if (text.starts_with('-') && text.find_first_not_of("-0.") == std::string::npos) text.erase(0, 1);
+    return text;
+}
+
+bool cuts_in_a_line(const Motions& motions, std::size_t i) { return motions.kind[i] == MotionKind::feed; }
+
+/// A, B, C before a motion [rad].
+Vec3 angles_before(const Motions& motions, std::int64_t i) {
+    return i > 0 && !motions.rotary.empty() ? motions.rotary[static_cast<std::size_t>(i - 1)].vec() : Vec3::Zero();
+}
+
+/// Whether a line's words are the angles at which its motion ends; where those turn, the tip must move as well.
+bool says_its_angles(const PlainLine& line, const Motions& motions, std::size_t i) {
+    const Vec3 begin = angles_before(motions, static_cast<std::int64_t>(i)),
+               end = motions.rotary.empty() ? Vec3::Zero() : motions.rotary[i].vec();
+    for (std::size_t a = linear; a < axes; ++a) {
+        const auto axis = static_cast<int>(a - linear);
+        const double expected = line.axis[a].empty() ? begin[axis] : line.value[a] * rad_per_deg;
+        if (!(std::abs(end[axis] - expected) <= same_axis_angle)) return false;
+    }
+    return begin == end || motions.begin_of(static_cast<std::int64_t>(i)) != motions.end[i];
+}
+
+/// The line's end as the program has it.
+std::string_view line_end_of(std::string_view text) {
+    const std::size_t end = text.find('\n');
+    return end != std::string_view::npos && end > 0 && text[end - 1] == '\r' ? "\r\n" : "\n";
+}
+
+/// A point of the path as the words of a motion count it: in the motion's work system, before what the program turns,
+/// scales and shifts.
+Vec3 in_words(const Motions& motions, std::int64_t motion, const Vec3& p) {
+    const WorkFrame& frame = motions.frame_of(motion);
+    return frame.words.to_programmed(apply(frame.placed.inverse(), p));
+}
+
+/// The number and the word of a straight line that Klartext begins with: "12 L "; false: there are none.
+bool read_statement(std::string_view text, std::string_view word, PlainLine& line, std::size_t& at) {
+    const std::size_t number = at;
+    while (at < text.size() && is_digit(text[at])) ++at;
+    at = skip_blanks(text, at);
+    line.number = text.substr(number, at - number);
+    if (!text.substr(at).starts_with(word)) return false;
+    const std::size_t after = at + word.size();
+    if (after >= text.size() || !is_blank(text[after])) return false;
+    const std::size_t end = skip_blanks(text, after);
+    line.code = text.substr(at, end - at);
+    line.blanks = true;  // Klartext needs them between words
+    at = end;
+    return true;
+}
+
+/// How the lines that are replaced are written.
+struct OldLines {
+    std::array<std::string, axes> words;      ///< letters as they stand there
+    std::array<bool, axes> everywhere{};      ///< written on every line
+    std::vector<std::string_view> numbers{};  ///< of lines: "N10"
+    std::string first_code{};
+    bool code_everywhere = true, blanks = false;
+};
+
+OldLines read_old(const SourceText& main, LineNumber first, LineNumber last, std::string_view straight_word) {
+    OldLines old;
+    old.everywhere.fill(true);
+    for (std::size_t a = 0; a < axes; ++a) old.words[a] = letters[a];
+    for (LineNumber n = first; n <= last; ++n) {
+        const PlainLine line = *read_plain_line(main.line(n), straight_word);
+        for (std::size_t a = 0; a < axes; ++a) {
+            if (!line.axis[a].empty()) old.words[a] = line.axis[a];
+            old.everywhere[a] = old.everywhere[a] && !line.axis[a].empty();
+        }
+        if (!line.number.empty()) old.numbers.push_back(line.number);
+        if (n == first) old.first_code = line.code;
+        old.code_everywhere = old.code_everywhere && !line.code.empty();
+        old.blanks = old.blanks || line.blanks;
+    }
+    const bool all_linear = old.everywhere[0] && old.everywhere[1] && old.everywhere[2];
+    std::fill(old.everywhere.begin(), old.everywhere.begin() + linear, all_linear);
+    return old;
+}
+
+}  // namespace
+
+std::optional<PlainLine> read_plain_line(std::string_view text, std::string_view straight_word) {
+    PlainLine line;
+    std::size_t at = skip_blanks(text, 0);
+    if (!straight_word.empty() && !read_statement(text, straight_word, line, at)) return std::nullopt;
+    bool any = false, moves = false;
+    while (at < text.size()) {
+        const char letter = upper(text[at]);
+        const std::size_t word = at;
+        at = skip_blanks(text, at + 1);
+        if (straight_word.empty() && (letter == 'N' || letter == 'G')) {
+            const std::size_t digits = at;
+            while (at < text.size() && is_digit(text[at])) ++at;
+            if (at == digits) return std::nullopt;
+            if (letter == 'G' &&
+                std::stoi(std::string(text.substr(digits, std::min<std::size_t>(at - digits, 4)))) != 1)
+                return std::nullopt;
+            if (at < text.size() && text[at] == '.') return std::nullopt;
+            at = skip_blanks(text, at);
+            std::string_view& kept = letter == 'N' ? line.number : line.code;
+            if (!kept.empty() || any) return std::nullopt;
+            kept = text.substr(word, at - word);
+            continue;
+        }
+        const std::size_t axis = letters.find(letter);
+        if (axis == std::string_view::npos || !line.axis[axis].empty()) return std::nullopt;
+        if (at < text.size() && text[at] == '=') at = skip_blanks(text, at + 1);
+        line.axis[axis] = text.substr(word, at - word);
+        const std::size_t end = read_decimal(text, at, line.value[axis]);
+        if (end == at) return std::nullopt;
+        line.digits[axis] = text.substr(at, end - at);
+        line.decimals[axis] = decimals_of(line.digits[axis]);
+        at = skip_blanks(text, end);
+        line.blanks = line.blanks || at > end;
+        any = true;
+        moves = moves || axis < linear;
+    }
+    return moves ? std::optional(line) : std::nullopt;
+}
+
+LineEditor::LineEditor(const Program& program, int least_decimals)
+    : program_(&program), rules_(&program.dialect->rules->text), decimals_(least_decimals) {
+    const Motions& motions = program.motions;
+    const auto count = static_cast<std::size_t>(motions.size());
+    const SourceText& main = program.main();
+    editable_.assign(count, 0);
+    std::vector<std::uint8_t> motions_of_line(std::size_t{main.line_count()} + 1, 0);
+    const auto in_main = [&](std::size_t i) { return motions.file.empty() || motions.file[i] == 0; };
+    for (std::size_t i = 0; i < count; ++i) {
+        if (in_main(i) && motions.line[i] < motions_of_line.size() && motions_of_line[motions.line[i]] < 2)
+            ++motions_of_line[motions.line[i]];
+    }
+    std::array<std::size_t, 2> fits{0, 0};
+    constexpr std::array<double, 2> units{1, mm_per_inch};
+    for (int turn = 0; turn < 2; ++turn) {
+        // First which unit the words have, then which lines say where they go in it.
+        FeedPerMinute per_minute(program);
+        for (std::size_t i = 0; i < count; ++i) {
+            if (!per_minute.on(static_cast<std::int64_t>(i))) continue;
+            if (!cuts_in_a_line(motions, i) || !in_main(i) || motions_of_line[motions.line[i]] != 1) continue;
+            const std::optional<PlainLine> line = read_plain_line(main.line(motions.line[i]), rules_->straight_word);
+            if (!line || !says_its_angles(*line, motions, i)) continue;
+            const auto motion = static_cast<std::int64_t>(i);
+            const Vec3 end = in_words(motions, motion, motions.end[i].vec()),
+                       begin = in_words(motions, motion, motions.begin_of(motion).vec());
+            const auto says = [&](double unit) {
+                for (int axis = 0; axis < 3; ++axis) {
+                    const auto a = static_cast<std::size_t>(axis);
+                    const double expected = line->axis[a].empty() ? begin[axis] : line->value[a] * unit;
+                    if (!(std::abs(end[axis] - expected) <= same_coordinate)) return false;
+                }
+                return true;
+            };
+            if (turn == 0) {
+                for (std::size_t u = 0; u < units.size(); ++u) fits[u] += says(units[u]) ? 1 : 0;
+            } else {
+                editable_[i] = says(unit_) ? 1 : 0;
+                if (editable_[i] == 0) continue;
+                const auto angles = line->decimals.begin() + linear;
+                decimals_ = std::max(decimals_, *std::max_element(line->decimals.begin(), angles));
+                turn_decimals_ = std::max(turn_decimals_, *std::max_element(angles, line->decimals.end()));
+            }
+        }
+        if (turn == 0) unit_ = fits[1] > fits[0] ? units[1] : units[0];
+    }
+}
+
+double LineEditor::rounding() const { return 0.5 * std::sqrt(3.0) * unit_ * std::pow(10.0, -decimals_); }
+
+double LineEditor::turn_rounding() const { return std::sqrt(0.5) * rad_per_deg * std::pow(10.0, -turn_decimals_); }
+
+std::size_t LineEditor::replace(std::int64_t first, std::int64_t last, const std::vector<Vec3>& points,
+                                const std::vector<LineAngles>& angles) {
+    const Motions& motions = program_->motions;
+    const SourceText& main = program_->main();
+    const std::string_view end_of_line = line_end_of(main.text());
+    const LineNumber first_line = motions.line[static_cast<std::size_t>(first)],
+                     last_line = motions.line[static_cast<std::size_t>(last)];
+    const std::size_t old_lines = last_line - first_line + 1;
+    const std::size_t used = angles.empty() ? linear : axes;
+    const OldLines old = read_old(main, first_line, last_line, rules_->straight_word);
+    Edit edit{first_line, last_line, {}};
+    std::array<std::string, axes> modal;
+    const auto text_of = [&](std::size_t axis, const Vec3& position, const Vec3& turned) {
+        const int k = static_cast<int>(axis % linear);
+        const std::string number = axis < linear ? number_text(position[k] / unit_, decimals_)
+                                                 : number_text(turned[k] * deg_per_rad, turn_decimals_);
+        return rules_->straight_word.empty() || number.starts_with('-') ? number : "+" + number;
+    };
+    const Vec3 begin = in_words(motions, first, motions.begin_of(first).vec());
+    for (std::size_t a = 0; a < used; ++a) modal[a] = text_of(a, begin, angles_before(motions, first));
+    const bool numbered = old.numbers.size() == old_lines;
+    bool code_written = false;
+    std::size_t written = 0;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        std::string text;
+        const bool is_last = k + 1 == points.size();
+        const auto add = [&](const std::string& word) {
+            if (old.blanks && !text.empty() && !is_blank(text.back())) text += ' ';
+            text += word;
+        };
+        if (numbered && (k + 1 < old_lines || is_last)) text += is_last ? old.numbers.back() : old.numbers[k];
+        if (old.code_everywhere || !code_written) text += old.first_code;
+        bool moves = false;
+        const Vec3 position = in_words(motions, first, points[k]);
+        std::array<std::string, axes> now;
+        for (std::size_t a = 0; a < used; ++a) {
+            now[a] = text_of(a, position, angles.empty() ? Vec3::Zero() : angles[k].programmed);
+            moves = moves || (a < linear && now[a] != modal[a]);
+        }
+        if (!moves) continue;  // nearer to the point before than the decimals tell
+        const std::int64_t kept = angles.empty() ? -1 : angles[k].motion;
+        const PlainLine as_written =
+            kept < 0 ? PlainLine{}
+                     : *read_plain_line(main.line(motions.line[static_cast<std::size_t>(kept)]), rules_->straight_word);
+        for (std::size_t a = 0; a < used; ++a) {
+            if (now[a] == modal[a] && !old.everywhere[a]) continue;
+            const bool same_words = a >= linear && !as_written.axis[a].empty();
+            add(same_words ? std::string(as_written.axis[a]) + std::string(as_written.digits[a])
+                           : old.words[a] + now[a]);
+            modal[a] = now[a];
+        }
+        code_written = true;
+        ++written;
+        edit.text += text;
+        edit.text += end_of_line;
+    }
+    changed_ += old_lines;
+    edits_.push_back(std::move(edit));
+    return written;
+}
+
+void LineEditor::set_feeds(const std::vector<float>& feeds) {
+    const Motions& motions = program_->motions;
+    const SourceText& main = program_->main();
+    const std::string_view end_of_line = line_end_of(main.text());
+    const auto feed_text = [&](double f) {
+        const double unit = unit_ == 1 ? 1 : unit_ * rules_->inch_feed;
+        return fmt::format("F{}", std::round(f * seconds_per_minute / unit * feed_steps) / feed_steps);
+    };
+    const std::string statement = rules_->straight_word.empty() ? "" : std::string(rules_->straight_word) + " ";
+    std::string modal;  // what the controller has now, where that is not what was programmed
+    for (std::int64_t i = 0; i < motions.size(); ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        if (!editable(i)) continue;
+        const std::string programmed = feed_text(motions.feed[k]);
+        const std::string wanted = feeds[k] > 0 && feeds[k] < motions.feed[k] ? feed_text(feeds[k]) : programmed;
+        if (modal.empty()) modal = programmed;
+        const bool more = i + 1 < motions.size() && editable(i + 1) && motions.line[k + 1] == motions.line[k] + 1;
+        const bool restores = !more && wanted != programmed;
+        if (wanted != modal || restores) {
+            std::string_view text = main.line(motions.line[k]);
+            while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+            Edit edit{motions.line[k], motions.line[k], std::string(text)};
+            if (wanted != modal) edit.text += (text.find(' ') == std::string_view::npos ? "" : " ") + wanted;
+            edit.text += end_of_line;
+            if (restores) edit.text += statement + programmed + std::string(end_of_line);
+            edits_.push_back(std::move(edit));
+            ++changed_;
+        }
+        modal = more ? wanted : std::string();
+    }
+}
+
+std::string LineEditor::text(std::string_view header) const {
+    const SourceText& main = program_->main();
+    const std::string_view end_of_line = line_end_of(main.text());
+    const bool semicolon = rules_->semicolon_comments;
+    const std::string comment = header.empty() ? ""
+                                : semicolon    ? fmt::format("; {}{}", header, end_of_line)
+                                               : fmt::format("({}){}", header, end_of_line);
+    // Behind what must come first: the tape mark and the program's name.
+    LineNumber head = 0;
+    while (head < main.line_count()) {
+        const std::string_view line = main.line(head + 1);
+        const std::size_t at = skip_blanks(line, 0);
+        const std::string_view block = line.substr(std::min(line.find_first_not_of("0123456789 \t"), line.size()));
+        const bool first_block = !rules_->first_block.empty() && block.starts_with(rules_->first_block);
+        const bool name = at == line.size() || line[at] == '%' || first_block ||
+                          (upper(line[at]) == 'O' && at + 1 < line.size() && is_digit(line[at + 1]));
+        if (!name) break;
+        ++head;
+    }
+    const std::string_view all = main.text();
+    std::string result;
+    result.reserve(all.size() + all.size() / 4);
+    std::size_t at = 0, next = 0;
+    for (LineNumber n = 1; at < all.size(); ++n) {
+        if (n == head + 1) result += comment;
+        const std::size_t end = all.find('\n', at);
+        const std::size_t after = end == std::string_view::npos ? all.size() : end + 1;
+        while (next < edits_.size() && edits_[next].last < n) ++next;
+        const bool replaced = next < edits_.size() && edits_[next].first <= n;
+        if (!replaced)
+            result += all.substr(at, after - at);
+        else if (edits_[next].first == n)
+            result += edits_[next].text;
+        at = after;
+    }
+    return result;
+}
+
+}  // namespace clsurf

@@ -1,0 +1,229 @@
+#include "repair/optimizer.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "core/error.h"
+#include "core/statistics.h"
+#include "repair/feed_search.h"
+#include "repair/regions.h"
+#include "repair/repair_mask.h"
+#include "toolpath/tip_motions.h"
+
+namespace clsurf {
+namespace {
+
+constexpr std::array<double, 3> shares_of_tolerance{0.2, 0.1, 0.4};  ///< that lines may leave the curve by
+constexpr double block_reserve = 1.1;                                ///< of the way in a block time
+constexpr NeedRules worst_alone{0.5, 2, 2};                          ///< a draft that leaves the more as it is
+constexpr std::size_t most_mixed = 2;                                ///< drafts of which regions are given back …
+constexpr int mixing_rounds = 3;                                     ///< … so many times …
+constexpr int most_mixing_rounds = 6;                                ///< … or more, while the run is refused
+constexpr double share_of_drafts = 0.35;  ///< of all runs, that points alone may take; the others seek feeds
+constexpr std::size_t most_fed = 5;       ///< drafts that feeds are sought for
+constexpr double most_behind = 0.2;       ///< the best, by score, after the first rounds: others are not cured on
+constexpr double small_share = 0.3;       ///< of the time, for a cure that begins with the cheap defects …
+constexpr double large_share = 0.65;      ///< … and for one that takes all it can
+constexpr int first_rounds = 2, more_rounds = 8;
+constexpr std::array<double, 2> other_steps{0.85, 0.55};  ///< that cures are tried with as well …
+constexpr std::size_t most_cured_otherwise = 2;           ///< … for so many drafts
+
+/// The median feed of the cutting lines [mm/s].
+double usual_feed(const Program& program) {
+    std::vector<double> feeds;
+    for (std::int64_t i = 0; i < program.motions.size(); ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        if (program.motions.kind[k] == MotionKind::feed && program.motions.feed[k] > 0)
+            feeds.push_back(program.motions.feed[k]);
+    }
+    return feeds.empty() ? 0 : median(feeds);
+}
+
+class Optimizer {
+public:
+    Optimizer(const Program& program, const ReadProgram& read, const Machine& machine, const OptimizeRules& rules,
+              const Progress& progress, Diagnostics& diagnostics)
+        : program_(program),
+          read_(read),
+          machine_(machine),
+          rules_(rules),
+          diagnostics_(diagnostics),
+          prover_(program, read, machine, rules, progress, diagnostics) {
+        if (prover_.before().surface.step_over <= 0)
+            throw InputError(Place::of_file(program_.main().name()),
+                             "has no passes beside each other: there is nothing to bring into step");
+    }
+
+    Optimized run(std::optional<Log> measured) {
+        Optimized result;
+        const bool has_log = measured.has_value();
+        if (has_log)
+            result.measured = judge_measured(std::move(*measured));
+        else
+            look_for_need(prover_.before());
+        propose_all({program_, read_, rules_, block_reserve * machine_.controller.block_time * usual_feed(program_),
+                     !has_log, prover_.orientation()});
+        result.five_axes = prover_.orientation() != nullptr;
+        result.before = prover_.take_before();
+        result.run_before = prover_.summary_before();
+        Proposal& best = *prover_.best();
+        result.proof = std::move(best.proof);
+        result.text = std::move(best.text);
+        result.after = std::move(best.run);
+        result.run_after = std::move(best.summary);
+        return result;
+    }
+
+private:
+    void look_for_need(const JudgedRun& run) {
+        needed_ = motions_in_need(run, program_, {});
+        in_worst_need_ = motions_in_need(run, program_, worst_alone);
+    }
+
+    Measured judge_measured(Log log) {
+        const JudgedRun run = judge_run(std::move(log), program_, rules_.quality, diagnostics_, prover_.kinematics());
+        if (run.surface.step_over <= 0)
+            throw InputError(Place::of_file(run.log.name),
+                             "has no passes beside each other: it does not tell what is out of step");
+        look_for_need(run);
+        return {run.surface.positions.size(), run.duration, run.mismatch, run.report.defects.size(),
+                static_cast<std::size_t>(std::count(needed_.begin(), needed_.end(), 1))};
+    }
+
+    void propose_all(const Drafter& drafter) {
+        std::vector<Tried> drafts;  // points alone
+        for (const double share : shares_of_tolerance) {
+            // What is tried last is left out first where a program is long.
+            if (prover_.has_time()) propose(drafter.draft(share * rules_.tolerance, needed_), drafts);
+        }
+        if (drafts.empty()) {
+            (void)prover_.propose(std::make_shared<const Draft>(drafter.unchanged()), {});
+            return;
+        }
+        sort(drafts);
+        std::vector<Tried> mixed, narrow;
+        for (std::size_t k = 0; k < std::min(most_mixed, drafts.size()); ++k) {
+            mix(drafter, drafts[k], mixed);
+            if (prover_.has_time(share_of_drafts))
+                propose(drafter.draft(drafts[k]->draft->chord_error, in_worst_need_), narrow);
+        }
+        sort(mixed);
+        // In turn: what saves most time may be worth more, with feeds, than what is better without.
+        std::vector<Tried> order;
+        for (std::size_t k = 0; k < std::max({drafts.size(), mixed.size(), narrow.size()}); ++k) {
+            for (const std::vector<Tried>* each : {&drafts, &narrow, &mixed}) {
+                if (k < each->size()) order.push_back((*each)[k]);
+            }
+        }
+        seek_feeds(order);
+    }
+
+    /// Feeds for the first drafts, a little for each; then all that can be done, the best first.
+    void seek_feeds(const std::vector<Tried>& drafts) {
+        FeedSearch feeds(prover_, machine_);
+        struct Fed {
+            Tried points;
+            Curing curing;
+        };
+        std::vector<Fed> fed;
+        for (const Tried& points : drafts) {
+            if (fed.size() == most_fed) break;
+            fed.push_back({points, {points, small_share}});
+            feeds.cure(fed.back().curing, first_rounds);
+        }
+        std::stable_sort(fed.begin(), fed.end(), [&](const Fed& a, const Fed& b) {
+            return prover_.score(*a.curing.from) < prover_.score(*b.curing.from);
+        });
+        for (Fed& each : fed) {
+            if (prover_.score(*each.curing.from) < prover_.score(*prover_.best()) + most_behind)
+                feeds.cure(each.curing, more_rounds - first_rounds);
+        }
+        feeds.level_in_time(prover_.best());
+        for (const Fed& each : fed) feeds.level_in_time(each.points);
+        for (const double step : other_steps) {
+            for (std::size_t k = 0; k < std::min(fed.size(), most_cured_otherwise); ++k) {
+                Curing other{fed[k].points, small_share, step};
+                feeds.cure(other, more_rounds);
+            }
+            cure_best(feeds, step);
+        }
+        for (const Fed& each : fed) {
+            Curing other{each.points, large_share};
+            feeds.cure(other, more_rounds);
+            feeds.level(each.points);
+        }
+        cure_best(feeds);
+        if (rules_.more_time <= 0) return;
+        // After all that costs nothing: what the user gives is added to that, and never makes it worse.
+        prover_.allow_more_time();
+        cure_best(feeds);
+        for (const Fed& each : fed) {
+            feeds.level_in_time(each.points);
+            Curing other{each.points, large_share};
+            feeds.cure(other, more_rounds);
+        }
+    }
+
+    void cure_best(FeedSearch& feeds, double step = Curing::usual_step) const {
+        Curing best{prover_.best(), large_share, step};
+        if (best.from->proof.accepted) feeds.cure(best, more_rounds);
+    }
+
+    /// A draft alone; nullptr: it changes nothing.
+    Tried propose(Draft draft, std::vector<Tried>& drafts) {
+        if (draft.stretches == 0) return nullptr;
+        drafts.push_back(prover_.propose(std::make_shared<const Draft>(std::move(draft)), {}));
+        return drafts.back();
+    }
+
+    /// Round by round, motions get their old points back where a draft runs worse than the program does.
+    void mix(const Drafter& drafter, Tried from, std::vector<Tried>& drafts) {
+        for (int round = 0; round < most_mixing_rounds && from && prover_.has_time(share_of_drafts); ++round) {
+            if (round >= mixing_rounds && from->proof.accepted) return;
+            const std::vector<std::uint8_t> worse = worse_motions(prover_.before(), from->run, program_, {});
+            std::vector<std::uint8_t> needed = from->draft->needed;
+            for (std::size_t i = 0; i < needed.size(); ++i) needed[i] = needed[i] != 0 && worse[i] == 0 ? 1 : 0;
+            if (needed == from->draft->needed) return;
+            from = propose(drafter.draft(from->draft->chord_error, std::move(needed)), drafts);
+        }
+    }
+
+    /// The best accepted one first, then by score.
+    void sort(std::vector<Tried>& drafts) const {
+        std::stable_sort(drafts.begin(), drafts.end(),
+                         [&](const Tried& a, const Tried& b) { return prover_.score(*a) < prover_.score(*b); });
+        const auto accepted =
+            std::find_if(drafts.begin(), drafts.end(), [](const Tried& tried) { return tried->proof.accepted; });
+        if (accepted != drafts.end()) std::rotate(drafts.begin(), accepted, accepted + 1);
+    }
+
+    const Program& program_;
+    const ReadProgram& read_;
+    const Machine& machine_;
+    const OptimizeRules& rules_;
+    Diagnostics& diagnostics_;
+    Prover prover_;
+    std::vector<std::uint8_t> needed_, in_worst_need_;  ///< one entry a motion
+};
+
+}  // namespace
+
+Optimized optimize(const Program& program, const ReadProgram& read, const Machine& machine, const OptimizeRules& rules,
+                   std::optional<Log> measured, const Progress& progress, Diagnostics& diagnostics) {
+    if (!runs_on_five_axes(program, machine))
+        return Optimizer(program, read, machine, rules, progress, diagnostics).run(std::move(measured));
+    const auto of_the_tip = [&](Program programmed) {
+        solve_tool_axes(programmed, machine);
+        make_tip_motions(programmed, machine.kinematics, -rules.zero);
+        return programmed;
+    };
+    Program turned = program;
+    turned.diagnostics = {};
+    turned = of_the_tip(std::move(turned));
+    diagnostics.append(turned.diagnostics);
+    const ReadProgram read_turned = [&](const std::string& text) { return of_the_tip(read(text)); };
+    return Optimizer(turned, read_turned, machine, rules, progress, diagnostics).run(std::move(measured));
+}
+
+}  // namespace clsurf

@@ -1,0 +1,39 @@
+#pragma once
+// The optimiser: propose, simulate, accept or refuse. A proposal moves points of finishing passes only, so
+// that adjacent passes are programmed alike. It is accepted only if a run on the machine is better in every
+// respect.
+
+#include <optional>
+#include <string>
+
+#include "repair/proposal.h"
+
+namespace clsurf {
+
+/// Summary of a recorded run of the program.
+struct Measured {
+    PointIndex points = 0;
+    double duration = 0;  ///< [s]
+    double mismatch = 0;  ///< [mm/s] 95th percentile, as JudgedRun has it
+    std::size_t defects = 0;
+    std::size_t motions_in_need = 0;  ///< which alone are repaired
+};
+
+struct Optimized {
+    Proof proof;             ///< by simulation, also where a recorded run was given
+    bool five_axes = false;  ///< the program was run on them
+    std::optional<Measured> measured;
+    std::string text;  ///< of the new program; that of the best proposal where none was accepted
+    JudgedRun before, after;
+    SimulationSummary run_before, run_after;
+};
+
+/// Simulates the program, makes proposals, simulates and judges them. With a recorded run `measured` of the program,
+/// only sections that need repair in that run change; simulation evaluates the proposals before and after. A program
+/// with rotary axes runs on five axes if the machine has them, and its passes are those of the tip. Throws InputError
+/// if the program cannot be run or has no adjacent passes.
+[[nodiscard]] Optimized optimize(const Program& program, const ReadProgram& read, const Machine& machine,
+                                 const OptimizeRules& rules, std::optional<Log> measured, const Progress& progress,
+                                 Diagnostics& diagnostics);
+
+}  // namespace clsurf

@@ -1,0 +1,206 @@
+#include "repair/points/deviation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/units.h"
+#include "toolpath/toolpath.h"
+
+namespace clsurf {
+namespace {
+
+constexpr double window = 1.0;       ///< [mm] of way to both sides of where the walk has come to
+constexpr double same_place = 1e-9;  ///< [mm]
+constexpr double most_pieces = 1e6;  ///< of one motion
+constexpr double turn_step = rad_per_deg;
+constexpr double most_wound = 90 * rad_per_deg;  ///< a rotary axis, for the same direction of the tool
+
+/// How far a place is from another path.
+struct Apart {
+    double distance = std::numeric_limits<double>::infinity();  ///< [mm]
+    double turned = 0;                                          ///< [rad] the tool axis there
+    double wound = 0;                                           ///< [rad] the rotary axis that differs most there
+};
+
+/// A place to be held against another path.
+struct Sample {
+    Vec3 position = Vec3::Zero();  ///< [mm]
+    RotaryAngles angles;
+    Vec3 axis = Vec3::UnitZ();
+};
+
+/// Walks along a path beside points that come in its order.
+class Walk {
+public:
+    /// `orientation`: of the path; nullptr: three axes.
+    Walk(const Toolpath& path, const Orientation* orientation) : path_(path), orientation_(orientation) {}
+
+    /// How far `sample` is from the path near the foot of the one before.
+    [[nodiscard]] Apart apart(const Sample& sample) {
+        std::int64_t low = at_;
+        double before = way_before_;
+        while (low > 0 && before > way_ - window) before -= path_.length(--low);
+        Apart apart;
+        double way = way_;
+        for (std::int64_t m = low; m < path_.size() && (before <= way + window || !std::isfinite(apart.distance));
+             ++m) {
+            const double length = path_.length(m);
+            if (length <= 0 && std::isfinite(apart.distance)) continue;
+            Foot foot = path_.foot(m, sample.position);
+            if (length > 0) {
+                // Of a long motion only what lies in the window counts.
+                const double inside = std::clamp(foot.fraction, std::clamp((way - window - before) / length, 0.0, 1.0),
+                                                 std::clamp((way + window - before) / length, 0.0, 1.0));
+                if (inside != foot.fraction) foot = {(path_.at(m, inside) - sample.position).norm(), inside};
+            }
+            // The later of two that are as near: a path that goes back on itself is not to be walked back.
+            if (foot.distance <= apart.distance + same_place) {
+                if (orientation_ != nullptr) compare_axes(sample, m, foot, apart);
+                apart.distance = std::min(apart.distance, foot.distance);
+                at_ = m;
+                way_before_ = before;
+                way_ = before + (length > 0 ? foot.fraction * length : 0);
+            }
+            before += length;
+        }
+        return apart;
+    }
+
+    /// Goes along the line of the path, if there is one from here, that is the same as line `i` of another: how far its points are is known.
+    [[nodiscard]] bool goes_along(const Toolpath& other, std::int64_t i) {
+        if (orientation_ != nullptr || !is_line(other, i)) return false;
+        double before = way_before_;
+        for (std::int64_t m = at_; m < std::min(at_ + 2, path_.size()); before += path_.length(m++)) {
+            if (!is_line(path_, m) || path_.begin(m) != other.begin(i) || path_.end(m) != other.end(i)) continue;
+            at_ = m;
+            way_before_ = before;
+            way_ = before + path_.length(m);
+            return true;
+        }
+        return false;
+    }
+
+private:
+    [[nodiscard]] static bool is_line(const Toolpath& path, std::int64_t i) {
+        return path.motions().kind[static_cast<std::size_t>(i)] == MotionKind::feed;
+    }
+    /// Of feet that are as near, the one counts where the tool points most alike.
+    void compare_axes(const Sample& sample, std::int64_t motion, const Foot& foot, Apart& apart) const {
+        const RotaryAngles angles = orientation_->angles(motion, foot.fraction);
+        const double turned = angle_between(sample.axis, orientation_->axis(angles));
+        const bool as_near = foot.distance >= apart.distance - same_place;
+        if (as_near && turned > apart.turned) return;
+        apart.turned = turned;
+        apart.wound = turn_between(sample.angles, angles);
+    }
+
+    const Toolpath& path_;
+    const Orientation* orientation_;
+    std::int64_t at_ = 0;
+    double way_before_ = 0, way_ = 0;
+};
+
+/// A path, and where the tool points along it.
+struct Course {
+    const Toolpath& path;
+    const Orientation* orientation = nullptr;
+
+    [[nodiscard]] double turn_of(std::int64_t motion) const {
+        return orientation == nullptr ? 0
+                                      : turn_between(orientation->angles(motion, 0), orientation->angles(motion, 1));
+    }
+};
+
+/// Calls take(motion, point, how far it is) for points of `from` against `to`.
+template <typename Take>
+void compare(const Course& from, const Course& to, double step, const Take& take) {
+    Walk walk(to.path, to.orientation);
+    const Toolpath& path = from.path;
+    for (std::int64_t i = 0; i < path.size(); ++i) {
+        if (walk.goes_along(path, i)) continue;
+        // What lies between rapids has to be there; rapids themselves are compared by their ends.
+        const bool rapid = path.motions().kind[static_cast<std::size_t>(i)] == MotionKind::rapid;
+        const double pieces = rapid ? std::ceil(path.length(i) / (0.5 * window))
+                                    : std::ceil(std::max(path.length(i) / step, from.turn_of(i) / turn_step));
+        const auto n = static_cast<int>(std::clamp(pieces, 1.0, most_pieces));
+        for (int k = 1; k <= n; ++k) {
+            const double part = static_cast<double>(k) / n;
+            Sample sample{path.at(i, part), {}, Vec3::UnitZ()};
+            if (from.orientation != nullptr) {
+                sample.angles = from.orientation->angles(i, part);
+                sample.axis = from.orientation->axis(sample.angles);
+            }
+            Apart apart = walk.apart(sample);
+            // Rapids and turns in place are compared word by word.
+            if (rapid || path.length(i) <= 0) apart.turned = apart.wound = 0;
+            take(i, sample.position, apart);
+        }
+    }
+}
+
+bool is_plain(const Course& way, std::int64_t i) {
+    const Motions& motions = way.path.motions();
+    const auto k = static_cast<std::size_t>(i);
+    const bool turns = !motions.rotary.empty() && i > 0 && !(motions.rotary[k] == motions.rotary[k - 1]);
+    const bool turns_on_the_way = way.orientation != nullptr && way.path.length(i) > 0;
+    return motions.kind[k] == MotionKind::feed && (!turns || turns_on_the_way);
+}
+
+bool same(const Motions& a, std::int64_t i, const Motions& b, std::int64_t j) {
+    const auto k = static_cast<std::size_t>(i), l = static_cast<std::size_t>(j);
+    const auto equal = [](const Xyz& p, const Xyz& q) {
+        const auto one = [](double x, double y) { return std::abs(x - y) <= same_place || (x != x && y != y); };
+        return one(p.x, q.x) && one(p.y, q.y) && one(p.z, q.z);
+    };
+    if (a.kind[k] != b.kind[l] || !equal(a.end[k], b.end[l])) return false;
+    const bool feeds = a.feed[k] == b.feed[l] || (a.feed[k] != a.feed[k] && b.feed[l] != b.feed[l]);
+    if (!feeds) return false;
+    if (!a.rotary.empty() && !equal(a.rotary[k], b.rotary[l])) return false;
+    const Arc *arc = a.arc_of(i), *other = b.arc_of(j);
+    if (arc == nullptr || other == nullptr) return arc == other;
+    return arc->centre == other->centre && arc->turns == other->turns && arc->axis == other->axis;
+}
+
+LineNumber first_disorder(const Course& before, const Course& after) {
+    const Motions &a = before.path.motions(), &b = after.path.motions();
+    if (a.rotary.empty() != b.rotary.empty()) return 1;
+    std::int64_t i = 0, j = 0;
+    while (true) {
+        while (i < a.size() && is_plain(before, i)) ++i;
+        while (j < b.size() && is_plain(after, j)) ++j;
+        if (i == a.size() && j == b.size()) return 0;
+        if (i == a.size() || j == b.size() || !same(a, i, b, j))
+            return b.size() > 0 ? b.line[static_cast<std::size_t>(std::min(j, b.size() - 1))] : 1;
+        ++i, ++j;
+    }
+}
+
+}  // namespace
+
+Deviation measure_deviation(const Program& before, const Program& after, double step,
+                            const Orientations& orientations) {
+    const Toolpath old_path(before.motions, Vec3::Zero()), new_path(after.motions, Vec3::Zero());
+    const Course old{old_path, orientations.before}, now{new_path, orientations.after};
+    Deviation deviation;
+    deviation.disordered = first_disorder(old, now);
+    const auto take = [&](LineNumber line, const Vec3& p, const Apart& apart) {
+        if (apart.distance > deviation.greatest) {
+            deviation.greatest = apart.distance;
+            deviation.line = line;
+            deviation.position = p;
+        }
+        if (apart.turned > deviation.turned) {
+            deviation.turned = apart.turned;
+            deviation.turned_line = line;
+        }
+        if (apart.wound > most_wound && deviation.disordered == 0) deviation.disordered = std::max<LineNumber>(1, line);
+    };
+    compare(now, old, step, [&](std::int64_t i, const Vec3& p, const Apart& apart) {
+        take(after.motions.line[static_cast<std::size_t>(i)], p, apart);
+    });
+    compare(old, now, step, [&](std::int64_t, const Vec3& p, const Apart& apart) { take(0, p, apart); });
+    return deviation;
+}
+
+}  // namespace clsurf

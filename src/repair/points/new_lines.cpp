@@ -1,0 +1,169 @@
+#include "repair/points/new_lines.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "numeric/polyline.h"
+
+namespace clsurf {
+namespace {
+
+constexpr std::size_t reach_of_bends = 5;  ///< stations to both sides whose bends a line's length fits
+constexpr double most_doublings = 6;       ///< of a part
+
+class NewLines {
+public:
+    NewLines(const OldStretch& old, const SmoothStretch& curve, const std::vector<StationOfPass>& stations,
+             const LineRules& rules, const TurningStretch* turning)
+        : old_(old), curve_(curve), stations_(stations), rules_(rules), turning_(turning) {}
+
+    std::vector<NewPlace> run() {
+        const std::vector<std::uint8_t> kept = chosen();
+        std::size_t from = 0;
+        for (std::size_t k = 1; k < kept.size(); ++k) {
+            if (kept[k] == 0) continue;
+            join(from, k);
+            from = k;
+        }
+        ends_.back() = {old_.length(), old_.points.back()};
+        return std::move(ends_);
+    }
+
+private:
+    /// Which points of the curve lines need that leave it by no more than the chord error.
+    [[nodiscard]] std::vector<std::uint8_t> chosen() const {
+        const std::size_t n = curve_.points.size();
+        std::vector<std::uint8_t> kept(n, 1);
+        std::vector<double> bend(n, 0);
+        for (std::size_t k = 1; k + 1 < n; ++k)
+            bend[k] = three_point_curvature(curve_.points[k - 1], curve_.points[k], curve_.points[k + 1]);
+        for (std::size_t k = 1; k + 1 < n; ++k) {
+            double most = 0;
+            const std::size_t first = k > reach_of_bends ? k - reach_of_bends : 0,
+                              last = std::min(k + reach_of_bends, n - 1);
+            for (std::size_t j = first; j <= last; ++j) most = std::max(most, bend[j]);
+            const double wanted =
+                most > 0 ? std::min(std::sqrt(8 * rules_.chord_error / most), rules_.usual) : rules_.usual;
+            const StationOfPass& station = stations_[k - 1];
+            const int level = level_of(wanted, station.part);
+            const double line = std::ldexp(station.part, level),
+                         to_end = std::min(curve_.way[k], curve_.way.back() - curve_.way[k]);
+            const bool stump = to_end < std::max(rules_.shortest_line, nearest_station * line);
+            kept[k] = !stump && station.number % (std::int64_t{1} << level) == 0 ? 1 : 0;
+        }
+        drop_close(kept);
+        return kept;
+    }
+
+    /// Of two stations nearer to each other than the shortest line the one with the less round number is left out.
+    void drop_close(std::vector<std::uint8_t>& kept) const {
+        std::size_t before = 0;  // kept
+        for (std::size_t k = 1; k + 1 < kept.size(); ++k) {
+            if (kept[k] == 0) continue;
+            if (before > 0 && curve_.way[k] - curve_.way[before] < rules_.shortest_line) {
+                const std::int64_t mine = stations_[k - 1].number, other = stations_[before - 1].number;
+                const bool drop_other = (mine & -mine) > (other & -other);
+                kept[drop_other ? before : k] = 0;
+                if (!drop_other) continue;
+            }
+            before = k;
+        }
+    }
+
+    /// How often a part [mm] is doubled to become a line of up to `wanted` [mm], and not too short a one.
+    [[nodiscard]] int level_of(double wanted, double part) const {
+        const double coarsest = std::floor(std::log2(std::max(wanted / part, 1.0))),
+                     finest = std::ceil(std::log2(std::max(rules_.shortest_line / part, 1.0)));
+        return static_cast<int>(std::clamp(std::max(coarsest, finest), 0.0, most_doublings));
+    }
+
+    [[nodiscard]] NewPlace place(std::size_t k) const { return {curve_.way[k], curve_.points[k]}; }
+
+    /// The point at k, and before it those between it and the point `from` that the line needs to pass the old
+    /// lines closely enough.
+    void join(std::size_t from, std::size_t k) {
+        if (k == from + 1) {
+            pass_old_points(place(from), place(k));
+            ends_.push_back(place(k));
+            return;
+        }
+        double farthest = farthest_old_point(place(from), place(k)).distance;
+        for (std::size_t i = from + 1; i < k; ++i)
+            farthest = std::max(
+                farthest,
+                (curve_.places[i] - nearest_on_line(curve_.places[i], curve_.points[from], curve_.points[k])).norm());
+        if (farthest <= rules_.most && !turns_away(place(from), place(k))) {
+            ends_.push_back(place(k));
+            return;
+        }
+        const std::size_t middle = (from + k) / 2;
+        join(from, middle);
+        join(middle, k);
+    }
+
+    struct OldPoint {
+        std::size_t index = 0;
+        double distance = 0;       ///< [mm] from a line
+        Vec3 foot = Vec3::Zero();  ///< on the line
+    };
+
+    /// Of the old points between two places the one farthest from the line between them.
+    [[nodiscard]] OldPoint farthest_old_point(const NewPlace& from, const NewPlace& to) const {
+        OldPoint found;
+        for (auto i = static_cast<std::size_t>(std::upper_bound(old_.way.begin(), old_.way.end(), from.way) -
+                                               old_.way.begin());
+             i < old_.way.size() && old_.way[i] < to.way; ++i) {
+            const Vec3 foot = nearest_on_line(old_.points[i], from.position, to.position);
+            if (const double off = (old_.points[i] - foot).norm(); off > found.distance) found = {i, off, foot};
+        }
+        return found;
+    }
+
+    [[nodiscard]] bool turns_away(const NewPlace& from, const NewPlace& to) const {
+        return turning_ != nullptr && turning_->error_of(from, to).greatest > rules_.most_turned;
+    }
+
+    /// Between two places, points beside old ones that the line between them would leave too far off.
+    void pass_old_points(const NewPlace& from, const NewPlace& to) {
+        const OldPoint farthest = farthest_old_point(from, to);
+        if (farthest.distance <= rules_.most) {
+            pass_turns(from, to);
+            return;
+        }
+        const Vec3& left = old_.points[farthest.index];
+        const NewPlace middle{old_.way[farthest.index],
+                              left + (farthest.foot - left) * (rules_.radius / farthest.distance)};
+        pass_old_points(from, middle);
+        ends_.push_back(middle);
+        pass_old_points(middle, to);
+    }
+
+    /// Between two places, points of the line between them that have the angles of old ones.
+    void pass_turns(const NewPlace& from, const NewPlace& to) {
+        if (turning_ == nullptr) return;
+        const AxisError error = turning_->error_of(from, to);
+        if (error.greatest <= rules_.most_turned || error.point == 0) return;
+        const NewPlace middle{old_.way[error.point],
+                              nearest_on_line(old_.points[error.point], from.position, to.position)};
+        pass_turns(from, middle);
+        ends_.push_back(middle);
+        pass_turns(middle, to);
+    }
+
+    const OldStretch& old_;
+    const SmoothStretch& curve_;
+    const std::vector<StationOfPass>& stations_;
+    const LineRules& rules_;
+    const TurningStretch* turning_;
+    std::vector<NewPlace> ends_;
+};
+
+}  // namespace
+
+std::vector<NewPlace> new_lines(const OldStretch& old, const SmoothStretch& curve,
+                                const std::vector<StationOfPass>& stations, const LineRules& rules,
+                                const TurningStretch* turning) {
+    return NewLines(old, curve, stations, rules, turning).run();
+}
+
+}  // namespace clsurf

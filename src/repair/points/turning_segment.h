@@ -1,0 +1,52 @@
+#pragma once
+// TurningStretch: the tool axis along the old lines of a section, the tool axis for new lines, and the angle
+// between both.
+
+#include "repair/line_edit.h"
+#include "repair/points/orientation.h"
+#include "repair/points/smooth_segment.h"
+
+namespace clsurf {
+
+/// A place of a new line.
+struct NewPlace {
+    double way = 0;                ///< [mm] along the old lines
+    Vec3 position = Vec3::Zero();  ///< [mm]
+};
+
+/// The largest angle between the tool axis on a new line and on the old ones.
+struct AxisError {
+    double greatest = 0;    ///< [rad]
+    std::size_t point = 0;  ///< the old point between its ends where it is greatest; 0: there is none
+};
+
+class TurningStretch {
+public:
+    /// Old lines and orientation must outlive it. The lines of the stretch may be divided. O(points).
+    TurningStretch(const OldStretch& old, const Orientation& orientation, const std::vector<StationOfPass>& stations,
+                   const LineRules& rules);
+    TurningStretch(const TurningStretch&) = delete;
+    TurningStretch& operator=(const TurningStretch&) = delete;
+
+    /// Angles of a new line at one of its ends: the smoothest path of the angles in a tube, at the projection onto the
+    /// old lines; at an old point, its own angles.
+    [[nodiscard]] RotaryAngles angles(const NewPlace& place) const;
+    /// The words for them: those of an old point are unchanged.
+    [[nodiscard]] LineAngles words(const NewPlace& place) const;
+    /// The axis along a new line compared with the axis at the same fraction of the old lines between its ends, at old
+    /// points and half-way between them. O(old points between).
+    [[nodiscard]] AxisError error_of(const NewPlace& from, const NewPlace& to) const;
+
+private:
+    [[nodiscard]] RotaryAngles at(double way) const;
+    /// The old point at a place; 0: none.
+    [[nodiscard]] std::size_t old_point(const NewPlace& place) const;
+
+    const OldStretch& old_;
+    const Orientation& orientation_;
+    double turn_lever_;   ///< [mm/rad] that rotations are drawn with
+    OldStretch drawn_;    ///< the angles as lines in space: tilt, rotation, way [mm]
+    SmoothCurve smooth_;  ///< through them
+};
+
+}  // namespace clsurf

@@ -1,0 +1,112 @@
+#pragma once
+// Proposals: changed programs, simulated and compared with the original program.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/units.h"
+#include "repair/draft.h"
+#include "repair/judged_run.h"
+#include "repair/points/deviation.h"
+
+namespace clsurf {
+
+/// Largest angle between the new and the programmed tool axis: a hundredth of a degree moves the centre of a ball of 6
+/// mm radius by 1 µm.
+inline constexpr double most_turned = 0.01 * rad_per_deg;
+
+/// Each place of a systematic lag counts, because each may be equalised.
+[[nodiscard]] inline QualityRules judged_place_by_place() {
+    QualityRules rules;
+    rules.group_systematic = false;
+    return rules;
+}
+
+struct OptimizeRules {
+    double tolerance = 0.005;   ///< [mm] from the programmed path
+    double more_time = 0;       ///< a share: how much longer the new program may take
+    int least_decimals = 0;     ///< of new coordinates; 0: as many as the program has
+    Vec3 start = Vec3::Zero();  ///< [mm] where the axes stand before the program
+    Vec3 zero = Vec3::Zero();   ///< [mm] machine position of its zero, on five axes
+    QualityRules quality = judged_place_by_place();
+    std::string header;  ///< text of the comment that says where the program comes from
+};
+
+/// The comparison of a proposal with the program.
+struct Proof {
+    bool accepted = false;
+    std::string reason;  ///< why not, or empty
+    Deviation deviation;
+    std::size_t intervals = 0;  ///< stretches that were changed
+    LineNumber lines_before = 0, lines_after = 0;
+    std::size_t changed_lines = 0;                      ///< of the old program
+    std::size_t defects_before = 0, defects_after = 0;  ///< by the thresholds of the run before
+};
+
+/// A draft with feeds, its run, and the comparison with the run of the program.
+struct Proposal {
+    std::shared_ptr<const Draft> draft;
+    std::vector<float> targets;  ///< [mm/s] per motion of the draft: speeds that feeds hold it to; 0: none
+    Proof proof;
+    std::string text;
+    JudgedRun run;
+    SimulationSummary summary;
+};
+
+using Tried = std::shared_ptr<Proposal>;
+
+/// Runs proposals on the machine and keeps the best of them.
+class Prover {
+public:
+    /// Runs the program itself. All must outlive it. Throws what simulate() throws.
+    Prover(const Program& program, const ReadProgram& read, const Machine& machine, const OptimizeRules& rules,
+           const Progress& progress, Diagnostics& diagnostics);
+
+    [[nodiscard]] const JudgedRun& before() const { return before_; }
+    [[nodiscard]] JudgedRun take_before() { return std::move(before_); }
+    [[nodiscard]] const SimulationSummary& summary_before() const { return summary_before_; }
+    /// The longest time of a proposal [s]: that of the program, unless more is allowed.
+    [[nodiscard]] double longest() const { return before_.duration * (1 + more_time_); }
+    /// Applies the time that the rules allow from now on. At least as much of the search remains as after half of it.
+    void allow_more_time();
+    /// nullptr: the program is not run on five axes.
+    [[nodiscard]] const Orientation* orientation() const { return orientation_.get(); }
+    [[nodiscard]] const std::shared_ptr<const Kinematics>& kinematics() const { return kinematics_; }
+    /// Whether one more proposal may be tried (always for the first one). The total number of simulated points is
+    /// limited, of which a share may be used, and so is the number of consecutive proposals without improvement.
+    [[nodiscard]] bool has_time(double share = 1) const;
+
+    /// `targets`: as those of a Proposal, or none at all.
+    Tried propose(const std::shared_ptr<const Draft>& draft, std::vector<float> targets);
+    [[nodiscard]] const Tried& best() const { return best_; }
+
+    /// Accepted proposals are better than others; then the one with less remaining mismatch and fewer defects; of two
+    /// nearly equal ones the shorter.
+    [[nodiscard]] bool better(const Proposal& a, const Proposal& b) const;
+
+    /// Lower is better: the remaining mismatch and defects, as fractions, and the additional time if more is allowed.
+    [[nodiscard]] double score(const Proposal& proposal) const;
+
+private:
+    [[nodiscard]] Proposal prove(const std::shared_ptr<const Draft>& draft, std::vector<float> targets);
+    [[nodiscard]] Deviation deviation_of(const Program& changed) const;
+    [[nodiscard]] double most_points() const;
+    [[nodiscard]] std::string objection(const Proposal& proposal) const;
+    const Program& program_;
+    const ReadProgram& read_;
+    const Machine& machine_;
+    const OptimizeRules& rules_;
+    const Progress& progress_;
+    Diagnostics& diagnostics_;
+    std::shared_ptr<const Kinematics> kinematics_;  ///< of a program that is run on five axes
+    std::unique_ptr<const Orientation> orientation_;
+    JudgedRun before_;
+    SimulationSummary summary_before_;
+    Tried best_;
+    double more_time_ = 0;  ///< a share
+    double points_ = 0;     ///< simulated so far
+    int in_vain_ = 0;       ///< proposals since the best one
+};
+
+}  // namespace clsurf

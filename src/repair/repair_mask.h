@@ -1,0 +1,28 @@
+#pragma once
+// Need: the motions of a program that need repair, as shown by a simulated or recorded run.
+
+#include <cstdint>
+#include <vector>
+
+#include "repair/judged_run.h"
+
+namespace clsurf {
+
+struct NeedRules {
+    double share = 0.25;   ///< of the threshold of a speed step, from which on a place is repaired
+    double reach = 4;      ///< [mm] of way before and behind such a place
+    int passes_aside = 4;  ///< which are repaired with it
+};
+
+/// Per motion of the program: 1 if it has points whose speed differs from that of their neighbours, or that are in or
+/// near a defect of motion or of point spacing; 0 otherwise, and where the run has no data. Defects of lag alone belong
+/// to the machine: other points do not remove them. O(points).
+[[nodiscard]] std::vector<std::uint8_t> motions_in_need(const JudgedRun& run, const Program& program,
+                                                        const NeedRules& rules);
+
+/// Per motion of the program: 1 if a run has marked points on it, one flag per point. Motions between the lines of two
+/// consecutive marked points were passed within one period and count too. O(points).
+[[nodiscard]] std::vector<std::uint8_t> marked_motions(const JudgedRun& run, const Program& program,
+                                                       const std::vector<std::uint8_t>& marks);
+
+}  // namespace clsurf

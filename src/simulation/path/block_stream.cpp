@@ -1,0 +1,165 @@
+#include "simulation/path/block_stream.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "core/error.h"
+#include "core/not_finite.h"
+#include "simulation/path/junction.h"
+
+namespace clsurf {
+namespace {
+
+constexpr double reversal_angle = 179.0 * std::numbers::pi / 180;
+bool stops_between(const PathElement& before, const PathElement& after) {
+    const double turning = deflection(before.tangent(before.length).normalized(), after.tangent(0).normalized());
+    if (before.stops || turning > reversal_angle) return true;
+    if (before.tolerance > 0 && after.tolerance > 0) return false;
+    // On an exact path only what is straight on, with no jump of curvature, is passed without a stop.
+    const double bend = (after.second_derivative(0) - before.second_derivative(before.length)).norm();
+    return turning > straight_on || bend > least_bend_jump;
+}
+
+}  // namespace
+
+BlockStream::BlockStream(MotionSource& source, const Machine& machine, const Vec3& start)
+    : source_(&source), machine_(&machine), at_(start) {
+    take(PathMode{});
+    // Where the program itself says where it begins, the axes stand there.
+    const Xyz& known = source.program().motions.start;
+    if (known.x == known.x) at_.x() = known.x;
+    if (known.y == known.y) at_.y() = known.y;
+    if (known.z == known.z) at_.z() = known.z;
+}
+
+void BlockStream::take(const PathMode& mode) {
+    const ControllerSettings& controller = machine_->controller;
+    const bool rounded = mode.block_end == BlockEnd::rounded && controller.corner != CornerMode::stop;
+    tolerance_ = !rounded ? 0 : std::isfinite(mode.tolerance) ? mode.tolerance : controller.tolerance;
+    stops_ = mode.block_end == BlockEnd::exact_stop;
+}
+
+void BlockStream::follow_events(std::int64_t motion) {
+    events_.pass(source_->program().events, motion, [&](const ProgramEvent& event) {
+        if (event.path_mode) take(*event.path_mode);
+    });
+}
+
+double BlockStream::done() const {
+    return static_cast<double>(taken_before_ + next_motion_) /
+           static_cast<double>(std::max<std::int64_t>(1, source_->outline().motions));
+}
+
+/// False: the program has no more.
+bool BlockStream::at_a_motion() {
+    while (next_motion_ >= source_->piece_size()) {
+        if (!source_->next_piece()) return false;
+        taken_before_ += std::exchange(next_motion_, 0);
+        events_ = {};
+    }
+    return true;
+}
+
+/// Whether a rotary axis moves.
+bool BlockStream::turns(const Motions& motions, std::size_t motion) {
+    const Xyz before = std::exchange(rotary_, motions.rotary.empty() ? Xyz{} : motions.rotary[motion]);
+    const auto moved = [](double a, double b) { return b == b && b != a && !(a != a && b == 0); };
+    return moved(before.x, rotary_.x) || moved(before.y, rotary_.y) || moved(before.z, rotary_.z);
+}
+
+/// The next motion with a way; dwells on the way to it are added up.
+bool BlockStream::read(PathElement& element) {
+    const Motions& motions = source_->program().motions;
+    const auto fail = [&](std::int64_t m, const std::string& what, const std::string& hint = {}) {
+        const SourceText& text = source_->program().main();
+        const auto line = motions.line[static_cast<std::size_t>(m)];
+        Place place = Place::of_line(text.name(), line);
+        place.source = std::string(text.line(line));
+        throw InputError(place, what, hint);
+    };
+    while (at_a_motion()) {
+        const std::int64_t m = next_motion_++;
+        const auto i = static_cast<std::size_t>(m);
+        follow_events(m);
+        const MotionKind kind = motions.kind[i];
+        const bool turning = turns(motions, i);
+        if (kind == MotionKind::dwell) {
+            pending_dwell_ += std::max(0.0F, motions.feed[i]);
+            pending_dwell_line_ = motions.line[i];
+            continue;
+        }
+        if (kind == MotionKind::spline) fail(m, "splines cannot be simulated yet");
+        if (turning)
+            fail(m, "a rotary axis moves: only x, y and z can be simulated",
+                 "--machine FILE with rotary axes and their kinematics simulates five");
+        const Xyz& to = motions.end[i];
+        const Vec3 end(to.x == to.x ? to.x : at_.x(), to.y == to.y ? to.y : at_.y(), to.z == to.z ? to.z : at_.z());
+        element = element_of(kind, is_arc(kind) ? motions.arc_of(m) : nullptr, at_, end);
+        if (!(element.length > 0)) continue;
+        element.line = motions.line[i];
+        element.block = blocks_++;
+        element.block_length = element.length;
+        element.tolerance = tolerance_;
+        element.stops = stops_;
+        element.feed = infinite;
+        if (kind != MotionKind::rapid) {
+            element.feed = motions.feed[i];
+            if (!(element.feed > 0) || !std::isfinite(element.feed))
+                fail(m, "a feed motion without a feed greater than 0");
+        }
+        at_ = end;
+        return true;
+    }
+    return false;
+}
+
+void BlockStream::take_dwell() {
+    dwell_ = pending_dwell_;
+    dwell_line_ = pending_dwell_line_;
+    pending_dwell_ = 0;
+    closed_ = true;
+}
+
+bool BlockStream::begin_section() {
+    section_end_ = at_;
+    dwell_ = 0;
+    dwell_line_ = 0;
+    closed_ = begun_ = false;
+    if (waiting_) return true;
+    if (!read(waiting_element_)) {
+        // Dwells at the very end still take their time.
+        take_dwell();
+        return dwell_ > 0;
+    }
+    waiting_ = true;
+    if (pending_dwell_ > 0) {
+        // A wait before the first motion: a section without a way.
+        section_end_ = waiting_element_.begin;
+        take_dwell();
+    }
+    return true;
+}
+
+bool BlockStream::next(PathElement& element) {
+    if (closed_) return false;
+    if (!waiting_ && !read(waiting_element_)) {
+        section_end_ = last_.end;
+        take_dwell();
+        return false;
+    }
+    waiting_ = true;
+    if (begun_ && (pending_dwell_ > 0 || stops_between(last_, waiting_element_))) {
+        section_end_ = last_.end;
+        take_dwell();
+        return false;
+    }
+    element = last_ = waiting_element_;
+    waiting_ = false;
+    begun_ = true;
+    return true;
+}
+
+}  // namespace clsurf

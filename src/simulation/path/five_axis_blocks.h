@@ -1,0 +1,74 @@
+#pragma once
+// The blocks of a five-axis program as the simulator runs them: the tip path for the planner, the path of the
+// tool axis, and the speed that the axes allow on each block.
+
+#include <array>
+#include <limits>
+#include <vector>
+
+#include "machine/machine.h"
+#include "program/program.h"
+#include "simulation/path/path_element.h"
+#include "simulation/path/tool_axis_path.h"
+
+namespace clsurf {
+
+/// Of x, y, z [mm], tilt and rotation [rad], signs applied.
+struct AxisLimits {
+    double low, high, speed, acceleration, jerk;
+};
+
+/// What a block was like in a run.
+struct BlockExcess {
+    float scale = 1;  ///< what its speed must be multiplied by; 1: nothing exceeds its limit
+    float peak = 0;   ///< greatest speed of the tip [mm/s]
+};
+
+/// What the blocks of a program are, and how fast each may be run.
+class FiveAxisBlocks {
+public:
+    /// As simulate_five_axis(). Throws InputError (feed 0). `machine` must outlive it.
+    FiveAxisBlocks(const Program& program, const Machine& machine, const Vec3& zero, const Vec3& start);
+
+    /// Slows down the blocks that exceed a limit. False: none did.
+    bool ease(const std::vector<BlockExcess>& excesses);
+
+    /// The way of the tip for the planner; the line of a motion is its block's number, from 1.
+    [[nodiscard]] const Program& planned() const { return planned_; }
+    [[nodiscard]] std::size_t count() const { return ways_.size(); }
+    [[nodiscard]] const Vec3& zero() const { return zero_; }
+    [[nodiscard]] const ToolAxisPath& way(std::size_t block) const { return ways_[block]; }
+    [[nodiscard]] LineNumber line(std::size_t block) const { return lines_[block]; }
+    [[nodiscard]] bool waits(std::size_t block) const { return kinds_[block] == MotionKind::dwell; }
+    [[nodiscard]] bool cuts(std::size_t block) const { return !waits(block) && kinds_[block] != MotionKind::rapid; }
+    [[nodiscard]] double waiting(std::size_t block) const { return feeds_[block]; }  ///< [s]
+    [[nodiscard]] bool stands(std::size_t block) const { return waits(block) || !(elements_[block].length > 0); }
+    /// Slower than it was programmed to be.
+    [[nodiscard]] bool capped(std::size_t block) const {
+        return caps_[block] < std::numeric_limits<double>::infinity();
+    }
+    [[nodiscard]] const std::array<AxisLimits, 5>& limits() const { return limits_; }
+    /// Which part of a block's way lies behind a point, not before `from`.
+    [[nodiscard]] double part_at(std::size_t block, const Vec3& p, double from) const;
+
+private:
+    [[nodiscard]] double turn_of(std::size_t i) const;
+    [[nodiscard]] ToolAxisPath make_way(std::size_t i, const RotaryAngles& from, const RotaryAngles& to,
+                                        double feed) const;
+    [[nodiscard]] double turning_time(std::size_t i) const;
+    void guess_cap(std::size_t i);
+    void apply_caps();
+
+    const Machine* machine_;
+    Vec3 zero_;
+    std::array<AxisLimits, 5> limits_;
+    Program planned_;
+    std::vector<PathElement> elements_;  ///< length 0: the tip stands
+    std::vector<ToolAxisPath> ways_;
+    std::vector<double> caps_;  ///< [mm/s]
+    Column<float> feeds_;       ///< as programmed; of turns their time [s]
+    Column<MotionKind> kinds_;
+    Column<LineNumber> lines_;
+};
+
+}  // namespace clsurf

@@ -1,0 +1,65 @@
+#pragma once
+// PathElement: one motion of a program, or a part of one, as a curve over arc length: a line, an arc, a helix
+// or a cubic.
+
+#include <limits>
+
+#include "core/geometry.h"
+#include "numeric/cubic_span.h"
+#include "program/motion.h"
+
+namespace clsurf {
+
+inline constexpr double straight_on = 1e-9;      ///< [rad] turning below this moves no axis
+inline constexpr double least_bend_jump = 1e-9;  ///< [1/mm] a smaller jump of curvature is none
+inline constexpr double no_way = 1e-9;           ///< [mm] below it two points are one
+
+/// Derivatives of a position by the way: none, 1/mm, 1/mm².
+struct PathDerivatives {
+    Vec3 first, second, third;
+};
+
+struct PathElement {
+    bool arc = false, cubic = false;
+    Vec3 begin = Vec3::Zero(), end = Vec3::Zero();  ///< [mm]
+    Vec3 direction = Vec3::Zero();                  ///< of a line, unit
+    // p(θ) = centre + (radius + growth θ)(first cos θ + second sin θ) + rise θ, θ = rate · way
+    Vec3 centre = Vec3::Zero(), first = Vec3::Zero(), second = Vec3::Zero(), rise = Vec3::Zero();
+    double radius = 0, growth = 0, rate = 0;
+    CubicSpan curve;
+    double curve_from = 0, curve_length = 0;  ///< where the element begins on the curve; of the whole curve [mm]
+    double length = 0;                        ///< [mm]
+
+    // Of the block that the element stands for.
+    double feed = 0;       ///< asked speed [mm/s]; infinite for a rapid
+    double tolerance = 0;  ///< of what rounds its ends [mm]; 0: exact path
+    bool stops = false;    ///< comes to rest at its end (exact stop)
+    LineNumber line = 0;
+    std::int64_t block = 0;                                           ///< number of the block, of those with a way
+    double block_length = 0;                                          ///< [mm]
+    double deviation = 0;                                             ///< of the element from the block, at most [mm]
+    double greatest_speed = std::numeric_limits<double>::infinity();  ///< that its shape is good for [mm/s]
+
+    [[nodiscard]] bool straight() const { return !arc && !cubic; }
+    [[nodiscard]] Vec3 at(double way) const;
+    /// The position, and the first derivative by the way: a unit vector but for the growth of a radius
+    /// (radii of start and end may differ within the reader's play).
+    [[nodiscard]] Vec3 at(double way, Vec3& tangent) const;
+    [[nodiscard]] Vec3 tangent(double way) const;
+    [[nodiscard]] Vec3 second_derivative(double way) const { return derivatives(way).second; }
+    [[nodiscard]] PathDerivatives derivatives(double way) const;
+    /// How far the direction turns on the whole, summed up [rad].
+    [[nodiscard]] double turning() const;
+
+    /// What lies between two places of its way.
+    [[nodiscard]] PathElement part(double from, double to) const;
+    /// Stands for the same block as another one.
+    void take_block(const PathElement& other);
+};
+
+/// The curve of a motion between two points; length 0 where there is no way.
+[[nodiscard]] PathElement element_of(MotionKind kind, const Arc* arc, const Vec3& begin, const Vec3& end);
+/// A cubic from one end to the other.
+[[nodiscard]] PathElement element_of(const CubicSpan& curve);
+
+}  // namespace clsurf

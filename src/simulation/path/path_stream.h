@@ -1,0 +1,153 @@
+#pragma once
+// PathStream: a program's path as the controller runs it, in spans with bounds on its derivatives.
+//
+// Between exact stops, corners are rounded inside the tolerance by adding to the programmed path
+// p(u), u its way, for each joint at u_i with a jump Δt of the tangent and Δk of the curvature,
+//
+//     Δt · (w − |d|)³ / (6 w²)      +      Δk · d (v − |d|)³ / (12 v²),      d = u − u_i,
+//
+// where |d| < w (< v). The first is what smoothing p with a triangle of half-width w adds at a corner;
+// the second takes the jump out of the second derivative. The sum is C² with a bounded third
+// derivative, so that a speed profile with bounded jerk gives axis positions with bounded jerk (a
+// circular transition arc, whose curvature jumps, does not). Neighbouring roundings may overlap: dense
+// polylines are smoothed over many blocks.
+//
+// The widths hold the tolerance by construction: the deviation D at a corner is at most
+// Σ |Δt_j| (w_j − |d|)³/(6 w_j²), convex between corners, and multiplying all w_j of that sum by
+// f < 1 makes it at most f D.
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "core/geometry.h"
+#include "core/queue.h"
+#include "machine/machine.h"
+#include "simulation/path/block_stream.h"
+#include "simulation/path/corner_arcs.h"
+#include "simulation/path/curve_blocks.h"
+
+namespace clsurf {
+
+/// What ruled the speed of a point: the values of the channel `limit`.
+enum class Ruling : std::uint8_t {
+    none = 0,               ///< at rest
+    feed = 1,               ///< programmed feed
+    axis_speed = 2,         ///< speed of an axis, or of the path
+    axis_acceleration = 3,  ///< acceleration of an axis, of the path, or normal to it
+    jerk = 4,
+    corner_tolerance = 5,  ///< jerk in a corner as round as the tolerance lets it be
+    chord_error = 6,
+    lookahead_end = 7,  ///< braking to a stop, or to the end of the known blocks
+    feed_override = 8,
+    block_time = 9,  ///< the block is shorter than what is driven in the controller's block time
+};
+
+/// "feed", "axis speed", …
+[[nodiscard]] std::string_view name_of(Ruling ruling);
+
+/// Where the position on a span comes from, and how fast it may be passed.
+struct Span {
+    PathElement base;
+    double from = 0;                 ///< way on the element where the span begins [mm]
+    double length = 0;               ///< [mm]
+    std::array<Vec3, 5> rounding{};  ///< Σ rounding[k] τᵏ, τ from the span's begin
+    bool rounded = false;
+
+    // Greatest values on the span: of the first to third derivative of the position by the way, an axis each.
+    Vec3 slope = Vec3::Zero(), bend = Vec3::Zero(), twist = Vec3::Zero();
+    double greatest_slope = 0, greatest_bend = 0;  ///< of the vectors
+    double fourth = 0;                             ///< of the length of the fourth derivative [1/mm³]
+    // Speed allowed by what does not depend on bends: feed, speed of path and axes; and why.
+    double free_cap = 0;
+    Ruling free_ruling = Ruling::none;
+    // Speed allowed with no tangential acceleration, and why.
+    double cap = 0;
+    Ruling ruling = Ruling::none;
+    // Tangential limits of a straight path with these slopes.
+    double acceleration = 0, jerk = 0;
+
+    /// Position τ after the span's begin; `deviation`: how far the rounding moves it [mm]; `pace`: the
+    /// length of its first derivative, path speed over speed along the programmed way.
+    [[nodiscard]] Vec3 at(double tau, double& deviation, double& pace) const;
+    [[nodiscard]] PathDerivatives derivatives(double tau) const;
+    [[nodiscard]] bool straight() const { return !rounded && base.straight(); }
+};
+
+class PathStream {
+public:
+    /// Joints to each side that a rounding may cross: bounds the blocks that must be known.
+    static constexpr std::int64_t reach_of_a_joint = 20;
+
+    /// Both must outlive it; the source is at its begin. `start`: where the axes stand; coordinates that the
+    /// program has not set stay there [mm].
+    PathStream(MotionSource& source, const Machine& machine, const Vec3& start);
+
+    /// Goes to the next section, the way between two exact stops. False: the program has ended.
+    /// Throws InputError (feed 0, rotary axes, splines).
+    bool begin_section();
+    /// The next span of the section in order, there until the next call; nullptr: none is left.
+    [[nodiscard]] const Span* next();
+    /// Where the program stands; what its section ends with is known when next() has returned false.
+    [[nodiscard]] const BlockStream& blocks() const { return blocks_; }
+
+private:
+    struct Joint {
+        double at = 0;                                  ///< way from the section's begin [mm]
+        Vec3 turn = Vec3::Zero(), bend = Vec3::Zero();  ///< Δt; Δk [1/mm]
+        double turning = 0;                             ///< |Δt|
+        double tolerance = 0;
+        double widest = 0;  ///< that its rounding may be
+        double width = 0, bend_width = 0;
+        double share = 0;      ///< of (w − |d|)³ in its rounding, as wide as it may be [1/mm²]
+        double deviation = 0;  ///< of the overlapping roundings, before they are scaled
+        // As it is rounded: of (w − |d|)³ with the width as scaled, of d (v − |d|)³, and how far either reaches.
+        Vec3 turn_share = Vec3::Zero(), bend_share = Vec3::Zero();
+        double reach = 0;
+    };
+
+    bool pull();
+    void add_joint(const PathElement& before, const PathElement& after);
+    void settle();
+    void settle_width(std::int64_t i);
+    void settle_deviation(std::int64_t i);
+    void settle_scale(std::int64_t i);
+    void make_spans(std::int64_t element);
+    void find_roundings(std::int64_t element, double begin, double end);
+    void add_roundings(Span& span, double begin) const;
+    void set_limits(Span& span) const;
+
+    Joint& joint(std::int64_t i) { return joints_[static_cast<std::size_t>(i - first_joint_)]; }
+    [[nodiscard]] const Joint& joint(std::int64_t i) const {
+        return joints_[static_cast<std::size_t>(i - first_joint_)];
+    }
+
+    const Machine* machine_;
+    double bend_share_ = 0;  ///< of the tolerance, for jumps of curvature
+    BlockStream blocks_;
+    std::unique_ptr<CurveBlocks> curves_;
+    std::unique_ptr<CornerArcs> arcs_;
+    ElementSource* source_;  ///< the last of what shapes the path
+
+    // The section: elements from first_element_ on; joint i lies between elements i and i + 1.
+    Queue<PathElement> elements_;
+    Queue<double> ends_;  ///< way to each element's end [mm]
+    Queue<Joint> joints_;
+    std::int64_t first_element_ = 0, first_joint_ = 0;
+    std::int64_t element_count_ = 0;
+    bool closed_ = false;
+    double closed_at_ = 0;
+    std::int64_t widths_done_ = 0, deviations_done_ = 0, scales_done_ = 0, spans_done_ = 0;
+    Queue<Span> ready_;
+    bool front_taken_ = false;  ///< of ready_
+    // Scratch of make_spans(): joints whose roundings reach into a part of the element, the sum of those that cover it as a
+    // polynomial from its begin, and where it is cut.
+    std::vector<const Joint*> reaching_;
+    std::array<Vec3, 4> covering_;
+    bool covered_ = false;
+    std::vector<double> cuts_;
+};
+
+}  // namespace clsurf

@@ -1,0 +1,243 @@
+// Spans of an element: cut where a rounding begins, ends or turns over, so that on each the position
+// is one polynomial (on an arc: besides the arc), and its derivatives can be bounded.
+
+#include <algorithm>
+#include <cmath>
+
+#include "simulation/path/junction.h"
+#include "simulation/path/path_stream.h"
+
+namespace clsurf {
+namespace {
+
+constexpr double least_span = 1e-9;         ///< [mm] nearer cuts are one
+constexpr double most_turn_of_span = 0.75;  ///< [rad] of a curve in one span: limits of axes change round it
+constexpr int checked_points = 5;           ///< of a span whose bounds are not at its ends
+constexpr double nearly = 1 - 1e-9;         ///< of a limit, for rounding
+
+/// Adds factor · (a + b τ)(c + e τ)³ to a polynomial in τ.
+void add_product(std::array<Vec3, 5>& sum, const Vec3& factor, double a, double b, double c, double e) {
+    const std::array<double, 4> cube{c * c * c, 3 * c * c * e, 3 * c * e * e, e * e * e};
+    for (std::size_t k = 0; k < 4; ++k) {
+        sum[k] += a * cube[k] * factor;
+        sum[k + 1] += b * cube[k] * factor;
+    }
+}
+
+/// Adds factor · (w − |d|)³ to a polynomial in τ, whose origin is `distance` after the corner, on one side of it: 1 behind, −1 before.
+template <std::size_t size>
+void add_cube(std::array<Vec3, size>& sum, const Vec3& factor, double width, double distance, double side) {
+    const double left = width - side * distance;
+    sum[0] += left * left * left * factor;
+    sum[1] -= 3 * side * left * left * factor;
+    sum[2] += 3 * left * factor;
+    sum[3] -= side * factor;
+}
+
+/// Takes a derivative into the greatest values on a span.
+void take(const Vec3& value, Vec3& greatest, double& greatest_length) {
+    greatest = greatest.cwiseMax(value.cwiseAbs());
+    greatest_length = std::max(greatest_length, value.squaredNorm());
+}
+
+/// Greatest values on a rounded line, where derivatives are polynomials: below those of their Bézier points.
+void bound_line(Span& span) {
+    const double l = span.length;
+    const std::array<Vec3, 5>& c = span.rounding;
+    const Vec3 slope = span.base.direction + c[1];
+    const Vec3 linear = 2 * l * c[2], square = 3 * l * l * c[3], cube = 4 * l * l * l * c[4];
+    take(slope, span.slope, span.greatest_slope);
+    take(slope + linear / 3, span.slope, span.greatest_slope);
+    take(slope + linear * (2.0 / 3) + square / 3, span.slope, span.greatest_slope);
+    take(slope + linear + square + cube, span.slope, span.greatest_slope);
+    const Vec3 bend = 2 * c[2], bend_linear = 6 * l * c[3], bend_square = 12 * l * l * c[4];
+    take(bend, span.bend, span.greatest_bend);
+    take(bend + 0.5 * bend_linear, span.bend, span.greatest_bend);
+    take(bend + bend_linear + bend_square, span.bend, span.greatest_bend);
+    span.greatest_slope = std::sqrt(span.greatest_slope);
+    span.greatest_bend = std::sqrt(span.greatest_bend);
+    span.twist = (6 * c[3]).cwiseAbs().cwiseMax((6 * c[3] + 24 * l * c[4]).cwiseAbs());
+    span.fourth = 24 * c[4].norm();
+}
+
+/// Greatest values on an arc or a cubic, rounded or not. The third derivative of what is rounded is linear, that of
+/// an arc as good as: its greatest value is at a checked point; those below change between them by no more than
+/// the next one allows.
+void bound_curve(Span& span) {
+    const double step = span.length / (checked_points - 1);
+    std::array<Vec3, checked_points> thirds;
+    for (int k = 0; k < checked_points; ++k) {
+        const PathDerivatives d = span.derivatives(k * step);
+        thirds[static_cast<std::size_t>(k)] = d.third;
+        take(d.first, span.slope, span.greatest_slope);
+        take(d.second, span.bend, span.greatest_bend);
+        span.twist = span.twist.cwiseMax(d.third.cwiseAbs());
+    }
+    span.greatest_slope = std::sqrt(span.greatest_slope);
+    span.greatest_bend = std::sqrt(span.greatest_bend);
+    if (span.base.arc) {
+        const double turn = span.base.rate * step;  // between checked points
+        const double rate = span.base.rate;
+        const double play = 0.125 * turn * turn *
+                            (span.base.radius + std::abs(span.base.growth * span.base.length * rate)) * rate * rate *
+                            rate;
+        span.twist.array() += (span.base.first.cwiseAbs() + span.base.second.cwiseAbs()).array().min(1.0) * play;
+    }
+    span.fourth = 24 * span.rounding[4].norm() + (span.base.arc ? span.base.radius * std::pow(span.base.rate, 4) : 0.0);
+    if (span.base.cubic) {
+        // By the way a cubic is no polynomial: its differences stand for the derivatives, with as much again.
+        Vec3 play = Vec3::Zero();
+        for (std::size_t k = 1; k < thirds.size(); ++k) {
+            span.fourth = std::max(span.fourth, 2 * (thirds[k] - thirds[k - 1]).norm() / step);
+            if (k + 1 < thirds.size()) play = play.cwiseMax((thirds[k - 1] - 2 * thirds[k] + thirds[k + 1]).cwiseAbs());
+        }
+        span.twist += 0.25 * play;
+    }
+    // Between checked points a function is at most its values there plus step²/8 of its second derivative.
+    const double curve = step * step / 8;
+    span.slope += curve * span.twist;
+    span.greatest_slope += curve * span.twist.norm();
+    span.bend.array() += curve * span.fourth;
+    span.greatest_bend += curve * span.fourth;
+}
+
+}  // namespace
+
+PathDerivatives Span::derivatives(double tau) const {
+    const std::array<Vec3, 5>& c = rounding;
+    PathDerivatives d = base.derivatives(from + tau);
+    if (!rounded) return d;
+    d.first += c[1] + tau * (2 * c[2] + tau * (3 * c[3] + tau * 4 * c[4]));
+    d.second += 2 * c[2] + tau * (6 * c[3] + tau * 12 * c[4]);
+    d.third += 6 * c[3] + tau * 24 * c[4];
+    return d;
+}
+
+/// The joints whose roundings reach into an element.
+void PathStream::find_roundings(std::int64_t element, double begin, double end) {
+    reaching_.clear();
+    covering_.fill(Vec3::Zero());
+    covered_ = false;
+    const std::int64_t high = std::min(element_count_ - 2, element + reach_of_a_joint);
+    for (std::int64_t k = std::max(first_joint_, element - 1 - reach_of_a_joint); k <= high; ++k) {
+        const Joint& j = joint(k);
+        if (j.at + j.reach <= begin || j.at - j.reach >= end) continue;
+        if (j.bend_width == 0 && j.at - j.width <= begin && j.at + j.width >= end) {
+            add_cube(covering_, j.turn_share, j.width, begin - j.at, k < element ? 1.0 : -1.0);
+            covered_ = true;
+        } else {
+            reaching_.push_back(&j);
+        }
+    }
+}
+
+void PathStream::make_spans(std::int64_t element) {
+    const PathElement& base = elements_[static_cast<std::size_t>(element - first_element_)];
+    const double end = ends_[static_cast<std::size_t>(element - first_element_)];
+    const double begin = end - base.length;
+    find_roundings(element, begin, end);
+    cuts_.clear();
+    cuts_.push_back(0);
+    cuts_.push_back(base.length);
+    const auto cut = [&](double at) {
+        if (at - begin > least_span && end - at > least_span) cuts_.push_back(at - begin);
+    };
+    for (const Joint* j : reaching_) {
+        if (j->width > 0) cut(j->at - j->width), cut(j->at + j->width);
+        if (j->bend_width > 0) cut(j->at - j->bend_width), cut(j->at + j->bend_width);
+    }
+    if (!base.straight()) {
+        const int parts = static_cast<int>(std::ceil(base.turning() / most_turn_of_span));
+        for (int k = 1; k < parts; ++k) cuts_.push_back(base.length * k / parts);
+    }
+    std::sort(cuts_.begin(), cuts_.end());
+    double from = 0;
+    for (std::size_t k = 1; k < cuts_.size(); ++k) {
+        const bool last = k + 1 == cuts_.size();
+        if (cuts_[k] - from < least_span && !last) continue;
+        if (!last && base.length - cuts_[k] < least_span) continue;
+        Span& span = ready_.emplace_back();
+        span.base = base;
+        span.from = from;
+        span.length = cuts_[k] - from;
+        add_roundings(span, begin + from);
+        set_limits(span);
+        from = cuts_[k];
+    }
+}
+
+/// What the joints within reach add from `begin` on, and the bounds of all derivatives.
+void PathStream::add_roundings(Span& span, double begin) const {
+    const double middle = begin + 0.5 * span.length;
+    std::array<Vec3, 5>& sum = span.rounding;
+    const std::array<Vec3, 4>& c = covering_;
+    const double from = span.from;
+    sum = {c[0] + from * (c[1] + from * (c[2] + from * c[3])), c[1] + from * (2 * c[2] + 3 * from * c[3]),
+           c[2] + 3 * from * c[3], c[3], Vec3::Zero()};
+    span.rounded = covered_;
+    for (const Joint* j : reaching_) {
+        const double side = middle > j->at ? 1.0 : -1.0;
+        const double distance = begin - j->at;  // of τ = 0
+        const double away = std::abs(middle - j->at);
+        if (away < j->width) {
+            span.rounded = true;
+            add_cube(sum, j->turn_share, j->width, distance, side);
+        }
+        if (away < j->bend_width) {
+            span.rounded = true;
+            add_product(sum, j->bend_share, distance, 1, j->bend_width - side * distance, -side);
+        }
+    }
+    if (span.straight()) {
+        span.slope = span.base.direction.cwiseAbs();
+        span.greatest_slope = 1;
+    } else if (span.base.straight()) {
+        bound_line(span);
+    } else {
+        bound_curve(span);
+    }
+}
+
+void PathStream::set_limits(Span& span) const {
+    const PathLimits& path = machine_->path;
+    const double override_factor = machine_->controller.feed_override;
+    const bool rapid = !std::isfinite(span.base.feed);
+    span.cap = path.max_speed / span.greatest_slope;
+    span.ruling = Ruling::axis_speed;
+    const auto limit = [&](double speed, Ruling why) {
+        if (speed < span.cap) span.cap = speed, span.ruling = why;
+    };
+    if (!rapid) limit(span.base.feed * override_factor, override_factor == 1 ? Ruling::feed : Ruling::feed_override);
+    if (machine_->controller.block_time > 0)
+        limit(span.base.block_length / machine_->controller.block_time, Ruling::block_time);
+    for (int i = 0; i < 3; ++i) {
+        if (span.slope[i] > 0)
+            limit(machine_->axes[static_cast<std::size_t>(i)].max_speed / span.slope[i], Ruling::axis_speed);
+    }
+    limit(span.base.greatest_speed, Ruling::corner_tolerance);
+    span.free_cap = span.cap;
+    span.free_ruling = span.ruling;
+    span.acceleration = path.max_acceleration;
+    span.jerk = path.max_jerk;
+    const bool corner = span.rounded && span.base.straight();
+    for (int i = 0; i < 3; ++i) {
+        const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(i)];
+        if (span.slope[i] > 0) {
+            span.acceleration = std::min(span.acceleration, axis.max_acceleration / span.slope[i]);
+            if (axis.max_jerk > 0) span.jerk = std::min(span.jerk, axis.max_jerk / span.slope[i]);
+        }
+        // Roots only of what may be broken.
+        if (span.bend[i] * span.cap * span.cap > nearly * axis.max_acceleration)
+            limit(std::sqrt(axis.max_acceleration / span.bend[i]), Ruling::axis_acceleration);
+        const bool jerks = axis.max_jerk > 0 && span.twist[i] * span.cap * span.cap * span.cap > nearly * axis.max_jerk;
+        if (jerks) limit(std::cbrt(axis.max_jerk / span.twist[i]), corner ? Ruling::corner_tolerance : Ruling::jerk);
+    }
+    if (span.greatest_bend > 0) {
+        const double radius = 1 / span.greatest_bend;
+        limit(arc_speed(radius, path.max_normal_acceleration), Ruling::axis_acceleration);
+        limit(chord_speed(radius, machine_->controller.chord_tolerance, machine_->controller.period),
+              Ruling::chord_error);
+    }
+}
+
+}  // namespace clsurf

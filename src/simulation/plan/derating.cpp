@@ -1,0 +1,58 @@
+#include "simulation/plan/derating.h"
+
+#include <algorithm>
+#include <array>
+
+namespace clsurf {
+namespace {
+
+constexpr double share_of_bend = 0.5;  ///< of the jerk that a twist leaves: for accelerating in a bend
+// Parts of the tangential limits: much, for long ramps through bends; little, where speeds stay nearly the same.
+struct LeastLeft {
+    double acceleration, jerk;
+};
+constexpr std::array<LeastLeft, easings> least_left{{{0.5, 0.5}, {0.2, 0.3}, {0.1, 0.15}}};
+
+/// What a speed leaves of the tangential limits. In a bend an acceleration costs jerk too, 3 y″ v a,
+/// as much at once as the tangential jerk itself: what the twist leaves is shared between them.
+Easing left_at(double speed, const Span& span, const Machine& machine) {
+    Easing left{speed, span.acceleration, span.jerk};
+    for (int i = 0; i < 3; ++i) {
+        const MachineAxis& axis = machine.axes[static_cast<std::size_t>(i)];
+        if (span.slope[i] > 0)
+            left.acceleration =
+                std::min(left.acceleration, (axis.max_acceleration - span.bend[i] * speed * speed) / span.slope[i]);
+        if (axis.max_jerk <= 0 || span.bend[i] <= 0) continue;
+        const double room = axis.max_jerk - span.twist[i] * speed * speed * speed;
+        left.acceleration = std::min(left.acceleration, share_of_bend * room / (3 * span.bend[i] * speed));
+    }
+    left.acceleration = std::max(left.acceleration, 0.0);
+    for (int i = 0; i < 3; ++i) {
+        const MachineAxis& axis = machine.axes[static_cast<std::size_t>(i)];
+        if (axis.max_jerk <= 0 || span.slope[i] <= 0) continue;
+        const double room = axis.max_jerk - span.twist[i] * speed * speed * speed;
+        left.jerk = std::min(left.jerk, (room - 3 * span.bend[i] * speed * left.acceleration) / span.slope[i]);
+    }
+    return left;
+}
+
+}  // namespace
+
+Easing ease(const Span& span, const Machine& machine, std::size_t which) {
+    const LeastLeft& least = least_left[which];
+    const auto enough = [&](const Easing& left) {
+        return left.acceleration >= least.acceleration * span.acceleration && left.jerk >= least.jerk * span.jerk;
+    };
+    const Easing at_cap = left_at(span.cap, span, machine);
+    if (enough(at_cap)) return at_cap;
+    double low = 0;
+    double high = span.cap;
+    constexpr int halvings = 40;
+    for (int k = 0; k < halvings && high - low > 1e-3 * high; ++k) {
+        const double middle = 0.5 * (low + high);
+        (enough(left_at(middle, span, machine)) ? low : high) = middle;
+    }
+    return left_at(low, span, machine);
+}
+
+}  // namespace clsurf

@@ -1,0 +1,199 @@
+// Which limits of a SpeedProblem are rows, and the rows: a limit is left out until a solution without it breaks it.
+
+#include <algorithm>
+#include <cmath>
+
+#include "simulation/plan/speed_problem.h"
+
+namespace clsurf {
+namespace {
+
+// Where a limit is broken, standing still mends it too, as J/√b grows: b may not fall to that.
+constexpr double least_coefficient = 0.2;  ///< of a coefficient, of what it began with
+// The spline holds the limits at stations; a little is left for what lies between them.
+constexpr double acceleration_share = 0.9995, jerk_share = 0.997;
+constexpr double lowering = 0.998;  ///< of a limit that is broken between its rows, besides
+// In from the beginning is what comes near its limit with the speeds to begin with, or could with some more speed and acceleration.
+constexpr double near_limit = 0.6;
+constexpr double faster = 1.1, steeper = 0.15;
+
+using Three = std::array<double, 3>;
+
+double dot(const Three& w, const double* c) { return w[0] * c[0] + w[1] * c[1] + w[2] * c[2]; }
+
+Three sum(double a, const Three& u, double b, const Three& v) {
+    return {a * u[0] + b * v[0], a * u[1] + b * v[1], a * u[2] + b * v[2]};
+}
+
+constexpr std::uint8_t acceleration_bit(int axis) {
+    return static_cast<std::uint8_t>(1U << static_cast<unsigned>(axis));
+}
+constexpr std::uint8_t jerk_bit(int axis) { return static_cast<std::uint8_t>(8U << static_cast<unsigned>(axis)); }
+
+}  // namespace
+
+/// Whether an axis may be above a part of a limit at a station of a cell where v², acceleration and jerk along the path are at most these.
+bool SpeedProblem::may_break(const Cell& cell, double part, double acceleration, double square, double jerk) const {
+    const double speed = std::sqrt(square);
+    for (int x = 0; x < 3; ++x) {
+        const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(x)];
+        if (cell.slope[x] * acceleration + cell.bend[x] * square > part * axis.max_acceleration) return true;
+        if (axis.max_jerk > 0 &&
+            cell.slope[x] * jerk + speed * (3 * cell.bend[x] * acceleration + cell.twist[x] * square) >
+                part * axis.max_jerk)
+            return true;
+    }
+    return false;
+}
+
+/// Rows for what may come to its limit, judged by the values to begin with.
+void SpeedProblem::need_likely_rows() {
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+        Cell& cell = cells_[i];
+        const double* c = &value_[i];
+        const std::array<Weights, 3> along = weights_along(i);
+        std::size_t fastest = 0;
+        for (std::size_t k = 1; k < 3; ++k) {
+            if (dot(along[k].b, c) > dot(along[fastest].b, c)) fastest = k;
+        }
+        const double b = dot(along[fastest].b, c);
+        cell.jerk[fastest] = true;  // its bound is least there
+        const double acceleration = 0.5 * std::max(std::abs(dot(along[0].slope, c)), std::abs(dot(along[2].slope, c)));
+        if (acceleration > near_limit * cell.limits.acceleration) cell.acceleration = true;
+        const double speed = std::min(faster * std::sqrt(b), cell.limits.cap);
+        const double steep = std::max(acceleration, steeper * cell.limits.acceleration);
+        if (!may_break(cell, 1, steep, speed * speed, cell.limits.jerk)) continue;
+        for (std::uint32_t s = cell.first_station; s < cell.end_station; ++s) {
+            HeldStation& held_station = stations_[s];
+            const PathSample& station = held_station.station;
+            for (int x = 0; x < 3; ++x) {
+                const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(x)];
+                const double slope = std::abs(station.slope[x]), bend = std::abs(station.bend[x]),
+                             twist = std::abs(station.twist[x]);
+                if (slope * steep + bend * speed * speed > axis.max_acceleration)
+                    held_station.needed |= acceleration_bit(x);
+                if (axis.max_jerk <= 0) continue;
+                if (slope * cell.limits.jerk + speed * (3 * bend * steep + twist * speed * speed) > axis.max_jerk)
+                    held_station.needed |= jerk_bit(x);
+            }
+        }
+    }
+}
+
+/// Rows for what is above a part of its limit and has none; false: nothing is.
+bool SpeedProblem::need_broken_rows(double part) {
+    bool any = false;
+    const auto need = [&](bool& row) { any = any || !row, row = true; };
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+        Cell& cell = cells_[i];
+        const double* c = &value_[i];
+        const Weights& begin = begins_[i];
+        const double b = dot(begin.b, c), curve = dot(begin.curve, c), slope = dot(begin.slope, c);
+        const double last_slope = slope + cell.length * curve, last = b + 0.5 * cell.length * (slope + last_slope);
+        if (0.5 * std::abs(last_slope) > part * cell.limits.acceleration) need(cell.acceleration);
+        // The tangential jerk is greatest where the speed is: at an end, or where b turns over.
+        double fastest = slope + 0.5 * cell.length * curve > 0 ? cell.length : 0;
+        if (slope > 0 && last_slope < 0) fastest = -slope / curve;
+        const double greatest = std::max({b, last, b + fastest * (slope + 0.5 * fastest * curve)});
+        const double along_path = std::abs(0.5 * curve) * std::sqrt(greatest);
+        if (along_path > part * cell.limits.jerk) {
+            bool& row = cell.jerk[static_cast<std::size_t>(std::lround(2 * fastest / cell.length))];
+            if (!row) {
+                need(row);
+            } else if (part >= 1) {  // between the rows
+                cell.jerk_share *= lowering * cell.limits.jerk / along_path;
+                any = true;
+            }
+        }
+        if (!may_break(cell, part, 0.5 * std::max(std::abs(slope), std::abs(last_slope)), greatest, along_path))
+            continue;
+        for (std::uint32_t s = cell.first_station; s < cell.end_station; ++s) {
+            HeldStation& held_station = stations_[s];
+            const PathSample& station = held_station.station;
+            const double b_here = b + station.at * (slope + 0.5 * station.at * curve);
+            const double slope_here = slope + station.at * curve;
+            const double root = std::sqrt(b_here);
+            std::uint8_t broken = 0;
+            for (int x = 0; x < 3; ++x) {
+                const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(x)];
+                const double acceleration = std::abs(0.5 * station.slope[x] * slope_here + station.bend[x] * b_here);
+                if (acceleration > part * axis.max_acceleration) broken |= acceleration_bit(x);
+                if (axis.max_jerk <= 0) continue;
+                const double jerk = std::abs(0.5 * station.slope[x] * curve + 1.5 * station.bend[x] * slope_here +
+                                             station.twist[x] * b_here) *
+                                    root;
+                if (jerk > part * axis.max_jerk) broken |= jerk_bit(x);
+            }
+            any = any || (broken & ~held_station.needed) != 0;
+            held_station.needed |= broken;
+        }
+    }
+    return any;
+}
+
+void SpeedProblem::add_cap(std::uint32_t number, std::size_t cell, const Three& weights, double cap) {
+    const double share = 1 / (cap * cap);
+    LimitRow row;
+    row.w = {weights[0] * share, weights[1] * share, weights[2] * share};
+    row.low = -least_coefficient * dot(row.w, &value_[cell]);
+    row.cell = static_cast<std::uint32_t>(cell);
+    row.number = number;
+    rows_.add(row);
+}
+
+void SpeedProblem::add_row(std::uint32_t number, Row kind, std::size_t cell, const Three& w, double limit) {
+    rows_.add({{w[0] / limit, w[1] / limit, w[2] / limit}, {}, 1, 1, static_cast<std::uint32_t>(cell), number, kind});
+}
+
+void SpeedProblem::add_jerk(std::uint32_t number, Row kind, std::size_t cell, const Three& w, const Three& b,
+                            double limit) {
+    rows_.add({{w[0] / limit, w[1] / limit, w[2] / limit}, b, 0, 1, static_cast<std::uint32_t>(cell), number, kind});
+}
+
+void SpeedProblem::make_rows() {
+    rows_.clear();
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+        Cell& cell = cells_[i];
+        const bool last_cell = i + 1 == cells_.size();
+        const std::array<Weights, 3> along = weights_along(i);
+        const Weights& last = along[2];
+        // A cell's b lies below the greatest of its coefficient and b at its ends (they are its Bézier points).
+        if (i > 0 && !last_cell) add_cap(0, i, {0, 1, 0}, cell.limits.cap);
+        if (!last_cell) {
+            const CellLimits& next = cells_[i + 1].limits;
+            add_cap(1, i, last.b, std::min(cell.limits.cap, next.cap));
+            if (cell.acceleration)
+                add_row(2, Row::tangential_acceleration, i, sum(0.5, last.slope, 0, last.slope),
+                        acceleration_share * std::min(cell.limits.acceleration, next.acceleration));
+        }
+        const double jerk = jerk_share * cell.jerk_share * cell.limits.jerk;
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            if (cell.jerk[k])
+                add_jerk(3 + k, Row::tangential_jerk, i, sum(0.5, along[k].curve, 0, along[k].curve), along[k].b, jerk);
+        }
+        for (std::uint32_t s = cell.first_station; s < cell.end_station; ++s) {
+            if (stations_[s].needed == 0) continue;
+            const PathSample& station = stations_[s].station;
+            const Weights w = weights_at(i, station.at);
+            for (int x = 0; x < 3; ++x) {
+                const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(x)];
+                const std::uint32_t number = 6 + 6 * (s - cell.first_station) + 2 * static_cast<std::uint32_t>(x);
+                if ((stations_[s].needed & acceleration_bit(x)) != 0) {
+                    add_row(number, Row::axis_acceleration, i,
+                            sum(0.5 * station.slope[x], w.slope, station.bend[x], w.b),
+                            acceleration_share * axis.max_acceleration);
+                }
+                if ((stations_[s].needed & jerk_bit(x)) != 0) {
+                    const double limit = jerk_share * axis.max_jerk;
+                    const double steady =
+                        std::abs(station.twist[x]) * cell.limits.cap * cell.limits.cap * cell.limits.cap;
+                    const Three moving = sum(1.5 * station.bend[x], w.slope, station.twist[x], w.b);
+                    add_jerk(number + 1, steady > 0.5 * limit ? Row::corner_jerk : Row::axis_jerk, i,
+                             sum(0.5 * station.slope[x], w.curve, 1, moving), w.b, limit);
+                }
+            }
+        }
+    }
+}
+
+}  // namespace clsurf

@@ -1,0 +1,161 @@
+#include "simulation/plan/scan_driver.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "simulation/path/junction.h"
+
+namespace clsurf {
+namespace {
+
+constexpr double periods_a_cell = 0.5;  ///< of a bent span, at the speed that it may be passed with
+constexpr int most_cells_of_span = 16;
+// An acceleration x′ a + x″ v² differs between two places, Δ apart, from the line through it there by at most Δ²/8 of its
+// second derivative, 5 x‴ a + x⁗ v². So much is left at the places, and they are that near to each other:
+constexpr double left_over = 0.005;         ///< of an acceleration
+constexpr double least_acceleration = 0.5;  ///< of an acceleration, whatever is left of it
+constexpr int most_parts = 8;               ///< of a cell, between its places
+
+}  // namespace
+
+bool jerks_freely(const Machine& machine) {
+    const bool axes = std::any_of(machine.axes.begin(), machine.axes.end(),
+                                  [](const MachineAxis& axis) { return axis.max_jerk > 0; });
+    return !axes && machine.path.max_jerk * machine.controller.period >= 2 * machine.path.max_acceleration;
+}
+
+bool ScanDriver::take_span() {
+    const Span* span = stream_->next();
+    if (span == nullptr) return false;
+    spans_.push_back(*span);
+    divide(spans_.back());
+    return true;
+}
+
+/// How much an axis' acceleration may bend over the way, x‴ and x⁗ at their greatest [1/s²].
+Vec3 ScanDriver::curving(const Span& span) const {
+    const double fastest =
+        std::min(span.free_cap, arc_speed(1 / span.greatest_bend, machine_->path.max_normal_acceleration));
+    return (5 * machine_->path.max_acceleration * span.twist).array() + fastest * fastest * span.fourth;
+}
+
+/// No axis comes to its limit on a span, as long as the acceleration along the path keeps to that of a straight one.
+bool ScanDriver::gentle(const Span& span) const {
+    if (span.straight()) return true;
+    if (span.cap < span.free_cap) return false;
+    for (int x = 0; x < 3; ++x) {
+        const double bending = span.bend[x] * span.cap * span.cap;
+        if (span.slope[x] * span.acceleration + bending > machine_->axes[static_cast<std::size_t>(x)].max_acceleration)
+            return false;
+    }
+    return true;
+}
+
+void ScanDriver::divide(const Span& span) {
+    if (gentle(span)) {
+        scan_.add_cell(span.length, span.free_cap, span.acceleration);
+        cells_.push_back({&span, 0, span.free_ruling});
+        return;
+    }
+    // From rest to rest there is no way in a single cell.
+    const double fewest = cells_.empty() ? 2 : 1;
+    const int count =
+        static_cast<int>(std::clamp(std::ceil(span.length / (span.cap * machine_->controller.period * periods_a_cell)),
+                                    fewest, double{most_cells_of_span}));
+    const double length = span.length / count;
+    const Vec3 curving = this->curving(span);
+    double steepest = 0;
+    for (int x = 0; x < 3; ++x)
+        steepest = std::max(steepest, curving[x] / machine_->axes[static_cast<std::size_t>(x)].max_acceleration);
+    const auto parts = static_cast<std::size_t>(
+        std::clamp(std::ceil(length * std::sqrt(steepest / (8 * left_over))), 1.0, double{most_parts}));
+    const double part = length / static_cast<double>(parts);
+    Vec3 limits;
+    for (int x = 0; x < 3; ++x) {
+        const double greatest = machine_->axes[static_cast<std::size_t>(x)].max_acceleration;
+        limits[x] = std::max(greatest - part * part / 8 * curving[x], least_acceleration * greatest);
+    }
+    places_.resize(parts + 1);
+    places_[parts] = span.derivatives(0);
+    for (int k = 0; k < count; ++k) {
+        places_[0] = places_[parts];
+        for (std::size_t p = 1; p <= parts; ++p)
+            places_[p] = span.derivatives(length * k + part * static_cast<double>(p));
+        add_cell({&span, length * k, span.free_ruling}, length, limits);
+    }
+}
+
+/// A cell with places_ along it, where the axes keep to these accelerations.
+void ScanDriver::add_cell(Cell cell, double length, const Vec3& accelerations) {
+    const PathLimits& path = machine_->path;
+    double cap = cell.span->free_cap;
+    const auto limit = [&](double speed, Ruling why) {
+        if (speed < cap) cap = speed, cell.at_cap = why;
+    };
+    double bend = 0;
+    for (const PathDerivatives& place : places_) bend = std::max(bend, place.second.squaredNorm());
+    if (bend > 0) {
+        const double radius = 1 / std::sqrt(bend);
+        limit(arc_speed(radius, path.max_normal_acceleration), Ruling::axis_acceleration);
+        limit(chord_speed(radius, machine_->controller.chord_tolerance, machine_->controller.period),
+              Ruling::chord_error);
+    }
+    cells_.push_back(cell);
+    scan_.add_cell(length, cap, path.max_acceleration);
+    const double part = length / static_cast<double>(places_.size() - 1);
+    for (std::size_t p = 0; p < places_.size(); ++p) {
+        for (int x = 0; x < 3; ++x)
+            scan_.add_limit(part * static_cast<double>(p), places_[p].first[x], places_[p].second[x], accelerations[x]);
+    }
+}
+
+void ScanDriver::run_section(const std::function<void()>& report) {
+    spans_.clear();
+    cells_.clear();
+    scan_.clear();
+    const std::int64_t blocks = machine_->controller.lookahead_blocks;
+    double speed = 0;
+    bool ended = false;
+    while (!ended || !cells_.empty()) {
+        while (!ended && (spans_.empty() || spans_.back().base.block - spans_.front().base.block < blocks))
+            ended = !take_span();
+        if (cells_.empty()) return;
+        std::size_t count = cells_.size();
+        if (!ended) {
+            const std::int64_t middle = cells_.front().span->base.block + std::max<std::int64_t>(1, blocks / 2);
+            count = 1;
+            while (count + 1 < cells_.size() && cells_[count].span->base.block < middle) ++count;
+        }
+        scan_.plan(speed);
+        speed = scan_.speed(count);
+        run(count);
+        report();
+    }
+}
+
+/// The first cells; then they are forgotten.
+void ScanDriver::run(std::size_t count) {
+    // What brakes to the end of what is known.
+    std::size_t braking = scan_.size();
+    while (braking > 0 && scan_.speed(braking) < scan_.speed(braking - 1)) --braking;
+    for (std::size_t i = 0; i < count; ++i) {
+        const Cell& cell = cells_[i];
+        scan_.motions(i, motions_);
+        double from = cell.from;
+        for (const CellMotion& motion : motions_) {
+            const bool last_way = i >= braking || (i + 1 == braking && motion.acceleration < 0);
+            const Ruling ruling = scan_.at_cap(i, motion)               ? cell.at_cap
+                                  : last_way && motion.acceleration < 0 ? Ruling::lookahead_end
+                                                                        : Ruling::axis_acceleration;
+            const CellPart part{cell.span, from, motion.length};
+            interpolator_->run(motion, {&part, 1}, ruling);
+            from += motion.length;
+        }
+    }
+    cells_.erase(cells_.begin(), cells_.begin() + static_cast<std::ptrdiff_t>(count));
+    scan_.drop_front(count);
+    const Span* first = cells_.empty() ? nullptr : cells_.front().span;
+    while (!spans_.empty() && &spans_.front() != first) spans_.pop_front();
+}
+
+}  // namespace clsurf

@@ -1,0 +1,56 @@
+#pragma once
+// ScanDriver: runs sections of a path on a machine without a jerk limit, with SpeedScan.
+//
+// The spans of a window of blocks are divided into cells. Half of the window is run, then it is planned again.
+// The cells do not change and each plan ends at rest, so a plan that continues the last one always exists.
+
+#include <deque>
+#include <functional>
+#include <vector>
+
+#include "simulation/path/path_stream.h"
+#include "simulation/plan/speed_scan.h"
+#include "simulation/run/interpolator.h"
+
+namespace clsurf {
+
+/// No axis has a jerk limit, and that of the path lets the acceleration turn round within a period, so that
+/// points could not show it.
+[[nodiscard]] bool jerks_freely(const Machine& machine);
+
+class ScanDriver {
+public:
+    /// All must outlive it.
+    ScanDriver(const Machine& machine, PathStream& stream, Interpolator& interpolator)
+        : machine_(&machine), stream_(&stream), interpolator_(&interpolator) {}
+
+    /// Runs a section, from rest to rest; `report` is called after each part of it.
+    void run_section(const std::function<void()>& report);
+
+private:
+    /// What a cell of the scan lies on.
+    struct Cell {
+        const Span* span = nullptr;
+        double from = 0;  ///< on the span [mm]
+        Ruling at_cap = Ruling::none;
+    };
+
+    [[nodiscard]] bool take_span();
+    [[nodiscard]] bool gentle(const Span& span) const;
+    [[nodiscard]] Vec3 curving(const Span& span) const;
+    void divide(const Span& span);
+    void add_cell(Cell cell, double length, const Vec3& accelerations);
+    void run(std::size_t count);
+
+    const Machine* machine_;
+    PathStream* stream_;
+    Interpolator* interpolator_;
+    std::deque<Span> spans_;   ///< of the window
+    std::vector<Cell> cells_;  ///< those of scan_
+    SpeedScan scan_;
+    // Scratch: of a cell, from its begin to its end, and how it is driven.
+    std::vector<PathDerivatives> places_;
+    std::vector<CellMotion> motions_;
+};
+
+}  // namespace clsurf

@@ -1,0 +1,195 @@
+#include "simulation/plan/scurve.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "numeric/root_between.h"
+
+namespace clsurf {
+namespace {
+
+// A way is long enough for a ramp when it misses less than this: speeds that come from reach()
+// carry rounding relative to the way.
+constexpr double relative_play = 1e-9;
+constexpr double absolute_play = 1e-12;  ///< [mm]
+constexpr double speed_play = 4 * std::numeric_limits<double>::epsilon();
+
+constexpr std::array<double, 7> jerk_signs{1, 0, -1, 0, -1, 0, 1};
+
+struct Ramp {
+    double jerk_part = 0, constant_part = 0;
+};
+
+Ramp ramp_of(double difference, double acceleration, double jerk) {
+    if (difference <= acceleration * (acceleration / jerk)) return {std::sqrt(difference / jerk), 0.0};
+    return {acceleration / jerk, difference / acceleration - acceleration / jerk};
+}
+
+MotionState advance(const MotionState& from, double t, double jerk) {
+    return {from.way + t * (from.speed + t * (0.5 * from.acceleration + t * jerk / 6)),
+            from.speed + t * (from.acceleration + 0.5 * t * jerk), from.acceleration + t * jerk};
+}
+
+/// The peak speed v ≥ both ends for which the two ramps take the whole way: rises strictly there.
+double peak_speed(double way, double vs, double ve, const RampLimits& limits) {
+    const auto excess = [&](double v) {
+        return ramp_distance(vs, v, limits.acceleration, limits.jerk) +
+               ramp_distance(v, ve, limits.deceleration, limits.jerk) - way;
+    };
+    double low = std::max(vs, ve);
+    double high = limits.speed;
+    if (!std::isfinite(high)) high = reach(low, way, std::max(limits.acceleration, limits.deceleration), limits.jerk);
+    const double at_low = excess(low);
+    const double at_high = excess(high);
+    if (at_low >= 0) return low;
+    if (at_high <= 0) return high;
+    return root_between(low, at_low, high, at_high, 1e-15, 1e-15 * way, excess);
+}
+
+}  // namespace
+
+double ramp_time(double difference, double acceleration, double jerk) {
+    const Ramp ramp = ramp_of(difference, acceleration, jerk);
+    return 2 * ramp.jerk_part + ramp.constant_part;
+}
+
+double ramp_distance(double v0, double v1, double acceleration, double jerk) {
+    return 0.5 * (v0 + v1) * ramp_time(std::abs(v1 - v0), acceleration, jerk);
+}
+
+double reach(double v0, double way, double acceleration, double jerk) {
+    if (way <= 0) return v0;
+    const double p = 2 * v0 / jerk;
+    const double q = way / jerk;
+    double t = 0;
+    // Below this p³ is lost beside q²: the cubic is then t³ = q.
+    if (p * p * p < 1e-30 * q * q) {
+        t = std::cbrt(q);
+    } else {
+        const double root = std::sqrt(p / 3);
+        t = 2 * root * std::sinh(std::asinh(1.5 * q / (p * root)) / 3);
+    }
+    if (jerk * t <= acceleration) return v0 + jerk * t * t;
+    const double h = acceleration * acceleration / (2 * jerk);
+    return -h + std::sqrt((h - v0) * (h - v0) + 2 * acceleration * way);
+}
+
+SCurve::SCurve(double start_speed, double jerk, const std::array<double, 7>& durations)
+    : durations_(durations), jerk_(jerk) {
+    MotionState state{0, start_speed, 0};
+    double time = 0;
+    for (std::size_t i = 0; i < 7; ++i) {
+        starts_[i] = state;
+        state = advance(state, durations[i], jerk_signs[i] * jerk);
+        if (i == 2 || i == 6) state.acceleration = 0;  // exactly, not up to rounding
+        time += durations[i];
+        ends_[i] = time;
+    }
+    length_ = state.way;
+    end_speed_ = state.speed;
+}
+
+void SCurve::pin_end(double length, double end_speed) {
+    length_ = length;
+    end_speed_ = end_speed;
+}
+
+MotionState SCurve::in_phase(int phase, double t) const {
+    const auto i = static_cast<std::size_t>(phase);
+    return advance(starts_[i], t - (ends_[i] - durations_[i]), jerk_signs[i] * jerk_);
+}
+
+MotionState SCurve::at(double t) const {
+    if (t >= ends_[6]) return {length_, end_speed_, 0};
+    int phase = 0;
+    while (phase < 6 && t >= ends_[static_cast<std::size_t>(phase)]) ++phase;
+    return in_phase(phase, std::max(t, 0.0));
+}
+
+double SCurve::time_at(double way) const {
+    if (way <= 0) return 0;
+    if (way >= length_) return duration();
+    std::size_t phase = 0;
+    while (phase < 6 && way >= starts_[phase + 1].way) ++phase;
+    const MotionState& start = starts_[phase];
+    const double begin = ends_[phase] - durations_[phase];
+    const double jerk = jerk_signs[phase] * jerk_;
+    // With the acceleration that the phase begins with: exact where there is no jerk.
+    const double left = way - start.way;
+    double t =
+        2 * left / (start.speed + std::sqrt(std::max(0.0, start.speed * start.speed + 2 * start.acceleration * left)));
+    if (jerk == 0) return begin + std::min(t, durations_[phase]);
+    double low = 0;
+    double high = durations_[phase];
+    if (!(t < high)) t = 0.5 * high;
+    for (int i = 0; i < 100 && high - low > 1e-15 * ends_[6]; ++i) {
+        const MotionState s = advance(start, t, jerk);
+        const double excess = s.way - way;
+        if (std::abs(excess) <= 1e-14 * length_) break;
+        (excess < 0 ? low : high) = t;
+        const double next =
+            s.speed > 0 ? t - excess * s.speed / (s.speed * s.speed - 0.5 * excess * s.acceleration) : low;
+        t = next > low && next < high ? next : 0.5 * (low + high);
+    }
+    return begin + t;
+}
+
+PlannedProfile plan_scurve(double way, double start_speed, double end_speed, const RampLimits& limits) {
+    PlannedProfile plan;
+    const double vs = start_speed;
+    double ve = end_speed;
+    const double towards = ve > vs ? limits.acceleration : limits.deceleration;
+    plan.needed_way = ramp_distance(vs, ve, towards, limits.jerk);
+    // A difference of speeds carries their rounding: on a way so short that it is no more than that, the ramp fits.
+    const double rounding = speed_play * std::max(vs, ve);
+    const double least_way =
+        0.5 * (vs + ve) * ramp_time(std::max(0.0, std::abs(ve - vs) - rounding), towards, limits.jerk);
+    if (least_way > way * (1 + relative_play) + absolute_play) {
+        if (ve < vs) {
+            plan.status = ProfileStatus::infeasible_decel;
+            plan.allowed_start = reach(ve, way, limits.deceleration, limits.jerk);
+            return plan;
+        }
+        plan.status = ProfileStatus::end_speed_lowered;
+        ve = std::min(reach(vs, way, limits.acceleration, limits.jerk), limits.speed);
+    }
+    const double at_limit = std::isfinite(limits.speed)
+                                ? ramp_distance(vs, limits.speed, limits.acceleration, limits.jerk) +
+                                      ramp_distance(limits.speed, ve, limits.deceleration, limits.jerk)
+                                : way + 1;
+    double peak = limits.speed;
+    double cruise = 0;
+    if (at_limit <= way)
+        cruise = way > at_limit ? (way - at_limit) / limits.speed : 0.0;
+    else
+        peak = peak_speed(way, vs, ve, limits);
+    const Ramp up = ramp_of(peak - vs, limits.acceleration, limits.jerk);
+    const Ramp down = ramp_of(peak - ve, limits.deceleration, limits.jerk);
+    plan.profile = SCurve(
+        vs, limits.jerk,
+        {up.jerk_part, up.constant_part, up.jerk_part, cruise, down.jerk_part, down.constant_part, down.jerk_part});
+    plan.profile.pin_end(way, ve);
+    return plan;
+}
+
+RunningRamp ramp_from_state(double v0, double a0, double v1, double acceleration, double jerk) {
+    const double stop = v0 + a0 * std::abs(a0) / (2 * jerk);
+    const double sign = v1 >= stop ? 1.0 : -1.0;
+    double peak = sign * std::sqrt(std::max(0.0, sign * jerk * (v1 - v0) + 0.5 * a0 * a0));
+    RunningRamp ramp;
+    if (std::abs(peak) > acceleration) {
+        peak = sign * acceleration;
+        ramp.durations[1] = (v1 - v0 - sign * (2 * peak * peak - a0 * a0) / (2 * jerk)) / peak;
+    }
+    ramp.durations[0] = sign * (peak - a0) / jerk;
+    ramp.durations[2] = std::abs(peak) / jerk;
+    ramp.jerks = {sign * jerk, 0.0, -sign * jerk};
+    MotionState state{0, v0, a0};
+    for (std::size_t i = 0; i < 3; ++i) state = advance(state, ramp.durations[i], ramp.jerks[i]);
+    ramp.way = state.way;
+    return ramp;
+}
+
+}  // namespace clsurf

@@ -1,0 +1,265 @@
+#include "simulation/plan/speed_problem.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clsurf {
+namespace {
+
+constexpr int most_steps = 90;
+constexpr double end_gap = 4e-3;         ///< of the time: how far from the optimum it stops
+constexpr double boundary_share = 0.97;  ///< of the way to a limit in one step
+// A start far from every limit, as its slacks say, converges best.
+constexpr double first_slack = 1.0;  ///< of a bound, at least
+constexpr double first_gap = 1.0;    ///< of the time
+constexpr double diverged = 1e3;     ///< of the time: a gap of a problem without a solution
+constexpr double mended = 1e-4;      ///< of a bound
+constexpr double held = 1 + 3e-4;    ///< part of a limit that counts as held
+constexpr int most_rounds = 6;       ///< with rows for what the last solution broke
+// On the way to a solution rows are looked for, too: first at a gap, then whenever it has shrunk to a part of itself, until it is small.
+constexpr double early_gap = 0.3, look_step = 0.3, last_look = 0.02;  ///< of the time; of the gap; of the time
+constexpr double nearly_held = 0.8;                                   ///< part of a limit that gets a row there
+constexpr double later_slack = 0.05;                                  ///< of a bound, of a row that joins
+
+}  // namespace
+
+double SpeedProblem::value_between(double length, const KnotState& begin, const KnotState& end) {
+    const double from_begin = begin.speed * begin.speed + begin.acceleration * length;
+    const double from_end = end.speed * end.speed - end.acceleration * length;
+    const double low = std::min(begin.speed, end.speed), high = std::max(begin.speed, end.speed);
+    return std::clamp(0.5 * (from_begin + from_end), std::max(low * low, 0.01 * high * high), high * high * 1.5);
+}
+
+void SpeedProblem::clear() {
+    cells_.clear();
+    stations_.clear();
+    ruling_.clear();
+    value_.assign(1, 0.0);
+}
+
+void SpeedProblem::add_cell(double length, double value, const CellLimits& limits) {
+    const auto at = static_cast<std::uint32_t>(stations_.size());
+    value_.resize(cells_.size() + 1);  // without the one beyond the end
+    Cell cell;
+    cell.length = length;
+    cell.limits = limits;
+    cell.first_station = cell.end_station = at;
+    cells_.push_back(cell);
+    value_.push_back(value);
+}
+
+void SpeedProblem::add_station(const PathSample& station) {
+    stations_.push_back({station});
+    Cell& cell = cells_.back();
+    cell.end_station = static_cast<std::uint32_t>(stations_.size());
+    cell.slope = cell.slope.cwiseMax(station.slope.cwiseAbs());
+    cell.bend = cell.bend.cwiseMax(station.bend.cwiseAbs());
+    cell.twist = cell.twist.cwiseMax(station.twist.cwiseAbs());
+}
+
+void SpeedProblem::drop_back(std::size_t left) {
+    if (left == cells_.size()) return;
+    stations_.erase(stations_.begin() + static_cast<std::ptrdiff_t>(cells_[left].first_station), stations_.end());
+    cells_.resize(left);
+    value_.resize(left + 1);
+    ruling_.resize(std::min(left, ruling_.size()));
+}
+
+void SpeedProblem::drop_front(std::size_t count) {
+    if (count == 0) return;
+    const std::uint32_t stations = cells_[count - 1].end_station;
+    cells_.erase(cells_.begin(), cells_.begin() + static_cast<std::ptrdiff_t>(count));
+    stations_.erase(stations_.begin(), stations_.begin() + static_cast<std::ptrdiff_t>(stations));
+    value_.erase(value_.begin(), value_.begin() + static_cast<std::ptrdiff_t>(count));
+    ruling_.erase(ruling_.begin(), ruling_.begin() + static_cast<std::ptrdiff_t>(std::min(count, ruling_.size())));
+    for (Cell& cell : cells_) cell.first_station -= stations, cell.end_station -= stations;
+}
+
+/// The states at the ends set the first and last cell, and one beyond, as long, that gives b there.
+void SpeedProblem::fix_ends(const KnotState& start, const KnotState& end) {
+    const double first = cells_.front().length, last = cells_.back().length;
+    const std::size_t n = cells_.size();
+    value_.resize(n + 2);
+    value_[1] = start.speed * start.speed + start.acceleration * first;
+    value_[0] = value_[1] - 2 * start.acceleration * first;
+    value_[n] = end.speed * end.speed - end.acceleration * last;
+    value_[n + 1] = value_[n] + 2 * end.acceleration * last;
+}
+
+/// The weights at the begins of all cells.
+void SpeedProblem::weigh() {
+    begins_.resize(cells_.size());
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+        const double h = cells_[i].length;
+        const double before = 1 / ((i > 0 ? cells_[i - 1].length : h) + h),
+                     after = 1 / (h + (i + 1 < cells_.size() ? cells_[i + 1].length : h));
+        begins_[i] = {{h * before, 1 - h * before, 0},
+                      {-2 * before, 2 * before, 0},
+                      {2 * before / h, (-2 * after - 2 * before) / h, 2 * after / h}};
+    }
+}
+
+SpeedProblem::Weights SpeedProblem::weights_at(std::size_t cell, double at) const {
+    const Weights& begin = begins_[cell];
+    Weights w;
+    for (std::size_t q = 0; q < 3; ++q) {
+        w.b[q] = begin.b[q] + at * (begin.slope[q] + 0.5 * at * begin.curve[q]);
+        w.slope[q] = begin.slope[q] + at * begin.curve[q];
+    }
+    w.curve = begin.curve;
+    return w;
+}
+
+std::array<SpeedProblem::Weights, 3> SpeedProblem::weights_along(std::size_t cell) const {
+    const double h = cells_[cell].length;
+    return {weights_at(cell, 0), weights_at(cell, 0.5 * h), weights_at(cell, h)};
+}
+
+double SpeedProblem::time() const {
+    double sum = 0;
+    for (std::size_t i = 0; i < cells_.size(); ++i) sum += cells_[i].length / std::sqrt(value_[i + 1]);
+    return sum;
+}
+
+/// No speeds take less [s].
+double SpeedProblem::time_at_caps() const {
+    double sum = 0;
+    for (const Cell& cell : cells_) sum += cell.length / cell.limits.cap;
+    return sum;
+}
+
+/// Rows that have become needed, beside those that are there with what they are in the middle of.
+void SpeedProblem::add_needed_rows() {
+    std::swap(rows_before_, rows_);
+    make_rows();
+    rows_.begin(value_.data(), gap_ / rows_before_.sides(), later_slack, &rows_before_);
+}
+
+/// The Newton matrix, and its right side but for the barrier.
+void SpeedProblem::assemble() {
+    const std::size_t n = cells_.size();
+    for (std::vector<double>* part : {&newton_.d0, &newton_.d1, &newton_.d2, &newton_.pull}) part->assign(n + 2, 0);
+    for (std::size_t i = 0; i < n; ++i) {
+        const double c = value_[i + 1];
+        const double gradient = 0.5 * cells_[i].length / (c * std::sqrt(c));
+        newton_.pull[i + 1] = gradient;
+        newton_.d0[i + 1] = 1.5 * gradient / c;
+    }
+    const LimitRows::Gap gap = rows_.assemble(value_.data(), newton_);
+    gap_ = gap.sum;
+    broken_ = gap.broken;
+}
+
+/// L D Lᵀ of the five diagonals in place; the coefficients at the ends are known.
+bool SpeedProblem::factorise() {
+    const std::size_t first = 2, last = cells_.size() - 1;
+    for (std::size_t i = first; i <= last; ++i) {
+        if (!(newton_.d0[i] > 0) || !std::isfinite(newton_.d0[i])) return false;
+        newton_.d0[i] = 1 / newton_.d0[i];
+        const double l1 = newton_.d1[i] * newton_.d0[i], l2 = newton_.d2[i] * newton_.d0[i];
+        if (i + 1 <= last) {
+            newton_.d0[i + 1] -= l1 * newton_.d1[i];
+            newton_.d1[i + 1] -= l1 * newton_.d2[i];
+        }
+        if (i + 2 <= last) newton_.d0[i + 2] -= l2 * newton_.d2[i];
+        newton_.d1[i] = l1;
+        newton_.d2[i] = l2;
+    }
+    return true;
+}
+
+/// step_ becomes the solution for the right side that is in it.
+void SpeedProblem::substitute() {
+    const std::size_t first = 2, last = cells_.size() - 1;
+    for (std::size_t i = first; i <= last; ++i) {
+        if (i + 1 <= last) step_[i + 1] -= newton_.d1[i] * step_[i];
+        if (i + 2 <= last) step_[i + 2] -= newton_.d2[i] * step_[i];
+    }
+    for (std::size_t i = last + 1; i-- > first;) {
+        step_[i] *= newton_.d0[i];
+        if (i + 1 <= last) step_[i] -= newton_.d1[i] * step_[i + 1];
+        if (i + 2 <= last) step_[i] -= newton_.d2[i] * step_[i + 2];
+    }
+    for (const std::size_t end : {std::size_t{0}, std::size_t{1}, cells_.size(), cells_.size() + 1}) step_[end] = 0;
+}
+
+bool SpeedProblem::solve(const KnotState& start, const KnotState& end) {
+    const std::vector<double> before = value_;
+    if (optimise(start, end)) return true;
+    value_ = before;
+    return false;
+}
+
+bool SpeedProblem::optimise(const KnotState& start, const KnotState& end) {
+    constexpr std::size_t fewest = 4;
+    if (cells_.size() < fewest) return false;
+    fix_ends(start, end);
+    for (const double c : value_) {
+        if (!std::isfinite(c)) return false;
+    }
+    for (std::size_t i = 1; i + 1 < value_.size(); ++i) {
+        if (!(value_[i] > 0)) return false;
+    }
+    const double planned = time();
+    if (planned < (1 + end_gap) * time_at_caps()) return false;
+    weigh();
+    need_likely_rows();
+    for (int round = 0; round < most_rounds; ++round) {
+        make_rows();
+        rows_.begin(value_.data(), first_gap * time() / rows_.sides(), first_slack);
+        if (!iterate() || time() > planned) return false;
+        if (!need_broken_rows(held)) {
+            ruling_.assign(cells_.size(), Row::cap);
+            rows_.judge(value_.data(), ruling_);
+            return true;
+        }
+    }
+    return false;
+}
+
+/// Newton's steps to the optimum for the rows; false: it was not found.
+bool SpeedProblem::iterate() {
+    double look_at = early_gap;
+    for (int k = 0; k < most_steps; ++k) {
+        assemble();
+        const double gap = gap_ / time();
+        if (gap < end_gap && broken_ < mended) return true;
+        if (!(gap < diverged)) return false;
+        if (gap < look_at) {
+            // While slacks are large, rows can join without ado.
+            look_at = gap > last_look ? look_step * gap : 0;
+            if (need_broken_rows(nearly_held)) {
+                add_needed_rows();
+                assemble();
+            }
+        }
+        if (!step()) return false;
+    }
+    return broken_ < mended;
+}
+
+bool SpeedProblem::step() {
+    if (!factorise()) return false;
+    step_ = newton_.pull;
+    substitute();
+    const auto taken = [](double most) { return std::min(1.0, boundary_share / most); };
+    newton_.centring.assign(value_.size(), 0);
+    newton_.products.assign(value_.size(), 0);
+    const LimitRows::Steps predicted = rows_.predict(step_.data(), newton_);
+    const double primal = taken(predicted.primal), dual = taken(predicted.dual);
+    const double left =
+        gap_ + primal * predicted.by_primal + dual * predicted.by_dual + primal * dual * predicted.by_both;
+    constexpr double least_centre = 1e-3;
+    const double centre = std::clamp(left / gap_, least_centre, 1.0) * gap_ / rows_.sides();
+    for (std::size_t i = 0; i < step_.size(); ++i)
+        step_[i] = newton_.pull[i] + centre * newton_.centring[i] - newton_.products[i];
+    substitute();
+    const LimitRows::Steps corrected = rows_.correct(step_.data(), centre);
+    if (!std::isfinite(corrected.primal) || !std::isfinite(corrected.dual)) return false;
+    const double forward = taken(corrected.primal);
+    for (std::size_t i = 0; i < step_.size(); ++i) value_[i] += forward * step_[i];
+    rows_.advance(forward, taken(corrected.dual));
+    return true;
+}
+
+}  // namespace clsurf

@@ -1,0 +1,126 @@
+#pragma once
+// SpeedProblem: the fastest speeds along a given path under limits of speed, acceleration and jerk.
+//
+// The unknown is b(u) = v², where u is arc length: a quadratic spline with one coefficient c per cell. Then a
+// = b′/2 is continuous and the jerk is √b b″/2. With the derivatives of the path x′, x″, x‴ for each axis,
+//
+//     |x′ b′/2 + x″ b| ≤ A,      |x′ b″/2 + 3/2 x″ b′ + x‴ b| ≤ J/√b.
+//
+// The first limit is linear. The second has a right side that is convex in b: its tangent lies below it, so
+// every step that keeps the linearised limits keeps the limits themselves. The time ∫ du/√b is convex. A
+// primal-dual interior-point method solves the problem. Each c is coupled to two neighbours on either side, so
+// the Newton matrix has five diagonals, and a step costs time linear in cells.
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "core/geometry.h"
+#include "machine/machine.h"
+#include "simulation/plan/limit_rows.h"
+
+namespace clsurf {
+
+/// Speed and tangential acceleration at a knot [mm/s, mm/s²].
+struct KnotState {
+    double speed = 0, acceleration = 0;
+};
+
+/// A cell's limits of the speed [mm/s] and along the path.
+struct CellLimits {
+    double cap = 0, acceleration = 0, jerk = 0;
+};
+
+/// The derivatives of a bent path at a place of a cell.
+struct PathSample {
+    double at = 0;                                                         ///< way after the cell's begin [mm]
+    Vec3 slope = Vec3::Zero(), bend = Vec3::Zero(), twist = Vec3::Zero();  ///< x′, x″ [1/mm], x‴ [1/mm²]
+};
+
+class SpeedProblem {
+public:
+    explicit SpeedProblem(const Machine& machine) : machine_(&machine) {}
+
+    void clear();
+    /// A cell after the last one; `value`: its coefficient to begin with [mm²/s²], greater than 0.
+    void add_cell(double length, double value, const CellLimits& limits);
+    /// A place of the last cell where the limits of the axes are held.
+    void add_station(const PathSample& station);
+
+    /// The fastest speeds from one state to another. False: none was found that holds every limit, or none much
+    /// faster; the values are then what they were. At least four cells.
+    [[nodiscard]] bool solve(const KnotState& start, const KnotState& end);
+
+    /// Forgets all cells but the first ones.
+    void drop_back(std::size_t left);
+    /// Forgets the first cells.
+    void drop_front(std::size_t count);
+    /// Coefficient of a cell [mm²/s²].
+    [[nodiscard]] double value(std::size_t cell) const { return value_[cell + 1]; }
+    /// The limit that a cell is nearest to.
+    [[nodiscard]] Row ruling(std::size_t cell) const { return ruling_[cell]; }
+
+    /// Coefficient of a cell from a profile's states at its two knots.
+    [[nodiscard]] static double value_between(double length, const KnotState& begin, const KnotState& end);
+
+private:
+    struct Cell {
+        double length = 0;
+        CellLimits limits;
+        std::uint32_t first_station = 0, end_station = 0;
+        // Greatest of its stations.
+        Vec3 slope = Vec3::Zero(), bend = Vec3::Zero(), twist = Vec3::Zero();
+        // Rows found to be needed: of the acceleration at the end; of the jerk at begin, middle and end.
+        bool acceleration = false;
+        std::array<bool, 3> jerk{};
+        double jerk_share = 1;  ///< of the jerk along the path, lowered where it is broken between rows
+    };
+    struct HeldStation {
+        PathSample station;
+        std::uint8_t needed = 0;  ///< a bit for the acceleration of each axis, then one for the jerk of each
+    };
+    /// Weights of a cell's three coefficients for b, b′ and b″ at a place.
+    struct Weights {
+        std::array<double, 3> b{}, slope{}, curve{};
+    };
+    // speed_problem.cpp: the solution
+    [[nodiscard]] bool optimise(const KnotState& start, const KnotState& end);
+    void fix_ends(const KnotState& start, const KnotState& end);
+    void weigh();
+    [[nodiscard]] bool iterate();
+    void assemble();
+    [[nodiscard]] bool step();
+    [[nodiscard]] bool factorise();
+    void substitute();
+    [[nodiscard]] double time() const;
+    [[nodiscard]] double time_at_caps() const;
+    void add_needed_rows();
+
+    // needed_rows.cpp: which limits are rows
+    void need_likely_rows();
+    [[nodiscard]] bool need_broken_rows(double part);
+    [[nodiscard]] bool may_break(const Cell& cell, double part, double acceleration, double square, double jerk) const;
+    void make_rows();
+    void add_cap(std::uint32_t number, std::size_t cell, const std::array<double, 3>& weights, double cap);
+    void add_row(std::uint32_t number, Row kind, std::size_t cell, const std::array<double, 3>& w, double limit);
+    void add_jerk(std::uint32_t number, Row kind, std::size_t cell, const std::array<double, 3>& w,
+                  const std::array<double, 3>& b, double limit);
+    /// At begin, middle and end.
+    [[nodiscard]] std::array<Weights, 3> weights_along(std::size_t cell) const;
+    [[nodiscard]] Weights weights_at(std::size_t cell, double at) const;
+
+    const Machine* machine_;
+    std::vector<Cell> cells_;
+    std::vector<HeldStation> stations_;
+    std::vector<Weights> begins_;  ///< weights at the begin of each cell
+    std::vector<double> value_;    ///< of the cells, with one beyond each end
+    std::vector<Row> ruling_;      ///< of the cells
+    LimitRows rows_, rows_before_;
+    NewtonSystem newton_;
+    std::vector<double> step_;
+    double gap_ = 0,
+           broken_ = 0;  ///< sum of slack times multiplier; greatest part of a bound that a limit is broken by
+};
+
+}  // namespace clsurf

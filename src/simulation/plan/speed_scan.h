@@ -1,0 +1,67 @@
+#pragma once
+// SpeedScan: the fastest speeds along a given path under limits of speed and acceleration only.
+//
+// Between two knots the acceleration a is constant, so b = v² is linear in arc length u. With the derivatives
+// of the path x′, x″ for each axis, the limits |x′ a + x″ b| ≤ A at places of a cell are linear in a and in
+// the b at its start. The backward pass finds the largest b at each knot from which the rest of the path is
+// feasible: a linear program in two unknowns. In the forward pass each cell uses the largest a that stays
+// below. Time and memory are linear in the cells (Pham and Pham 2018, reachability analysis).
+
+#include <vector>
+
+#include "simulation/run/interpolator.h"
+
+namespace clsurf {
+
+class SpeedScan {
+public:
+    void clear();
+    /// A cell after the last one: its length [mm], greatest speed [mm/s] and acceleration along the path [mm/s²].
+    void add_cell(double length, double cap, double acceleration);
+    /// At a place of the last cell, `at` after its begin [mm]: |slope a + bend v²| ≤ acceleration, of one axis;
+    /// slope none, bend 1/mm.
+    void add_limit(double at, double slope, double bend, double acceleration);
+
+    /// The fastest speeds from `speed` at the first knot [mm/s] to rest at the last one. A speed from which the
+    /// limits lead to no rest is lowered.
+    void plan(double speed);
+
+    [[nodiscard]] std::size_t size() const { return cells_.size(); }
+    /// At the knot before a cell, or after the last one [mm/s].
+    [[nodiscard]] double speed(std::size_t knot) const;
+    /// How a cell is driven. One that only the acceleration along the path limits goes up to its cap and down again.
+    void motions(std::size_t cell, std::vector<CellMotion>& into) const;
+    /// It keeps to the cell's greatest speed.
+    [[nodiscard]] bool at_cap(std::size_t cell, const CellMotion& motion) const;
+
+    /// Forgets the first cells.
+    void drop_front(std::size_t count);
+
+private:
+    struct Cell {
+        double length = 0, cap = 0, acceleration = 0;  ///< cap of b [mm²/s²]
+        std::size_t end_row = 0;
+    };
+    /// |a + tilt b| ≤ width, b at the cell's begin.
+    struct Row {
+        double width = 0, tilt = 0;
+    };
+    /// Lowest and greatest a, as lines over b: those that hold nearest to a given b.
+    struct Line {
+        double at_rest = 0, by_b = 0;
+        [[nodiscard]] double at(double b) const { return at_rest + by_b * b; }
+    };
+    struct Bounds {
+        Line low, high;
+    };
+
+    [[nodiscard]] std::size_t first_row(std::size_t cell) const { return cell > 0 ? cells_[cell - 1].end_row : 0; }
+    [[nodiscard]] Bounds bounds(std::size_t cell, double b, double next) const;
+    [[nodiscard]] double greatest_before(std::size_t cell, double next) const;
+
+    std::vector<Cell> cells_;
+    std::vector<Row> rows_;
+    std::vector<double> squares_;  ///< b at the knots
+};
+
+}  // namespace clsurf

@@ -1,0 +1,342 @@
+#include "simulation/run/five_axis_simulator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/block.h"
+#include "core/not_finite.h"
+#include "simulation/path/five_axis_blocks.h"
+#include "simulation/run/servo.h"
+
+namespace clsurf {
+namespace {
+
+constexpr int most_slower_rounds = 32;
+constexpr int half_width = 8;             ///< of the smoothing of angles [periods]
+constexpr int carry_periods = 16;         ///< over which angles make up for what a rounded corner skips
+constexpr int patient_rounds = 8;         ///< before the tip's own jerk is lowered
+constexpr double most_lowering = 0.97;    ///< of that, in a round
+constexpr double nearly_greatest = 0.95;  ///< a rate that counts as the greatest
+/// Takes the samples of the tip, and makes those of the axes.
+class FiveAxisRecorder {
+public:
+    FiveAxisRecorder(const FiveAxisBlocks& blocks, const Program& program, const Machine& machine,
+                     const FiveAxisSink& sink)
+        : blocks_(&blocks),
+          program_(&program),
+          machine_(&machine),
+          sink_(&sink),
+          period_(machine.controller.period),
+          excesses_(blocks.count()) {}
+
+    void add(std::span<const SimulatedPoint> points) {
+        for (const SimulatedPoint& point : points) add(point);
+    }
+
+    FiveAxisSummary finish() {
+        // The angles come to rest after the tip.
+        if (!waiting_.empty()) {
+            Sample last = waiting_.back();
+            last.point.speed = 0;
+            last.point.limit = Ruling::none;
+            for (int k = carry_left_ + 2 * half_width; k > 0; --k) {
+                if (carry_left_ > 0) --carry_left_;
+                last.angles = {of_block_.tilt + carried().tilt, of_block_.rotation + carried().rotation};
+                put(last);
+            }
+        }
+        flush();
+        summary_.run.points = points_;
+        summary_.run.duration = static_cast<double>(std::max<PointIndex>(0, points_ - 1)) * period_;
+        summary_.run.limits_ok = held_;
+        return std::move(summary_);
+    }
+
+    [[nodiscard]] const std::vector<BlockExcess>& excesses() const { return excesses_; }
+    /// Limit over value of what exceeds its limit most; 1: nothing does.
+    [[nodiscard]] double share() const { return share_; }
+
+private:
+    struct Sample {
+        SimulatedPoint point;
+        RotaryAngles angles;
+        Vec3 ideal = Vec3::UnitZ();  ///< tool axis on the great circle of the block
+        std::size_t block = 0;
+    };
+
+    void add(const SimulatedPoint& point) {
+        Sample sample{point, {}, Vec3::UnitZ(), block_};
+        bool changed = false;
+        if (point.line > 0 && point.line <= blocks_->count()) {
+            const std::size_t block = point.line - 1;
+            changed = block != block_ && begun_;
+            if (block != block_ || !begun_) {
+                block_ = block;
+                part_ = 0;
+                begun_ = true;
+                elapsed_ = 0;
+                waiting_block_ = block;
+                while (waiting_block_ > 0 && blocks_->stands(waiting_block_ - 1)) --waiting_block_;
+            }
+            sample.block = block;
+            part_ = blocks_->waits(block) ? 0 : blocks_->part_at(block, point.commanded, part_);
+        }
+        if (begun_) {
+            const auto [way, part] = blocks_->waits(block_) ? turn_now() : std::pair(&blocks_->way(block_), part_);
+            of_block_ = way->at(part);
+            sample.angles = of_block_;
+            if (changed && waiting_.size() > 1) {
+                // From where the angles would be had they gone on.
+                const RotaryAngles& a = waiting_[waiting_.size() - 2].angles;
+                const RotaryAngles& b = waiting_.back().angles;
+                carry_ = {2 * b.tilt - a.tilt - sample.angles.tilt,
+                          2 * b.rotation - a.rotation - sample.angles.rotation};
+                carry_left_ = carry_periods;
+            }
+            sample.angles = {sample.angles.tilt + carried().tilt, sample.angles.rotation + carried().rotation};
+            if (carry_left_ > 0) --carry_left_;
+            sample.ideal =
+                great_circle(machine_->kinematics.axis_of(way->at(0)), machine_->kinematics.axis_of(way->at(1)), part);
+        }
+        float& peak = excesses_[sample.block].peak;
+        peak = std::max(peak, static_cast<float>(point.speed));
+        put(sample);
+    }
+
+    /// A rounded corner skips the end of one block and the begin of the next, and what the angles do there: they make up
+    /// for it over some periods instead of a step, which no lower speed would make smaller.
+    [[nodiscard]] RotaryAngles carried() const {
+        const double part = static_cast<double>(carry_left_) / carry_periods;
+        return {part * carry_.tilt, part * carry_.rotation};
+    }
+
+    /// Waits that follow each other are one to the planner, with the number of the last: the way and part of it
+    /// at which the wait now is.
+    std::pair<const ToolAxisPath*, double> turn_now() {
+        elapsed_ += period_;
+        while (waiting_block_ < block_ &&
+               (!blocks_->waits(waiting_block_) || elapsed_ >= blocks_->waiting(waiting_block_))) {
+            if (blocks_->waits(waiting_block_)) elapsed_ -= blocks_->waiting(waiting_block_);
+            ++waiting_block_;
+        }
+        const double time = blocks_->waiting(waiting_block_);
+        const double u = time > 0 ? std::min(1.0, elapsed_ / time) : 1.0;
+        return {&blocks_->way(waiting_block_), u * u * u * (10 + u * (6 * u - 15))};
+    }
+
+    void put(const Sample& sample) {
+        if (waiting_.empty()) waiting_.assign(half_width, sample);  // before the first, all stood there
+        waiting_.push_back(sample);
+        if (waiting_.size() < 2 * half_width) return;
+        emit();
+        waiting_.erase(waiting_.begin());
+    }
+
+    /// The sample in the middle of those waiting, with the mean of their angles under a triangle.
+    void emit() {
+        const Sample& sample = waiting_[half_width];
+        RotaryAngles angles{0, 0};
+        for (int k = 1 - half_width; k < half_width; ++k) {
+            const double weight = static_cast<double>(half_width - std::abs(k)) / (half_width * half_width);
+            const RotaryAngles& other = waiting_[static_cast<std::size_t>(half_width + k)].angles;
+            angles.tilt += weight * other.tilt;
+            angles.rotation += weight * other.rotation;
+        }
+        const Kinematics& kinematics = machine_->kinematics;
+        const Vec3 linear = kinematics.to_axes(sample.point.commanded + blocks_->zero(), angles);
+        FiveAxisPoint point;
+        point.commanded = {linear.x(), linear.y(), linear.z(), angles.tilt, angles.rotation};
+        point.speed = sample.point.speed;
+        point.line = begun_ ? blocks_->line(sample.block) : 0;
+        point.limit = sample.point.limit;
+        if (point.limit == Ruling::feed && blocks_->capped(sample.block)) point.limit = Ruling::axis_speed;
+        if (servos_.empty()) {
+            last_.fill(point.commanded);
+            for (std::size_t k = 0; k < 5; ++k) {
+                const ServoModel& model = k < 3 ? machine_->axes[k].servo : machine_->rotary[k - 3].servo;
+                servos_.emplace_back(model, period_, point.commanded[k], k + 1);
+            }
+        }
+        for (std::size_t k = 0; k < 5; ++k) point.feedback[k] = servos_[k].follow(point.commanded[k]);
+        if (begun_ && blocks_->cuts(sample.block)) {
+            summary_.orientation_error =
+                std::max(summary_.orientation_error, angle_between(kinematics.axis_of(angles), sample.ideal));
+        }
+        ++summary_.run.ruled[static_cast<std::size_t>(point.limit)];
+        measure(point);
+        ++points_;
+        block_of_points_.push_back(point);
+        if (static_cast<PointIndex>(block_of_points_.size()) == block_points) flush();
+    }
+
+    void measure(const FiveAxisPoint& point) {
+        const std::array<AxisLimits, 5>& limits = blocks_->limits();
+        for (std::size_t k = 0; k < 5; ++k) {
+            const double p = point.commanded[k];
+            const double speed = std::abs(p - last_[0][k]) / period_;
+            const double acceleration = std::abs(p - 2 * last_[0][k] + last_[1][k]) / (period_ * period_);
+            const double jerk =
+                std::abs(p - 3 * last_[0][k] + 3 * last_[1][k] - last_[2][k]) / (period_ * period_ * period_);
+            hold(k, speed, limits[k].speed, 1);
+            hold(k, acceleration, limits[k].acceleration, 2);
+            hold(k, jerk, limits[k].jerk, 3);
+            if (k < 3) {
+                const auto axis = static_cast<int>(k);
+                SimulationSummary& run = summary_.run;
+                run.max_axis_speed[axis] = std::max(run.max_axis_speed[axis], speed);
+                run.max_acceleration[axis] = std::max(run.max_acceleration[axis], acceleration);
+                run.max_jerk[axis] = std::max(run.max_jerk[axis], jerk);
+            } else {
+                summary_.max_speed[k - 3] = std::max(summary_.max_speed[k - 3], speed);
+                summary_.max_acceleration[k - 3] = std::max(summary_.max_acceleration[k - 3], acceleration);
+                summary_.max_jerk[k - 3] = std::max(summary_.max_jerk[k - 3], jerk);
+            }
+            note_travel(k, p, point.line);
+        }
+        summary_.run.max_speed = std::max(summary_.run.max_speed, point.speed);
+        last_ = {point.commanded, last_[0], last_[1]};
+    }
+
+    /// Where a derivative of an axis (its order: 1 … 3) exceeds its limit, blocks are to be slower: a run as a whole
+    /// at half the speed has an eighth of the jerk.
+    void hold(std::size_t axis, double value, double limit, int order) {
+        if (!(value > limit * limit_play)) return;
+        held_ = false;
+        const double share = limit / value;
+        share_ = std::min(share_, share);
+        const double scale = order == 1 ? share : order == 2 ? std::sqrt(share) : std::cbrt(share);
+        if (axis < 3 || order == 1) {
+            // Whatever takes part in the smoothing may be what is too fast.
+            for (const Sample& sample : waiting_) ease(sample.block, scale);
+            return;
+        }
+        // Where blocks meet, the rate of an angle jumps by Δ, and the smoothing turns that into an acceleration and a
+        // jerk in proportion to Δ: the block with the higher rate must come down by the part of Δ that is too much. To
+        // slow down the others as well would keep their difference, and push the jump from block to block.
+        const auto rate = [&](std::size_t j) {
+            const RotaryAngles& a = waiting_[j - 1].angles;
+            const RotaryAngles& b = waiting_[j].angles;
+            return axis == 3 ? b.tilt - a.tilt : b.rotation - a.rotation;
+        };
+        double low = rate(1);
+        double high = low;
+        for (std::size_t j = 2; j < waiting_.size(); ++j) {
+            low = std::min(low, rate(j));
+            high = std::max(high, rate(j));
+        }
+        const double greatest = std::max(std::abs(low), std::abs(high));
+        const double jump = std::max(share, 1 - (1 - share) * (high - low) / greatest);
+        for (std::size_t j = 1; j < waiting_.size(); ++j) {
+            if (std::abs(rate(j)) >= nearly_greatest * greatest) ease(waiting_[j].block, std::min(scale, jump));
+        }
+    }
+    void ease(std::size_t block, double scale) {
+        excesses_[block].scale = std::min(excesses_[block].scale, static_cast<float>(scale));
+    }
+
+    void note_travel(std::size_t axis, double position, LineNumber line) {
+        const AxisLimits& limits = blocks_->limits()[axis];
+        const bool outside = position < limits.low || position > limits.high;
+        if (outside && !outside_[axis]) {
+            const double shown = axis < 3 ? 1.0 : deg_per_rad;
+            const char letter = axis < 3    ? "xyz"[axis]
+                                : axis == 3 ? machine_->kinematics.tilt.letter
+                                            : machine_->kinematics.rotation.letter;
+            summary_.run.diagnostics.add({Severity::warning,
+                                          "motion.travel",
+                                          Place::of_line(program_->main().name(), line),
+                                          fmt::format("{} leaves its travel of {:g} … {:g} {}", letter,
+                                                      limits.low * shown, limits.high * shown, axis < 3 ? "mm" : "deg"),
+                                          {}});
+        }
+        outside_[axis] = outside;
+    }
+
+    void flush() {
+        if (*sink_ && !block_of_points_.empty()) (*sink_)(block_of_points_);
+        block_of_points_.clear();
+    }
+
+    const FiveAxisBlocks* blocks_;
+    const Program* program_;
+    const Machine* machine_;
+    const FiveAxisSink* sink_;
+    double period_;
+    std::vector<BlockExcess> excesses_;
+    std::size_t block_ = 0;
+    double part_ = 0;
+    std::size_t waiting_block_ = 0;
+    double elapsed_ = 0;  ///< of its wait [s]
+    bool begun_ = false;
+    RotaryAngles of_block_;  ///< of the last sample, without what is carried
+    RotaryAngles carry_;     ///< what the angles had to make up for at the last change of blocks
+    int carry_left_ = 0;     ///< [periods]
+    std::vector<Sample> waiting_;
+    std::vector<ServoLoop> servos_;
+    std::array<std::array<double, 5>, 3> last_{};
+    std::array<bool, 5> outside_{};
+    bool held_ = true;
+    double share_ = 1;
+    PointIndex points_ = 0;
+    std::vector<FiveAxisPoint> block_of_points_;
+    FiveAxisSummary summary_;
+};
+
+/// The machine that the tip's way is planned for: its axes may lie anyhow to those of the workpiece.
+Machine machine_of_tip(const Machine& machine) {
+    Machine tip = machine;
+    MachineAxis least = machine.axes[0];
+    const auto lower = [](double a, double b) { return a <= 0 ? b : b <= 0 ? a : std::min(a, b); };
+    for (const MachineAxis& axis : machine.axes) {
+        least.max_speed = std::min(least.max_speed, axis.max_speed);
+        least.max_acceleration = std::min(least.max_acceleration, axis.max_acceleration);
+        least.max_jerk = lower(least.max_jerk, axis.max_jerk);
+    }
+    least.travel_low = -infinite;
+    least.travel_high = infinite;
+    tip.axes.fill(least);
+    return tip;
+}
+
+}  // namespace
+
+FiveAxisSummary simulate_five_axis(const Program& program, const Machine& machine, const Vec3& zero, const Vec3& start,
+                                   const FiveAxisSink& sink, const Progress& progress) {
+    FiveAxisBlocks blocks(program, machine, zero, start);
+    Machine tip = machine_of_tip(machine);
+    double share = 1;
+    const auto run = [&](const FiveAxisSink& to, std::vector<BlockExcess>* excesses) {
+        FiveAxisRecorder recorder(blocks, program, machine, to);
+        const SimulationSummary of_tip = simulate(
+            blocks.planned(), tip, start, [&](std::span<const SimulatedPoint> points) { recorder.add(points); },
+            progress, Planning::by_nodes);
+        FiveAxisSummary summary = recorder.finish();
+        summary.run.path_deviation = of_tip.path_deviation;
+        if (excesses != nullptr) *excesses = recorder.excesses();
+        share = recorder.share();
+        return summary;
+    };
+    std::vector<BlockExcess> excesses;
+    int rounds = 0;
+    for (bool slower = true; slower && rounds < most_slower_rounds; ++rounds) {
+        const FiveAxisSummary tried = run({}, &excesses);
+        slower = !tried.run.limits_ok && blocks.ease(excesses);
+        // Between blocks of different speed the tip takes as much jerk as it may, however slow they are.
+        if (slower && rounds >= patient_rounds) tip.path.max_jerk *= std::max(most_lowering, share);
+    }
+    FiveAxisSummary summary = run(sink, nullptr);
+    summary.rounds = rounds;
+    if (!summary.run.limits_ok) {
+        summary.run.diagnostics.add(
+            {Severity::warning, "motion.limits", Place::of_file(program.main().name()),
+             fmt::format("after {} rounds an axis still exceeds a limit by more than 0.1 %", rounds),
+             "a lower path jerk or feed helps"});
+    }
+    return summary;
+}
+
+}  // namespace clsurf

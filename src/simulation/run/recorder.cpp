@@ -1,0 +1,105 @@
+#include "simulation/run/recorder.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace clsurf {
+
+Recorder::Recorder(const Program& program, const Machine& machine, const Vec3& start, const PointSink& sink)
+    : program_(&program),
+      machine_(&machine),
+      sink_(&sink),
+      rate_(1 / machine.controller.period),
+      servos_{ServoLoop(machine.axes[0].servo, machine.controller.period, start.x(), 1),
+              ServoLoop(machine.axes[1].servo, machine.controller.period, start.y(), 2),
+              ServoLoop(machine.axes[2].servo, machine.controller.period, start.z(), 3)},
+      last_(start) {
+    block_.reserve(points_at_once);
+}
+
+void Recorder::flush() {
+    follow();
+    measure();
+    (*sink_)(block_);
+    block_.clear();
+}
+
+/// What the servo loops make of the points.
+void Recorder::follow() {
+    std::array<ServoLoop, 3> servos = servos_;  // in registers
+    for (SimulatedPoint& point : block_) {
+        for (int i = 0; i < 3; ++i) point.feedback[i] = servos[static_cast<std::size_t>(i)].follow(point.commanded[i]);
+        ++summary_.ruled[static_cast<std::size_t>(point.limit)];
+    }
+    servos_ = servos;
+}
+
+/// Before the first point the axes stand at the start.
+void Recorder::measure() {
+    Vec3 last = last_, last_step = last_step_, last_bend = last_bend_;
+    Vec3 greatest = step_, greatest_bend = bend_, greatest_twist = twist_, low = last_, high = last_;
+    for (const SimulatedPoint& point : block_) {
+        const Vec3 step = point.commanded - last;
+        const Vec3 bend = step - last_step;
+        const Vec3 twist = bend - last_bend;
+        greatest_step_ = std::max(greatest_step_, step.squaredNorm());
+        greatest = greatest.cwiseMax(step.cwiseAbs());
+        greatest_bend = greatest_bend.cwiseMax(bend.cwiseAbs());
+        greatest_twist = greatest_twist.cwiseMax(twist.cwiseAbs());
+        low = low.cwiseMin(point.commanded);
+        high = high.cwiseMax(point.commanded);
+        last = point.commanded;
+        last_step = step;
+        last_bend = bend;
+    }
+    last_ = last;
+    last_step_ = last_step;
+    last_bend_ = last_bend;
+    step_ = greatest;
+    bend_ = greatest_bend;
+    twist_ = greatest_twist;
+    const auto inside = [&](std::size_t k) {
+        const MachineAxis& axis = machine_->axes[k];
+        const auto i = static_cast<int>(k);
+        return !outside_[k] && low[i] >= axis.travel_low && high[i] <= axis.travel_high;
+    };
+    if (inside(0) && inside(1) && inside(2)) return;
+    for (const SimulatedPoint& point : block_) watch_travel(point.commanded, point.line);
+}
+
+void Recorder::watch_travel(const Vec3& position, LineNumber line) {
+    for (int i = 0; i < 3; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        const MachineAxis& axis = machine_->axes[k];
+        const bool outside = position[i] < axis.travel_low || position[i] > axis.travel_high;
+        if (outside && !outside_[k]) {
+            summary_.diagnostics.add(
+                {Severity::warning, "motion.travel", Place::of_line(program_->main().name(), line),
+                 fmt::format("{} leaves its travel of {} … {} mm", axis_names[k], axis.travel_low, axis.travel_high),
+                 "positions are those of the program: is the work offset not zero?"});
+        }
+        outside_[k] = outside;
+    }
+}
+
+SimulationSummary Recorder::finish() {
+    flush();
+    SimulationSummary& s = summary_;
+    s.duration = static_cast<double>(std::max<PointIndex>(0, s.points - 1)) * machine_->controller.period;
+    s.max_speed = std::sqrt(greatest_step_) * rate_;
+    s.max_axis_speed = step_ * rate_;
+    s.max_acceleration = bend_ * (rate_ * rate_);
+    s.max_jerk = twist_ * (rate_ * rate_ * rate_);
+    s.limits_ok = s.max_speed <= machine_->path.max_speed * limit_play;
+    for (int i = 0; i < 3; ++i) {
+        const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(i)];
+        s.limits_ok = s.limits_ok && s.max_axis_speed[i] <= axis.max_speed * limit_play;
+        s.limits_ok = s.limits_ok && s.max_acceleration[i] <= axis.max_acceleration * limit_play;
+        s.limits_ok = s.limits_ok && (axis.max_jerk <= 0 || s.max_jerk[i] <= axis.max_jerk * limit_play);
+    }
+    return std::move(s);
+}
+
+}  // namespace clsurf

@@ -1,0 +1,51 @@
+#pragma once
+// Recorder: receives the commanded position of each period, runs the servo loops, measures both and passes
+// them on in blocks.
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "simulation/run/servo.h"
+#include "simulation/run/simulator.h"
+
+namespace clsurf {
+
+class Recorder {
+public:
+    /// All must outlive it.
+    Recorder(const Program& program, const Machine& machine, const Vec3& start, const PointSink& sink);
+
+    /// The position at the end of the next period [mm], its path speed [mm/s], how far rounding took it from the path [mm].
+    void add(const Vec3& position, double speed, LineNumber line, Ruling ruling, double deviation) {
+        block_.push_back({position, Vec3::Zero(), speed, line, ruling});
+        summary_.path_deviation = std::max(summary_.path_deviation, deviation);
+        ++summary_.points;
+        if (block_.size() == points_at_once) flush();
+    }
+    [[nodiscard]] PointIndex points() const { return summary_.points; }
+    /// What is left goes to the sink; the summary of all.
+    SimulationSummary finish();
+
+private:
+    static constexpr std::size_t points_at_once = 1024;  ///< they stay in a core's own cache
+
+    void flush();
+    void follow();
+    void measure();
+    void watch_travel(const Vec3& position, LineNumber line);
+
+    const Program* program_;
+    const Machine* machine_;
+    const PointSink* sink_;
+    double rate_;  ///< periods a second
+    std::array<ServoLoop, 3> servos_;
+    std::vector<SimulatedPoint> block_;
+    Vec3 last_, last_step_ = Vec3::Zero(), last_bend_ = Vec3::Zero();        ///< position and its differences
+    double greatest_step_ = 0;                                               ///< squared [mm²]
+    Vec3 step_ = Vec3::Zero(), bend_ = Vec3::Zero(), twist_ = Vec3::Zero();  ///< greatest differences [mm]
+    std::array<bool, 3> outside_{};
+    SimulationSummary summary_;
+};
+
+}  // namespace clsurf

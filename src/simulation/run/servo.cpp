@@ -1,0 +1,45 @@
+#include "simulation/run/servo.h"
+
+#include <cmath>
+
+namespace clsurf {
+namespace {
+
+/// splitmix64 (Steele, Lea, Flood 2014): uniform in [0, 1).
+double uniform(std::uint64_t& state) {
+    state += 0x9E3779B97F4A7C15U;
+    std::uint64_t z = state;
+    z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9U;
+    z = (z ^ (z >> 27U)) * 0x94D049BB133111EBU;
+    z ^= z >> 31U;
+    return static_cast<double>(z >> 11U) * 0x1p-53;
+}
+
+/// Sum of twelve uniform numbers less six: mean 0, variance 1, bounded.
+double noise_of_one(std::uint64_t& state) {
+    double sum = -6;
+    for (int i = 0; i < 12; ++i) sum += uniform(state);
+    return sum;
+}
+
+}  // namespace
+
+ServoLoop::ServoLoop(const ServoModel& model, double period, double start, std::uint64_t seed)
+    : gain_(model.position_gain),
+      feedforward_(model.velocity_feedforward),
+      // Exact for a reference that is constant over the period.
+      velocity_step_(model.velocity_time_constant > 0 ? 1 - std::exp(-period / model.velocity_time_constant) : 1.0),
+      quantum_(model.quantum),
+      noise_(model.noise),
+      period_(period),
+      play_(0.5 * model.backlash),
+      friction_(model.friction),
+      commanded_(start),
+      position_(start),
+      table_(start),
+      random_(seed) {}
+
+/// Of a reading [mm].
+double ServoLoop::noise() { return noise_ * noise_of_one(random_); }
+
+}  // namespace clsurf

@@ -1,0 +1,54 @@
+#pragma once
+// Controller simulation: from a program and a machine to the contents of the interpolation log.
+
+#include <functional>
+#include <span>
+
+#include "core/diagnostic.h"
+#include "core/progress.h"
+#include "machine/machine.h"
+#include "simulation/path/path_stream.h"
+
+namespace clsurf {
+
+/// A record of the log: the positions at the end of a period.
+struct SimulatedPoint {
+    Vec3 commanded = Vec3::Zero(), feedback = Vec3::Zero();  ///< [mm]
+    double speed = 0;                                        ///< of the commanded path [mm/s]
+    LineNumber line = 0;
+    Ruling limit = Ruling::none;
+};
+
+inline constexpr double limit_play = 1.001;  ///< a limit counts as held within this factor: values are differences
+
+/// What a run was like, measured on the points themselves by differences.
+struct SimulationSummary {
+    PointIndex points = 0;
+    double duration = 0;   ///< [s]
+    double max_speed = 0;  ///< of the path [mm/s]
+    Vec3 max_axis_speed = Vec3::Zero(), max_acceleration = Vec3::Zero(), max_jerk = Vec3::Zero();
+    double path_deviation = 0;           ///< greatest distance that rounding took a point from the path [mm]
+    bool limits_ok = true;               ///< no limit of an axis or the path's speed exceeded by more than limit_play
+    std::array<PointIndex, 10> ruled{};  ///< points by Ruling
+    Diagnostics diagnostics;
+};
+
+using PointSink = std::function<void(std::span<const SimulatedPoint>)>;
+
+/// How speeds are planned.
+enum class Planning : std::uint8_t {
+    nearly_optimal,  ///< accelerations are carried through the nodes (refiner.h)
+    by_nodes,        ///< acceleration is zero at every node: slower, and gentler to whatever moves along
+};
+
+/// Plans, interpolates and follows a program; points go to `sink` in order, block by block.
+/// Memory: of the look-ahead and of the source. Throws InputError (feed 0, rotary axes, splines).
+[[nodiscard]] SimulationSummary simulate(MotionSource& source, const Machine& machine, const Vec3& start,
+                                         const PointSink& sink, const Progress& progress = {},
+                                         Planning planning = Planning::nearly_optimal);
+/// The same of a program in memory.
+[[nodiscard]] SimulationSummary simulate(const Program& program, const Machine& machine, const Vec3& start,
+                                         const PointSink& sink, const Progress& progress = {},
+                                         Planning planning = Planning::nearly_optimal);
+
+}  // namespace clsurf

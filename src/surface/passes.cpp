@@ -1,0 +1,190 @@
+#include "surface/passes.h"
+
+#include <array>
+#include <vector>
+
+#include "core/block.h"
+#include "toolpath/chords.h"
+
+namespace clsurf {
+namespace {
+
+constexpr float turning_cosine = -0.5F;   ///< chords that enclose more than 120° turn back
+constexpr double chord_step_overs = 1.5;  ///< way of a chord
+constexpr float corner_play = 1e-6F;      ///< [mm²] of reach times chord; less is no progress
+constexpr double shortest_pass = 2.0;     ///< step-overs of way; a shorter piece belongs to its link
+constexpr float vertical_slope = 0.02F;   ///< horizontal per vertical way of an approach
+constexpr float vertical_play = 0.005F;   ///< [mm]
+constexpr float least_approach = 0.1F;    ///< [mm]; a shorter vertical piece is left alone
+
+/// Appends a piece; joins it with the one before when it is of the same kind.
+void append(Passes& passes, Pass piece) {
+    if (piece.size() <= 0) return;
+    if (!passes.empty() && passes.back().kind == piece.kind) {
+        passes.back().last = piece.last;
+        return;
+    }
+    passes.push_back(piece);
+}
+
+/// Points of [from, to] in steps of `direction` that only move along z, counted from `from`.
+PointIndex vertical_points(const Positions& p, PointIndex from, PointIndex to, int direction) {
+    const Eigen::Vector3f start = p[from];
+    PointIndex i = from;
+    while (i != to) {
+        const Eigen::Vector3f way = p[i + direction] - start;
+        if (std::hypot(way.x(), way.y()) > vertical_play + vertical_slope * std::abs(way.z())) break;
+        i += direction;
+    }
+    if (std::abs((p[i] - start).z()) < least_approach) return 0;
+    return std::abs(i - from);
+}
+
+/// A cutting run without its vertical approach and retract.
+void append_run(Passes& passes, const Positions& p, Pass run) {
+    const PointIndex down = vertical_points(p, run.first, run.last, +1);
+    if (down > 0 && down == run.size() - 1) {  // nothing but vertical: drilling
+        append(passes, {run.first, run.last, PassKind::rapid});
+        return;
+    }
+    append(passes, {run.first, run.first + down - 1, PassKind::rapid});
+    run.first += down;
+    if (run.size() <= 0) return;
+    const PointIndex up = vertical_points(p, run.last, run.first, -1);
+    append(passes, {run.first, run.last - up, PassKind::cut});
+    append(passes, {run.last - up + 1, run.last, PassKind::rapid});
+}
+
+}  // namespace
+
+Passes find_runs(const Positions& positions, const LineMap& lines) {
+    const PointIndex count = positions.size();
+    const auto blocks = static_cast<std::size_t>((count + block_points - 1) / block_points);
+    std::vector<Passes> of_block(blocks);
+    for_each_block(count, [&](PointIndex first, PointIndex last) {
+        Passes& mine = of_block[static_cast<std::size_t>(first / block_points)];
+        std::array<PointKind, 1024> kinds;
+        for (PointIndex begin = first; begin < last; begin += 1024) {
+            const auto n = static_cast<std::size_t>(std::min<PointIndex>(1024, last - begin));
+            lines.read_kinds(begin, {kinds.data(), n});
+            for (std::size_t k = 0; k < n; ++k) {
+                const PointIndex i = begin + static_cast<PointIndex>(k);
+                const bool cuts = kinds[k] == PointKind::cut && positions[i].allFinite();
+                append(mine, {i, i, cuts ? PassKind::cut : PassKind::rapid});
+            }
+        }
+    });
+    Passes joined;
+    for (const Passes& block : of_block) {
+        for (const Pass& piece : block) append(joined, piece);
+    }
+    Passes runs;
+    for (const Pass& piece : joined) {
+        if (piece.kind == PassKind::cut) {
+            append_run(runs, positions, piece);
+        } else {
+            append(runs, piece);
+        }
+    }
+    return runs;
+}
+
+namespace {
+
+/// True where the way turns back.
+bool turns_back(const Positions& p, const Chords& chords, float way) {
+    // Near the end of a run there is no way ahead to judge by.
+    if (chords.way_behind() < 0.5F * way || chords.way_ahead() < 0.5F * way) return false;
+    const Eigen::Vector3f here = p[chords.point()];
+    const Eigen::Vector3f back = here - p[chords.behind()];
+    const Eigen::Vector3f ahead = p[chords.ahead()] - here;
+    // cos < −1/2 without roots: both sides squared, the sign kept.
+    const float dot = back.dot(ahead);
+    return dot < 0 && dot * dot > turning_cosine * turning_cosine * back.squaredNorm() * ahead.squaredNorm();
+}
+
+/// Pieces between two links that are too short to be passes belong to the link.
+void append_cleaned(Passes& passes, const Way& way, const Passes& pieces, double least) {
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        Pass piece = pieces[i];
+        const bool between = i > 0 && i + 1 < pieces.size();
+        if (piece.kind == PassKind::cut && between && way.to(piece.last) - way.to(piece.first) < least) {
+            piece.kind = PassKind::link;
+        }
+        append(passes, piece);
+    }
+}
+
+/// The point of [from, to] that lies farthest in a direction: the first such from `from` on.
+PointIndex farthest(const Positions& p, PointIndex from, PointIndex to, const Eigen::Vector3f& direction) {
+    PointIndex best = from;
+    float most = 0;
+    const PointIndex step = to >= from ? 1 : -1;
+    for (PointIndex i = from; i != to + step; i += step) {
+        const float way = (p[i] - p[from]).dot(direction);
+        if (way > most + corner_play) {
+            most = way;
+            best = i;
+        }
+    }
+    return best;
+}
+
+/// Chords see a turn before it comes. The pass itself ends at its outermost point, the next begins
+/// at its own; what lies between is the link.
+void tighten_links(Passes& passes, const Positions& p, const Way& lengths, float way) {
+    for (std::size_t k = 1; k + 1 < passes.size(); ++k) {
+        Pass& link = passes[k];
+        Pass& before = passes[k - 1];
+        Pass& after = passes[k + 1];
+        if (link.kind != PassKind::link || before.kind != PassKind::cut || after.kind != PassKind::cut) continue;
+        const Chords arriving(lengths, {before.first, link.first}, link.first, way);
+        const Chords leaving(lengths, {link.last, after.last}, link.last, way);
+        const PointIndex end = farthest(p, link.first, link.last, p[link.first] - p[arriving.behind()]);
+        const PointIndex begin = farthest(p, link.last, link.first, p[link.last] - p[leaving.ahead()]);
+        if (end >= begin) continue;  // no way between the corners: leave it as it was seen
+        before.last = end;
+        link.first = end + 1;
+        link.last = std::max(end + 1, begin - 1);
+        after.first = link.last + 1;
+    }
+}
+
+}  // namespace
+
+Passes find_passes(const Positions& positions, const Way& lengths, const Passes& runs, double step_over) {
+    const auto way = static_cast<float>(chord_step_overs * step_over);
+    Passes passes;
+    for (const Pass& run : runs) {
+        if (run.kind != PassKind::cut) {
+            append(passes, run);
+            continue;
+        }
+        const auto parts = static_cast<std::size_t>((run.size() + block_points - 1) / block_points);
+        std::vector<Passes> of_part(parts);
+        for_each_block(run.size(), [&](PointIndex first, PointIndex last) {
+            Passes& mine = of_part[static_cast<std::size_t>(first / block_points)];
+            Chords chords(lengths, {run.first, run.last}, run.first + first, way);
+            PointIndex begin = run.first + first;
+            bool before = turns_back(positions, chords, way);
+            for (PointIndex i = begin + 1; i < run.first + last; ++i) {
+                chords.advance();
+                const bool back = turns_back(positions, chords, way);
+                if (back == before) continue;
+                append(mine, {begin, i - 1, before ? PassKind::link : PassKind::cut});
+                begin = i;
+                before = back;
+            }
+            append(mine, {begin, run.first + last - 1, before ? PassKind::link : PassKind::cut});
+        });
+        Passes pieces;
+        for (const Passes& part : of_part) {
+            for (const Pass& piece : part) append(pieces, piece);
+        }
+        append_cleaned(passes, lengths, pieces, shortest_pass * step_over);
+    }
+    tighten_links(passes, positions, lengths, way);
+    return passes;
+}
+
+}  // namespace clsurf

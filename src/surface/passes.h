@@ -1,0 +1,47 @@
+#pragma once
+// Passes: the trajectory cut into pieces. A pass is a maximal run of cutting points whose neighbour
+// passes lie to the side, not ahead; what joins passes are links and rapids.
+//
+// Runs are what the program tells apart (cutting or not). Within a run the way turns back where the
+// chords behind and ahead enclose more than 120°; what does so links two passes. The chord is
+// measured in way (1.5 step-overs), not in samples, so that it bridges both corners of a step-over
+// move however slowly they are taken. Loops and spirals turn back nowhere: they are cut where the
+// neighbour of a point lies in its own pass (surface/cl_surface.h).
+
+#include <cstdint>
+
+#include "core/column.h"
+#include "core/point.h"
+#include "mapping/line_map.h"
+#include "toolpath/arc_length.h"
+#include "toolpath/positions.h"
+
+namespace clsurf {
+
+/// `other` is cutting that makes no finished surface: pockets, drilling, single contours (surface/finishing.h).
+enum class PassKind : std::uint8_t { cut, link, rapid, other };
+
+/// Whether the surface has points of this kind.
+[[nodiscard]] constexpr bool is_of_surface(PassKind kind) { return kind == PassKind::cut || kind == PassKind::link; }
+
+struct Pass {
+    PointIndex first = 0;
+    PointIndex last = -1;  ///< inclusive
+    PassKind kind = PassKind::cut;
+    [[nodiscard]] PointIndex size() const { return last - first + 1; }
+};
+
+/// All pieces in order; together they cover every point of the trajectory exactly once.
+using Passes = Column<Pass>;
+
+/// One cut of `count` points: for what is counted over all values of a field that has no passes.
+[[nodiscard]] inline Passes all_as_one_cut(PointIndex count) { return Passes(1, Pass{0, count - 1, PassKind::cut}); }
+
+/// Cutting runs and what lies between. A vertical approach or retract at the ends of a run, and
+/// points without a position, are not cutting. O(points), parallel.
+[[nodiscard]] Passes find_runs(const Positions& positions, const LineMap& lines);
+
+/// Runs cut into passes at turns back, for a step-over [mm] > 0; links between. O(points), parallel.
+[[nodiscard]] Passes find_passes(const Positions& positions, const Way& lengths, const Passes& runs, double step_over);
+
+}  // namespace clsurf

@@ -1,0 +1,52 @@
+#include "surface/path_location.h"
+
+namespace clsurf {
+namespace {
+
+constexpr int farthest_walk = 8;  ///< points from the adjacency's neighbour to the crossing
+
+}  // namespace
+
+Station beside(const ClSurface& surface, const Station& from, const Eigen::Vector3f& feed, Side side) {
+    const PointIndex own = from.nearest();
+    if (!surface.neighbours.has(side, own)) return {};
+    const Positions& p = surface.positions;
+    const Eigen::Vector3f here = position_at(p, from);
+    const auto along = [&](PointIndex k) { return (p[k] - here).dot(feed); };
+    PointIndex k = surface.neighbours.neighbour(side, own);
+    float at = along(k);
+    if (at == 0) return {k, 0};
+    // Towards the plane: the neighbour pass runs along with the feed or against it.
+    const PointIndex last = p.size() - 1;
+    int direction = +1;
+    if (k == last || (k > 0 && std::abs(along(k - 1)) < std::abs(along(k + 1)))) direction = -1;
+    for (int walked = 0; walked < farthest_walk; ++walked) {
+        const PointIndex next = k + direction;
+        if (next < 0 || next > last) return {};
+        const float then = along(next);
+        if (!(then == then)) return {};
+        if (at * then <= 0) {
+            const float share = at / (at - then);
+            return direction > 0 ? Station{k, share} : Station{next, 1 - share};
+        }
+        if (std::abs(then) > std::abs(at)) break;
+        k = next;
+        at = then;
+    }
+    // Standing still, or the pass ends here: the nearest point is as near as it gets.
+    return {k, 0};
+}
+
+Station beyond(const ClSurface& surface, const Station& before, const Station& from, const Eigen::Vector3f& feed) {
+    const PointIndex own = from.nearest();
+    const Positions& p = surface.positions;
+    const Eigen::Vector3f across = p[own] - position_at(p, before);
+    for (const Side side : {Side::left, Side::right}) {
+        if (!surface.neighbours.has(side, own)) continue;
+        const Eigen::Vector3f on = p[surface.neighbours.neighbour(side, own)] - p[own];
+        if (on.dot(across) > 0) return beside(surface, from, feed, side);
+    }
+    return {};
+}
+
+}  // namespace clsurf

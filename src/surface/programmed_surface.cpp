@@ -1,0 +1,111 @@
+#include "surface/programmed_surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/statistics.h"
+#include "toolpath/toolpath.h"
+
+namespace clsurf {
+namespace {
+
+constexpr double most_laid_points = 20e6;
+constexpr double spacing_of_step_over = 0.5;  ///< how far points lie apart at most, in step-overs
+
+struct Sampled {
+    Positions positions;
+    std::vector<std::uint32_t> motion;
+    std::vector<std::uint8_t> is_end;
+
+    void add(const Vec3& p, std::size_t of, bool end) {
+        const Eigen::Vector3f q = (p - positions.origin).cast<float>();
+        positions.x.push_back(q.x());
+        positions.y.push_back(q.y());
+        positions.z.push_back(q.z());
+        motion.push_back(static_cast<std::uint32_t>(of));
+        is_end.push_back(end ? 1 : 0);
+    }
+};
+
+bool cuts(MotionKind kind) { return kind != MotionKind::rapid && kind != MotionKind::dwell; }
+
+/// Where the first motions know no axis yet, a NaN start would hide the whole path.
+Toolpath toolpath_of(const Program& program) { return {program.motions, Vec3::Zero()}; }
+
+double cutting_length(const Toolpath& path) {
+    double sum = 0;
+    for (std::int64_t i = 0; i < path.size(); ++i) {
+        if (cuts(path.motions().kind[static_cast<std::size_t>(i)])) sum += path.length(i);
+    }
+    return sum;
+}
+
+Sampled sample(const Toolpath& path, double spacing) {
+    Sampled sampled;
+    const Motions& motions = path.motions();
+    if (motions.size() > 0) sampled.positions.origin = path.end(0);
+    for (std::int64_t i = 0; i < motions.size(); ++i) {
+        const MotionKind kind = motions.kind[static_cast<std::size_t>(i)];
+        if (cuts(kind)) {
+            // A line that hardly passes the spacing is not worth a point in its middle.
+            const auto pieces =
+                static_cast<int>(std::clamp(std::floor(path.length(i) / spacing + 0.5), 1.0, most_laid_points));
+            for (int k = 1; k < pieces; ++k)
+                sampled.add(path.at(i, static_cast<double>(k) / pieces), static_cast<std::size_t>(i), false);
+        }
+        sampled.add(path.end(i), static_cast<std::size_t>(i), true);
+    }
+    return sampled;
+}
+
+/// The median length of the cutting motions that move [mm]; 0: none does.
+double usual_length(const Toolpath& path) {
+    std::vector<double> lengths;
+    for (std::int64_t i = 0; i < path.size(); ++i) {
+        if (!cuts(path.motions().kind[static_cast<std::size_t>(i)])) continue;
+        if (const double length = path.length(i); length > 0) lengths.push_back(length);
+    }
+    return lengths.empty() ? 0 : median(lengths);
+}
+
+ProgrammedSurface stitch_sampled(Sampled sampled, const Program& program, double step_over) {
+    ProgrammedSurface laid;
+    laid.motion = std::move(sampled.motion);
+    laid.is_end = std::move(sampled.is_end);
+    Column<std::uint32_t> motion(laid.motion.size());
+    std::copy(laid.motion.begin(), laid.motion.end(), motion.begin());
+    const LineMap lines(std::move(motion), Column<std::uint8_t>(laid.motion.size(), 255), program);
+    laid.surface = stitch(std::move(sampled.positions), lines, step_over);
+    return laid;
+}
+
+}  // namespace
+
+ProgrammedSurface lay_out(const Program& program) {
+    const Toolpath path = toolpath_of(program);
+    const double coarsest = std::max(cutting_length(path) / most_laid_points, 1e-4);
+    double spacing = std::max(coarsest, usual_length(path));
+    ProgrammedSurface laid = stitch_sampled(sample(path, spacing), program, 0);
+    // Passes and neighbours need points closer than passes lie; the first look only tells how close.
+    const double wanted = std::max(coarsest, spacing_of_step_over * laid.surface.step_over);
+    if (laid.surface.step_over > 0 && wanted < 0.9 * spacing) {
+        laid = stitch_sampled(sample(path, wanted), program, laid.surface.step_over);
+    }
+    return laid;
+}
+
+std::vector<ProgrammedPass> cut_passes(const ProgrammedSurface& laid) {
+    std::vector<ProgrammedPass> passes;
+    std::int64_t number = 0;
+    for (const Pass& pass : laid.surface.passes) {
+        if (pass.kind != PassKind::cut) continue;
+        ProgrammedPass mine{++number, {pass.first, pass.last}, {pass.first}};
+        for (PointIndex i = pass.first + 1; i <= pass.last; ++i) {
+            if (laid.ends_motion(i)) mine.ends.push_back(i);
+        }
+        if (mine.ends.size() > 1) passes.push_back(std::move(mine));
+    }
+    return passes;
+}
+
+}  // namespace clsurf

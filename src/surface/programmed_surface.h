@@ -1,0 +1,38 @@
+#pragma once
+// ProgrammedSurface: the CL surface of a program without a log: its passes, and for each of its points the
+// adjacent places on both sides. The rules are those for logs (surface/passes.h, surface/adjacency.h), but the
+// points are on the programmed path.
+
+#include <cstdint>
+#include <vector>
+
+#include "mapping/line_map.h"
+#include "surface/cl_surface.h"
+
+namespace clsurf {
+
+struct ProgrammedSurface {
+    ClSurface surface;
+    std::vector<std::uint32_t> motion;  ///< per point: the motion that it lies on
+    std::vector<std::uint8_t> is_end;   ///< per point: 1 where that motion ends
+
+    [[nodiscard]] std::uint32_t motion_of(PointIndex point) const { return motion[static_cast<std::size_t>(point)]; }
+    [[nodiscard]] bool ends_motion(PointIndex point) const { return is_end[static_cast<std::size_t>(point)] != 0; }
+};
+
+/// Points at the ends of all motions and, where a motion is longer than half a step-over, evenly inside
+/// it. Coordinates that the program never sets count as 0. O(points); memory: bounded by 20 million points,
+/// beyond which long motions get fewer.
+[[nodiscard]] ProgrammedSurface lay_out(const Program& program);
+
+/// The motions of a cut pass in order, as the points where they end; the first point is the start of the pass.
+struct ProgrammedPass {
+    std::int64_t number = 0;       ///< of the cut passes, from 1
+    PointRange points;             ///< of the surface
+    std::vector<PointIndex> ends;  ///< points of the surface: the first point, and where motions end
+};
+
+/// All cut passes with at least two points. O(points).
+[[nodiscard]] std::vector<ProgrammedPass> cut_passes(const ProgrammedSurface& laid);
+
+}  // namespace clsurf

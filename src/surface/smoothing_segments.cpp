@@ -1,0 +1,109 @@
+#include "surface/smoothing_segments.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/block.h"
+
+namespace clsurf {
+namespace {
+
+constexpr double gap = 1.5;                 ///< periods between records that end a piece
+constexpr double standing_seconds = 0.020;  ///< the derivatives' usual window …
+constexpr PointIndex fewest_standing = 3;   ///< … and no fewer records
+
+std::array<double, 3> position(const Trajectory& path, PointIndex i) {
+    std::array<double, 3> p{};
+    path.read(i, {p.data(), 1}, {&p[1], 1}, {&p[2], 1});
+    return p;
+}
+
+/// Where the tool stands inside a range, in order. Looked at are records half a standstill apart: one that is long enough
+/// holds two of them.
+std::vector<PointRange> standstills(const Trajectory& path, PointRange range) {
+    const PointIndex least =
+        std::max(fewest_standing, static_cast<PointIndex>(std::lround(std::min(standing_seconds / path.period, 1e6))));
+    const PointIndex stride = std::max<PointIndex>(1, (least - 1) / 2);
+    std::vector<std::vector<PointRange>> of_block(
+        static_cast<std::size_t>((range.size() + block_points - 1) / block_points));
+    for_each_block(range.size(), [&](PointIndex first, PointIndex last) {
+        std::vector<PointRange>& mine = of_block[static_cast<std::size_t>(first / block_points)];
+        for (PointIndex i = range.first + first; i < range.first + last && i + stride <= range.last; i += stride) {
+            const std::array<double, 3> here = position(path, i);
+            if (here != position(path, i + stride)) continue;
+            PointRange still{i, i};
+            while (still.first > range.first && position(path, still.first - 1) == here) --still.first;
+            while (still.last < range.last && position(path, still.last + 1) == here) ++still.last;
+            if (still.size() >= least) mine.push_back(still);
+            i = std::max(i, still.last - stride);
+        }
+    });
+    std::vector<PointRange> found;
+    for (const std::vector<PointRange>& block : of_block) {
+        for (const PointRange& still : block) {
+            if (found.empty() || still.first > found.back().last) found.push_back(still);
+        }
+    }
+    // Where the motions between are shorter than a window, the tool creeps: step by step of its positions.
+    std::vector<PointRange> kept;
+    for (std::size_t k = 0; k < found.size(); ++k) {
+        const bool after_motion = k == 0 || found[k].first - found[k - 1].last >= least;
+        const bool before_motion = k + 1 == found.size() || found[k + 1].first - found[k].last >= least;
+        if (after_motion && before_motion) kept.push_back(found[k]);
+    }
+    return kept;
+}
+
+}  // namespace
+
+std::vector<PointRange> smooth_pieces(const Log& log, const Passes& passes) {
+    std::vector<PointRange> pieces;
+    PassKind before = PassKind::rapid;
+    for (const Pass& pass : passes) {
+        if (!pieces.empty() && pass.kind == PassKind::cut && before == PassKind::cut) {
+            pieces.back().last = pass.last;
+        } else {
+            pieces.push_back({pass.first, pass.last});
+        }
+        before = pass.kind;
+    }
+    const Channel* time = log.find("time");
+    if (time == nullptr) return pieces;
+    std::vector<PointRange> whole;
+    std::vector<double> t;
+    for (PointRange piece : pieces) {
+        for (PointIndex begin = piece.first; begin < piece.last; begin += block_points) {
+            const PointIndex end = std::min(piece.last, begin + block_points);
+            t.resize(static_cast<std::size_t>(end - begin + 1));
+            copy_block(time->values, begin, t);
+            for (std::size_t i = 1; i < t.size(); ++i) {
+                if (t[i] - t[i - 1] <= gap * log.period) continue;
+                const PointIndex cut = begin + static_cast<PointIndex>(i);
+                whole.push_back({piece.first, cut - 1});
+                piece.first = cut;
+            }
+        }
+        whole.push_back(piece);
+    }
+    return whole;
+}
+
+std::vector<PointRange> split_at_standstills(const std::vector<PointRange>& pieces, const Trajectory& path) {
+    std::vector<PointRange> split;
+    for (PointRange piece : pieces) {
+        for (const PointRange& still : standstills(path, piece)) {
+            if (still.first > piece.first) {
+                split.push_back({piece.first, still.first});
+                piece.first = still.first + 1;
+            }
+            const PointRange rest{piece.first, still.last == piece.last ? still.last : still.last - 1};
+            split.push_back(rest);
+            piece.first = rest.last + 1;
+        }
+        if (piece.size() > 0) split.push_back(piece);
+    }
+    return split;
+}
+
+}  // namespace clsurf

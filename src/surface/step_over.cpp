@@ -1,0 +1,146 @@
+#include "surface/step_over.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+#include <vector>
+
+#include "core/block.h"
+#include "core/statistics.h"
+
+namespace clsurf {
+namespace {
+
+constexpr std::size_t probes_wanted = 384;
+/// Another part of the way: it is this many times farther along the way than straight across.
+constexpr double way_over_distance = 3.0;
+constexpr double same_place = 1e-3;   ///< [mm]; nearer is the same pass cut again
+constexpr double finest_cells = 256;  ///< cells along the part's diagonal in the first look
+constexpr int coarsest_look = 7;
+constexpr double enough = 0.5;  ///< share of probes that must have found a neighbour
+
+struct Probe {
+    PointIndex point = 0;
+    double way = 0;          ///< from the start [mm]
+    double nearest = 1e300;  ///< [mm]
+};
+
+/// Probes by cell; each stands in the 27 cells round its own.
+class ProbeCells {
+public:
+    ProbeCells(const Positions& p, const std::vector<Probe>& probes, float cell) : per_mm_(1 / cell) {
+        for (std::uint32_t i = 0; i < probes.size(); ++i) {
+            const Eigen::Vector3i c = cell_of(p[probes[i].point]);
+            for (int dx = -1; dx <= 1; ++dx) {
+                for (int dy = -1; dy <= 1; ++dy) {
+                    for (int dz = -1; dz <= 1; ++dz) { cells_[key(c + Eigen::Vector3i(dx, dy, dz))].push_back(i); }
+                }
+            }
+        }
+    }
+    [[nodiscard]] const std::vector<std::uint32_t>* near(const Eigen::Vector3f& p) const {
+        const auto found = cells_.find(key(cell_of(p)));
+        return found == cells_.end() ? nullptr : &found->second;
+    }
+
+private:
+    [[nodiscard]] Eigen::Vector3i cell_of(const Eigen::Vector3f& p) const {
+        return (p * per_mm_).array().floor().cast<int>();
+    }
+    static std::uint64_t key(const Eigen::Vector3i& c) {
+        const auto part = [](int v) { return static_cast<std::uint64_t>(static_cast<std::uint32_t>(v)) & 0x1fffff; };
+        return part(c.x()) << 42 | part(c.y()) << 21 | part(c.z());
+    }
+
+    float per_mm_;
+    std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
+};
+
+double distance_to_segment(const Eigen::Vector3f& p, const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
+    const Eigen::Vector3f way = b - a;
+    const float squared = way.squaredNorm();
+    const float t = squared > 0 ? std::clamp((p - a).dot(way) / squared, 0.0F, 1.0F) : 0.0F;
+    return (a + t * way - p).norm();
+}
+
+Eigen::AlignedBox3f box_of(const Positions& p, const Passes& runs) {
+    Eigen::AlignedBox3f box;
+    for (const Pass& run : runs) {
+        if (run.kind != PassKind::cut) continue;
+        std::vector<Eigen::AlignedBox3f> of_block(
+            static_cast<std::size_t>((run.size() + block_points - 1) / block_points));
+        for_each_block(run.size(), [&](PointIndex first, PointIndex last) {
+            Eigen::AlignedBox3f& mine = of_block[static_cast<std::size_t>(first / block_points)];
+            for (PointIndex i = run.first + first; i < run.first + last; ++i) mine.extend(p[i]);
+        });
+        for (const Eigen::AlignedBox3f& part : of_block) box.extend(part);
+    }
+    return box;
+}
+
+/// A point of the way and how far along it lies.
+struct Sample {
+    PointIndex point = 0;
+    double way = 0;       ///< [mm]
+    bool joined = false;  ///< the sample before lies on the same run
+};
+
+/// Points of the cutting runs, one per `spacing` [mm] of way or little more.
+std::vector<Sample> thinned(const Passes& runs, const Way& way, double spacing) {
+    std::vector<std::vector<Sample>> of_block;
+    for (const Pass& run : runs) {
+        if (run.kind != PassKind::cut) continue;
+        const std::size_t base = of_block.size();
+        of_block.resize(base + static_cast<std::size_t>((run.size() + block_points - 1) / block_points));
+        for_each_block(run.size(), [&](PointIndex first, PointIndex last) {
+            std::vector<Sample>& mine = of_block[base + static_cast<std::size_t>(first / block_points)];
+            double at = way.to(run.first + first);
+            mine.push_back({run.first + first, at, first > 0});
+            for (PointIndex i = run.first + first + 1; i < run.first + last; ++i) {
+                at += way.step(i - 1);
+                if (at - mine.back().way >= spacing) mine.push_back({i, at, true});
+            }
+        });
+    }
+    std::vector<Sample> samples;
+    for (const std::vector<Sample>& block : of_block) { samples.insert(samples.end(), block.begin(), block.end()); }
+    return samples;
+}
+
+}  // namespace
+
+double estimate_step_over(const Positions& positions, const Passes& runs, const Way& way) {
+    const Eigen::AlignedBox3f box = box_of(positions, runs);
+    if (box.isEmpty() || box.diagonal().norm() <= 0) return 0;
+    const float diagonal = box.diagonal().norm();
+    const std::vector<Sample> path = thinned(runs, way, diagonal / (finest_cells * 8));
+    std::vector<Probe> probes;
+    const std::size_t stride = std::max<std::size_t>(1, path.size() / probes_wanted);
+    for (std::size_t i = stride / 2; i < path.size(); i += stride) { probes.push_back({path[i].point, path[i].way}); }
+    float cell = diagonal / static_cast<float>(finest_cells);
+    for (int look = 0; look < coarsest_look; ++look, cell *= 2) {
+        const ProbeCells cells(positions, probes, cell);
+        for (std::size_t k = 1; k < path.size(); ++k) {
+            const Eigen::Vector3f here = positions[path[k].point];
+            const std::vector<std::uint32_t>* near = cells.near(here);
+            if (near == nullptr) continue;
+            // The way before it, so that the distance does not depend on how it was thinned.
+            const Eigen::Vector3f before = path[k].joined ? positions[path[k - 1].point] : here;
+            for (const std::uint32_t i : *near) {
+                Probe& probe = probes[i];
+                const double distance = distance_to_segment(positions[probe.point], before, here);
+                const bool other = std::abs(path[k].way - probe.way) > way_over_distance * distance;
+                if (other && distance > same_place && distance < probe.nearest) probe.nearest = distance;
+            }
+        }
+        std::vector<double> found;
+        for (const Probe& probe : probes) {
+            if (probe.nearest <= cell) found.push_back(probe.nearest);
+        }
+        if (static_cast<double>(found.size()) < enough * static_cast<double>(probes.size())) continue;
+        return median(found);
+    }
+    return 0;
+}
+
+}  // namespace clsurf

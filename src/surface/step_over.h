@@ -1,0 +1,14 @@
+#pragma once
+// The step-over of a finishing program: the distance of adjacent passes, estimated from the path itself
+// (median distance from a sample to the nearest part of the path that is not its own pass).
+
+#include "surface/passes.h"
+#include "toolpath/arc_length.h"
+
+namespace clsurf {
+
+/// Step-over [mm] of the cutting runs, or 0 where no part of the way has another beside it (a single
+/// pass). O(points), parallel.
+[[nodiscard]] double estimate_step_over(const Positions& positions, const Passes& runs, const Way& way);
+
+}  // namespace clsurf

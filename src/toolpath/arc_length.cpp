@@ -1,0 +1,64 @@
+#include "toolpath/arc_length.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/block.h"
+#include "core/vectorised.h"
+
+namespace clsurf {
+namespace {
+
+CLSURF_VECTORISED void measure(const float* x, const float* y, const float* z, float* steps, PointIndex first,
+                               PointIndex last) {
+    for (PointIndex i = first; i < last; ++i) {
+        const float dx = x[i + 1] - x[i];
+        const float dy = y[i + 1] - y[i];
+        const float dz = z[i + 1] - z[i];
+        const float squared = dx * dx + dy * dy + dz * dz;
+        steps[i] = squared >= 0 ? std::sqrt(squared) : 0.0F;  // NaN is no way
+    }
+}
+
+}  // namespace
+
+Way::Way(const Positions& positions) {
+    const PointIndex count = positions.size();
+    steps_.resize(static_cast<std::size_t>(count));
+    sums_ = Column<double>(static_cast<std::size_t>((count + stride - 1) / stride + 1), 0.0);
+    for_each_block(count, [&](PointIndex first, PointIndex last) {
+        measure(positions.x.data(), positions.y.data(), positions.z.data(), steps_.data(), first,
+                std::min(last, count - 1));
+        if (last == count) steps_[static_cast<std::size_t>(count - 1)] = 0;
+        for (PointIndex begin = first; begin < last; begin += stride) {
+            double sum = 0;
+            for (PointIndex i = begin; i < std::min(begin + stride, last); ++i) sum += step(i);
+            sums_[static_cast<std::size_t>(begin / stride + 1)] = sum;
+        }
+    });
+    for (std::size_t k = 1; k < sums_.size(); ++k) sums_[k] += sums_[k - 1];
+}
+
+double Way::to(PointIndex i) const {
+    const PointIndex block = i / stride;
+    double way = sums_[static_cast<std::size_t>(block)];
+    for (PointIndex k = block * stride; k < i; ++k) way += step(k);
+    return way;
+}
+
+bool Way::at_least(PointIndex i, PointIndex j, double distance) const {
+    if (i > j) std::swap(i, j);
+    if (j - i <= stride) {
+        double way = 0;
+        for (PointIndex k = i; k < j && way < distance; ++k) way += step(k);
+        return way >= distance;
+    }
+    const PointIndex from = (i + stride - 1) / stride;
+    const PointIndex to = j / stride;
+    if (from < to && sums_[static_cast<std::size_t>(to)] - sums_[static_cast<std::size_t>(from)] >= distance) {
+        return true;
+    }
+    return this->to(j) - this->to(i) >= distance;
+}
+
+}  // namespace clsurf

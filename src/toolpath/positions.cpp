@@ -1,0 +1,58 @@
+#include "toolpath/positions.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/block.h"
+
+namespace clsurf {
+namespace {
+
+/// [mm] A kilometre from the first point no tool ever is; grids over such places would put all that is
+/// near each other into one cell.
+constexpr double farthest_apart = 1e6;
+
+Vec3 first_finite(const Trajectory& trajectory) {
+    std::array<double, 256> x, y, z;
+    for (PointIndex begin = 0; begin < trajectory.count; begin += 256) {
+        const auto n = static_cast<std::size_t>(std::min<PointIndex>(256, trajectory.count - begin));
+        trajectory.read(begin, {x.data(), n}, {y.data(), n}, {z.data(), n});
+        for (std::size_t i = 0; i < n; ++i) {
+            const Vec3 p(x[i], y[i], z[i]);
+            if (p.allFinite()) return p;
+        }
+    }
+    return Vec3::Zero();
+}
+
+}  // namespace
+
+Positions gather(const Trajectory& trajectory) {
+    Positions positions;
+    positions.origin = first_finite(trajectory);
+    const std::array<Column<float>*, 3> columns{&positions.x, &positions.y, &positions.z};
+    for (Column<float>* column : columns) column->resize(static_cast<std::size_t>(trajectory.count));
+    for_each_block(trajectory.count, [&](PointIndex first, PointIndex last) {
+        // A quarter of a block at a time: the three axes of a record share its cache lines, which
+        // must still be there when the second and third axis are gathered.
+        constexpr PointIndex step = 2048;
+        std::array<std::array<double, step>, 3> scratch;
+        for (PointIndex begin = first; begin < last; begin += step) {
+            const auto n = static_cast<std::size_t>(std::min(step, last - begin));
+            trajectory.read(begin, {scratch[0].data(), n}, {scratch[1].data(), n}, {scratch[2].data(), n});
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                float* out = columns[axis]->data() + begin;
+                const double origin = positions.origin[static_cast<Eigen::Index>(axis)];
+                for (std::size_t i = 0; i < n; ++i) {
+                    const double d = scratch[axis][i] - origin;
+                    out[i] =
+                        std::abs(d) <= farthest_apart ? static_cast<float>(d) : std::numeric_limits<float>::quiet_NaN();
+                }
+            }
+        }
+    });
+    return positions;
+}
+
+}  // namespace clsurf

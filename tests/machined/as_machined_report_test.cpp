@@ -1,0 +1,176 @@
+#include "machined/as_machined_report.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "machined/scallop.h"
+#include "planted_score.h"
+#include "surface/smoothing_segments.h"
+
+namespace clsurf {
+namespace {
+
+/// A planted log as far as its formed surface.
+struct Planted {
+    explicit Planted(const planted::Recipe& recipe) : made(planted::make_planted_log(recipe)) {}
+
+    planted::PlantedLog made;
+    Log log = planted::as_log(made);
+    Program program = planted::program_of(made);
+    Diagnostics diagnostics;
+    Trajectory path = reconstruct(log, Role::commanded, Vec3::Zero());
+    Trajectory measured = reconstruct(log, Role::feedback, Vec3::Zero());
+    LineMap lines = map_lines(path, log, program, true, diagnostics);
+    ClSurface surface = stitch(gather(path), lines);
+    std::vector<PointRange> pieces = smooth_pieces(log, surface.passes);
+    Signals signals = derive_signals(surface, path, &measured, pieces, 1.0);
+    FormedSurface formed{surface, signals, Role::commanded, measured, pieces, {ToolKind::ball, 3, 3}};
+    QualityReport report = find_defects(surface, signals, lines, program, log.period, {});
+    FormedReport result = measure_formed(formed, signals, report);
+};
+
+planted::Recipe recipe_with(double amplitude, planted::Shape shape, planted::Surface surface) {
+    planted::Recipe recipe;
+    recipe.shape = shape;
+    recipe.surface = surface;
+    planted::Defect defect;
+    defect.kind = planted::Kind::lag;
+    defect.first_pass = defect.last_pass = 14;
+    defect.from = 10;
+    defect.to = 13;
+    defect.amplitude = amplitude;
+    if (amplitude != 0) recipe.defects.push_back(defect);
+    return recipe;
+}
+
+TEST(FormedReport, APlantedPitOfFiveMicrometresShowsAsFive) {
+    // On the loops, the give of the axes makes the passes lie lower and lower across the pit.
+    for (const planted::Shape shape : {planted::Shape::zigzag, planted::Shape::one_way, planted::Shape::loops}) {
+        const Planted pit(recipe_with(-0.005, shape, planted::Surface::transition));
+        ASSERT_GE(pit.report.defects.size(), 1U) << planted::name_of(shape);
+        EXPECT_TRUE(pit.report.defects[0].pit);
+        EXPECT_NEAR(pit.result.marks[0].depth, 0.005, 0.0005)
+            << planted::name_of(shape) << ", found " << pit.report.defects[0].depth;
+    }
+}
+
+TEST(FormedReport, APlantedBulgeIsCutDownByItsNeighbours) {
+    const double h = scallop_height(3, 0.3, std::numeric_limits<double>::infinity());
+    const Planted bulge(recipe_with(0.006, planted::Shape::zigzag, planted::Surface::transition));
+    ASSERT_EQ(bulge.report.defects.size(), 1U);
+    // Its cusps are h (1 + δ/4h)², those beside it h: less than half of the 6 µm are left over them.
+    const double cusp = h * (1 + 0.006 / (4 * h)) * (1 + 0.006 / (4 * h));
+    EXPECT_NEAR(bulge.result.marks[0].depth, cusp - h, 0.0006);
+}
+
+TEST(FormedReport, RoughnessOfACleanPartIsThatOfItsScallops) {
+    for (const planted::Surface surface : {planted::Surface::transition, planted::Surface::wave}) {
+        planted::Recipe recipe = recipe_with(0, planted::Shape::zigzag, surface);
+        recipe.noise = 0;
+        recipe.give = 0;
+        const Planted clean(recipe);
+        const double h = scallop_height(3, 0.3, std::numeric_limits<double>::infinity());
+        EXPECT_GT(clean.result.patches.size(), 15U);
+        const std::vector<RoughPatch>& patches = clean.result.patches;
+        double mean = 0;
+        for (const RoughPatch& patch : patches) {
+            mean += patch.profile.rz / static_cast<double>(patches.size());
+            EXPECT_LE(patch.profile.rz, patches[clean.result.roughest].profile.rz);
+            EXPECT_NEAR((patch.contact - clean.formed.contact(patch.point)).norm(), 0, 1e-12);
+        }
+        EXPECT_NEAR(mean, clean.result.rz, 1e-12);
+        EXPECT_NEAR(clean.result.rz, h, 0.15 * h);  // the surface's own roundness is 4 %, the log's micrometre the rest
+        EXPECT_NEAR(clean.result.ra, scallop_ra(h), 0.1 * scallop_ra(h));
+        EXPECT_NEAR(clean.result.sa, scallop_ra(h), 0.1 * scallop_ra(h));
+    }
+}
+
+TEST(FormedReport, ScallopsFollowTheCurvatureAcrossTheFeed) {
+    // Tips on a sphere of radius r: the ball's centres lie on one as large, and it touches one of r − 3 mm.
+    planted::Recipe recipe = recipe_with(0, planted::Shape::one_way, planted::Surface::dome);
+    recipe.noise = 0;
+    recipe.give = 0;
+    const Planted dome(recipe);
+    const double tips = 1.3 * std::hypot(0.5 * recipe.length, recipe.passes * recipe.step_over);
+    const double rho = tips - 3;
+    const double expected = scallop_height(3, dome.surface.step_over * rho / tips, rho);
+    EXPECT_NEAR(dome.result.scallop, expected, 0.05 * expected);
+    const double flat = scallop_height(3, dome.surface.step_over, std::numeric_limits<double>::infinity());
+    EXPECT_GT(std::abs(dome.result.scallop - flat), 0.1 * flat);
+}
+
+TEST(FormedReport, WhereTheFormHasCreasesNothingIsMeasured) {
+    planted::Recipe recipe = recipe_with(0, planted::Shape::zigzag, planted::Surface::transition);
+    recipe.noise = 0;
+    recipe.give = 0;
+    recipe.height = 2;
+    recipe.width = 0.2;  // two bends of some 0.2 mm, less than the step-over
+    const Planted creased(recipe);
+    const double h = scallop_height(3, 0.3, std::numeric_limits<double>::infinity());
+    EXPECT_GT(creased.result.unknown, 0.02);
+    EXPECT_LT(creased.result.unknown, 0.5);
+    // A fit through a crease would leave some hundred micrometres.
+    EXPECT_LT(creased.result.sz, 2 * h);
+    EXPECT_NEAR(creased.result.rz, h, 0.15 * h);
+}
+
+TEST(FormedReport, AMarkAmongPassesToAndFroIsReadAgainstItsOwnDirection) {
+    // Thirteen passes, every second one 0.04 mm lower, and the one in the middle, of the lower ones, 0.01 mm lower than these.
+    std::vector<double> z;
+    for (int k = 0; k < 1300; ++k) z.push_back((k / 100 % 2 == 0 ? -0.04 : 0) - (k / 100 == 6 ? 0.01 : 0));
+    EXPECT_NEAR(mark_depth(z, 0.01, 1, true).depth, 0.01, 1e-12);
+    // Where all passes differ by more than the mark, there is no level to measure it from.
+    const double off[] = {0, 0.03, -0.02, 0.05, -0.04, 0.01, 0, 0.06, 0.03, -0.05, 0.02, -0.01, 0.04};
+    for (std::size_t k = 0; k < z.size(); ++k) z[k] = off[k / 100] - (k / 100 == 6 ? 0.01 : 0);
+    const FormedMark uneven = mark_depth(z, 0.01, 1, true);
+    EXPECT_TRUE(std::isnan(uneven.depth));
+    EXPECT_EQ(uneven.note, MarkNote::uneven_passes);
+}
+
+TEST(FormedReport, AMarkIsReadAgainstTheUsualValleysAndCusps) {
+    // Eleven pieces of a parabola 4 high; in the middle one that is 3 lower, and one 2 higher at its edge.
+    std::vector<double> z;
+    for (int k = 0; k <= 1100; ++k) {
+        const double x = (k % 100) / 50.0 - 1;
+        z.push_back(4 * x * x);
+    }
+    const std::vector<double> clean = z;
+    EXPECT_NEAR(mark_depth(clean, 0.01, 1, true).depth, 0, 1e-12);
+    EXPECT_NEAR(mark_depth(clean, 0.01, 1, false).depth, 0, 1e-12);
+    for (std::size_t k = 500; k < 600; ++k) z[k] -= 3;
+    EXPECT_NEAR(mark_depth(z, 0.01, 1, true).depth, 3, 1e-12);
+    z = clean;
+    for (std::size_t k = 500; k < 600; ++k) z[k] += 2;
+    EXPECT_NEAR(mark_depth(z, 0.01, 1, false).depth, 2, 1e-12);
+    // What changes evenly across the row is no part of it.
+    for (std::size_t k = 0; k < z.size(); ++k) z[k] += 0.005 * static_cast<double>(k);
+    EXPECT_NEAR(mark_depth(z, 0.01, 1, false).depth, 2, 0.5);
+    // Far from the middle, it is another mark.
+    z = clean;
+    for (std::size_t k = 100; k < 200; ++k) z[k] -= 3;
+    EXPECT_NEAR(mark_depth(z, 0.01, 1, true).depth, 0, 1e-12);
+    const FormedMark nothing = mark_depth(std::vector<double>(1100, std::nan("")), 0.01, 1, true);
+    EXPECT_TRUE(std::isnan(nothing.depth));
+    EXPECT_EQ(nothing.note, MarkNote::unknown_form);
+}
+
+TEST(Form, OnACurvedSurfaceItPassesThroughTheContacts) {
+    const Planted clean(recipe_with(0, planted::Shape::zigzag, planted::Surface::wave));
+    const Form form(clean.formed, clean.formed.bounds());
+    std::vector<double> off;
+    for (const auto& [p, tip] : clean.formed.contacts(clean.formed.bounds(), 0.3)) {
+        const Form::Facet facet = form.at(p.head<2>());
+        if (facet.z == facet.z) off.push_back(std::abs(facet.z + clean.formed.level() - p.z()));
+    }
+    ASSERT_GT(off.size(), 1000U);
+    std::sort(off.begin(), off.end());
+    EXPECT_LT(off[off.size() / 2], 0.0005);  // the log's positions are whole micrometres
+    EXPECT_LT(off[off.size() * 99 / 100], 0.0015);
+    EXPECT_TRUE(std::isnan(form.at(Vec2(12, -1)).z));  // beside the outermost pass
+}
+
+}  // namespace
+}  // namespace clsurf

@@ -1,0 +1,145 @@
+#include "mapping/program_lines.h"
+
+#include <gtest/gtest.h>
+
+#include "mapping/line_map.h"
+#include "program/interpreter.h"
+
+namespace clsurf {
+namespace {
+
+struct Recorded {
+    std::vector<double> x, y, z;
+    std::vector<std::uint32_t> line, program;
+};
+
+Log log_of(const Recorded& r, std::vector<std::string> programs) {
+    Log log;
+    log.name = "run";
+    log.period = 0.001;
+    log.records = static_cast<PointIndex>(r.x.size());
+    const auto add = [&](const char* name, const void* data, ScalarType type, std::size_t stride) {
+        log.channels.push_back(
+            {name, "", {static_cast<const std::byte*>(data), stride, log.records, type, false, 1.0, 0.0}});
+    };
+    add("cmd.x", r.x.data(), ScalarType::f64, 8);
+    add("cmd.y", r.y.data(), ScalarType::f64, 8);
+    add("cmd.z", r.z.data(), ScalarType::f64, 8);
+    add("line", r.line.data(), ScalarType::u32, 4);
+    if (!r.program.empty()) add("program", r.program.data(), ScalarType::u32, 4);
+    for (std::string& name : programs) log.programs.push_back({std::move(name), {}, {}});
+    return log;
+}
+
+Program parse(const std::string& name, std::string_view text) {
+    return parse_program(SourceText(name, text, nullptr), {});
+}
+
+TEST(ProgramLines, ALineOfASubprogramIsTheLineThatCalledIt) {
+    const Recorded r{{0, 0, 0, 0, 0}, {0, 0, 0, 0, 0}, {0, 0, 0, 0, 0}, {9, 2, 7, 8, 3}, {2, 0, 1, 1, 0}};
+    const Log log = log_of(r, {"/_N_WKS_DIR/_N_PART_MPF", "/_SUB", "(not recorded)"});
+    Diagnostics diagnostics;
+    const ProgramLines own = lines_of_program(log, parse("nc/part.mpf", "G1 X1 F100\nG1 X2\nG1 X3\n"), diagnostics);
+    ASSERT_TRUE(own.lines);
+    const LineNumber expected[] = {0, 2, 2, 2, 3};
+    for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ((*own.lines)[i], expected[i]) << i;
+    EXPECT_TRUE(diagnostics.empty());
+}
+
+TEST(ProgramLines, ALineThatCallsCutsWhileItsSubprogramDoes) {
+    InterpreterOptions options;
+    options.load = [](const std::string&) {
+        return std::optional(SourceText("sub.spf", "G1 X2\nG1 X3\nRET\n", nullptr));
+    };
+    options.dialect = find_dialect("siemens");
+    const Program program = parse_program(SourceText("part.mpf", "G1 X1 F100\nM8\nSUB\nG1 X4\nM9\n", nullptr), options);
+    ASSERT_EQ(program.motions.size(), 4);
+    const Recorded r{
+        {0.5, 1, 1.5, 2.5, 3.5, 4}, {0, 0, 0, 0, 0, 0}, {0, 0, 0, 0, 0, 0}, {1, 1, 1, 2, 4, 5}, {0, 0, 1, 1, 0, 0}};
+    const Log log = log_of(r, {"/_N_PART_MPF", "/_N_SUB_SPF"});
+    Diagnostics diagnostics;
+    const LineMap map = map_lines(reconstruct(log, Role::commanded, Vec3::Zero()), log, program, true, diagnostics);
+    EXPECT_EQ(map.kind_of(3), PointKind::cut);   // the call
+    EXPECT_EQ(map.kind_of(5), PointKind::idle);  // after the last motion
+}
+
+TEST(ProgramLines, SaysWhichProgramsRanWhereNoneIsThisOne) {
+    const Recorded r{{0, 0}, {0, 0}, {0, 0}, {9, 2}, {0, 1}};
+    Diagnostics diagnostics;
+    const ProgramLines own =
+        lines_of_program(log_of(r, {"/_A", "/_B"}), parse("part.mpf", "G1 X1 F100\n"), diagnostics);
+    EXPECT_FALSE(own.known);
+    ASSERT_EQ(diagnostics.count("map.program"), 1u);
+    EXPECT_NE(diagnostics.kept()[0].text.find("/_A, /_B"), std::string::npos);
+}
+
+TEST(ProgramLines, AreThoseOfTheLogWhereItNamesOneProgram) {
+    const Recorded r{{0, 0}, {0, 0}, {0, 0}, {9, 2}, {}};
+    Diagnostics diagnostics;
+    const ProgramLines own = lines_of_program(log_of(r, {"other.nc"}), parse("part.nc", "G1 X1 F100\n"), diagnostics);
+    EXPECT_FALSE(own.lines);
+    EXPECT_TRUE(own.known);
+}
+
+/// A program of 100 lines, 1 mm each, run at 1 mm per record from line `first` to line `last`.
+void run(Recorded& r, int first, int last) {
+    for (int line = first; line <= last; ++line) {
+        for (int k = 0; k < 4; ++k) {
+            r.x.push_back(line - 1 + (k + 1) * 0.25);
+            r.line.push_back(static_cast<std::uint32_t>(line));
+        }
+    }
+    r.y.assign(r.x.size(), 0);
+    r.z.assign(r.x.size(), 0);
+}
+
+Diagnostics course_of(const Recorded& r) {
+    std::string text;
+    for (int line = 1; line <= 100; ++line) text += "G1 X" + std::to_string(line) + " F100\n";
+    const Program program = parse("part.nc", text);
+    const Log log = log_of(r, {});
+    Diagnostics diagnostics;
+    (void)map_lines(reconstruct(log, Role::commanded, Vec3::Zero()), log, program, true, diagnostics);
+    return diagnostics;
+}
+
+TEST(ProgramCourse, SaysNothingOfAWholeRun) {
+    Recorded r;
+    run(r, 1, 100);
+    EXPECT_TRUE(course_of(r).empty());
+}
+
+TEST(ProgramCourse, FindsTwoRunsInOneLog) {
+    Recorded r;
+    run(r, 1, 100);
+    run(r, 1, 100);
+    const Diagnostics found = course_of(r);
+    ASSERT_EQ(found.count("map.runs"), 1u);
+    EXPECT_EQ(found.kept()[0].where.number, 400u);
+}
+
+TEST(ProgramCourse, FindsALogThatBeginsInTheMiddle) {
+    Recorded r;
+    run(r, 50, 80);
+    const Diagnostics found = course_of(r);
+    ASSERT_EQ(found.count("map.begins-inside"), 1u);
+    EXPECT_NE(found.kept()[0].text.find("begins at line 50: 49 %"), std::string::npos) << found.kept()[0].text;
+    EXPECT_EQ(found.count("map.ends-early"), 1u);
+}
+
+TEST(ProgramCourse, FindsAPause) {
+    Recorded r;
+    run(r, 1, 50);
+    for (int i = 0; i < 2500; ++i) {
+        r.x.push_back(50);
+        r.line.push_back(50);
+    }
+    run(r, 51, 100);
+    const Diagnostics found = course_of(r);
+    ASSERT_EQ(found.count("map.pause"), 1u);
+    EXPECT_NE(found.kept()[0].text.find("stands still for 2.5 s on line 50"), std::string::npos)
+        << found.kept()[0].text;
+}
+
+}  // namespace
+}  // namespace clsurf

@@ -1,0 +1,447 @@
+#include "predictor/defects.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "core/parallel.h"
+#include "io/formats/log_format.h"
+#include "io/readers/program_file.h"
+#include "planted_score.h"
+#include "predictor/axis_delay.h"
+#include "predictor/verdict.h"
+#include "surface/smoothing_segments.h"
+
+namespace clsurf {
+namespace {
+
+using planted::Shape;
+
+constexpr Shape shapes[] = {Shape::zigzag, Shape::one_way, Shape::loops, Shape::spiral};
+
+class Planted : public testing::TestWithParam<Shape> {};
+
+TEST_P(Planted, DefectsAreFoundAndNothingElse) {
+    planted::Score sum;
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+        const planted::PlantedLog log =
+            planted::make_planted_log(planted::random_recipe(seed, GetParam(), false, seed == 2));
+        sum += planted::score(log, planted::judge(log));
+    }
+    EXPECT_EQ(sum.found, sum.planted);
+    EXPECT_EQ(sum.right, sum.reported);
+    EXPECT_EQ(sum.placed, sum.planted);
+    EXPECT_EQ(sum.lined, sum.planted);
+    EXPECT_EQ(sum.named, sum.planted);
+    for (const double error : sum.depth_errors) EXPECT_NEAR(error, 0, 0.15);
+}
+
+TEST_P(Planted, ACleanLogIsClean) {
+    for (std::uint64_t seed = 11; seed <= 12; ++seed) {
+        const planted::PlantedLog log =
+            planted::make_planted_log(planted::random_recipe(seed, GetParam(), true, false));
+        const QualityReport report = planted::judge(log);
+        EXPECT_TRUE(report.defects.empty()) << planted::name_of(GetParam()) << " seed " << seed;
+        EXPECT_GT(report.compared, report.points / 2);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, Planted, testing::ValuesIn(shapes), [](const auto& shape) {
+    std::string name(planted::name_of(shape.param));
+    std::erase(name, '-');
+    return name;
+});
+
+TEST(Defects, AreTheSameForAnyNumberOfThreads) {
+    const planted::PlantedLog log = planted::make_planted_log(planted::random_recipe(5, Shape::zigzag, false, false));
+    set_thread_count(1);
+    const QualityReport one = planted::judge(log);
+    set_thread_count(4);
+    const QualityReport four = planted::judge(log);
+    set_thread_count(0);
+    ASSERT_EQ(one.defects.size(), four.defects.size());
+    ASSERT_FALSE(one.defects.empty());
+    for (std::size_t i = 0; i < one.defects.size(); ++i) {
+        EXPECT_EQ(one.defects[i].point, four.defects[i].point);
+        EXPECT_EQ(one.defects[i].depth, four.defects[i].depth);
+        EXPECT_EQ(one.defects[i].area, four.defects[i].area);
+    }
+}
+
+TEST(Defects, DoNotDependOnWhereTheRecordBegins) {
+    // Places are judged where they lie, not where a count of records falls on them.
+    const auto judged_without = [](PointIndex records) {
+        planted::PlantedLog log = planted::make_planted_log(planted::random_recipe(5, Shape::zigzag, false, true));
+        for (auto* columns : {&log.commanded, &log.measured}) {
+            for (std::vector<double>& column : *columns) column.erase(column.begin(), column.begin() + records);
+        }
+        log.line.erase(log.line.begin(), log.line.begin() + records);
+        log.pass.erase(log.pass.begin(), log.pass.begin() + records);
+        return planted::judge(log);
+    };
+    const QualityReport whole = judged_without(0);
+    ASSERT_GE(whole.defects.size(), 2U);
+    for (const PointIndex records : {1, 2, 3, 4}) {
+        const QualityReport later = judged_without(records);
+        ASSERT_EQ(later.defects.size(), whole.defects.size());
+        for (std::size_t k = 0; k < whole.defects.size(); ++k) {
+            EXPECT_EQ(later.defects[k].point + records, whole.defects[k].point);
+            EXPECT_NEAR(later.defects[k].length, whole.defects[k].length, 1e-4);
+            EXPECT_NEAR(later.defects[k].depth, whole.defects[k].depth, 2e-5);
+        }
+    }
+}
+
+TEST(Defects, AreNotJudgedOnDataThatCannotShowThem) {
+    const auto reasons = [](const planted::PlantedLog& log) { return planted::judge(log).judgement.reasons; };
+    planted::PlantedLog log = planted::make_planted_log(planted::random_recipe(5, Shape::zigzag, false, false));
+    EXPECT_TRUE(reasons(log).empty());
+    // The same position stands for some that were not recorded.
+    planted::PlantedLog with_placeholder = log;
+    for (const std::size_t at : {1000, 2000, 3000}) {
+        for (const std::size_t i : {at, at + 1}) {
+            with_placeholder.commanded[0][i] = 198;
+            with_placeholder.commanded[1][i] = 158;
+            with_placeholder.commanded[2][i] = 119;
+        }
+    }
+    const std::vector<std::string> why = reasons(with_placeholder);
+    ASSERT_EQ(why.size(), 1U);
+    EXPECT_NE(why.front().find("jumps to X198 Y158"), std::string::npos) << why.front();
+    // A record every 100 ms.
+    log.recipe.period = 0.1;
+    ASSERT_EQ(reasons(log).size(), 1U);
+    EXPECT_EQ(reasons(log).front().find("A record comes every 100 ms."), 0U);
+}
+
+TEST(Defects, OfARecordedPartAreWhereTheProgramHasThem) {
+    // Five passes of the sample have a stretch of points 0.02 mm apart, where the kernel falls from
+    // 3000 to some 600 mm/min (data/programs/README.md).
+    const Program program = io::read_program(SAMPLE_DATA "/programs/bottle_uneven.nc");
+    const Log log = io::open_log(SAMPLE_LOGS "/bottle_uneven.biip", {});
+    Diagnostics diagnostics;
+    const Trajectory path = reconstruct(log, Role::commanded, Vec3::Zero());
+    const Trajectory measured = reconstruct(log, Role::feedback, Vec3::Zero());
+    const LineMap lines = map_lines(path, log, program, true, diagnostics);
+    const ClSurface surface = stitch(gather(path), lines);
+    const Signals signals = derive_signals(surface, path, &measured, smooth_pieces(log, surface.passes), 1.0);
+    const QualityReport report = find_defects(surface, signals, lines, program, log.period, {});
+    for (const double y : {-5.6, -2.8, 0.0, 2.8, 5.6}) {
+        const auto here = std::find_if(report.defects.begin(), report.defects.end(), [&](const Defect& d) {
+            return d.cause == Cause::point_spacing && d.speed_jump < -30 && d.bounds.min().y() < y + 0.1 &&
+                   d.bounds.max().y() > y - 0.1;
+        });
+        ASSERT_NE(here, report.defects.end()) << "y = " << y;
+        // The dense lines: their pass holds more than a hundred of them.
+        const bool dense = std::any_of(here->runs.begin(), here->runs.end(),
+                                       [](const DefectRun& run) { return run.last_line - run.first_line > 100; });
+        EXPECT_TRUE(dense) << "y = " << y;
+    }
+}
+
+constexpr double apart = 0.3;    // [mm] passes of plane_zigzag
+constexpr double length = 24.0;  // [mm] … and what they are long
+
+/// A zigzag of 24 passes over a plane. `speed`: [mm/s] on a pass at x, the way s [mm] from its beginning.
+template <typename Speed>
+planted::PlantedLog plane_zigzag(Speed&& speed) {
+    constexpr int passes = 24;
+    planted::PlantedLog log;
+    const double period = log.recipe.period = 0.001;
+    log.program = "G1 F3000 X0 Y0 Z0\n";
+    const auto put = [&](double x, double y, std::uint32_t line, int pass) {
+        const double p[3] = {x, y, 0};
+        for (int axis = 0; axis < 3; ++axis) {
+            log.commanded[axis].push_back(p[axis]);
+            log.measured[axis].push_back(p[axis]);
+        }
+        log.line.push_back(line);
+        log.pass.push_back(pass);
+    };
+    std::uint32_t line = 1;
+    for (int k = 0; k < passes; ++k) {
+        const bool back = k % 2 == 1;
+        const double y = k * apart;
+        log.program += fmt::format("X{} Y{}\n", back ? 0.0 : length, y);
+        ++line;
+        for (double s = 0; s < length;) {
+            const double x = back ? length - s : s;
+            put(x, y, line, k);
+            s += period * speed(k, x, s);
+        }
+        if (k + 1 == passes) break;
+        log.program += fmt::format("Y{}\n", y + apart);
+        ++line;
+        for (double s = 0; s < apart; s += 0.01) put(back ? 0.0 : length, y + s, line, -1);
+    }
+    return log;
+}
+
+/// Speed after the way s with an acceleration [mm/s²] from 1 mm/s.
+double reached(double acceleration, double s) { return std::sqrt(1 + 2 * acceleration * s); }
+
+/// On each pass the speed falls to half round a place that lies 0.3 mm farther on every pass: along an
+/// edge at 45° to the feed. `steady`: a pass that does not slow down; −1: none.
+planted::PlantedLog slow_along_an_edge(int steady) {
+    return plane_zigzag([steady](int k, double x, double s) {
+        const double off = (x - 8 - k * apart) / 0.7;
+        return std::min(reached(600, std::min(s, length - s)), k == steady ? 50.0 : 50 - 25 * std::exp(-off * off));
+    });
+}
+
+/// The tool speeds up over 7 mm and slows down over 2, so that the two ways differ near both ends; pass 12
+/// does by `share` more from x = 3 to 5, inside the ramp.
+planted::PlantedLog unlike_ramps(double share) {
+    return plane_zigzag([share](int k, double x, double s) {
+        const double planned = std::min({66.7, reached(300, s), reached(1100, length - s)});
+        return k == 12 && x > 3 && x < 5 ? (1 + share) * planned : planned;
+    });
+}
+
+TEST(Defects, AreNotWhatAllPassesDoOneAfterTheOther) {
+    EXPECT_TRUE(planted::judge(slow_along_an_edge(-1)).defects.empty());
+    // A pass that does not slow down with the others is one, where they do.
+    const QualityReport report = planted::judge(slow_along_an_edge(12));
+    EXPECT_TRUE(std::any_of(report.defects.begin(), report.defects.end(), [](const Defect& d) {
+        return std::abs(d.place.tip.y() - 3.6) < 1e-3 && std::abs(d.place.tip.x() - 11.6) < 1 && d.speed_jump > 5;
+    }));
+}
+
+TEST(Defects, AreNotHowPassesBeginAndEnd) {
+    EXPECT_TRUE(planted::judge(unlike_ramps(0)).defects.empty());
+    for (const double share : {-0.2, 0.2}) {
+        const QualityReport report = planted::judge(unlike_ramps(share));
+        ASSERT_EQ(report.defects.size(), 1U) << share;
+        EXPECT_NEAR(report.defects[0].place.tip.y(), 12 * apart, 1e-3);
+        EXPECT_NEAR(report.defects[0].place.tip.x(), 4, 1.5);
+        // Against its own way: 50 mm/s at x = 4. The other one is still at 66.7.
+        EXPECT_NEAR(report.defects[0].speed_jump, 50 * share, 1);
+    }
+}
+
+TEST(Defects, OfFastPassesAreSeenByTheirLength) {
+    // 100 mm/s and a wave of 1 mm: ten points of a millisecond.
+    planted::Recipe recipe;
+    recipe.feed = 100;
+    recipe.length = 60;
+    recipe.width = 10;
+    recipe.noise = 1e-4;
+    recipe.scatter = 0;
+    recipe.quantum = 1e-4;
+    recipe.defects = {{.kind = planted::Kind::oscillation,
+                       .first_pass = 12,
+                       .last_pass = 12,
+                       .from = 20,
+                       .to = 24,
+                       .amplitude = 0.08}};
+    const planted::PlantedLog log = planted::make_planted_log(recipe);
+    const planted::Score score = planted::score(log, planted::judge(log));
+    EXPECT_EQ(score.found, 1);
+    EXPECT_EQ(score.named, 1);
+    EXPECT_EQ(score.right, score.reported);
+}
+
+/// The measured positions of some passes lifted by `height` [mm] from x = `from` to `to`, with edges of 0.5 mm.
+template <typename Taken>
+void lift(planted::PlantedLog& log, double height, double from, double to, Taken&& taken) {
+    for (std::size_t i = 0; i < log.pass.size(); ++i) {
+        if (log.pass[i] < 0 || !taken(log.pass[i])) continue;
+        const double x = log.commanded[0][i];
+        const double inside = std::clamp(2 * std::min(x - from, to - x), 0.0, 1.0);
+        log.measured[2][i] += height * inside;
+    }
+}
+
+/// A zigzag whose axes run 10 µm above the path on the way forward and as much below it on the way back, for x = 4 to 20.
+planted::PlantedLog alternating_zigzag() {
+    planted::PlantedLog log = plane_zigzag([](int, double, double) { return 50.0; });
+    lift(log, 0.010, 4, 20, [](int pass) { return pass % 2 == 0; });
+    lift(log, -0.010, 4, 20, [](int pass) { return pass % 2 == 1; });
+    return log;
+}
+
+TEST(SystematicLag, IsOneDefectOfTheWhole) {
+    const QualityReport report = planted::judge(alternating_zigzag());
+    ASSERT_EQ(report.defects.size(), 1U);
+    const Defect& lag = report.defects.front();
+    EXPECT_TRUE(lag.systematic);
+    EXPECT_EQ(lag.cause, Cause::lag_step);
+    EXPECT_NEAR(lag.depth, 0.020, 0.002);  // from one way to the other
+    EXPECT_NEAR(lag.share, 16.0 / 24.0, 0.05);
+    EXPECT_NEAR(lag.bounds.min().x(), 4, 0.5);
+    EXPECT_NEAR(lag.bounds.max().x(), 20, 0.5);
+    EXPECT_GE(lag.runs.size(), 20U);
+    EXPECT_LE(lag.severity, 3);
+}
+
+TEST(SystematicLag, LeavesALocalFaultInsideItToItself) {
+    for (const int pass : {9, 12}) {
+        planted::PlantedLog log = alternating_zigzag();
+        lift(log, 0.009, 10, 13, [pass](int p) { return p == pass; });
+        const QualityReport report = planted::judge(log);
+        ASSERT_EQ(report.defects.size(), 2U);
+        const Defect& local = report.defects[report.defects[0].systematic ? 1 : 0];
+        EXPECT_FALSE(local.systematic);
+        EXPECT_NEAR(local.depth, 0.009, 0.001);
+        EXPECT_FALSE(local.pit);
+        ASSERT_EQ(local.runs.size(), 1U);
+        EXPECT_EQ(local.runs[0].pass, pass + 1);
+        EXPECT_GE(local.bounds.min().x(), 9.5);
+        EXPECT_LE(local.bounds.max().x(), 13.5);
+    }
+}
+
+TEST(SystematicLag, IsNoFaultOfAFewPasses) {
+    // Four passes of the same way, in a clean part: a defect like others.
+    planted::PlantedLog log = plane_zigzag([](int, double, double) { return 50.0; });
+    lift(log, 0.010, 4, 20, [](int p) { return p >= 8 && p <= 14 && p % 2 == 0; });
+    const QualityReport report = planted::judge(log);
+    ASSERT_FALSE(report.defects.empty());
+    for (const Defect& defect : report.defects) EXPECT_FALSE(defect.systematic);
+}
+
+TEST(SystematicLag, MayBeLeftInItsPlaces) {
+    QualityRules rules;
+    rules.group_systematic = false;
+    const QualityReport report = planted::judge(alternating_zigzag(), rules);
+    ASSERT_FALSE(report.defects.empty());
+    for (const Defect& defect : report.defects) EXPECT_FALSE(defect.systematic);
+}
+
+TEST(SystematicLag, NamesTheAxesThatDiffer) {
+    // A zigzag over a slope: X trails by 0.4 ms, Z by 1.8 ms. Speeds are even, so that an axis is where it was to be before.
+    planted::Recipe recipe = planted::random_recipe(3, Shape::zigzag, true, false);
+    recipe.noise = 0;
+    planted::PlantedLog planted = planted::make_planted_log(recipe);
+    constexpr std::array<double, 3> delays{0.0004, 0.0004, 0.0018};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::vector<double>& commanded = planted.commanded[axis];
+        for (std::size_t i = 2; i + 2 < commanded.size(); ++i)
+            planted.measured[axis][i] =
+                commanded[i] - delays[axis] * (commanded[i + 2] - commanded[i - 2]) / (4 * recipe.period);
+    }
+    const Log log = planted::as_log(planted);
+    const Program program = planted::program_of(planted);
+    Diagnostics diagnostics;
+    const Trajectory path = reconstruct(log, Role::commanded, Vec3::Zero());
+    const Trajectory measured = reconstruct(log, Role::feedback, Vec3::Zero());
+    const LineMap lines = map_lines(path, log, program, true, diagnostics);
+    const ClSurface surface = stitch(gather(path), lines);
+    const Signals signals =
+        derive_signals(surface, path, &measured, smooth_pieces(log, surface.passes), usual_end_zone(surface.step_over));
+    QualityReport report = find_defects(surface, signals, lines, program, log.period, {});
+    explain_systematic_lag(report, path, measured, signals);
+    const auto lag =
+        std::find_if(report.defects.begin(), report.defects.end(), [](const Defect& d) { return d.systematic; });
+    ASSERT_NE(lag, report.defects.end());
+    ASSERT_EQ(lag->delays.size(), 2U);
+    EXPECT_EQ(lag->delays[0].axis, 'z');
+    EXPECT_NEAR(lag->delays[0].delay, 0.0018, 1e-4);
+    EXPECT_EQ(lag->delays[1].axis, 'x');
+    EXPECT_NEAR(lag->delays[1].delay, 0.0004, 1e-4);
+}
+
+TEST(Severity, ComesFromDepthAndFromHowFarItStandsOut) {
+    const SeverityRule rule;
+    const auto of = [&](double depth, float score, bool motion, bool systematic = false) {
+        return severity_of({depth, score, motion, systematic}, rule);
+    };
+    EXPECT_EQ(of(0.0015, 1.2F, false), 1);
+    EXPECT_EQ(of(0.003, 1.2F, false), 2);
+    EXPECT_EQ(of(0.008, 1.2F, false), 2);  // deep, but hardly more than the part itself
+    EXPECT_EQ(of(0.008, 2, false), 3);
+    EXPECT_EQ(of(0.030, 2, false), 3);
+    EXPECT_EQ(of(0.030, 7, false), 4);
+    EXPECT_EQ(of(0.030, 7, false, true), 3);
+    EXPECT_EQ(of(0, 2.5F, true), 2);
+    EXPECT_EQ(of(0, 20, true), 3);
+    EXPECT_EQ(of(0, 20, false), 1);
+}
+
+TEST(Defects, AreListedByHowFarTheyStandOut) {
+    // A pass 40 % slower leaves next to no depth here, one 6 µm too deep does: the first stands out thirteen thresholds, the
+    // other four.
+    planted::PlantedLog log =
+        plane_zigzag([](int k, double x, double) { return k == 8 && x > 8 && x < 12 ? 30.0 : 50.0; });
+    lift(log, -0.006, 10, 14, [](int p) { return p == 16; });
+    const QualityReport report = planted::judge(log);
+    ASSERT_EQ(report.defects.size(), 2U);
+    EXPECT_EQ(report.defects[0].quantity, Quantity::speed);
+    EXPECT_EQ(report.defects[1].quantity, Quantity::lag);
+    EXPECT_GT(report.defects[0].score, report.defects[1].score);
+    EXPECT_LT(report.defects[0].depth, report.defects[1].depth);
+    EXPECT_NEAR(report.defects[0].speed_mismatch, -0.4, 0.02);
+    EXPECT_NEAR(report.defects[0].speed_jump, -20, 1);
+}
+
+TEST(Defects, LoseAtMostAllOfTheirSpeed) {
+    // The neighbours of this pass are slow where it is fast: three times as fast is +200 %, and nothing is −200 %.
+    const planted::PlantedLog log = plane_zigzag([](int k, double x, double) {
+        const bool odd_one = k == 12;
+        return x > 8 && x < 14 ? (odd_one ? 50.0 : 15.0) : (odd_one ? 40.0 : 50.0);
+    });
+    const QualityReport report = planted::judge(log);
+    ASSERT_FALSE(report.defects.empty());
+    for (const Defect& defect : report.defects) {
+        EXPECT_GE(defect.speed_mismatch, -1);
+        EXPECT_EQ(defect.speed_mismatch < 0, defect.speed_jump < 0);
+    }
+}
+
+TEST(Verdict, HoldsEveryLimitThatIsSet) {
+    QualityReport report;
+    report.points = 100;
+    report.compared = 80;
+    report.defects.resize(2);
+    report.defects[0].depth = 0.006;
+    report.defects[0].severity = 3;
+    report.defects[0].speed_mismatch = 0.25;
+    EXPECT_TRUE(hold(report, {}).empty());
+    QualityBudget budget;
+    budget.max_depth_um = 6;
+    budget.max_defects = 2;
+    budget.max_speed_mismatch_percent = 25;
+    budget.min_coverage_percent = 80;
+    EXPECT_TRUE(all_held(hold(report, budget)));
+    budget.max_depth_um = 5.9;
+    EXPECT_FALSE(all_held(hold(report, budget)));
+    budget.max_depth_um = 6;
+    budget.min_coverage_percent = 81;
+    EXPECT_FALSE(all_held(hold(report, budget)));
+    budget.min_coverage_percent.reset();
+    budget.max_severity = 2;
+    const std::vector<BudgetLine> lines = hold(report, budget);
+    EXPECT_FALSE(all_held(lines));
+    EXPECT_EQ(lines.size(), 4U);
+}
+
+TEST(Verdict, IsNeverThatABudgetIsMetWhereNothingWasJudged) {
+    QualityReport report;
+    report.points = 100;
+    report.compared = 80;
+    QualityBudget budget;
+    budget.max_depth_um = 6;
+    EXPECT_TRUE(all_held(hold(report, budget)));
+    report.judgement.refuse("Every position is the same.");
+    report.judgement.refuse("Every position is the same.");
+    EXPECT_FALSE(report.judgement.judged());
+    EXPECT_EQ(report.judgement.reasons.size(), 1U);
+    EXPECT_FALSE(all_held(hold(report, budget)));
+}
+
+TEST(Defects, AreNotJudgedWherePassesHaveNoNeighbours) {
+    // The passes lie in pairs, far from each other: each has a neighbour on one side only.
+    planted::PlantedLog log = plane_zigzag([](int, double, double) { return 50.0; });
+    EXPECT_TRUE(planted::judge(log).judgement.judged());
+    for (std::size_t i = 0; i < log.pass.size(); ++i) {
+        for (auto* columns : {&log.commanded, &log.measured}) (*columns)[1][i] += 40.0 * (log.pass[i] / 2);
+    }
+    const QualityReport report = planted::judge(log);
+    EXPECT_LT(report.coverage(), least_coverage);
+    EXPECT_FALSE(report.judgement.judged());
+}
+
+}  // namespace
+}  // namespace clsurf

@@ -1,0 +1,79 @@
+// Mismatch: what of a relief is a mark, and what is the part's own shape.
+#include "predictor/mismatch.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "support/made_surface.h"
+
+namespace clsurf {
+namespace {
+
+constexpr double apart = 0.4;
+constexpr int passes = 21;
+constexpr double length = 40;
+
+/// A surface z(x, y) under passes along X; what its reliefs have that those around have not, at every fifth point [mm].
+template <typename Height>
+std::vector<float> own_reliefs(const Height& height, double low, double high) {
+    const test::MadeSurface made = test::flat_zigzag(passes, length, apart, 50, {}, [&](const Vec3& flat) {
+        return Vec3(flat.x(), flat.y(), height(flat.x(), flat.y()));
+    });
+    const Signals signals = made.signals();
+    const Comparer comparer(made.surface, signals, 12.5);
+    std::vector<float> own;
+    for (PointIndex i = 0; i < made.surface.positions.size(); i += 5) {
+        const Vec3 p = made.surface.positions.absolute(i);
+        if (p.x() < 5 || p.x() > length - 5 || p.y() < low || p.y() > high) continue;
+        const Comparison c = comparer.compare({i, 0});
+        if (c.left >= 2 && c.right >= 2) own.push_back(c.residual[index_of(Quantity::relief)]);
+    }
+    EXPECT_GT(own.size(), 100U);
+    return own;
+}
+
+TEST(Relief, OfAPassThatLiesOffIsAMark) {
+    // The eleventh pass, and a band of the eleventh and the twelfth.
+    for (const double to : {4.1, 4.5}) {
+        for (const double off : {0.01, -0.01}) {
+            const auto height = [&](double, double y) { return y > 3.9 && y < to ? off : 0.0; };
+            // A band stands out over the chord from a pass of it to one beside it.
+            const double seen = to < 4.2 ? off : 0.5 * off;
+            for (const float own : own_reliefs(height, 3.9, to)) EXPECT_NEAR(own, seen, 1e-5);
+        }
+    }
+}
+
+TEST(Relief, OfEverySecondPassIsAMark) {
+    const auto height = [](double, double y) { return std::lround(y / apart) % 2 == 0 ? 0.01 : 0.0; };
+    // Against the passes between, that lie lower by twice as much as the chords do.
+    for (const float own : own_reliefs(height, 3.9, 4.1)) EXPECT_NEAR(own, 0.02, 1e-5);
+}
+
+TEST(Relief, OfAnEdgeOfThePartIsNone) {
+    for (const double slope : {0.0, 0.05, -0.3}) {
+        for (const double steep : {0.5, -0.5, 0.02}) {
+            const auto roof = [&](double x, double y) {
+                return -steep * std::abs(y - 4.07 - slope * (x - 0.5 * length));
+            };
+            for (const float own : own_reliefs(roof, 2, 6)) EXPECT_LT(std::abs(own), 1e-5F);
+        }
+    }
+}
+
+TEST(Relief, OfANarrowFilletIsNone) {
+    // A floor and a wall of 45° with a radius of 0.9 mm between: two passes run in it.
+    const auto height = [](double, double y) {
+        constexpr double radius = 0.9;
+        const double along = y - 4;
+        if (along < 0) return 0.0;
+        const double end = radius * std::sqrt(0.5);
+        return along < end ? radius - std::sqrt(radius * radius - along * along)
+                           : radius - std::sqrt(0.5) * radius + (along - end);
+    };
+    for (const float own : own_reliefs(height, 2, 6)) EXPECT_LT(std::abs(own), 1e-5F);
+}
+
+}  // namespace
+}  // namespace clsurf

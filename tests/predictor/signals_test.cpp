@@ -1,0 +1,112 @@
+#include "predictor/signals.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "predictor/mismatch.h"
+#include "support/made_surface.h"
+#include "surface/smoothing_segments.h"
+
+namespace clsurf {
+namespace {
+
+using test::MadeSurface;
+
+/// Points on passes, away from their ends, where the tool does not speed up or slow down.
+template <typename F>
+void for_each_inner(const Signals& s, F&& f) {
+    std::int64_t seen = 0;
+    for (PointIndex i = 0; i < s.size(); ++i) {
+        if (s[i].zone < Zone::near_end) continue;
+        f(i);
+        ++seen;
+    }
+    EXPECT_GT(seen, 1000);
+}
+
+TEST(Signals, ALagAlongThePathIsNoHeight) {
+    // 20 ms at 50 mm/s: one millimetre behind, exactly on the way.
+    const MadeSurface made =
+        test::flat_zigzag(9, 30, 0.4, 50, [](const Vec3& p, const Vec3& feed) { return Vec3(p - 1.0 * feed); });
+    const Signals s = made.signals();
+    for_each_inner(s, [&](PointIndex i) {
+        const float lag = s[i].lag;
+        if (lag == lag) { EXPECT_NEAR(lag, 0.0F, 1e-6F) << i; }
+    });
+}
+
+TEST(Signals, AnOffsetAlongTheNormalIsTheHeight) {
+    const MadeSurface made = test::flat_zigzag(
+        9, 30, 0.4, 50, [](const Vec3& p, const Vec3& feed) { return Vec3(p - 0.3 * feed + Vec3(0, 0, 0.005)); });
+    const Signals s = made.signals();
+    std::int64_t with = 0;
+    for_each_inner(s, [&](PointIndex i) {
+        const float lag = s[i].lag;
+        if (!(lag == lag)) return;  // the outermost passes have a normal by one side only, but have one
+        EXPECT_NEAR(lag, 0.005F, 1e-6F) << i;
+        ++with;
+    });
+    EXPECT_GT(with, 3000);
+}
+
+TEST(Signals, TheNormalPointsUpWhicheverWayThePassRuns) {
+    const MadeSurface made = test::flat_zigzag(9, 30, 0.4, 50, {});
+    const Signals s = made.signals();
+    EXPECT_FALSE(s.measured);
+    for_each_inner(s, [&](PointIndex i) { EXPECT_NEAR(s.normal(i).z(), 1.0F, 1e-5F); });
+}
+
+TEST(Signals, SpeedAndAccelerationAreThoseOfTheWay) {
+    const MadeSurface made = test::flat_zigzag(9, 30, 0.4, 50, {});
+    const Signals s = made.signals();
+    for_each_inner(s, [&](PointIndex i) {
+        EXPECT_NEAR(s[i].speed, 50.0F, 1e-2F);
+        EXPECT_NEAR(s.acceleration(i).norm(), 0.0F, 1.0F);
+    });
+}
+
+TEST(Mismatch, OfASlowerPassIsWhatItIsSlower) {
+    // Pass 4 runs at 45 mm/s, all others at 50.
+    const MadeSurface made = test::zigzag_of_speeds({50, 50, 50, 50, 45, 50, 50, 50, 50}, 30, 0.4);
+    const Signals s = made.signals();
+    const Comparer comparer(made.surface, s, 50);
+    std::array<int, 3> seen{};
+    for_each_inner(s, [&](PointIndex i) {
+        const int pass = static_cast<int>(std::lround(made.surface.positions[i].y() / 0.4F));
+        const Comparison c = comparer.compare({i, 0});
+        if (c.left == 0 || c.right == 0) return;  // next to where the pass beside it begins
+        const float step = c.step[index_of(Quantity::speed)];
+        const float residual = c.residual[index_of(Quantity::speed)];
+        if (pass == 4) {
+            EXPECT_NEAR(step, 0.10F, 1e-3F);
+            EXPECT_NEAR(residual, -0.10F, 1e-3F);
+            EXPECT_NEAR(c.speed_jump, -5.0F, 0.05F);
+            ++seen[0];
+        } else if (pass == 3 || pass == 5) {
+            EXPECT_NEAR(step, 0.10F, 1e-3F);     // the step is on both sides of it …
+            EXPECT_NEAR(residual, 0.0F, 1e-3F);  // … and the fault is not theirs
+            ++seen[1];
+        } else if (pass == 2 || pass == 6) {
+            EXPECT_NEAR(step, 0.0F, 1e-3F);
+            EXPECT_NEAR(residual, 0.0F, 1e-3F);
+            ++seen[2];
+        }
+    });
+    for (const int n : seen) EXPECT_GT(n, 400);
+}
+
+TEST(Mismatch, ThatChangesEvenlyFromPassToPassIsNobodysFault) {
+    const MadeSurface made = test::zigzag_of_speeds({40, 42, 44, 46, 48, 50, 52, 54, 56}, 30, 0.4);
+    const Signals s = made.signals();
+    const Comparer comparer(made.surface, s, 50);
+    for_each_inner(s, [&](PointIndex i) {
+        const Comparison c = comparer.compare({i, 0});
+        if (c.left == 0 || c.right == 0) return;
+        EXPECT_NEAR(c.residual[index_of(Quantity::speed)], 0.0F, 1e-3F) << i;
+    });
+}
+
+}  // namespace
+}  // namespace clsurf

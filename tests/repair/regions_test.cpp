@@ -1,0 +1,132 @@
+// Mixing by region: where a changed program runs worse, and that what is given back there makes it better.
+
+#include "repair/regions.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "repair/optimizer.h"
+#include "repair/parts.h"
+#include "repair/repair_mask.h"
+
+namespace clsurf {
+namespace {
+
+/// Blocks of 0.02 mm take 2 ms: they are passed at 10 mm/s instead of 50.
+Machine slow_at_short_blocks() {
+    Machine machine;
+    machine.path.max_jerk = 1e6;
+    for (MachineAxis& axis : machine.axes) axis.max_jerk = 2e6;
+    machine.controller.block_time = 0.002;
+    return machine;
+}
+
+/// Flat passes, the fifth of which (it runs forth) has 100 points between `from` and `from` + 2 mm.
+Program crowded_at(double from) {
+    return read_text(wavy_zigzag(
+        9, 40, [=](int pass, double x) { return pass == 4 && x > from && x < from + 2 ? 0.02 : 0.31; }, 0));
+}
+
+JudgedRun run_of(const Program& program, const std::optional<Thresholds>& thresholds = {}) {
+    Diagnostics diagnostics;
+    QualityRules rules;
+    rules.fixed = thresholds;
+    return judge_run(simulate_to_log(program, slow_at_short_blocks(), Vec3::Zero(), {}).log, program, rules,
+                     diagnostics);
+}
+
+bool marked_near(const Program& program, const std::vector<std::uint8_t>& marks, double x, double y) {
+    for (std::size_t i = 0; i < marks.size(); ++i) {
+        const Vec3 end = program.motions.end[i].vec();
+        if (std::abs(end.x() - x) < 0.4 && std::abs(end.y() - y) < 0.01 && end.z() < 5) return marks[i] != 0;
+    }
+    return false;
+}
+
+// The slow place moves from x = 11 to x = 29: worse is what lies about the second, on the passes beside as well.
+TEST(Regions, AreWhereTheOtherRunIsWorse) {
+    const Program program = crowded_at(10), changed = crowded_at(28);
+    const JudgedRun before = run_of(program), after = run_of(changed, before.report.thresholds);
+    const std::vector<std::uint8_t> worse = worse_motions(before, after, program, {});
+    ASSERT_EQ(worse.size(), static_cast<std::size_t>(program.motions.size()));
+    const double y = 4 * 0.4;
+    EXPECT_TRUE(marked_near(program, worse, 29, y));
+    EXPECT_TRUE(marked_near(program, worse, 29, y - 0.4) && marked_near(program, worse, 29, y + 0.4))
+        << "the passes beside it";
+    EXPECT_FALSE(marked_near(program, worse, 11, y) || marked_near(program, worse, 11, y + 0.4)) << "is better";
+    EXPECT_FALSE(marked_near(program, worse, 20, y) || marked_near(program, worse, 3, y)) << "is the same";
+}
+
+TEST(Regions, AreNoneBetweenARunAndItself) {
+    const Program program = crowded_at(10);
+    const JudgedRun run = run_of(program);
+    const std::vector<std::uint8_t> worse = worse_motions(run, run, program, {});
+    EXPECT_EQ(std::count(worse.begin(), worse.end(), 1), 0);
+}
+
+// Slower by the same on all passes: no defect, no difference between them, but time.
+TEST(Regions, ThatCostTimeAreGivenBack) {
+    const auto of = [](double spacing) {
+        return read_text(wavy_zigzag(
+            9, 40, [=](int, double x) { return x > 18 && x < 22 ? spacing : 0.31; }, 0));
+    };
+    const Program program = of(0.31), changed = of(0.02);
+    const JudgedRun before = run_of(program), after = run_of(changed, before.report.thresholds);
+    ASSERT_GT(after.duration, before.duration + 9 * 0.2);  // 4 mm at 10 mm/s instead of 50
+    const std::vector<std::uint8_t> worse = worse_motions(before, after, program, {});
+    for (int pass = 0; pass < 9; ++pass) EXPECT_TRUE(marked_near(program, worse, 20, 0.4 * pass)) << pass;
+    const std::vector<std::uint8_t> reverse = worse_motions(after, before, changed, {});
+    EXPECT_EQ(std::count(reverse.begin(), reverse.end(), 1), 0) << "what saves time is kept";
+}
+
+/// A part that holds both: a crowd of points to be repaired, and bends where every pass has its points where it wants.
+Program mixed_part() {
+    return read_text(wavy_zigzag(6, 9, [](int pass, double x) {
+        return pass == 3 && x > 3 && x < 4 ? 0.02 : 0.23 + 0.1 * std::abs(std::sin(1.7 * pass + 0.6 * x));
+    }));
+}
+
+TEST(Draft, KeepsWhatIsGivenBackByteForByte) {
+    const Program program = mixed_part();
+    std::vector<std::uint8_t> needed(static_cast<std::size_t>(program.motions.size()), 1);
+    std::vector<std::string> kept;
+    for (std::size_t i = 0; i < needed.size(); ++i) {
+        if (program.motions.end[i].x <= 5) continue;
+        needed[i] = 0;
+        kept.emplace_back(program.main().line(program.motions.line[i]));
+    }
+    const ReadProgram read = read_text;
+    OptimizeRules rules;
+    const Draft draft = Drafter(program, read, rules, 0, true).draft(0.001, needed);
+    ASSERT_GT(draft.stretches, 0U);
+    std::istringstream now(draft.text);
+    std::size_t next = 0;
+    for (std::string line; std::getline(now, line) && next < kept.size();) next += line == kept[next] ? 1 : 0;
+    EXPECT_EQ(next, kept.size()) << kept[std::min(next, kept.size() - 1)];
+}
+
+TEST(Optimizer, IsNeverWorseThanADraftTakenWhole) {
+    const Program program = mixed_part();
+    const Machine machine = slow_at_short_blocks();
+    const ReadProgram read = read_text;
+    const OptimizeRules rules;
+    const Progress silent;
+    Diagnostics diagnostics;
+    Optimized result = optimize(program, read, machine, rules, {}, silent, diagnostics);
+    Proposal taken;
+    taken.proof = result.proof;
+    taken.run = std::move(result.after);
+    Prover prover(program, read, machine, rules, silent, diagnostics);
+    const Drafter drafter(program, read, rules, 1.1 * machine.controller.block_time * 50, true);
+    for (const double share : {0.1, 0.2, 0.4}) {
+        const Tried whole = prover.propose(std::make_shared<const Draft>(drafter.draft(
+                                               share * rules.tolerance, motions_in_need(prover.before(), program, {}))),
+                                           {});
+        EXPECT_FALSE(prover.better(*whole, taken)) << share;
+    }
+}
+
+}  // namespace
+}  // namespace clsurf

@@ -1,0 +1,139 @@
+// Five axes simulated: limits of all of them hold, the tip keeps to its path, angles arrive.
+
+#include "simulation/run/five_axis_simulator.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <string>
+
+#include "core/error.h"
+#include "io/readers/machine_file.h"
+#include "support/made_five_axis.h"
+#include "toolpath/tip_motions.h"
+#include "toolpath/toolpath.h"
+
+namespace clsurf {
+namespace {
+
+const Vec3 zero(5, -8, 12);
+
+struct Recorded {
+    Program program;
+    std::vector<FiveAxisPoint> points;
+    FiveAxisSummary summary;
+};
+
+Recorded run(const std::string& text, const Machine& machine) {
+    Recorded r;
+    r.program = test::parse_text(text);
+    solve_tool_axes(r.program, machine);
+    make_tip_motions(r.program, machine.kinematics, -zero);
+    r.summary = simulate_five_axis(
+        r.program, machine, zero, Vec3::Zero(),
+        [&](std::span<const FiveAxisPoint> p) { r.points.insert(r.points.end(), p.begin(), p.end()); }, {});
+    return r;
+}
+
+Machine trunnion() { return io::read_machine(SAMPLE_DATA "/machines/five_axis_trunnion.toml"); }
+
+ToolPose pose_of(const Machine& machine, const std::array<double, 5>& axes) {
+    ToolPose pose = machine.kinematics.to_workpiece(Vec3(axes[0], axes[1], axes[2]), {axes[3], axes[4]});
+    pose.tip -= zero;
+    return pose;
+}
+
+/// Greatest speed, acceleration and jerk of each axis over its limit, by differences.
+double worst_share(const Recorded& r, const Machine& machine) {
+    double worst = 0;
+    const double t = machine.controller.period;
+    for (std::size_t k = 0; k < 5; ++k) {
+        const MachineAxis& axis = k < 3 ? machine.axes[k] : machine.rotary[k - 3];
+        const auto p = [&](std::size_t i) { return r.points[i].commanded[k]; };
+        for (std::size_t i = 3; i < r.points.size(); ++i) {
+            worst = std::max({worst, std::abs(p(i) - p(i - 1)) / t / axis.max_speed,
+                              std::abs(p(i) - 2 * p(i - 1) + p(i - 2)) / (t * t) / axis.max_acceleration,
+                              std::abs(p(i) - 3 * p(i - 1) + 3 * p(i - 2) - p(i - 3)) / (t * t * t) / axis.max_jerk});
+        }
+    }
+    return worst;
+}
+
+TEST(FiveAxisSimulator, ADomeHoldsLimitsAndPath) {
+    for (const ToolAxisInterpolation way :
+         {ToolAxisInterpolation::linear, ToolAxisInterpolation::vector, ToolAxisInterpolation::safe}) {
+        Machine machine = trunnion();
+        machine.kinematics.interpolation = way;
+        const Recorded r = run(test::dome_program(), machine);
+        EXPECT_TRUE(r.summary.run.limits_ok) << name_of(way);
+        EXPECT_LE(worst_share(r, machine), 1.0011) << name_of(way);
+        // Every tip is as near to the programmed path as corners may be rounded; programmed axes are met.
+        const Toolpath path(r.program.motions, Vec3::Zero());
+        double off = 0;
+        for (std::size_t i = 0; i < r.points.size(); i += 7) {
+            const Vec3 tip = pose_of(machine, r.points[i].commanded).tip;
+            double nearest = 1e9;
+            for (std::int64_t m = 0; m < path.size(); ++m) {
+                const LineNumber line = r.program.motions.line[static_cast<std::size_t>(m)];
+                if (line + 2 >= r.points[i].line && line <= r.points[i].line + 2)
+                    nearest = std::min(nearest, path.foot(m, tip).distance);
+            }
+            off = std::max(off, nearest);
+        }
+        EXPECT_LE(off, 1.05 * machine.controller.tolerance) << name_of(way);
+        const ToolPose end = pose_of(machine, r.points.back().commanded);
+        const auto last = static_cast<std::size_t>(r.program.motions.size() - 1);
+        EXPECT_LE((end.tip - r.program.motions.end[last].vec()).norm(), 1e-9) << name_of(way);
+        EXPECT_LE(angle_between(end.axis, machine.kinematics.axis_of(
+                                              machine.kinematics.angles_of(r.program.motions.rotary[last].vec()))),
+                  1e-9);
+        // Half a degree is what a triangle of 16 periods takes from the changes of direction at the passes' ends.
+        EXPECT_LT(r.summary.orientation_error, 0.6 * rad_per_deg) << name_of(way);
+    }
+}
+
+// Near the pole C turns by 20° a millimetre: there a step of the angles at a rounded corner, and the jerk of the tip between
+// blocks of different speed, are too much for it. Some lines of a dome on both sides of the pole.
+TEST(FiveAxisSimulator, LinesNearThePoleHoldTheLimitsOfTheRotation) {
+    std::ifstream file(SAMPLE_DATA "/programs/dome_five_axis.nc");
+    std::string text, line;
+    for (int number = 1; std::getline(file, line); ++number) {
+        if (number <= 8 || (number >= 548 && number <= 570)) text += line + "\n";
+    }
+    const Machine machine = trunnion();
+    const Recorded r = run(text + "M30\n", machine);
+    EXPECT_TRUE(r.summary.run.limits_ok);
+    EXPECT_LE(worst_share(r, machine), 1.0011);
+    EXPECT_LT(r.summary.run.duration, 15) << "slower than it must be";
+    // The last block's angles are met.
+    const RotaryAngles last =
+        machine.kinematics.angles_of(r.program.motions.rotary[r.program.motions.kind.size() - 1].vec());
+    EXPECT_NEAR(r.points.back().commanded[4], last.rotation, 1e-12);
+}
+
+// The tip in place, the tool turns: five axes move, the tip does not.
+TEST(FiveAxisSimulator, TurningOnTheSpotKeepsTheTip) {
+    const Machine machine = trunnion();
+    const Recorded r = run("G21 G90\nG43.4 H1\nG1 X10 Y5 Z3 F2000\nA-40 C90\nX20\nM30\n", machine);
+    EXPECT_TRUE(r.summary.run.limits_ok);
+    int turned = 0;
+    for (const FiveAxisPoint& p : r.points) {
+        if (p.line != 4) continue;
+        ++turned;
+        EXPECT_LE((pose_of(machine, p.commanded).tip - Vec3(10, 5, 3)).norm(), 1e-9);
+    }
+    EXPECT_GT(turned, 100);
+    EXPECT_NEAR(r.points.back().commanded[3], -40 * rad_per_deg, 1e-12);
+    EXPECT_NEAR(r.points.back().commanded[4], 90 * rad_per_deg, 1e-12);
+}
+
+TEST(FiveAxisSimulator, FeedOfZeroNamesTheLine) {
+    try {
+        (void)run("G43.4 H1\nG1 X10 A-5 F0\n", trunnion());
+        FAIL();
+    } catch (const InputError& error) { EXPECT_EQ(error.diagnostic().where.number, 2u); }
+}
+
+}  // namespace
+}  // namespace clsurf

@@ -1,0 +1,77 @@
+// The speed derived from positions against the speed that the kernel recorded. The kernel's channel
+// belongs to its planner and leads the axes by two records in every log (data/logs/README.md).
+#include <array>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/units.h"
+#include "io/formats/log_format.h"
+#include "numeric/derivative.h"
+#include "toolpath/trajectory.h"
+
+namespace clsurf {
+namespace {
+
+constexpr PointIndex lead = 2;  // [records]
+constexpr std::array logs{"bottle_uneven",    "bottle_zigzag",          "dome_loops",     "transition_g61",
+                          "petal_zigzag_g64", "petal_zigzag_irregular", "petal_loops_g64"};
+
+struct Speeds {
+    std::vector<double> derived, recorded;  // [mm/min]
+    std::vector<double> motion;             // 0: none
+
+    Speeds(const char* name, const DerivativeFilter& filter) {
+        const Log log = io::open_log(std::string(SAMPLE_LOGS "/") + name + ".biip", {});
+        const Trajectory path = reconstruct(log, Role::commanded, Vec3::Zero());
+        const auto n = static_cast<std::size_t>(log.records);
+        std::array<std::vector<double>, 3> position;
+        for (std::vector<double>& column : position) column.resize(n);
+        path.read(0, position[0], position[1], position[2]);
+        const Differentiator d(filter);
+        derived.assign(n, 0.0);
+        std::vector<double> along(n);
+        for (const std::vector<double>& column : position) {
+            d.apply(column, 0, {0, log.records - 1}, 0, along);
+            for (std::size_t i = 0; i < n; ++i) derived[i] = std::hypot(derived[i], along[i] * seconds_per_minute);
+        }
+        recorded.resize(n);
+        motion.resize(n);
+        copy_block(log.find("speed")->values, 0, recorded);
+        copy_block(log.find("motion")->values, 0, motion);
+    }
+    /// Difference [mm/min, rms] where the recorded speed is taken to lead by `shift` records.
+    [[nodiscard]] double rms(PointIndex shift) const {
+        double sum = 0;
+        double count = 0;
+        constexpr std::size_t margin = 30;
+        for (std::size_t i = margin; i + margin < derived.size(); ++i) {
+            if (motion[i] == 0) continue;
+            const double off = recorded[i] - derived[static_cast<std::size_t>(static_cast<PointIndex>(i) + shift)];
+            sum += off * off;
+            ++count;
+        }
+        return std::sqrt(sum / count);
+    }
+};
+
+class RecordedSpeed : public testing::TestWithParam<const char*> {};
+
+TEST_P(RecordedSpeed, IsThatOfThreePointsTwoRecordsLater) {
+    // Differences over two records, 2 ms: hardly any smoothing, and no noise in commanded positions.
+    const Speeds speeds(GetParam(), {3, 2, 1, 0.001});
+    EXPECT_LT(speeds.rms(lead), 15.0);  // of 9,000 … 15,000 mm/min
+    for (const PointIndex other : {-1, 0, 1, 3, 4}) EXPECT_GT(speeds.rms(other), 5 * speeds.rms(lead)) << other;
+}
+
+TEST_P(RecordedSpeed, IsThatOfOurWindowButForItsSmoothing) {
+    // 20 ms round off what the planner does at corners: exact stops in the worst log.
+    const Speeds speeds(GetParam(), derivative_filter(1, 0.001));
+    EXPECT_LT(speeds.rms(lead), 180.0);
+    for (const PointIndex other : {-1, 0, 1, 3, 4}) EXPECT_GT(speeds.rms(other), speeds.rms(lead)) << other;
+}
+
+INSTANTIATE_TEST_SUITE_P(Recorded, RecordedSpeed, testing::ValuesIn(logs));
+
+}  // namespace
+}  // namespace clsurf
