@@ -39,6 +39,13 @@ void TomlFile::allow(const toml::table& table, const std::vector<std::string_vie
     }
 }
 
+std::optional<bool> TomlFile::boolean(const toml::table& table, std::string_view key) const {
+    const toml::node* node = table.get(key);
+    if (node == nullptr) return std::nullopt;
+    if (!node->is_boolean()) fail(*node, fmt::format("'{}' must be true or false", key));
+    return node->value<bool>();
+}
+
 std::optional<double> TomlFile::number(const toml::table& table, std::string_view key) const {
     const toml::node* node = table.get(key);
     if (node == nullptr) return std::nullopt;

@@ -29,6 +29,7 @@ public:
     }
     void allow(const toml::table& table, const std::vector<std::string_view>& keys) const;
     [[nodiscard]] std::optional<double> number(const toml::table& table, std::string_view key) const;
+    [[nodiscard]] std::optional<bool> boolean(const toml::table& table, std::string_view key) const;
     [[nodiscard]] std::optional<std::string> text(const toml::table& table, std::string_view key) const;
     /// A whole number in [low, high].
     [[nodiscard]] std::optional<std::int64_t> integer(const toml::table& table, std::string_view key, std::int64_t low,

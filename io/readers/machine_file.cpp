@@ -60,9 +60,31 @@ void take_mode(const TomlFile& file, const toml::table& table, std::string_view 
     if (!name.empty()) value = static_cast<Mode>(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
+/// What the trapezoidal planner asks for instead of roundings.
+void read_trapezoid(const TomlFile& file, const toml::table& table, TrapezoidSettings& t) {
+    if (const auto arcs = file.boolean(table, "arc_blends")) t.arc_blends = *arcs;
+    if (const auto cubic = file.boolean(table, "cubic_interpolation")) t.cubic_interpolation = *cubic;
+    if (const auto blocks = file.integer(table, "blocks_per_period", 1, 1000))
+        t.blocks_per_period = static_cast<int>(*blocks);
+    take(file, table, "gap_periods", t.gap_periods, Low::zero);
+    take(file, table, "ramp_frequency", t.ramp_frequency, Low::above_zero);
+    take(file, table, "kink_ratio", t.kink_ratio, Low::above_zero, 1.0, 0.7071);
+    constexpr double percent = 0.01;
+    take(file, table, "max_feed_override", t.max_feed_override, Low::above_zero, percent, 1000);
+}
+
 void read_controller(const TomlFile& file, const toml::table& table, ControllerSettings& c) {
-    file.allow(table, {"period", "lookahead_blocks", "corner", "curve", "tolerance", "chord_tolerance", "block_time",
-                       "feed_override"});
+    take_mode<2>(file, table, "planner", c.planner);
+    // A key of the other planner would be without effect.
+    if (c.planner == PlannerKind::trapezoidal) {
+        file.allow(table,
+                   {"planner", "period", "lookahead_blocks", "tolerance", "feed_override", "arc_blends", "gap_periods",
+                    "ramp_frequency", "kink_ratio", "max_feed_override", "blocks_per_period", "cubic_interpolation"});
+        read_trapezoid(file, table, c.trapezoid);
+    } else {
+        file.allow(table, {"planner", "period", "lookahead_blocks", "corner", "curve", "tolerance", "chord_tolerance",
+                           "block_time", "feed_override"});
+    }
     take(file, table, "period", c.period, Low::above_zero, 1.0, 1.0);
     if (const auto blocks = file.integer(table, "lookahead_blocks", 2, 100000))
         c.lookahead_blocks = static_cast<int>(*blocks);
@@ -75,12 +97,15 @@ void read_controller(const TomlFile& file, const toml::table& table, ControllerS
     take(file, table, "feed_override", c.feed_override, Low::above_zero, percent, 1000);
 }
 
-void read_path(const TomlFile& file, const toml::table& table, PathLimits& path) {
-    file.allow(table, {"max_speed", "max_acceleration", "max_normal_acceleration", "max_jerk"});
+void read_path(const TomlFile& file, const toml::table& table, PlannerKind planner, PathLimits& path) {
+    if (planner == PlannerKind::trapezoidal)
+        file.allow(table, {"max_speed", "max_acceleration", "max_normal_acceleration"});
+    else
+        file.allow(table, {"max_speed", "max_acceleration", "max_normal_acceleration", "max_jerk"});
     take(file, table, "max_speed", path.max_speed, Low::above_zero, 1 / seconds_per_minute);
     take(file, table, "max_acceleration", path.max_acceleration, Low::above_zero);
     take(file, table, "max_normal_acceleration", path.max_normal_acceleration, Low::above_zero);
-    take(file, table, "max_jerk", path.max_jerk, Low::above_zero);
+    if (planner != PlannerKind::trapezoidal) take(file, table, "max_jerk", path.max_jerk, Low::above_zero);
 }
 
 void read_travel(const TomlFile& file, const toml::table& table, double factor, MachineAxis& axis) {
@@ -118,7 +143,10 @@ void read_servo(const TomlFile& file, const toml::table& table, double period, d
 }
 
 void read_axis(const TomlFile& file, const toml::table& table, std::vector<std::string_view>& seen, Machine& machine) {
-    file.allow(table, {"name", "travel", "max_speed", "max_acceleration", "max_jerk", "servo"});
+    if (machine.controller.planner == PlannerKind::trapezoidal)
+        file.allow(table, {"name", "travel", "max_speed", "max_acceleration", "servo"});
+    else
+        file.allow(table, {"name", "travel", "max_speed", "max_acceleration", "max_jerk", "servo"});
     std::vector<std::string_view> names(axis_names.begin(), axis_names.end());
     const Kinematics& kinematics = machine.kinematics;
     if (kinematics.has_rotary())
@@ -135,18 +163,20 @@ void read_axis(const TomlFile& file, const toml::table& table, std::vector<std::
     read_travel(file, table, factor, axis);
     take(file, table, "max_speed", axis.max_speed, Low::above_zero, factor / seconds_per_minute);
     take(file, table, "max_acceleration", axis.max_acceleration, Low::above_zero, factor);
-    take(file, table, "max_jerk", axis.max_jerk, Low::zero, factor);
+    if (machine.controller.planner != PlannerKind::trapezoidal)
+        take(file, table, "max_jerk", axis.max_jerk, Low::zero, factor);
     if (const toml::table* servo = file.section(table, "servo"))
         read_servo(file, *servo, machine.controller.period, factor, axis.servo);
 }
 
-std::string axis_text(std::string_view name, const MachineAxis& a, double factor) {
+std::string axis_text(std::string_view name, const MachineAxis& a, double factor, bool with_jerk) {
     const auto whole = [&](double value) { return settled_number(value / factor); };
     std::string text =
         fmt::format("\n[[axis]]\nname = \"{}\"\ntravel = [{}, {}]\n", name, whole(a.travel_low), whole(a.travel_high));
     text += fmt::format("max_speed = {}\nmax_acceleration = {}\n", whole(a.max_speed * seconds_per_minute),
                         whole(a.max_acceleration));
-    text += fmt::format("max_jerk = {}               # 0: not limited\n[axis.servo]\n", whole(a.max_jerk));
+    if (with_jerk) text += fmt::format("max_jerk = {}               # 0: not limited\n", whole(a.max_jerk));
+    text += "[axis.servo]\n";
     text += fmt::format("position_gain = {}            # 1/s\n", a.servo.position_gain);
     text += fmt::format("velocity_feedforward = {}    # 1: no lag at constant speed\n", a.servo.velocity_feedforward);
     text += fmt::format("velocity_time_constant = {}\n", a.servo.velocity_time_constant);
@@ -155,6 +185,39 @@ std::string axis_text(std::string_view name, const MachineAxis& a, double factor
     text += fmt::format("backlash = {}                 # play between drive and table\n", whole(a.servo.backlash));
     return text + fmt::format("friction = {}                 # speed lost to Coulomb friction, {}/min\n",
                               whole(a.servo.friction * seconds_per_minute), factor == 1 ? "mm" : "deg");
+}
+
+/// The keys that belong to the planner.
+std::string controller_text(const ControllerSettings& c) {
+    std::string text;
+    if (c.planner == PlannerKind::trapezoidal) text += fmt::format("planner = \"{}\"\n", name_of(c.planner));
+    text += fmt::format("period = {}                # interpolation period\n", c.period);
+    text += fmt::format("lookahead_blocks = {}\n", c.lookahead_blocks);
+    const std::string tolerance =
+        fmt::format("tolerance = {}              # of corners and path; G64 P in a program replaces it\n", c.tolerance);
+    if (c.planner == PlannerKind::trapezoidal) {
+        const TrapezoidSettings& t = c.trapezoid;
+        text += tolerance;
+        text += fmt::format("arc_blends = {}           # corners become arcs where that is faster\n", t.arc_blends);
+        text +=
+            fmt::format("gap_periods = {}             # a line that is left shorter joins the arc\n", t.gap_periods);
+        text += fmt::format("ramp_frequency = {}        # Hz: blocks of less than its period run at one acceleration\n",
+                            t.ramp_frequency);
+        text += fmt::format("kink_ratio = {}            # of the acceleration, for steps of direction\n", t.kink_ratio);
+        text += fmt::format("max_feed_override = {}     # %, that corners are planned for\n",
+                            settled_number(t.max_feed_override * 100));
+        text += fmt::format("blocks_per_period = {}       # that reach the planner\n", t.blocks_per_period);
+        return text + fmt::format("cubic_interpolation = {} # set points on a cubic B-spline\n", t.cubic_interpolation);
+    }
+    text += fmt::format(
+        "corner = \"{}\"                # rounded inside the tolerance: by arcs, with a jerk limit by a spline; spline: always; stop: exact stop\n",
+        name_of(c.corner));
+    text += fmt::format("curve = \"{}\"                   # through short lines: akima, least-squares or none\n",
+                        name_of(c.curve));
+    text += tolerance;
+    text += fmt::format("chord_tolerance = {}       # of the steps of a period against arcs\n", c.chord_tolerance);
+    return text +
+           fmt::format("block_time = {}                # s, a block takes no less; 0: not limited\n", c.block_time);
 }
 
 /// A text as TOML writes it: in quotes, with what may not stand there escaped.
@@ -174,9 +237,17 @@ Machine read_machine(const std::string& path) {
     Machine machine;
     machine.name = file.text(root, "name").value_or(machine.name);
     if (const toml::table* table = file.section(root, "controller")) read_controller(file, *table, machine.controller);
-    if (const toml::table* table = file.section(root, "path")) read_path(file, *table, machine.path);
+    if (const toml::table* table = file.section(root, "path"))
+        read_path(file, *table, machine.controller.planner, machine.path);
+    const bool trapezoidal = machine.controller.planner == PlannerKind::trapezoidal;
+    if (trapezoidal)
+        for (MachineAxis& axis : machine.axes) axis.max_jerk = 0;
     // Which rotary axes there can be, the kinematics say.
-    if (const toml::table* table = file.section(root, "kinematics")) machine.kinematics = read_kinematics(file, *table);
+    if (const toml::table* table = file.section(root, "kinematics")) {
+        machine.kinematics = read_kinematics(file, *table);
+        if (trapezoidal && machine.kinematics.has_rotary())
+            file.fail(*table, "the trapezoidal planner is for three axes", "planner = \"time-optimal\" runs five");
+    }
     if (const toml::array* axes = file.tables(root, "axis")) {
         std::vector<std::string_view> seen;
         for (const toml::node& node : *axes) read_axis(file, *node.as_table(), seen, machine);
@@ -187,30 +258,21 @@ Machine read_machine(const std::string& path) {
 std::string machine_text(const Machine& machine) {
     const ControllerSettings& c = machine.controller;
     const PathLimits& p = machine.path;
+    const bool jerk = c.planner != PlannerKind::trapezoidal;
     std::string text = "# Speeds mm/min, accelerations mm/s², jerks mm/s³, lengths mm, times s.\n";
     text += fmt::format("name = {}\n\n[controller]\n", quoted(machine.name));
-    text += fmt::format("period = {}                # interpolation period\n", c.period);
-    text += fmt::format("lookahead_blocks = {}\n", c.lookahead_blocks);
-    text += fmt::format(
-        "corner = \"{}\"                # rounded inside the tolerance: by arcs, with a jerk limit by a spline; spline: always; stop: exact stop\n",
-        name_of(c.corner));
-    text += fmt::format("curve = \"{}\"                   # through short lines: akima, least-squares or none\n",
-                        name_of(c.curve));
-    text +=
-        fmt::format("tolerance = {}              # of corners and path; G64 P in a program replaces it\n", c.tolerance);
-    text += fmt::format("chord_tolerance = {}       # of the steps of a period against arcs\n", c.chord_tolerance);
-    text += fmt::format("block_time = {}                # s, a block takes no less; 0: not limited\n", c.block_time);
+    text += controller_text(c);
     text += fmt::format("feed_override = {}           # %, of programmed feeds\n\n[path]\n",
                         settled_number(c.feed_override * 100));
     text += fmt::format("max_speed = {}\n", settled_number(p.max_speed * seconds_per_minute));
     text += fmt::format("max_acceleration = {}        # tangential\n", p.max_acceleration);
     text += fmt::format("max_normal_acceleration = {}\n", p.max_normal_acceleration);
-    text += fmt::format("max_jerk = {}               # tangential\n", p.max_jerk);
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) text += axis_text(axis_names[i], machine.axes[i], 1);
+    if (jerk) text += fmt::format("max_jerk = {}               # tangential\n", p.max_jerk);
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) text += axis_text(axis_names[i], machine.axes[i], 1, jerk);
     const Kinematics& k = machine.kinematics;
     if (k.has_rotary()) {
-        text += axis_text({&k.tilt.letter, 1}, machine.rotary[0], rad_per_deg);
-        text += axis_text({&k.rotation.letter, 1}, machine.rotary[1], rad_per_deg);
+        text += axis_text({&k.tilt.letter, 1}, machine.rotary[0], rad_per_deg, jerk);
+        text += axis_text({&k.rotation.letter, 1}, machine.rotary[1], rad_per_deg, jerk);
     }
     return text + kinematics_text(k);
 }

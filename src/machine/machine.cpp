@@ -12,4 +12,9 @@ std::string_view name_of(CurveMode mode) {
     return names[static_cast<std::size_t>(mode)];
 }
 
+std::string_view name_of(PlannerKind kind) {
+    constexpr std::array<std::string_view, 2> names{"time-optimal", "trapezoidal"};
+    return names[static_cast<std::size_t>(kind)];
+}
+
 }  // namespace clsurf

@@ -48,7 +48,28 @@ enum class CurveMode : unsigned char {
 [[nodiscard]] std::string_view name_of(CornerMode mode);
 [[nodiscard]] std::string_view name_of(CurveMode mode);
 
+/// How a controller plans speeds: the rules of its kind.
+enum class PlannerKind : unsigned char {
+    time_optimal,  ///< smoothed corners, limits of jerk or the fastest without: what `corner` and `curve` describe
+    trapezoidal,   ///< block by block, constant accelerations, arcs and overlaps at corners, in periods (LinuxCNC)
+};
+
+[[nodiscard]] std::string_view name_of(PlannerKind kind);
+
+/// Of the trapezoidal planner; the defaults are those of LinuxCNC 2.9.
+struct TrapezoidSettings {
+    bool arc_blends = true;           ///< corners become arcs where that is faster (ARC_BLEND_ENABLE)
+    double gap_periods = 4;           ///< what is left of a line before an arc joins the arc below this time [periods]
+    double ramp_frequency = 100;      ///< blocks shorter than its period run at one acceleration [Hz]
+    double kink_ratio = 0.1;          ///< of the acceleration, that a step of direction between blocks may take
+    double max_feed_override = 1;     ///< that corners are planned for
+    int blocks_per_period = 1;        ///< that reach the planner in a period
+    bool cubic_interpolation = true;  ///< set points are the joints of a cubic B-spline through three periods
+};
+
 struct ControllerSettings {
+    PlannerKind planner = PlannerKind::time_optimal;
+    TrapezoidSettings trapezoid;
     double period = 0.001;  ///< interpolation period [s]
     int lookahead_blocks = 500;
     CornerMode corner = CornerMode::arc;

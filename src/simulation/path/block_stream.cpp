@@ -25,8 +25,8 @@ bool stops_between(const PathElement& before, const PathElement& after) {
 
 }  // namespace
 
-BlockStream::BlockStream(MotionSource& source, const Machine& machine, const Vec3& start)
-    : source_(&source), machine_(&machine), at_(start) {
+BlockStream::BlockStream(MotionSource& source, const Machine& machine, const Vec3& start, Stops stops)
+    : source_(&source), machine_(&machine), at_(start), section_ends_(stops) {
     take(PathMode{});
     // Where the program itself says where it begins, the axes stand there.
     const Xyz& known = source.program().motions.start;
@@ -39,6 +39,9 @@ void BlockStream::take(const PathMode& mode) {
     const ControllerSettings& controller = machine_->controller;
     const bool rounded = mode.block_end == BlockEnd::rounded && controller.corner != CornerMode::stop;
     tolerance_ = !rounded ? 0 : std::isfinite(mode.tolerance) ? mode.tolerance : controller.tolerance;
+    // The planner that ends blocks itself knows a path without a tolerance.
+    if (rounded && section_ends_ == Stops::programmed && std::isinf(mode.tolerance)) tolerance_ = mode.tolerance;
+    merging_tolerance_ = mode.merging_tolerance;
     stops_ = mode.block_end == BlockEnd::exact_stop;
 }
 
@@ -103,6 +106,7 @@ bool BlockStream::read(PathElement& element) {
         element.block = blocks_++;
         element.block_length = element.length;
         element.tolerance = tolerance_;
+        element.merging_tolerance = merging_tolerance_;
         element.stops = stops_;
         element.feed = infinite;
         if (kind != MotionKind::rapid) {
@@ -151,7 +155,8 @@ bool BlockStream::next(PathElement& element) {
         return false;
     }
     waiting_ = true;
-    if (begun_ && (pending_dwell_ > 0 || stops_between(last_, waiting_element_))) {
+    const bool corner = section_ends_ == Stops::at_corners && begun_ && stops_between(last_, waiting_element_);
+    if (begun_ && (pending_dwell_ > 0 || corner)) {
         section_end_ = last_.end;
         take_dwell();
         return false;

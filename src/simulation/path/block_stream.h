@@ -21,11 +21,17 @@ public:
     [[nodiscard]] virtual bool next(PathElement& element) = 0;
 };
 
+/// Where sections end.
+enum class Stops : std::uint8_t {
+    at_corners,  ///< also at corners of an exact path and at reversals
+    programmed,  ///< at dwells only: how blocks end is for the planner to decide
+};
+
 class BlockStream final : public ElementSource {
 public:
     /// Both must outlive it; the source is at its begin. `start`: where the axes stand; coordinates that the
     /// program has not set stay there [mm].
-    BlockStream(MotionSource& source, const Machine& machine, const Vec3& start);
+    BlockStream(MotionSource& source, const Machine& machine, const Vec3& start, Stops stops = Stops::at_corners);
 
     /// Goes to the next section. False: the program has ended.
     /// Throws InputError (feed 0, rotary axes, splines).
@@ -57,10 +63,12 @@ private:
     std::int64_t next_motion_ = 0, taken_before_ = 0;  ///< in the piece at hand, and in those before
     EventCursor events_;                               ///< of the piece
     std::int64_t blocks_ = 0;
-    Xyz rotary_;            ///< of the last motion [rad]
-    double tolerance_ = 0;  ///< in force; 0: exact path
-    bool stops_ = false;    ///< at the end of every block
-    bool waiting_ = false;  ///< an element is read that begins the next section
+    Xyz rotary_;  ///< of the last motion [rad]
+    Stops section_ends_;
+    double tolerance_ = 0;          ///< in force; 0: exact path
+    double merging_tolerance_ = 0;  ///< in force
+    bool stops_ = false;            ///< at the end of every block
+    bool waiting_ = false;          ///< an element is read that begins the next section
     PathElement waiting_element_, last_;
     bool begun_ = false;  ///< last_ is of this section
     bool closed_ = true;

@@ -102,6 +102,7 @@ PathElement PathElement::part(double from, double to) const {
 void PathElement::take_block(const PathElement& other) {
     feed = other.feed;
     tolerance = other.tolerance;
+    merging_tolerance = other.merging_tolerance;
     line = other.line;
     block = other.block;
     block_length = other.block_length;

@@ -31,9 +31,10 @@ struct PathElement {
     double length = 0;                        ///< [mm]
 
     // Of the block that the element stands for.
-    double feed = 0;       ///< asked speed [mm/s]; infinite for a rapid
-    double tolerance = 0;  ///< of what rounds its ends [mm]; 0: exact path
-    bool stops = false;    ///< comes to rest at its end (exact stop)
+    double feed = 0;               ///< asked speed [mm/s]; infinite for a rapid
+    double tolerance = 0;          ///< of what rounds its ends [mm]; 0: exact path
+    double merging_tolerance = 0;  ///< of lines that become one before [mm]
+    bool stops = false;            ///< comes to rest at its end (exact stop)
     LineNumber line = 0;
     std::int64_t block = 0;                                           ///< number of the block, of those with a way
     double block_length = 0;                                          ///< [mm]

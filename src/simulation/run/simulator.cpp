@@ -10,6 +10,7 @@
 #include "simulation/plan/lookahead.h"
 #include "simulation/plan/refiner.h"
 #include "simulation/plan/scan_driver.h"
+#include "simulation/plan/trapezoid_simulator.h"
 #include "simulation/run/interpolator.h"
 #include "simulation/run/recorder.h"
 
@@ -94,6 +95,8 @@ SimulationSummary simulate(const Program& program, const Machine& machine, const
 
 SimulationSummary simulate(MotionSource& source, const Machine& machine, const Vec3& start, const PointSink& sink,
                            const Progress& progress, Planning planning) {
+    if (machine.controller.planner == PlannerKind::trapezoidal)
+        return simulate_trapezoids(source, machine, start, sink, progress);
     PathStream stream(source, machine, start);
     const Vec3 from = stream.blocks().position();
     Recorder recorder(source.program(), machine, from, sink);

@@ -1,0 +1,29 @@
+#pragma once
+// BlockMerging: lines whose points lie within a tolerance of one line become that line (G64 Q; the naive CAM detector
+// of LinuxCNC).
+
+#include <vector>
+
+#include "simulation/path/block_stream.h"
+
+namespace clsurf {
+
+class BlockMerging final : public ElementSource {
+public:
+    /// Must outlive it.
+    explicit BlockMerging(ElementSource& source) : source_(&source) {}
+
+    /// A line that stands for several blocks keeps the line number of the last, and its greatest distance from the
+    /// blocks as deviation.
+    [[nodiscard]] bool next(PathElement& element) override;
+
+private:
+    [[nodiscard]] bool joins(const PathElement& element, double& deviation) const;
+
+    ElementSource* source_;
+    bool waiting_ = false;
+    PathElement waiting_element_, merged_;
+    std::vector<Vec3> passed_;  ///< ends of the blocks that the merged line stands for
+};
+
+}  // namespace clsurf

@@ -1,0 +1,54 @@
+#pragma once
+// SegmentRunner: runs the queue of the trapezoidal planner, one period at a time. Speeds change by constant
+// accelerations; a segment that ends inside a period gives the rest of the period to the next one.
+
+#include "simulation/path/path_stream.h"
+#include "simulation/plan/segment_queue.h"
+
+namespace clsurf {
+
+/// A set point, and what it belongs to.
+struct PlannedPoint {
+    Vec3 position = Vec3::Zero();  ///< [mm]
+    double speed = 0;              ///< [mm/s]
+    double deviation = 0;          ///< from the programmed path [mm]
+    LineNumber line = 0;
+    Ruling ruling = Ruling::none;
+};
+
+class SegmentRunner {
+public:
+    /// Both must outlive it. `position`: where the axes stand.
+    SegmentRunner(SegmentQueue& queue, const Machine& machine, const Vec3& position);
+
+    /// The next period. False: the queue is empty, nothing moves.
+    [[nodiscard]] bool run(PlannedPoint& point);
+    [[nodiscard]] const Vec3& position() const { return position_; }
+    /// Ends differences of rounding size to where the program stands.
+    void stand_at(const Vec3& position) { position_ = position; }
+
+private:
+    /// The acceleration of a period, and the highest speed from which the segment's end is reached.
+    struct Step {
+        double acceleration = 0, speed = 0;
+    };
+
+    void activate(BlendSegment& segment) const;
+    void update(BlendSegment& segment, const BlendSegment* next);
+    [[nodiscard]] Step trapezoid(const BlendSegment& segment, const BlendSegment* next) const;
+    [[nodiscard]] bool ramp(const BlendSegment& segment, const BlendSegment* next, Step& step) const;
+    void look_for_end(BlendSegment& segment, const BlendSegment* next) const;
+    void finish(BlendSegment& segment, BlendSegment* next);
+    void run_whole(BlendSegment& segment, BlendSegment* next);
+    [[nodiscard]] const BlendSegment& reported(const BlendSegment& segment, const BlendSegment* next, bool ended) const;
+    [[nodiscard]] Ruling ruling_of(const BlendSegment& segment) const;
+    [[nodiscard]] double deviation_of(const BlendSegment& segment) const;
+
+    SegmentQueue* queue_;
+    const Machine* machine_;
+    double period_;
+    Vec3 position_;
+    double overlap_speed_ = 0;  ///< of the next segment while it overlaps the present one
+};
+
+}  // namespace clsurf

@@ -1,0 +1,17 @@
+#pragma once
+// The trapezoidal planner (PlannerKind::trapezoidal), after LinuxCNC 2.9: constant accelerations, blocks that overlap at
+// corners, arcs in corners, blocks of whole periods.
+//
+// What it does, and where: segment_of() derives the limits of a block from those of the axes along it; SegmentQueue
+// decides how each block passes into the next and scans back over the look-ahead; blend_corner() makes the arcs;
+// SegmentRunner moves, a period at a time; BlockMerging joins blocks before (G64 Q).
+
+#include "simulation/run/simulator.h"
+
+namespace clsurf {
+
+/// As simulate(), for machines with this planner. Throws InputError.
+[[nodiscard]] SimulationSummary simulate_trapezoids(MotionSource& source, const Machine& machine, const Vec3& start,
+                                                    const PointSink& sink, const Progress& progress);
+
+}  // namespace clsurf
