@@ -124,6 +124,23 @@ TEST(SpeedProblem, TakesTheTimeOfTheOptimum) {
     }
 }
 
+TEST(SpeedProblem, EntersACellWithTheAccelerationThatTheCellAllows) {
+    // Speed falls through cells that allow much acceleration, then through cells that allow little.
+    Machine machine;
+    SpeedProblem problem(machine);
+    problem.clear();
+    constexpr int half = 20;
+    constexpr double h = 0.05, much = 4000, little = 250;
+    for (int i = 0; i < 2 * half; ++i)
+        problem.add_cell(h, 100, {i < half ? 60.0 : 10.0, i < half ? much : little, 1e6});
+    ASSERT_TRUE(problem.solve({10, 0}, {10, 0}));
+    // The acceleration is half the slope of v², which is linear in each cell: its ends are its extremes.
+    for (std::size_t i = 0; i + 1 < 2 * half; ++i) {
+        const double acceleration = 0.5 * (problem.value(i + 1) - problem.value(i)) / h;
+        EXPECT_LE(std::abs(acceleration), (i + 1 < half ? much : little) * 1.0003) << i;
+    }
+}
+
 TEST(SpeedProblem, KeepsItsValuesWhereNothingIsFaster) {
     Machine machine;
     SpeedProblem problem(machine);

@@ -46,6 +46,12 @@ bool SpeedProblem::may_break(const Cell& cell, double part, double acceleration,
     return false;
 }
 
+/// The tangential acceleration allowed at the end of a cell: the next cell begins with the same one.
+double SpeedProblem::acceleration_at_end(std::size_t cell) const {
+    const double here = cells_[cell].limits.acceleration;
+    return cell + 1 < cells_.size() ? std::min(here, cells_[cell + 1].limits.acceleration) : here;
+}
+
 /// Rows for what may come to its limit, judged by the values to begin with.
 void SpeedProblem::need_likely_rows() {
     for (std::size_t i = 0; i < cells_.size(); ++i) {
@@ -59,7 +65,7 @@ void SpeedProblem::need_likely_rows() {
         const double b = dot(along[fastest].b, c);
         cell.jerk[fastest] = true;  // its bound is least there
         const double acceleration = 0.5 * std::max(std::abs(dot(along[0].slope, c)), std::abs(dot(along[2].slope, c)));
-        if (acceleration > near_limit * cell.limits.acceleration) cell.acceleration = true;
+        if (acceleration > near_limit * acceleration_at_end(i)) cell.acceleration = true;
         const double speed = std::min(faster * std::sqrt(b), cell.limits.cap);
         const double steep = std::max(acceleration, steeper * cell.limits.acceleration);
         if (!may_break(cell, 1, steep, speed * speed, cell.limits.jerk)) continue;
@@ -90,7 +96,7 @@ bool SpeedProblem::need_broken_rows(double part) {
         const Weights& begin = begins_[i];
         const double b = dot(begin.b, c), curve = dot(begin.curve, c), slope = dot(begin.slope, c);
         const double last_slope = slope + cell.length * curve, last = b + 0.5 * cell.length * (slope + last_slope);
-        if (0.5 * std::abs(last_slope) > part * cell.limits.acceleration) need(cell.acceleration);
+        if (0.5 * std::abs(last_slope) > part * acceleration_at_end(i)) need(cell.acceleration);
         // The tangential jerk is greatest where the speed is: at an end, or where b turns over.
         double fastest = slope + 0.5 * cell.length * curve > 0 ? cell.length : 0;
         if (slope > 0 && last_slope < 0) fastest = -slope / curve;
@@ -164,7 +170,7 @@ void SpeedProblem::make_rows() {
             add_cap(1, i, last.b, std::min(cell.limits.cap, next.cap));
             if (cell.acceleration)
                 add_row(2, Row::tangential_acceleration, i, sum(0.5, last.slope, 0, last.slope),
-                        acceleration_share * std::min(cell.limits.acceleration, next.acceleration));
+                        acceleration_share * acceleration_at_end(i));
         }
         const double jerk = jerk_share * cell.jerk_share * cell.limits.jerk;
         for (std::uint32_t k = 0; k < 3; ++k) {

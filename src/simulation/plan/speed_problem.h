@@ -98,6 +98,7 @@ private:
     void add_needed_rows();
 
     // needed_rows.cpp: which limits are rows
+    [[nodiscard]] double acceleration_at_end(std::size_t cell) const;
     void need_likely_rows();
     [[nodiscard]] bool need_broken_rows(double part);
     [[nodiscard]] bool may_break(const Cell& cell, double part, double acceleration, double square, double jerk) const;
