@@ -7,6 +7,8 @@ namespace {
 
 constexpr double way_exact = 1e-12;  ///< of the chord: where Newton's steps end
 constexpr int most_steps = 60;
+constexpr double length_exact = 1e-10;  ///< of the length: what twice as many pieces may change
+constexpr int most_pieces = 64;
 
 }  // namespace
 
@@ -25,9 +27,27 @@ double CubicSpan::way_to(double u) const {
                                                 0.9061798459386640};
     static constexpr std::array<double, 5> weight{0.5688888888888889, 0.4786286704993665, 0.4786286704993665,
                                                   0.2369268850561891, 0.2369268850561891};
+    const double half = 0.5 * u / pieces;
     double sum = 0;
-    for (std::size_t k = 0; k < node.size(); ++k) sum += weight[k] * derivative(0.5 * u * (1 + node[k])).norm();
-    return 0.5 * u * sum;
+    for (int piece = 0; piece < pieces; ++piece) {
+        for (std::size_t k = 0; k < node.size(); ++k)
+            sum += weight[k] * derivative(half * (1 + 2 * piece + node[k])).norm();
+    }
+    return half * sum;
+}
+
+void CubicSpan::choose_pieces() {
+    pieces = 1;
+    double before = way_to(chord);
+    while (pieces < most_pieces) {
+        pieces *= 2;
+        const double length = way_to(chord);
+        if (std::abs(length - before) <= length_exact * length) {
+            pieces /= 2;
+            return;
+        }
+        before = length;
+    }
 }
 
 double CubicSpan::at_way(double way, double length) const {

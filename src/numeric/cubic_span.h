@@ -10,12 +10,16 @@ namespace clsurf {
 struct CubicSpan {
     std::array<Vec3, 4> coefficients;  ///< A, B, C, D
     double chord = 0;                  ///< where u ends [mm]
+    int pieces = 1;                    ///< that way_to() divides its interval into
 
     [[nodiscard]] Vec3 at(double u) const;          ///< [mm], u ∈ [0, chord]
     [[nodiscard]] Vec3 derivative(double u) const;  ///< dr/du
     [[nodiscard]] Vec3 second_derivative(double u) const;
-    /// Way from u = 0 to `u` [mm], by Gauss's rule with 5 points.
+    /// Arc length from u = 0 to `u` [mm], by Gauss's rule with 5 points in each piece.
     [[nodiscard]] double way_to(double u) const;
+    /// Sets the pieces that make way_to() exact. One is enough for a gentle bend. In a sharp one the speed |dr/du| varies so
+    /// much that a single rule is wrong by 10⁻⁴, which jumps from curve to curve.
+    void choose_pieces();
     /// The u where the way from u = 0 is `way` [mm], clipped to [0, chord]; `length`: way_to(chord). Newton's
     /// method, kept in a bracket.
     [[nodiscard]] double at_way(double way, double length) const;

@@ -114,9 +114,10 @@ PathElement element_of(const CubicSpan& curve) {
     PathElement e;
     e.cubic = true;
     e.curve = curve;
+    e.curve.choose_pieces();
     e.begin = curve.at(0);
     e.end = curve.at(curve.chord);
-    e.length = e.curve_length = curve.way_to(curve.chord);
+    e.length = e.curve_length = e.curve.way_to(curve.chord);
     return e;
 }
 
