@@ -19,6 +19,7 @@
 namespace clsurf::io {
 namespace {
 
+constexpr double most_dead_periods = 100;  ///< of an axis' dead time
 constexpr double no_bound = std::numeric_limits<double>::infinity();
 
 enum class Low : unsigned char { above_zero, zero };
@@ -123,12 +124,13 @@ void read_travel(const TomlFile& file, const toml::table& table, double factor, 
 }
 
 void read_servo(const TomlFile& file, const toml::table& table, double period, double factor, ServoModel& servo) {
-    file.allow(table, {"position_gain", "velocity_feedforward", "velocity_time_constant", "quantum", "noise",
-                       "backlash", "friction"});
+    file.allow(table, {"position_gain", "velocity_feedforward", "velocity_time_constant", "dead_time", "quantum",
+                       "noise", "backlash", "friction"});
     // A discrete loop with a gain of more than 1/period per step swings up.
     take(file, table, "position_gain", servo.position_gain, Low::above_zero, 1.0, 1 / period);
     take(file, table, "velocity_feedforward", servo.velocity_feedforward, Low::zero, 1.0, 2.0);
     take(file, table, "velocity_time_constant", servo.velocity_time_constant, Low::zero);
+    take(file, table, "dead_time", servo.dead_time, Low::zero, 1.0, most_dead_periods * period);
     take(file, table, "quantum", servo.quantum, Low::zero, factor);
     take(file, table, "noise", servo.noise, Low::zero, factor);
     take(file, table, "backlash", servo.backlash, Low::zero, factor);
@@ -180,6 +182,7 @@ std::string axis_text(std::string_view name, const MachineAxis& a, double factor
     text += fmt::format("position_gain = {}            # 1/s\n", a.servo.position_gain);
     text += fmt::format("velocity_feedforward = {}    # 1: no lag at constant speed\n", a.servo.velocity_feedforward);
     text += fmt::format("velocity_time_constant = {}\n", a.servo.velocity_time_constant);
+    text += fmt::format("dead_time = {}               # from the command to the loop\n", a.servo.dead_time);
     text += fmt::format("quantum = {}               # encoder step; 0: none\n", whole(a.servo.quantum));
     text += fmt::format("noise = {}                    # rms\n", whole(a.servo.noise));
     text += fmt::format("backlash = {}                 # play between drive and table\n", whole(a.servo.backlash));

@@ -44,6 +44,7 @@ struct Subcommand {
 [[nodiscard]] Subcommand convert_subcommand();
 [[nodiscard]] Subcommand diff_subcommand();
 [[nodiscard]] Subcommand export_subcommand();
+[[nodiscard]] Subcommand identify_subcommand();
 [[nodiscard]] Subcommand info_subcommand();
 [[nodiscard]] Subcommand intervals_subcommand();
 [[nodiscard]] Subcommand lint_subcommand();

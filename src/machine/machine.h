@@ -16,6 +16,7 @@ struct ServoModel {
     double position_gain = 100;             ///< Kv [1/s]
     double velocity_feedforward = 0.96;     ///< 1: no lag at constant speed
     double velocity_time_constant = 0.002;  ///< [s]; 0: the velocity loop is ideal
+    double dead_time = 0;                   ///< from the command to the loop [s]
     double quantum = 0.0001;                ///< encoder step [mm]; 0: none
     double noise = 0;                       ///< rms [mm]
     double backlash = 0;                    ///< play between drive and table [mm]

@@ -37,7 +37,22 @@ ServoLoop::ServoLoop(const ServoModel& model, double period, double start, std::
       commanded_(start),
       position_(start),
       table_(start),
-      random_(seed) {}
+      random_(seed) {
+    if (!(model.dead_time > 0)) return;
+    const double periods = model.dead_time / period;
+    const double whole = std::floor(periods);
+    late_share_ = periods - whole;
+    delay_line_.assign(static_cast<std::size_t>(whole) + 2, start);
+}
+
+double ServoLoop::delayed(double commanded) {
+    const std::size_t size = delay_line_.size();
+    newest_ = (newest_ + 1) % size;
+    delay_line_[newest_] = commanded;
+    const std::size_t oldest = (newest_ + 1) % size;
+    const std::size_t next = (newest_ + 2) % size;
+    return (1 - late_share_) * delay_line_[next] + late_share_ * delay_line_[oldest];
+}
 
 /// Of a reading [mm].
 double ServoLoop::noise() { return noise_ * noise_of_one(random_); }

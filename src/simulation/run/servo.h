@@ -4,7 +4,8 @@
 //
 //     v_ref = Kv (cmd − x) + c_ff · cmd′,    T_v v′ + v = v_ref,    x′ = v
 //
-// At constant speed v the lag is v (1 − c_ff)/Kv. Coulomb friction subtracts f from v_ref in the direction of
+// At constant speed v the lag is v (1 − c_ff)/Kv. The loop compares position and command of one record. A dead time
+// delays the whole command; between records it is linear. Coulomb friction subtracts f from v_ref in the direction of
 // motion and holds an axis at rest while |v_ref| ≤ f: the lag grows by f/Kv, and after a reversal the axis
 // rests until the loop has built up enough error. The loop closes on the drive; the encoder is on the table,
 // which follows with the lost motion of the backlash.
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 #include "machine/machine.h"
 
@@ -24,6 +26,7 @@ public:
 
     /// The commanded position of the next period [mm] → the encoder's position at its end [mm].
     double follow(double commanded) {
+        if (!delay_line_.empty()) commanded = delayed(commanded);
         const double reference = gain_ * (commanded_ - position_) + feedforward_ * (commanded - commanded_) / period_;
         const double before = velocity_;
         velocity_ += velocity_step_ * (less_friction(reference) - velocity_);
@@ -49,10 +52,15 @@ private:
         return std::copysign(static_cast<double>(static_cast<std::int64_t>(x + std::copysign(nearly_half, x))), x);
     }
     [[nodiscard]] double noise();
+    /// The command of the dead time ago.
+    double delayed(double commanded);
 
     double gain_, feedforward_, velocity_step_, quantum_, noise_, period_, play_, friction_;
     double commanded_, position_, table_, velocity_ = 0;
     std::uint64_t random_;
+    std::vector<double> delay_line_;  ///< the last commands, a ring; empty: no dead time
+    std::size_t newest_ = 0;          ///< in the ring
+    double late_share_ = 0;           ///< of a period, beyond whole ones
 };
 
 }  // namespace clsurf

@@ -1,0 +1,66 @@
+#include "identify/axis_record.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/block.h"
+
+namespace clsurf {
+namespace {
+
+constexpr double gap = 1.5;               ///< periods between two records that are no longer consecutive
+constexpr PointIndex piece_size = 32768;  ///< records of a piece
+
+}  // namespace
+
+std::vector<PointRange> find_stretches(const Log& log, std::span<const ChannelView> channels) {
+    std::vector<PointRange> stretches;
+    const Channel* time = log.find("time");
+    std::vector<double> values(static_cast<std::size_t>(block_points));
+    std::vector<char> usable(static_cast<std::size_t>(block_points)), joined(static_cast<std::size_t>(block_points));
+    double last_time = -INFINITY;
+    bool open = false;
+    for (PointIndex first = 0; first < log.records; first += block_points) {
+        const auto n = static_cast<std::size_t>(std::min(block_points, log.records - first));
+        const std::span<double> block(values.data(), n);
+        std::fill_n(usable.begin(), n, 1);
+        std::fill_n(joined.begin(), n, 1);
+        for (const ChannelView& channel : channels) {
+            copy_block(channel, first, block);
+            for (std::size_t i = 0; i < n; ++i) usable[i] &= static_cast<char>(std::isfinite(block[i]));
+        }
+        if (time != nullptr) {
+            copy_block(time->values, first, block);
+            for (std::size_t i = 0; i < n; ++i) {
+                const double step = block[i] - last_time;
+                joined[i] = static_cast<char>(step > 0 && step < gap * log.period);
+                last_time = block[i];
+            }
+        }
+        for (std::size_t i = 0; i < n; ++i) {
+            const PointIndex point = first + static_cast<PointIndex>(i);
+            if (usable[i] != 0 && (!open || joined[i] == 0)) stretches.push_back({point, point});
+            open = usable[i] != 0;
+            if (open) stretches.back().last = point;
+        }
+    }
+    return stretches;
+}
+
+std::vector<PointRange> sample_pieces(std::span<const PointRange> stretches, PointIndex most) {
+    std::vector<PointRange> pieces;
+    PointIndex total = 0;
+    for (const PointRange& stretch : stretches) {
+        total += stretch.size();
+        for (PointIndex first = stretch.first; first <= stretch.last; first += piece_size)
+            pieces.push_back({first, std::min(stretch.last, first + piece_size - 1)});
+    }
+    if (total <= most) return pieces;
+    const auto wanted = std::max<std::size_t>(1, static_cast<std::size_t>(most / piece_size));
+    std::vector<PointRange> kept;
+    for (std::size_t k = 0; k < wanted && k < pieces.size(); ++k)
+        kept.push_back(pieces[k * pieces.size() / std::min(wanted, pieces.size())]);
+    return kept;
+}
+
+}  // namespace clsurf

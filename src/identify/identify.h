@@ -1,0 +1,15 @@
+#pragma once
+// A machine from its logs: `clsurf identify`.
+
+#include <span>
+
+#include "identify/identification.h"
+#include "log/log.h"
+
+namespace clsurf {
+
+/// The values that the runs determine. `known` holds what is known already; what is identified replaces it. Runs must
+/// have one period. Throws InputError: periods differ, or nothing can be identified. O(records), parallel.
+[[nodiscard]] Identification identify(std::span<const Log* const> runs, const Machine& known);
+
+}  // namespace clsurf

@@ -1,0 +1,42 @@
+#pragma once
+// The servo loop of an axis, fitted to commanded and fed-back positions.
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "identify/servo_problem.h"
+
+namespace clsurf {
+
+/// What an additional term of the loop explains.
+struct TermEvidence {
+    ServoTerm term = ServoTerm::friction;
+    double value = 0;   ///< as ServoParameters has it
+    double gain = 0;    ///< by how much the Bayesian information criterion falls with it
+    bool kept = false;  ///< it falls, and the value is more than four standard errors above zero
+};
+
+struct ServoFit {
+    ServoParameters parameters;
+    std::array<double, servo_terms> standard_error{};  ///< of parameters; infinite: not identifiable
+    bool moves = false;                                ///< the axis was commanded to move
+    PointIndex records = 0;                            ///< that the fit compares
+    double quantum = 0;                                ///< step of the fed-back positions [unit]; 0: none found
+    double noise = 0;               ///< rms of the residual from record to record, beyond rounding [unit]
+    double residual = 0;            ///< rms [unit]
+    double lag = 0, lag_error = 0;  ///< at constant speed, of the set point of the same record [s]
+    std::vector<TermEvidence> evidence;
+
+    [[nodiscard]] double time_constant(double period) const;
+    [[nodiscard]] double time_constant_error(double period) const;
+    [[nodiscard]] bool knows(ServoTerm term) const;
+};
+
+/// Friction, backlash and dead time are kept where the
+/// information criterion falls with them. Standard errors hold for correlated residuals (sums of scores over groups of
+/// records). O(records), at most 10^6 of them, evenly spaced.
+[[nodiscard]] ServoFit fit_servo(std::span<const AxisRecord> records, double period);
+
+}  // namespace clsurf

@@ -1,0 +1,202 @@
+#include "identify/servo_parameters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "core/parallel.h"
+#include "core/units.h"
+#include "identify/servo_fit.h"
+
+namespace clsurf {
+namespace {
+
+/// An axis with its records in the runs that have both of its positions.
+struct AxisData {
+    char letter = 'x';
+    bool commanded = false, feedback = false;  ///< some run has it
+    std::vector<AxisRecord> records;
+    ServoFit fit;
+
+    [[nodiscard]] std::string name() const { return {letter}; }
+    [[nodiscard]] bool rotary() const { return letter < 'x'; }
+    [[nodiscard]] std::string unit(const char* per = "") const { return (rotary() ? "deg" : "mm") + std::string(per); }
+};
+
+std::vector<AxisData> gather_axes(std::span<const Log* const> runs) {
+    std::vector<AxisData> axes;
+    for (const char letter : {'x', 'y', 'z', 'a', 'b', 'c'}) {
+        AxisData axis;
+        axis.letter = letter;
+        for (const Log* log : runs) {
+            const Channel* commanded = log->find("cmd." + axis.name());
+            const Channel* feedback = log->find("fb." + axis.name());
+            if (feedback == nullptr) feedback = log->find("act." + axis.name());
+            axis.commanded |= commanded != nullptr;
+            axis.feedback |= feedback != nullptr;
+            if (commanded == nullptr || feedback == nullptr) continue;
+            const std::array views{commanded->values, feedback->values};
+            axis.records.push_back({views[0], views[1], find_stretches(*log, views)});
+        }
+        if (axis.commanded || axis.feedback) axes.push_back(std::move(axis));
+    }
+    return axes;
+}
+
+/// Where the machine has this axis; nullptr: it does not.
+ServoModel* servo_of(Machine& machine, char letter) {
+    if (letter >= 'x') return &machine.axes[static_cast<std::size_t>(letter - 'x')].servo;
+    const Kinematics& k = machine.kinematics;
+    if (!k.has_rotary()) return nullptr;
+    if (k.tilt.letter == letter) return &machine.rotary[0].servo;
+    return k.rotation.letter == letter ? &machine.rotary[1].servo : nullptr;
+}
+
+constexpr std::array loop_keys{
+    "position_gain", "velocity_feedforward", "velocity_time_constant", "friction", "backlash", "dead_time"};
+
+/// Names every value of a loop that cannot be known for one reason.
+void miss_loop(const AxisData& axis, const std::string& reason, Identification& result) {
+    for (const char* key : loop_keys) result.unidentified.push_back({key, axis.name(), reason});
+}
+
+class LoopReport {
+public:
+    LoopReport(const AxisData& axis, double period, Identification& result)
+        : axis_(axis), result_(result), period_(period), model_(model_of(axis.fit.parameters, period)) {}
+
+    void report(ServoModel& target) {
+        const ServoFit& fit = axis_.fit;
+        const bool gain = fit.knows(ServoTerm::log_gain);
+        const std::string separate =
+            fmt::format("only the lag at constant speed is known, {:.4g} ± {:.1g} s", fit.lag, fit.lag_error);
+        const std::string no_dynamics = "too few or too gentle changes of speed";
+        const bool lag = !gain && fit.lag_error < 0.1 * std::abs(fit.lag);
+        put("position_gain", gain, error(ServoTerm::log_gain) * model_.position_gain, model_.position_gain, "1/s",
+            target.position_gain, 1, lag ? separate : no_dynamics);
+        put("velocity_feedforward", gain && fit.knows(ServoTerm::feedforward), error(ServoTerm::feedforward),
+            std::max(0.0, model_.velocity_feedforward), "", target.velocity_feedforward, 1,
+            lag ? separate : no_dynamics);
+        put("velocity_time_constant", gain && fit.knows(ServoTerm::velocity_step), fit.time_constant_error(period_),
+            model_.velocity_time_constant, "s", target.velocity_time_constant, 1, no_dynamics);
+        if (lag || gain)
+            result_.parameters.push_back({"lag",
+                                          axis_.name(),
+                                          rounded_to(fit.lag, fit.lag_error),
+                                          "s",
+                                          fit.lag_error,
+                                          {},
+                                          "of the position at constant speed, per speed"});
+        const double angle = axis_.rotary() ? rad_per_deg : 1;
+        put_term(ServoTerm::friction, "friction", seconds_per_minute, axis_.unit("/min"), target.friction,
+                 angle / seconds_per_minute);
+        put_term(ServoTerm::backlash, "backlash", 1, axis_.unit(), target.backlash, angle);
+        put_term(ServoTerm::dead_time, "dead_time", period_, "s", target.dead_time, 1);
+        put_resolution(target, angle);
+    }
+
+private:
+    [[nodiscard]] double error(ServoTerm term) const { return axis_.fit.standard_error[index_of(term)]; }
+
+    /// `to_machine`: from the reported unit to that of Machine.
+    void put(const char* name, bool known, double standard_error, double value, const std::string& unit, double& target,
+             double to_machine, const std::string& reason, const std::string& note = {}) {
+        if (!known) {
+            result_.unidentified.push_back({name, axis_.name(), reason});
+            return;
+        }
+        const double settled = rounded_to(value, standard_error);
+        target = settled * to_machine;
+        result_.parameters.push_back({name, axis_.name(), settled, unit, standard_error, {}, note});
+    }
+
+    /// A term that is in the loop only with evidence.
+    void put_term(ServoTerm term, const char* name, double factor, const std::string& unit, double& target,
+                  double to_machine) {
+        const ServoFit& fit = axis_.fit;
+        const auto found = std::find_if(fit.evidence.begin(), fit.evidence.end(),
+                                        [&](const TermEvidence& e) { return e.term == term; });
+        const bool tried = found != fit.evidence.end();
+        if (fit.parameters.has(term)) {
+            const std::string note = tried ? fmt::format("BIC falls by {:.0f}", found->gain) : "from the best start";
+            put(name, true, error(term) * factor, fit.parameters[term] * factor, unit, target, to_machine, {}, note);
+            return;
+        }
+        if (!fit.knows(ServoTerm::log_gain)) {
+            result_.unidentified.push_back({name, axis_.name(), "the loop is not identified"});
+            return;
+        }
+        target = 0;
+        const std::string note = tried ? fmt::format("no evidence: {:.2g} {} changes BIC by {:+.0f}",
+                                                     found->value * factor, unit, -found->gain)
+                                       : "no evidence";
+        result_.parameters.push_back({name, axis_.name(), 0, unit, std::nullopt, {}, note});
+    }
+
+    void put_resolution(ServoModel& target, double angle) {
+        const ServoFit& fit = axis_.fit;
+        target.quantum = fit.quantum * angle;
+        result_.parameters.push_back(
+            {"quantum",
+             axis_.name(),
+             fit.quantum,
+             axis_.unit(),
+             {},
+             {},
+             fit.quantum > 0 ? "step of the fed-back positions" : "the fed-back positions have no step above 5 nm"});
+        // Below the rounding of a file noise has no meaning.
+        constexpr double least_noise = 2e-6;
+        const double noise =
+            fit.noise > std::max(least_noise, 0.2 * fit.quantum) ? rounded_to(fit.noise, 0.01 * fit.noise) : 0;
+        target.noise = noise * angle;
+        result_.parameters.push_back({"noise",
+                                      axis_.name(),
+                                      noise,
+                                      axis_.unit(),
+                                      {},
+                                      {},
+                                      fmt::format("residual {:.2g} {} rms", fit.residual, axis_.unit())});
+    }
+
+    const AxisData& axis_;
+    Identification& result_;
+    double period_;
+    ServoModel model_;
+};
+
+void report_axis(const AxisData& axis, double period, Identification& result) {
+    if (axis.records.empty())
+        return miss_loop(
+            axis, axis.commanded ? "no log has fed-back positions of it" : "no log has commanded positions of it",
+            result);
+    if (!axis.fit.moves) return miss_loop(axis, "the axis does not move", result);
+    if (axis.fit.records == 0) return miss_loop(axis, "too few records", result);
+    ServoModel none;
+    ServoModel* target = servo_of(result.machine, axis.letter);
+    if (target == nullptr)
+        result.diagnostics.add(
+            {Severity::warning,
+             "identify.axis",
+             {},
+             fmt::format("axis {} is not in the machine file: the kinematics are not known", axis.letter),
+             "give a machine file with [kinematics] by --machine"});
+    LoopReport(axis, period, result).report(target != nullptr ? *target : none);
+}
+
+}  // namespace
+
+void identify_servos(std::span<const Log* const> runs, Identification& result) {
+    std::vector<AxisData> axes = gather_axes(runs);
+    const double period = runs.front()->period;
+    parallel_for(static_cast<std::int64_t>(axes.size()), 1, [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t k = first; k < last; ++k) {
+            AxisData& axis = axes[static_cast<std::size_t>(k)];
+            if (!axis.records.empty()) axis.fit = fit_servo(axis.records, period);
+        }
+    });
+    for (const AxisData& axis : axes) report_axis(axis, period, result);
+}
+
+}  // namespace clsurf

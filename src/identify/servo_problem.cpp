@@ -1,0 +1,175 @@
+#include "identify/servo_problem.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "simulation/run/servo.h"
+
+namespace clsurf {
+namespace {
+
+constexpr PointIndex most_records = 1'000'000;
+/// Groups whose sums of scores give the covariance: residuals of a model that is not exact are alike over a while.
+constexpr PointIndex group_size = 512;
+
+/// The change of a parameter that its derivative is taken over. An axis sticks and comes loose at a period's end, so with
+/// friction the changes are large enough to move some of these instants; the same for backlash.
+double difference_step(const ServoParameters& p, ServoTerm term) {
+    const double smooth = p[ServoTerm::friction] > 0 ? 3e-3 : 1e-5;
+    constexpr double share = 1e-2, least = 1e-5;
+    switch (term) {
+        case ServoTerm::velocity_step: return p[term] + smooth > 1 ? -smooth : smooth;
+        case ServoTerm::friction:
+        case ServoTerm::backlash: return std::max(share * p[term], least);
+        case ServoTerm::dead_time: return 1e-3;
+        default: return smooth;
+    }
+}
+
+/// Loops that run side by side: the one of the parameters, and one a parameter with a small change.
+class LoopBundle {
+public:
+    LoopBundle(const ServoParameters& parameters, double period, bool with_derivatives, double start)
+        : base_(model_of(parameters, period), period, start, 0), offset_(parameters[ServoTerm::offset]) {
+        if (!with_derivatives) return;
+        for (std::size_t k = 0; k < index_of(ServoTerm::offset); ++k) {
+            const auto term = static_cast<ServoTerm>(k);
+            if (!parameters.has(term)) continue;
+            const double step = difference_step(parameters, term);
+            ServoParameters changed = parameters;
+            changed[term] += step;
+            changed_.push_back({ServoLoop(model_of(changed, period), period, start, 0), 1 / step, k});
+        }
+    }
+
+    /// What the loop gives for a commanded position.
+    double follow(double commanded, ServoVector& derivatives) {
+        const double position = base_.follow(commanded);
+        for (Changed& c : changed_)
+            derivatives[static_cast<Eigen::Index>(c.term)] = (c.loop.follow(commanded) - position) * c.per_step;
+        return position + offset_;
+    }
+
+private:
+    struct Changed {
+        ServoLoop loop;
+        double per_step;
+        std::size_t term;
+    };
+    ServoLoop base_;
+    std::vector<Changed> changed_;
+    double offset_;
+};
+
+void add_scores(ServoSums& sums, ServoVector& scores) {
+    sums.scatter += scores * scores.transpose();
+    sums.gradient += scores;
+    scores.setZero();
+}
+
+void add_piece(std::span<const double> commanded, std::span<const double> feedback, PointIndex settling, double period,
+               const ServoParameters& parameters, bool with_derivatives, ServoSums& sums) {
+    LoopBundle loops(parameters, period, with_derivatives, commanded.front());
+    ServoVector derivatives = ServoVector::Zero(), scores = ServoVector::Zero();
+    if (parameters.has(ServoTerm::offset)) derivatives[index_of(ServoTerm::offset)] = 1;
+    double before = NAN;
+    for (std::size_t i = 1; i < commanded.size(); ++i) {
+        const double residual = feedback[i] - loops.follow(commanded[i], derivatives);
+        if (static_cast<PointIndex>(i) <= settling) continue;
+        sums.squares += residual * residual;
+        ++sums.count;
+        if (before == before) sums.squared_changes += (residual - before) * (residual - before);
+        before = residual;
+        const double moved = commanded[i] - commanded[i - 1];
+        if (moved != 0) {
+            sums.along += std::copysign(residual, residual * moved);
+            ++sums.moving;
+        }
+        if (!with_derivatives) continue;
+        sums.normal += derivatives * derivatives.transpose();
+        scores += residual * derivatives;
+        if (sums.count % group_size == 0) add_scores(sums, scores);
+    }
+    add_scores(sums, scores);
+}
+
+}  // namespace
+
+int ServoParameters::count() const { return static_cast<int>(std::count(active.begin(), active.end(), true)); }
+
+ServoModel model_of(const ServoParameters& parameters, double period) {
+    ServoModel model;
+    model.position_gain = std::exp(parameters[ServoTerm::log_gain]);
+    model.velocity_feedforward = parameters[ServoTerm::feedforward];
+    const double step = parameters[ServoTerm::velocity_step];
+    model.velocity_time_constant = step < 1 ? -period / std::log1p(-step) : 0;
+    model.friction = parameters[ServoTerm::friction];
+    model.backlash = parameters[ServoTerm::backlash];
+    model.dead_time = parameters[ServoTerm::dead_time] * period;
+    model.quantum = 0;
+    model.noise = 0;
+    return model;
+}
+
+ServoParameters parameters_of(const ServoModel& model, double period) {
+    ServoParameters p;
+    p[ServoTerm::log_gain] = std::log(model.position_gain);
+    p[ServoTerm::feedforward] = model.velocity_feedforward;
+    p[ServoTerm::velocity_step] =
+        model.velocity_time_constant > 0 ? -std::expm1(-period / model.velocity_time_constant) : 1.0;
+    p[ServoTerm::friction] = model.friction;
+    p[ServoTerm::backlash] = model.backlash;
+    p[ServoTerm::dead_time] = model.dead_time / period;
+    return p;
+}
+
+ServoProblem::ServoProblem(std::span<const AxisRecord> records, double period, PointIndex settling)
+    : records_(records.begin(), records.end()), period_(period), settling_(settling) {
+    PointIndex total = 0;
+    for (const AxisRecord& record : records_) {
+        for (const PointRange& stretch : record.stretches) total += stretch.size();
+    }
+    for (const AxisRecord& record : records_) {
+        PointIndex own = 0;
+        for (const PointRange& stretch : record.stretches) own += stretch.size();
+        const double share = static_cast<double>(own) / static_cast<double>(std::max<PointIndex>(total, 1));
+        const auto most = static_cast<PointIndex>(share * static_cast<double>(most_records));
+        for (const PointRange& range : sample_pieces(record.stretches, most)) pieces_.push_back({&record, range});
+    }
+    set_settling(settling);
+}
+
+void ServoProblem::set_settling(PointIndex settling) {
+    settling_ = settling;
+    count_ = 0;
+    for (const Piece& piece : pieces_) count_ += std::max<PointIndex>(piece.range.size() - 1 - settling, 0);
+}
+
+void ServoProblem::gather(const Piece& piece, std::vector<double>& commanded, std::vector<double>& feedback) {
+    const auto n = static_cast<std::size_t>(piece.range.size());
+    commanded.resize(n);
+    feedback.resize(n);
+    copy_block(piece.record->commanded, piece.range.first, commanded);
+    copy_block(piece.record->feedback, piece.range.first, feedback);
+    const double start = commanded.front();
+    for (double& value : commanded) value -= start;
+    for (double& value : feedback) value -= start;
+}
+
+ServoSums ServoProblem::linearise(const ServoParameters& parameters) const {
+    ServoSums sums;
+    for_each_piece([&](std::span<const double> commanded, std::span<const double> feedback) {
+        add_piece(commanded, feedback, settling_, period_, parameters, true, sums);
+    });
+    return sums;
+}
+
+ServoSums ServoProblem::evaluate(const ServoParameters& parameters) const {
+    ServoSums sums;
+    for_each_piece([&](std::span<const double> commanded, std::span<const double> feedback) {
+        add_piece(commanded, feedback, settling_, period_, parameters, false, sums);
+    });
+    return sums;
+}
+
+}  // namespace clsurf

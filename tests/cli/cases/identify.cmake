@@ -1,0 +1,30 @@
+# identify: servo loops of a kernel's logs (LinuxCNC with the gains of data/machines/linuxcnc_logs.toml), of simulated ones,
+# and of logs that tell little.
+
+set(bottle @DATA@/programs/bottle_uneven.nc @LOGS@/bottle_uneven.biip)
+set(dome @DATA@/programs/dome_loops.nc @LOGS@/dome_loops.biip)
+clsurf_cli_test(NAME identify_a_kernel ARGS identify ${bottle} ${dome} -o m.toml FILE m.toml
+  STDOUT "position_gain +x +(100|99[.]999[0-9]*|100[.]000[0-9]*) 1/s" "position_gain +y +(80|79[.]999[0-9]*|80[.]000[0-9]*) 1/s" "velocity_feedforward +z +0[.](9|900[0-9]*|8999[0-9]*) "
+  "velocity_time_constant +z +0[.](004|00400[0-9]*|003999[0-9]*) s"
+  "friction +x +0 mm/min +no evidence")
+clsurf_cli_test(NAME identify_json ARGS identify ${bottle} -o m.toml --json
+  STDOUT "\"schema_version\"" "\"machine\"" "\"parameters\"" "\"standard_error\"" "\"unidentified\"" "\"runs\"")
+clsurf_cli_test(NAME identify_writes_a_machine_file SETUP "$CLSURF identify @DATA@/programs/bottle_uneven.nc @LOGS@/bottle_uneven.biip -o m.toml; grep -q 'position_gain = 80.* # ± ' m.toml"
+  ARGS machine m.toml STDOUT "can be used")
+clsurf_cli_test(NAME identify_friction_and_backlash
+  SETUP "printf '[[axis]]\\nname = \"x\"\\n[axis.servo]\\nposition_gain = 70\\nfriction = 90\\n[[axis]]\\nname = \"y\"\\n[axis.servo]\\nbacklash = 0.01\\ndead_time = 0.002\\n' > t.toml; $CLSURF simulate @DATA@/programs/dome_loops.nc --machine t.toml -o r.biip"
+  ARGS identify @DATA@/programs/dome_loops.nc r.biip -o m.toml
+  STDOUT "position_gain +x +(70|69[.]9|70[.]0)[0-9]* 1/s" "friction +x +(89[.][89]|90)[0-9.]* mm/min" "backlash +y +0[.]0(1|099|100)[0-9]* mm" "dead_time +y +0[.]00(2|199|200)[0-9]* s")
+clsurf_cli_test(NAME identify_five_axes
+  SETUP "$CLSURF simulate @DATA@/programs/dome_five_axis.nc --machine @DATA@/machines/five_axis_trunnion.toml -o r.biip"
+  ARGS identify @DATA@/programs/dome_five_axis.nc r.biip --machine @DATA@/machines/five_axis_trunnion.toml -o m.toml
+  STDOUT "position_gain +a +(100|99[.]9|100[.]0)[0-9]* 1/s" "velocity_feedforward +c +0[.]9(8|79|80)")
+# Without fed-back positions nothing is known of the loops.
+clsurf_cli_test(NAME identify_without_feedback
+  SETUP "$CLSURF export @DATA@/programs/bottle_uneven.nc @LOGS@/bottle_uneven.biip --columns time,cmd.x,cmd.y,cmd.z -o r.biip"
+  ARGS identify @DATA@/programs/bottle_uneven.nc r.biip -o m.toml EXIT 3 NO_FILE m.toml STDERR "nothing can be identified: axis x: no log has fed-back positions")
+clsurf_cli_test(NAME identify_another_program ARGS identify @DATA@/programs/dome_loops.nc @LOGS@/bottle_uneven.biip -o m.toml EXIT 3 NO_FILE m.toml STDERR "another program|does not belong")
+clsurf_cli_test(NAME identify_without_a_log ARGS identify ${bottle} @DATA@/programs/dome_loops.nc -o m.toml EXIT 2 STDERR "dome_loops.nc' has no log")
+clsurf_cli_test(NAME identify_without_output ARGS identify ${bottle} EXIT 2 STDERR "output")
+clsurf_cli_test(NAME identify_does_not_replace_its_log SETUP "cp @LOGS@/bottle_uneven.biip r.biip" ARGS identify @DATA@/programs/bottle_uneven.nc r.biip -o r.biip EXIT 2 STDERR "is an input|input")
+clsurf_cli_test(NAME machine_dead_time_too_long SETUP "printf '[[axis]]\\nname = \"x\"\\n[axis.servo]\\ndead_time = 0.2\\n' > m.toml" ARGS machine m.toml EXIT 3 STDERR "'dead_time' is 0.2, expected 0 or more, at most 0.1")

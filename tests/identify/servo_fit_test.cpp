@@ -1,0 +1,172 @@
+// Servo loops are recovered within their standard errors: from records computed apart from ServoLoop
+// (vectors/servo_records.py), and from loops that are drawn at random.
+#include "identify/servo_fit.h"
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "simulation/run/servo.h"
+#include "support/vector_rows.h"
+
+namespace clsurf {
+namespace {
+
+/// Positions of a run of one axis.
+struct AxisRun {
+    std::vector<double> commanded, feedback;
+
+    [[nodiscard]] AxisRecord record() const {
+        const auto view = [](const std::vector<double>& values) {
+            ChannelView v;
+            v.first = reinterpret_cast<const std::byte*>(values.data());
+            v.stride = sizeof(double);
+            v.count = static_cast<PointIndex>(values.size());
+            return v;
+        };
+        return {view(commanded), view(feedback), {{0, static_cast<PointIndex>(commanded.size()) - 1}}};
+    }
+    [[nodiscard]] ServoFit fit(double period) const {
+        const AxisRecord only = record();
+        return fit_servo({&only, 1}, period);
+    }
+};
+
+/// Moves to random places with limited acceleration.
+std::vector<double> random_moves(std::mt19937_64& random, std::size_t count, double period) {
+    const auto uniform = [&](double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(random);
+    };
+    std::vector<double> positions;
+    double x = 0;
+    while (positions.size() < count) {
+        const double way = uniform(-30, 30), acceleration = uniform(600, 2500);
+        const double speed = std::min(uniform(20, 160), std::sqrt(acceleration * std::abs(way)));
+        const double ramp = speed / acceleration, end = ramp + std::abs(way) / speed;
+        for (double t = period; t < end + period; t += period) {
+            double s = std::abs(way) - acceleration * std::pow(std::max(end - t, 0.0), 2) / 2;
+            if (t < ramp)
+                s = acceleration * t * t / 2;
+            else if (t < end - ramp)
+                s = speed * (t - ramp / 2);
+            positions.push_back(x + std::copysign(s, way));
+        }
+        x = positions.back();
+        positions.insert(positions.end(), static_cast<std::size_t>(uniform(0, 60)), x);
+    }
+    positions.resize(count);
+    return positions;
+}
+
+AxisRun run_of(const ServoModel& model, double period, const std::vector<double>& commanded) {
+    AxisRun run{commanded, {}};
+    ServoLoop loop(model, period, commanded.front(), 7);
+    for (const double c : commanded) run.feedback.push_back(loop.follow(c));
+    return run;
+}
+
+constexpr double limit = 4.5;  // standard errors
+
+/// A term that is in the loop is found within its error, one that is not is left out.
+void expect_term(const ServoFit& fit, ServoTerm term, double truth, const std::string& of) {
+    EXPECT_EQ(fit.parameters.has(term), truth > 0) << of;
+    if (truth > 0 && fit.parameters.has(term)) {
+        EXPECT_NEAR(fit.parameters[term], truth, limit * fit.standard_error[index_of(term)]) << of;
+    }
+}
+
+void expect_loop(const ServoFit& fit, const ServoModel& truth, double period, const std::string& of) {
+    const double gain = std::exp(fit.parameters[ServoTerm::log_gain]);
+    EXPECT_NEAR(gain, truth.position_gain, limit * gain * fit.standard_error[index_of(ServoTerm::log_gain)]) << of;
+    EXPECT_NEAR(fit.parameters[ServoTerm::feedforward], truth.velocity_feedforward,
+                limit * fit.standard_error[index_of(ServoTerm::feedforward)])
+        << of;
+    EXPECT_NEAR(fit.time_constant(period), truth.velocity_time_constant, limit * fit.time_constant_error(period)) << of;
+    // Errors are stated small enough to be of use.
+    EXPECT_LT(fit.standard_error[index_of(ServoTerm::log_gain)], 0.05) << of;
+    EXPECT_LT(fit.time_constant_error(period), 0.05 * truth.velocity_time_constant) << of;
+}
+
+TEST(ServoFit, RecordsThatWereComputedElsewhere) {
+    for (VectorRow& row : vector_rows("identify", "servo_records.txt")) {
+        const double period = row.number();
+        ServoModel truth;
+        truth.position_gain = row.number();
+        truth.velocity_feedforward = row.number();
+        truth.velocity_time_constant = row.number();
+        truth.friction = row.number();
+        truth.backlash = row.number();
+        truth.dead_time = row.number() * period;
+        truth.quantum = row.number();
+        const int count = static_cast<int>(row.number());
+        AxisRun run;
+        double sum = 0;
+        for (const double change : row.numbers(count)) run.commanded.push_back((sum += change) * 1e-5);
+        sum = 0;
+        for (const double change : row.numbers(count)) run.feedback.push_back((sum += change) * truth.quantum);
+        const ServoFit fit = run.fit(period);
+        expect_loop(fit, truth, period, row.name);
+        expect_term(fit, ServoTerm::friction, truth.friction, row.name + " friction");
+        expect_term(fit, ServoTerm::backlash, truth.backlash, row.name + " backlash");
+        expect_term(fit, ServoTerm::dead_time, truth.dead_time / period, row.name + " dead time");
+        EXPECT_NEAR(fit.quantum, truth.quantum, 1e-9) << row.name;
+    }
+}
+
+TEST(ServoFit, LoopsDrawnAtRandom) {
+    std::mt19937_64 random(22);
+    const auto uniform = [&](double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(random);
+    };
+    for (int draw = 0; draw < 24; ++draw) {
+        const double period = draw % 3 == 0 ? 0.002 : 0.001;
+        ServoModel truth;
+        truth.position_gain = uniform(20, 120);
+        truth.velocity_feedforward = uniform(0, 1);
+        truth.velocity_time_constant = uniform(0.001, 0.3 / truth.position_gain);
+        truth.quantum = draw % 2 == 0 ? 1e-4 : 1e-3;
+        truth.noise = draw % 4 == 1 ? 5e-4 : 0;
+        const ServoFit fit = run_of(truth, period, random_moves(random, 12000, period)).fit(period);
+        expect_loop(fit, truth, period, "draw " + std::to_string(draw));
+        expect_term(fit, ServoTerm::friction, 0, "friction of draw " + std::to_string(draw));
+        expect_term(fit, ServoTerm::backlash, 0, "backlash of draw " + std::to_string(draw));
+        if (truth.noise > 0) { EXPECT_NEAR(fit.noise, truth.noise, 0.1 * truth.noise) << draw; }
+    }
+}
+
+TEST(ServoFit, ConstantSpeedTellsTheLagAlone) {
+    ServoModel model;
+    model.velocity_feedforward = 0.9;
+    std::vector<double> commanded;
+    for (int i = 0; i < 4000; ++i) commanded.push_back(0.05 * i);
+    AxisRun run = run_of(model, 0.001, commanded);
+    // The start of the motion is not in the log.
+    run.commanded.erase(run.commanded.begin(), run.commanded.begin() + 1000);
+    run.feedback.erase(run.feedback.begin(), run.feedback.begin() + 1000);
+    const ServoFit fit = run.fit(0.001);
+    EXPECT_FALSE(fit.knows(ServoTerm::log_gain));
+}
+
+TEST(ServoFit, AnAxisAtRest) {
+    const std::vector<double> commanded(5000, 3.0);
+    const ServoFit fit = run_of(ServoModel{}, 0.001, commanded).fit(0.001);
+    EXPECT_FALSE(fit.moves);
+    EXPECT_FALSE(fit.knows(ServoTerm::log_gain));
+}
+
+TEST(ServoFit, GapsAreNotBridged) {
+    std::mt19937_64 random(5);
+    ServoModel truth;
+    truth.position_gain = 70;
+    AxisRun run = run_of(truth, 0.001, random_moves(random, 12000, 0.001));
+    // 300 records are missing in the middle.
+    run.commanded.erase(run.commanded.begin() + 5000, run.commanded.begin() + 5300);
+    run.feedback.erase(run.feedback.begin() + 5000, run.feedback.begin() + 5300);
+    AxisRecord record = run.record();
+    record.stretches = {{0, 4999}, {5000, static_cast<PointIndex>(run.commanded.size()) - 1}};
+    expect_loop(fit_servo({&record, 1}, 0.001), truth, 0.001, "with a gap");
+}
+
+}  // namespace
+}  // namespace clsurf
