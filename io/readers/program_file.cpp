@@ -50,7 +50,7 @@ InterpreterOptions interpreter_options(const Source& source, const ProgramOption
         }
     }
     const std::filesystem::path folder = std::filesystem::path(source.name).parent_path();
-    options.load = [folder](const std::string& name) { return load_beside(folder.empty() ? "." : folder, name); };
+    options.load = [folder](const std::string& name) { return load_beside(folder, name); };
     if (source.bytes.empty()) throw InputError(Place::of_file(source.name), "is empty, expected an NC program");
     require_program_text(source);
     return options;

@@ -5,17 +5,12 @@
 #include "io/files/json_value.h"
 
 namespace clsurf::io {
-namespace {
-
-/// As RFC 4180 quotes it.
 std::string csv_field(std::string_view text) {
     if (text.find_first_of(",\"\n\r") == std::string_view::npos) return std::string(text);
     std::string quoted = "\"";
     for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
     return quoted + "\"";
 }
-
-}  // namespace
 
 std::string joined_sarif(const std::vector<std::string>& names, const std::vector<std::string>& texts) {
     Json all;

@@ -1,13 +1,14 @@
 #include "io/reports/quality_report.h"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 
 #include <fmt/format.h>
 
 #include "core/units.h"
 #include "io/files/json_value.h"
 #include "io/reports/defect_json.h"
+#include "io/reports/joined_reports.h"
 #include "io/reports/line_ranges.h"
 #include "io/reports/quality_words.h"
 
@@ -103,34 +104,47 @@ std::string formed_notes(const ReportedQuality& q) {
     return text.empty() ? text : "\n" + text;
 }
 
-/// A row each, at most 120 columns wide.
+std::string depth_column(const Defect& d) {
+    if (d.systematic) return fmt::format("±{:.1f}", um(d.depth));
+    return um(d.depth) < 0.05 ? "0.0" : fmt::format("{:.1f} {}", um(d.depth), shape_of(d));
+}
+
+std::string formed_column(const ReportedQuality& q, std::size_t i) {
+    if (q.formed == nullptr) return {};
+    const double depth = um(q.formed->marks[i].depth);
+    return q.report->defects[i].systematic || std::isnan(depth) ? "       -" : fmt::format(" {:>7.1f}", depth);
+}
+
+/// A row for each defect; places and lines are on a second one where the text is narrow.
 std::string defects_table(const ReportedQuality& q) {
+    constexpr std::size_t least_for_one_row = 120;
     const QualityReport& r = *q.report;
     if (r.defects.empty()) return {};
+    const bool one_row = q.columns >= least_for_one_row;
     const bool formed = q.formed != nullptr;
-    std::string text = fmt::format("{:>4} {:<8} {:<13} {:>7} {:>7} {:>14} {:>7}{}  {:<22} {}\n", "rank", "severity",
-                                   "cause", "times", "speed", "depth", "length", formed ? "  formed" : "",
-                                   fmt::format("{} X Y Z", place_word(r.defects.front().place)), "lines");
-    text += fmt::format("{:>4} {:<8} {:<13} {:>7} {:>7} {:>14} {:>7}{}  {:<22}\n", "", "", "", "limit", "[%]", "[µm]",
-                        "[mm]", formed ? "    [µm]" : "", "[mm]");
+    const std::string_view where = place_word(r.defects.front().place);
+    std::string text = fmt::format("{:>4} {:<8} {:<13} {:>7} {:>7} {:>14} {:>7}{}{}\n", "rank", "severity", "cause",
+                                   "times", "speed", "depth", "length", formed ? "  formed" : "",
+                                   one_row ? fmt::format("  {:<22} lines", fmt::format("{} X Y Z", where)) : "");
+    text += fmt::format("{:>4} {:<8} {:<13} {:>7} {:>7} {:>14} {:>7}{}{}\n", "", "", "", "limit", "[%]", "[µm]", "[mm]",
+                        formed ? "    [µm]" : "", one_row ? "  [mm]" : "");
     for (std::size_t i = 0; i < r.defects.size(); ++i) {
         const Defect& d = r.defects[i];
-        const Vec3& at = d.place.position();
-        const double mark =
-            formed && !d.systematic ? um(q.formed->marks[i].depth) : std::numeric_limits<double>::quiet_NaN();
-        const std::string depth = d.systematic         ? fmt::format("±{:.1f}", um(d.depth))
-                                  : um(d.depth) < 0.05 ? "0.0"
-                                                       : fmt::format("{:.1f} {}", um(d.depth), shape_of(d));
-        text += fmt::format("{:>4} {:<8} {:<13} {:>7.1f} {:>+7.1f} {:>14} {:>7.1f}{}  {:<22} {}\n", i + 1,
+        text += fmt::format("{:>4} {:<8} {:<13} {:>7.1f} {:>+7.1f} {:>14} {:>7.1f}{}", i + 1,
                             name_of_severity(d.severity), name_of(d.cause), d.score, 100 * d.speed_mismatch + 0.0,
-                            depth, d.length,
-                            !formed        ? ""
-                            : mark == mark ? fmt::format(" {:>7.1f}", mark)
-                                           : "       -",
-                            fmt::format("{:.2f} {:.2f} {:.2f}", at.x(), at.y(), at.z()), lines_column(d));
+                            depth_column(d), d.length, formed_column(q, i));
+        const Vec3& at = d.place.position();
+        text += one_row ? fmt::format("  {:<22} {}\n", fmt::format("{:.2f} {:.2f} {:.2f}", at.x(), at.y(), at.z()),
+                                      lines_column(d))
+                        : fmt::format("\n     {}, lines {}\n", place_text(d.place), lines_column(d));
     }
     if (formed) text += formed_notes(q);
     return text + "\n";
+}
+
+std::string subprogram_columns(const DefectRun& run) {
+    return run.file.empty() ? ",,"
+                            : fmt::format("{},{},{}", csv_field(run.file), run.file_first_line, run.file_last_line);
 }
 
 }  // namespace
@@ -183,17 +197,17 @@ std::string quality_json(const ReportedQuality& q) {
 std::string quality_csv(const ReportedQuality& q) {
     std::string text =
         "id,severity,cause,pass,first_line,last_line,first_point,last_point,x [mm],y [mm],z [mm],depth [µm],shape,"
-        "speed jump [mm/min],acceleration jump [mm/s²],length [mm],area [mm²],score,speed jump [%],quantity,systematic,place\n";
+        "speed jump [mm/min],acceleration jump [mm/s²],length [mm],area [mm²],score,speed jump [%],quantity,systematic,place,file,file_first_line,file_last_line\n";
     for (std::size_t i = 0; i < q.report->defects.size(); ++i) {
         const Defect& d = q.report->defects[i];
         const Vec3& at = d.place.position();
         for (const DefectRun& run : d.runs) {
             text += fmt::format(
-                "{},{},{},{},{},{},{},{},{:.4f},{:.4f},{:.4f},{:.3f},{},{:.1f},{:.1f},{:.3f},{:.4f},{:.2f},{:.1f},{},{},{}\n",
+                "{},{},{},{},{},{},{},{},{:.4f},{:.4f},{:.4f},{:.3f},{},{:.1f},{:.1f},{:.3f},{:.4f},{:.2f},{:.1f},{},{},{},{}\n",
                 i + 1, d.severity, name_of(d.cause), run.pass, run.first_line, run.last_line, run.points.first,
                 run.points.last, at.x(), at.y(), at.z(), um(d.depth), shape_of(d), per_minute(d.speed_jump),
                 d.acceleration_jump, d.length, d.area, d.score, 100 * d.speed_mismatch, name_of(d.quantity),
-                d.systematic, place_word(d.place));
+                d.systematic, place_word(d.place), subprogram_columns(run));
         }
     }
     return text;

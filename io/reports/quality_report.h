@@ -25,13 +25,15 @@ struct ReportedQuality {
     const FormedReport* formed = nullptr;    ///< nullptr: the tool is not known
     std::vector<BudgetLine> budget;
     const Diagnostics* diagnostics = nullptr;
+    std::size_t columns = 80;  ///< width of the table in the text
 };
 
 /// Keys: docs/predictor.md.
 [[nodiscard]] std::string quality_json(const ReportedQuality& quality);
-/// One row per run of a defect, columns named with their units.
+/// One row per run of a defect, columns named with their units. file: a subprogram's, empty where the run is in the program.
 [[nodiscard]] std::string quality_csv(const ReportedQuality& quality);
-/// One result per defect on the program's line, so that editors and code review show it.
+/// One result per defect on the line that moves the tool, so that editors and code review show it: in a subprogram on
+/// the subprogram's line, with the calling line as a related location.
 [[nodiscard]] std::string quality_sarif(const ReportedQuality& quality);
 [[nodiscard]] std::string quality_text(const ReportedQuality& quality);
 

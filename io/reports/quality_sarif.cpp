@@ -1,5 +1,6 @@
 // SARIF 2.1.0 (OASIS, Static Analysis Results Interchange Format): a defect is a result at the lines of
-// its first run; its other runs and the passes beside it are related locations.
+// its first run; its other runs and the passes beside it are related locations. A run inside a subprogram is at the
+// subprogram's lines, and the line that calls it is a related location.
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "core/file_name.h"
 #include "core/units.h"
 #include "io/files/json_value.h"
 #include "io/reports/quality_report.h"
@@ -22,8 +24,18 @@ constexpr std::size_t most_related = 20;  ///< locations: a systematic lag has h
 
 std::string_view level_of(int severity) { return severity >= 4 ? "error" : severity >= 2 ? "warning" : "note"; }
 
-Json location(const std::string& uri, const DefectRun& run, const std::string& message) {
-    return sarif_location(uri, run.first_line, run.last_line, message);
+/// The path of a subprogram's file, which runs know without its folder.
+std::string path_of(const Program& program, const std::string& file) {
+    for (const SourceText& text : program.files) {
+        if (file_name(text.name()) == file) return text.name();
+    }
+    return file;
+}
+
+Json location(const Program& program, const DefectRun& run, const std::string& message) {
+    if (run.file.empty())
+        return sarif_location(sarif_uri(program.main().name()), run.first_line, run.last_line, message);
+    return sarif_location(sarif_uri(path_of(program, run.file)), run.file_first_line, run.file_last_line, message);
 }
 
 std::string message_of(const Defect& d) {
@@ -60,12 +72,18 @@ Json rule_json(const RuleText& rule) {
             {"help", {{"text", rule.help}, {"markdown", rule.help}}}};
 }
 
-Json related_locations(const std::string& uri, const Defect& d) {
+Json related_locations(const Program& program, const Defect& d) {
     Json related = Json::array();
+    if (!d.runs.empty() && !d.runs.front().file.empty()) {
+        const DefectRun& run = d.runs.front();
+        related.push_back(sarif_location(sarif_uri(program.main().name()), run.first_line, run.last_line,
+                                         fmt::format("Calls {}.", run.file)));
+    }
     for (std::size_t k = 1; k < std::min(d.runs.size(), most_related); ++k)
-        related.push_back(location(uri, d.runs[k], fmt::format("The same defect on pass {}.", d.runs[k].pass)));
+        related.push_back(location(program, d.runs[k], fmt::format("The same defect on pass {}.", d.runs[k].pass)));
     for (std::size_t k = 0; k < std::min(d.neighbours.size(), most_related); ++k)
-        related.push_back(location(uri, d.neighbours[k], fmt::format("Neighbouring pass {}.", d.neighbours[k].pass)));
+        related.push_back(
+            location(program, d.neighbours[k], fmt::format("Neighbouring pass {}.", d.neighbours[k].pass)));
     for (std::size_t k = 0; k < related.size(); ++k) related[k]["id"] = k + 1;
     return related;
 }
@@ -90,7 +108,7 @@ std::string quality_sarif(const ReportedQuality& q) {
             {"ruleIndex", index_of_rule.at(rule)},
             {"level", level_of(d.severity)},
             {"message", {{"text", message_of(d)}, {"markdown", markdown_of(d)}}},
-            {"locations", Json::array({location(uri, d.runs.empty() ? DefectRun{} : d.runs.front(), "")})},
+            {"locations", Json::array({location(*q.program, d.runs.empty() ? DefectRun{} : d.runs.front(), "")})},
             {"rank", number(100.0 * static_cast<double>(defects.size() - i) / static_cast<double>(defects.size()), 1)},
             {"partialFingerprints", {{"clsurfDefect/v1", fingerprint_of(d, seen)}}},
             {"properties",
@@ -102,7 +120,7 @@ std::string quality_sarif(const ReportedQuality& q) {
               {"speed_jump_percent", number(100 * d.speed_mismatch, 1)},
               {"log", q.log}}}};
         add_place(result["properties"], d.place);
-        Json related = related_locations(uri, d);
+        Json related = related_locations(*q.program, d);
         if (!related.empty()) result["relatedLocations"] = std::move(related);
         results.push_back(std::move(result));
     }

@@ -9,6 +9,7 @@
 #include "cli/quality_limits.h"
 #include "cli/report_output.h"
 #include "cli/stage_clock.h"
+#include "cli/terminal.h"
 #include "field/field_set.h"
 #include "field/range.h"
 #include "io/reports/quality_report.h"
@@ -66,6 +67,7 @@ Checked check_log(const PartOptions& options, std::optional<Role> measured, cons
     reported.formed = quality.formed ? &*quality.formed : nullptr;
     reported.budget = hold(quality.report, budget);
     reported.diagnostics = &part.diagnostics;
+    if (values.count("output") == 0) reported.columns = table_columns();
     clock.end();
     if (format != "json") print(part.diagnostics, values);
     // No verdict comes before a failed one: numbers that mean nothing meet no budget and miss none.
@@ -91,7 +93,9 @@ ExitCode run_check(const po::variables_map& values) {
         texts.push_back(std::move(checked.text));
         worst = std::max(worst, checked.code);
     }
-    output.write(joined_reports(logs, texts, output.format()));
+    const std::string report = joined_reports(logs, texts, output.format());
+    const bool to_terminal = output.format() == "text" && values.count("output") == 0;
+    output.write(to_terminal ? fit_terminal(report) : report);
     return worst;
 }
 

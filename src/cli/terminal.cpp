@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 #include <utility>
+
+#include "cli/text.h"
 
 namespace clsurf::cli {
 namespace {
@@ -21,14 +24,38 @@ constexpr std::pair<std::string_view, std::string_view> painted[] = {
     {"error: ", "\033[1;31m"}, {"warning: ", "\033[1;33m"}, {"note: ", "\033[1;36m"}, {"hint: ", "\033[32m"}};
 constexpr std::string_view plain = "\033[0m";
 
-}  // namespace
+constexpr std::size_t usual_columns = 80;
 
-std::size_t help_columns() {
-    constexpr std::size_t usual = 80, least = 40;
+/// Columns of the terminal that is standard output.
+std::optional<std::size_t> terminal_columns() {
+    constexpr std::size_t least = 40;
     winsize size{};
     if (::isatty(STDOUT_FILENO) != 1 || ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0)
-        return usual;
-    return std::clamp<std::size_t>(size.ws_col, least, usual);
+        return std::nullopt;
+    return std::max<std::size_t>(size.ws_col, least);
+}
+
+}  // namespace
+
+std::size_t help_columns() { return std::min(terminal_columns().value_or(usual_columns), usual_columns); }
+
+std::size_t table_columns() { return terminal_columns().value_or(usual_columns); }
+
+std::string fit_terminal(std::string_view text) {
+    const std::optional<std::size_t> columns = terminal_columns();
+    if (!columns) return std::string(text);
+    std::string fitted;
+    while (!text.empty()) {
+        const std::size_t end = std::min(text.find('\n'), text.size());
+        const std::string_view line = text.substr(0, end);
+        text.remove_prefix(std::min(end + 1, text.size()));
+        if (columns_of(line) <= *columns) {
+            fitted.append(line).append("\n");
+        } else {
+            for (const std::string& part : wrap(line, *columns)) fitted.append(part).append("\n");
+        }
+    }
+    return fitted;
 }
 
 bool shows_colours(int descriptor) {

@@ -37,7 +37,13 @@ clsurf_cli_test(NAME lag_of_a_zigzag_names_its_axes ARGS check ${part} ${run} --
   STDOUT "Axes lag, forward against backward.*servo gains or feed-forward of X and Z differ .Z trails X by 1[.][0-9]+ ms." "\"axis\": \"z\"")
 clsurf_cli_test(NAME clean_recording_has_no_reject ARGS check @DATA@/programs/bottle_zigzag.nc @LOGS@/bottle_zigzag.biip NO_STDOUT "reject" STDOUT "[0-9]+ defects: systematic axis lag")
 clsurf_cli_test(NAME clean_loops_have_no_reject ARGS check @DATA@/programs/dome_loops.nc @LOGS@/dome_loops.biip NO_STDOUT "reject")
-clsurf_cli_test(NAME text_fits_120_columns SETUP "$CLSURF check ${part} ${run} --tool ball:6 | awk '/^rank/ {on = 1} /^$/ {on = 0} on && length($0) > 122 {exit 1}'" ARGS --version)
+clsurf_cli_test(NAME table_fits_80_columns SETUP "$CLSURF check ${part} ${run} --tool ball:6 | sed -n '/^rank/,/^$/p' > table && grep -q 'lines 1178-1334$' table && test $(LC_ALL=C.UTF-8 wc -L < table) -le 80" ARGS --version)
+# script(1) gives check a terminal of that width.
+set(in_a_terminal "script -qec \"stty cols COLUMNS; $CLSURF check ${part} ${run} --tool ball:6 --progress never\" /dev/null < /dev/null | tr -d '\\r' > seen")
+string(REPLACE COLUMNS 90 narrow "${in_a_terminal}")
+string(REPLACE COLUMNS 160 wide "${in_a_terminal}")
+clsurf_cli_test(NAME text_fits_a_narrow_terminal SETUP "${narrow} && grep -q 'lines 1178-1334$' seen && test $(LC_ALL=C.UTF-8 wc -L < seen) -le 90" ARGS --version)
+clsurf_cli_test(NAME table_uses_a_wide_terminal SETUP "${wide} && grep -q '^   1 distinct .* 1178-1334$' seen" ARGS --version)
 # 2.9999999329447746 is a float in a double's clothes.
 clsurf_cli_test(NAME json_has_as_many_digits_as_mean_something SETUP "$CLSURF check ${part} ${run} --tool ball:6 --json > report.json && (! grep -E '[.][0-9]{6}' report.json) && grep -q '\"speed_percent\": 3.0' report.json" ARGS --version)
 clsurf_cli_test(NAME slower_is_negative_everywhere

@@ -77,6 +77,10 @@ clsurf_cli_test(NAME defect_in_a_file_that_is_called SETUP "${slow_passes}" ARGS
   STDOUT " 16 .in pair.ngc: 6-10." " 31 .in pair.ngc: 6-10.")
 clsurf_cli_test(NAME defect_in_a_file_that_is_called_in_json SETUP "${slow_passes}" ARGS check part.ngc run.biip --dialect linuxcnc --json
   STDOUT "\"subprograms\": .*\"file\": \"pair.ngc\"")
+clsurf_cli_test(NAME defect_in_a_file_that_is_called_in_csv SETUP "${slow_passes}" ARGS check part.ngc run.biip --dialect linuxcnc --format csv
+  STDOUT "place,file,file_first_line,file_last_line" ",16,16,.*,tool tip,pair.ngc,6,10")
+clsurf_cli_test(NAME defect_in_a_file_that_is_called_in_sarif SETUP "${slow_passes}" ARGS check part.ngc run.biip --dialect linuxcnc --format sarif
+  STDOUT "\"locations\": .{,120}\"uri\": \"pair.ngc\".{,80}\"startLine\": 6,.{,30}\"endLine\": 10" "\"uri\": \"part.ngc\".{,80}\"startLine\": 16,.{,160}Calls pair.ngc")
 
 # ---- what is no finishing pass ----
 # Forty passes of 30 mm side by side, then three levels of a square pocket and two drilled holes.
