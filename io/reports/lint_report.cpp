@@ -85,7 +85,9 @@ std::string lint_text(const ReportedLint& l) {
                fmt::format(
                    "no finishing passes to judge: {:.0f} % of the cutting is pockets, drilling or single contours\n",
                    100 * r.not_finishing);
-    text += r.findings.empty() ? "nothing found" : fmt::format("\n{} findings", r.findings.size());
+    text += r.findings.empty()
+                ? "nothing found"
+                : fmt::format("\n{} {}", r.findings.size(), r.findings.size() == 1 ? "finding" : "findings");
     text += fmt::format(" on {} passes", r.passes);
     if (r.step_over > 0) text += fmt::format(", {:.3g} mm apart", r.step_over);
     text += fmt::format("; lines usually {:.3g} mm long, chord error {:.2f} µm (95th percentile)", r.spacing,

@@ -1,8 +1,11 @@
 #include "surface/finishing.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <unordered_map>
+
+#include "core/parallel.h"
 
 namespace clsurf {
 namespace {
@@ -11,9 +14,13 @@ constexpr double beside_share = 0.3;      ///< of the shorter pass that lies bes
 constexpr std::size_t many_passes = 5;    ///< side by side: a finished surface, whatever its shape
 constexpr double surface_share = 0.6;     ///< of a smaller group that has a neighbour
 constexpr std::size_t fewest_passes = 2;  ///< of a group
-constexpr double stacked_share =
-    0.5;                         ///< of the points of a smaller group that have a neighbour: it lies above or below
-constexpr float upright = 0.9F;  ///< squared cosine to z of what lies above
+/// Of the points of a smaller group that have a neighbour: it lies above or below.
+constexpr double stacked_share = 0.5;
+constexpr float upright = 0.9F;         ///< squared cosine to z of what lies above
+constexpr double many_beside = 0.4;     ///< of a group of many passes that has a neighbour
+constexpr float plumb = 0.98F;          ///< squared cosine to z: the turns of a helix, up to 8° steep
+constexpr double plumb_share = 0.9;     ///< of the points of a helix
+constexpr double plunge_diameter = 50;  ///< pitches: a helix that is narrower leads into the material
 
 /// Disjoint sets of passes.
 class Groups {
@@ -34,6 +41,9 @@ private:
 struct Beside {
     PointIndex points = 0;                                ///< with a neighbour
     PointIndex stacked = 0;                               ///< of them, with one above or below
+    PointIndex plumb = 0;                                 ///< of them, with one exactly above or below
+    double distance = 0;                                  ///< [mm] to the plumb ones, summed
+    Eigen::AlignedBox3f box;                              ///< of the points
     std::unordered_map<std::size_t, PointIndex> of_pass;  ///< neighbours by pass
 };
 
@@ -45,69 +55,113 @@ std::size_t pass_at(const Passes& passes, PointIndex point) {
 
 Beside look_beside(const ClSurface& surface, const Pass& pass) {
     Beside found;
-    PointRange other{0, -1};
-    std::size_t index = 0;
+    // Neighbours stay on one pass for long: they are counted run by run.
+    struct Counter {
+        PointRange range{0, -1};
+        std::size_t pass = 0;
+        PointIndex points = 0;
+    };
+    std::array<Counter, 2> counters;
+    const auto count = [&](Counter& counter, PointIndex neighbour) {
+        if (neighbour < counter.range.first || neighbour > counter.range.last) {
+            if (counter.points > 0) found.of_pass[counter.pass] += counter.points;
+            const std::size_t other = pass_at(surface.passes, neighbour);
+            counter = {{surface.passes[other].first, surface.passes[other].last}, other, 0};
+        }
+        ++counter.points;
+    };
     for (PointIndex i = pass.first; i <= pass.last; ++i) {
         bool any = false;
         bool stacked = false;
+        bool plumbs = false;
+        found.box.extend(surface.positions[i]);
         for (const Side side : {Side::left, Side::right}) {
             if (!surface.neighbours.has(side, i)) continue;
             any = true;
             const PointIndex n = surface.neighbours.neighbour(side, i);
-            if (n < other.first || n > other.last) {
-                index = pass_at(surface.passes, n);
-                other = {surface.passes[index].first, surface.passes[index].last};
-            }
-            ++found.of_pass[index];
+            count(counters[static_cast<std::size_t>(side)], n);
             const Eigen::Vector3f d = surface.positions[n] - surface.positions[i];
             stacked = stacked || d.z() * d.z() > upright * d.squaredNorm();
+            if (!plumbs && d.z() * d.z() > plumb * d.squaredNorm()) {
+                plumbs = true;
+                found.distance += std::abs(static_cast<double>(d.z()));
+            }
         }
         found.points += any ? 1 : 0;
         found.stacked += stacked ? 1 : 0;
+        found.plumb += plumbs ? 1 : 0;
+    }
+    for (const Counter& counter : counters) {
+        if (counter.points > 0) found.of_pass[counter.pass] += counter.points;
     }
     return found;
 }
+
+/// Passes that lie beside one another.
+struct Group {
+    std::size_t passes = 0;
+    PointIndex points = 0;
+    Beside beside;
+    double climb = 0;  ///< [mm] difference in height of each pass, summed
+
+    void add(const Pass& pass, const Beside& its) {
+        ++passes;
+        points += pass.size();
+        beside.points += its.points;
+        beside.stacked += its.stacked;
+        beside.plumb += its.plumb;
+        beside.distance += its.distance;
+        beside.box.extend(its.box);
+        climb += its.box.isEmpty() ? 0.0 : static_cast<double>(its.box.sizes().z());
+    }
+
+    [[nodiscard]] bool finishes() const {
+        if (plunges()) return false;
+        const auto share = [](PointIndex part, PointIndex whole) {
+            return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0.0;
+        };
+        const double has_neighbour = share(beside.points, points);
+        if (passes >= many_passes) return has_neighbour >= many_beside;
+        const bool levels = share(beside.stacked, beside.points) > stacked_share;
+        return passes >= fewest_passes && !levels && has_neighbour >= surface_share;
+    }
+
+private:
+    /// A helix down into the material: its turns lie exactly above each other, and it is narrow for its pitch.
+    [[nodiscard]] bool plunges() const {
+        const auto plumb_points = static_cast<double>(beside.plumb);
+        if (beside.plumb == 0 || plumb_points < plumb_share * static_cast<double>(beside.points)) return false;
+        const double pitch = beside.distance / plumb_points;
+        if (climb < 0.5 * pitch * static_cast<double>(passes)) return false;  // levels
+        return static_cast<double>(beside.box.sizes().head<2>().maxCoeff()) < plunge_diameter * pitch;
+    }
+};
 
 }  // namespace
 
 std::vector<bool> find_finishing_passes(const ClSurface& surface) {
     const Passes& passes = surface.passes;
     Groups groups(passes.size());
-    std::vector<PointIndex> beside(passes.size(), 0);
-    std::vector<PointIndex> stacked(passes.size(), 0);
+    std::vector<Beside> beside(passes.size());
+    parallel_for(static_cast<std::int64_t>(passes.size()), 1, [&](std::int64_t first, std::int64_t last) {
+        for (auto k = static_cast<std::size_t>(first); k < static_cast<std::size_t>(last); ++k) {
+            if (passes[k].kind == PassKind::cut) beside[k] = look_beside(surface, passes[k]);
+        }
+    });
     for (std::size_t k = 0; k < passes.size(); ++k) {
-        if (passes[k].kind != PassKind::cut) continue;
-        const Beside found = look_beside(surface, passes[k]);
-        beside[k] = found.points;
-        stacked[k] = found.stacked;
-        for (const auto& [other, points] : found.of_pass) {
+        for (const auto& [other, points] : beside[k].of_pass) {
             const PointIndex shorter = std::min(passes[k].size(), passes[other].size());
             if (other != k && static_cast<double>(points) >= beside_share * static_cast<double>(shorter))
                 groups.join(k, other);
         }
     }
-    struct Group {
-        std::size_t passes = 0;
-        PointIndex points = 0, beside = 0, stacked = 0;
-    };
     std::vector<Group> all(passes.size());
     for (std::size_t k = 0; k < passes.size(); ++k) {
-        if (passes[k].kind != PassKind::cut) continue;
-        Group& group = all[groups.of(k)];
-        ++group.passes;
-        group.points += passes[k].size();
-        group.beside += beside[k];
-        group.stacked += stacked[k];
+        if (passes[k].kind == PassKind::cut) all[groups.of(k)].add(passes[k], beside[k]);
     }
     std::vector<bool> finishing(passes.size(), false);
-    for (std::size_t k = 0; k < passes.size(); ++k) {
-        if (passes[k].kind != PassKind::cut) continue;
-        const Group& group = all[groups.of(k)];
-        const auto points = static_cast<double>(group.points);
-        const bool levels = static_cast<double>(group.stacked) > stacked_share * static_cast<double>(group.beside);
-        finishing[k] = group.passes >= many_passes || (group.passes >= fewest_passes && !levels &&
-                                                       static_cast<double>(group.beside) >= surface_share * points);
-    }
+    for (std::size_t k = 0; k < passes.size(); ++k)
+        finishing[k] = passes[k].kind == PassKind::cut && all[groups.of(k)].finishes();
     return finishing;
 }
 

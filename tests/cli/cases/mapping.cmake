@@ -93,6 +93,12 @@ clsurf_cli_test(NAME pocket_is_no_finishing_pass SETUP "${with_pocket}" ARGS che
 clsurf_cli_test(NAME lint_of_a_pocket_judges_nothing
   SETUP "(printf 'G21 G90 G17\\nG0 X0 Y0 Z5\\nF3000\\n' && seq 1 3 | awk '{printf \"G0 Z5\\nG0 X60 Y0\\nG1 Z-%d\\nX75 F2000\\nY15\\nG3 X60 I-7.5 F3000\\nG1 Y0\\n\", $1}' && echo M30) > part.nc"
   ARGS lint part.nc STDOUT "no finishing passes to judge: 100 % of the cutting" NO_STDOUT "warning")
+# Eight turns of a helix of 20 mm, 1 mm deep each, lead into the material.
+set(helix "(printf 'G21 G90 G17\\nG0 X0 Y0 Z5\\nG0 X10 Y0\\nG1 Z0 F1000\\n' && seq 1 8 | awk '{printf \"G3 X10 Y0 Z-%d I-10 J0\\n\", $1}' && printf 'G3 X10 Y0 I-10 J0\\nG1 X0\\nG0 Z5\\nM30\\n') > part.nc"
+  "$CLSURF simulate part.nc --dialect linuxcnc -o run.biip > /dev/null")
+list(JOIN helix " && " helix)
+clsurf_cli_test(NAME helix_into_the_material_is_no_finishing SETUP "${helix}" ARGS check part.nc run.biip --dialect linuxcnc EXIT 5
+  STDOUT "NOT JUDGED: [0-9]+ % of the cutting points belong to no finishing passes")
 # A square wall of twelve levels, 0.3 mm apart, is finished.
 set(waterlines "(printf 'G21 G90 G17\\nG0 X0 Y0 Z5\\nG1 Z0 F600\\nF3000\\n' && seq 1 12 | awk '{printf \"G1 Z-%.1f\\nX20\\nY20\\nX0\\nY0\\n\", $1*0.3}' && echo M30) > part.nc"
   "$CLSURF simulate part.nc -o run.biip > /dev/null")
