@@ -1,6 +1,6 @@
 #pragma once
 // LogFormat: one row per readable log format. The registry picks by content, not by file name.
-// To add one: io/formats/<format>.cpp, and its line in io/formats/log_formats.cpp.
+// To add one of ours: io/formats/<format>.cpp, and its row in io/formats/log_formats.cpp. Others come with LogOptions::more_formats.
 
 #include <optional>
 #include <span>
@@ -12,17 +12,7 @@
 
 namespace clsurf::io {
 
-/// What the user may say about a log that the log does not say itself.
-struct LogOptions {
-    std::string layout;            ///< file: layout of a foreign fixed-record log (TOML); empty: none
-    std::string mapping;           ///< file: column mapping of a text log (TOML); empty: none
-    std::optional<double> period;  ///< [s]; where the log has none
-};
-
-/// Whether a layout or a mapping says how the bytes are read: any file can be such a log.
-[[nodiscard]] inline bool forces_log(const LogOptions& options) {
-    return !options.layout.empty() || !options.mapping.empty();
-}
+struct LogOptions;
 
 struct LogFormat {
     std::string_view name;
@@ -33,10 +23,24 @@ struct LogFormat {
     Log (*open)(const Source& source, const LogOptions& options);
 };
 
-/// All formats, in the order of the help text.
+/// What the user may say about a log that the log does not say itself.
+struct LogOptions {
+    std::string layout;            ///< file: layout of a foreign fixed-record log (TOML); empty: none
+    std::string mapping;           ///< file: column mapping of a text log (TOML); empty: none
+    std::optional<double> period;  ///< [s]; where the log has none
+    std::span<const LogFormat> more_formats =
+        {};  ///< besides log_formats(), recognised like them; must outlive the call
+};
+
+/// Whether a layout or a mapping says how the bytes are read: any file can be such a log.
+[[nodiscard]] inline bool forces_log(const LogOptions& options) {
+    return !options.layout.empty() || !options.mapping.empty();
+}
+
+/// All of ours, in the order of the help text.
 [[nodiscard]] std::span<const LogFormat> log_formats();
 
-/// The format that the content looks most like, or nullptr.
+/// The format that the content looks most like, ours or one of options.more_formats, or nullptr.
 [[nodiscard]] const LogFormat* recognise_log(const Source& source, const LogOptions& options);
 
 /// Opens a log of any format. Throws InputError; unknown content names the formats tried.

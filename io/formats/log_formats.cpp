@@ -55,11 +55,13 @@ const LogFormat* recognise_log(const Source& source, const LogOptions& options) 
     const std::span<const std::byte> head = source.bytes.first(std::min(probed_bytes, source.bytes.size()));
     const LogFormat* best = nullptr;
     int best_score = 0;
-    for (const LogFormat& format : known_formats) {
-        const int score = format.probe(head, options);
-        if (score > best_score) {
-            best_score = score;
-            best = &format;
+    for (const std::span<const LogFormat> formats : {log_formats(), options.more_formats}) {
+        for (const LogFormat& format : formats) {
+            const int score = format.probe(head, options);
+            if (score > best_score) {
+                best_score = score;
+                best = &format;
+            }
         }
     }
     return best;
@@ -82,7 +84,8 @@ Log open_log(const Source& source, const LogOptions& options) {
                              "it needs --mapping FILE; clsurf info --suggest-mapping " + source.name +
                                  " -o mapping.toml writes one to start from");
         std::string names;
-        for (const LogFormat& f : known_formats) names += (names.empty() ? "" : ", ") + std::string(f.name);
+        for (const std::span<const LogFormat> formats : {log_formats(), options.more_formats})
+            for (const LogFormat& f : formats) names += (names.empty() ? "" : ", ") + std::string(f.name);
         throw InputError(Place::of_file(source.name), "is no log of a known format (" + names + ")",
                          "a foreign binary needs --layout FILE, a text without channel names --mapping FILE");
     }
