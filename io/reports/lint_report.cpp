@@ -1,69 +1,31 @@
 #include "io/reports/lint_report.h"
 
-#include <set>
+#include <algorithm>
 
 #include <fmt/format.h>
 
 #include "core/units.h"
 #include "io/reports/quality_words.h"
 #include "io/reports/sarif.h"
+#include "lint/lint_rule.h"
 
 namespace clsurf::io {
 namespace {
-
-struct Shown {
-    std::string_view unit;
-    double factor = 1;
-    int digits = 3;
-};
-
-Shown shown_of(LintRule rule) {
-    switch (rule) {
-        case LintRule::feed_difference: return {"mm/min", seconds_per_minute, 0};
-        case LintRule::chord_error: return {"µm", um_per_mm, 2};
-        default: return {"mm", 1, 3};
-    }
-}
-
-std::string message_of(const LintFinding& f) {
-    const Shown shown = shown_of(f.rule);
-    const std::string found = fmt::format("{:.{}f} {}", f.found * shown.factor, shown.digits, shown.unit);
-    const std::string expected = fmt::format("{:.{}f} {}", f.expected * shown.factor, shown.digits, shown.unit);
-    switch (f.rule) {
-        case LintRule::point_spacing:
-            return fmt::format("points {} apart on pass {}, {} on the passes beside it", found, f.pass, expected);
-        case LintRule::chord_error:
-            if (f.severity == Severity::note)
-                return fmt::format(
-                    "chord error of {} (95th percentile) on lines {} to {}: the controller's tolerance blurs more than the points say above {}",
-                    found, f.first_line, f.last_line, expected);
-            return fmt::format("lines leave the curve by {} on pass {}; the controller's tolerance hides {}", found,
-                               f.pass, expected);
-        case LintRule::reversed_segment:
-            return fmt::format("a line of {} runs back on pass {}; lines are usually {} long", found, f.pass, expected);
-        case LintRule::feed_difference:
-            return fmt::format("feed {} on pass {}, {} on the passes beside it", found, f.pass, expected);
-        case LintRule::start_point:
-            return fmt::format("pass {} ends {} out of line with the passes beside it, more than {}", f.pass, found,
-                               expected);
-    }
-    return {};
-}
 
 std::string lines_text(LineNumber first, LineNumber last) {
     return first == last ? fmt::format("{}", first) : fmt::format("{}-{}", first, last);
 }
 
 Json finding_json(const LintFinding& f) {
-    const Shown shown = shown_of(f.rule);
-    Json json{{"rule", name_of(f.rule)},
+    const LintUnit& unit = f.rule->unit;
+    Json json{{"rule", f.rule->name},
               {"severity", name_of(f.severity)},
               {"lines", Json::array({f.first_line, f.last_line})},
               {"beside_lines", f.beside_first > 0 ? Json::array({f.beside_first, f.beside_last}) : Json(nullptr)},
               {"pass", f.pass > 0 ? Json(f.pass) : Json(nullptr)},
-              {"found", number(f.found * shown.factor, shown.digits + 1)},
-              {"expected", number(f.expected * shown.factor, shown.digits + 1)},
-              {"unit", shown.unit},
+              {"found", number(f.found * unit.per_inside, unit.digits + 1)},
+              {"expected", number(f.expected * unit.per_inside, unit.digits + 1)},
+              {"unit", unit.name},
               {"text", message_of(f)}};
     add_place(json, f.place);
     return json;
@@ -76,7 +38,7 @@ std::string lint_text(const ReportedLint& l) {
     std::string text;
     for (const LintFinding& f : r.findings) {
         text += fmt::format("{}:{}: {}: {} [{}]", l.program->main().name(), lines_text(f.first_line, f.last_line),
-                            name_of(f.severity), message_of(f), name_of(f.rule));
+                            name_of(f.severity), message_of(f), f.rule->name);
         if (f.beside_first > 0) text += fmt::format(", beside lines {}", lines_text(f.beside_first, f.beside_last));
         text += fmt::format(", {}\n", place_text(f.place));
     }
@@ -103,8 +65,7 @@ std::string lint_json(const ReportedLint& l) {
     Json findings = Json::array();
     for (const LintFinding& f : r.findings) findings.push_back(finding_json(f));
     Json by_rule;
-    for (std::size_t i = 0; i < lint_rules; ++i)
-        by_rule[std::string(name_of(static_cast<LintRule>(i)))] = r.count(static_cast<LintRule>(i));
+    for (const LintRule& rule : r.rules) by_rule[std::string(rule.name)] = r.count(rule.name);
     Json summary{{"passes", r.passes},
                  {"step_over_mm", number(r.step_over, 5)},
                  {"judged", r.judged()},
@@ -121,15 +82,17 @@ std::string lint_json(const ReportedLint& l) {
 
 std::string lint_sarif(const ReportedLint& l) {
     const std::string uri = sarif_uri(l.program->main().name());
-    std::set<LintRule> broken;
-    for (const LintFinding& f : l.report->findings) broken.insert(f.rule);
+    std::vector<const LintRule*> broken;
     Json rules = Json::array();
-    for (const LintRule rule : broken)
-        rules.push_back({{"id", name_of(rule)}, {"shortDescription", {{"text", description_of(rule)}}}});
+    for (const LintRule& rule : l.report->rules) {
+        if (l.report->count(rule.name) == 0) continue;
+        broken.push_back(&rule);
+        rules.push_back({{"id", rule.name}, {"shortDescription", {{"text", rule.description}}}});
+    }
     Json results = Json::array();
     for (const LintFinding& f : l.report->findings) {
-        Json result{{"ruleId", name_of(f.rule)},
-                    {"ruleIndex", std::distance(broken.begin(), broken.find(f.rule))},
+        Json result{{"ruleId", f.rule->name},
+                    {"ruleIndex", std::find(broken.begin(), broken.end(), f.rule) - broken.begin()},
                     {"level", name_of(f.severity)},
                     {"message", {{"text", fmt::format("{}, {}", message_of(f), place_text(f.place))}}},
                     {"locations", Json::array({sarif_location(uri, f.first_line, f.last_line, "")})}};

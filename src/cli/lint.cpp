@@ -36,7 +36,7 @@ Trajectory trajectory_on(const Positions& positions) {
 void locate(LintReport& report, const Program& program, const ProgrammedSurface& laid, const CuttingTool& tool) {
     if (!program.motions.rotary.empty() || !program.motions.tool_axis.empty()) return;
     const Trajectory path = trajectory_on(laid.surface.positions);
-    const ContactPoints points(laid.surface, path, nullptr, tool);
+    const ContactPoints points(laid.surface, path, std::nullopt, tool);
     parallel_for(static_cast<std::int64_t>(report.findings.size()), 1, [&](std::int64_t first, std::int64_t last) {
         for (std::int64_t k = first; k < last; ++k) {
             LintFinding& finding = report.findings[static_cast<std::size_t>(k)];
@@ -52,10 +52,10 @@ using LintWriter = std::string (*)(const io::ReportedLint&);
 ExitCode run_lint(const po::variables_map& values) {
     static const std::map<std::string, LintWriter, std::less<>> writers{
         {"text", io::lint_text}, {"json", io::lint_json}, {"sarif", io::lint_sarif}};
-    LintRules rules;
+    LintThresholds thresholds;
     if (values.count("tolerance") > 0) {
-        rules.tolerance = values["tolerance"].as<double>();
-        if (!(rules.tolerance > 0) || !std::isfinite(rules.tolerance))
+        thresholds.tolerance = values["tolerance"].as<double>();
+        if (!(thresholds.tolerance > 0) || !std::isfinite(thresholds.tolerance))
             throw UsageError("--tolerance must be above 0 mm");
     }
     const ToolChoice choice = read_tool(values);
@@ -63,7 +63,7 @@ ExitCode run_lint(const po::variables_map& values) {
     const Program program = io::read_program(required(values, "PROGRAM"), read_program_options(values));
     Diagnostics diagnostics = program.diagnostics;
     const ProgrammedSurface laid = lay_out(program);
-    LintReport report = lint(program, laid, rules);
+    LintReport report = lint(program, laid, thresholds);
     if (const std::optional<CuttingTool> tool = find_tool(choice, nullptr, &program, diagnostics))
         locate(report, program, laid, *tool);
     if (output.format() != "json") print(diagnostics, values);

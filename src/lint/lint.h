@@ -1,7 +1,7 @@
 #pragma once
 // Lint: what hurts in a program itself, found without a log: places where a pass is programmed otherwise
 // than the passes beside it, so that a controller will run it otherwise, and places that no controller
-// runs well.
+// runs well. To add a rule: one row in lint_rules.cpp.
 
 #include <span>
 #include <string>
@@ -13,20 +13,11 @@
 
 namespace clsurf {
 
-enum class LintRule : std::uint8_t {
-    point_spacing,     ///< points lie closer or farther apart than on the passes on both sides
-    chord_error,       ///< lines leave the curve by more than the controller's tolerance can hide
-    reversed_segment,  ///< a short line that runs back against those around it
-    feed_difference,   ///< another feed than on the passes on both sides
-    start_point,       ///< a pass begins or ends out of line with its neighbours
-};
-inline constexpr std::size_t lint_rules = 5;
-[[nodiscard]] std::string_view name_of(LintRule rule);         ///< "point-spacing"
-[[nodiscard]] std::string_view description_of(LintRule rule);  ///< "Points lie otherwise than on both neighbour passes"
+struct LintRule;  // lint_rule.h
 
 /// A run of lines that breaks a rule.
 struct LintFinding {
-    LintRule rule = LintRule::point_spacing;
+    const LintRule* rule = nullptr;
     Severity severity = Severity::warning;
     LineNumber first_line = 0, last_line = 0;
     LineNumber beside_first = 0, beside_last = 0;  ///< lines of a neighbour pass at that place; 0: none
@@ -38,7 +29,7 @@ struct LintFinding {
                0;  ///< mm, or mm/s for feeds: the worst value (of spacings the median) and what it is measured by
 };
 
-struct LintRules {
+struct LintThresholds {
     double spacing_ratio = 2;  ///< spacing against that of both neighbours, either way
     double feed_ratio = 1.02;  ///< feeds, likewise
     double tolerance = 0;      ///< [mm] of the controller; 0: what the program sets, else the chord rule is left out
@@ -50,6 +41,7 @@ struct LintRules {
 };
 
 struct LintReport {
+    std::span<const LintRule> rules;    ///< that were checked
     std::vector<LintFinding> findings;  ///< by rule, then by line
     std::int64_t passes = 0;
     double step_over = 0;      ///< [mm]; 0: nothing to compare with
@@ -59,7 +51,8 @@ struct LintReport {
     double not_finishing = 0;  ///< share of the cutting that is pockets, drilling or single contours, 0 … 1
     /// Whether passes were compared: not where most of the cutting is none of finishing passes.
     [[nodiscard]] bool judged() const { return step_over > 0 && not_finishing <= 0.5; }
-    [[nodiscard]] std::size_t count(LintRule rule) const;
+    /// Findings of the rule of that name.
+    [[nodiscard]] std::size_t count(std::string_view rule) const;
     /// Findings that are more than notes.
     [[nodiscard]] std::size_t warnings() const;
 };
@@ -68,7 +61,11 @@ struct LintReport {
 /// smallest where there are several, 0 where there is none.
 [[nodiscard]] double programmed_tolerance(const Program& program);
 
-/// O(points).
-[[nodiscard]] LintReport lint(const Program& program, const ProgrammedSurface& laid, const LintRules& rules);
+/// Our rules: rows of lint_rules.cpp.
+[[nodiscard]] std::span<const LintRule> lint_rules();
+
+/// Checks each of `rules`, which must outlive the report. O(points).
+[[nodiscard]] LintReport lint(const Program& program, const ProgrammedSurface& laid,
+                              const LintThresholds& thresholds = {}, std::span<const LintRule> rules = lint_rules());
 
 }  // namespace clsurf
