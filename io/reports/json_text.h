@@ -2,38 +2,17 @@
 // Reports as JSON text, with the keys that scripts rely on. Invalid UTF-8 in
 // names and program lines becomes U+FFFD.
 
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "core/cutter_place.h"
 #include "core/diagnostic.h"
-#include "core/geometry.h"
-#include "core/point.h"
 #include "io/formats/foreign_content.h"
 #include "log/log.h"
-#include "mapping/call_chain.h"
+#include "pipeline/point_query.h"
 #include "program/program.h"
 #include "toolpath/toolpath_summary.h"
 
 namespace clsurf::io {
-
-/// What `query` found at a point.
-struct QueryMatch {
-    PointIndex point = 0;
-    double time = 0;  ///< [s]
-    LineNumber line = 0;
-    std::string text;  ///< of the line
-    CutterPlace place;
-    std::optional<std::int64_t> pass;  ///< number of the cut pass, from 1, where it was found by place
-    double speed = 0;                  ///< [mm/s]
-    double acceleration = 0;           ///< [mm/s²]
-    std::optional<double> speed_uncertainty, acceleration_uncertainty;  ///< standard deviations, where known
-    double confidence = 0;                                              ///< 0 … 1
-    double distance = 0;     ///< [mm] to the asked position; 0 where none was asked
-    CallChain calls;         ///< of a point in a subprogram
-    PointRange line_points;  ///< the run of points of this line round the point
-};
 
 [[nodiscard]] std::string program_json(const Program& program, const ToolpathSummary& summary,
                                        const Diagnostics& diagnostics);

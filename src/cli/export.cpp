@@ -1,73 +1,14 @@
 // clsurf export: per-point columns as CSV, BIIP, VTK.
 
-#include <algorithm>
-
-#include <fmt/format.h>
-
-#include "cli/fields.h"
+#include "cli/export_columns.h"
 #include "cli/output_format.h"
-#include "core/block.h"
+#include "cli/part.h"
 #include "io/files/atomic_file.h"
 #include "io/reports/export_table.h"
 #include "viz/export_vtk.h"
 
 namespace clsurf::cli {
 namespace {
-
-io::ExportColumn column_of(const std::string& name, const Part& part, const ClSurface& surface, Fields& fields) {
-    const auto count = static_cast<std::size_t>(part.log.records);
-    io::ExportColumn column;
-    column.name = name;
-    if (name == "point") {
-        column.counts.resize(count);
-        for (std::size_t i = 0; i < count; ++i) column.counts[i] = static_cast<std::uint32_t>(i);
-    } else if (name == "line") {
-        column.counts.resize(count);
-        for_each_block(part.log.records, [&](PointIndex first, PointIndex last) {
-            part.lines->read(first, {column.counts.data() + first, static_cast<std::size_t>(last - first)});
-        });
-    } else if (name == "pass") {
-        column.counts = Column<std::uint32_t>(count, 0);
-        std::uint32_t number = 0;
-        for (const Pass& pass : surface.passes) {
-            if (pass.kind != PassKind::cut) continue;
-            ++number;
-            for (PointIndex i = pass.first; i <= pass.last; ++i) column.counts[static_cast<std::size_t>(i)] = number;
-        }
-    } else if (name == "time") {
-        column.unit = "s";
-        column.exact.resize(count);
-        for (std::size_t i = 0; i < count; ++i) column.exact[i] = part.log.time_of(static_cast<PointIndex>(i));
-    } else if (name == "x" || name == "y" || name == "z") {
-        const auto axis = static_cast<std::size_t>(name[0] - 'x');
-        constexpr std::size_t block = 4096;
-        column.unit = "mm";
-        column.exact.resize(count);
-        std::vector<double> others(2 * block);
-        for (std::size_t first = 0; first < count; first += block) {
-            const std::size_t n = std::min(block, count - first);
-            std::array<std::span<double>, 3> xyz;
-            for (std::size_t k = 0, other = 0; k < 3; ++k)
-                xyz[k] = std::span(k == axis ? column.exact.data() + first : others.data() + block * other++, n);
-            part.path.read(static_cast<PointIndex>(first), xyz[0], xyz[1], xyz[2]);
-        }
-    } else if (name == "confidence") {
-        std::vector<double> confidences(count);
-        read_confidences(part.path, part.program, *part.lines, 0, confidences);
-        column.values.resize(count);
-        std::transform(confidences.begin(), confidences.end(), column.values.begin(),
-                       [](double c) { return static_cast<float>(c); });
-    } else {
-        Field field = fields.get(name);
-        column.name = field.info.name;
-        column.unit = std::string(field.info.unit.name);
-        column.values = std::move(field.values);
-        if (field.info.unit.per_inside != 1) {
-            for (float& v : column.values) v = static_cast<float>(v * field.info.unit.per_inside);
-        }
-    }
-    return column;
-}
 
 /// Columns as 32-bit point data for VTK.
 Column<float> as_floats(const io::ExportColumn& column) {
@@ -103,9 +44,7 @@ ExitCode run_export(const po::variables_map& values) {
     clock.begin("stitch the surface");
     const ClSurface surface = stitch(part);
     clock.begin("write the columns");
-    std::vector<io::ExportColumn> columns;
-    Fields fields(part, surface);
-    for (const std::string& name : names) columns.push_back(column_of(name, part, surface, fields));
+    const std::vector<io::ExportColumn> columns = exported_columns(names, part, surface);
     if (format == "csv")
         io::write_csv(output, columns);
     else if (format == "biip")

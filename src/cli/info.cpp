@@ -1,101 +1,19 @@
 // clsurf info: what a program or a log holds, and whether it can be trusted.
 
-#include <cstdio>
-
-#include <fmt/format.h>
-
 #include "cli/info_table.h"
+#include "cli/info_text.h"
 #include "cli/options.h"
 #include "cli/work_frames.h"
-#include "core/printable_text.h"
-#include "core/units.h"
 #include "io/files/compressed.h"
 #include "io/formats/program_identity.h"
 #include "io/readers/program_file.h"
 #include "io/reports/json_text.h"
 #include "log/health.h"
-#include "mapping/line_map.h"
-#include "pipeline/placement.h"
-#include "pipeline/roles.h"
-#include "toolpath/tip_motions.h"
+#include "pipeline/log_match.h"
 #include "toolpath/toolpath_summary.h"
 
 namespace clsurf::cli {
 namespace {
-
-void print_diagnostics(const Diagnostics& diagnostics) {
-    if (diagnostics.empty()) std::puts("  nothing to remark");
-    for (const Diagnostic& d : diagnostics.summary()) {
-        const std::string where = d.where.text();
-        fmt::print("  {}: {}{}{}\n", name_of(d.severity), where, where.empty() ? "" : ": ", d.text);
-        if (!d.hint.empty()) fmt::print("      hint: {}\n", d.hint);
-    }
-}
-
-/// Errors decide the exit code, so they are messages as well.
-void print_errors(const Diagnostics& diagnostics) {
-    for (const Diagnostic& d : diagnostics.kept()) {
-        if (d.severity == Severity::error) std::fputs(to_text(d).c_str(), stderr);
-    }
-}
-
-void print_program(const Program& program, const ToolpathSummary& s, const Diagnostics& diagnostics) {
-    const std::string& guessed = program.dialect_guessed_from;
-    fmt::print("{}: program, dialect {}{}\n", program.main().name(), program.dialect->name,
-               guessed.empty() ? std::string() : fmt::format(" (a guess: {})", printable(guessed)));
-    fmt::print("  {} lines; {} rapids, {} lines at feed, {} arcs, {} dwells\n", program.main().line_count(), s.rapids,
-               s.feeds, s.arcs, s.dwells);
-    fmt::print("  {:.1f} mm at feed", s.cutting_length);
-    if (!s.bounds.isEmpty()) {
-        const Vec3 a = s.bounds.min();
-        const Vec3 b = s.bounds.max();
-        fmt::print(", within X {:.3f} … {:.3f}, Y {:.3f} … {:.3f}, Z {:.3f} … {:.3f} mm", a.x(), b.x(), a.y(), b.y(),
-                   a.z(), b.z());
-    }
-    fmt::print("\n");
-    print_diagnostics(diagnostics);
-}
-
-void print_log(const Log& log, const Diagnostics& diagnostics) {
-    fmt::print("{}: log, format {}{}\n", log.name, log.format, log.closed ? "" : ", not closed");
-    fmt::print("  {} records every {:g} ms, {:.3f} s\n", log.records, log.period * 1e3,
-               log.records > 0 ? log.time_of(log.records - 1) : 0.0);
-    std::string channels;
-    for (const Channel& c : log.channels)
-        channels +=
-            fmt::format("{}{}{}", channels.empty() ? "" : ", ", c.name, c.unit.empty() ? "" : " [" + c.unit + "]");
-    fmt::print("  channels: {}\n", channels);
-    print_diagnostics(diagnostics);
-}
-
-/// Whether the log is one of this program: distances between the points and their lines.
-ProgramMatch judge_together(Program program, const Log& log, const FramePoses& given,
-                            const std::shared_ptr<const Kinematics>& kinematics, ProgramIdentity identity,
-                            Diagnostics& diagnostics) {
-    const Role role = shown_role(log);
-    if (!log.has(role) || log.records == 0 || program.motions.size() == 0) return {};
-    const Eigen::Isometry3d pose = place_with(program, log, given, kinematics.get(), diagnostics);
-    const Trajectory path = reconstruct(log, role, pose, kinematics);
-    if (kinematics) {
-        program.diagnostics = {};
-        solve_tool_axes(program, *kinematics, {}, {}, pose.linear());
-        diagnostics.append(program.diagnostics);
-        make_tip_motions(program, *kinematics, pose);
-    } else {
-        note_rotary(log, role, diagnostics);
-    }
-    const LineMap lines = map_lines(path, log, program, true, diagnostics, identity);
-    const LineAgreement a = check_lines(path, program, lines);
-    if (a.checked == 0) return lines.match();
-    diagnostics.add(
-        {Severity::note,
-         "map.distance",
-         Place::of_file(log.name),
-         fmt::format("positions lie {:.4f} mm (median) and {:.4f} mm (95th percentile) from the lines of {}",
-                     a.median_distance, a.p95_distance, program.main().name()),
-         {}});
-    return lines.match();
-}
 
 void note_foreign(const Log& log, const Program& program, const std::string& reason, bool forced,
                   Diagnostics& diagnostics) {
@@ -147,7 +65,7 @@ ExitCode run_info(const po::variables_map& values) {
         if (program) {
             const ProgramIdentity identity = io::check_identity(program_source, log, diagnostics);
             const ProgramMatch match =
-                judge_together(*program, log, read_work_offset(values), kinematics, identity, diagnostics);
+                match_log(*program, log, read_work_offset(values), kinematics, identity, diagnostics);
             if (!match.foreign.empty() && (kinematics || diagnostics.count("path.rotary") == 0))
                 note_foreign(log, *program, match.foreign, values.count("force") > 0, diagnostics);
         }

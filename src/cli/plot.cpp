@@ -7,53 +7,12 @@
 
 #include "cli/fields.h"
 #include "cli/picture_output.h"
+#include "cli/plot_options.h"
 #include "cli/profile.h"
 #include "core/file_name.h"
-#include "viz/chart.h"
 
 namespace clsurf::cli {
 namespace {
-
-struct PlotOptions {
-    PartOptions part;
-    std::string output;
-    std::vector<std::string> fields;
-    bool over_length = false;
-    std::optional<double> from, to;  ///< [s], or [mm] over length
-    std::optional<LineNumber> line;
-    std::vector<PointIndex> points;
-    viz::ChartLook look;
-};
-
-PlotOptions read_plot_options(const po::variables_map& values) {
-    PlotOptions options;
-    options.part = read_part_or_log_options(values);
-    options.output = required(values, "output");
-    options.fields = split_names(values.count("fields") > 0 ? values["fields"].as<std::string>() : "speed");
-    if (options.fields.empty() || options.fields.size() > 8)
-        throw UsageError("--fields: 1 to 8 names separated by commas");
-    const std::string over = values.count("over") > 0 ? values["over"].as<std::string>() : "time";
-    if (over != "time" && over != "length") throw UsageError("--over: '" + over + "' is not time or length");
-    options.over_length = over == "length";
-    if (values.count("from") > 0) options.from = values["from"].as<double>();
-    if (values.count("to") > 0) options.to = values["to"].as<double>();
-    if (options.from && options.to && !(*options.from < *options.to)) throw UsageError("--from must be less than --to");
-    if (values.count("line") > 0) {
-        const long long line = values["line"].as<long long>();
-        if (line < 1 || line > 0xffffffffLL) throw UsageError("--line: lines count from 1");
-        options.line = static_cast<LineNumber>(line);
-    }
-    if (values.count("mark-point") > 0) {
-        for (const long long n : values["mark-point"].as<std::vector<long long>>()) options.points.push_back(n);
-    }
-    if (values.count("size") > 0) {
-        const std::vector<double> size = read_size(values["size"].as<std::string>());
-        options.look.width = static_cast<int>(size[0]);
-        options.look.height = static_cast<int>(size[1]);
-    }
-    if (values.count("gl") > 0) options.look.gl = values["gl"].as<std::string>();
-    return options;
-}
 
 /// x of every point: time [s], or way from the first point [mm].
 std::vector<double> x_values(const Part& part, bool over_length) {
@@ -100,7 +59,6 @@ ExitCode run_plot(const po::variables_map& values) {
     print(part.diagnostics, values);
     clock.begin("stitch the surface");
     const ClSurface surface = stitch(part);
-    Fields fields(part, surface);
     const std::vector<double> x = x_values(part, options.over_length);
     const PointRange range = shown_range(options, part, x);
     if (options.line) options.points.push_back(part.lines->points_of(*options.line).front().first);
@@ -114,8 +72,9 @@ ExitCode run_plot(const po::variables_map& values) {
                            {}});
     }
     std::string note;
-    for (const std::string& name : options.fields) {
-        const Field field = fields.get(name);
+    const std::vector<Field> fields = all_fields_of(part, surface).get_all(options.fields);
+    for (std::size_t f = 0; f < fields.size(); ++f) {
+        const Field& field = fields[f];
         viz::Curve curve;
         curve.label =
             field.info.label + (field.info.unit.name.empty() ? "" : fmt::format(" ({})", field.info.unit.name));
@@ -125,7 +84,7 @@ ExitCode run_plot(const po::variables_map& values) {
             cursors[k].values.push_back(field.values[static_cast<std::size_t>(options.points[k])] *
                                         field.info.unit.per_inside);
         }
-        if (!field.info.note.empty()) note += (note.empty() ? "" : "; ") + name + ": " + field.info.note;
+        if (!field.info.note.empty()) note += (note.empty() ? "" : "; ") + options.fields[f] + ": " + field.info.note;
         curves.push_back(std::move(curve));
     }
     options.look.title = "Signals along " + file_name(options.part.log);
@@ -152,25 +111,7 @@ Subcommand plot_subcommand() {
             "program, but for --profile. --profile prints Ra and Rz, too.\n\n"
             "  clsurf plot part.nc run.biip -o curve.png --fields speed,acceleration --line 1204\n"
             "  clsurf plot part.nc run.biip -o cut.png --profile 10,0,10,5 --tool ball:6",
-        .declare =
-            [](po::options_description& options) {
-                // clang-format off
-                options.add_options()
-                    ("output,o", po::value<std::string>()->value_name("FILE"), "the picture: .png, .jpg, .tif or .webp")
-                    ("fields", po::value<std::string>()->value_name("FIELD,…"), "what is drawn (default: speed; `clsurf help fields`)")
-                    ("over", po::value<std::string>()->value_name("time|length"), "what x is (default: time)")
-                    ("from", po::value<double>()->value_name("X"), "first x to show [s or mm]")
-                    ("to", po::value<double>()->value_name("X"), "last x to show [s or mm]")
-                    ("line", po::value<long long>()->value_name("N"), "show the points of a line and some round them; a cursor at its first point")
-                    ("mark-point", po::value<std::vector<long long>>()->value_name("N"), "a cursor at a point; may be repeated")
-                    ("size", po::value<std::string>()->value_name("WxH|hd|4k"), "size in pixels (default: 1600x900)")
-                    ("gl", po::value<std::string>()->value_name("osmesa|egl"), "what draws: the processor, or a graphics card (default: osmesa)");
-                // clang-format on
-                declare_profile(options);
-                declare_json(options);
-                declare_part(options);
-                declare_derivative(options);
-            },
+        .declare = declare_plot,
         .positional = {"PROGRAM", "LOG"},
         .run = run_plot,
     };

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "cli/fields.h"
 #include "cli/report_pictures.h"
+#include "field/field_set.h"
 #include "log/health.h"
 #include "pipeline/contacts.h"
 #include "predictor/outline.h"
@@ -26,6 +26,21 @@ std::vector<ShownRange> ranges_of(const std::vector<ReportLog>& logs) {
         ranges.push_back(std::move(range));
     }
     return ranges;
+}
+
+/// The name of the field that is coloured at first. `wanted`: its name or another word for it; empty: the first.
+std::string first_field(const std::vector<Field>& fields, const std::string& wanted) {
+    if (wanted.empty()) return fields.front().info.name;
+    for (const Field& field : fields) {
+        if (field.info.name == wanted) return wanted;
+    }
+    std::vector<FieldInfo> infos;
+    for (const Field& field : fields) {
+        if (std::find(field.info.also.begin(), field.info.also.end(), wanted) != field.info.also.end())
+            return field.info.name;
+        infos.push_back(field.info);
+    }
+    unknown_field(wanted, infos);
 }
 
 }  // namespace
@@ -82,14 +97,7 @@ io::ReportPage report_page_of(const ReportLog& shown, const std::vector<ReportLo
     page.reading_options = options.reading_options;
     page.most_bytes = options.most_bytes;
     page.ranges = ranges_of(logs);
-    page.first_field = options.first_field.empty() ? shown.fields.front().info.name
-                                                   : std::string(usual_name(options.first_field, shown.part.log));
-    if (std::none_of(shown.fields.begin(), shown.fields.end(),
-                     [&](const Field& f) { return f.info.name == page.first_field; })) {
-        std::vector<FieldInfo> infos;
-        for (const Field& field : shown.fields) infos.push_back(field.info);
-        unknown_field(page.first_field, infos);
-    }
+    page.first_field = first_field(shown.fields, options.first_field);
     page.quality.report = &shown.quality.report;
     page.quality.program = &shown.part.program;
     page.quality.log = shown.part.log.name;
@@ -99,9 +107,7 @@ io::ReportPage report_page_of(const ReportLog& shown, const std::vector<ReportLo
     page.health = shown.part.diagnostics;
     page.health.append(check_health(shown.part.log, shown.part.program.main().line_count()));
     for (const Field& field : shown.fields) {
-        if (field.info.name.find("mismatch") == std::string::npos && field.info.name != "height" &&
-            field.info.name != "contour_error")
-            continue;
+        if (!field.info.percentiles) continue;
         page.percentiles.push_back(
             {field.info.name, percentiles_of_size(field, shown.surface.passes, io::page_percentiles)});
     }

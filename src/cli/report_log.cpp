@@ -13,6 +13,7 @@
 namespace clsurf::cli {
 namespace {
 
+constexpr std::size_t most_fields = 16;          ///< where none are named
 constexpr double usual_bytes = 24;               ///< of a point in the page, before it is known
 constexpr std::uint64_t usual_rest = 3'000'000;  ///< [bytes] of pictures, text and the page's own program
 
@@ -40,24 +41,6 @@ io::PageSurface page_surface(const ReportLog& shown) {
     return page;
 }
 
-/// The fields that a log has values for.
-std::vector<std::string> usual_fields(const Log& log) {
-    std::vector<std::string> names{"speed", "acceleration", "tangential_acceleration", "jerk"};
-    if (log.has(Role::commanded) && (log.has(Role::feedback) || log.has(Role::actual)))
-        names.insert(names.end(), {"following_error", "contour_error"});
-    names.insert(names.end(), {"speed_mismatch", "acceleration_mismatch", "height"});
-    constexpr std::size_t most = 16;
-    for (const Channel& channel : log.channels) {
-        const bool position =
-            channel.name.starts_with("cmd.") || channel.name.starts_with("fb.") || channel.name.starts_with("act.");
-        const bool known = std::find(names.begin(), names.end(), channel.name) != names.end();
-        if (!position && !known && channel.name != "time" && channel.name != "line" && channel.name != "program" &&
-            names.size() < most)
-            names.push_back(channel.name);
-    }
-    return names;
-}
-
 bool has_values(const Field& field, const Passes& passes) {
     for (const Pass& pass : passes) {
         if (pass.kind != PassKind::cut) continue;
@@ -78,10 +61,9 @@ ReportLog load_report_log(const PartOptions& part_options, const ReportOptions& 
     shown.quality = judge(shown.part, shown.surface, options.measured, {}, clock.stages());
     shown.part.diagnostics.append(shown.quality.diagnostics);
     clock.begin("compute the fields");
-    Fields fields(shown.part, shown.surface);
+    const FieldSet fields = all_fields_of(shown.part, shown.surface);
     const bool usual = options.fields.empty();
-    for (const std::string& name : usual ? usual_fields(shown.part.log) : options.fields) {
-        Field field = fields.get(name);
+    for (Field& field : fields.get_all(usual ? fields.report_names(most_fields) : options.fields)) {
         // What was asked for by name must be there; of the usual ones a log has some.
         if (!usual || has_values(field, shown.surface.passes)) shown.fields.push_back(std::move(field));
     }

@@ -22,7 +22,7 @@ std::vector<io::ListingRow> dialect_rows() {
 
 std::vector<io::ListingRow> field_rows() {
     std::vector<io::ListingRow> rows;
-    for (const FieldInfo& field : all_fields(nullptr))
+    for (const FieldInfo& field : known_fields())
         rows.push_back({field.name, std::string(field.unit.name), field.label});
     return rows;
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/column.h"
 #include "core/units.h"
@@ -31,7 +32,11 @@ struct FieldInfo {
     std::string label;  ///< "Path speed"
     FieldUnit unit;     ///< as shown; values are stored in inside units
     FieldScale scale = FieldScale::sequential;
-    std::string note;  ///< how it was computed, "21-point window (20 ms)"; may be empty
+    std::string note;                    ///< how it was computed, "21-point window (20 ms)"; may be empty
+    char axis = 0;                       ///< 'x' … 'c' of a component; 0: of all axes together
+    std::vector<std::string> also = {};  ///< other words for it: "velocity"
+    int report_rank = 0;       ///< its place among the fields that a report has by default, from 1; 0: not there
+    bool percentiles = false;  ///< reports give the percentiles of its absolute value
 };
 
 struct Field {

@@ -1,58 +1,68 @@
 #pragma once
-// FieldSet: computes the fields that are asked for, block by block, from the log and the passes.
+// FieldSet: the registry of fields. Providers offer them, and whoever colours, plots or exports asks for them by name.
 //
-// To add a field: one row in field_table.cpp.
+// To add a field of positions: one row in field_table.cpp. Other kinds: field_provider.h.
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "field/field.h"
-#include "log/log.h"
-#include "surface/passes.h"
-#include "toolpath/motion_estimate.h"
-#include "toolpath/trajectory.h"
+#include "field/field_provider.h"
+#include "field/position_fields.h"
 
 namespace clsurf {
 
-/// How fields are taken from positions.
-struct Derivation {
-    /// Derivatives by a Kalman smoother, those of angles and tool axes apart; nullptr: all by least squares
-    /// over a window.
-    std::shared_ptr<const MotionEstimate> estimate;
-    /// [s] of another log whose fields are to be compared; 0: none. Windows then reach over standstills: a pause takes no
-    /// way, and only what they see of it shows at the places beside it.
-    double coarsest_period = 0;
-};
-
 class FieldSet {
 public:
-    /// `log`, `path` and `passes` must outlive it. Derivatives are taken inside pieces of `passes`;
-    /// neighbouring turns of a spiral count as one piece, and where the tool stands a piece ends.
+    /// No fields, of a log with `points` points.
+    explicit FieldSet(PointIndex points) : points_(points) {}
+    /// Positions and channels of a log: PositionFields and ChannelFields. Shares their columns, refers to none of them.
     FieldSet(const Log& log, const Trajectory& path, const Passes& passes, Derivation derivation = {});
 
-    /// The table or the log has a field of that name.
-    [[nodiscard]] bool has(std::string_view name) const;
+    /// Fields come in the order in which providers are added. Throws std::logic_error: a name is taken, and the provider
+    /// has no prefix.
+    FieldSet& add(std::shared_ptr<const FieldProvider> provider);
 
-    /// One value per point. Throws UsageError: an unknown field (with a suggestion), a field that
-    /// needs a role that the log does not have. O(points), parallel.
+    /// All of them.
+    [[nodiscard]] std::vector<FieldInfo> fields() const;
+    /// Names of those that a report has where none are named: that can be computed, in its order, at most `most`; channels
+    /// by their own names.
+    [[nodiscard]] std::vector<std::string> report_names(std::size_t most) const;
+    /// By its name, by another word for it ("velocity"), or a channel as `log.NAME`.
+    [[nodiscard]] bool has(std::string_view name) const { return find(name).has_value(); }
+    /// The name of what such a word means; itself where nothing is called that.
+    [[nodiscard]] std::string usual_name(std::string_view word) const;
+
+    /// One value per point. Throws UsageError: an unknown field (with a suggestion), or something is missing that the field
+    /// needs. O(points), parallel.
     [[nodiscard]] Field get(std::string_view name) const;
-
-    /// The values of points [first, last] only. O(last − first + window).
-    [[nodiscard]] std::vector<double> values(std::string_view name, PointRange points) const;
+    /// Several at once, in that order: what they have in common (derivatives above all) is computed once.
+    [[nodiscard]] std::vector<Field> get_all(const std::vector<std::string>& names) const;
+    /// The same at points [first, last] only.
+    [[nodiscard]] std::vector<Field> get_all(const std::vector<std::string>& names, PointRange points) const;
 
 private:
-    const Log& log_;
-    const Trajectory& path_;
-    std::vector<PointRange> pieces_;  ///< for derivatives, in order
-    Derivation derivation_;
+    struct Entry {
+        FieldInfo info;        ///< with the name by which it is listed
+        std::string own_name;  ///< that its provider knows
+        std::size_t provider = 0;
+    };
+    struct Found {
+        const Entry* entry = nullptr;
+        std::string name;  ///< by which it was found
+    };
+    [[nodiscard]] const Entry* find_name(std::string_view name) const;
+    [[nodiscard]] std::optional<Found> find(std::string_view name) const;
+    [[nodiscard]] Found require(std::string_view name) const;
+
+    PointIndex points_ = 0;
+    std::vector<std::shared_ptr<const FieldProvider>> providers_;
+    std::vector<Entry> entries_;
 };
 
 /// Throws UsageError: none of `fields` is called that; the nearest is suggested.
 [[noreturn]] void unknown_field(std::string_view name, const std::vector<FieldInfo>& fields);
-
-/// All fields by name: those of the table, then the log's channels (nullptr: no log).
-[[nodiscard]] std::vector<FieldInfo> known_fields(const Log* log);
 
 }  // namespace clsurf

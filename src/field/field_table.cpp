@@ -1,5 +1,6 @@
 #include "field/field_table.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -11,113 +12,92 @@ namespace {
 
 constexpr double slowest_for_direction = 0.1;  ///< [mm/s]; slower, the feed has no direction
 
-double norm(const double* const (&v)[3], std::size_t i) {
+using Vector = FieldBlock::Vector;
+
+double norm(const Vector& v, std::size_t i) {
     return std::sqrt(v[0][i] * v[0][i] + v[1][i] * v[1][i] + v[2][i] * v[2][i]);
 }
 
-/// A row's kernel from a function of one point.
-template <auto value>
-void each(const FieldBlock& block, float* out) {
-    for (std::size_t i = 0; i < block.count; ++i) out[i] = static_cast<float>(value(block, i));
-}
-
-double speed(const FieldBlock& b, std::size_t i) { return norm(b.velocity, i); }
-double acceleration(const FieldBlock& b, std::size_t i) { return norm(b.acceleration, i); }
-double jerk(const FieldBlock& b, std::size_t i) { return norm(b.jerk, i); }
-
-double tangential(const FieldBlock& b, std::size_t i) {
-    const double v = norm(b.velocity, i);
+double tangential(const Vector& velocity, const Vector& acceleration, std::size_t i) {
+    const double v = norm(velocity, i);
     if (!(v > slowest_for_direction)) return std::numeric_limits<double>::quiet_NaN();
-    return (b.acceleration[0][i] * b.velocity[0][i] + b.acceleration[1][i] * b.velocity[1][i] +
-            b.acceleration[2][i] * b.velocity[2][i]) /
+    return (acceleration[0][i] * velocity[0][i] + acceleration[1][i] * velocity[1][i] +
+            acceleration[2][i] * velocity[2][i]) /
            v;
 }
 
 /// |v × a|.
-double cross_norm(const FieldBlock& b, std::size_t i) {
-    const auto part = [&](int k, int l) {
-        return b.velocity[k][i] * b.acceleration[l][i] - b.velocity[l][i] * b.acceleration[k][i];
-    };
+double cross_norm(const Vector& v, const Vector& a, std::size_t i) {
+    const auto part = [&](std::size_t k, std::size_t l) { return v[k][i] * a[l][i] - v[l][i] * a[k][i]; };
     const double x = part(1, 2);
     const double y = part(2, 0);
     const double z = part(0, 1);
     return std::sqrt(x * x + y * y + z * z);
 }
-double normal(const FieldBlock& b, std::size_t i) {
-    const double v = norm(b.velocity, i);
-    return v > slowest_for_direction ? cross_norm(b, i) / v : std::numeric_limits<double>::quiet_NaN();
+double normal(const Vector& velocity, const Vector& acceleration, std::size_t i) {
+    const double v = norm(velocity, i);
+    return v > slowest_for_direction ? cross_norm(velocity, acceleration, i) / v
+                                     : std::numeric_limits<double>::quiet_NaN();
 }
-double curvature(const FieldBlock& b, std::size_t i) {
-    const double v = norm(b.velocity, i);
-    return v > slowest_for_direction ? cross_norm(b, i) / (v * v * v) : std::numeric_limits<double>::quiet_NaN();
+double curvature(const Vector& velocity, const Vector& acceleration, std::size_t i) {
+    const double v = norm(velocity, i);
+    return v > slowest_for_direction ? cross_norm(velocity, acceleration, i) / (v * v * v)
+                                     : std::numeric_limits<double>::quiet_NaN();
 }
 
-double following_error(const FieldBlock& b, std::size_t i) {
+double following_error(const Vector& commanded, const Vector& measured, std::size_t i) {
     double sum = 0;
-    for (int k = 0; k < 3; ++k) {
-        const double d = b.measured[k][i] - b.commanded[k][i];
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double d = measured[k][i] - commanded[k][i];
         sum += d * d;
     }
     return std::sqrt(sum);
 }
 
-double uncertainty_of(const FieldBlock& b, std::size_t i) { return b.uncertainty[i]; }
-
-template <int axis>
-double position_of(const FieldBlock& b, std::size_t i) {
-    return b.position[axis][i];
-}
-template <int axis>
-double velocity_of(const FieldBlock& b, std::size_t i) {
-    return b.velocity[axis][i];
-}
-template <int axis>
-double acceleration_of(const FieldBlock& b, std::size_t i) {
-    return b.acceleration[axis][i];
-}
-template <int axis>
-double jerk_of(const FieldBlock& b, std::size_t i) {
-    return b.jerk[axis][i];
-}
-template <int axis>
-double error_of(const FieldBlock& b, std::size_t i) {
-    return b.measured[axis][i] - b.commanded[axis][i];
+void error_component(const FieldBlock& block, float* out) {
+    const double* const measured = block.component(needs::measured);
+    const double* const commanded = block.component(needs::commanded);
+    for (std::size_t i = 0; i < block.count(); ++i) out[i] = static_cast<float>(measured[i] - commanded[i]);
 }
 
 /// Angle between commanded and measured tool axis, by atan2: good near 0.
-double orientation_error(const FieldBlock& b, std::size_t i) {
-    const Vec3 commanded(b.commanded[0][i], b.commanded[1][i], b.commanded[2][i]);
-    return angle_between(commanded, Vec3(b.measured[0][i], b.measured[1][i], b.measured[2][i]));
+double orientation_error(const Vector& commanded, const Vector& measured, std::size_t i) {
+    return angle_between(Vec3(commanded[0][i], commanded[1][i], commanded[2][i]),
+                         Vec3(measured[0][i], measured[1][i], measured[2][i]));
 }
 
-/// Squared distance of the measured point i to the commanded way from point k to k + 1.
-double squared_to_step(const FieldBlock& b, std::size_t i, std::ptrdiff_t k) {
-    double way2 = 0;
+/// Squared distance of the measured point i to the commanded path from point k to k + 1.
+double squared_to_step(const Vector& commanded, const Vector& measured, std::size_t i, std::ptrdiff_t k) {
+    double step2 = 0;
     double dot = 0;
     double far2 = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-        const double way = b.commanded[axis][k + 1] - b.commanded[axis][k];
-        const double to = b.measured[axis][i] - b.commanded[axis][k];
-        way2 += way * way;
-        dot += way * to;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double step = commanded[axis][k + 1] - commanded[axis][k];
+        const double to = measured[axis][i] - commanded[axis][k];
+        step2 += step * step;
+        dot += step * to;
         far2 += to * to;
     }
-    if (!(way2 > 0)) return far2;
-    const double t = std::fmin(1.0, std::fmax(0.0, dot / way2));
-    return std::fmax(0.0, far2 - 2 * t * dot + t * t * way2);
+    if (!(step2 > 0)) return far2;
+    const double t = std::fmin(1.0, std::fmax(0.0, dot / step2));
+    return std::fmax(0.0, far2 - 2 * t * dot + t * t * step2);
 }
 
-/// Distance of the measured point to the commanded path round it. The foot is followed from point to
-/// point, a lag behind the command; positions reach `halo` points beyond the block (field_set.cpp).
-void contour_error(const FieldBlock& b, float* out) {
+/// Distance of the measured point to the commanded path round it. The foot is followed from point to point, a lag behind
+/// the command.
+void contour_error(const FieldBlock& block, float* out) {
+    constexpr std::ptrdiff_t farthest_start = FieldBlock::commanded_before - 6;  // a few steps more can be looked at
+    const Vector& commanded = block.vector(needs::commanded);
+    const Vector& measured = block.vector(needs::measured);
     std::ptrdiff_t foot = -1;  // the step before the same time: where a lagging axis is
-    for (std::size_t i = 0; i < b.count; ++i) {
+    for (std::size_t i = 0; i < block.count(); ++i) {
         const auto here = static_cast<std::ptrdiff_t>(i);
-        foot = std::max<std::ptrdiff_t>(std::min(foot + 1, here), here - 250);
-        double best = squared_to_step(b, i, foot);
+        foot = std::max<std::ptrdiff_t>(std::min(foot + 1, here), here - farthest_start);
+        double best = squared_to_step(commanded, measured, i, foot);
         for (const int direction : {-1, 1}) {
-            for (std::ptrdiff_t k = foot + direction; k > here - 256 && k < here + 8; k += direction) {
-                const double next = squared_to_step(b, i, k);
+            for (std::ptrdiff_t k = foot + direction;
+                 k > here - FieldBlock::commanded_before && k < here + FieldBlock::commanded_after; k += direction) {
+                const double next = squared_to_step(commanded, measured, i, k);
                 if (!(next <= best)) break;
                 best = next;
                 foot = k;
@@ -131,62 +111,106 @@ constexpr Unit deg_min{"deg/min", (deg_per_rad * seconds_per_minute)};
 constexpr Unit deg_s2{"deg/s²", deg_per_rad};
 constexpr FieldScale up = FieldScale::sequential;
 constexpr FieldScale both = FieldScale::diverging;
+constexpr FieldSubject tip = FieldSubject::tip;
+constexpr FieldSubject tool_axis = FieldSubject::tool_axis;
+constexpr FieldSubject rotary_axis = FieldSubject::rotary_axis;
 
 constexpr auto table = std::to_array<FieldRow>({
-    {"speed", "Path speed", unit::mm_min, up, needs::velocity, each<speed>},
-    {"acceleration", "Acceleration", unit::mm_s2, up, needs::acceleration, each<acceleration>},
-    {"jerk", "Jerk", unit::mm_s3, up, needs::jerk, each<jerk>},
-    {"tangential_acceleration", "Acceleration along the path", unit::mm_s2, both, needs::velocity | needs::acceleration,
-     each<tangential>},
-    {"normal_acceleration", "Acceleration across the path", unit::mm_s2, up, needs::velocity | needs::acceleration,
-     each<normal>},
-    {"curvature", "Curvature of the path", unit::per_mm, up, needs::velocity | needs::acceleration, each<curvature>},
-    {"following_error", "Following error", unit::um, up, needs::error, each<following_error>},
-    {"contour_error", "Contour error", unit::um, up, needs::error, contour_error},
-    {"following_error.x", "Following error of X", unit::um, both, needs::error, each<error_of<0>>},
-    {"following_error.y", "Following error of Y", unit::um, both, needs::error, each<error_of<1>>},
-    {"following_error.z", "Following error of Z", unit::um, both, needs::error, each<error_of<2>>},
-    {"speed.x", "Speed of X", unit::mm_min, both, needs::velocity, each<velocity_of<0>>},
-    {"speed.y", "Speed of Y", unit::mm_min, both, needs::velocity, each<velocity_of<1>>},
-    {"speed.z", "Speed of Z", unit::mm_min, both, needs::velocity, each<velocity_of<2>>},
-    {"acceleration.x", "Acceleration of X", unit::mm_s2, both, needs::acceleration, each<acceleration_of<0>>},
-    {"acceleration.y", "Acceleration of Y", unit::mm_s2, both, needs::acceleration, each<acceleration_of<1>>},
-    {"acceleration.z", "Acceleration of Z", unit::mm_s2, both, needs::acceleration, each<acceleration_of<2>>},
-    {"jerk.x", "Jerk of X", unit::mm_s3, both, needs::jerk, each<jerk_of<0>>},
-    {"jerk.y", "Jerk of Y", unit::mm_s3, both, needs::jerk, each<jerk_of<1>>},
-    {"jerk.z", "Jerk of Z", unit::mm_s3, both, needs::jerk, each<jerk_of<2>>},
-    {"position.x", "Position X", unit::mm, up, needs::position, each<position_of<0>>},
-    {"position.y", "Position Y", unit::mm, up, needs::position, each<position_of<1>>},
-    {"position.z", "Position Z", unit::mm, up, needs::position, each<position_of<2>>},
-    {"speed_uncertainty", "Standard deviation of the path speed", unit::mm_min, up,
-     needs::velocity | needs::uncertainty, each<uncertainty_of>},
-    {"acceleration_uncertainty", "Standard deviation of the acceleration", unit::mm_s2, up,
-     needs::acceleration | needs::uncertainty, each<uncertainty_of>},
-    {"jerk_uncertainty", "Standard deviation of the jerk", unit::mm_s3, up, needs::jerk | needs::uncertainty,
-     each<uncertainty_of>},
-    {"orientation_error", "Error of the tool axis", unit::deg, up, needs::error | needs::tool_axis,
-     each<orientation_error>},
-    {"tool_axis_speed", "Speed of the tool axis", deg_min, up, needs::velocity | needs::tool_axis, each<speed>},
-    {"tool_axis.x", "Tool axis X", unit::none, both, needs::position | needs::tool_axis, each<position_of<0>>},
-    {"tool_axis.y", "Tool axis Y", unit::none, both, needs::position | needs::tool_axis, each<position_of<1>>},
-    {"tool_axis.z", "Tool axis Z", unit::none, both, needs::position | needs::tool_axis, each<position_of<2>>},
-    {"speed.a", "Speed of A", deg_min, both, needs::velocity | needs::angle, each<velocity_of<0>>},
-    {"speed.b", "Speed of B", deg_min, both, needs::velocity | needs::angle, each<velocity_of<0>>},
-    {"speed.c", "Speed of C", deg_min, both, needs::velocity | needs::angle, each<velocity_of<0>>},
-    {"acceleration.a", "Acceleration of A", deg_s2, both, needs::acceleration | needs::angle, each<acceleration_of<0>>},
-    {"acceleration.b", "Acceleration of B", deg_s2, both, needs::acceleration | needs::angle, each<acceleration_of<0>>},
-    {"acceleration.c", "Acceleration of C", deg_s2, both, needs::acceleration | needs::angle, each<acceleration_of<0>>},
+    // name, label, unit, colours, axis, of what, needs, kernel, other words, place in reports, percentiles there
+    {"speed",
+     "Path speed",
+     unit::mm_min,
+     up,
+     0,
+     tip,
+     needs::velocity,
+     kernel::each<norm, needs::velocity>,
+     {"velocity", "feedrate"},
+     1},
+    {"acceleration",
+     "Acceleration",
+     unit::mm_s2,
+     up,
+     0,
+     tip,
+     needs::acceleration,
+     kernel::each<norm, needs::acceleration>,
+     {"accel"},
+     2},
+    {"jerk", "Jerk", unit::mm_s3, up, 0, tip, needs::jerk, kernel::each<norm, needs::jerk>, {}, 4},
+    {"tangential_acceleration",
+     "Acceleration along the path",
+     unit::mm_s2,
+     both,
+     0,
+     tip,
+     needs::velocity | needs::acceleration,
+     kernel::each<tangential, needs::velocity, needs::acceleration>,
+     {},
+     3},
+    {"normal_acceleration", "Acceleration across the path", unit::mm_s2, up, 0, tip,
+     needs::velocity | needs::acceleration, kernel::each<normal, needs::velocity, needs::acceleration>},
+    {"curvature", "Curvature of the path", unit::per_mm, up, 0, tip, needs::velocity | needs::acceleration,
+     kernel::each<curvature, needs::velocity, needs::acceleration>},
+    {"following_error",
+     "Following error",
+     unit::um,
+     up,
+     0,
+     tip,
+     needs::error,
+     kernel::each<following_error, needs::commanded, needs::measured>,
+     {"lag"},
+     5},
+    {"contour_error", "Contour error", unit::um, up, 0, tip, needs::error, contour_error, {"error"}, 6, true},
+    {"following_error.x", "Following error of X", unit::um, both, 'x', tip, needs::error, error_component},
+    {"following_error.y", "Following error of Y", unit::um, both, 'y', tip, needs::error, error_component},
+    {"following_error.z", "Following error of Z", unit::um, both, 'z', tip, needs::error, error_component},
+    {"speed.x", "Speed of X", unit::mm_min, both, 'x', tip, needs::velocity, kernel::component<needs::velocity>},
+    {"speed.y", "Speed of Y", unit::mm_min, both, 'y', tip, needs::velocity, kernel::component<needs::velocity>},
+    {"speed.z", "Speed of Z", unit::mm_min, both, 'z', tip, needs::velocity, kernel::component<needs::velocity>},
+    {"acceleration.x", "Acceleration of X", unit::mm_s2, both, 'x', tip, needs::acceleration,
+     kernel::component<needs::acceleration>},
+    {"acceleration.y", "Acceleration of Y", unit::mm_s2, both, 'y', tip, needs::acceleration,
+     kernel::component<needs::acceleration>},
+    {"acceleration.z", "Acceleration of Z", unit::mm_s2, both, 'z', tip, needs::acceleration,
+     kernel::component<needs::acceleration>},
+    {"jerk.x", "Jerk of X", unit::mm_s3, both, 'x', tip, needs::jerk, kernel::component<needs::jerk>},
+    {"jerk.y", "Jerk of Y", unit::mm_s3, both, 'y', tip, needs::jerk, kernel::component<needs::jerk>},
+    {"jerk.z", "Jerk of Z", unit::mm_s3, both, 'z', tip, needs::jerk, kernel::component<needs::jerk>},
+    {"position.x", "Position X", unit::mm, up, 'x', tip, needs::position, kernel::component<needs::position>},
+    {"position.y", "Position Y", unit::mm, up, 'y', tip, needs::position, kernel::component<needs::position>},
+    {"position.z", "Position Z", unit::mm, up, 'z', tip, needs::position, kernel::component<needs::position>},
+    {"speed_uncertainty", "Standard deviation of the path speed", unit::mm_min, up, 0, tip, needs::velocity_sigma,
+     kernel::scalar<needs::velocity_sigma>},
+    {"acceleration_uncertainty", "Standard deviation of the acceleration", unit::mm_s2, up, 0, tip,
+     needs::acceleration_sigma, kernel::scalar<needs::acceleration_sigma>},
+    {"jerk_uncertainty", "Standard deviation of the jerk", unit::mm_s3, up, 0, tip, needs::jerk_sigma,
+     kernel::scalar<needs::jerk_sigma>},
+    {"orientation_error", "Error of the tool axis", unit::deg, up, 0, tool_axis, needs::error,
+     kernel::each<orientation_error, needs::commanded, needs::measured>},
+    {"tool_axis_speed", "Speed of the tool axis", deg_min, up, 0, tool_axis, needs::velocity,
+     kernel::each<norm, needs::velocity>},
+    {"tool_axis.x", "Tool axis X", unit::none, both, 'x', tool_axis, needs::position,
+     kernel::component<needs::position>},
+    {"tool_axis.y", "Tool axis Y", unit::none, both, 'y', tool_axis, needs::position,
+     kernel::component<needs::position>},
+    {"tool_axis.z", "Tool axis Z", unit::none, both, 'z', tool_axis, needs::position,
+     kernel::component<needs::position>},
+    {"speed.a", "Speed of A", deg_min, both, 'a', rotary_axis, needs::velocity, kernel::component<needs::velocity>},
+    {"speed.b", "Speed of B", deg_min, both, 'b', rotary_axis, needs::velocity, kernel::component<needs::velocity>},
+    {"speed.c", "Speed of C", deg_min, both, 'c', rotary_axis, needs::velocity, kernel::component<needs::velocity>},
+    {"acceleration.a", "Acceleration of A", deg_s2, both, 'a', rotary_axis, needs::acceleration,
+     kernel::component<needs::acceleration>},
+    {"acceleration.b", "Acceleration of B", deg_s2, both, 'b', rotary_axis, needs::acceleration,
+     kernel::component<needs::acceleration>},
+    {"acceleration.c", "Acceleration of C", deg_s2, both, 'c', rotary_axis, needs::acceleration,
+     kernel::component<needs::acceleration>},
+    {"time", "Time", unit::s, up, 0, tip, needs::time, kernel::scalar<needs::time>},
 });
 
 }  // namespace
 
 std::span<const FieldRow> field_table() { return table; }
-
-const FieldRow* find_field_row(std::string_view name) {
-    for (const FieldRow& row : table) {
-        if (row.name == name) return &row;
-    }
-    return nullptr;
-}
 
 }  // namespace clsurf

@@ -43,9 +43,9 @@ bool stays_low(const Positions& p, const Pass& link, double step_over) {
     return true;
 }
 
-ContactPoints::ContactPoints(const ClSurface& surface, const Trajectory& path, const Trajectory* axes,
+ContactPoints::ContactPoints(const ClSurface& surface, const Trajectory& path, std::optional<ToolAxes> axes,
                              const CuttingTool& tool)
-    : surface_(surface), path_(path), axes_(axes), tool_(tool) {
+    : surface_(surface), path_(path), axes_(std::move(axes)), tool_(tool) {
     half_chord_ = 0.5 * (surface.step_over > 0 ? surface.step_over : 0.1 * tool.radius);
     level_ = level_steps * finest_quantum(path) / (2 * half_chord_);
 }
@@ -140,7 +140,7 @@ ContactPoints::Frame ContactPoints::make_frame(PointIndex point, PointRange pass
 }
 
 Vec3 ContactPoints::axis_at(const Station& at) const {
-    if (axes_ == nullptr) return Vec3::UnitZ();
+    if (!axes_) return Vec3::UnitZ();
     const Vec3 axis = axes_->at(at.point);
     if (at.fraction == 0) return axis;
     return (axis + static_cast<double>(at.fraction) * (axes_->at(at.point + 1) - axis)).normalized();
@@ -149,7 +149,7 @@ Vec3 ContactPoints::axis_at(const Station& at) const {
 /// The point of the tool whose surface has a normal of its own there (head of the file) [mm], from the positions' origin.
 Vec3 ContactPoints::tool_point(const Station& at, const Vec3& normal) const {
     const Vec3 tip = position_at(surface_.positions, at).cast<double>();
-    if (axes_ == nullptr) return tip;
+    if (!axes_) return tip;
     const Vec3 axis = axis_at(at);
     const Vec3 aside = normal - normal.dot(axis) * axis;
     const double tilt = aside.norm();
@@ -182,7 +182,7 @@ Vec3 ContactPoints::normal_by_neighbours(PointIndex point, PointRange pass) cons
         return n.dot(axis) < 0 ? Vec3(-n) : n;
     };
     Vec3 normal = estimate(axis);
-    if (axes_ == nullptr || tool_.radius == tool_.corner) return normal;
+    if (!axes_ || tool_.radius == tool_.corner) return normal;
     for (int k = 0; k < most_iterations && normal.allFinite(); ++k) {
         const Vec3 next = (normal + 2 * estimate(normal)).normalized();
         const bool done = (next - normal).norm() < settled;

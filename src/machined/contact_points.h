@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "machined/tool.h"
+#include "mapping/tool_axes.h"
 #include "surface/cl_surface.h"
 #include "surface/path_location.h"
 #include "toolpath/trajectory.h"
@@ -29,9 +30,10 @@ namespace clsurf {
 
 class ContactPoints {
 public:
-    /// `surface` is that of the positions of `path`. `axes`: unit vectors of the tool axis, nullptr: it is +z
-    /// all the time. All must outlive it. O(passes).
-    ContactPoints(const ClSurface& surface, const Trajectory& path, const Trajectory* axes, const CuttingTool& tool);
+    /// `surface` is that of the positions of `path`, and must outlive it. `axes`: nullopt: the tool axis is +z all the
+    /// time. O(passes).
+    ContactPoints(const ClSurface& surface, const Trajectory& path, std::optional<ToolAxes> axes,
+                  const CuttingTool& tool);
 
     /// [mm] in the workpiece; nothing where the tool does not finish, or no pass is near that tells the normal.
     /// O(points in two step-overs of the pass).
@@ -39,8 +41,8 @@ public:
     /// Unit normal of the part where the tool touches it; NaN: not known.
     [[nodiscard]] Vec3 normal(PointIndex point) const;
     [[nodiscard]] const CuttingTool& tool() const { return tool_; }
-    /// nullptr: +z all the time.
-    [[nodiscard]] const Trajectory* axes() const { return axes_; }
+    /// nullopt: +z all the time.
+    [[nodiscard]] const std::optional<ToolAxes>& axes() const { return axes_; }
     /// No contact point lies farther from its tip [mm].
     [[nodiscard]] double reach() const;
     /// Whether a piece of the path can have contact points.
@@ -67,8 +69,8 @@ private:
     [[nodiscard]] Vec3 tool_point(const Station& at, const Vec3& normal) const;
 
     const ClSurface& surface_;
-    const Trajectory& path_;
-    const Trajectory* axes_;
+    Trajectory path_;
+    std::optional<ToolAxes> axes_;
     CuttingTool tool_;
     double half_chord_ = 0;  ///< [mm]
     double level_ = 0;       ///< sine of the tilt below which a flat bottom lies on the part with all of itself

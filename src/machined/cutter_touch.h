@@ -7,7 +7,11 @@
 // which the corner's centres turn (a ball's is its centre alone). Above the corner it is no wall: what the shank
 // might rub is not cut there. The distance to a convex body that moves straight is convex along the move.
 
+#include <optional>
+#include <utility>
+
 #include "machined/tool.h"
+#include "mapping/tool_axes.h"
 #include "toolpath/trajectory.h"
 
 namespace clsurf {
@@ -21,9 +25,9 @@ struct CutterTouch {
 
 class CutterBody {
 public:
-    /// `axes`: unit vectors of the tool axis, nullptr: +z all the time. Both must outlive it.
-    CutterBody(const Trajectory& path, const Trajectory* axes, const CuttingTool& tool)
-        : path_(path), axes_(axes), tool_(tool) {}
+    /// `axes`: nullopt: the tool axis is +z all the time.
+    CutterBody(Trajectory path, std::optional<ToolAxes> axes, const CuttingTool& tool)
+        : path_(std::move(path)), axes_(std::move(axes)), tool_(tool) {}
 
     /// Distance [mm] from the cutter to a place that lies `off` [mm] from its tip; < 0: inside.
     [[nodiscard]] double distance(const Vec3& off, const Vec3& axis) const;
@@ -35,10 +39,10 @@ public:
 
 private:
     [[nodiscard]] Vec3 centre_near(const Vec3& off, const Vec3& axis) const;
-    [[nodiscard]] Vec3 axis_at(PointIndex point) const { return axes_ == nullptr ? Vec3::UnitZ() : axes_->at(point); }
+    [[nodiscard]] Vec3 axis_at(PointIndex point) const { return axes_ ? axes_->at(point) : Vec3(Vec3::UnitZ()); }
 
-    const Trajectory& path_;
-    const Trajectory* axes_;
+    Trajectory path_;
+    std::optional<ToolAxes> axes_;
     CuttingTool tool_;
 };
 

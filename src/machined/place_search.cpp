@@ -55,7 +55,7 @@ public:
     }
 
     [[nodiscard]] std::vector<FoundPlace> run() const {
-        if (wanted_.from_above && body_ && contacts_->axes() == nullptr && path_.ball == 0) return run_from_above();
+        if (wanted_.from_above && body_ && !contacts_->axes() && path_.ball == 0) return run_from_above();
         const std::vector<NearestTip> tips = nearest_tips();
         const double reach = contacts_ != nullptr ? contacts_->reach() : 0;
         std::vector<FoundPlace> found;
@@ -232,7 +232,7 @@ private:
             NearestTip tip;
             tip.piece = static_cast<std::size_t>(piece - pieces_.begin());
             read(path_, from, to, axes);
-            const bool leans = contacts_ != nullptr && contacts_->axes() != nullptr;
+            const bool leans = contacts_ != nullptr && contacts_->axes();
             if (leans) read(*contacts_->axes(), from, to, turned);
             for (std::size_t k = 0; k < axes[0].size(); ++k) {
                 const Vec3 at(axes[0][k], axes[1][k], axes[2][k]);
@@ -254,7 +254,8 @@ private:
         return tip.z() + outline_height(contacts_->tool(), off.head<2>().norm());
     }
 
-    static void read(const Trajectory& path, PointIndex from, PointIndex to, std::vector<double> (&axes)[3]) {
+    template <typename Columns>
+    static void read(const Columns& path, PointIndex from, PointIndex to, std::vector<double> (&axes)[3]) {
         for (std::vector<double>& axis : axes) axis.resize(static_cast<std::size_t>(to - from + 1));
         path.read(from, axes[0], axes[1], axes[2]);
     }

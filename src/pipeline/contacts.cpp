@@ -21,16 +21,17 @@ void for_each_index(std::size_t count, Work&& work) {
 PartContacts::PartContacts(const Log& log, const Trajectory& path, const LineMap& lines, const ClSurface& surface,
                            const CuttingTool& tool)
     : path_(path), surface_(surface) {
+    std::optional<ToolAxes> axes;  // of another tool that tilts
     if (!path.kinematics && find_rotary_motion(log, path.role)) return;
     if (tilts(log, path)) {
         if (tool.kind == ToolKind::ball) {
             upright_path_ = upright_ball(log, path, tool.radius);
             upright_surface_ = stitch(gather(*upright_path_), lines);
         } else {
-            axes_ = tool_axes(log, path.role, path);
+            axes = tool_axes(log, path.role, path);
         }
     }
-    points_.emplace(this->surface(), this->path(), axes_ ? &*axes_ : nullptr, tool);
+    points_.emplace(this->surface(), this->path(), std::move(axes), tool);
 }
 
 std::optional<Vec3> PartContacts::contact_of(PointIndex point) const {

@@ -44,7 +44,7 @@ private:
 
     const Trajectory& path_;
     const ClSurface& surface_;
-    std::optional<Trajectory> upright_path_, axes_;  ///< of a tool that tilts: a ball's, another one's
+    std::optional<Trajectory> upright_path_;  ///< of a ball that tilts
     std::optional<ClSurface> upright_surface_;
     std::optional<ContactPoints> points_;
 };

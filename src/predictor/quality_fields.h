@@ -1,20 +1,57 @@
 #pragma once
 // The fields of the predictor: differences of a point to the adjacent passes, as colours and curves.
+//
+// To add one: a row of `quality_rows` in quality_fields.cpp.
 
+#include <functional>
+#include <mutex>
+#include <optional>
 #include <span>
 #include <string_view>
 
-#include "field/field.h"
+#include "field/field_provider.h"
 #include "predictor/mismatch.h"
 
 namespace clsurf {
 
-/// speed_mismatch, acceleration_mismatch, height.
-[[nodiscard]] std::span<const FieldInfo> quality_fields();
-[[nodiscard]] bool is_quality_field(std::string_view name);
+struct QualityFieldRow {
+    std::string_view name, label;
+    std::string_view label_unmeasured;  ///< where no measured positions are known; empty: the same
+    Unit unit;
+    FieldScale scale = FieldScale::sequential;
+    std::string Signals::*windows = nullptr;  ///< says the windows of what is compared
+    /// Of a point that is compared; NaN where there is no neighbour on either side.
+    float (*value)(const ClSurface& surface, const Signals& signals, PointIndex point) = nullptr;
+    // As in FieldInfo:
+    std::string_view also;
+    int report_rank = 0;
+    bool percentiles = false;
+};
 
-/// One value per point, NaN where there is no neighbour on either side; `name` is one of the above.
-/// The note says the windows and how many of the cutting points have a value. O(points), parallel.
-[[nodiscard]] Field quality_field(std::string_view name, const ClSurface& surface, const Signals& signals);
+/// speed_mismatch, acceleration_mismatch, height.
+[[nodiscard]] std::span<const QualityFieldRow> quality_field_table();
+
+class QualityFields : public FieldProvider {
+public:
+    /// `derive` gives the signals along the path of the surface, once, when the first field is asked for. The surface and
+    /// `table` must outlive it.
+    QualityFields(const ClSurface& surface, std::function<Signals()> derive,
+                  std::span<const QualityFieldRow> table = quality_field_table());
+
+    [[nodiscard]] std::vector<FieldInfo> fields() const override;
+    /// NaN where there is no neighbour on either side. Of all points the note says how many of the cutting ones have a
+    /// value. O(points), parallel.
+    [[nodiscard]] std::vector<Field> compute(std::span<const std::string_view> names, PointRange points) const override;
+
+private:
+    const ClSurface& surface_;
+    std::function<Signals()> derive_;
+    std::span<const QualityFieldRow> table_;
+    mutable std::once_flag derived_;
+    mutable std::optional<Signals> signals_;
+};
+
+/// The values of `speed_mismatch` from signals that are at hand. O(points), parallel.
+[[nodiscard]] Column<float> speed_mismatches(const ClSurface& surface, const Signals& signals);
 
 }  // namespace clsurf

@@ -24,7 +24,7 @@ JudgedRun judge_run(Log log, const Program& program, const QualityRules& rules, 
     run.signals = signals_along(run.log, run.path, run.surface).signals;
     run.report = find_defects(run.surface, run.signals, *run.lines, program, run.log.period, rules);
     run.duration = static_cast<double>(std::max<PointIndex>(0, run.log.records - 1)) * run.log.period;
-    run.speed_differences = quality_field("speed_mismatch", run.surface, run.signals).values;
+    run.speed_differences = speed_mismatches(run.surface, run.signals);
     std::vector<float> sizes;
     for (const float value : run.speed_differences) {
         if (value == value) sizes.push_back(std::abs(value));

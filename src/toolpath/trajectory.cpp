@@ -11,6 +11,7 @@
 #include "core/column.h"
 #include "core/error.h"
 #include "core/units.h"
+#include "mapping/tool_axes.h"
 
 namespace clsurf {
 
@@ -121,18 +122,24 @@ bool for_angles(const Log& log, const AngleReader& angles, Body&& body) {
     return false;
 }
 
-/// A trajectory over columns of its own. compute(first, last, x, y, z) fills a stretch of them.
+using OwnColumns = std::array<Column<double>, 3>;
+
+/// Columns of `count` points. compute(first, last, x, y, z) fills a stretch of them.
 template <typename Compute>
-void own_columns(Trajectory& trajectory, Compute&& compute) {
-    auto columns = std::make_shared<std::array<Column<double>, 3>>();
-    const auto n = static_cast<std::size_t>(trajectory.count);
-    for (Column<double>& column : *columns) column.resize(n);
-    for_each_block(trajectory.count, [&](PointIndex first, PointIndex last) {
+std::shared_ptr<const OwnColumns> make_columns(PointIndex count, Compute&& compute) {
+    auto columns = std::make_shared<OwnColumns>();
+    for (Column<double>& column : *columns) column.resize(static_cast<std::size_t>(count));
+    for_each_block(count, [&](PointIndex first, PointIndex last) {
         const auto at = static_cast<std::size_t>(first);
         const auto size = static_cast<std::size_t>(last - first);
         compute(first, std::span(columns->at(0).data() + at, size), std::span(columns->at(1).data() + at, size),
                 std::span(columns->at(2).data() + at, size));
     });
+    return columns;
+}
+
+/// Puts columns of its own under a trajectory.
+void set_columns(Trajectory& trajectory, std::shared_ptr<const OwnColumns> columns) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         trajectory.axes[axis] = {reinterpret_cast<const std::byte*>(columns->at(axis).data()),
                                  sizeof(double),
@@ -158,7 +165,7 @@ Trajectory reconstruct_ball(const Log& log, Role role, const Eigen::Isometry3d& 
     if (kinematics == nullptr || !kinematics->has_rotary()) return trajectory;
     const AngleReader angles(log, role, *kinematics);
     const std::array<ChannelView, 3> linear = trajectory.axes;
-    own_columns(trajectory, [&](PointIndex first, std::span<double> x, std::span<double> y, std::span<double> z) {
+    const auto compute = [&](PointIndex first, std::span<double> x, std::span<double> y, std::span<double> z) {
         std::vector<double> tilt(x.size()), rotation(x.size());
         angles.read(first, tilt, rotation);
         copy_block(linear[0], first, x);
@@ -171,7 +178,8 @@ Trajectory reconstruct_ball(const Log& log, Role role, const Eigen::Isometry3d& 
             y[i] = tip.y();
             z[i] = tip.z();
         }
-    });
+    };
+    set_columns(trajectory, make_columns(trajectory.count, compute));
     trajectory.kinematics = std::move(kinematics);
     return trajectory;
 }
@@ -213,11 +221,10 @@ Trajectory reconstruct_like(const Log& log, Role role, const Trajectory& like) {
     return role == like.role ? like : reconstruct_ball(log, role, like.pose(), like.kinematics, like.ball);
 }
 
-Trajectory tool_axes(const Log& log, Role role, const Trajectory& like) {
-    Trajectory trajectory = trajectory_of(log, role);
+ToolAxes tool_axes(const Log& log, Role role, const Trajectory& like) {
     const Kinematics& kinematics = *like.kinematics;
     const AngleReader angles(log, role, kinematics);
-    own_columns(trajectory, [&](PointIndex first, std::span<double> x, std::span<double> y, std::span<double> z) {
+    const auto compute = [&](PointIndex first, std::span<double> x, std::span<double> y, std::span<double> z) {
         angles.read(first, x, y);
         for (std::size_t i = 0; i < x.size(); ++i) {
             const Vec3 axis = like.turn * kinematics.axis_of({x[i], y[i]});
@@ -225,19 +232,26 @@ Trajectory tool_axes(const Log& log, Role role, const Trajectory& like) {
             y[i] = axis.y();
             z[i] = axis.z();
         }
-    });
-    trajectory.kinematics = like.kinematics;
-    return trajectory;
+    };
+    return ToolAxes(make_columns(log.records, compute));
 }
 
-Trajectory axis_angle(const Log& log, Role role, char letter) {
-    Trajectory trajectory = trajectory_of(log, role);
-    trajectory.axes.fill(channel_of(log, role, letter).values);
-    for (ChannelView& view : trajectory.axes) {
-        view.scale *= rad_per_deg;
-        view.bias *= rad_per_deg;
-    }
-    return trajectory;
+Vec3 ToolAxes::at(PointIndex point) const {
+    const auto i = static_cast<std::size_t>(point);
+    return {columns_->at(0)[i], columns_->at(1)[i], columns_->at(2)[i]};
+}
+
+void ToolAxes::read(PointIndex begin, std::span<double> x, std::span<double> y, std::span<double> z) const {
+    const std::array<std::span<double>, 3> out{x, y, z};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        std::copy_n(columns_->at(axis).begin() + begin, out[axis].size(), out[axis].begin());
+}
+
+ChannelView axis_angles(const Log& log, Role role, char letter) {
+    ChannelView view = channel_of(log, role, letter).values;
+    view.scale *= rad_per_deg;
+    view.bias *= rad_per_deg;
+    return view;
 }
 
 void note_poles(const Log& log, Role role, const Kinematics& kinematics, Diagnostics& diagnostics) {
@@ -280,7 +294,7 @@ std::optional<RotaryMotion> find_rotary_motion(const Log& log, Role role) {
     std::vector<double> values;
     for (const char letter : {'a', 'b', 'c'}) {
         if (log.find(fmt::format("{}.{}", prefix_of(role), letter)) == nullptr) continue;
-        const ChannelView view = axis_angle(log, role, letter).axes[0];
+        const ChannelView view = axis_angles(log, role, letter);
         double low = std::numeric_limits<double>::infinity();
         double high = -low;
         for (PointIndex begin = 0; begin < view.count; begin += block_points) {

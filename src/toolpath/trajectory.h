@@ -60,13 +60,6 @@ struct Trajectory {
 /// Another role of the same log, by the same way into the workpiece.
 [[nodiscard]] Trajectory reconstruct_like(const Log& log, Role role, const Trajectory& like);
 
-/// Unit vectors of the tool axis in the workpiece in place of positions. `like` has kinematics.
-[[nodiscard]] Trajectory tool_axes(const Log& log, Role role, const Trajectory& like);
-
-/// The angle of a rotary axis as the control counts it [rad], as the first of the three components.
-/// Throws InputError where the log does not have it.
-[[nodiscard]] Trajectory axis_angle(const Log& log, Role role, char letter);
-
 /// Notes where the tool axis passes its pole: within 2° of it the rotation axis turns by more than
 /// 45°. Adds `path.pole`. O(points).
 void note_poles(const Log& log, Role role, const Kinematics& kinematics, Diagnostics& diagnostics);

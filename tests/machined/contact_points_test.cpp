@@ -55,11 +55,13 @@ constexpr double line_length = 0.25;  ///< of the program's lines
 
 /// Zigzag passes along u, v a step-over apart, 0.04 mm between points.
 struct Milled {
-    Columns tips, axes;
+    Columns tips;
+    ToolAxes::Columns axes;
     std::vector<Vec3> contacts;
     std::vector<int> lines;
     std::vector<bool> turns;  ///< near where the pass turns round: nobody asks there
-    Trajectory path, axis_path;
+    Trajectory path;
+    std::optional<ToolAxes> tool_axes;
     ClSurface surface;
 
     Milled(const Shape& shape, const CuttingTool& tool, double u_size, double v_size, const Lean& lean = {}) {
@@ -80,7 +82,7 @@ struct Milled {
             for (double w = 0.05; w < step_over; w += 0.05) add(shape, tool, lean, forth ? u_size : 0, v + w, line);
         }
         path = tips.trajectory();
-        axis_path = axes.trajectory();
+        tool_axes.emplace(std::make_shared<const ToolAxes::Columns>(axes));
         surface = test::surface_of(gather(path), step_over);
     }
 
@@ -92,7 +94,7 @@ struct Milled {
         const Vec3 level = p.normal - p.normal.dot(axis) * axis;
         const Vec3 outwards = level.norm() > 1e-9 ? Vec3(level.normalized()) : Vec3(Vec3::Zero());
         tips.add(p.at + tool.corner * p.normal + (tool.radius - tool.corner) * outwards - tool.corner * axis);
-        axes.add(axis);
+        for (int k = 0; k < 3; ++k) axes[static_cast<std::size_t>(k)].push_back(axis[k]);
         contacts.push_back(p.at);
         lines.push_back(line);
         turns.push_back(true);
@@ -111,7 +113,7 @@ struct Score {
 
 /// Asks for every 23rd contact point that lies a step-over or more from where its pass turns round.
 Score ask(const Milled& milled, const CuttingTool& tool, bool leans) {
-    const ContactPoints points(milled.surface, milled.path, leans ? &milled.axis_path : nullptr, tool);
+    const ContactPoints points(milled.surface, milled.path, leans ? milled.tool_axes : std::nullopt, tool);
     Score score;
     for (PointIndex i = 0; i < milled.path.count; i += 23) {
         const auto k = static_cast<std::size_t>(i);
@@ -202,7 +204,7 @@ TEST(ContactPoints, AToolThatTurnsTouchesWhereItsOwnAxisSays) {
 
 TEST(ContactPoints, AFlatBottomOnALevelFaceIsAtItsTip) {
     const Milled milled(plane, bull, 4, 4);
-    const ContactPoints points(milled.surface, milled.path, nullptr, bull);
+    const ContactPoints points(milled.surface, milled.path, std::nullopt, bull);
     for (PointIndex i = 0; i < milled.path.count; i += 13) {
         const std::optional<Vec3> contact = points.at(i);
         if (contact) { EXPECT_LT((*contact - milled.path.at(i)).norm(), 1e-9); }
@@ -212,14 +214,14 @@ TEST(ContactPoints, AFlatBottomOnALevelFaceIsAtItsTip) {
 TEST(ContactPoints, WhatDoesNotCutHasNone) {
     Milled milled(tilted, ball, 4, 4);
     milled.surface.passes[0].kind = PassKind::rapid;
-    const ContactPoints points(milled.surface, milled.path, nullptr, ball);
+    const ContactPoints points(milled.surface, milled.path, std::nullopt, ball);
     EXPECT_FALSE(points.at(milled.surface.passes[0].first).has_value());
     EXPECT_TRUE(points.at(milled.surface.passes[milled.surface.passes.size() - 1].first).has_value());
 }
 
 TEST(PlaceSearch, TheNearestPassesFollowEachOther) {
     const Milled milled(tilted, ball, 6, 4);
-    const ContactPoints points(milled.surface, milled.path, nullptr, ball);
+    const ContactPoints points(milled.surface, milled.path, std::nullopt, ball);
     const PointIndex i = milled.path.count / 2 + 30;
     const std::vector<FoundPlace> found = find_places(milled.path, milled.surface.passes, &points, step_over,
                                                       {milled.contacts[static_cast<std::size_t>(i)], false, 5});
@@ -246,7 +248,7 @@ SurfacePoint groove(double u, double v) {
 
 TEST(PlaceSearch, InAGrooveThePassAtItsBottomIsMeant) {
     const Milled milled(groove, ball, 6, 6);
-    const ContactPoints points(milled.surface, milled.path, nullptr, ball);
+    const ContactPoints points(milled.surface, milled.path, std::nullopt, ball);
     for (const double degrees : {-27.0, -12.0, -1.0, 4.0, 16.0, 28.0}) {
         const double angle = degrees * std::numbers::pi / 180;
         const Vec3 place =
@@ -266,7 +268,7 @@ TEST(PlaceSearch, InAGrooveThePassAtItsBottomIsMeant) {
 TEST(PlaceSearch, AContactThatIsCutAwayAgainIsFoundWhereItIsAskedFor) {
     // The walls' own contacts go on below where the ball of the lowest pass ends them.
     const Milled milled(groove, ball, 6, 6);
-    const ContactPoints points(milled.surface, milled.path, nullptr, ball);
+    const ContactPoints points(milled.surface, milled.path, std::nullopt, ball);
     const PointIndex i = milled.path.count / 3;
     const std::optional<Vec3> contact = points.at(i);
     ASSERT_TRUE(contact.has_value());
@@ -277,14 +279,14 @@ TEST(PlaceSearch, AContactThatIsCutAwayAgainIsFoundWhereItIsAskedFor) {
 
 TEST(PlaceSearch, FromAboveNothingIsFoundWhereNoCutterReaches) {
     const Milled milled(tilted, ball, 4, 4);
-    const ContactPoints points(milled.surface, milled.path, nullptr, ball);
+    const ContactPoints points(milled.surface, milled.path, std::nullopt, ball);
     EXPECT_TRUE(find_places(milled.path, milled.surface.passes, &points, step_over, {Vec3(40, 40, 0), true}).empty());
 }
 
 /// Under a flat tool on a level face all passes within its radius touch: the nearest is meant.
 TEST(PlaceSearch, UnderAFlatBottomTheNearestPassIsMeant) {
     const Milled milled([](double u, double v) { return SurfacePoint{Vec3(u, v, 0), Vec3::UnitZ()}; }, flat, 6, 6);
-    const ContactPoints points(milled.surface, milled.path, nullptr, flat);
+    const ContactPoints points(milled.surface, milled.path, std::nullopt, flat);
     for (const double v : {1.2, 2.4, 3.6}) {
         const std::vector<FoundPlace> found =
             find_places(milled.path, milled.surface.passes, &points, step_over, {Vec3(3, v + 0.02, 0)});

@@ -1,0 +1,17 @@
+#pragma once
+// The columns of `export`.
+
+#include <string>
+#include <vector>
+
+#include "io/reports/export_table.h"
+#include "pipeline/part.h"
+
+namespace clsurf::cli {
+
+/// A column for each name: point, line, pass, time, x, y, z, confidence, or a field. Throws UsageError: unknown, or the log
+/// lacks what it needs.
+[[nodiscard]] std::vector<io::ExportColumn> exported_columns(const std::vector<std::string>& names, const Part& part,
+                                                             const ClSurface& surface);
+
+}  // namespace clsurf::cli

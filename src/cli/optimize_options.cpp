@@ -1,0 +1,59 @@
+#include "cli/optimize_options.h"
+
+#include <cmath>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "cli/work_frames.h"
+#include "core/error.h"
+#include "core/version.h"
+#include "io/formats/log_format.h"
+
+namespace clsurf::cli {
+
+void declare_optimize(po::options_description& options) {
+    // clang-format off
+    options.add_options()
+        ("output,o", po::value<std::string>()->value_name("FILE"), "the new program")
+        ("picture", po::value<std::string>()->value_name("FILE"), "speeds before and after on one scale (.png, .jpg, .tif or .webp), also where the new program is refused")
+        ("tolerance", po::value<double>()->value_name("MM"), "how far the new path may leave the programmed one (default: 0.005)")
+        ("more-time", po::value<double>()->value_name("PERCENT"), "how much longer the new program may take, for fewer defects (default: 0)")
+        ("decimals", po::value<int>()->value_name("N"), "new coordinates have at least so many, if the controller reads them (default: as many as the program's)");
+    // clang-format on
+    options.add_options()(
+        "log", po::value<std::string>()->value_name("LOG"),
+        "a recorded run of the program: only what differs there from the passes beside it is repaired; the proof is by simulation all the same");
+    declare_log_options(options);
+    declare_work_offset(options);
+    declare_simulation(options);
+    declare_json(options);
+    declare_program_options(options);
+}
+
+OptimizeRules read_optimize_rules(const po::variables_map& values) {
+    OptimizeRules rules;
+    if (values.count("tolerance") > 0) rules.tolerance = values["tolerance"].as<double>();
+    if (!(rules.tolerance > 0) || !std::isfinite(rules.tolerance)) throw UsageError("--tolerance must be above 0 mm");
+    if (values.count("decimals") > 0) rules.least_decimals = values["decimals"].as<int>();
+    if (rules.least_decimals < 0 || rules.least_decimals > 9) throw UsageError("--decimals must be 0 to 9");
+    if (values.count("more-time") > 0) rules.more_time = values["more-time"].as<double>() / 100;
+    if (!(rules.more_time >= 0) || rules.more_time > 1) throw UsageError("--more-time must be 0 to 100 %");
+    rules.start = read_start(values);
+    rules.header = fmt::format("clsurf {} optimize, tolerance {} mm", version, rules.tolerance);
+    return rules;
+}
+
+std::optional<Log> read_measured(const po::variables_map& values, bool five_axes) {
+    if (values.count("log") == 0) {
+        for (const char* name : {"layout", "mapping", "period"}) {
+            if (given(values, name)) throw UsageError(std::string("--") + name + " is of a log: give --log");
+        }
+        if (given(values, "work-offset") && !five_axes)
+            throw UsageError("--work-offset is of a log, or for programs on rotary axes: give --log");
+        return std::nullopt;
+    }
+    return io::open_log(values["log"].as<std::string>(), read_log_options(values));
+}
+
+}  // namespace clsurf::cli

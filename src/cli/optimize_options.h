@@ -1,0 +1,18 @@
+#pragma once
+// The options of `optimize`.
+
+#include <optional>
+
+#include "cli/options.h"
+#include "log/log.h"
+#include "repair/optimizer.h"
+
+namespace clsurf::cli {
+
+void declare_optimize(po::options_description& options);
+/// Throws UsageError.
+[[nodiscard]] OptimizeRules read_optimize_rules(const po::variables_map& values);
+/// The recorded run of --log. Throws UsageError where its options are given without it.
+[[nodiscard]] std::optional<Log> read_measured(const po::variables_map& values, bool five_axes);
+
+}  // namespace clsurf::cli

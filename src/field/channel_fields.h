@@ -1,0 +1,24 @@
+#pragma once
+// ChannelFields: the channels of a log as fields, in the units in which they were recorded.
+
+#include "field/field_provider.h"
+#include "log/log.h"
+
+namespace clsurf {
+
+class ChannelFields : public FieldProvider {
+public:
+    /// Shares the columns of the log.
+    explicit ChannelFields(const Log& log);
+
+    [[nodiscard]] std::vector<FieldInfo> fields() const override;
+    /// O(points), parallel.
+    [[nodiscard]] std::vector<Field> compute(std::span<const std::string_view> names, PointRange points) const override;
+    [[nodiscard]] std::string_view prefix() const override { return "log."; }
+
+private:
+    std::vector<Channel> channels_;
+    std::shared_ptr<const void> keep_alive_;
+};
+
+}  // namespace clsurf

@@ -1,0 +1,112 @@
+#pragma once
+// FieldRow: one field of positions as a row: what it is called, what it needs and how it is computed. field_table.cpp has
+// ours; PositionFields (position_fields.h) computes any.
+
+#include <array>
+#include <span>
+#include <string_view>
+
+#include "core/point.h"
+#include "field/field.h"
+
+namespace clsurf {
+
+/// What a kernel reads. All in mm and s; of rotary axes in rad.
+namespace needs {
+inline constexpr unsigned position = 1, velocity = 2, acceleration = 4, jerk = 8;
+/// Both ends of the following error: commanded positions, and measured ones at the same time.
+inline constexpr unsigned commanded = 16, measured = 32, error = commanded | measured;
+/// Standard deviations that the Kalman smoother gives its derivatives.
+inline constexpr unsigned velocity_sigma = 64, acceleration_sigma = 128, jerk_sigma = 256;
+inline constexpr unsigned time = 512;  ///< since the first record
+inline constexpr unsigned derivatives = velocity | acceleration | jerk;
+inline constexpr unsigned sigmas = velocity_sigma | acceleration_sigma | jerk_sigma;
+inline constexpr int kinds = 10;
+}  // namespace needs
+
+/// What the positions, and all that is derived of them, are those of.
+enum class FieldSubject : std::uint8_t {
+    tip,          ///< the tool's tip in the workpiece
+    tool_axis,    ///< the end of the tool axis's unit vector
+    rotary_axis,  ///< one rotary axis, as the control counts its angle
+};
+
+struct FieldRow;
+
+/// What kernels read of some points that follow each other. Only what the row needs is there: reading anything else
+/// throws std::logic_error, which names the row.
+class FieldBlock {
+public:
+    /// Commanded positions reach this far beyond the block; at the ends of a log the last one is repeated.
+    static constexpr PointIndex commanded_before = 256, commanded_after = 8;
+
+    using Vector = std::array<const double*, 3>;  ///< x, y, z, `count()` values each
+
+    FieldBlock(const FieldRow& row, std::size_t count) : row_(&row), count_(count) {}
+
+    [[nodiscard]] std::size_t count() const { return count_; }
+    /// All three components of what one bit of `needs` says. Not of a rotary axis, which has one.
+    [[nodiscard]] const Vector& vector(unsigned need) const;
+    /// The component along the row's axis; of a rotary axis its only one.
+    [[nodiscard]] const double* component(unsigned need) const;
+    /// A standard deviation, or the time.
+    [[nodiscard]] const double* scalar(unsigned need) const;
+
+    void set(unsigned need, const Vector& columns);
+
+private:
+    [[nodiscard]] const Vector& at(unsigned need) const;
+
+    const FieldRow* row_;
+    std::size_t count_;
+    std::array<Vector, needs::kinds> columns_{};  ///< by the number of the bit; nullptr: not there
+};
+
+struct FieldRow {
+    std::string_view name = {}, label = {};
+    Unit unit = {};
+    FieldScale scale = FieldScale::sequential;
+    char axis = 0;  ///< 'x', 'y', 'z'; of a rotary axis 'a', 'b', 'c'; 0: of all axes together
+    FieldSubject subject = FieldSubject::tip;
+    unsigned needs = 0;
+    void (*compute)(const FieldBlock& block, float* out) = nullptr;  ///< `out`: block.count() values
+    // As in FieldInfo:
+    std::array<std::string_view, 2> also{};
+    int report_rank = 0;
+    bool percentiles = false;
+};
+
+/// What a row says of its field.
+[[nodiscard]] FieldInfo info_of(const FieldRow& row);
+
+/// The highest derivative that a row needs, 1 … 3; 0: none.
+[[nodiscard]] int derivative_of(const FieldRow& row);
+
+// What rows are made of.
+namespace kernel {
+
+/// A kernel from a function of one point, value(vectors…, i), with the vectors of these needs.
+template <auto value, unsigned... need>
+void each(const FieldBlock& block, float* out) {
+    [&](const auto&... vectors) {
+        for (std::size_t i = 0; i < block.count(); ++i) out[i] = static_cast<float>(value(vectors..., i));
+    }(block.vector(need)...);
+}
+
+/// A kernel that gives the component along the row's axis.
+template <unsigned need>
+void component(const FieldBlock& block, float* out) {
+    const double* const values = block.component(need);
+    for (std::size_t i = 0; i < block.count(); ++i) out[i] = static_cast<float>(values[i]);
+}
+
+/// A kernel that gives a standard deviation, or the time.
+template <unsigned need>
+void scalar(const FieldBlock& block, float* out) {
+    const double* const values = block.scalar(need);
+    for (std::size_t i = 0; i < block.count(); ++i) out[i] = static_cast<float>(values[i]);
+}
+
+}  // namespace kernel
+
+}  // namespace clsurf

@@ -1,0 +1,29 @@
+#include "pipeline/part_fields.h"
+
+#include <utility>
+
+#include "field/channel_fields.h"
+#include "pipeline/signals_of.h"
+#include "predictor/quality_fields.h"
+
+namespace clsurf {
+namespace {
+
+Signals signals_alone(const Part& part, const ClSurface& surface) {
+    return std::move(signals_of(part, surface).signals);
+}
+
+}  // namespace
+
+FieldSet fields_of(const Part& part, const ClSurface& surface,
+                   const std::vector<std::shared_ptr<const FieldProvider>>& more) {
+    FieldSet fields(part.log.records);
+    fields.add(std::make_shared<const PositionFields>(part.log, part.path, surface.passes,
+                                                      Derivation{estimate_motion(part, surface.passes), 0}));
+    fields.add(std::make_shared<const QualityFields>(surface, [&] { return signals_alone(part, surface); }));
+    for (const auto& provider : more) fields.add(provider);
+    fields.add(std::make_shared<const ChannelFields>(part.log));
+    return fields;
+}
+
+}  // namespace clsurf
