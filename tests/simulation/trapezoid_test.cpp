@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <fmt/format.h>
+
 #include "core/error.h"
 #include "io/formats/log_format.h"
 #include "io/readers/machine_file.h"
@@ -207,7 +209,7 @@ Agreement agreement(const std::string& program_file, const std::string& log_file
 
 // The logs have steps of 1 nm.
 TEST(TrapezoidalPlanner, CommandsWhatLinuxCncCommandsPointByPoint) {
-    const std::string folder = std::string(TEST_SOURCES) + "/motion/kernel/";
+    const std::string folder = std::string(TEST_SOURCES) + "/simulation/kernel/";
     const std::vector<std::array<std::string, 2>> runs{
         {folder + "blends.nc", folder + "blends.biip.xz"},
         {SAMPLE_DATA "/programs/bottle_zigzag.nc", SAMPLE_LOGS "/bottle_zigzag.biip"},

@@ -10,9 +10,9 @@
 #include "simulation/plan/lookahead.h"
 #include "simulation/plan/refiner.h"
 #include "simulation/plan/scan_driver.h"
-#include "simulation/plan/trapezoid_simulator.h"
 #include "simulation/run/interpolator.h"
 #include "simulation/run/recorder.h"
+#include "simulation/run/trapezoid_simulator.h"
 
 namespace clsurf {
 namespace {

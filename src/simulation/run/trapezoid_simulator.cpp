@@ -1,4 +1,4 @@
-#include "simulation/plan/trapezoid_simulator.h"
+#include "simulation/run/trapezoid_simulator.h"
 
 #include <algorithm>
 #include <cmath>
