@@ -13,6 +13,7 @@
 #include "log/health.h"
 #include "log/placeholder.h"
 #include "log/quantum.h"
+#include "predictor/position_noise.h"
 #include "surface/path_location.h"
 #include "toolpath/arc_length.h"
 
@@ -22,6 +23,7 @@ namespace {
 constexpr double speed_seconds = 0.010;  ///< longest window: an oscillation of 20 ms keeps four fifths of its height …
 constexpr double speed_way = 0.4;  ///< [mm] … and of fast passes one of 0.8 mm, since marks are seen by their length
 constexpr double speed_steps = 150;         ///< steps of the positions, of way: rounding is then 1 % of the speed …
+constexpr double scatter_deviations = 6;    ///< by which two passes differ from scatter of the positions alone, at most
 constexpr double acceleration_windows = 2;  ///< … and accelerations of slow passes are taken over twice the way
 constexpr double height_window = 0.015;     ///< window of the mean that heights are smoothed with
 constexpr PointIndex relief_every = 3;      ///< points: normals and reliefs are those of every third
@@ -39,6 +41,14 @@ constexpr float slowest = 1e-3F;        ///< [mm/s]; slower, the feed has no dir
 
 int window_points(double seconds, double period, int least) {
     return std::max(least, static_cast<int>(std::lround(std::min(seconds / period, 2000.0))) | 1);
+}
+
+/// Standard deviation of a derivative for independent errors of the positions of 1 mm each [1/s^d].
+double noise_gain(const DerivativeFilter& filter) {
+    double sum = 0;
+    for (const double weight : derivative_weights(filter.points, filter.order, filter.derivative, filter.points / 2))
+        sum += weight * weight;
+    return std::sqrt(sum) * std::pow(filter.period, -filter.derivative);
 }
 
 /// The window of the speed [s] for a usual speed [mm/s] and positions that come in steps of `quantum` [mm].
@@ -127,9 +137,14 @@ public:
           reach_(std::clamp(static_cast<PointIndex>(std::lround(std::min(longest_lag / path.period, 1e6))),
                             shortest_reach, longest_reach)) {}
 
-    void note_noise(double quantum, Signals& signals) const {
-        signals.speed_noise = static_cast<float>(2 * quantum * speed_.filter().step_response());
-        signals.acceleration_noise = static_cast<float>(2 * quantum * acceleration_.filter().step_response());
+    /// `scatter` [mm]: position_noise().
+    void note_noise(double quantum, double scatter, Signals& signals) const {
+        const auto noise = [&](const DerivativeFilter& filter) {
+            return static_cast<float>(
+                std::max(2 * quantum * filter.step_response(), scatter_deviations * scatter * noise_gain(filter)));
+        };
+        signals.speed_noise = noise(speed_.filter());
+        signals.acceleration_noise = noise(acceleration_.filter());
     }
     void note_windows(Signals& signals) const {
         const auto note = [&](std::string_view what, int points) {
@@ -380,7 +395,7 @@ Signals derive_signals(const ClSurface& surface, const Trajectory& path, const T
     const Deriver deriver(surface, path, measured, usual_speed_of(surface, path.period), quantum, signals);
     deriver.note_windows(signals);
     signals.unfit = reasons_against(path);
-    deriver.note_noise(quantum, signals);
+    deriver.note_noise(quantum, position_noise(path, pieces), signals);
     for_each_stretch(path.count, pieces, [&](PointRange piece, PointIndex first, PointIndex last) {
         deriver.derive_motion(piece, first, last);
     });
