@@ -9,15 +9,21 @@ namespace {
 
 constexpr float bend_cosine = 0.906F;  ///< cos 25°: the path bends where it turns more than that …
 constexpr float net_reach = 2;         ///< … and still does so many step-overs away on both sides: no jog to and fro
-constexpr float turn_reach = 1;        ///< step-overs on either side, over which a turn is measured
-constexpr float link_reach = 5;        ///< step-overs on either side, within which a link leads to the next pass
-constexpr float link_cosine = 0.94F;   ///< cos 20°: the runs that it joins are hardly turned against each other …
-constexpr float link_aside = 0.6F;     ///< … and lie so many step-overs apart
-constexpr float link_sine = 0.24F;     ///< sin 14°: of the link against these runs
-constexpr float beside_reach = 1.5F;   ///< step-overs along the feed within which a pass beside has its bend
-constexpr float look_every = 0.1F;     ///< step-overs
-constexpr float accelerates = 0.35F;   ///< of the usual acceleration, at least: jerk limits and windows take the rest
-constexpr float ramp_share = 0.2F;     ///< the same along the path, between the bend and its ramp's end
+constexpr float slight_cosine = 0.996F;  ///< cos 5°: enough where the passes beside it do not …
+constexpr float own_share = 0.7F;        ///< … turn by more than this share of its turn
+constexpr float beside_every = 0.5F;     ///< step-overs between the places that are looked at on them
+constexpr float turn_reach = 1;          ///< step-overs on either side, over which a turn is measured
+/// Step-overs on either side, within which a link leads to the next pass. A long slanting link shows over the longest; in a
+/// curve the runs turn against each other over that length, and a short link shows over a shorter one.
+constexpr std::array link_reaches{5.0F, 3.0F, 2.0F};
+constexpr float link_cosine = 0.94F;  ///< cos 20°: the runs that it joins are hardly turned against each other …
+constexpr float link_aside = 0.6F;    ///< … and lie so many step-overs apart
+constexpr float link_sine = 0.24F;    ///< sin 14°: of the link against these runs
+constexpr float beside_reach = 1.5F;  ///< step-overs along the feed within which a pass beside has its bend
+constexpr float look_every = 0.1F;    ///< step-overs
+constexpr float accelerates = 0.35F;  ///< of the usual acceleration, at least: jerk limits and windows take the rest
+constexpr float link_accelerates = 0.15F;  ///< the same at a link: both of its corners share the turn
+constexpr float ramp_share = 0.2F;         ///< the same along the path, between the bend and its ramp's end
 constexpr float accelerates_more = 1.35F;  ///< a bend that is taken 16 % faster
 constexpr float rises_again = 1.03F;       ///< of the least speed: beyond, it was another slow place
 constexpr float hardly_slower = 0.5F;      ///< of the threshold
@@ -116,10 +122,31 @@ bool Bends::taken_faster_beside(PointIndex bend, const Turn& turn) const {
     return false;
 }
 
+/// The passes beside it hardly turn there: the bend is its own, as at either end of a long link.
+bool Bends::turns_alone(PointIndex bend, const Turn& turn) const {
+    const float slight = std::acos(turn.cosine) * own_share;
+    bool beside_any = false;
+    for (const Side side : {Side::left, Side::right}) {
+        const Station at = beside(surface_, {bend, 0}, signals_.feed(bend), side);
+        if (!at.exists() || signals_[at.nearest()].zone == Zone::outside) continue;
+        beside_any = true;
+        for (float along = -beside_reach; along <= beside_reach; along += beside_every) {
+            const PointIndex there = at_distance(at.nearest(), along < 0 ? -1 : 1, std::abs(along) * step_over_);
+            if (std::acos(std::min(turn_at(there).cosine, 1.0F)) > slight) return false;
+        }
+    }
+    return beside_any;
+}
+
 bool Bends::is_link(PointIndex point) const {
+    return std::any_of(link_reaches.begin(), link_reaches.end(),
+                       [&](float reach) { return leads_aside(point, reach * step_over_); });
+}
+
+bool Bends::leads_aside(PointIndex point, float reach) const {
     const Positions& p = surface_.positions;
-    const PointIndex before = at_distance(point, -1, link_reach * step_over_);
-    const PointIndex after = at_distance(point, +1, link_reach * step_over_);
+    const PointIndex before = at_distance(point, -1, reach);
+    const PointIndex after = at_distance(point, +1, reach);
     const Eigen::Vector3f in = signals_.feed(before), out = signals_.feed(after);
     if (!(in.dot(out) > link_cosine)) return false;
     const Eigen::Vector3f along = (in + out).normalized(), way = p[after] - p[before];
@@ -137,9 +164,11 @@ bool Bends::is_link(PointIndex point) const {
 
 bool Bends::is_bend(PointIndex point) const {
     const Turn turn = turn_at(point);
-    if (is_link(point)) return turn.acceleration >= accelerates * thresholds_.usual_acceleration;
-    return turn.cosine < bend_cosine && turn.acceleration >= accelerates * thresholds_.usual_acceleration &&
-           !taken_faster_beside(point, turn);
+    const float usual = thresholds_.usual_acceleration;
+    if (turn.acceleration >= link_accelerates * usual && is_link(point)) return true;
+    if (!(turn.acceleration >= accelerates * usual)) return false;
+    if (turn.cosine < bend_cosine) return !taken_faster_beside(point, turn);
+    return turn.cosine < slight_cosine && turns_alone(point, turn);
 }
 
 /// Where the speed, falling all the way, is least; none where the tool speeds up after it less than its acceleration lets it.

@@ -5,7 +5,8 @@
 // sharply, so the tool slows down for it, and the passes beside it have no reason to. The planner's look-ahead explains such a
 // difference: it is expected. It explains no more than that: the tool must take the bend about as fast as the machine's
 // acceleration lets it, brake for it and speed up after it at once, and no slower than a pass beside it takes a bend like it.
-// Both corners of a link that leads from a loop to the next one are bends, too.
+// Both corners of a link that leads from a loop to the next one are bends, too, and so is a slight bend that the passes beside it
+// do not have.
 
 #include <optional>
 
@@ -33,6 +34,9 @@ private:
     [[nodiscard]] bool is_bend(PointIndex point) const;
     /// There the path leads on and sideways, from a closed loop to the next one.
     [[nodiscard]] bool is_link(PointIndex point) const;
+    /// The same within `reach` [mm] on either side.
+    [[nodiscard]] bool leads_aside(PointIndex point, float reach) const;
+    [[nodiscard]] bool turns_alone(PointIndex bend, const Turn& turn) const;
     [[nodiscard]] bool taken_faster_beside(PointIndex bend, const Turn& turn) const;
     [[nodiscard]] std::optional<PointIndex> slowest_ahead(PointIndex point, int direction) const;
     [[nodiscard]] Turn turn_at(PointIndex point) const;
