@@ -8,6 +8,7 @@ namespace {
 constexpr float clear_score = 2;
 constexpr int passes_enough = 3;  ///< on the side where there are some
 constexpr std::size_t sites_enough = 3;
+constexpr float steady_share = 0.1F;     ///< of the usual acceleration along the path: below, the speed is steady
 constexpr double flank_seconds = 0.020;  ///< by which a height may outlast the motion that makes it
 constexpr double flank_ramps = 1.5;      ///< jerk makes ramps longer than the acceleration alone
 
@@ -72,6 +73,20 @@ double Border::flank_reach(const Suspects& core, Quantity quantity) const {
             ramp = std::max<double>(ramp, thresholds_.usual_speed * jump / thresholds_.usual_acceleration);
     }
     return 2 * along_ + flank_ramps * ramp;
+}
+
+bool Border::ramps(PointIndex point) const {
+    const float along = signals_.acceleration(point).dot(signals_.feed(point));
+    return !(std::abs(along) < steady_share * thresholds_.usual_acceleration);
+}
+
+bool Border::on_flank(const Suspect& site, PointIndex at, double reach, Quantity quantity) const {
+    const double distance = (surface_.positions[site.point] - surface_.positions[at]).norm();
+    if (distance >= reach) return false;
+    if (quantity != Quantity::speed || distance < along_ || ramps(site.point)) return true;
+    const Comparison& c = site.comparison;
+    return (c.beside_left.exists() && ramps(c.beside_left.nearest())) ||
+           (c.beside_right.exists() && ramps(c.beside_right.nearest()));
 }
 
 bool Border::goes_on(PointIndex point, int direction) const {

@@ -25,6 +25,10 @@ public:
     /// How far [mm] a flank reaches from there: as far as the tool needs to make up the difference with the usual acceleration.
     [[nodiscard]] double flank_reach(const Suspects& core, Quantity quantity) const;
 
+    /// A site belongs to the flank of the place `at` of the border: it lies within `reach`, and next to it unless a ramp makes
+    /// the difference there. Where neither the tool nor those beside it speed up or slow down, no ramp does.
+    [[nodiscard]] bool on_flank(const Suspect& site, PointIndex at, double reach, Quantity quantity) const;
+
     /// Sites at the border differ clearly over a stretch, while their pass does not before and after it: step and residual are twice the
     /// threshold against three passes or more, or slower than passes that begin or end beside it, where it goes on. Sites in corners do not count: the
     /// passes that go round them are no measure.
@@ -34,6 +38,7 @@ public:
 private:
     [[nodiscard]] std::optional<PointIndex> as_strong_near(PointIndex point, std::size_t pass, float share,
                                                            Quantity quantity) const;
+    [[nodiscard]] bool ramps(PointIndex point) const;
     [[nodiscard]] bool goes_on(PointIndex point, int direction) const;
 
     const ClSurface& surface_;

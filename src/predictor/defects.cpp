@@ -349,14 +349,8 @@ bool starts_defect(SuspectSpan sites, Family family) {
 /// from it: what is expected there must not swallow what lies beside it.
 class FamilyBuilder {
 public:
-    FamilyBuilder(Family family, bool at_border, double smallest, const ClSurface& surface, const Border& border,
-                  const Builder& builder)
-        : family_(family),
-          at_border_(at_border),
-          smallest_(smallest),
-          surface_(surface),
-          border_(border),
-          builder_(builder) {}
+    FamilyBuilder(Family family, bool at_border, double smallest, const Border& border, const Builder& builder)
+        : family_(family), at_border_(at_border), smallest_(smallest), border_(border), builder_(builder) {}
 
     std::vector<Built> build(const Suspects& suspects) {
         Suspects mine;
@@ -388,9 +382,9 @@ private:
         if (!flank) return keep(core, quantity, false);
         // A flank ends. What goes on beyond it is something of its own.
         const double reach = border_.flank_reach(core, quantity);
-        const auto beyond = std::stable_partition(core.begin(), core.end(), [&](const Suspect* s) {
-            return (surface_.positions[s->point] - surface_.positions[*flank]).norm() < reach;
-        });
+        const auto beyond = std::stable_partition(
+            core.begin(), core.end(), [&](const Suspect* s) { return border_.on_flank(*s, *flank, reach, quantity); });
+        if (beyond == core.begin()) return keep(core, quantity, false);
         const Suspects rest(beyond, core.end());
         core.erase(beyond, core.end());
         keep(core, quantity, true);
@@ -406,7 +400,6 @@ private:
     Family family_;
     bool at_border_;
     double smallest_;
-    const ClSurface& surface_;
     const Border& border_;
     const Builder& builder_;
     std::vector<Built> built_;
@@ -449,8 +442,7 @@ QualityReport find_defects(const ClSurface& surface, const Signals& signals, con
     std::array<std::vector<Built>, 2 * families.size()> of_family;  // away from the border and at it
     parallel_for(of_family.size(), 1, [&](std::int64_t first, std::int64_t last) {
         for (auto k = static_cast<std::size_t>(first); k < static_cast<std::size_t>(last); ++k) {
-            of_family[k] =
-                FamilyBuilder(families[k / 2], k % 2 == 1, smallest, surface, border, builder).build(suspects);
+            of_family[k] = FamilyBuilder(families[k / 2], k % 2 == 1, smallest, border, builder).build(suspects);
         }
     });
     std::vector<Built> all;
