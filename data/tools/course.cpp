@@ -146,6 +146,7 @@ public:
         switch (r_.layout) {
             case Layout::waterline:
             case Layout::staggered:
+            case Layout::drawn_out:
             case Layout::helix: {
                 const double around = p.x() / (0.5 * r_.length);
                 const double radius = 0.5 * r_.length * (1 + 0.05 * std::cos(3 * around)) - p.y() * std::sin(r_.draft);
@@ -288,14 +289,45 @@ std::vector<PlanePass> round_a_tower(const CourseRecipe& r) {
     const bool helix = r.layout == Layout::helix;
     for (int k = 0; k < r.passes; ++k) {
         const double v = -k * r.step_over;
-        if (r.layout == Layout::staggered) {
-            const double start = 2.5 * k * r.step_over;  // links at 22° to the loops
+        if (r.layout == Layout::staggered || r.layout == Layout::drawn_out) {
+            const double slope = r.layout == Layout::staggered ? 2.5 : 5;  // links at 22° or 11° to the loops
+            const double start = slope * k * r.step_over;
             passes.push_back({{{start, v}, {start + around, v}}, Joint::link});
             continue;
         }
         const double last = helix ? around - r.spacing : around;
         const double fall = helix ? r.step_over * last / around : 0;
         passes.push_back({{{0, v}, {last, v - fall}}, helix && k > 0 ? Joint::none : Joint::link});
+    }
+    return passes;
+}
+
+std::vector<PlanePass> triangles(const CourseRecipe& r) {
+    constexpr double blend = 0.2;   // [mm] from a corner, where its parabola begins
+    constexpr double middle = 1.5;  // [mm] inside which there is no room
+    constexpr int steps = 16;
+    std::vector<PlanePass> passes;
+    for (int k = 0; k < r.passes; ++k) {
+        const double inside = 0.36 * r.length - k * r.step_over;  // radius of the inscribed circle
+        if (inside < middle) break;
+        std::array<Vec2, 3> corner;
+        for (std::size_t j = 0; j < 3; ++j) {
+            const double angle = r.angle + 2 * pi * static_cast<double>(j) / 3;
+            corner[j] = 2 * inside * Vec2(std::cos(angle), std::sin(angle));
+        }
+        const Vec2 start = 0.6 * corner[0] + 0.4 * corner[2];
+        PlanePass pass{{start}, Joint::link};
+        for (std::size_t j = 0; j < 3; ++j) {
+            const Vec2& at = corner[j];
+            const Vec2 in = at + blend * (corner[(j + 2) % 3] - at).normalized();
+            const Vec2 out = at + blend * (corner[(j + 1) % 3] - at).normalized();
+            for (int i = 0; i <= steps; ++i) {
+                const double t = static_cast<double>(i) / steps;
+                pass.line.push_back((1 - t) * (1 - t) * in + 2 * t * (1 - t) * at + t * t * out);
+            }
+        }
+        pass.line.push_back(start);
+        passes.push_back(std::move(pass));
     }
     return passes;
 }
@@ -308,7 +340,9 @@ std::vector<PlanePass> lay_on_plane(const CourseRecipe& r) {
         case Layout::spiral: return winding(r);
         case Layout::waterline:
         case Layout::staggered:
+        case Layout::drawn_out:
         case Layout::helix: return round_a_tower(r);
+        case Layout::triangles: return triangles(r);
         default: return to_and_fro(r);
     }
 }
@@ -323,9 +357,9 @@ void move_to(std::vector<CoursePoint>& course, const Vec3& to, Motion motion, do
 }  // namespace
 
 std::string_view name_of(Layout layout) {
-    constexpr std::array<std::string_view, layouts> names{"zigzag",      "one-way",   "oblique", "arcs",
-                                                          "interrupted", "contours",  "islands", "spiral",
-                                                          "waterline",   "staggered", "helix",   "wall"};
+    constexpr std::array<std::string_view, layouts> names{"zigzag",    "one-way", "oblique", "arcs",      "interrupted",
+                                                          "contours",  "islands", "spiral",  "waterline", "staggered",
+                                                          "drawn-out", "helix",   "wall",    "triangles"};
     return names[static_cast<std::size_t>(layout)];
 }
 

@@ -48,6 +48,10 @@ constexpr std::array kinds = std::to_array<LogKind>({
     {"oblique F15000 4 ms lag", Layout::oblique, 15000, 0.004, 0.0001, Fault::lag},
     {"spiral F15000 4 ms", Layout::spiral, 15000, 0.004, 0.001, Fault::all},
     {"zigzag F15000 1 ms", Layout::zigzag, 15000, 0.001, 0.001, Fault::all},
+    {"oblique F600 2 ms clock 100 µs", Layout::oblique, 600, 0.002, 0.0001, Fault::all, 100e-6},
+    {"arcs F3000 clock 50 µs", Layout::arcs, 3000, 0.001, 0.0001, Fault::all, 50e-6},
+    {"triangles F3000 dips", Layout::triangles, 3000, 0.001, 0.001, Fault::dip},
+    {"triangles F5000 2 ms", Layout::triangles, 5000, 0.002, 0.0001, Fault::all},
 });
 
 constexpr double pi = std::numbers::pi;
@@ -115,7 +119,8 @@ private:
         const double base = slow ? 14 : fast ? 60 : kind_.layout == Layout::interrupted ? 44 : 26;
         shape_.length = base * uniform(g, 1, 1.3);
         const bool round = kind_.layout == Layout::spiral || kind_.layout == Layout::waterline ||
-                           kind_.layout == Layout::staggered || kind_.layout == Layout::helix;
+                           kind_.layout == Layout::staggered || kind_.layout == Layout::drawn_out ||
+                           kind_.layout == Layout::helix;
         if (round) shape_.length = std::max(0.6 * shape_.length, 2.2 * shape_.passes * shape_.step_over);
         shape_.angle = uniform(g, 0.35, 1.2);
         shape_.waviness = uniform(g, 0.2, slow ? 0.6 : 1.5);
@@ -396,18 +401,20 @@ private:
     void sample(const std::vector<double>& speed) {
         log_.truth.resize(recipe_.defects.size());
         std::size_t i = 1;
-        double time = 0;  // when point i − 1 is reached
-        double next = 0;  // of the record
+        double time = 0;     // when point i − 1 is reached
+        double next = 0;     // of the record
+        double scatter = 0;  // of the record's time
         const auto seconds = [&] { return (way_[i] - way_[i - 1]) / (0.5 * (speed[i] + speed[i - 1])); };
         while (i < course_.size()) {
             const double step = seconds();
-            if (next > time + step) {
+            if (next + scatter > time + step) {
                 time += step;
                 ++i;
                 continue;
             }
-            record(speed, i, step > 0 ? (next - time) / step : 1.0);
+            record(speed, i, step > 0 ? (next + scatter - time) / step : 1.0);
             next += recipe_.period;
+            if (kind_.clock > 0) scatter = kind_.clock * normal(generator_);
         }
         log_.recipe = recipe_;
     }

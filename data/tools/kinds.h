@@ -33,6 +33,7 @@ struct LogKind {
     double period;   ///< [s]
     double quantum;  ///< [mm]
     Fault fault;
+    double clock = 0;  ///< [s] standard deviation of the time at which a record is taken, as by a second computer
 };
 
 [[nodiscard]] std::span<const LogKind> log_kinds();
