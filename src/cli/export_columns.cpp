@@ -5,8 +5,8 @@
 #include <optional>
 #include <span>
 
-#include "cli/fields.h"
 #include "core/block.h"
+#include "pipeline/part_fields.h"
 
 namespace clsurf::cli {
 namespace {
@@ -88,7 +88,7 @@ std::vector<io::ExportColumn> exported_columns(const std::vector<std::string>& n
         columns.push_back(own ? std::move(*own) : io::ExportColumn());
     }
     if (fields.empty()) return columns;
-    std::vector<Field> computed = all_fields_of(part, surface).get_all(fields);
+    std::vector<Field> computed = fields_of(part, surface).get_all(fields);
     for (std::size_t i = 0; i < places.size(); ++i) columns[places[i]] = column_of(std::move(computed[i]));
     return columns;
 }

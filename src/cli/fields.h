@@ -1,17 +1,13 @@
 #pragma once
-// The fields that subcommands offer.
+// The names of fields, for help and completion.
 
 #include <vector>
 
-#include "field/field_set.h"
-#include "pipeline/part.h"
+#include "field/field.h"
 
 namespace clsurf::cli {
 
-/// Those of a part and its surface, which must outlive it.
-[[nodiscard]] FieldSet all_fields_of(const Part& part, const ClSurface& surface);
-
-/// Those that do not depend on a log's channels, for help and completion.
+/// Those that do not depend on a log's channels.
 [[nodiscard]] std::vector<FieldInfo> known_fields();
 
 }  // namespace clsurf::cli

@@ -5,11 +5,11 @@
 
 #include <fmt/format.h>
 
-#include "cli/fields.h"
 #include "cli/picture_output.h"
 #include "cli/plot_options.h"
 #include "cli/profile.h"
 #include "core/file_name.h"
+#include "pipeline/part_fields.h"
 
 namespace clsurf::cli {
 namespace {
@@ -72,7 +72,7 @@ ExitCode run_plot(const po::variables_map& values) {
                            {}});
     }
     std::string note;
-    const std::vector<Field> fields = all_fields_of(part, surface).get_all(options.fields);
+    const std::vector<Field> fields = fields_of(part, surface).get_all(options.fields);
     for (std::size_t f = 0; f < fields.size(); ++f) {
         const Field& field = fields[f];
         viz::Curve curve;

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "cli/fields.h"
 #include "core/error.h"
+#include "pipeline/part_fields.h"
 #include "viz/colour_map.h"
 
 namespace clsurf::cli {
@@ -61,7 +61,7 @@ ReportLog load_report_log(const PartOptions& part_options, const ReportOptions& 
     shown.quality = judge(shown.part, shown.surface, options.measured, {}, clock.stages());
     shown.part.diagnostics.append(shown.quality.diagnostics);
     clock.begin("compute the fields");
-    const FieldSet fields = all_fields_of(shown.part, shown.surface);
+    const FieldSet fields = fields_of(shown.part, shown.surface);
     const bool usual = options.fields.empty();
     for (Field& field : fields.get_all(usual ? fields.report_names(most_fields) : options.fields)) {
         // What was asked for by name must be there; of the usual ones a log has some.

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "cli/as_machined.h"
-#include "cli/fields.h"
 #include "pipeline/judge.h"
+#include "pipeline/part_fields.h"
 #include "predictor/outline.h"
 
 namespace clsurf::cli {
@@ -49,7 +49,7 @@ Shown load_shown(const PartOptions& options, const std::string& field, bool defe
     clock.begin("stitch the surface");
     shown.surface = stitch(shown.part);
     clock.begin("compute the field");
-    if (!options.formed) shown.field = all_fields_of(shown.part, shown.surface).get(field);
+    if (!options.formed) shown.field = fields_of(shown.part, shown.surface).get(field);
     if (defects)
         shown.defects = outline_defects(shown.part, shown.surface,
                                         options.formed ? shown.part.tool : std::optional<CuttingTool>(), clock);

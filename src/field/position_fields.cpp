@@ -8,7 +8,7 @@
 
 #include "core/block.h"
 #include "core/error.h"
-#include "mapping/tool_axes.h"
+#include "toolpath/tool_axes.h"
 #include "numeric/derivative.h"
 #include "surface/smoothing_segments.h"
 

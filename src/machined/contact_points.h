@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "machined/tool.h"
-#include "mapping/tool_axes.h"
+#include "toolpath/tool_axes.h"
 #include "surface/cl_surface.h"
 #include "surface/path_location.h"
 #include "toolpath/trajectory.h"

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "machined/tool.h"
-#include "mapping/tool_axes.h"
+#include "toolpath/tool_axes.h"
 #include "toolpath/trajectory.h"
 
 namespace clsurf {

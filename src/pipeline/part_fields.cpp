@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "field/channel_fields.h"
+#include "intervals/interval_fields.h"
 #include "pipeline/signals_of.h"
 #include "predictor/quality_fields.h"
 
@@ -21,6 +22,7 @@ FieldSet fields_of(const Part& part, const ClSurface& surface,
     fields.add(std::make_shared<const PositionFields>(part.log, part.path, surface.passes,
                                                       Derivation{estimate_motion(part, surface.passes), 0}));
     fields.add(std::make_shared<const QualityFields>(surface, [&] { return signals_alone(part, surface); }));
+    fields.add(std::make_shared<const IntervalFields>(part.program, part.lines));
     for (const auto& provider : more) fields.add(provider);
     fields.add(std::make_shared<const ChannelFields>(part.log));
     return fields;

@@ -1,5 +1,5 @@
 #pragma once
-// The fields of a part, in one registry: positions, the comparison with adjacent passes, other providers, channels.
+// The fields of a part, in one registry: positions, the comparison with adjacent passes, intervals, channels.
 
 #include <memory>
 #include <vector>

@@ -11,7 +11,7 @@
 #include "core/column.h"
 #include "core/error.h"
 #include "core/units.h"
-#include "mapping/tool_axes.h"
+#include "toolpath/tool_axes.h"
 
 namespace clsurf {
 
