@@ -12,9 +12,9 @@
 namespace clsurf {
 namespace {
 
-constexpr double easing = 0.97;     ///< of the speed that would just hold
-constexpr double turning = 1e-9;    ///< [rad] a block that turns less does not turn
-constexpr int places_of_block = 4;  ///< of a block, for a first guess of its speed
+constexpr double easing = 0.97;            ///< of the speed that would just hold
+constexpr double least_turn_angle = 1e-9;  ///< [rad] a block that turns less does not turn
+constexpr int places_of_block = 4;         ///< of a block, for a first guess of its speed
 std::array<AxisLimits, 5> limits_of(const Machine& machine) {
     std::array<AxisLimits, 5> limits{};
     for (std::size_t k = 0; k < 5; ++k) {
@@ -65,7 +65,7 @@ FiveAxisBlocks::FiveAxisBlocks(const Program& program, const Machine& machine, c
         ways_[i] = make_way(i, angles, to, feed);
         angles = ways_[i].at(1);
         // A block that only turns is a wait for the tip.
-        if (kind != MotionKind::dwell && !(elements_[i].length > 0) && turn_of(i) > turning) {
+        if (kind != MotionKind::dwell && !(elements_[i].length > 0) && turn_of(i) > least_turn_angle) {
             kind = MotionKind::dwell;
             motions.feed[i] = static_cast<float>(turning_time(i));
         } else if (kind != MotionKind::dwell && elements_[i].length > 0) {
@@ -137,7 +137,7 @@ double FiveAxisBlocks::turning_time(std::size_t i) const {
     const std::array<double, 2> turns{std::abs(b.tilt - a.tilt), std::abs(b.rotation - a.rotation)};
     double time = 0;
     for (std::size_t k = 0; k < 2; ++k) {
-        if (!(turns[k] > turning)) continue;
+        if (!(turns[k] > least_turn_angle)) continue;
         const AxisLimits& l = limits_[3 + k];
         // s(u) = u³ (10 − 15 u + 6 u²): greatest s′ 15/8, s″ 10/√3, s‴ 60.
         time = std::max({time, 1.875 * turns[k] / l.speed, std::sqrt(5.7735026918962576 * turns[k] / l.acceleration),
@@ -162,7 +162,7 @@ void FiveAxisBlocks::guess_cap(std::size_t i) {
         for (std::size_t axis = 0; axis < 5; ++axis) {
             const double slope = std::abs(now[axis] - before[axis]) / step;
             // An axis that goes no farther than the tip is as fast as the planner lets it be.
-            if (axis < 3 ? slope <= 1 + 1e-9 : slope * e.length <= turning) continue;
+            if (axis < 3 ? slope <= 1 + 1e-9 : slope * e.length <= least_turn_angle) continue;
             caps_[i] = std::min(caps_[i], easing * limits_[axis].speed / slope);
         }
         before = now;

@@ -12,9 +12,9 @@ namespace {
 
 constexpr double collinear = 0.01 * std::numbers::pi / 180;
 constexpr double reversal = 179.0 * std::numbers::pi / 180;
-constexpr double least_way = 1e-7;    ///< [mm] a shorter tangent is rounding
-constexpr double in_plane = 1e-9;     ///< of the chord: how far it may leave the plane of its tangents
-constexpr double most_of_turn = 0.9;  ///< of what a block may turn until the arc would be a half circle
+constexpr double least_way = 1e-7;        ///< [mm] a shorter tangent is rounding
+constexpr double plane_tolerance = 1e-9;  ///< of the chord: how far it may leave the plane of its tangents
+constexpr double most_of_turn = 0.9;      ///< of what a block may turn until the arc would be a half circle
 
 /// Of a way between 0, where f is negative, and `high`, where it is not.
 template <typename F>
@@ -82,8 +82,8 @@ public:
         arc.middle = arc.centre - arc.radius * normal_.cross(chord).normalized();
         arc.error = std::abs((before_.point(0) - arc.centre).norm() - arc.radius);
         const Vec3 along = (arc.tangent + leaving).normalized();
-        const bool tangent_to_both = (chord - chord.norm() * along).norm() <= in_plane * chord.norm() &&
-                                     std::abs(arc.tangent.dot(normal_)) <= in_plane;
+        const bool tangent_to_both = (chord - chord.norm() * along).norm() <= plane_tolerance * chord.norm() &&
+                                     std::abs(arc.tangent.dot(normal_)) <= plane_tolerance;
         arc.kind = tangent_to_both && arc.sweep > 0 ? CornerKind::arc : CornerKind::none;
         return arc;
     }

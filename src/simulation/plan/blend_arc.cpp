@@ -58,7 +58,7 @@ void take_arc(Side& side, const Vec3& corner, const Vec3& other_tangent, double 
 }
 
 /// Whether the arc lies in the plane of the corner.
-bool in_plane(const Side& side, const Vec3& binormal) {
+bool lies_in_plane(const Side& side, const Vec3& binormal) {
     if (!side.segment->curved()) return true;
     const Vec3 normal = side.segment->path.first.cross(side.segment->path.second);
     return std::min((normal - binormal).norm(), (normal + binormal).norm()) < no_angle;
@@ -159,7 +159,7 @@ void cut(BlendSegment& segment, double from, double to) {
 }
 
 /// A corner with both of its sides.
-struct Corner {
+struct CornerSides {
     Side in, out;
     Vec3 point = Vec3::Zero(), binormal = Vec3::Zero();
     BlendCorner limits;
@@ -168,8 +168,8 @@ struct Corner {
 };
 
 /// What bounds the arc of a corner. None: the corner is straight on, a reversal or not in one plane.
-std::optional<Corner> corner_of(const BlendSegment& before, const BlendSegment& after, const Machine& machine) {
-    Corner corner;
+std::optional<CornerSides> corner_of(const BlendSegment& before, const BlendSegment& after, const Machine& machine) {
+    CornerSides corner;
     Side& in = corner.in = side_of(before, true);
     Side& out = corner.out = side_of(after, false);
     corner.point = after.path.begin;
@@ -180,7 +180,7 @@ std::optional<Corner> corner_of(const BlendSegment& before, const BlendSegment& 
     limits.half_angle = half_angle;
     take_arc(in, corner.point, out.tangent, half_angle, limits.half_angle);
     take_arc(out, corner.point, in.tangent, half_angle, limits.half_angle);
-    if (!in_plane(in, corner.binormal) || !in_plane(out, corner.binormal)) return std::nullopt;
+    if (!lies_in_plane(in, corner.binormal) || !lies_in_plane(out, corner.binormal)) return std::nullopt;
     if (before.curved() && after.curved() && limits.half_angle < sharpest_of_arcs) return std::nullopt;
     limits.length_in = in.length;
     limits.length_out = out.length;
@@ -199,7 +199,7 @@ std::optional<Corner> corner_of(const BlendSegment& before, const BlendSegment& 
 }
 
 /// Sets the limits of an arc between two blocks.
-void finish_arc(BlendSegment& arc, const Corner& corner, double speed, double period) {
+void finish_arc(BlendSegment& arc, const CornerSides& corner, double speed, double period) {
     const BlendSegment& before = *corner.in.segment;
     const BlendSegment& after = *corner.out.segment;
     arc.path.take_block(after.path);
@@ -217,7 +217,7 @@ void finish_arc(BlendSegment& arc, const Corner& corner, double speed, double pe
 }
 
 /// The arc of a size in its corner. None: it leaves the tolerance or its part of a block, or is not tangent.
-std::optional<BlendedCorner> place_arc(const Corner& corner, const BlendSize& size, const Machine& machine) {
+std::optional<BlendedCorner> place_arc(const CornerSides& corner, const BlendSize& size, const Machine& machine) {
     const Side& in = corner.in;
     const Side& out = corner.out;
     const BlendSegment& before = *in.segment;
@@ -278,7 +278,7 @@ double least_in_plane(const Vec3& normal, const Vec3& limits) {
 
 std::optional<BlendedCorner> blend_corner(const BlendSegment& before, const BlendSegment& after,
                                           const Machine& machine) {
-    const std::optional<Corner> corner = corner_of(before, after, machine);
+    const std::optional<CornerSides> corner = corner_of(before, after, machine);
     if (!corner) return std::nullopt;
     const BlendSize size = blend_size(corner->limits);
     const double turning = pi - 2 * corner->limits.half_angle;
