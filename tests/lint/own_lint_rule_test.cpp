@@ -30,8 +30,9 @@ constexpr LintRule slow{
 
 Program slow_pass() {
     std::string text = wavy_zigzag(9, 12, [](int, double) { return 0.3; });
-    const std::size_t fourth = text.find("\n", text.find("Y1.2000"));
-    return read_text(text.insert(fourth, " F600"));
+    text.insert(text.find('\n', text.find("Y1.2000")), " F600");  // the fourth pass
+    text.insert(text.find('\n', text.find("Y1.6000")), " F3000");
+    return read_text(text);
 }
 
 TEST(OwnLintRule, IsOneRow) {
