@@ -25,7 +25,7 @@ struct ProgramOptions {
 /// Throws InputError (unreadable, empty, wrong arc, endless loop, tool table), UsageError (unknown dialect).
 [[nodiscard]] Program read_program(const std::string& path, const ProgramOptions& options = {});
 [[nodiscard]] Program read_program(const Source& source, const ProgramOptions& options = {});
-/// The same for who goes through its motions once: they never stand in memory whole. Positions are the machine's. Positions are the machine's.
+/// The same for who goes through its motions once: they never stand in memory whole. Positions are the machine's.
 [[nodiscard]] std::unique_ptr<ProgramReader> open_program(const Source& source, const ProgramOptions& options = {});
 
 /// Whether a file begins as an NC program does: text, most of its lines blocks or comments. O(1).

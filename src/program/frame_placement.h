@@ -67,7 +67,8 @@ private:
     Vec3 nominal_machine_ = machine_;
 };
 
-/// A whole program at once. Returns the pose that leads from the coordinates to the machine's.
+/// A whole program at once. Returns the pose that leads from the coordinates to the machine's. Domain: each motion is in
+/// its own work system, as parsing leaves it, and as io::read_program() does with ProgramOptions::coordinates nullopt.
 Eigen::Isometry3d place_motions(Program& program, const FramePoses& poses = {},
                                 Coordinates coordinates = Coordinates::workpiece);
 

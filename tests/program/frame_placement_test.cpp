@@ -56,6 +56,18 @@ TEST(WorkFrames, ASystemIsTurnedAboutItsZero) {
     EXPECT_NEAR(program.motions.arcs[0].centre.y, 7.5, 1e-12);
 }
 
+TEST(WorkFrames, SystemsShiftsAndRotationsTogether) {
+    // machine = G55 + turned by 30° (word + G92): cos 30° = 0.866025.
+    const char* text =
+        "G21 G90 G17\nG10 L2 P1 X5 Y-3 Z2\nG10 L2 P2 X120 Y30 Z-4 R30\nG54 F2500\nG1 X20 Y0 Z0\nG55\nG1 X20 Y5 Z0\n"
+        "X0 Y0\nG92 X3 Y4\nX10 Y10\nM2\n";
+    Program program = parse(text, "linuxcnc");
+    place_motions(program, {}, Coordinates::machine);
+    const std::vector<Vec3> ends{{25, -3, 2}, {134.820508, 44.330127, -4}, {120, 30, -4}, {123.062178, 38.696152, -4}};
+    ASSERT_EQ(program.motions.end.size(), ends.size());
+    for (std::size_t i = 0; i < ends.size(); ++i) EXPECT_LT((program.motions.end[i].vec() - ends[i]).norm(), 1e-5) << i;
+}
+
 TEST(WorkFrames, ATurnedArcOfG18BecomesChordsOnItsCircle) {
     Program program = parse("G21 G90 G18\nG10 L2 P1 R30\nG54 G0 X0 Y0 Z0\nG2 X10 Z0 I5 F600\nG1 X20\nM2\n", "linuxcnc");
     const std::int64_t before = program.motions.size();
