@@ -3,12 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
 
 #include "simulation/path/junction.h"
 #include "simulation/path/transition_arc.h"
+#include "support/made_motion.h"
 #include "support/vector_rows.h"
 
 namespace clsurf {
@@ -215,6 +217,20 @@ TEST(TransitionArc, OfBlocksOutOfPlaneThereIsNone) {
     a.centre = Xyz(0, 5, 0);
     const PathElement helix = element_of(MotionKind::ccw, &a, Vec3::Zero(), Vec3(5, 5, 3));
     EXPECT_EQ(transition_arc(line(Vec3(0, 5, 0), Vec3::Zero()), helix, 0.01).kind, CornerKind::none);
+}
+
+TEST(Corner, IsRoundedBesideAnExactPath) {
+    // The second line goes straight on from G64 to G61: no stop, and no rounding may reach the exact part.
+    Machine machine;
+    const Recorded r = run_program(program_of("G21 G90 G64 P0.1\nG1 X5 F1800\nY0.05\nG61\nY5\nM2\n"), machine);
+    EXPECT_TRUE(r.summary.limits_ok) << r.summary.max_acceleration.transpose() << ", jerk "
+                                     << r.summary.max_jerk.transpose();
+    EXPECT_GT(r.summary.path_deviation, 0.001);
+    double aside = 0;  // of the exact path
+    for (const SimulatedPoint& p : r.points) {
+        if (p.commanded.y() > 0.05) aside = std::max(aside, std::abs(p.commanded.x() - 5));
+    }
+    EXPECT_LT(aside, 1e-9);
 }
 
 }  // namespace

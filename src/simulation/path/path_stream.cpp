@@ -120,8 +120,12 @@ void PathStream::settle_width(std::int64_t i) {
     if (closed_) widest = std::min(widest, closed_at_ - j.at);
     if (i - reach_of_a_joint >= 0) widest = std::min(widest, j.at - joint(i - reach_of_a_joint).at);
     if (i + reach_of_a_joint <= last) widest = std::min(widest, joint(i + reach_of_a_joint).at - j.at);
-    if (!(widest > 0)) return;
     const std::int64_t low = std::max(first_joint_, i - reach_of_a_joint), high = std::min(last, i + reach_of_a_joint);
+    // It ends before an exact path begins. Scaled by the tolerance there, it would have no width at all.
+    for (std::int64_t n = low; n <= high; ++n) {
+        if (joint(n).tolerance == 0) widest = std::min(widest, std::abs(joint(n).at - j.at));
+    }
+    if (!(widest > 0)) return;
     // Σ |Δt| (w − |d|)³/(6 w²) is convex in w: from anywhere Newton's method comes down to the root from above.
     double width = widest;
     if (i > low && joint(i - 1).width > 0) width = std::min(widest, joint(i - 1).width);
