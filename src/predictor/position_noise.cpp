@@ -14,13 +14,13 @@ constexpr std::array<double, records> fourth_difference{1, -4, 6, -4, 1};
 constexpr double gain = 8.3666;              ///< √70: of a fourth difference on independent errors
 constexpr double calm_share = 0.25;          ///< of all fourth differences
 constexpr double calm_deviation = 0.318639;  ///< normal errors are smaller than this many deviations with that share
-constexpr PointIndex most_samples = 20'000;
+constexpr PointIndex most_noise_samples = 20'000;
 constexpr std::size_t fewest_samples = 100;
 
 }  // namespace
 
 double position_noise(const Trajectory& path, const std::vector<PointRange>& pieces) {
-    const PointIndex stride = std::max<PointIndex>(1, path.count / most_samples);
+    const PointIndex stride = std::max<PointIndex>(1, path.count / most_noise_samples);
     std::array<std::array<double, records>, 3> p{};
     std::vector<float> differences;
     PointIndex next = 0;
