@@ -15,22 +15,23 @@ using Vec3f = Eigen::Vector3f;
 
 constexpr std::int64_t longest_gap = 512;  ///< vertices of a pass between two that have a neighbour, and of a seam
 constexpr float longest_seam =
-    10.0F;  ///< way of both passes along a seam, in widths of the band; of a gap, in step-overs
+    10.0F;  ///< arc length of both passes along a seam, in widths of the band; of a gap, in step-overs
 constexpr float widest_seam = 2.2F;          ///< of an edge of a seam, in widths of the band that it goes on from
-constexpr double tangent_step_overs = 0.08;  ///< way on either side that gives the direction at a vertex
+constexpr double tangent_step_overs = 0.08;  ///< arc length on either side that gives the direction at a vertex
 constexpr float most_askew = 0.3F;           ///< cosine between the way and what lies across it
 constexpr float missing_width = 1.7F;        ///< of a gap, in widths of those beside it, that a pass is missing from
 constexpr float least_width = 0.6F;          ///< of a band, in step-overs; a narrower one already runs into a corner
 constexpr float widest_end = 1.5F;           ///< of a seam between two ends, in widths
 constexpr float leading_away = 0.85F;        ///< growth of the edge with the way, above which the way leads away
-constexpr float corner_play = 1.03F;         ///< growth of an edge that is still at the ends of its passes
+constexpr float corner_tolerance = 1.03F;    ///< growth of an edge that is still at the ends of its passes
 constexpr float closed_seam = 0.5F;          ///< width at which a seam ends, likewise
-constexpr float longest_fan_way = 8.0F;    ///< way of a neighbour that one step may span beyond its own, in step-overs
+constexpr float longest_fan_arc_length =
+    8.0F;  ///< arc length of a neighbour that one step may span beyond its own, in step-overs
 constexpr std::int64_t longest_fan = 256;  ///< vertices of a neighbour that one step may span
 
 class Bander {
 public:
-    Bander(const ClSurface& surface, const WayVertices& vertices, const NearnessFrame& frame, float reach)
+    Bander(const ClSurface& surface, const SectionVertices& vertices, const NearnessFrame& frame, float reach)
         : s_(surface), v_(vertices), frame_(frame), reach_(reach) {
         const auto count = static_cast<std::int64_t>(v_.points.size());
         for (const Side side : {Side::left, Side::right}) across(side).resize(v_.points.size());
@@ -74,7 +75,7 @@ private:
     }
 
     static constexpr std::int32_t none = -1;   ///< across a vertex there is nothing
-    static constexpr std::int32_t later = -2;  ///< … a later part of the way, which makes the band itself
+    static constexpr std::int32_t later = -2;  ///< … a later part of the path, which makes the band itself
     static constexpr std::int32_t apart = -3;  ///< … a pass that is not the next one: one is missing between
 
     [[nodiscard]] Column<std::int32_t>& across(Side side) { return side == Side::left ? left_ : right_; }
@@ -93,8 +94,9 @@ private:
         const PointIndex m = s_.neighbours.neighbour(side, i);
         const std::int64_t a = m < i ? vertex_of(m) : -1;
         if (m < i && (a < 0 || link(a))) return none;
-        const auto way = static_cast<float>(tangent_step_overs * s_.step_over);
-        const Vec3f tangent = s_.positions[point(moved(b, +1, way))] - s_.positions[point(moved(b, -1, way))];
+        const auto arc_length = static_cast<float>(tangent_step_overs * s_.step_over);
+        const Vec3f tangent =
+            s_.positions[point(moved(b, +1, arc_length))] - s_.positions[point(moved(b, -1, arc_length))];
         const Vec3f d = s_.positions[m < i ? point(a) : m] - s_.positions[i];
         const float along = std::abs(d.dot(tangent));
         // Vertices are not everywhere: the one across may be half a step off.
@@ -134,7 +136,7 @@ private:
         const float step = distance(vertex - 1, vertex);
         if (std::abs(distance(vertex, now) - distance(vertex - 1, before)) <= play + 0.5F * step) return true;
         // Where vertices lie far apart, those across stand before or behind: their distance tells little then.
-        return way_but_one_chord(before, now) <= play + step;
+        return arc_length_but_one_chord(before, now) <= play + step;
     }
 
     /// A bend sees another bend across itself for a moment, and what follows a turn the pass beyond its
@@ -148,10 +150,11 @@ private:
         parallel_for(count, grain, [&](std::int64_t first, std::int64_t last) {
             for (std::int64_t b = first; b < last; ++b) {
                 if (earlier(b, side) == none || same_across(b, side)) continue;
-                float way = 0;
+                float arc_length = 0;
                 std::int64_t end = b + 1;
-                for (; end < count && way < least && same_across(end, side); ++end) way += distance(end - 1, end);
-                if (way >= least || !joined(b) || end == count || !joined(end)) continue;
+                for (; end < count && arc_length < least && same_across(end, side); ++end)
+                    arc_length += distance(end - 1, end);
+                if (arc_length >= least || !joined(b) || end == count || !joined(end)) continue;
                 for (std::int64_t v = b; v < end; ++v) found[static_cast<std::size_t>(first / grain)].push_back(v);
             }
         });
@@ -161,22 +164,23 @@ private:
     }
 
     /// A vertex some way [mm] on, or as far as the way goes on.
-    [[nodiscard]] std::int64_t moved(std::int64_t vertex, int direction, float way) const {
+    [[nodiscard]] std::int64_t moved(std::int64_t vertex, int direction, float arc_length) const {
         const std::int64_t from = vertex;
         constexpr std::int64_t farthest = 32;
         while (std::abs(vertex - from) < farthest && goes_on(vertex, direction)) {
             vertex += direction;
-            if (distance(vertex, from) >= way) break;
+            if (distance(vertex, from) >= arc_length) break;
         }
         return vertex;
     }
 
     /// The first vertex with any neighbour on a side, in a direction; −1: none that is joined and near.
     [[nodiscard]] std::int64_t beyond_gap(std::int64_t vertex, int direction, Side side) const {
-        float way = 0;
+        float arc_length = 0;
         const float longest = longest_seam * static_cast<float>(s_.step_over);
-        for (std::int64_t looked = 0; looked < longest_gap && way < longest && goes_on(vertex, direction); ++looked) {
-            way += distance(vertex, vertex + direction);
+        for (std::int64_t looked = 0; looked < longest_gap && arc_length < longest && goes_on(vertex, direction);
+             ++looked) {
+            arc_length += distance(vertex, vertex + direction);
             vertex += direction;
             if (earlier(vertex, side) != none) return has_earlier(vertex, side) ? vertex : -1;
         }
@@ -223,8 +227,8 @@ private:
         bool through_links = false;
         float most_at_ends = 0;  // width of the edge up to which it stays between the ends
         float now = first;
-        float way = 0;        // of both passes
-        bool turned = false;  // both ways lead away from each other
+        float arc_length = 0;  // of both passes
+        bool turned = false;   // both ways lead away from each other
         for (std::int64_t moved = 0; moved < longest_gap; ++moved) {
             if (a_step > 0 && b_step < 0 && b - a <= 1) return false;  // met in the turn
             const bool a_may = may_move(a, a_step, b_step > 0, through_links, a_step == b_step);
@@ -233,14 +237,14 @@ private:
                 if (through_links) break;
                 at_ends = triangles.size();
                 through_links = true;
-                most_at_ends = corner_play * distance(a, b);
+                most_at_ends = corner_tolerance * distance(a, b);
                 continue;
             }
             const float if_a = a_may ? distance(a + a_step, b) : std::numeric_limits<float>::infinity();
             const float if_b = b_may ? distance(a, b + b_step) : std::numeric_limits<float>::infinity();
             const float length = std::min(if_a, if_b);
-            way += if_a <= if_b ? distance(a, a + a_step) : distance(b, b + b_step);
-            if (length > widest_seam * width || way > longest_seam * width) break;
+            arc_length += if_a <= if_b ? distance(a, a + a_step) : distance(b, b + b_step);
+            if (length > widest_seam * width || arc_length > longest_seam * width) break;
             // Where a turn is not told from its passes its corners are their ends.
             if (!turned && !through_links && now < widest_end * width &&
                 (!a_may || if_a - now > leading_away * distance(a, a + a_step)) &&
@@ -275,9 +279,9 @@ private:
     /// In which direction the other pass goes on where the own one goes in b_step: not the one that leads back
     /// along the band.
     [[nodiscard]] int step_across(std::int64_t a, std::int64_t b, int b_step) const {
-        const auto way = static_cast<float>(s_.step_over);
+        const auto arc_length = static_cast<float>(s_.step_over);
         const auto chord = [&](std::int64_t from, int direction) -> Vec3f {
-            return s_.positions[point(moved(from, direction, way))] - s_.positions[point(from)];
+            return s_.positions[point(moved(from, direction, arc_length))] - s_.positions[point(from)];
         };
         const Vec3f back = chord(b, -b_step);
         return chord(a, +1).dot(back) > chord(a, -1).dot(back) ? -1 : 1;
@@ -318,26 +322,27 @@ private:
     }
 
     /// The way [mm] from a vertex to another but for its longest chord: where vertices lie far apart, one chord can be longer
-    /// than what is far for many. Infinite where they are not on one piece of the way, or many vertices lie between.
-    [[nodiscard]] float way_but_one_chord(std::int64_t from, std::int64_t to) const {
+    /// than what is far for many. Infinite where they are not on one piece of the path, or many vertices lie between.
+    [[nodiscard]] float arc_length_but_one_chord(std::int64_t from, std::int64_t to) const {
         if (std::abs(to - from) > longest_fan) return std::numeric_limits<float>::infinity();
         const int direction = to >= from ? 1 : -1;
-        float way = 0;
+        float arc_length = 0;
         float longest = 0;
         for (std::int64_t k = from; k != to; k += direction) {
             if (!goes_on(k, direction)) return std::numeric_limits<float>::infinity();
             const float chord = distance(k, k + direction);
-            way += chord;
+            arc_length += chord;
             longest = std::max(longest, chord);
         }
-        return way - longest;
+        return arc_length - longest;
     }
 
     /// Triangles from a vertex to the neighbour's from one vertex to another, beside a step [mm] of the own way. False where
-    /// they are not on one piece of the way, or far apart: a jump to another piece is no neighbour.
+    /// they are not on one piece of the path, or far apart: a jump to another piece is no neighbour.
     bool fan(std::int64_t own, std::int64_t from, std::int64_t to, float own_step,
              Column<std::uint32_t>& triangles) const {
-        if (way_but_one_chord(from, to) > longest_fan_way * static_cast<float>(s_.step_over) + own_step) return false;
+        if (arc_length_but_one_chord(from, to) > longest_fan_arc_length * static_cast<float>(s_.step_over) + own_step)
+            return false;
         const int direction = to >= from ? 1 : -1;
         for (std::int64_t k = from; k != to; k += direction) {
             add(triangles, static_cast<std::uint32_t>(own), static_cast<std::uint32_t>(k),
@@ -353,7 +358,7 @@ private:
     }
 
     const ClSurface& s_;
-    const WayVertices& v_;
+    const SectionVertices& v_;
     NearnessFrame frame_;
     float reach_;
     Column<std::int32_t> left_, right_;  ///< per vertex: the vertex across, or none, or later
@@ -361,22 +366,22 @@ private:
 
 }  // namespace
 
-Passes pieces_of_way(const ClSurface& surface) {
+Passes sections_of_path(const ClSurface& surface) {
     Passes pieces;
-    JogCutter cutter(surface.jogs);
+    StepOverMoveCutter cutter(surface.step_over_moves);
     for (const Pass& pass : surface.passes) {
-        cutter.cut({pass.first, pass.last}, [&](const PointRange& part, bool jog) {
-            pieces.push_back({part.first, part.last, jog ? PassKind::link : pass.kind});
+        cutter.cut({pass.first, pass.last}, [&](const PointRange& part, bool step_over_move) {
+            pieces.push_back({part.first, part.last, step_over_move ? PassKind::link : pass.kind});
         });
     }
     return pieces;
 }
 
-WayVertices way_vertices(const ClSurface& surface, std::span<const PointIndex> points) {
-    WayVertices vertices;
+SectionVertices section_vertices(const ClSurface& surface, std::span<const PointIndex> points) {
+    SectionVertices vertices;
     vertices.points.reserve(points.size());
     std::size_t at = 0;
-    const Passes pieces = pieces_of_way(surface);
+    const Passes pieces = sections_of_path(surface);
     for (std::size_t k = 0; k < pieces.size(); ++k) {
         const Pass& piece = pieces[k];
         const bool rapid = !is_of_surface(piece.kind);
@@ -392,7 +397,7 @@ WayVertices way_vertices(const ClSurface& surface, std::span<const PointIndex> p
     return vertices;
 }
 
-Bands join_passes(const ClSurface& surface, const WayVertices& vertices, const NearnessFrame& frame, float reach) {
+Bands join_passes(const ClSurface& surface, const SectionVertices& vertices, const NearnessFrame& frame, float reach) {
     Bands all;
     const auto count = static_cast<std::int64_t>(vertices.points.size());
     const Bander bander(surface, vertices, frame, reach);

@@ -12,7 +12,7 @@
 namespace clsurf::viz {
 
 /// Points of a surface in their order.
-struct WayVertices {
+struct SectionVertices {
     Column<PointIndex> points;
     Column<std::uint8_t> joined;  ///< 1: goes on from the vertex before
     Column<std::uint8_t> links;   ///< 1: on the way from one pass to the next
@@ -20,11 +20,11 @@ struct WayVertices {
 
 /// The passes with the steps sideways between closed loops as links of their own: bands end there, so that how
 /// fast such a step was made is not drawn into the passes beside it.
-[[nodiscard]] Passes pieces_of_way(const ClSurface& surface);
+[[nodiscard]] Passes sections_of_path(const ClSurface& surface);
 
 /// The vertices of points, rising: one each; those of rapids are joined to nothing. Domain: the ends of
 /// all passes and links are among them.
-[[nodiscard]] WayVertices way_vertices(const ClSurface& surface, std::span<const PointIndex> points);
+[[nodiscard]] SectionVertices section_vertices(const ClSurface& surface, std::span<const PointIndex> points);
 
 struct Bands {
     Column<std::uint32_t> triangles;  ///< 3 vertex numbers each
@@ -39,7 +39,7 @@ struct NearnessFrame {
 
 /// A point is stood for by the vertex before or after it, whichever is nearer in `frame`; by none that is farther
 /// than `reach` there. O(vertices), parallel.
-[[nodiscard]] Bands join_passes(const ClSurface& surface, const WayVertices& vertices, const NearnessFrame& frame,
+[[nodiscard]] Bands join_passes(const ClSurface& surface, const SectionVertices& vertices, const NearnessFrame& frame,
                                 float reach);
 
 }  // namespace clsurf::viz

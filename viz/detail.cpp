@@ -19,7 +19,7 @@ constexpr float reach_steps = 6;  ///< from a point to the vertex that stands fo
 constexpr float margin = 4.0F;    ///< [px] round the picture that is kept
 
 /// Vertices of a part of a pass, and the mean over the points of each.
-struct Vertices : WayVertices {
+struct Vertices : SectionVertices {
     Column<float> values;
 };
 
@@ -160,7 +160,7 @@ void put_normals(Geometry& geometry) {
 Detail visible_detail(const ClSurface& surface, std::span<const float> values, const DetailRequest& request) {
     const Projector projector(surface, request);
     const auto step = static_cast<float>(request.vertex_step);
-    const std::vector<Part> parts = parts_of(pieces_of_way(surface));
+    const std::vector<Part> parts = parts_of(sections_of_path(surface));
     std::vector<Vertices> of_part(parts.size());
     parallel_for(static_cast<std::int64_t>(parts.size()), 1, [&](std::int64_t first, std::int64_t last) {
         for (std::int64_t k = first; k < last; ++k) {

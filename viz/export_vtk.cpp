@@ -37,7 +37,7 @@ CellColumns cells_of(const ClSurface& surface) {
     }
     Column<PointIndex> every(static_cast<std::size_t>(surface.positions.size()));
     std::iota(every.begin(), every.end(), PointIndex{0});
-    const WayVertices vertices = way_vertices(surface, every);
+    const SectionVertices vertices = section_vertices(surface, every);
     const Bands bands = join_passes(surface, vertices, {}, static_cast<float>(surface.step_over));
     cells.triangles.resize(bands.triangles.size());
     for (std::size_t k = 0; k < bands.triangles.size(); ++k) cells.triangles[k] = vertices.points[bands.triangles[k]];

@@ -27,16 +27,16 @@ struct PlanePass {
 
 /// Points of a polyline at equal distances of at most `spacing`.
 Line2 resampled(const Line2& line, double spacing) {
-    std::vector<double> way(line.size(), 0);
-    for (std::size_t i = 1; i < line.size(); ++i) way[i] = way[i - 1] + (line[i] - line[i - 1]).norm();
-    const auto n = static_cast<std::size_t>(std::max(1.0, std::ceil(way.back() / spacing)));
+    std::vector<double> arc_length(line.size(), 0);
+    for (std::size_t i = 1; i < line.size(); ++i) arc_length[i] = arc_length[i - 1] + (line[i] - line[i - 1]).norm();
+    const auto n = static_cast<std::size_t>(std::max(1.0, std::ceil(arc_length.back() / spacing)));
     Line2 out;
     std::size_t k = 1;
     for (std::size_t i = 0; i <= n; ++i) {
-        const double s = way.back() * static_cast<double>(i) / static_cast<double>(n);
-        while (k + 1 < line.size() && way[k] < s) ++k;
-        const double step = way[k] - way[k - 1];
-        out.push_back(line[k - 1] + (step > 0 ? (s - way[k - 1]) / step : 0.0) * (line[k] - line[k - 1]));
+        const double s = arc_length.back() * static_cast<double>(i) / static_cast<double>(n);
+        while (k + 1 < line.size() && arc_length[k] < s) ++k;
+        const double step = arc_length[k] - arc_length[k - 1];
+        out.push_back(line[k - 1] + (step > 0 ? (s - arc_length[k - 1]) / step : 0.0) * (line[k] - line[k - 1]));
     }
     return out;
 }

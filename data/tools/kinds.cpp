@@ -75,11 +75,11 @@ std::uint64_t hash_of(std::string_view text) {
     return hash;
 }
 
-/// A fault on a course: 1 inside its stretch, raised-cosine edges.
-struct Stretch {
+/// A fault on a course: 1 inside its section, raised-cosine edges.
+struct Section {
     std::size_t defect = 0;  ///< index into the recipe's
     std::size_t first = 0, last = 0;
-    double middle = 0;  ///< way along the course [mm]
+    double middle = 0;  ///< arc length along the course [mm]
 };
 
 class Maker {
@@ -88,9 +88,9 @@ public:
         : kind_(kind), generator_(seed * 2654435761ULL + hash_of(kind.name)) {
         draw_sizes(seed);
         course_ = lay_course(shape_);
-        way_.assign(course_.size(), 0);
+        arc_length_.assign(course_.size(), 0);
         for (std::size_t i = 1; i < course_.size(); ++i)
-            way_[i] = way_[i - 1] + (course_[i].at - course_[i - 1].at).norm();
+            arc_length_[i] = arc_length_[i - 1] + (course_[i].at - course_[i - 1].at).norm();
         for (std::size_t i = 0; i < course_.size(); ++i) {
             const int pass = course_[i].pass;
             if (pass < 0) continue;
@@ -139,8 +139,8 @@ private:
         recipe_.noise = uniform(g, 0.0001, 0.0004);
     }
 
-    [[nodiscard]] double way_of(std::size_t pass) const {
-        return way_[passes_[pass].second] - way_[passes_[pass].first];
+    [[nodiscard]] double arc_length_of(std::size_t pass) const {
+        return arc_length_[passes_[pass].second] - arc_length_[passes_[pass].first];
     }
 
     /// The point of a pass that is nearest to a place.
@@ -181,25 +181,26 @@ private:
         Generator& g = generator_;
         const Fault fault = draw_fault();
         const auto pass = static_cast<std::size_t>(whole(g, 0, static_cast<int>(passes_.size()) - 1));
-        const double whole_way = way_of(pass);
+        const double whole_arc_length = arc_length_of(pass);
         const double speed = recipe_.feed;
         double length = std::max(uniform(g, 1.0, 3.5), speed * uniform(g, 0.05, 0.12));
         if (fault == Fault::short_dip) length = std::max(0.8, speed * uniform(g, 0.045, 0.065));
-        if (fault == Fault::long_dip) length = whole_way / 3;
+        if (fault == Fault::long_dip) length = whole_arc_length / 3;
         const double edge = std::max(0.3, 0.01 * speed);
         // Ramps of a pass are its own matter: the tool must have come up to speed.
         const double ramp = speed * speed / (2 * acceleration_) + speed * jerk_seconds;
         double room = 3 + ramp + 0.5 * length + edge;
         double middle = 0;
-        if (2 * room >= whole_way) return;
-        middle = uniform(g, room, whole_way - room);
+        if (2 * room >= whole_arc_length) return;
+        middle = uniform(g, room, whole_arc_length - room);
         if (fault == Fault::end_dip) {
             middle = uniform(g, 3, 8) + std::max(0.0, ramp - 3) + 0.5 * length + edge;
-            if (middle > 0.5 * whole_way) return;
-            if (whole(g, 0, 1) == 1) middle = whole_way - middle;
+            if (middle > 0.5 * whole_arc_length) return;
+            if (whole(g, 0, 1) == 1) middle = whole_arc_length - middle;
         }
         const auto at = static_cast<std::size_t>(
-            std::lower_bound(way_.begin(), way_.end(), way_[passes_[pass].first] + middle) - way_.begin());
+            std::lower_bound(arc_length_.begin(), arc_length_.end(), arc_length_[passes_[pass].first] + middle) -
+            arc_length_.begin());
         const Vec3 place = course_[at].at;
         const double apart = 6 + length;
         if (std::any_of(taken.begin(), taken.end(), [&](const Vec3& t) { return (t - place).norm() < apart; })) return;
@@ -253,9 +254,9 @@ private:
         return d;
     }
 
-    /// The defect's stretches on its passes; false where one of them lies elsewhere.
+    /// The defect's sections on its passes; false where one of them lies elsewhere.
     bool lay(Defect d, const Vec3& place) {
-        std::vector<Stretch> stretches;
+        std::vector<Section> sections;
         Vec3 here = place;
         for (int pass = d.first_pass; pass <= d.last_pass; ++pass) {
             if (static_cast<std::size_t>(pass) >= passes_.size()) return false;
@@ -263,7 +264,7 @@ private:
             if ((course_[at].at - here).norm() > 2.5 * shape_.step_over) return false;
             here = course_[at].at;
             const auto& range = passes_[static_cast<std::size_t>(pass)];
-            stretches.push_back({recipe_.defects.size(), range.first, range.second, way_[at]});
+            sections.push_back({recipe_.defects.size(), range.first, range.second, arc_length_[at]});
         }
         // Waves keep their length in time: what shows at 4 ms is longer.
         d.wave = std::max({1.0, 0.02 * recipe_.feed, 6 * recipe_.period * recipe_.feed});
@@ -274,20 +275,20 @@ private:
             d.to = middle + half;
         }
         recipe_.defects.push_back(d);
-        stretches_.insert(stretches_.end(), stretches.begin(), stretches.end());
+        sections_.insert(sections_.end(), sections.begin(), sections.end());
         return true;
     }
 
-    /// f(defect, window, way from the middle) for the faults that act at a place of the course.
+    /// f(defect, window, arc length from the middle) for the faults that act at a place of the course.
     template <typename F>
     void for_each_fault(std::size_t i, double s, F&& f) const {
-        for (const Stretch& stretch : stretches_) {
-            if (i < stretch.first || i > stretch.last) continue;
-            const Defect& d = recipe_.defects[stretch.defect];
+        for (const Section& section : sections_) {
+            if (i < section.first || i > section.last) continue;
+            const Defect& d = recipe_.defects[section.defect];
             const double half = 0.5 * (d.to - d.from);
-            const double off = s - stretch.middle;
+            const double off = s - section.middle;
             const double u = std::clamp((half + d.edge - std::abs(off)) / d.edge, 0.0, 1.0);
-            if (u > 0) f(stretch.defect, 0.5 - 0.5 * std::cos(pi * u), off);
+            if (u > 0) f(section.defect, 0.5 - 0.5 * std::cos(pi * u), off);
         }
     }
 
@@ -295,7 +296,7 @@ private:
     void offset_points() {
         for (std::size_t i = 0; i < course_.size(); ++i) {
             double off = 0;
-            for_each_fault(i, way_[i], [&](std::size_t k, double window, double) {
+            for_each_fault(i, arc_length_[i], [&](std::size_t k, double window, double) {
                 if (recipe_.defects[k].kind == Kind::offset) off += window * recipe_.defects[k].amplitude;
             });
             course_[i].at += off * course_[i].normal;
@@ -319,10 +320,10 @@ private:
             line_of_[i] = line;
             const bool last = i + 1 == course_.size();
             const bool turns = !last && (course_[i + 1].motion != course_[i].motion || bends_sharply(i));
-            const bool long_enough = course_[i].motion == Motion::cut && way_[i] - from >= shape_.block;
+            const bool long_enough = course_[i].motion == Motion::cut && arc_length_[i] - from >= shape_.block;
             if (!last && !turns && !long_enough) continue;
             out += text(word(course_[i].motion), course_[i].at);
-            from = way_[i];
+            from = arc_length_[i];
             ++line;
         }
         line_of_[0] = first_line;
@@ -338,8 +339,8 @@ private:
     void bend(std::size_t i, Vec3& tangent, Vec3& curvature) const {
         const std::size_t n = course_.size();
         std::size_t a = i, b = i;
-        while (a > 0 && way_[i] - way_[a] < bend_reach) --a;
-        while (b + 1 < n && way_[b] - way_[i] < bend_reach) ++b;
+        while (a > 0 && arc_length_[i] - arc_length_[a] < bend_reach) --a;
+        while (b + 1 < n && arc_length_[b] - arc_length_[i] < bend_reach) ++b;
         const Vec3 in = course_[i].at - course_[a].at;
         const Vec3 out = course_[b].at - course_[i].at;
         tangent = (in + out).normalized();
@@ -359,14 +360,15 @@ private:
             bend(i, tangent, curvature);
             v[i] = std::min(course_[i].motion == Motion::rapid ? rapid_speed : recipe_.feed,
                             std::sqrt(acceleration_ / std::max(curvature.norm(), 1e-9)));
-            for_each_fault(i, way_[i], [&](std::size_t k, double window, double off) {
+            for_each_fault(i, arc_length_[i], [&](std::size_t k, double window, double off) {
                 const Defect& d = recipe_.defects[k];
                 if (d.kind == Kind::speed) v[i] *= 1 - d.amplitude * window;
                 if (d.kind == Kind::oscillation) v[i] *= 1 + d.amplitude * window * std::sin(2 * pi * off / d.wave);
             });
             if (course_[i].pass < 0) continue;
             const auto pass = static_cast<std::size_t>(course_[i].pass);
-            const double along = 6 * (way_[i] - way_[passes_[pass].first]) / std::max(way_of(pass), 1e-9);
+            const double along =
+                6 * (arc_length_[i] - arc_length_[passes_[pass].first]) / std::max(arc_length_of(pass), 1e-9);
             const auto knot = static_cast<std::size_t>(std::min(5.0, std::floor(along)));
             const double share = along - static_cast<double>(knot);
             v[i] *= (1 - share) * scatter[6 * pass + knot] + share * scatter[6 * pass + knot + 1];
@@ -377,7 +379,7 @@ private:
     [[nodiscard]] std::vector<double> accelerated(std::vector<double> v) const {
         v.front() = v.back() = creep;
         const auto limit = [&](std::size_t from, std::size_t to) {
-            const double ds = std::abs(way_[to] - way_[from]);
+            const double ds = std::abs(arc_length_[to] - arc_length_[from]);
             v[to] = std::min(v[to], std::sqrt(v[from] * v[from] + 2 * acceleration_ * ds));
         };
         for (std::size_t i = 1; i < v.size(); ++i) limit(i - 1, i);
@@ -404,7 +406,7 @@ private:
         double time = 0;     // when point i − 1 is reached
         double next = 0;     // of the record
         double scatter = 0;  // of the record's time
-        const auto seconds = [&] { return (way_[i] - way_[i - 1]) / (0.5 * (speed[i] + speed[i - 1])); };
+        const auto seconds = [&] { return (arc_length_[i] - arc_length_[i - 1]) / (0.5 * (speed[i] + speed[i - 1])); };
         while (i < course_.size()) {
             const double step = seconds();
             if (next + scatter > time + step) {
@@ -420,7 +422,7 @@ private:
     }
 
     void record(const std::vector<double>& speed, std::size_t i, double share) {
-        const double s = way_[i - 1] + share * (way_[i] - way_[i - 1]);
+        const double s = arc_length_[i - 1] + share * (arc_length_[i] - arc_length_[i - 1]);
         const double v = speed[i - 1] + share * (speed[i] - speed[i - 1]);
         const Vec3 p = course_[i - 1].at + share * (course_[i].at - course_[i - 1].at);
         Vec3 tangent;
@@ -450,9 +452,9 @@ private:
     Recipe recipe_;
     double acceleration_ = 1000;  ///< [mm/s²] along and across
     std::vector<CoursePoint> course_;
-    std::vector<double> way_;  ///< [mm] by point of the course
+    std::vector<double> arc_length_;  ///< [mm] by point of the course
     std::vector<std::pair<std::size_t, std::size_t>> passes_;
-    std::vector<Stretch> stretches_;
+    std::vector<Section> sections_;
     std::vector<std::uint32_t> line_of_;
     PlantedLog log_;
 };

@@ -2,7 +2,7 @@
 // Kinds: planted logs beyond those of planted_log.h, to measure the predictor where it was not developed. Each kind joins a
 // layout of passes (course.h), a feed with its period and resolution, and the faults that are planted.
 //
-// The motion is planned over the whole course: a speed limit by feed and curvature, faults as slower or faster stretches of
+// The motion is planned over the whole course: a speed limit by feed and curvature, faults as slower or faster sections of
 // it, then the acceleration that the machine has. A fault of several passes lies at the place nearest to that on the first.
 
 #include <span>
@@ -14,7 +14,7 @@ namespace clsurf::planted {
 
 /// What is planted.
 enum class Fault : std::uint8_t {
-    dip,          ///< a slower stretch
+    dip,          ///< a slower section
     rise,         ///< a faster one
     oscillation,  ///< the speed swings
     lag,          ///< the measured path leaves the commanded one, up or down

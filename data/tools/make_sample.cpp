@@ -55,36 +55,36 @@ public:
 
     /// The waypoints of pass k after the last one of k − 1; empty: there are no more.
     [[nodiscard]] std::vector<Waypoint> pass(std::int64_t k) const {
-        std::vector<Waypoint> way;
+        std::vector<Waypoint> route;
         if (pattern_ == Pattern::loops) {
-            add_loop(way, 0.5 * size_ - static_cast<double>(k) * step_over, k == 0);
-            return way;
+            add_loop(route, 0.5 * size_ - static_cast<double>(k) * step_over, k == 0);
+            return route;
         }
         const double y = static_cast<double>(k) * step_over;
         const bool back = pattern_ == Pattern::zigzag && k % 2 == 1;
         if (k == 0) {
-            way.push_back({place(0, y, height_over_all()), true});
+            route.push_back({place(0, y, height_over_all()), true});
         } else if (pattern_ == Pattern::one_way) {
-            way.push_back({place(size_, y - step_over, height_over_all()), true});
-            way.push_back({place(0, y, height_over_all()), true});
+            route.push_back({place(size_, y - step_over, height_over_all()), true});
+            route.push_back({place(0, y, height_over_all()), true});
         }
-        way.push_back({on_surface(back ? size_ : 0, y), false});
+        route.push_back({on_surface(back ? size_ : 0, y), false});
         const auto lines = static_cast<int>(std::ceil(size_ / chord));
         for (int i = 1; i <= lines; ++i) {
             const double x = size_ * i / lines;
-            way.push_back({on_surface(back ? size_ - x : x, y), false});
+            route.push_back({on_surface(back ? size_ - x : x, y), false});
         }
-        return way;
+        return route;
     }
 
 private:
-    void add_loop(std::vector<Waypoint>& way, double radius, bool first) const {
+    void add_loop(std::vector<Waypoint>& route, double radius, bool first) const {
         if (radius < chord) return;
-        if (first) way.push_back({place(radius, 0, height_over_all()), true});
+        if (first) route.push_back({place(radius, 0, height_over_all()), true});
         const auto lines = static_cast<int>(std::ceil(2 * std::numbers::pi * radius / chord));
         for (int i = 0; i <= lines; ++i) {
             const double angle = 2 * std::numbers::pi * i / lines;
-            way.push_back({on_surface(radius * std::cos(angle), radius * std::sin(angle)), false});
+            route.push_back({on_surface(radius * std::cos(angle), radius * std::sin(angle)), false});
         }
     }
     [[nodiscard]] double height_over_all() const { return 0.03 * size_ + retract; }
@@ -101,33 +101,33 @@ private:
 
 /// Runs along waypoints with bounded acceleration; record(position, waypoint index) once a period.
 template <typename Record>
-void run(Vec3 from, const std::vector<Waypoint>& way, Record&& record) {
+void run(Vec3 from, const std::vector<Waypoint>& route, Record&& record) {
     std::size_t i = 0;
-    while (i < way.size()) {
-        // A stretch of one kind begins and ends slowly.
+    while (i < route.size()) {
+        // A section of one kind begins and ends slowly.
         std::size_t end = i;
         double length = 0;
-        for (Vec3 last = from; end < way.size() && way[end].rapid == way[i].rapid; ++end) {
-            length += (way[end].position - last).norm();
-            last = way[end].position;
+        for (Vec3 last = from; end < route.size() && route[end].rapid == route[i].rapid; ++end) {
+            length += (route[end].position - last).norm();
+            last = route[end].position;
         }
-        const double most = way[i].rapid ? rapid_feed : feed;
-        double gone = 0;         // of the stretch
-        double before_line = 0;  // way gone when the line began
+        const double most = route[i].rapid ? rapid_feed : feed;
+        double gone = 0;         // of the section
+        double before_line = 0;  // arc length gone when the line began
         while (gone < length) {
             const double speed_up = std::sqrt(corner_speed * corner_speed + 2 * acceleration * gone);
             const double slow_down = std::sqrt(corner_speed * corner_speed + 2 * acceleration * (length - gone));
             gone = std::min(length, gone + std::min({most, speed_up, slow_down}) * period);
-            double line = (way[i].position - from).norm();
+            double line = (route[i].position - from).norm();
             while (i + 1 < end && gone > before_line + line) {
                 before_line += line;
-                from = way[i++].position;
-                line = (way[i].position - from).norm();
+                from = route[i++].position;
+                line = (route[i].position - from).norm();
             }
             const double fraction = line > 0 ? std::min(1.0, (gone - before_line) / line) : 1.0;
-            if (!record(Vec3(from + fraction * (way[i].position - from)), i)) return;
+            if (!record(Vec3(from + fraction * (route[i].position - from)), i)) return;
         }
-        from = way[end - 1].position;
+        from = route[end - 1].position;
         i = end;
     }
 }
@@ -142,10 +142,10 @@ void write_program(const std::string& path, const Part& part, std::string_view n
     bool rapid = false;
     bool first = true;
     for (std::int64_t k = 0; left > 0; ++k) {
-        const std::vector<Waypoint> way = part.pass(k);
-        if (way.empty()) break;
+        const std::vector<Waypoint> route = part.pass(k);
+        if (route.empty()) break;
         text.clear();
-        for (const Waypoint& w : way) {
+        for (const Waypoint& w : route) {
             if (first || w.rapid != rapid) text.append(std::string_view(w.rapid ? "G0 " : "G1 "));
             first = false;
             rapid = w.rapid;
@@ -153,8 +153,8 @@ void write_program(const std::string& path, const Part& part, std::string_view n
                            w.position.y(), w.position.z());
         }
         file.write(std::string_view(text.data(), text.size()));
-        run(from, way, [&](const Vec3&, std::size_t) { return --left > 0; });
-        from = way.back().position;
+        run(from, route, [&](const Vec3&, std::size_t) { return --left > 0; });
+        from = route.back().position;
     }
     file.write("M30\n");
     file.commit();
@@ -202,16 +202,16 @@ void write_log(const std::string& path, const std::string& program, const Part& 
     std::int64_t left = points;
     Vec3 last = part.start();
     for (std::int64_t k = 0; left > 0; ++k) {
-        const std::vector<Waypoint> way = part.pass(k);
-        if (way.empty()) break;
+        const std::vector<Waypoint> route = part.pass(k);
+        if (route.empty()) break;
         const Vec3 from = last;
-        run(from, way, [&](const Vec3& p, std::size_t waypoint) {
+        run(from, route, [&](const Vec3& p, std::size_t waypoint) {
             last = p;
             log.record(p, line + static_cast<std::uint32_t>(waypoint));
             return --left > 0;
         });
-        if (left > 0) last = way.back().position;
-        line += static_cast<std::uint32_t>(way.size());
+        if (left > 0) last = route.back().position;
+        line += static_cast<std::uint32_t>(route.size());
     }
     for (; left > 0; --left) log.record(last, line);  // M30
     log.close();

@@ -65,14 +65,15 @@ Facet facet_at(const Recipe& r, double x, double y) {
 /// One pass as dense points with the way along it.
 struct Curve {
     std::vector<Vec3> at;
-    std::vector<double> way;         ///< [mm] from its beginning
+    std::vector<double> arc_length;  ///< [mm] from its beginning
     std::vector<double> coordinate;  ///< [mm] along, the same for neighbouring passes
     std::vector<int> pass;           ///< by point: a spiral has many on one curve
 };
 
 void close(Curve& c) {
-    c.way.assign(c.at.size(), 0);
-    for (std::size_t i = 1; i < c.at.size(); ++i) c.way[i] = c.way[i - 1] + (c.at[i] - c.at[i - 1]).norm();
+    c.arc_length.assign(c.at.size(), 0);
+    for (std::size_t i = 1; i < c.at.size(); ++i)
+        c.arc_length[i] = c.arc_length[i - 1] + (c.at[i] - c.at[i - 1]).norm();
 }
 
 Vec3 on_surface(const Recipe& r, double x, double y) { return {x, y, facet_at(r, x, y).z}; }
@@ -172,18 +173,18 @@ private:
         const std::vector<double> speed = plan(c);
         std::vector<double> time(c.at.size(), 0);
         for (std::size_t i = 1; i < time.size(); ++i)
-            time[i] = time[i - 1] + (c.way[i] - c.way[i - 1]) / (0.5 * (speed[i] + speed[i - 1]));
+            time[i] = time[i - 1] + (c.arc_length[i] - c.arc_length[i - 1]) / (0.5 * (speed[i] + speed[i - 1]));
         const auto base = static_cast<std::uint32_t>(lines_.size() + 1);
         if (start_.hasNaN()) start_ = c.at.front();
         for (double t = 0; t < time.back(); t += r_.period) {
             const double when = std::clamp(t + r_.jitter * r_.period * normal(generator_), 0.0, time.back());
-            const double s = interpolate(time, c.way, when);
+            const double s = interpolate(time, c.arc_length, when);
             sample(c, speed, s, base + static_cast<std::uint32_t>(s / r_.block));
         }
-        const auto blocks = static_cast<std::size_t>(std::ceil(c.way.back() / r_.block));
+        const auto blocks = static_cast<std::size_t>(std::ceil(c.arc_length.back() / r_.block));
         for (std::size_t b = 1; b <= blocks; ++b) {
-            const double s = std::min(c.way.back(), static_cast<double>(b) * r_.block);
-            add_line("G1", at_way(c, s));
+            const double s = std::min(c.arc_length.back(), static_cast<double>(b) * r_.block);
+            add_line("G1", at_arc_length(c, s));
         }
         if (next == nullptr) return;
         if (r_.shape == Shape::one_way) {
@@ -217,11 +218,12 @@ private:
         move(over, to, r_.feed * r_.period);
     }
 
-    static Vec3 at_way(const Curve& c, double s) {
-        const auto after = static_cast<std::size_t>(std::upper_bound(c.way.begin(), c.way.end(), s) - c.way.begin());
+    static Vec3 at_arc_length(const Curve& c, double s) {
+        const auto after = static_cast<std::size_t>(std::upper_bound(c.arc_length.begin(), c.arc_length.end(), s) -
+                                                    c.arc_length.begin());
         if (after == 0) return c.at.front();
-        if (after == c.way.size()) return c.at.back();
-        const double share = (s - c.way[after - 1]) / (c.way[after] - c.way[after - 1]);
+        if (after == c.arc_length.size()) return c.at.back();
+        const double share = (s - c.arc_length[after - 1]) / (c.arc_length[after] - c.arc_length[after - 1]);
         return c.at[after - 1] + share * (c.at[after] - c.at[after - 1]);
     }
 
@@ -232,7 +234,7 @@ private:
         const Vec3& a = c.at[m - reach];
         const Vec3& b = c.at[m];
         const Vec3& d = c.at[m + reach];
-        const double h = 0.5 * (c.way[m + reach] - c.way[m - reach]);
+        const double h = 0.5 * (c.arc_length[m + reach] - c.arc_length[m - reach]);
         tangent = (d - a).normalized();
         curvature = (a - 2 * b + d) / (h * h);
     }
@@ -243,18 +245,19 @@ private:
             Vec3 tangent;
             Vec3 curvature;
             bend(c, i, tangent, curvature);
-            const double ends = std::min(c.way[i], c.way.back() - c.way[i]);
+            const double ends = std::min(c.arc_length[i], c.arc_length.back() - c.arc_length[i]);
             v[i] = std::min({r_.feed, std::sqrt(normal_acceleration / std::max(curvature.norm(), 1e-9)),
                              std::sqrt(2 * end_acceleration * ends + creep * creep)});
         }
         const int half = static_cast<int>(0.25 * plan_smoothing / grid_step);
         v = smoothed(smoothed(v, half), half);
         // A slow scatter of its own for every pass; on a spiral it goes on from turn to turn.
-        const double per_pass =
-            c.pass.back() > c.pass.front() ? c.way.back() / (c.pass.back() - c.pass.front() + 1) : c.way.back();
+        const double per_pass = c.pass.back() > c.pass.front()
+                                    ? c.arc_length.back() / (c.pass.back() - c.pass.front() + 1)
+                                    : c.arc_length.back();
         std::vector<double> knots;
         std::vector<double> scatter;
-        for (double s = 0; s <= c.way.back() + per_pass / scatter_knots; s += per_pass / scatter_knots) {
+        for (double s = 0; s <= c.arc_length.back() + per_pass / scatter_knots; s += per_pass / scatter_knots) {
             knots.push_back(s);
             scatter.push_back(1 + r_.scatter * normal(generator_));
         }
@@ -266,15 +269,16 @@ private:
                     d.kind == Kind::speed ? -1.0 : std::sin(2 * std::numbers::pi * (c.coordinate[i] - d.from) / d.wave);
                 v[i] *= 1 + d.amplitude * w * swing;
             }
-            v[i] *= interpolate(knots, scatter, c.way[i]);
+            v[i] *= interpolate(knots, scatter, c.arc_length[i]);
         }
         return v;
     }
 
     void sample(const Curve& c, const std::vector<double>& speed, double s, std::uint32_t line) {
-        const auto i = static_cast<std::size_t>(std::lower_bound(c.way.begin(), c.way.end(), s) - c.way.begin());
+        const auto i = static_cast<std::size_t>(std::lower_bound(c.arc_length.begin(), c.arc_length.end(), s) -
+                                                c.arc_length.begin());
         const std::size_t k = std::min(i, c.at.size() - 1);
-        const Vec3 p = at_way(c, s);
+        const Vec3 p = at_arc_length(c, s);
         Vec3 tangent;
         Vec3 curvature;
         bend(c, k, tangent, curvature);

@@ -2,7 +2,7 @@
 // Logs with planted defects of known place, kind and depth, to measure a predictor against.
 //
 // A surface is covered with passes (zigzag, one-way, closed loops, a spiral); every pass gets a speed
-// plan and, where a defect is planted on it, a slower stretch, a speed that swings, or an offset of
+// plan and, where a defect is planted on it, a slower section, a speed that swings, or an offset of
 // the measured positions along the surface normal. Commanded and measured positions are sampled at
 // the period, disturbed and rounded as a controller's recorder would.
 

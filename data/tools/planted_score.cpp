@@ -108,7 +108,7 @@ bool right_sign(const Defect& planted, const clsurf::Defect& found) {
     return (planted.amplitude > 0) != found.pit;
 }
 
-/// The lines at both ends of each planted stretch are those of a reported run on that pass, ±1.
+/// The lines at both ends of each planted section are those of a reported run on that pass, ±1.
 bool lines_match(const PlantedLog& log, const std::vector<PointIndex>& truth, const clsurf::Defect& defect) {
     for (std::size_t k = 0; k < truth.size();) {
         std::size_t end = k;

@@ -11,7 +11,7 @@ namespace clsurf::io {
 
 /// Dense columns; a bad number becomes NaN with a diagnostic that names line and column
 /// (`log.bad-number`), a short or long row likewise (`log.ragged-row`). Throws InputError: no
-/// channels, no period. O(bytes), parallel by stretches of the text.
+/// channels, no period. O(bytes), parallel by sections of the text.
 [[nodiscard]] Log open_delimited(const Source& source, const LogOptions& options);
 [[nodiscard]] Log open_halsampler(const Source& source, const LogOptions& options);
 

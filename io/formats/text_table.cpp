@@ -16,7 +16,7 @@
 namespace clsurf::io {
 namespace {
 
-constexpr std::size_t stretch_bytes = std::size_t{4} << 20;
+constexpr std::size_t chunk_bytes = std::size_t{4} << 20;
 /// Fields that may be missing per byte of text: a header of a million columns above empty rows would
 /// otherwise ask for any amount of memory.
 constexpr std::size_t most_missing_of_byte = 8;
@@ -67,8 +67,8 @@ void go_on_after_midnight(std::vector<double>& seconds) {
     }
 }
 
-/// What one stretch of the text holds.
-struct Stretch {
+/// What one section of the text holds.
+struct Chunk {
     std::size_t begin = 0, end = 0;
     std::uint64_t lines = 0;
     std::vector<std::vector<double>> columns;
@@ -77,20 +77,20 @@ struct Stretch {
     Diagnostics diagnostics;
 };
 
-void read_stretch(const Source& source, const TextPlan& plan, Stretch& stretch) {
-    std::string_view rest = source.text().substr(stretch.begin, stretch.end - stretch.begin);
-    stretch.columns.resize(plan.columns.size());
-    std::uint64_t number = 0;  // of the line in this stretch
+void read_chunk(const Source& source, const TextPlan& plan, Chunk& chunk) {
+    std::string_view rest = source.text().substr(chunk.begin, chunk.end - chunk.begin);
+    chunk.columns.resize(plan.columns.size());
+    std::uint64_t number = 0;  // of the line in this section
     while (!rest.empty()) {
         const std::string_view line = first_line(rest);
         ++number;
         if (is_comment(line)) continue;
         if (plan.overruns && line.starts_with("overrun")) {
-            stretch.diagnostics.add({Severity::warning,
-                                     "log.overrun",
-                                     Place::of_line(source.name, number),
-                                     "the sampler lost records here (overrun)",
-                                     {}});
+            chunk.diagnostics.add({Severity::warning,
+                                   "log.overrun",
+                                   Place::of_line(source.name, number),
+                                   "the sampler lost records here (overrun)",
+                                   {}});
             continue;
         }
         std::size_t at = 0;
@@ -107,21 +107,20 @@ void read_stretch(const Source& source, const TextPlan& plan, Stretch& stretch) 
                 const double value =
                     c.clock ? parse_time(field, plan.day, bad) : parse_number(field, plan.decimal_comma, bad);
                 if (bad) {
-                    stretch.diagnostics.add(
-                        {Severity::warning,
-                         "log.bad-number",
-                         Place::of_line(source.name, number,
-                                        static_cast<std::uint32_t>(field.data() - line.data() + 1)),
-                         fmt::format("'{}' of channel '{}' is no {}; taken as missing", field.substr(0, 40), c.name,
-                                     c.clock ? "time of day" : "number"),
-                         {}});
+                    chunk.diagnostics.add({Severity::warning,
+                                           "log.bad-number",
+                                           Place::of_line(source.name, number,
+                                                          static_cast<std::uint32_t>(field.data() - line.data() + 1)),
+                                           fmt::format("'{}' of channel '{}' is no {}; taken as missing",
+                                                       field.substr(0, 40), c.name, c.clock ? "time of day" : "number"),
+                                           {}});
                 }
-                stretch.columns[column].push_back(value * c.scale + c.bias);
+                chunk.columns[column].push_back(value * c.scale + c.bias);
             }
             ++column;
         }
         if (column != plan.columns.size()) {
-            stretch.diagnostics.add(
+            chunk.diagnostics.add(
                 {Severity::warning,
                  "log.ragged-row",
                  Place::of_line(source.name, number),
@@ -129,29 +128,29 @@ void read_stretch(const Source& source, const TextPlan& plan, Stretch& stretch) 
                  {}});
             for (; column < plan.columns.size(); ++column) {
                 if (plan.columns[column].name.empty()) continue;
-                if (++stretch.missing > most_missing_of_byte * (stretch.end - stretch.begin)) return;
-                stretch.columns[column].push_back(missing<double>);
+                if (++chunk.missing > most_missing_of_byte * (chunk.end - chunk.begin)) return;
+                chunk.columns[column].push_back(missing<double>);
             }
         }
-        ++stretch.rows;
+        ++chunk.rows;
     }
-    stretch.lines = number;
+    chunk.lines = number;
 }
 
-std::vector<Stretch> cut(std::string_view text, std::size_t begin) {
-    std::vector<Stretch> stretches;
+std::vector<Chunk> cut(std::string_view text, std::size_t begin) {
+    std::vector<Chunk> chunks;
     while (begin < text.size()) {
-        std::size_t end = std::min(text.size(), begin + stretch_bytes);
+        std::size_t end = std::min(text.size(), begin + chunk_bytes);
         if (end < text.size()) {
             end = text.find('\n', end);
             end = end == std::string_view::npos ? text.size() : end + 1;
         }
-        stretches.push_back({});
-        stretches.back().begin = begin;
-        stretches.back().end = end;
+        chunks.push_back({});
+        chunks.back().begin = begin;
+        chunks.back().end = end;
         begin = end;
     }
-    return stretches;
+    return chunks;
 }
 
 }  // namespace
@@ -245,29 +244,29 @@ Log read_table(const Source& source, const TextPlan& plan, const char* format) {
         throw InputError(Place::of_line(source.name, plan.first_data_line),
                          fmt::format("more than {} columns", most_columns));
     }
-    std::vector<Stretch> stretches = cut(source.text().substr(0, plan.data_end), plan.data_begin);
-    parallel_for(static_cast<std::int64_t>(stretches.size()), 1, [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t k = first; k < last; ++k) read_stretch(source, plan, stretches[static_cast<std::size_t>(k)]);
+    std::vector<Chunk> chunks = cut(source.text().substr(0, plan.data_end), plan.data_begin);
+    parallel_for(static_cast<std::int64_t>(chunks.size()), 1, [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t k = first; k < last; ++k) read_chunk(source, plan, chunks[static_cast<std::size_t>(k)]);
     });
     Log log;
     log.name = source.name;
     log.format = format;
     std::size_t rows = 0;
     std::uint64_t line_offset = plan.first_data_line - 1;
-    for (const Stretch& stretch : stretches) {
-        rows += stretch.rows;
+    for (const Chunk& chunk : chunks) {
+        rows += chunk.rows;
         Diagnostics placed;
-        for (Diagnostic d : stretch.diagnostics.kept()) {
+        for (Diagnostic d : chunk.diagnostics.kept()) {
             d.where.number += line_offset;
             placed.add(std::move(d));
         }
-        if (stretch.missing > most_missing_of_byte * (stretch.end - stretch.begin)) {
+        if (chunk.missing > most_missing_of_byte * (chunk.end - chunk.begin)) {
             throw InputError(
                 placed.kept().front().where,
                 fmt::format("most rows lack nearly all of the {} columns that the header names", plan.columns.size()));
         }
         log.diagnostics.append(placed);
-        line_offset += stretch.lines;
+        line_offset += chunk.lines;
     }
     if (rows == 0) throw InputError(Place::of_file(source.name), "holds no records");
     log.records = static_cast<PointIndex>(rows);
@@ -289,9 +288,9 @@ Log read_table(const Source& source, const TextPlan& plan, const char* format) {
         }
         std::vector<double> column;
         column.reserve(rows);
-        for (Stretch& stretch : stretches) {
-            column.insert(column.end(), stretch.columns[c].begin(), stretch.columns[c].end());
-            stretch.columns[c] = {};
+        for (Chunk& chunk : chunks) {
+            column.insert(column.end(), chunk.columns[c].begin(), chunk.columns[c].end());
+            chunk.columns[c] = {};
         }
         if (plan.columns[c].clock) go_on_after_midnight(column);
         owned.add(plan.columns[c].name, plan.columns[c].unit, std::move(column));

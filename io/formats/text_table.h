@@ -1,7 +1,7 @@
 #pragma once
 // Text with one record a line, read into columns: what delimited text, halsampler and halscope files
 // and TwinCAT exports have in common. A reader finds out where the records begin and what the columns
-// mean (TextPlan); the records are read here, in parallel stretches.
+// mean (TextPlan); the records are read here, in parallel sections.
 // Used inside io only.
 
 #include <cstddef>

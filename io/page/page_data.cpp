@@ -296,7 +296,7 @@ PageData page_data(const ReportPage& page) {
            {"log", page.log},
            {"before", page.before},
            {"options", page.reading_options},
-           {"formed", page.formed_options}}},
+           {"formed", page.as_machined_options}}},
          {"first_field", page.first_field}};
     m["colour_maps"] = Json::array();
     for (const PageColourMap& map : page.colour_maps)

@@ -119,18 +119,18 @@ std::string defects_section(const ReportPage& page) {
 std::string defect_list_section(const ReportPage& page) {
     const QualityReport& report = *page.quality.report;
     if (report.defects.empty()) return "";
-    const bool formed = page.quality.formed != nullptr;
+    const bool as_machined = page.quality.as_machined != nullptr;
     std::string text = fmt::format(
         "<section id=\"defect-list\"><h2>All defects</h2>\n<div class=\"wide\"><table><thead><tr><th>Rank</th><th>Severity</th><th>Finding</th><th>Times the threshold</th><th>Depth [µm]</th>{}<th>Speed [%]</th>"
         "<th>Length [mm]</th><th>X Y Z [mm]</th><th>Lines</th></tr></thead><tbody>\n",
-        formed ? "<th>Formed [µm]</th>" : "");
+        as_machined ? "<th>Formed [µm]</th>" : "");
     for (std::size_t i = 0; i < std::min(defects_in_table, report.defects.size()); ++i) {
         const Defect& d = report.defects[i];
         text += fmt::format(
             "<tr data-defect=\"{}\"><td>{}</td><td><span class=\"severity s{}\">{}</span> {}</td><td>{}</td><td>{:.1f}</td><td>{:.1f} {}</td>{}<td>{:+.1f}</td><td>{:.1f}</td><td>{:.2f} {:.2f} {:.2f}</td><td>{}</td></tr>\n",
             i + 1, i + 1, d.severity, d.severity, name_of_severity(d.severity), html(sentence_of(d)), d.score,
             d.depth * um_per_mm, shape_of(d),
-            formed ? fmt::format("<td>{}</td>", um_text(page.quality.formed->marks[i].depth)) : "",
+            as_machined ? fmt::format("<td>{}</td>", um_text(page.quality.as_machined->marks[i].depth)) : "",
             100 * d.speed_mismatch, d.length, d.place.position().x(), d.place.position().y(), d.place.position().z(),
             html(defect_lines(d)));
     }
@@ -160,8 +160,8 @@ std::string numbers_section(const ReportPage& page) {
     const std::string thresholds = thresholds_text(report);
     if (!thresholds.empty())
         text += fmt::format("<p>Thresholds of a defect: {}; {}.</p>\n", html(thresholds), html(report.note));
-    if (page.quality.formed != nullptr && !page.quality.formed->patches.empty()) {
-        const FormedReport& f = *page.quality.formed;
+    if (page.quality.as_machined != nullptr && !page.quality.as_machined->patches.empty()) {
+        const AsMachinedReport& f = *page.quality.as_machined;
         text += fmt::format(
             "<p>Formed surface with {}, {} patches: Ra {:.2f}, Rz {:.2f} (at most {:.2f}), Sa {:.2f}, Sz {:.2f} µm, cut-off {:g} mm.</p>\n",
             html(to_text(*page.quality.tool)), f.patches.size(), f.ra * um_per_mm, f.rz * um_per_mm,
@@ -256,9 +256,10 @@ std::string page_summary(const ReportPage& page) {
             text += fact("Speed mismatch",
                          fmt::format("{:.{}f} mm/min", row.of_magnitude[2], row.of_magnitude[2] < 10 ? 2 : 0), "99 %");
     }
-    if (page.quality.formed != nullptr && !page.quality.formed->patches.empty()) {
-        text += fact("Roughness", fmt::format("Rz {:.2f} µm", page.quality.formed->rz * um_per_mm),
-                     fmt::format("Ra {:.2f} µm, {}", page.quality.formed->ra * um_per_mm, to_text(*page.quality.tool)));
+    if (page.quality.as_machined != nullptr && !page.quality.as_machined->patches.empty()) {
+        text += fact(
+            "Roughness", fmt::format("Rz {:.2f} µm", page.quality.as_machined->rz * um_per_mm),
+            fmt::format("Ra {:.2f} µm, {}", page.quality.as_machined->ra * um_per_mm, to_text(*page.quality.tool)));
     }
     std::size_t warnings = 0;
     for (const Diagnostic& d : page.health.kept()) warnings += d.severity == Severity::note ? 0 : 1;

@@ -68,12 +68,12 @@ struct PagePercentiles {
 };
 
 struct ReportPage {
-    std::string program, log, before;          ///< as they stand on the command line; `before` empty: none
-    std::vector<std::string> reading_options;  ///< that `render` needs too, to read the same
-    std::vector<std::string> formed_options;   ///< … and to draw the formed surface
-    std::vector<PageSurface> surfaces;         ///< of `log`, then of `before`
-    std::vector<ShownRange> ranges;            ///< per field, of all logs
-    std::string first_field;                   ///< shown at first
+    std::string program, log, before;              ///< as they stand on the command line; `before` empty: none
+    std::vector<std::string> reading_options;      ///< that `render` needs too, to read the same
+    std::vector<std::string> as_machined_options;  ///< … and to draw the formed surface
+    std::vector<PageSurface> surfaces;             ///< of `log`, then of `before`
+    std::vector<ShownRange> ranges;                ///< per field, of all logs
+    std::string first_field;                       ///< shown at first
     ReportedQuality quality;
     std::vector<PageDefect> defects;  ///< one per defect of the report
     std::vector<PagePercentiles> percentiles;

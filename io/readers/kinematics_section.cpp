@@ -163,10 +163,10 @@ Kinematics read_kinematics(const TomlFile& file, const toml::table& table) {
     }
     if (const std::optional<std::string> word = file.text(table, "interpolation")) {
         bool known = false;
-        for (const ToolAxisInterpolation way :
+        for (const ToolAxisInterpolation mode :
              {ToolAxisInterpolation::linear, ToolAxisInterpolation::vector, ToolAxisInterpolation::safe}) {
-            if (*word != name_of(way)) continue;
-            kinematics.interpolation = way;
+            if (*word != name_of(mode)) continue;
+            kinematics.interpolation = mode;
             known = true;
         }
         if (!known)

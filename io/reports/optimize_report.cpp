@@ -39,20 +39,21 @@ std::string optimize_text(const Optimized& r) {
         "mm/min");
     row("speed mismatch, p99.9", r.before.greatest_mismatch * seconds_per_minute,
         r.after.greatest_mismatch * seconds_per_minute, 1, "mm/min");
-    row("defects", static_cast<double>(r.proof.defects_before), static_cast<double>(r.proof.defects_after), 0, "");
+    row("defects", static_cast<double>(r.evaluation.defects_before), static_cast<double>(r.evaluation.defects_after), 0,
+        "");
     const auto before = by_quantity(r.before), after = by_quantity(r.after);
     for (std::size_t k = 0; k < quantities; ++k) {
         if (before[k] + after[k] > 0)
             row(fmt::format("  of {}", name_of(static_cast<Quantity>(k))), static_cast<double>(before[k]),
                 static_cast<double>(after[k]), 0, "");
     }
-    row("lines", r.proof.lines_before, r.proof.lines_after, 0, "");
+    row("lines", r.evaluation.lines_before, r.evaluation.lines_after, 0, "");
     text += fmt::format("{} stretches, {} lines changed; off the programmed path by at most {:.4f} mm\n",
-                        r.proof.intervals, r.proof.changed_lines, r.proof.deviation.greatest);
+                        r.evaluation.intervals, r.evaluation.changed_lines, r.evaluation.deviation.greatest);
     if (r.five_axes)
         text += fmt::format("tool axis off the programmed one by at most {:.4f} deg\n",
-                            r.proof.deviation.turned * deg_per_rad);
-    text += r.proof.accepted ? "accepted\n" : fmt::format("refused: {}\n", r.proof.reason);
+                            r.evaluation.deviation.turned * deg_per_rad);
+    text += r.evaluation.accepted ? "accepted\n" : fmt::format("refused: {}\n", r.evaluation.reason);
     return text;
 }
 
@@ -70,27 +71,27 @@ Json measured_json(const std::optional<Measured>& measured) {
 }  // namespace
 
 std::string optimize_json(const Optimized& r, const Diagnostics& diagnostics) {
-    Json json{{"accepted", r.proof.accepted},
-              {"reason", r.proof.accepted ? Json(nullptr) : Json(r.proof.reason)},
-              {"deviation_mm", number(r.proof.deviation.greatest, 6)},
+    Json json{{"accepted", r.evaluation.accepted},
+              {"reason", r.evaluation.accepted ? Json(nullptr) : Json(r.evaluation.reason)},
+              {"deviation_mm", number(r.evaluation.deviation.greatest, 6)},
               {"time_before_s", number(r.before.duration, 6)},
               {"time_after_s", number(r.after.duration, 6)},
               {"mismatch_before", number(r.before.mismatch * seconds_per_minute, 2)},
               {"mismatch_after", number(r.after.mismatch * seconds_per_minute, 2)},
-              {"defects_before", r.proof.defects_before},
-              {"defects_after", r.proof.defects_after},
-              {"intervals", r.proof.intervals},
-              {"lines_before", r.proof.lines_before},
-              {"lines_after", r.proof.lines_after},
-              {"lines_changed", r.proof.changed_lines},
+              {"defects_before", r.evaluation.defects_before},
+              {"defects_after", r.evaluation.defects_after},
+              {"intervals", r.evaluation.intervals},
+              {"lines_before", r.evaluation.lines_before},
+              {"lines_after", r.evaluation.lines_after},
+              {"lines_changed", r.evaluation.changed_lines},
               {"proof", "simulation"},
               {"log", measured_json(r.measured)},
               {"diagnostics", list(diagnostics)}};
     const auto before = by_quantity(r.before), after = by_quantity(r.after);
     for (std::size_t k = 0; k < quantities; ++k)
         json["defects_by_quantity"][name_of(static_cast<Quantity>(k))] = Json::array({before[k], after[k]});
-    if (r.proof.accepted) json["defects_left"] = list_defects(r.after.report.defects, 0);
-    if (r.five_axes) json["tool_axis_deviation_deg"] = number(r.proof.deviation.turned * deg_per_rad, 5);
+    if (r.evaluation.accepted) json["defects_left"] = list_defects(r.after.report.defects, 0);
+    if (r.five_axes) json["tool_axis_deviation_deg"] = number(r.evaluation.deviation.turned * deg_per_rad, 5);
     return dump(json);
 }
 

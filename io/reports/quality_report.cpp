@@ -24,8 +24,8 @@ double per_minute(double per_second) { return per_second * seconds_per_minute; }
 Json looked_at_defects(const ReportedQuality& q) {
     Json all = list_defects(q.report->defects, q.scallop);
     for (std::size_t i = 0; i < all.size(); ++i) {
-        if (q.formed != nullptr) {
-            const FormedMark& mark = q.formed->marks[i];
+        if (q.as_machined != nullptr) {
+            const AsMachinedMark& mark = q.as_machined->marks[i];
             all[i]["formed_um"] = number(um(mark.depth), 2);
             all[i]["formed_note"] = mark.note == MarkNote::none ? Json(nullptr) : Json(std::string(name_of(mark.note)));
         }
@@ -34,7 +34,7 @@ Json looked_at_defects(const ReportedQuality& q) {
     return all;
 }
 
-void add_roughness(Json& summary, const FormedReport& f) {
+void add_roughness(Json& summary, const AsMachinedReport& f) {
     const auto known = [&](double mm) { return f.patches.empty() ? Json(nullptr) : number(um(mm), 3); };
     summary["ra_um"] = known(f.ra);
     summary["rz_um"] = known(f.rz);
@@ -47,7 +47,7 @@ void add_roughness(Json& summary, const FormedReport& f) {
     summary["form_unknown_percent"] = number(100 * f.unknown, 1);
 }
 
-Json patches_json(const FormedReport& f) {
+Json patches_json(const AsMachinedReport& f) {
     Json all = Json::array();
     for (const RoughPatch& patch : f.patches) {
         all.push_back({{"point", patch.point},
@@ -90,13 +90,13 @@ std::string lines_column(const Defect& d) {
 }
 
 /// Why depths in the as-machined surface are missing, or other than those of the passes alone: a line a reason.
-std::string formed_notes(const ReportedQuality& q) {
+std::string as_machined_notes(const ReportedQuality& q) {
     std::string text;
     for (const MarkNote note :
          {MarkNote::unknown_form, MarkNote::uneven_passes, MarkNote::cut_away, MarkNote::other_passes}) {
         std::string ranks;
-        for (std::size_t i = 0; i < q.formed->marks.size(); ++i) {
-            if (q.formed->marks[i].note == note && !q.report->defects[i].systematic)
+        for (std::size_t i = 0; i < q.as_machined->marks.size(); ++i) {
+            if (q.as_machined->marks[i].note == note && !q.report->defects[i].systematic)
                 ranks += fmt::format("{}{}", ranks.empty() ? "" : ", ", i + 1);
         }
         if (!ranks.empty()) text += fmt::format("formed {}: {}\n", ranks, sentence_of(note));
@@ -110,8 +110,8 @@ std::string depth_column(const Defect& d) {
 }
 
 std::string formed_column(const ReportedQuality& q, std::size_t i) {
-    if (q.formed == nullptr) return {};
-    const double depth = um(q.formed->marks[i].depth);
+    if (q.as_machined == nullptr) return {};
+    const double depth = um(q.as_machined->marks[i].depth);
     return q.report->defects[i].systematic || std::isnan(depth) ? "       -" : fmt::format(" {:>7.1f}", depth);
 }
 
@@ -121,13 +121,13 @@ std::string defects_table(const ReportedQuality& q) {
     const QualityReport& r = *q.report;
     if (r.defects.empty()) return {};
     const bool one_row = q.columns >= least_for_one_row;
-    const bool formed = q.formed != nullptr;
+    const bool as_machined = q.as_machined != nullptr;
     const std::string_view where = place_word(r.defects.front().place);
     std::string text = fmt::format("{:>4} {:<8} {:<13} {:>7} {:>7} {:>14} {:>7}{}{}\n", "rank", "severity", "cause",
-                                   "times", "speed", "depth", "length", formed ? "  formed" : "",
+                                   "times", "speed", "depth", "length", as_machined ? "  formed" : "",
                                    one_row ? fmt::format("  {:<22} lines", fmt::format("{} X Y Z", where)) : "");
     text += fmt::format("{:>4} {:<8} {:<13} {:>7} {:>7} {:>14} {:>7}{}{}\n", "", "", "", "limit", "[%]", "[µm]", "[mm]",
-                        formed ? "    [µm]" : "", one_row ? "  [mm]" : "");
+                        as_machined ? "    [µm]" : "", one_row ? "  [mm]" : "");
     for (std::size_t i = 0; i < r.defects.size(); ++i) {
         const Defect& d = r.defects[i];
         text += fmt::format("{:>4} {:<8} {:<13} {:>7.1f} {:>+7.1f} {:>14} {:>7.1f}{}", i + 1,
@@ -138,7 +138,7 @@ std::string defects_table(const ReportedQuality& q) {
                                       lines_column(d))
                         : fmt::format("\n     {}, lines {}\n", place_text(d.place), lines_column(d));
     }
-    if (formed) text += formed_notes(q);
+    if (as_machined) text += as_machined_notes(q);
     return text + "\n";
 }
 
@@ -185,11 +185,11 @@ std::string quality_json(const ReportedQuality& q) {
                  {"tool", q.tool ? Json(to_text(*q.tool)) : Json(nullptr)},
                  {"budget", std::move(budget)},
                  {"within_budget", r.judgement.judged() && all_held(q.budget)}};
-    if (q.formed != nullptr) add_roughness(summary, *q.formed);
+    if (q.as_machined != nullptr) add_roughness(summary, *q.as_machined);
     Json json{{"defects", looked_at_defects(q)},
               {"expected", list_defects(q.report->expected, q.scallop)},
               {"summary", std::move(summary)}};
-    if (q.formed != nullptr) json["roughness"] = patches_json(*q.formed);
+    if (q.as_machined != nullptr) json["roughness"] = patches_json(*q.as_machined);
     json["diagnostics"] = list(*q.diagnostics);
     return dump(json);
 }
@@ -231,8 +231,8 @@ std::string quality_text(const ReportedQuality& q) {
         if (!thresholds.empty()) text += fmt::format("thresholds: {}; {}\n", thresholds, r.note);
         if (q.scallop > 0)
             text += fmt::format("scallop between clean passes with {}: {:.2f} µm\n", to_text(*q.tool), um(q.scallop));
-        if (q.formed != nullptr && !q.formed->patches.empty()) {
-            const FormedReport& f = *q.formed;
+        if (q.as_machined != nullptr && !q.as_machined->patches.empty()) {
+            const AsMachinedReport& f = *q.as_machined;
             const RoughPatch& roughest = f.patches[f.roughest];
             text += fmt::format(
                 "formed surface, {} patches: Ra {:.2f}, Rz {:.2f} (at most {:.2f}, at {:.2f} {:.2f} {:.2f}), Sa {:.2f}, Sz {:.2f} µm, cut-off {:g} mm\n",

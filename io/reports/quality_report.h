@@ -22,7 +22,7 @@ struct ReportedQuality {
     std::optional<CuttingTool> tool;
     double scallop = 0;                      ///< [mm] between clean passes; 0: not known
     std::vector<double> colour_differences;  ///< ΔE00 of each defect's speed and that beside it, in the map of speeds
-    const FormedReport* formed = nullptr;    ///< nullptr: the tool is not known
+    const AsMachinedReport* as_machined = nullptr;  ///< nullptr: the tool is not known
     std::vector<BudgetLine> budget;
     const Diagnostics* diagnostics = nullptr;
     std::size_t columns = 80;  ///< width of the table in the text

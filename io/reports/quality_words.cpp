@@ -96,7 +96,7 @@ constexpr RuleText systematic_rule{
 
 /// One kind of defects in a verdict.
 struct Kind {
-    std::string_view one, many;  ///< "slower stretch", "slower stretches"
+    std::string_view one, many;  ///< "slower section", "slower sections"
     std::size_t count = 0;
     const Defect* most = nullptr;  ///< of the kind
 };

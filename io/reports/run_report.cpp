@@ -11,7 +11,7 @@
 namespace clsurf::io {
 namespace {
 
-constexpr std::size_t shown_stretches = 12;  ///< of a run, in the text
+constexpr std::size_t shown_sections = 12;  ///< of a run, in the text
 
 const RunQuantityInfo& info_of(RunQuantity q) { return run_quantity_table()[index_of(q)]; }
 
@@ -26,7 +26,7 @@ Json quantity_json(const RunQuantitySummary& s) {
     Json json{{"name", info.name},
               {"unit", info.unit.name},
               {"threshold", shown(s.threshold)},
-              {"compared_mm", number(s.way, 3)},
+              {"compared_mm", number(s.arc_length, 3)},
               {"mean", shown(s.mean)},
               {"rms", shown(s.rms)},
               {"p95", shown(s.p95)},
@@ -35,12 +35,12 @@ Json quantity_json(const RunQuantitySummary& s) {
               {"begin", shown(s.begin)},
               {"end", shown(s.end)},
               {"over_percent", number(100 * s.over, 2)},
-              {"stretches", s.stretches}};
+              {"stretches", s.sections}};
     if (s.quantity == RunQuantity::speed) json["most_percent"] = number(100 * s.relative_most, 1);
     return json;
 }
 
-Json stretch_json(const RunDifferenceStretch& d, std::size_t id) {
+Json section_json(const RunDifferenceSection& d, std::size_t id) {
     const RunQuantityInfo& info = info_of(d.quantity);
     const auto shown = [&](double value) { return number(value * info.unit.per_inside, decimals_of(d.quantity)); };
     Json json{{"id", id},
@@ -68,7 +68,7 @@ Json run_json(const ReportedRun& run) {
     Json quantities = Json::array();
     for (const RunQuantitySummary& s : r.quantities) quantities.push_back(quantity_json(s));
     Json differences = Json::array();
-    for (std::size_t i = 0; i < r.stretches.size(); ++i) differences.push_back(stretch_json(r.stretches[i], i + 1));
+    for (std::size_t i = 0; i < r.sections.size(); ++i) differences.push_back(section_json(r.sections[i], i + 1));
     Json budget = Json::array();
     for (const BudgetLine& line : run.budget) {
         budget.push_back({{"name", line.name},
@@ -78,7 +78,7 @@ Json run_json(const ReportedRun& run) {
     }
     return Json{{"name", run.name},
                 {"aligned_mm", number(r.aligned, 3)},
-                {"aligned_percent", number(percent(r.aligned, r.way), 2)},
+                {"aligned_percent", number(percent(r.aligned, r.arc_length), 2)},
                 {"time_s", number(r.time_of_b, 6)},
                 {"reference_time_s", number(r.time, 6)},
                 {"time_difference_s", number(r.time_of_b - r.time, 6)},
@@ -88,7 +88,7 @@ Json run_json(const ReportedRun& run) {
                 {"within_budget", all_held(run.budget)}};
 }
 
-std::string lines_of(const RunDifferenceStretch& d) {
+std::string lines_of(const RunDifferenceSection& d) {
     if (d.first_line == 0 && d.last_line == 0) return "-";
     return d.first_line == d.last_line ? fmt::format("{}", d.first_line)
                                        : fmt::format("{}-{}", d.first_line, d.last_line);
@@ -96,9 +96,9 @@ std::string lines_of(const RunDifferenceStretch& d) {
 
 std::string run_text(const ReportedRun& run, const std::string& reference) {
     const RunReport& r = run.report;
-    std::string text =
-        fmt::format("{} against {}: {:.1f} % of {:.1f} mm laid onto each other, {:.3f} s and {:.3f} s ({:+.3f} s)\n",
-                    run.name, reference, percent(r.aligned, r.way), r.way, r.time_of_b, r.time, r.time_of_b - r.time);
+    std::string text = fmt::format(
+        "{} against {}: {:.1f} % of {:.1f} mm laid onto each other, {:.3f} s and {:.3f} s ({:+.3f} s)\n", run.name,
+        reference, percent(r.aligned, r.arc_length), r.arc_length, r.time_of_b, r.time, r.time_of_b - r.time);
     text += fmt::format("{:<21} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>8} {:>7}\n", "difference", "mean", "95 %",
                         "lowest", "highest", "begin", "end", "over %", "places");
     for (const RunQuantitySummary& s : r.quantities) {
@@ -106,13 +106,13 @@ std::string run_text(const ReportedRun& run, const std::string& reference) {
         const double u = info.unit.per_inside;
         text += fmt::format("{:<21} {:>10.2f} {:>10.2f} {:>10.2f} {:>10.2f} {:>10.2f} {:>10.2f} {:>8.1f} {:>7}\n",
                             fmt::format("{} [{}]", info.name, info.unit.name), s.mean * u, s.p95 * u, s.lowest * u,
-                            s.highest * u, s.begin * u, s.end * u, 100 * s.over, s.stretches);
+                            s.highest * u, s.begin * u, s.end * u, 100 * s.over, s.sections);
     }
-    if (!r.stretches.empty())
+    if (!r.sections.empty())
         text += fmt::format("\n{:>3} {:<13} {:>16} {:>10} {:>8} {:>8} {:<28} {}\n", "no", "quantity", "peak", "mean",
-                            "mm", "s", fmt::format("{} X Y Z [mm]", place_word(r.stretches.front().place)), "lines");
-    for (std::size_t i = 0; i < std::min(shown_stretches, r.stretches.size()); ++i) {
-        const RunDifferenceStretch& d = r.stretches[i];
+                            "mm", "s", fmt::format("{} X Y Z [mm]", place_word(r.sections.front().place)), "lines");
+    for (std::size_t i = 0; i < std::min(shown_sections, r.sections.size()); ++i) {
+        const RunDifferenceSection& d = r.sections[i];
         const RunQuantityInfo& info = info_of(d.quantity);
         const double u = info.unit.per_inside;
         const bool relative = d.quantity == RunQuantity::speed;
@@ -125,8 +125,8 @@ std::string run_text(const ReportedRun& run, const std::string& reference) {
             fmt::format("{:.2f} {:.2f} {:.2f}", d.place.position().x(), d.place.position().y(), d.place.position().z()),
             lines_of(d));
     }
-    if (r.stretches.size() > shown_stretches)
-        text += fmt::format("and {} more: --json lists them\n", r.stretches.size() - shown_stretches);
+    if (r.sections.size() > shown_sections)
+        text += fmt::format("and {} more: --json lists them\n", r.sections.size() - shown_sections);
     for (const BudgetLine& line : run.budget) {
         text += fmt::format("budget {:<34} {:>10.4g} of {:<10.4g} {}\n", line.name, line.measured, line.limit,
                             line.held ? "held" : "NOT HELD");

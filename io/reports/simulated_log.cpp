@@ -88,10 +88,10 @@ Json json_of(const SimulationSummary& summary) {
                        {"jerk_mm_s3", by_axis(summary.max_jerk, 1)}};
     json["path_deviation_mm"] = number(summary.path_deviation);
     json["limits_ok"] = summary.limits_ok;
-    Json ruled;
-    for (std::size_t i = 0; i < summary.ruled.size(); ++i)
-        ruled[std::string(name_of(static_cast<Ruling>(i)))] = summary.ruled[i];
-    json["points_ruled_by"] = ruled;
+    Json limited_by;
+    for (std::size_t i = 0; i < summary.limited_by.size(); ++i)
+        limited_by[std::string(name_of(static_cast<LimitingFactor>(i)))] = summary.limited_by[i];
+    json["points_ruled_by"] = limited_by;
     return json;
 }
 

@@ -109,18 +109,18 @@ private:
 
 }  // namespace
 
-FormedMap make_formed_map(const FormedPart& part, const Box3& box, const viz::Camera& camera) {
-    const FormedSurface& formed = part.surface();
-    Box2 region = formed.bounds();
+AsMachinedMap make_as_machined_map(const AsMachinedPart& part, const Box3& box, const viz::Camera& camera) {
+    const AsMachinedSurface& as_machined = part.surface();
+    Box2 region = as_machined.bounds();
     if (!box.isEmpty()) region = region.intersection(Box2(box.min().head<2>(), box.max().head<2>()));
     if (std::abs(camera.towards.z()) > least_tilt) {
-        const auto [low, high] = heights_of(formed.surface());
-        region = region.intersection(shown_plan(camera, low, high + formed.tool().radius));
+        const auto [low, high] = heights_of(as_machined.surface());
+        region = region.intersection(shown_plan(camera, low, high + as_machined.tool().radius));
     }
-    FormedMap map;
+    AsMachinedMap map;
     viz::Relief& relief = map.relief;
     if (region.isEmpty()) throw UsageError("nothing of the formed surface lies in the part that is shown");
-    const double cell = std::max(formed.usual_cell(), std::sqrt(region.volume() / most_cells));
+    const double cell = std::max(as_machined.usual_cell(), std::sqrt(region.volume() / most_cells));
     const auto per_vertex = std::max<std::int64_t>(1, std::lround(camera.mm_per_pixel / cell));
     // Finer than the cells where the picture is: cusps stay sharp.
     const double fine = per_vertex == 1 ? std::clamp(camera.mm_per_pixel, cell / 10, cell)
@@ -130,16 +130,16 @@ FormedMap make_formed_map(const FormedPart& part, const Box3& box, const viz::Ca
     relief.rows = frame.rows / per_vertex;
     relief.pitch = fine * static_cast<double>(per_vertex);
     const Vec2 middle = frame.corner + Vec2::Constant(0.5 * fine * static_cast<double>(per_vertex - 1));
-    relief.origin = Vec3(middle.x(), middle.y(), formed.level());
+    relief.origin = Vec3(middle.x(), middle.y(), as_machined.level());
     relief.z =
         Column<float>(static_cast<std::size_t>(relief.columns * relief.rows), std::numeric_limits<float>::quiet_NaN());
     map.field.info = {"formed", "Formed surface over its form", unit::um, FieldScale::diverging,
-                      fmt::format("{}, {}", to_text(formed.tool()), formed.note())};
+                      fmt::format("{}, {}", to_text(as_machined.tool()), as_machined.note())};
     map.field.values = relief.z;
     Means means(relief, map.field.values, per_vertex, frame.columns);
-    const Form form(formed, region);
+    const Form form(as_machined, region);
     std::vector<float> heights;
-    formed.map(frame, [&](std::int64_t first_row, std::span<float> z) {
+    as_machined.map(frame, [&](std::int64_t first_row, std::span<float> z) {
         heights.assign(z.begin(), z.end());
         form.subtract(frame, first_row, z);
         leave_out_flanks(form, frame, first_row, heights, z);

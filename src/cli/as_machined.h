@@ -9,12 +9,13 @@
 namespace clsurf::cli {
 
 /// What a map of the formed surface is drawn from.
-struct FormedMap {
+struct AsMachinedMap {
     viz::Relief relief;
     Field field;  ///< deviations over the relief's vertices
 };
 
 /// As fine as a picture's pixels, each vertex the mean of its cells. `box` empty: all that `camera` shows.
-[[nodiscard]] FormedMap make_formed_map(const FormedPart& formed, const Box3& box, const viz::Camera& camera);
+[[nodiscard]] AsMachinedMap make_as_machined_map(const AsMachinedPart& as_machined, const Box3& box,
+                                                 const viz::Camera& camera);
 
 }  // namespace clsurf::cli

@@ -64,7 +64,7 @@ Checked check_log(const PartOptions& options, std::optional<Role> measured, cons
     reported.tool = part.tool;
     reported.scallop = quality.scallop;
     if (format == "json") reported.colour_differences = colour_differences(quality.report, part, surface);
-    reported.formed = quality.formed ? &*quality.formed : nullptr;
+    reported.as_machined = quality.as_machined ? &*quality.as_machined : nullptr;
     reported.budget = hold(quality.report, budget);
     reported.diagnostics = &part.diagnostics;
     if (values.count("output") == 0) reported.columns = table_columns();

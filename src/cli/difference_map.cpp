@@ -16,7 +16,7 @@
 namespace clsurf::cli {
 namespace {
 
-/// Ends of the colours: nearly all of what differs, however short the stretch is.
+/// Ends of the colours: nearly all of what differs, however short the section is.
 constexpr double shown_percentile = 99.9;
 
 /// Even about 0, and never narrower than what counts as a difference: equal runs are not to look different.

@@ -31,9 +31,9 @@ ExitCode run_intervals(const po::variables_map& values) {
         values.count("machine") > 0 ? io::read_machine(values["machine"].as<std::string>()) : Machine{};
     ReportOutput output(values, interval_formats);
     const Program program = io::read_program(required(values, "PROGRAM"), read_program_options(values));
-    const ProgrammedSurface laid = lay_out(program);
-    rules.reach = 0.5 * laid.surface.step_over;
-    const ProgramIntervals intervals = plan_intervals(program, laid, rules, machine);
+    const ProgrammedSurface programmed = build_programmed_surface(program);
+    rules.reach = 0.5 * programmed.surface.step_over;
+    const ProgramIntervals intervals = plan_intervals(program, programmed, rules, machine);
     if (output.format() == "json") {
         output.write(io::intervals_json(intervals, program.diagnostics));
     } else {

@@ -33,10 +33,10 @@ Trajectory trajectory_on(const Positions& positions) {
 }
 
 /// Adds the contact points to what lint found; nothing where the program turns the tool. O(findings).
-void locate(LintReport& report, const Program& program, const ProgrammedSurface& laid, const CuttingTool& tool) {
+void locate(LintReport& report, const Program& program, const ProgrammedSurface& programmed, const CuttingTool& tool) {
     if (!program.motions.rotary.empty() || !program.motions.tool_axis.empty()) return;
-    const Trajectory path = trajectory_on(laid.surface.positions);
-    const ContactPoints points(laid.surface, path, std::nullopt, tool);
+    const Trajectory path = trajectory_on(programmed.surface.positions);
+    const ContactPoints points(programmed.surface, path, std::nullopt, tool);
     parallel_for(static_cast<std::int64_t>(report.findings.size()), 1, [&](std::int64_t first, std::int64_t last) {
         for (std::int64_t k = first; k < last; ++k) {
             LintFinding& finding = report.findings[static_cast<std::size_t>(k)];
@@ -62,10 +62,10 @@ ExitCode run_lint(const po::variables_map& values) {
     ReportOutput output(values, lint_formats);
     const Program program = io::read_program(required(values, "PROGRAM"), read_program_options(values));
     Diagnostics diagnostics = program.diagnostics;
-    const ProgrammedSurface laid = lay_out(program);
-    LintReport report = lint(program, laid, thresholds);
+    const ProgrammedSurface programmed = build_programmed_surface(program);
+    LintReport report = lint(program, programmed, thresholds);
     if (const std::optional<CuttingTool> tool = find_tool(choice, nullptr, &program, diagnostics))
-        locate(report, program, laid, *tool);
+        locate(report, program, programmed, *tool);
     if (output.format() != "json") print(diagnostics, values);
     output.write(writers.at(output.format())({&report, &program, &diagnostics}));
     return report.warnings() > 0 ? ExitCode::check_failed : ExitCode::done;

@@ -79,7 +79,7 @@ ExitCode run_optimize(const po::variables_map& values) {
         picture->write(draw_before_and_after(result, program.main().name()),
                        fmt::format("clsurf optimize of {}: speeds before and after", program.main().name()));
     }
-    if (!result.proof.accepted) return ExitCode::check_failed;
+    if (!result.evaluation.accepted) return ExitCode::check_failed;
     output.write(result.text);
     output.commit();
     return ExitCode::done;

@@ -33,8 +33,8 @@ viz::Image draw_before_and_after(const Optimized& result, const std::string& pro
                            run.duration, run.mismatch * seconds_per_minute, defects, defects == 1 ? "" : "s");
     };
     texts.subtitle = file_name(program);
-    texts.notes = {"before: " + summary(result.before, result.proof.defects_before),
-                   "after: " + summary(result.after, result.proof.defects_after)};
+    texts.notes = {"before: " + summary(result.before, result.evaluation.defects_before),
+                   "after: " + summary(result.after, result.evaluation.defects_after)};
     return viz::draw_map(panels, viz::map_camera(panels, look), scale, texts, look);
 }
 

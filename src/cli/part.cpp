@@ -64,8 +64,8 @@ PartOptions read_part_options(const po::variables_map& values) {
     options.tool = read_tool(values);
     if (values.count("surface") > 0) {
         const std::string surface = values["surface"].as<std::string>();
-        options.formed = surface == "formed";
-        if (!options.formed) options.role = parse_role(surface);
+        options.as_machined = surface == "formed";
+        if (!options.as_machined) options.role = parse_role(surface);
     }
     options.poses = read_work_offset(values);
     if (values.count("derivative") > 0) {

@@ -16,7 +16,7 @@ struct PartOptions {
     io::ProgramOptions program_options;
     io::LogOptions log_options;
     std::optional<Role> role;  ///< --surface
-    bool formed = false;       ///< --surface formed
+    bool as_machined = false;  ///< --surface formed
     FramePoses poses;          ///< --work-offset
     std::string machine;       ///< machine file with the kinematics; empty: three axes
     bool use_line_channel = true;

@@ -14,7 +14,7 @@
 namespace clsurf::cli {
 namespace {
 
-/// x of every point: time [s], or way from the first point [mm].
+/// x of every point: time [s], or arc length from the first point [mm].
 std::vector<double> x_values(const Part& part, bool over_length) {
     const PointIndex count = part.log.records;
     std::vector<double> x(static_cast<std::size_t>(count));
@@ -30,7 +30,7 @@ std::vector<double> x_values(const Part& part, bool over_length) {
     return x;
 }
 
-/// The points to show: from --from to --to, or the stretch of --line with as much on both sides.
+/// The points to show: from --from to --to, or the section of --line with as much on both sides.
 PointRange shown_range(const PlotOptions& options, const Part& part, const std::vector<double>& x) {
     const auto last = static_cast<PointIndex>(x.size()) - 1;
     PointRange range{0, last};

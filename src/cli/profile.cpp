@@ -51,8 +51,8 @@ ExitCode plot_profile(const po::variables_map& values, PartOptions options, viz:
     clock.begin("stitch the surface");
     const ClSurface surface = stitch(part);
     clock.begin("sweep the tool");
-    const FormedPart formed(part, surface, role, tool);
-    const FormedProfile profile = measure_profile(formed.surface(), from, to);
+    const AsMachinedPart as_machined(part, surface, role, tool);
+    const AsMachinedProfile profile = measure_profile(as_machined.surface(), from, to);
     if (profile.count < 2) throw UsageError("--profile: nothing was cut between the two places");
 
     std::vector<double> x(profile.deviation.size());
@@ -75,7 +75,7 @@ ExitCode plot_profile(const po::variables_map& values, PartOptions options, viz:
                                 file_name(options.log), ends[0], ends[1], ends[2], ends[3]);
     look.x_label = "along the profile (mm)";
     look.footnote = fmt::format(
-        "{}, {}; {} of {:.3g} mm evaluated", to_text(tool), formed.surface().note(),
+        "{}, {}; {} of {:.3g} mm evaluated", to_text(tool), as_machined.surface().note(),
         r.sampling_lengths == 1 ? "one sampling length" : fmt::format("{} sampling lengths", r.sampling_lengths),
         r.length / r.sampling_lengths);
     clock.begin("draw");

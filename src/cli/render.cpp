@@ -73,7 +73,7 @@ ExitCode run_render(const po::variables_map& values) {
     const int stages_of_a_part = options.defects ? 7 : 5;
     StageClock clock(read_common(values), stages_of_a_part * (options.before.empty() ? 1 : 2) + 3);
     Shown after = load_shown(options.part, options.field, options.defects, clock);
-    if (options.part.formed) show_formed(after, options, clock);
+    if (options.part.as_machined) show_as_machined(after, options, clock);
     print(after.part.diagnostics, values);
     std::vector<viz::MapPanel> panels;
     std::optional<Shown> before;
@@ -81,7 +81,7 @@ ExitCode run_render(const po::variables_map& values) {
         PartOptions other = options.part;
         other.log = options.before;
         before = load_shown(other, options.field, options.defects, clock);
-        if (other.formed) show_formed(*before, options, clock);
+        if (other.as_machined) show_as_machined(*before, options, clock);
         print(before->part.diagnostics, values);
         panels.push_back(panel_of(*before, options, "before: " + file_name(options.before)));
     }

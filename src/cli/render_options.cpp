@@ -5,8 +5,8 @@
 namespace clsurf::cli {
 namespace {
 
-void read_formed(const po::variables_map& values, RenderOptions& options) {
-    if (!options.part.formed) {
+void read_as_machined(const po::variables_map& values, RenderOptions& options) {
+    if (!options.part.as_machined) {
         if (given(values, "swept"))
             throw UsageError("--swept is of the formed surface only", "--surface formed --tool ball:6");
         return;
@@ -54,7 +54,7 @@ RenderOptions read_render_options(const po::variables_map& values) {
         }
     }
     options.defects = values.count("defects") > 0;
-    read_formed(values, options);
+    read_as_machined(values, options);
     return options;
 }
 

@@ -43,16 +43,17 @@ ExitCode run_report(const po::variables_map& values) {
 
     clock.begin("measure");
     io::ReportPage page = report_page_of(shown, logs, options);
-    std::optional<ReportedForm> formed;
+    std::optional<ReportedForm> as_machined;
     if (shown.part.tool && shown.surface.step_over > 0) {
-        formed = form_for_report(shown, options, clock);
-        page.relief = page_relief_of(*formed);
-        page.formed_options = {"--surface", "formed", "--tool", to_text(*shown.part.tool)};
+        as_machined = form_for_report(shown, options, clock);
+        page.relief = page_relief_of(*as_machined);
+        page.as_machined_options = {"--surface", "formed", "--tool", to_text(*shown.part.tool)};
         if (options.measured)
-            page.formed_options.insert(page.formed_options.end(), {"--swept", std::string(name_of(*options.measured))});
+            page.as_machined_options.insert(page.as_machined_options.end(),
+                                            {"--swept", std::string(name_of(*options.measured))});
     }
     clock.begin("draw");
-    add_report_pictures(page, shown, options, formed);
+    add_report_pictures(page, shown, options, as_machined);
     clock.begin("write the page");
     output.write(fit_page(page, logs));
     output.commit();

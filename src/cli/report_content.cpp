@@ -47,7 +47,7 @@ std::string first_field(const std::vector<Field>& fields, const std::string& wan
 
 ReportedForm form_for_report(const ReportLog& shown, const ReportOptions& options, StageClock& clock) {
     clock.begin("sweep the tool");
-    const FormedPart formed(shown.part, shown.surface, options.measured, *shown.part.tool);
+    const AsMachinedPart as_machined(shown.part, shown.surface, options.measured, *shown.part.tool);
     viz::MapPanel panel;
     panel.surface = &shown.surface;
     viz::Look look;
@@ -56,17 +56,17 @@ ReportedForm form_for_report(const ReportLog& shown, const ReportOptions& option
     look.view = viz::parse_view("top");
     look.legend = false;
     ReportedForm made;
-    made.map = make_formed_map(formed, {}, viz::map_camera({panel}, look));
+    made.map = make_as_machined_map(as_machined, {}, viz::map_camera({panel}, look));
     made.range = find_range(made.map.field, all_as_one_cut(static_cast<PointIndex>(made.map.field.values.size())), {});
     return made;
 }
 
 void add_report_pictures(io::ReportPage& page, const ReportLog& shown, const ReportOptions& options,
-                         const std::optional<ReportedForm>& formed) {
+                         const std::optional<ReportedForm>& as_machined) {
     PicturedPart pictured{&shown.part, &shown.surface, shown.fields, page.ranges, &shown.quality.report,
                           {},          options.gl};
     std::optional<PartContacts> contacts;
-    if (formed && shown.part.tool) contacts.emplace(shown.part, shown.surface, *shown.part.tool);
+    if (as_machined && shown.part.tool) contacts.emplace(shown.part, shown.surface, *shown.part.tool);
     for (std::size_t i = 0; i < shown.quality.report.defects.size(); ++i) {
         const Defect& defect = shown.quality.report.defects[i];
         page.defects.push_back({outlines_of(defect, shown.surface), {}});
@@ -76,16 +76,23 @@ void add_report_pictures(io::ReportPage& page, const ReportLog& shown, const Rep
         pictured.outlines.push_back({page.defects.back().outlines, fmt::format("{}", i + 1)});
     }
     page.pictures.push_back(picture_of_part(pictured, page.first_field));
-    if (formed)
-        page.pictures.push_back(picture_of_relief(pictured, formed->map.relief, formed->map.field, formed->range));
+    if (as_machined)
+        page.pictures.push_back(
+            picture_of_relief(pictured, as_machined->map.relief, as_machined->map.field, as_machined->range));
     for (std::size_t i = 0; i < std::min(pictured_defects, page.defects.size()); ++i)
         page.defects[i].picture = picture_of_defect(pictured, i);
 }
 
-io::PageRelief page_relief_of(const ReportedForm& formed) {
-    const viz::Relief& r = formed.map.relief;
-    return {
-        r.origin, r.pitch, r.columns, r.rows, r.z, formed.map.field.values, formed.range, formed.map.field.info.note};
+io::PageRelief page_relief_of(const ReportedForm& as_machined) {
+    const viz::Relief& r = as_machined.map.relief;
+    return {r.origin,
+            r.pitch,
+            r.columns,
+            r.rows,
+            r.z,
+            as_machined.map.field.values,
+            as_machined.range,
+            as_machined.map.field.info.note};
 }
 
 io::ReportPage report_page_of(const ReportLog& shown, const std::vector<ReportLog>& logs,
@@ -103,7 +110,7 @@ io::ReportPage report_page_of(const ReportLog& shown, const std::vector<ReportLo
     page.quality.log = shown.part.log.name;
     page.quality.tool = shown.part.tool;
     page.quality.scallop = shown.quality.scallop;
-    page.quality.formed = shown.quality.formed ? &*shown.quality.formed : nullptr;
+    page.quality.as_machined = shown.quality.as_machined ? &*shown.quality.as_machined : nullptr;
     page.health = shown.part.diagnostics;
     page.health.append(check_health(shown.part.log, shown.part.program.main().line_count()));
     for (const Field& field : shown.fields) {

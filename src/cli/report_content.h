@@ -14,13 +14,13 @@ namespace clsurf::cli {
 
 /// The formed surface as a height map that a page can carry.
 struct ReportedForm {
-    FormedMap map;
+    AsMachinedMap map;
     ShownRange range;
 };
 
 /// Sweeps the tool of the part, which is known.
 [[nodiscard]] ReportedForm form_for_report(const ReportLog& shown, const ReportOptions& options, StageClock& clock);
-[[nodiscard]] io::PageRelief page_relief_of(const ReportedForm& formed);
+[[nodiscard]] io::PageRelief page_relief_of(const ReportedForm& as_machined);
 
 /// The page without its pictures and the machined surface. Refers to `shown`. Throws UsageError: none of its fields is
 /// called --color.
@@ -29,6 +29,6 @@ struct ReportedForm {
 
 /// The pictures of the part, of its machined surface and of the first defects.
 void add_report_pictures(io::ReportPage& page, const ReportLog& shown, const ReportOptions& options,
-                         const std::optional<ReportedForm>& formed);
+                         const std::optional<ReportedForm>& as_machined);
 
 }  // namespace clsurf::cli

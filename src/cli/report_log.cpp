@@ -20,7 +20,7 @@ constexpr std::uint64_t usual_rest = 3'000'000;  ///< [bytes] of pictures, text 
 /// Chooses the points of a log's share of the page.
 void choose_points(ReportLog& shown, PointIndex most) {
     shown.kept = keep_points(shown.surface, *shown.part.lines, shown.fields, shown.quality.report.defects, most);
-    shown.vertices = viz::way_vertices(shown.surface, shown.kept.points);
+    shown.vertices = viz::section_vertices(shown.surface, shown.kept.points);
     // The ends of passes are among the points, so the nearer one stands for those between, however far.
     shown.bands =
         viz::join_passes(shown.surface, shown.vertices, viz::NearnessFrame(), std::numeric_limits<float>::max());

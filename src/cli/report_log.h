@@ -19,7 +19,7 @@ struct ReportLog {
     std::vector<Field> fields;
     std::vector<Trajectory> other_roles;
     KeptPoints kept;
-    viz::WayVertices vertices;
+    viz::SectionVertices vertices;
     viz::Bands bands;
 };
 

@@ -49,22 +49,22 @@ Shown load_shown(const PartOptions& options, const std::string& field, bool defe
     clock.begin("stitch the surface");
     shown.surface = stitch(shown.part);
     clock.begin("compute the field");
-    if (!options.formed) shown.field = fields_of(shown.part, shown.surface).get(field);
+    if (!options.as_machined) shown.field = fields_of(shown.part, shown.surface).get(field);
     if (defects)
         shown.defects = outline_defects(shown.part, shown.surface,
-                                        options.formed ? shown.part.tool : std::optional<CuttingTool>(), clock);
+                                        options.as_machined ? shown.part.tool : std::optional<CuttingTool>(), clock);
     clock.end();
     return shown;
 }
 
-void show_formed(Shown& shown, const RenderOptions& options, StageClock& clock) {
+void show_as_machined(Shown& shown, const RenderOptions& options, StageClock& clock) {
     viz::MapPanel panel;
     panel.surface = &shown.surface;
     const viz::Camera camera = viz::map_camera({panel}, options.shown.look);
     const CuttingTool tool = required_tool(shown.part, "--surface formed", "--surface formed --tool ball:6");
     clock.begin("sweep the tool");
-    const FormedPart formed(shown.part, shown.surface, options.swept, tool);
-    FormedMap map = make_formed_map(formed, options.shown.look.box, camera);
+    const AsMachinedPart as_machined(shown.part, shown.surface, options.swept, tool);
+    AsMachinedMap map = make_as_machined_map(as_machined, options.shown.look.box, camera);
     clock.end();
     shown.field = std::move(map.field);
     shown.relief = std::move(map.relief);

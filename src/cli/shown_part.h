@@ -36,7 +36,7 @@ struct Shown {
 [[nodiscard]] Shown load_shown(const PartOptions& options, const std::string& field, bool defects, StageClock& clock);
 
 /// The formed surface in place of the positions', as fine as the picture shows it.
-void show_formed(Shown& shown, const RenderOptions& options, StageClock& clock);
+void show_as_machined(Shown& shown, const RenderOptions& options, StageClock& clock);
 
 /// The range of what lies in the picture.
 [[nodiscard]] ShownRange range_in_picture(const Shown& shown, const RenderOptions& options, const viz::Camera& camera);

@@ -17,10 +17,10 @@ std::string summary_text(const SimulationSummary& s) {
     row("greatest acceleration", s.max_acceleration, "mm/s²");
     row("greatest jerk", s.max_jerk, "mm/s³");
     text += fmt::format("{:<24} {:.4f} mm\n", "off the path", s.path_deviation);
-    for (std::size_t i = 0; i < s.ruled.size(); ++i) {
-        if (s.ruled[i] == 0) continue;
-        text += fmt::format("{:<24} {:5.1f} % of the points\n", name_of(static_cast<Ruling>(i)),
-                            100.0 * static_cast<double>(s.ruled[i]) / static_cast<double>(s.points));
+    for (std::size_t i = 0; i < s.limited_by.size(); ++i) {
+        if (s.limited_by[i] == 0) continue;
+        text += fmt::format("{:<24} {:5.1f} % of the points\n", name_of(static_cast<LimitingFactor>(i)),
+                            100.0 * static_cast<double>(s.limited_by[i]) / static_cast<double>(s.points));
     }
     return text;
 }

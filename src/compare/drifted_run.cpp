@@ -25,12 +25,12 @@ float middle_of(std::vector<float>& values) {
 }  // namespace
 
 DriftFinder::DriftFinder(const ClSurface& surface) {
-    const Way way(surface.positions);
+    const ArcLength arc_length(surface.positions);
     const PointIndex count = surface.positions.size();
-    const double every = count > 0 ? way.to(count - 1) / compared_places : 0;
+    const double every = count > 0 ? arc_length.to(count - 1) / compared_places : 0;
     double since = every;
     for (PointIndex i = 0; i < count; ++i) {
-        const double step = way.step(i);
+        const double step = arc_length.step(i);
         since += step;
         if (since < every || !(step > 0)) continue;
         since = 0;

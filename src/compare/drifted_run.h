@@ -18,7 +18,7 @@ struct RunDeparture {
 
 class DriftFinder {
 public:
-    /// Places evenly spaced along the way of run A.
+    /// Places evenly spaced along the path of run A.
     explicit DriftFinder(const ClSurface& surface);
 
     /// Another run that was compared with A. O(places).

@@ -9,11 +9,11 @@ namespace {
 
 // Lengths in mm.
 constexpr float spacing = 0.005F;            ///< of knots at least: coarser than the noise of axes that stand
-constexpr float play = 0.05F;                ///< way that the window always has
-constexpr float window_of_chord = 2.0F;      ///< way per chord: corners are cut, the chord is shorter
-constexpr float window_of_distance = 10.0F;  ///< way per distance: a foot jumps over a cut corner
+constexpr float play = 0.05F;                ///< arc length that the window always has
+constexpr float window_of_chord = 2.0F;      ///< arc length per chord: corners are cut, the chord is shorter
+constexpr float window_of_distance = 10.0F;  ///< arc length per distance: a projection jumps over a cut corner
 constexpr float farthest = 0.5F;             ///< distance beyond which the window grows no more
-constexpr float way_penalty = 0.02F;         ///< mm of distance per mm that way and chord differ
+constexpr float arc_length_penalty = 0.02F;  ///< mm of distance per mm that arc length and chord differ
 constexpr float same_place = 1e-6F;          ///< of a chord
 constexpr float same_spot = 1e-6F;
 
@@ -39,7 +39,7 @@ std::int64_t KnotPath::knot_at(PointIndex point) const {
     return std::max<std::int64_t>(0, after - knots_.begin() - 1);
 }
 
-PathFoot KnotPath::foot(std::int64_t knot, const Eigen::Vector3f& p, float from) const {
+PathProjection KnotPath::projection(std::int64_t knot, const Eigen::Vector3f& p, float from) const {
     const Eigen::Vector3f a = at(point(knot));
     const Eigen::Vector3f chord = at(point(knot + 1)) - a;
     const float squared = chord.squaredNorm();
@@ -47,38 +47,39 @@ PathFoot KnotPath::foot(std::int64_t knot, const Eigen::Vector3f& p, float from)
     return {knot, fraction, (a + fraction * chord - p).norm()};
 }
 
-PathFoot KnotPath::advance(const PathFoot& from, const Eigen::Vector3f& p, float chord) const {
-    PathFoot best = from;
+PathProjection KnotPath::advance(const PathProjection& from, const Eigen::Vector3f& p, float chord) const {
+    PathProjection best = from;
     float best_cost = std::numeric_limits<float>::infinity();
     float nearest = best_cost;
-    float way = 0;  // from the stand to the start of the chord in turn; negative on its own
+    float arc_length = 0;  // from the projection to the start of the chord in turn; negative on its own
     for (std::int64_t k = from.knot; k + 1 < size(); ++k) {
         const float length = (at(point(k + 1)) - at(point(k))).norm();
-        if (k == from.knot) way = -from.fraction * length;
-        const PathFoot here = foot(k, p, k == from.knot ? from.fraction : 0.0F);
-        const float cost = here.distance + way_penalty * std::abs(way + here.fraction * length - chord);
+        if (k == from.knot) arc_length = -from.fraction * length;
+        const PathProjection here = projection(k, p, k == from.knot ? from.fraction : 0.0F);
+        const float cost = here.distance + arc_length_penalty * std::abs(arc_length + here.fraction * length - chord);
         nearest = std::min(nearest, here.distance);
         if (cost < best_cost) {
             best_cost = cost;
             best = here;
         }
-        way += length;
-        if (way > play + window_of_chord * chord + window_of_distance * std::min(nearest, farthest)) break;
+        arc_length += length;
+        if (arc_length > play + window_of_chord * chord + window_of_distance * std::min(nearest, farthest)) break;
     }
     // The end of a chord is the start of the next, where pauses are found.
     if (best.fraction == 1.0F && best.knot + 2 < size()) best = {best.knot + 1, 0.0F, best.distance};
     return best;
 }
 
-Station KnotPath::station(const PathFoot& stand, const Eigen::Vector3f& p, PointIndex expected) const {
+PathLocation KnotPath::location(const PathProjection& projected, const Eigen::Vector3f& p, PointIndex expected) const {
     // Runs in step are in step: in a corner a chord cannot tell which of the points on it comes first.
-    const PointIndex before = point(std::max<std::int64_t>(0, stand.knot - 1));
-    const PointIndex after = point(std::min(size() - 1, stand.knot + 2));
+    const PointIndex before = point(std::max<std::int64_t>(0, projected.knot - 1));
+    const PointIndex after = point(std::min(size() - 1, projected.knot + 2));
     if (expected >= before && expected <= after && (at(expected) - p).squaredNorm() < same_spot * same_spot)
         return {expected, 0};
-    const PointIndex first = point(stand.knot);
-    const PointIndex last = point(stand.knot + 1);
-    if (last == first + 1) return stand.fraction == 1.0F ? Station{last, 0} : Station{first, stand.fraction};
+    const PointIndex first = point(projected.knot);
+    const PointIndex last = point(projected.knot + 1);
+    if (last == first + 1)
+        return projected.fraction == 1.0F ? PathLocation{last, 0} : PathLocation{first, projected.fraction};
     // Points between two knots lie on their chord, in order but for what a standing axis trembles.
     const Eigen::Vector3f a = at(first);
     const Eigen::Vector3f chord = at(last) - a;
@@ -97,14 +98,14 @@ Station KnotPath::station(const PathFoot& stand, const Eigen::Vector3f& p, Point
         }
         return low;
     };
-    const PointIndex from = first_where([&](float s) { return s >= stand.fraction - same_place; });
-    const PointIndex behind = first_where([&](float s) { return s > stand.fraction + same_place; });
+    const PointIndex from = first_where([&](float s) { return s >= projected.fraction - same_place; });
+    const PointIndex behind = first_where([&](float s) { return s > projected.fraction + same_place; });
     if (behind > from) return {std::clamp(expected, from, behind - 1), 0};
     if (from == first || from > last) return {std::min(from, last), 0};
     const float low = along(from - 1);
     const float high = along(from);
-    const float share = high > low ? std::clamp((stand.fraction - low) / (high - low), 0.0F, 1.0F) : 0.0F;
-    return share == 1.0F ? Station{from, 0} : Station{from - 1, share};
+    const float share = high > low ? std::clamp((projected.fraction - low) / (high - low), 0.0F, 1.0F) : 0.0F;
+    return share == 1.0F ? PathLocation{from, 0} : PathLocation{from - 1, share};
 }
 
 }  // namespace clsurf

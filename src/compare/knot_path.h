@@ -6,11 +6,11 @@
 
 namespace clsurf {
 
-/// The foot of a point on a path.
-struct PathFoot {
+/// The projection of a point on a path.
+struct PathProjection {
     std::int64_t knot = 0;  ///< on the chord from this knot to the next
     float fraction = 0;     ///< of the chord
-    float distance = 0;     ///< [mm] from the point whose foot it is
+    float distance = 0;     ///< [mm] from the point whose projection it is
 };
 
 class KnotPath {
@@ -22,13 +22,14 @@ public:
     [[nodiscard]] PointIndex point(std::int64_t knot) const { return knots_[static_cast<std::size_t>(knot)]; }
     /// The last knot at or before a point.
     [[nodiscard]] std::int64_t knot_at(PointIndex point) const;
-    /// The foot of `p` on one chord at or after `from`. Domain: knot + 1 < size().
-    [[nodiscard]] PathFoot foot(std::int64_t knot, const Eigen::Vector3f& p, float from) const;
-    /// The foot of `p` at or after `from`, for a tool that moved by `chord` [mm].
-    [[nodiscard]] PathFoot advance(const PathFoot& from, const Eigen::Vector3f& p, float chord) const;
-    /// The place between the points of B for `p`, whose foot `stand` is. Among points on one spot (B
+    /// The projection of `p` on one chord at or after `from`. Domain: knot + 1 < size().
+    [[nodiscard]] PathProjection projection(std::int64_t knot, const Eigen::Vector3f& p, float from) const;
+    /// The projection of `p` at or after `from`, for a tool that moved by `chord` [mm].
+    [[nodiscard]] PathProjection advance(const PathProjection& from, const Eigen::Vector3f& p, float chord) const;
+    /// The place between the points of B for `p`, whose projection `projected` is. Among points on one spot (B
     /// stands still) the one nearest to `expected`, so that pauses are gone through in step.
-    [[nodiscard]] Station station(const PathFoot& stand, const Eigen::Vector3f& p, PointIndex expected) const;
+    [[nodiscard]] PathLocation location(const PathProjection& projected, const Eigen::Vector3f& p,
+                                        PointIndex expected) const;
 
 private:
     [[nodiscard]] Eigen::Vector3f at(PointIndex point) const { return b_[point] + shift_; }

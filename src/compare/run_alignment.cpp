@@ -12,24 +12,24 @@ namespace clsurf {
 namespace {
 
 // Lengths in mm.
-constexpr float off_distance = 0.1F;        ///< the walk may be on the wrong way from here on
-constexpr float lost_distance = 0.5F;       ///< it is
-constexpr float lost_way = 1.0F;            ///< way gone off before the walk counts as lost
-constexpr float near_distance = 0.1F;       ///< a walk must begin this near, and stay so …
-constexpr float proof_way = 5.0F;           ///< … for this way
-constexpr float same_fit = 0.002F;          ///< mean distances that differ less are equal
-constexpr double cell = 0.25;               ///< of the grid in which beginnings are looked for
-constexpr float search_way = 0.1F;          ///< between two searches at first; doubles with each that fails …
-constexpr float longest_search_way = 5.0F;  ///< … up to this
-constexpr float one_place = 1.0F;           ///< points of B with less way between them are one place
-constexpr std::size_t most_places = 32;     ///< where a walk is tried to begin
-constexpr std::int64_t work_per_point = 8;  ///< bound of what is walked more than once
+constexpr float off_distance = 0.1F;               ///< the walk may be on the wrong way from here on
+constexpr float lost_distance = 0.5F;              ///< it is
+constexpr float lost_length = 1.0F;                ///< arc length gone off before the walk counts as lost
+constexpr float near_distance = 0.1F;              ///< a walk must begin this near, and stay so …
+constexpr float proof_arc_length = 5.0F;           ///< … for this way
+constexpr float same_fit = 0.002F;                 ///< mean distances that differ less are equal
+constexpr double cell = 0.25;                      ///< of the grid in which beginnings are looked for
+constexpr float search_arc_length = 0.1F;          ///< between two searches at first; doubles with each that fails …
+constexpr float longest_search_arc_length = 5.0F;  ///< … up to this
+constexpr float one_place = 1.0F;                  ///< points of B with less arc length between them are one place
+constexpr std::size_t most_places = 32;            ///< where a walk is tried to begin
+constexpr std::int64_t work_per_point = 8;         ///< bound of what is walked more than once
 
 /// A walk that is tried.
 struct Trial {
-    PathFoot begin, stand;
-    float way = 0;    ///< gone near the path
-    double cost = 0;  ///< distance times way; `near_distance` times way where it is off
+    PathProjection begin, projected;
+    float arc_length = 0;  ///< gone near the path
+    double cost = 0;       ///< distance times arc length; `near_distance` times arc length where it is off
     bool alive = true;
 };
 
@@ -45,22 +45,22 @@ public:
 
     RunAlignment run() {
         RunAlignment result;
-        result.stations.resize(static_cast<std::size_t>(a_.size()));
-        std::fill(result.stations.begin(), result.stations.end(), Station{});
+        result.locations.resize(static_cast<std::size_t>(a_.size()));
+        std::fill(result.locations.begin(), result.locations.end(), PathLocation{});
         if (path_.size() < 2) return result;
-        walk(result.stations);
+        walk(result.locations);
         measure(result);
         return result;
     }
 
 private:
-    void walk(Column<Station>& stations) {
+    void walk(Column<PathLocation>& locations) {
         PointIndex off_since = -1;  // first point at which the walk is off the path
-        float off_way = 0;          // gone since
-        float retry_after = lost_way;
-        float to_search = 0;  // way until the next search for a beginning
-        float search_step = search_way;
-        Station last{};
+        float off_path = 0;         // gone since
+        float retry_after = lost_length;
+        float to_search = 0;  // arc length until the next search for a beginning
+        float search_step = search_arc_length;
+        PathLocation last{};
         PointIndex last_point = -1;  // of A, on the path; −1: the walk stands nowhere
         Eigen::Vector3f before = Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
         for (PointIndex i = 0; i < a_.size(); ++i) {
@@ -74,39 +74,39 @@ private:
                 if (to_search > 0) continue;
                 if (!begin(i)) {
                     to_search = search_step;
-                    search_step = std::min(2 * search_step, longest_search_way);
+                    search_step = std::min(2 * search_step, longest_search_arc_length);
                     continue;
                 }
-                search_step = search_way;
+                search_step = search_arc_length;
                 begins_.push_back(i);
-                last = path_.station(stand_, p, path_.point(stand_.knot));
+                last = path_.location(projected_, p, path_.point(projected_.knot));
             } else {
-                stand_ = path_.advance(stand_, p, chord);
-                last = path_.station(stand_, p, last.point + (i - last_point));
+                projected_ = path_.advance(projected_, p, chord);
+                last = path_.location(projected_, p, last.point + (i - last_point));
             }
             last_point = i;
-            stations[static_cast<std::size_t>(i)] = last;
-            if (stand_.distance < off_distance) {
+            locations[static_cast<std::size_t>(i)] = last;
+            if (projected_.distance < off_distance) {
                 off_since = -1;
                 continue;
             }
             if (off_since < 0) {
                 off_since = i;
-                off_way = 0;
-                retry_after = lost_way;
+                off_path = 0;
+                retry_after = lost_length;
             }
-            off_way += chord;
-            if (off_way < retry_after) continue;
-            const PathFoot stand = stand_;
-            if (stand.distance < lost_distance && !begin(i)) {
-                stand_ = stand;
-                retry_after = 2 * off_way + lost_way;
+            off_path += chord;
+            if (off_path < retry_after) continue;
+            const PathProjection projected = projected_;
+            if (projected.distance < lost_distance && !begin(i)) {
+                projected_ = projected;
+                retry_after = 2 * off_path + lost_length;
                 continue;
             }
-            stand_ = stand;
+            projected_ = projected;
             last_point = -1;
             to_search = 0;
-            if (leave(off_since, i, stations)) {
+            if (leave(off_since, i, locations)) {
                 i = off_since - 1;
                 before.setConstant(std::numeric_limits<float>::quiet_NaN());
             }
@@ -115,8 +115,8 @@ private:
     }
 
     /// Forgets the walk from A's point `since` to `now`. True: another beginning is looked for from `since` on.
-    bool leave(PointIndex since, PointIndex now, Column<Station>& stations) {
-        std::fill(stations.begin() + since, stations.begin() + now + 1, Station{});
+    bool leave(PointIndex since, PointIndex now, Column<PathLocation>& locations) {
+        std::fill(locations.begin() + since, locations.begin() + now + 1, PathLocation{});
         while (!begins_.empty() && begins_.back() >= since) begins_.pop_back();
         if (rewinds_ < now - since) return false;
         rewinds_ -= now - since;
@@ -126,45 +126,45 @@ private:
     /// Places of B from which a walk at A's point `i` could begin: those after the last stand first.
     [[nodiscard]] std::vector<Trial> places(PointIndex i) {
         if (!grid_) {
-            way_ = std::make_unique<Way>(b_);
+            arc_length_ = std::make_unique<ArcLength>(b_);
             Passes all;
             all.push_back({0, b_.size() - 1, PassKind::cut});
-            grid_ = std::make_unique<WayGrid>(b_, all, *way_, cell);
+            grid_ = std::make_unique<PathGrid>(b_, all, *arc_length_, cell);
         }
         const Eigen::Vector3f p = a_[i];
         std::vector<PointIndex> near;
-        grid_->for_each_near(p - shift_, [&](const WayGrid::Entry& entry) { near.push_back(entry.point); });
+        grid_->for_each_near(p - shift_, [&](const PathGrid::Entry& entry) { near.push_back(entry.point); });
         std::sort(near.begin(), near.end());
         std::vector<Trial> trials;
         for (std::size_t first = 0; first < near.size();) {
             std::size_t last = first;
-            while (last + 1 < near.size() && !way_->at_least(near[last], near[last + 1], one_place)) ++last;
-            const PathFoot stand = nearest(p, near[first], near[last]);
-            if (stand.distance <= near_distance) trials.push_back({stand, stand});
+            while (last + 1 < near.size() && !arc_length_->at_least(near[last], near[last + 1], one_place)) ++last;
+            const PathProjection projected = nearest(p, near[first], near[last]);
+            if (projected.distance <= near_distance) trials.push_back({projected, projected});
             first = last + 1;
         }
         const auto after =
-            std::find_if(trials.begin(), trials.end(), [&](const Trial& t) { return t.begin.knot >= stand_.knot; });
+            std::find_if(trials.begin(), trials.end(), [&](const Trial& t) { return t.begin.knot >= projected_.knot; });
         std::rotate(trials.begin(), after, trials.end());
         if (trials.size() > most_places) trials.resize(most_places);
         return trials;
     }
 
-    /// The foot between two points of B and a cell beyond them.
-    [[nodiscard]] PathFoot nearest(const Eigen::Vector3f& p, PointIndex first, PointIndex last) const {
-        PathFoot best{0, 0, std::numeric_limits<float>::infinity()};
+    /// The projection between two points of B and a cell beyond them.
+    [[nodiscard]] PathProjection nearest(const Eigen::Vector3f& p, PointIndex first, PointIndex last) const {
+        PathProjection best{0, 0, std::numeric_limits<float>::infinity()};
         std::int64_t knot = path_.knot_at(first);
-        for (float gone = 0; knot > 0 && gone < cell; --knot) gone += way_between(knot - 1);
+        for (float gone = 0; knot > 0 && gone < cell; --knot) gone += travel_between(knot - 1);
         const std::int64_t end = path_.knot_at(last);
         float beyond = 0;
         for (; knot + 1 < path_.size() && (knot <= end || beyond < cell); ++knot) {
-            if (knot > end) beyond += way_between(knot);
-            const PathFoot foot = path_.foot(knot, p, 0.0F);
-            if (foot.distance < best.distance) best = foot;
+            if (knot > end) beyond += travel_between(knot);
+            const PathProjection projection = path_.projection(knot, p, 0.0F);
+            if (projection.distance < best.distance) best = projection;
         }
         return best;
     }
-    [[nodiscard]] float way_between(std::int64_t knot) const {
+    [[nodiscard]] float travel_between(std::int64_t knot) const {
         return (b_[path_.point(knot + 1)] - b_[path_.point(knot)]).norm();
     }
 
@@ -173,27 +173,27 @@ private:
         std::vector<Trial> trials = places(i);
         if (trials.empty()) return false;
         Eigen::Vector3f before = a_[i];
-        float way = 0;
+        float arc_length = 0;
         std::size_t alive = trials.size();
         PointIndex k = i + 1;
         for (; k < a_.size() && alive > 0; ++k) {
-            if (way >= proof_way && (alive == 1 || trial_steps_ <= 0)) break;
+            if (arc_length >= proof_arc_length && (alive == 1 || trial_steps_ <= 0)) break;
             const Eigen::Vector3f p = a_[k];
             if (!p.allFinite()) continue;
             const float chord = (p - before).norm();
             if (!(chord > 0)) continue;
             before = p;
-            way += chord;
+            arc_length += chord;
             trial_steps_ -= static_cast<std::int64_t>(alive);
             for (Trial& trial : trials) {
                 if (!trial.alive) {
                     trial.cost += near_distance * chord;
                     continue;
                 }
-                trial.stand = path_.advance(trial.stand, p, chord);
-                trial.cost += std::min(trial.stand.distance, near_distance) * chord;
-                trial.way += chord;
-                if (trial.stand.distance <= near_distance) continue;
+                trial.projected = path_.advance(trial.projected, p, chord);
+                trial.cost += std::min(trial.projected.distance, near_distance) * chord;
+                trial.arc_length += chord;
+                if (trial.projected.distance <= near_distance) continue;
                 trial.alive = false;
                 --alive;
             }
@@ -202,12 +202,13 @@ private:
         const bool to_the_end = k == a_.size();
         const Trial* best = nullptr;
         for (const Trial& trial : trials) {
-            const bool proven = trial.way >= proof_way || (to_the_end && trial.alive && trial.way > 0);
+            const bool proven =
+                trial.arc_length >= proof_arc_length || (to_the_end && trial.alive && trial.arc_length > 0);
             if (!proven || (alive > 0 && !trial.alive)) continue;
-            if (best == nullptr || trial.cost + same_fit * way < best->cost) best = &trial;
+            if (best == nullptr || trial.cost + same_fit * arc_length < best->cost) best = &trial;
         }
         if (best == nullptr) return false;
-        stand_ = best->begin;
+        projected_ = best->begin;
         return true;
     }
 
@@ -220,16 +221,16 @@ private:
             const float gone = (p - before).norm();
             const float chord = gone == gone ? gone : 0.0F;
             before = p;
-            result.way += chord;
+            result.arc_length += chord;
             const bool begins = begin != begins_.end() && *begin == i;
             if (begins) ++begin;
-            if (!result.stations[static_cast<std::size_t>(i)].exists()) continue;
-            std::vector<PointRange>& stretches = result.stretches;
-            if (begins || stretches.empty()) {
-                stretches.push_back({i, i});
+            if (!result.locations[static_cast<std::size_t>(i)].exists()) continue;
+            std::vector<PointRange>& sections = result.sections;
+            if (begins || sections.empty()) {
+                sections.push_back({i, i});
                 continue;
             }
-            stretches.back().last = i;
+            sections.back().last = i;
             result.aligned += chord;
         }
     }
@@ -238,9 +239,9 @@ private:
     const Positions& b_;
     Eigen::Vector3f shift_;
     KnotPath path_;
-    PathFoot stand_;
-    std::unique_ptr<Way> way_;
-    std::unique_ptr<WayGrid> grid_;
+    PathProjection projected_;
+    std::unique_ptr<ArcLength> arc_length_;
+    std::unique_ptr<PathGrid> grid_;
     std::int64_t trial_steps_;        ///< points that several walks at once may still take
     std::vector<PointIndex> begins_;  ///< of A, where a walk began
     PointIndex rewinds_;              ///< points that may still be walked again

@@ -17,10 +17,10 @@
 namespace clsurf {
 
 struct RunAlignment {
-    Column<Station> stations;           ///< on B, per point of A; exists() is false where B has no such place
-    std::vector<PointRange> stretches;  ///< of A: aligned throughout and without a jump in B, in order
-    double aligned = 0;                 ///< [mm] way of A with a station
-    double way = 0;                     ///< [mm] way of A in all
+    Column<PathLocation> locations;    ///< on B, per point of A; exists() is false where B has no such place
+    std::vector<PointRange> sections;  ///< of A: aligned throughout and without a jump in B, in order
+    double aligned = 0;                ///< [mm] arc length of A with a location
+    double arc_length = 0;             ///< [mm] arc length of A in all
 };
 
 /// Positions may have different origins. O(points of both); walks that go on from several places at

@@ -25,7 +25,7 @@ double speed(const RunReport& report) {
 double lag(const RunReport& report) { return um_per_mm * most<RunQuantity::lag>(report); }
 double height(const RunReport& report) { return um_per_mm * most<RunQuantity::height>(report); }
 double time(const RunReport& report) { return 100 * std::abs(report.time_of_b - report.time) / report.time; }
-double aligned(const RunReport& report) { return 100 * report.aligned / report.way; }
+double aligned(const RunReport& report) { return 100 * report.aligned / report.arc_length; }
 
 constexpr auto run_limits = std::to_array<RunBudgetLimit>({
     {"max_speed_difference_percent", &RunBudget::max_speed_difference_percent, speed},

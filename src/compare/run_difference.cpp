@@ -15,7 +15,7 @@ namespace {
 
 constexpr double smoothing_seconds = 0.015;         ///< window of the mean of lags and heights
 constexpr PointIndex feed_reach = 8;                ///< points before and after one that tell the feed there
-constexpr double least_feed = 1e-4;                 ///< [mm] of way that has a direction
+constexpr double least_feed = 1e-4;                 ///< [mm] of arc length that has a direction
 constexpr float least_tilt = 0.1F;                  ///< sine of the feed's angle to Z: steeper, it has no upper side
 constexpr std::int64_t points_for_usual = 200'000;  ///< that usual values are taken from
 
@@ -51,8 +51,8 @@ Column<float> lags_of(const ComparedRun& run) {
 /// Upper side of the CL surface; where a pass has no other beside it, of the path.
 Eigen::Vector3f normal_at(const ClSurface& surface, PointIndex i, const Eigen::Vector3f& feed) {
     const Positions& p = surface.positions;
-    const Station left = beside(surface, {i, 0}, feed, Side::left);
-    const Station right = beside(surface, {i, 0}, feed, Side::right);
+    const PathLocation left = beside(surface, {i, 0}, feed, Side::left);
+    const PathLocation right = beside(surface, {i, 0}, feed, Side::right);
     const Eigen::Vector3f a = left.exists() ? position_at(p, left) : p[i];
     const Eigen::Vector3f b = right.exists() ? position_at(p, right) : p[i];
     const Eigen::Vector3f across = feed.cross(a - b);
@@ -63,7 +63,7 @@ Eigen::Vector3f normal_at(const ClSurface& surface, PointIndex i, const Eigen::V
 
 /// A position between two points, from the cubic through the points round it (Catmull, Rom 1974): a
 /// chord would cut off a T²/8, 5 µm at 600 mm/s² and 8 ms.
-Vec3 position_between(const Trajectory& path, const Station& at) {
+Vec3 position_between(const Trajectory& path, const PathLocation& at) {
     const Vec3 p1 = path.at(at.point);
     if (at.fraction == 0) return p1;
     const double f = at.fraction;
@@ -84,7 +84,7 @@ Column<float> heights_of(const Trajectory& a, const Trajectory& b, const RunAlig
         for (PointIndex i = first; i < last; ++i) {
             float& height = heights[static_cast<std::size_t>(i)];
             height = missing<float>;
-            const Station& at = alignment.stations[static_cast<std::size_t>(i)];
+            const PathLocation& at = alignment.locations[static_cast<std::size_t>(i)];
             if (!at.exists()) continue;
             const Vec3 feed = feed_at(path, i);
             if (!feed.allFinite()) continue;
@@ -95,27 +95,27 @@ Column<float> heights_of(const Trajectory& a, const Trajectory& b, const RunAlig
     return heights;
 }
 
-/// values := B's at the stations minus A's.
+/// values := B's at the locations minus A's.
 void subtract(const Column<float>& of_b, const RunAlignment& alignment, Column<float>& values) {
     for_each_block(static_cast<PointIndex>(values.size()), [&](PointIndex first, PointIndex last) {
         for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i) {
-            const Station& at = alignment.stations[i];
+            const PathLocation& at = alignment.locations[i];
             values[i] = at.exists() ? interpolate(of_b, at) - values[i] : missing<float>;
         }
     });
 }
 
-/// Means over `points` round each point, of what is known, inside the stretches. O(points).
-void smooth(Column<float>& values, const std::vector<PointRange>& stretches, PointIndex points) {
+/// Means over `points` round each point, of what is known, inside the sections. O(points).
+void smooth(Column<float>& values, const std::vector<PointRange>& sections, PointIndex points) {
     const PointIndex half = points / 2;
     std::vector<float> raw;
-    for (const PointRange& stretch : stretches) {
-        raw.assign(values.begin() + stretch.first, values.begin() + stretch.last + 1);
+    for (const PointRange& section : sections) {
+        raw.assign(values.begin() + section.first, values.begin() + section.last + 1);
         double sum = 0;
         PointIndex known = 0;
         PointIndex begin = 0;
         PointIndex end = 0;
-        const PointIndex size = stretch.size();
+        const PointIndex size = section.size();
         const auto take = [&](PointIndex k, int sign) {
             const float value = raw[static_cast<std::size_t>(k)];
             if (!(value == value)) return;
@@ -127,7 +127,7 @@ void smooth(Column<float>& values, const std::vector<PointRange>& stretches, Poi
             const PointIndex reach = std::min({half, k, size - 1 - k});
             while (end <= k + reach) take(end++, +1);
             while (begin < k - reach) take(begin++, -1);
-            float& value = values[static_cast<std::size_t>(stretch.first + k)];
+            float& value = values[static_cast<std::size_t>(section.first + k)];
             if (value == value)
                 value = known > 0 ? static_cast<float>(sum / static_cast<double>(known)) : missing<float>;
         }
@@ -202,7 +202,7 @@ float RunDifferences::speed_base(PointIndex i) const {
 }
 
 float RunDifferences::threshold_at(RunQuantity q, PointIndex i) const {
-    return q == RunQuantity::speed ? rules.speed * speed_base(i) + speed_play : threshold[index_of(q)];
+    return q == RunQuantity::speed ? rules.speed * speed_base(i) + speed_tolerance : threshold[index_of(q)];
 }
 
 RunDifferences compare_runs(const ComparedRun& a, const ClSurface& surface, const ComparedRun& b,
@@ -220,7 +220,7 @@ RunDifferences compare_runs(const ComparedRun& a, const ClSurface& surface, cons
         Column<float>& lag = out.of[index_of(RunQuantity::lag)];
         lag = lags_of(a);
         subtract(lags_of(b), out.alignment, lag);
-        smooth(lag, out.alignment.stretches, window);
+        smooth(lag, out.alignment.sections, window);
         for (const ComparedRun* run : {&a, &b})
             lag_quantum = std::max({lag_quantum, quantum_of(*run->commanded), quantum_of(*run->measured)});
     }
@@ -231,14 +231,15 @@ RunDifferences compare_runs(const ComparedRun& a, const ClSurface& surface, cons
     if (measured) {
         const RunAlignment alignment = align_runs(gather(height_a), gather(height_b));
         height = heights_of(height_a, height_b, alignment, surface, a.path);
-        smooth(height, alignment.stretches, window);
+        smooth(height, alignment.sections, window);
     } else {
         height = heights_of(height_a, height_b, out.alignment, surface, a.path);
-        smooth(height, out.alignment.stretches, window);
+        smooth(height, out.alignment.sections, window);
     }
     const float height_quantum = std::max(quantum_of(height_a), quantum_of(height_b));
-    out.speed_play = rules.period * static_cast<float>(std::max(a.log->period, b.log->period)) * out.usual_acceleration;
-    out.threshold = {rules.speed * out.usual_speed + out.speed_play, rules.acceleration * out.usual_acceleration,
+    out.speed_tolerance =
+        rules.period * static_cast<float>(std::max(a.log->period, b.log->period)) * out.usual_acceleration;
+    out.threshold = {rules.speed * out.usual_speed + out.speed_tolerance, rules.acceleration * out.usual_acceleration,
                      std::max(rules.height, rules.lag_quanta * lag_quantum),
                      std::max(rules.height, rules.height_quanta * height_quantum)};
     leave_out_rapids(surface.passes, out);

@@ -59,7 +59,7 @@ struct RunDifferences {
     RunThresholds rules;
     float usual_speed = 0;         ///< [mm/s] 95th percentile of A where it cuts
     float usual_acceleration = 0;  ///< [mm/s²] 99th percentile
-    float speed_play = 0;          ///< [mm/s] that sampling alone may make of a speed
+    float speed_tolerance = 0;     ///< [mm/s] that sampling alone may make of a speed
     Column<float> speed_of_a;      ///< [mm/s]
 
     [[nodiscard]] bool has(RunQuantity q) const { return !of[index_of(q)].empty(); }

@@ -8,29 +8,29 @@
 namespace clsurf {
 namespace {
 
-constexpr double joined_way = 1.0;          ///< [mm] between two stretches that are one
-constexpr double least_seconds = 0.005;     ///< of a stretch …
-constexpr PointIndex least_points = 3;      ///< … and its points
-constexpr double sampled_by_way = 200'000;  ///< by way, of percentiles
-constexpr std::size_t most_kept = 1000;     ///< stretches of a quantity
-constexpr double end_share = 0.1;           ///< of the way, that a drift is told from
+constexpr double joined_arc_length = 1.0;          ///< [mm] between two sections that are one
+constexpr double least_seconds = 0.005;            ///< of a section …
+constexpr PointIndex least_points = 3;             ///< … and its points
+constexpr double sampled_by_arc_length = 200'000;  ///< by arc length, of percentiles
+constexpr std::size_t most_kept = 1000;            ///< sections of a quantity
+constexpr double end_share = 0.1;                  ///< of the path, that a drift is told from
 
 /// The middle value of some.
 double middle(std::vector<float> values) { return median(values); }
 
-bool worse(const RunDifferenceStretch& x, const RunDifferenceStretch& y) { return x.score > y.score; }
+bool worse(const RunDifferenceSection& x, const RunDifferenceSection& y) { return x.score > y.score; }
 
-/// The worst stretches first, no more than `most_kept`; memory stays bounded on runs that differ everywhere.
-void keep_worst(std::vector<RunDifferenceStretch>& stretches) {
-    std::stable_sort(stretches.begin(), stretches.end(), worse);
-    if (stretches.size() > most_kept) stretches.resize(most_kept);
+/// The worst sections first, no more than `most_kept`; memory stays bounded on runs that differ everywhere.
+void keep_worst(std::vector<RunDifferenceSection>& sections) {
+    std::stable_sort(sections.begin(), sections.end(), worse);
+    if (sections.size() > most_kept) sections.resize(most_kept);
 }
 
 class Reporter {
 public:
     Reporter(const ComparedRun& a, const ClSurface& surface, const LineMap* lines, const ComparedRun& b,
              const RunDifferences& differences)
-        : a_(a), b_(b), lines_(lines), differences_(differences), way_(surface.positions) {}
+        : a_(a), b_(b), lines_(lines), differences_(differences), arc_length_(surface.positions) {}
 
     [[nodiscard]] RunQuantitySummary summarise(RunQuantity q) const {
         RunQuantitySummary summary;
@@ -40,20 +40,20 @@ public:
         double sum = 0;
         double squares = 0;
         std::vector<float> sampled;
-        const double every = way_.to(static_cast<PointIndex>(values.size()) - 1) / sampled_by_way;
+        const double every = arc_length_.to(static_cast<PointIndex>(values.size()) - 1) / sampled_by_arc_length;
         double since = every;
-        for (const PointRange& stretch : differences_.alignment.stretches) {
-            for (PointIndex i = stretch.first; i <= stretch.last; ++i) {
+        for (const PointRange& section : differences_.alignment.sections) {
+            for (PointIndex i = section.first; i <= section.last; ++i) {
                 const float value = values[static_cast<std::size_t>(i)];
                 if (!(value == value)) continue;
-                const double step = i < stretch.last ? way_.step(i) : 0;
+                const double step = i < section.last ? arc_length_.step(i) : 0;
                 summary.lowest = std::min<double>(summary.lowest, value);
                 summary.highest = std::max<double>(summary.highest, value);
                 if (q == RunQuantity::speed)
                     summary.relative_most =
                         std::max<double>(summary.relative_most, std::abs(value) / differences_.speed_base(i));
                 if (std::abs(value) > differences_.threshold_at(q, i)) summary.over += step;
-                summary.way += step;
+                summary.arc_length += step;
                 sum += step * value;
                 squares += step * value * value;
                 since += step;
@@ -62,10 +62,10 @@ public:
                 sampled.push_back(value);
             }
         }
-        if (!(summary.way > 0)) return summary;
-        summary.mean = sum / summary.way;
-        summary.rms = std::sqrt(squares / summary.way);
-        summary.over /= summary.way;
+        if (!(summary.arc_length > 0)) return summary;
+        summary.mean = sum / summary.arc_length;
+        summary.rms = std::sqrt(squares / summary.arc_length);
+        summary.over /= summary.arc_length;
         const auto tenth = static_cast<std::ptrdiff_t>(end_share * static_cast<double>(sampled.size())) + 1;
         if (tenth <= static_cast<std::ptrdiff_t>(sampled.size())) {
             summary.begin = middle({sampled.begin(), sampled.begin() + tenth});
@@ -78,8 +78,8 @@ public:
     }
 
     /// Their number; the worst are added to `report`.
-    [[nodiscard]] PointIndex find_stretches(RunQuantity q, RunReport& report) const {
-        std::vector<RunDifferenceStretch> found;
+    [[nodiscard]] PointIndex find_sections(RunQuantity q, RunReport& report) const {
+        std::vector<RunDifferenceSection> found;
         PointIndex count = 0;
         const Column<float>& values = differences_.of[index_of(q)];
         const auto sign_of = [&](PointIndex i) {
@@ -89,7 +89,7 @@ public:
         };
         const PointIndex least =
             std::max<PointIndex>(least_points, std::lround(std::min(least_seconds / a_.log->period, 1e6)));
-        for (const PointRange& stretch : differences_.alignment.stretches) {
+        for (const PointRange& section : differences_.alignment.sections) {
             PointRange open;
             int sign = 0;
             PointIndex over = 0;
@@ -102,10 +102,10 @@ public:
                 over = 0;
                 sign = 0;
             };
-            for (PointIndex i = stretch.first; i <= stretch.last; ++i) {
+            for (PointIndex i = section.first; i <= section.last; ++i) {
                 const int here = sign_of(i);
                 if (here == 0) continue;
-                if (sign != 0 && (here != sign || way_.at_least(open.last, i, joined_way))) close();
+                if (sign != 0 && (here != sign || arc_length_.at_least(open.last, i, joined_arc_length))) close();
                 if (sign == 0) open.first = i;
                 sign = here;
                 open.last = i;
@@ -114,20 +114,20 @@ public:
             close();
         }
         keep_worst(found);
-        report.stretches.insert(report.stretches.end(), found.begin(), found.end());
+        report.sections.insert(report.sections.end(), found.begin(), found.end());
         return count;
     }
 
     void measure_time(RunReport& report) const {
-        for (const PointRange& stretch : differences_.alignment.stretches) {
-            report.time += a_.log->time_of(stretch.last) - a_.log->time_of(stretch.first);
-            report.time_of_b += time_of_b(stretch);
+        for (const PointRange& section : differences_.alignment.sections) {
+            report.time += a_.log->time_of(section.last) - a_.log->time_of(section.first);
+            report.time_of_b += time_of_b(section);
         }
     }
 
 private:
     [[nodiscard]] double time_at_b(PointIndex i) const {
-        const Station& at = differences_.alignment.stations[static_cast<std::size_t>(i)];
+        const PathLocation& at = differences_.alignment.locations[static_cast<std::size_t>(i)];
         const double time = b_.log->time_of(at.point);
         return at.fraction > 0 ? time + at.fraction * (b_.log->time_of(at.point + 1) - time) : time;
     }
@@ -135,18 +135,18 @@ private:
         return time_at_b(points.last) - time_at_b(points.first);
     }
 
-    [[nodiscard]] RunDifferenceStretch measure(RunQuantity q, const PointRange& points) const {
-        RunDifferenceStretch d;
+    [[nodiscard]] RunDifferenceSection measure(RunQuantity q, const PointRange& points) const {
+        RunDifferenceSection d;
         d.quantity = q;
         d.points = points;
-        const auto& stations = differences_.alignment.stations;
-        d.points_of_b = {stations[static_cast<std::size_t>(points.first)].nearest(),
-                         stations[static_cast<std::size_t>(points.last)].nearest()};
+        const auto& locations = differences_.alignment.locations;
+        d.points_of_b = {locations[static_cast<std::size_t>(points.first)].nearest(),
+                         locations[static_cast<std::size_t>(points.last)].nearest()};
         const Column<float>& values = differences_.of[index_of(q)];
         double weights = 0;
         for (PointIndex i = points.first; i <= points.last; ++i) {
             const double value = values[static_cast<std::size_t>(i)];
-            const double step = i < points.last ? way_.step(i) : 0;
+            const double step = i < points.last ? arc_length_.step(i) : 0;
             d.length += step;
             if (!(value == value)) continue;
             // A little for standing still, so that a pause has a mean too.
@@ -177,7 +177,7 @@ private:
     const ComparedRun& b_;
     const LineMap* lines_;
     const RunDifferences& differences_;
-    Way way_;
+    ArcLength arc_length_;
 };
 
 }  // namespace
@@ -192,15 +192,15 @@ RunReport report_run(const ComparedRun& a, const ClSurface& surface, const LineM
                      const RunDifferences& differences) {
     RunReport report;
     report.aligned = differences.alignment.aligned;
-    report.way = differences.alignment.way;
+    report.arc_length = differences.alignment.arc_length;
     const Reporter reporter(a, surface, lines, b, differences);
     for (const RunQuantityInfo& info : run_quantity_table()) {
         if (!differences.has(info.quantity)) continue;
         report.quantities.push_back(reporter.summarise(info.quantity));
-        report.quantities.back().stretches = reporter.find_stretches(info.quantity, report);
+        report.quantities.back().sections = reporter.find_sections(info.quantity, report);
     }
     reporter.measure_time(report);
-    std::stable_sort(report.stretches.begin(), report.stretches.end(), worse);
+    std::stable_sort(report.sections.begin(), report.sections.end(), worse);
     return report;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Run report: where two runs differ, stretch by stretch, how much in all, and whether that is within a
+// Run report: where two runs differ, section by section, how much in all, and whether that is within a
 // budget.
 
 #include <optional>
@@ -12,13 +12,13 @@
 
 namespace clsurf {
 
-/// A stretch of A along which one quantity differs from B by more than its threshold, in one direction.
-struct RunDifferenceStretch {
+/// A section of A along which one quantity differs from B by more than its threshold, in one direction.
+struct RunDifferenceSection {
     RunQuantity quantity = RunQuantity::speed;
     PointRange points, points_of_b;
     PointIndex point = 0;                         ///< of A, where it is greatest
     CutterPlace place;                            ///< of A there
-    double peak = 0, mean = 0;                    ///< B − A, inside units; the mean by way
+    double peak = 0, mean = 0;                    ///< B − A, inside units; the mean by arc length
     double relative_peak = 0, relative_mean = 0;  ///< of a speed: to A's
     double length = 0;                            ///< [mm]
     double time = 0;                              ///< [s] that B takes longer
@@ -26,29 +26,29 @@ struct RunDifferenceStretch {
     double score = 0;                             ///< peak over threshold
 };
 
-/// One quantity over all that was compared, by way.
+/// One quantity over all that was compared, by arc length.
 struct RunQuantitySummary {
     RunQuantity quantity = RunQuantity::speed;
-    double way = 0;                     ///< [mm] compared
+    double arc_length = 0;              ///< [mm] compared
     double threshold = 0;               ///< inside units
     double mean = 0, rms = 0, p95 = 0;  ///< p95 of the absolute values
     double lowest = 0, highest = 0;
-    double begin = 0, end = 0;  ///< medians over the first and the last tenth of the way: a drift
-    double over = 0;            ///< share of the way beyond the threshold, 0 … 1
-    PointIndex stretches = 0;   ///< that differ, all of them
+    double begin = 0, end = 0;  ///< medians over the first and the last tenth of the path: a drift
+    double over = 0;            ///< share of the path beyond the threshold, 0 … 1
+    PointIndex sections = 0;    ///< that differ, all of them
     double relative_most = 0;   ///< of a speed: the greatest, to A's, ≥ 0
 };
 
 struct RunReport {
-    std::vector<RunDifferenceStretch> stretches;  ///< worst first, at most 1000 of a quantity
-    std::vector<RunQuantitySummary> quantities;   ///< those that are known
-    double aligned = 0, way = 0;                  ///< [mm] of A
-    double time = 0, time_of_b = 0;               ///< [s] that each took for what is aligned
+    std::vector<RunDifferenceSection> sections;  ///< worst first, at most 1000 of a quantity
+    std::vector<RunQuantitySummary> quantities;  ///< those that are known
+    double aligned = 0, arc_length = 0;          ///< [mm] of A
+    double time = 0, time_of_b = 0;              ///< [s] that each took for what is aligned
 
     [[nodiscard]] const RunQuantitySummary* find(RunQuantity q) const;
 };
 
-/// Stretches shorter than 5 ms are noise; those nearer than 1 mm are one. `lines` names lines of
+/// Sections shorter than 5 ms are noise; those nearer than 1 mm are one. `lines` names lines of
 /// A's program, nullptr: not known. O(points).
 [[nodiscard]] RunReport report_run(const ComparedRun& a, const ClSurface& surface, const LineMap* lines,
                                    const ComparedRun& b, const RunDifferences& differences);

@@ -83,24 +83,24 @@ double squared_to_step(const Vector& commanded, const Vector& measured, std::siz
     return std::fmax(0.0, far2 - 2 * t * dot + t * t * step2);
 }
 
-/// Distance of the measured point to the commanded path round it. The foot is followed from point to point, a lag behind
+/// Distance of the measured point to the commanded path round it. The projection is followed from point to point, a lag behind
 /// the command.
 void contour_error(const FieldBlock& block, float* out) {
     constexpr std::ptrdiff_t farthest_start = FieldBlock::commanded_before - 6;  // a few steps more can be looked at
     const Vector& commanded = block.vector(needs::commanded);
     const Vector& measured = block.vector(needs::measured);
-    std::ptrdiff_t foot = -1;  // the step before the same time: where a lagging axis is
+    std::ptrdiff_t projection = -1;  // the step before the same time: where a lagging axis is
     for (std::size_t i = 0; i < block.count(); ++i) {
         const auto here = static_cast<std::ptrdiff_t>(i);
-        foot = std::max<std::ptrdiff_t>(std::min(foot + 1, here), here - farthest_start);
-        double best = squared_to_step(commanded, measured, i, foot);
+        projection = std::max<std::ptrdiff_t>(std::min(projection + 1, here), here - farthest_start);
+        double best = squared_to_step(commanded, measured, i, projection);
         for (const int direction : {-1, 1}) {
-            for (std::ptrdiff_t k = foot + direction;
+            for (std::ptrdiff_t k = projection + direction;
                  k > here - FieldBlock::commanded_before && k < here + FieldBlock::commanded_after; k += direction) {
                 const double next = squared_to_step(commanded, measured, i, k);
                 if (!(next <= best)) break;
                 best = next;
-                foot = k;
+                projection = k;
             }
         }
         out[i] = static_cast<float>(std::sqrt(best));

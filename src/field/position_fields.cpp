@@ -8,14 +8,14 @@
 
 #include "core/block.h"
 #include "core/error.h"
-#include "toolpath/tool_axes.h"
 #include "numeric/derivative.h"
 #include "surface/smoothing_segments.h"
+#include "toolpath/tool_axes.h"
 
 namespace clsurf {
 namespace {
 
-constexpr PointIndex stretch_points = 4096;  ///< of a block, worked on at once: fits the L1 cache
+constexpr PointIndex section_points = 4096;  ///< of a block, worked on at once: fits the L1 cache
 
 constexpr unsigned bit_of_derivative(int d) { return needs::velocity << (d - 1); }
 constexpr unsigned bit_of_sigma(int d) { return needs::velocity_sigma << (d - 1); }
@@ -134,9 +134,9 @@ void complete(Plan& plan, const Trajectory& path, double coarsest_period) {
 }
 
 /// Fills what the rows of a plan read at points [first, last] of a piece, and lets them compute. Keeps its memory.
-class Stretch {
+class Section {
 public:
-    Stretch(const Plan& plan, PointIndex origin) : plan_(plan), origin_(origin) {}
+    Section(const Plan& plan, PointIndex origin) : plan_(plan), origin_(origin) {}
 
     void compute(PointRange piece, PointIndex first, PointIndex last) {
         first_ = first;
@@ -245,21 +245,21 @@ private:
 
 /// `origin`: the point of the first value.
 void compute_range(const Plan& plan, const std::vector<PointRange>& pieces, PointRange points, PointIndex origin) {
-    Stretch stretch(plan, origin);
+    Section section(plan, origin);
     auto piece = std::upper_bound(pieces.begin(), pieces.end(), points.first,
                                   [](PointIndex p, const PointRange& r) { return p < r.first; });
     if (piece != pieces.begin()) --piece;
     for (PointIndex first = points.first; first <= points.last;) {
         while (piece != pieces.end() && piece->last < first) ++piece;
         const PointRange inside = piece == pieces.end() ? PointRange{first, points.last} : *piece;
-        const PointIndex last = std::min({points.last, inside.last, first + stretch_points - 1});
-        stretch.compute(inside, first, last);
+        const PointIndex last = std::min({points.last, inside.last, first + section_points - 1});
+        section.compute(inside, first, last);
         first = last + 1;
     }
 }
 
 std::vector<PointRange> pieces_of(const Log& log, const Trajectory& path, const Passes& passes, double coarsest) {
-    std::vector<PointRange> pieces = smooth_pieces(log, passes);
+    std::vector<PointRange> pieces = smoothing_segments(log, passes);
     return coarsest == 0 ? split_at_standstills(pieces, path) : pieces;
 }
 

@@ -13,8 +13,8 @@ constexpr PointIndex piece_size = 32768;  ///< records of a piece
 
 }  // namespace
 
-std::vector<PointRange> find_stretches(const Log& log, std::span<const ChannelView> channels) {
-    std::vector<PointRange> stretches;
+std::vector<PointRange> find_sections(const Log& log, std::span<const ChannelView> channels) {
+    std::vector<PointRange> sections;
     const Channel* time = log.find("time");
     std::vector<double> values(static_cast<std::size_t>(block_points));
     std::vector<char> usable(static_cast<std::size_t>(block_points)), joined(static_cast<std::size_t>(block_points));
@@ -39,21 +39,21 @@ std::vector<PointRange> find_stretches(const Log& log, std::span<const ChannelVi
         }
         for (std::size_t i = 0; i < n; ++i) {
             const PointIndex point = first + static_cast<PointIndex>(i);
-            if (usable[i] != 0 && (!open || joined[i] == 0)) stretches.push_back({point, point});
+            if (usable[i] != 0 && (!open || joined[i] == 0)) sections.push_back({point, point});
             open = usable[i] != 0;
-            if (open) stretches.back().last = point;
+            if (open) sections.back().last = point;
         }
     }
-    return stretches;
+    return sections;
 }
 
-std::vector<PointRange> sample_pieces(std::span<const PointRange> stretches, PointIndex most) {
+std::vector<PointRange> sample_pieces(std::span<const PointRange> sections, PointIndex most) {
     std::vector<PointRange> pieces;
     PointIndex total = 0;
-    for (const PointRange& stretch : stretches) {
-        total += stretch.size();
-        for (PointIndex first = stretch.first; first <= stretch.last; first += piece_size)
-            pieces.push_back({first, std::min(stretch.last, first + piece_size - 1)});
+    for (const PointRange& section : sections) {
+        total += section.size();
+        for (PointIndex first = section.first; first <= section.last; first += piece_size)
+            pieces.push_back({first, std::min(section.last, first + piece_size - 1)});
     }
     if (total <= most) return pieces;
     const auto wanted = std::max<std::size_t>(1, static_cast<std::size_t>(most / piece_size));

@@ -13,14 +13,14 @@ namespace clsurf {
 /// Positions of one axis in one run [mm, or deg].
 struct AxisRecord {
     ChannelView commanded, feedback;
-    std::vector<PointRange> stretches;  ///< of consecutive records, each with both positions
+    std::vector<PointRange> sections;  ///< of consecutive records, each with both positions
 };
 
 /// The longest ranges without a gap in the time channel and without a missing value in `channels`, all of one size.
 /// O(records).
-[[nodiscard]] std::vector<PointRange> find_stretches(const Log& log, std::span<const ChannelView> channels);
+[[nodiscard]] std::vector<PointRange> find_sections(const Log& log, std::span<const ChannelView> channels);
 
-/// Evenly spaced pieces of the stretches with about `most` records together; all of them where they are fewer.
-[[nodiscard]] std::vector<PointRange> sample_pieces(std::span<const PointRange> stretches, PointIndex most);
+/// Evenly spaced pieces of the sections with about `most` records together; all of them where they are fewer.
+[[nodiscard]] std::vector<PointRange> sample_pieces(std::span<const PointRange> sections, PointIndex most);
 
 }  // namespace clsurf

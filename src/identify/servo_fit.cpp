@@ -240,7 +240,7 @@ bool is_moved(std::span<const AxisRecord> records) {
     for (const AxisRecord& record : records) {
         double low = INFINITY, high = -INFINITY;
         std::vector<double> values;
-        for (const PointRange& piece : sample_pieces(record.stretches, std::numeric_limits<PointIndex>::max())) {
+        for (const PointRange& piece : sample_pieces(record.sections, std::numeric_limits<PointIndex>::max())) {
             values.resize(static_cast<std::size_t>(piece.size()));
             copy_block(record.commanded, piece.first, values);
             const auto [least, greatest] = std::minmax_element(values.begin(), values.end());

@@ -38,7 +38,7 @@ std::vector<AxisData> gather_axes(std::span<const Log* const> runs) {
             axis.feedback |= feedback != nullptr;
             if (commanded == nullptr || feedback == nullptr) continue;
             const std::array views{commanded->values, feedback->values};
-            axis.records.push_back({views[0], views[1], find_stretches(*log, views)});
+            axis.records.push_back({views[0], views[1], find_sections(*log, views)});
         }
         if (axis.commanded || axis.feedback) axes.push_back(std::move(axis));
     }

@@ -127,14 +127,14 @@ ServoProblem::ServoProblem(std::span<const AxisRecord> records, double period, P
     : records_(records.begin(), records.end()), period_(period), settling_(settling) {
     PointIndex total = 0;
     for (const AxisRecord& record : records_) {
-        for (const PointRange& stretch : record.stretches) total += stretch.size();
+        for (const PointRange& section : record.sections) total += section.size();
     }
     for (const AxisRecord& record : records_) {
         PointIndex own = 0;
-        for (const PointRange& stretch : record.stretches) own += stretch.size();
+        for (const PointRange& section : record.sections) own += section.size();
         const double share = static_cast<double>(own) / static_cast<double>(std::max<PointIndex>(total, 1));
         const auto most = static_cast<PointIndex>(share * static_cast<double>(most_records));
-        for (const PointRange& range : sample_pieces(record.stretches, most)) pieces_.push_back({&record, range});
+        for (const PointRange& range : sample_pieces(record.sections, most)) pieces_.push_back({&record, range});
     }
     set_settling(settling);
 }

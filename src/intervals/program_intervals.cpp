@@ -15,25 +15,26 @@ constexpr double alike = 0.15;  ///< speeds side by side that differ by less (a 
 
 class IntervalPlanner {
 public:
-    IntervalPlanner(const Program& program, const ProgrammedSurface& laid, const IntervalRules& rules,
+    IntervalPlanner(const Program& program, const ProgrammedSurface& programmed, const IntervalRules& rules,
                     const Machine& machine)
         : motions_(program.motions),
           path_(program.motions, Vec3::Zero()),
-          laid_(laid),
+          programmed_(programmed),
           rules_(rules),
           machine_(machine),
-          of_point_(laid.motion.size(), none) {
-        result_.step_over = laid.surface.step_over;
+          of_point_(programmed.motion.size(), none) {
+        result_.step_over = programmed.surface.step_over;
         result_.speed_of_motion.assign(static_cast<std::size_t>(motions_.size()),
                                        std::numeric_limits<float>::quiet_NaN());
     }
 
     ProgramIntervals run() {
-        for (const ProgrammedPass& pass : cut_passes(laid_)) divide_pass(pass);
+        for (const ProgrammedPass& pass : cut_passes(programmed_)) divide_pass(pass);
         match_neighbours();
         for (std::size_t i = 0; i < of_point_.size(); ++i) {
             if (of_point_[i] != none)
-                result_.speed_of_motion[laid_.motion[i]] = static_cast<float>(result_.intervals[of_point_[i]].speed);
+                result_.speed_of_motion[programmed_.motion[i]] =
+                    static_cast<float>(result_.intervals[of_point_[i]].speed);
         }
         return std::move(result_);
     }
@@ -46,8 +47,8 @@ private:
         std::vector<Vec3> points;
         std::vector<PointIndex> ends;
         for (const PointIndex end : pass.ends) {
-            const Vec3 p =
-                laid_.ends_motion(end) ? path_.end(laid_.motion_of(end)) : laid_.surface.positions.absolute(end);
+            const Vec3 p = programmed_.ends_motion(end) ? path_.end(programmed_.motion_of(end))
+                                                        : programmed_.surface.positions.absolute(end);
             if (!points.empty() && p == points.back()) continue;
             points.push_back(p);
             ends.push_back(end);
@@ -57,14 +58,15 @@ private:
         for (const SpeedInterval& piece : divide(points, rules_)) {
             ProgramInterval interval;
             interval.pass = pass.number;
-            interval.first_line = motions_.line[laid_.motion_of(ends[piece.first + 1])];
-            interval.last_line = motions_.line[laid_.motion_of(ends[piece.last])];
+            interval.first_line = motions_.line[programmed_.motion_of(ends[piece.first + 1])];
+            interval.last_line = motions_.line[programmed_.motion_of(ends[piece.last])];
             interval.mean_curvature = piece.mean_curvature;
             interval.greatest_curvature = piece.greatest_curvature;
             interval.feed = std::numeric_limits<double>::infinity();
             for (std::size_t k = piece.first + 1; k <= piece.last; ++k) {
                 interval.length += (points[k] - points[k - 1]).norm();
-                interval.feed = std::min(interval.feed, static_cast<double>(motions_.feed[laid_.motion_of(ends[k])]));
+                interval.feed =
+                    std::min(interval.feed, static_cast<double>(motions_.feed[programmed_.motion_of(ends[k])]));
             }
             for (PointIndex i = ends[piece.first] + 1; i <= ends[piece.last]; ++i)
                 of_point_[static_cast<std::size_t>(i)] = static_cast<std::uint32_t>(result_.intervals.size());
@@ -85,14 +87,14 @@ private:
     /// it comes from elsewhere (a plunge).
     void add_beginning(const ProgrammedPass& pass, std::vector<Vec3>& points, std::vector<PointIndex>& ends) const {
         constexpr double straight_on = 0.7;  // cosine
-        const std::uint32_t motion = laid_.motion_of(pass.ends.front());
+        const std::uint32_t motion = programmed_.motion_of(pass.ends.front());
         const MotionKind kind = motions_.kind[motion];
         if (motion == 0 || points.size() < 2 || kind == MotionKind::rapid || kind == MotionKind::dwell) return;
         const Vec3 start = path_.end(motion - 1);
         const Vec3 before = points[0] - start, after = points[1] - points[0];
         if (!(before.norm() > 0) || !(before.dot(after) > straight_on * before.norm() * after.norm())) return;
         const PointIndex front = pass.points.first - 1;
-        if (!laid_.ends_motion(pass.ends.front())) {
+        if (!programmed_.ends_motion(pass.ends.front())) {
             points.front() = start;
             ends.front() = front;
             return;
@@ -110,9 +112,9 @@ private:
         const auto match = [&](PointIndex i) {
             const std::uint32_t mine = of_point_[static_cast<std::size_t>(i)];
             if (mine == none || i == 0) return;
-            const Eigen::Vector3f feed = laid_.surface.positions[i] - laid_.surface.positions[i - 1];
+            const Eigen::Vector3f feed = programmed_.surface.positions[i] - programmed_.surface.positions[i - 1];
             for (const Side side : {Side::left, Side::right}) {
-                const Station at = beside(laid_.surface, {i, 0}, feed, side);
+                const PathLocation at = beside(programmed_.surface, {i, 0}, feed, side);
                 if (!at.exists() || of_point_[static_cast<std::size_t>(at.nearest())] == none) continue;
                 double &a = result_.intervals[mine].speed,
                        &b = result_.intervals[of_point_[static_cast<std::size_t>(at.nearest())]].speed;
@@ -125,7 +127,7 @@ private:
 
     const Motions& motions_;
     Toolpath path_;
-    const ProgrammedSurface& laid_;
+    const ProgrammedSurface& programmed_;
     const IntervalRules& rules_;
     const Machine& machine_;
     std::vector<std::uint32_t> of_point_;  ///< index of its interval
@@ -134,9 +136,9 @@ private:
 
 }  // namespace
 
-ProgramIntervals plan_intervals(const Program& program, const ProgrammedSurface& laid, const IntervalRules& rules,
+ProgramIntervals plan_intervals(const Program& program, const ProgrammedSurface& programmed, const IntervalRules& rules,
                                 const Machine& machine) {
-    return IntervalPlanner(program, laid, rules, machine).run();
+    return IntervalPlanner(program, programmed, rules, machine).run();
 }
 
 }  // namespace clsurf

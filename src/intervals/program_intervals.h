@@ -29,7 +29,7 @@ struct ProgramIntervals {
 /// An interval that is faster than its predecessor and successor and too short to change speed gets the higher speed of
 /// both. Adjacent intervals whose speeds differ by less than 15 % get the lower one, in two sweeps over the passes,
 /// forward and backward. O(points log points).
-[[nodiscard]] ProgramIntervals plan_intervals(const Program& program, const ProgrammedSurface& laid,
+[[nodiscard]] ProgramIntervals plan_intervals(const Program& program, const ProgrammedSurface& programmed,
                                               const IntervalRules& rules, const Machine& machine);
 
 }  // namespace clsurf

@@ -27,20 +27,21 @@ double programmed_tolerance(const Program& program) {
     return least;
 }
 
-LintReport lint(const Program& program, const ProgrammedSurface& laid, const LintThresholds& thresholds,
+LintReport lint(const Program& program, const ProgrammedSurface& programmed, const LintThresholds& thresholds,
                 std::span<const LintRule> rules) {
-    const LintContext context(program, laid, thresholds);
+    const LintContext context(program, programmed, thresholds);
     LintReport report;
     report.rules = rules;
     report.passes = static_cast<std::int64_t>(context.passes().size());
-    report.step_over = laid.surface.step_over;
+    report.step_over = programmed.surface.step_over;
     report.spacing = context.spacing();
     report.chord_error = context.chord_error();
     report.tolerance = context.tolerance();
     PointIndex finishing = 0;
-    for (const Pass& pass : laid.surface.passes) finishing += pass.kind == PassKind::cut ? pass.size() : 0;
-    const PointIndex all = finishing + laid.surface.not_finishing;
-    if (all > 0) report.not_finishing = static_cast<double>(laid.surface.not_finishing) / static_cast<double>(all);
+    for (const Pass& pass : programmed.surface.passes) finishing += pass.kind == PassKind::cut ? pass.size() : 0;
+    const PointIndex all = finishing + programmed.surface.not_finishing;
+    if (all > 0)
+        report.not_finishing = static_cast<double>(programmed.surface.not_finishing) / static_cast<double>(all);
     // What lies beside what by chance says nothing.
     if (report.not_finishing > 0.5) return report;
     for (const LintRule& rule : rules) {

@@ -65,7 +65,7 @@ struct LintReport {
 [[nodiscard]] std::span<const LintRule> lint_rules();
 
 /// Checks each of `rules`, which must outlive the report. O(points).
-[[nodiscard]] LintReport lint(const Program& program, const ProgrammedSurface& laid,
+[[nodiscard]] LintReport lint(const Program& program, const ProgrammedSurface& programmed,
                               const LintThresholds& thresholds = {}, std::span<const LintRule> rules = lint_rules());
 
 }  // namespace clsurf

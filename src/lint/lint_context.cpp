@@ -21,12 +21,12 @@ Eigen::Vector3f direction_at(const Positions& positions, const ProgrammedPass& p
 
 }  // namespace
 
-LintContext::LintContext(const Program& program, const ProgrammedSurface& laid, const LintThresholds& thresholds)
+LintContext::LintContext(const Program& program, const ProgrammedSurface& programmed, const LintThresholds& thresholds)
     : motions_(program.motions),
       path_(program.motions, Vec3::Zero()),
-      laid_(laid),
+      programmed_(programmed),
       thresholds_(thresholds),
-      passes_(cut_passes(laid)),
+      passes_(cut_passes(programmed)),
       tolerance_(thresholds.tolerance > 0 ? thresholds.tolerance : programmed_tolerance(program)) {
     measure_spacing();
     measure_chords();
@@ -37,15 +37,16 @@ double LintContext::spacing_at(PointIndex point) const { return spacing_[static_
 double LintContext::chord_error_at(PointIndex point) const { return chord_error_[static_cast<std::size_t>(point)]; }
 
 Vec3 LintContext::at(PointIndex point) const {
-    return laid_.ends_motion(point) ? path_.end(laid_.motion_of(point)) : surface().positions.absolute(point);
+    return programmed_.ends_motion(point) ? path_.end(programmed_.motion_of(point))
+                                          : surface().positions.absolute(point);
 }
 
 void LintContext::measure_spacing() {
-    spacing_.assign(laid_.motion.size(), std::numeric_limits<float>::quiet_NaN());
+    spacing_.assign(programmed_.motion.size(), std::numeric_limits<float>::quiet_NaN());
     std::vector<double> lengths;
     for (const ProgrammedPass& pass : passes_) {
         for (std::size_t k = 1; k < pass.ends.size(); ++k) {
-            const double length = path_.length(laid_.motion_of(pass.ends[k]));
+            const double length = path_.length(programmed_.motion_of(pass.ends[k]));
             for (PointIndex i = pass.ends[k - 1] + 1; i <= pass.ends[k]; ++i)
                 spacing_[static_cast<std::size_t>(i)] = static_cast<float>(length);
             if (length > 0) lengths.push_back(length);
@@ -68,14 +69,14 @@ void LintContext::measure_chords() {
         for (std::size_t k = 2; k + 1 < pass.ends.size(); ++k) {
             if (!is_line(pass.ends[k])) continue;
             const double error =
-                chord_error_of(path_.length(laid_.motion_of(pass.ends[k])), curvature[k - 1], curvature[k]);
+                chord_error_of(path_.length(programmed_.motion_of(pass.ends[k])), curvature[k - 1], curvature[k]);
             if (curvature[k - 1] < least_curvature || curvature[k] < least_curvature) continue;
             errors.push_back(error);
             of_point.emplace_back(pass.ends[k], error);
         }
     }
     usual_chord_error_ = (errors.empty() ? 0 : quantile_below(errors, 0.95));
-    chord_error_.assign(laid_.motion.size(), 0);
+    chord_error_.assign(programmed_.motion.size(), 0);
     for (const auto& [point, error] : of_point)
         chord_error_[static_cast<std::size_t>(point)] = static_cast<float>(error);
 }
@@ -86,12 +87,12 @@ bool LintContext::is_corner(const ProgrammedPass& pass, std::size_t k) const {
     return in.dot(out) < bending_cosine * in.norm() * out.norm();
 }
 
-std::optional<std::array<Station, 2>> LintContext::both_sides(const ProgrammedPass& pass, PointIndex i) const {
+std::optional<std::array<PathLocation, 2>> LintContext::both_sides(const ProgrammedPass& pass, PointIndex i) const {
     if (!surface().neighbours.has(Side::left, i) || !surface().neighbours.has(Side::right, i)) return std::nullopt;
     const Eigen::Vector3f feed = direction_at(surface().positions, pass, i);
-    const Station here{i, 0};
-    const std::array<Station, 2> both{beside(surface(), here, feed, Side::left),
-                                      beside(surface(), here, feed, Side::right)};
+    const PathLocation here{i, 0};
+    const std::array<PathLocation, 2> both{beside(surface(), here, feed, Side::left),
+                                           beside(surface(), here, feed, Side::right)};
     if (!both[0].exists() || !both[1].exists()) return std::nullopt;
     return both;
 }
@@ -118,7 +119,7 @@ void find_runs(const LintContext& context, const LintRule& rule, const LintRunRu
         double worst = 0;
         std::vector<double> found, expected;
         const auto close = [&] {
-            // One pair of points that nearly coincide says little of a stretch.
+            // One pair of points that nearly coincide says little of a section.
             if (runs.medians && size > 0) {
                 finding.found = median(found);
                 finding.expected = median(expected);

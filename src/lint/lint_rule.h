@@ -24,11 +24,11 @@ struct LintMeasure {
 /// A program as the rules read it. Program and surface must outlive it.
 class LintContext {
 public:
-    LintContext(const Program& program, const ProgrammedSurface& laid, const LintThresholds& thresholds);
+    LintContext(const Program& program, const ProgrammedSurface& programmed, const LintThresholds& thresholds);
 
     [[nodiscard]] const Motions& motions() const { return motions_; }
     [[nodiscard]] const Toolpath& path() const { return path_; }
-    [[nodiscard]] const ClSurface& surface() const { return laid_.surface; }
+    [[nodiscard]] const ClSurface& surface() const { return programmed_.surface; }
     [[nodiscard]] const LintThresholds& thresholds() const { return thresholds_; }
     [[nodiscard]] const std::vector<ProgrammedPass>& passes() const { return passes_; }
     [[nodiscard]] double tolerance() const { return tolerance_; }    ///< [mm] of the controller; 0: not known
@@ -38,12 +38,15 @@ public:
     [[nodiscard]] double spacing_at(PointIndex point) const;
     /// [mm] by which the line that ends at a point leaves the curve; 0: it does not bend.
     [[nodiscard]] double chord_error_at(PointIndex point) const;
-    [[nodiscard]] double feed_at(PointIndex point) const { return motions_.feed[laid_.motion_of(point)]; }  ///< [mm/s]
+    [[nodiscard]] double feed_at(PointIndex point) const {
+        return motions_.feed[programmed_.motion_of(point)];
+    }  ///< [mm/s]
 
     [[nodiscard]] Vec3 at(PointIndex point) const;
-    [[nodiscard]] LineNumber line(PointIndex point) const { return motions_.line[laid_.motion_of(point)]; }
+    [[nodiscard]] LineNumber line(PointIndex point) const { return motions_.line[programmed_.motion_of(point)]; }
     /// The places on the two adjacent passes at a point; nullopt where one is not there.
-    [[nodiscard]] std::optional<std::array<Station, 2>> both_sides(const ProgrammedPass& pass, PointIndex point) const;
+    [[nodiscard]] std::optional<std::array<PathLocation, 2>> both_sides(const ProgrammedPass& pass,
+                                                                        PointIndex point) const;
     /// A value that lies on one side of those of both adjacent passes by more than `ratio`.
     [[nodiscard]] std::optional<LintMeasure> against_both(const ProgrammedPass& pass, PointIndex point, double ratio,
                                                           const std::function<double(PointIndex)>& read) const;
@@ -52,13 +55,13 @@ private:
     void measure_spacing();
     void measure_chords();
     [[nodiscard]] bool is_line(PointIndex point) const {
-        return motions_.kind[laid_.motion_of(point)] == MotionKind::feed;
+        return motions_.kind[programmed_.motion_of(point)] == MotionKind::feed;
     }
     [[nodiscard]] bool is_corner(const ProgrammedPass& pass, std::size_t k) const;
 
     const Motions& motions_;
     Toolpath path_;
-    const ProgrammedSurface& laid_;
+    const ProgrammedSurface& programmed_;
     LintThresholds thresholds_;
     std::vector<ProgrammedPass> passes_;
     std::vector<float> spacing_, chord_error_;  ///< [mm] by point

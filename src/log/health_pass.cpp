@@ -21,11 +21,11 @@ constexpr double least_jump = 0.05;                  ///< [mm]
 constexpr double jump_factor = 3.0;                  ///< times longer than the steps beside it
 constexpr double heading_chord = 0.5;                ///< [mm] over which the heading is taken
 constexpr double least_turn = 0.05;                  ///< [rad] less is noise and fine chords of a curve
-constexpr double stuck_way = 50.0;                   ///< [mm] at least, on one line
+constexpr double stuck_arc_length = 50.0;            ///< [mm] at least, on one line
 constexpr double stuck_turn = 3 * std::numbers::pi;  ///< [rad] to the left, and as much to the right
 
-constexpr PointIndex before = 2;      ///< records that a stretch looks back
-constexpr PointIndex stretch = 2048;  ///< records whose channels stay in the cache together
+constexpr PointIndex before = 2;      ///< records that a section looks back
+constexpr PointIndex section = 2048;  ///< records whose channels stay in the cache together
 
 bool is_position(const Channel& channel) {
     for (const Role role : {Role::commanded, Role::feedback, Role::actual}) {
@@ -43,13 +43,15 @@ bool is_real(const Channel& channel) {
 struct LineRun {
     double line = 0;
     PointIndex first = 0, end = 0;  ///< end exclusive
-    double way = 0;                 ///< [mm]
+    double arc_length = 0;          ///< [mm]
     double left = 0, right = 0;     ///< [rad] turned, seen along Z
 
-    [[nodiscard]] bool stuck() const { return line > 0 && way > stuck_way && std::min(left, right) > stuck_turn; }
+    [[nodiscard]] bool stuck() const {
+        return line > 0 && arc_length > stuck_arc_length && std::min(left, right) > stuck_turn;
+    }
     void append(const LineRun& next) {
         end = next.end;
-        way += next.way;
+        arc_length += next.arc_length;
         left += next.left;
         right += next.right;
     }
@@ -146,9 +148,9 @@ public:
 
     BlockSummary run(PointIndex first, PointIndex last) {
         run_.first = first;
-        for (PointIndex begin = first; begin < last; begin += stretch) {
+        for (PointIndex begin = first; begin < last; begin += section) {
             begin_ = begin;
-            end_ = std::min(last, begin + stretch);
+            end_ = std::min(last, begin + section);
             window_ = std::max<PointIndex>(0, begin - before);
             const PointIndex window_end = std::min(log_.records, end_ + 1);
             for (std::size_t c = 0; c < values_.size(); ++c) {
@@ -276,8 +278,8 @@ private:
             started_ = true;
             return;
         }
-        const double way = step(axes, i).norm();
-        if (std::isfinite(way)) run_.way += way;
+        const double arc_length = step(axes, i).norm();
+        if (std::isfinite(arc_length)) run_.arc_length += arc_length;
         const double turn = heading_.go_to(x, y);
         (turn > 0 ? run_.left : run_.right) += std::abs(turn);
     }
@@ -354,7 +356,7 @@ private:
             {Severity::warning, "log.line-stuck", Place::of_point(log_.name, run_.first),
              fmt::format(
                  "the line number stays {:.0f} for {:.1f} mm, while the tool turns left by {:.0f}° and right by {:.0f}°: more than one motion",
-                 run_.line, run_.way, run_.left * 180 / std::numbers::pi, run_.right * 180 / std::numbers::pi),
+                 run_.line, run_.arc_length, run_.left * 180 / std::numbers::pi, run_.right * 180 / std::numbers::pi),
              "--ignore-lines finds the lines by geometry"});
     }
 

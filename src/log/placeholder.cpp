@@ -24,9 +24,9 @@ struct Excursion {
 };
 
 /// Some records of a log, with a few before and after them.
-class Stretch {
+class Section {
 public:
-    Stretch(const std::array<ChannelView, 3>& axes, PointIndex first, PointIndex last)
+    Section(const std::array<ChannelView, 3>& axes, PointIndex first, PointIndex last)
         : begin_(std::max<PointIndex>(0, first - 2)), end_(std::min(axes[0].count, last + longest_stay)) {
         for (std::size_t k = 0; k < 3; ++k) {
             values_[k].resize(static_cast<std::size_t>(end_ - begin_));
@@ -65,7 +65,7 @@ std::optional<Placeholder> find_placeholder(const std::array<ChannelView, 3>& ax
     const PointIndex count = axes[0].count;
     std::vector<std::vector<Excursion>> of_block(static_cast<std::size_t>((count + block_points - 1) / block_points));
     for_each_block(count, [&](PointIndex first, PointIndex last) {
-        Stretch(axes, first, last).find(first, last, of_block[static_cast<std::size_t>(first / block_points)]);
+        Section(axes, first, last).find(first, last, of_block[static_cast<std::size_t>(first / block_points)]);
     });
     std::vector<Excursion> all;
     for (const std::vector<Excursion>& block : of_block) all.insert(all.end(), block.begin(), block.end());

@@ -32,7 +32,7 @@ bool wrap_near(double& angle, double before, const AngleRange& range) {
     return true;
 }
 
-double way_between(const RotaryAngles& a, const RotaryAngles& b) {
+double travel_between(const RotaryAngles& a, const RotaryAngles& b) {
     return std::abs(a.tilt - b.tilt) + std::abs(a.rotation - b.rotation);
 }
 
@@ -145,9 +145,9 @@ bool nearest_rotary(const Kinematics& kinematics, const Vec3& axis, const Rotary
         RotaryAngles angles = solutions.angles[static_cast<std::size_t>(i)];
         if (!wrap_near(angles.tilt, before.tilt, tilt) || !wrap_near(angles.rotation, before.rotation, rotation))
             continue;
-        const double way = way_between(angles, before);
-        if (!(way < least)) continue;
-        least = way;
+        const double travel = travel_between(angles, before);
+        if (!(travel < least)) continue;
+        least = travel;
         found = angles;
     }
     return std::isfinite(least);
@@ -158,7 +158,7 @@ std::vector<RotaryAngles> follow_rotary(const Kinematics& kinematics, std::span<
                                         const AngleRange& rotation) {
     struct State {
         RotaryAngles angles;
-        double way = std::numeric_limits<double>::infinity();
+        double travel = std::numeric_limits<double>::infinity();
         int from = 0;
     };
     std::vector<std::array<State, 2>> states(axes.size());
@@ -166,27 +166,27 @@ std::vector<RotaryAngles> follow_rotary(const Kinematics& kinematics, std::span<
     for (std::size_t i = 0; i < axes.size(); ++i) {
         for (int from = 0; from < 2; ++from) {
             const State& origin = last[static_cast<std::size_t>(from)];
-            if (!std::isfinite(origin.way)) continue;
+            if (!std::isfinite(origin.travel)) continue;
             const RotarySolutions solutions = solve_rotary(kinematics, axes[i], origin.angles);
             for (int s = 0; s < solutions.count; ++s) {
                 RotaryAngles angles = solutions.angles[static_cast<std::size_t>(s)];
                 if (!wrap_near(angles.tilt, origin.angles.tilt, tilt) ||
                     !wrap_near(angles.rotation, origin.angles.rotation, rotation))
                     continue;
-                const double way = origin.way + way_between(angles, origin.angles);
+                const double travel = origin.travel + travel_between(angles, origin.angles);
                 // At the pole both branches go on: each keeps its own rotation.
                 State& state = states[i][static_cast<std::size_t>(solutions.count == 1 ? from : s)];
-                if (way < state.way) state = {angles, way, from};
+                if (travel < state.travel) state = {angles, travel, from};
             }
         }
-        if (!std::isfinite(states[i][0].way) && !std::isfinite(states[i][1].way)) {
+        if (!std::isfinite(states[i][0].travel) && !std::isfinite(states[i][1].travel)) {
             states.resize(i);
             break;
         }
         last = states[i];
     }
     std::vector<RotaryAngles> path(states.size());
-    auto branch = static_cast<std::size_t>(last[1].way < last[0].way ? 1 : 0);
+    auto branch = static_cast<std::size_t>(last[1].travel < last[0].travel ? 1 : 0);
     for (std::size_t i = path.size(); i-- > 0;) {
         path[i] = states[i][branch].angles;
         branch = static_cast<std::size_t>(states[i][branch].from);

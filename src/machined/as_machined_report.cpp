@@ -28,12 +28,12 @@ constexpr std::size_t fewest_pairs = 2;  ///< of a mark's profile …
 constexpr std::size_t fewest_pieces = 4;  ///< … or pieces of one
 
 /// Deviations of a row of a map that begins at `from`.
-std::vector<double> row_of(const FormedSurface& formed, const Vec2& from, const Vec2& along, double step,
+std::vector<double> row_of(const AsMachinedSurface& as_machined, const Vec2& from, const Vec2& along, double step,
                            std::int64_t count) {
     const MapFrame frame{from, along, step, count, 1};
-    const Form form(formed, frame.bounds(0, 0, count, 1));
+    const Form form(as_machined, frame.bounds(0, 0, count, 1));
     std::vector<double> row;
-    map_deviation(formed, form, frame, [&](std::int64_t, std::span<float> z) { row.assign(z.begin(), z.end()); });
+    map_deviation(as_machined, form, frame, [&](std::int64_t, std::span<float> z) { row.assign(z.begin(), z.end()); });
     return row;
 }
 
@@ -44,17 +44,17 @@ struct Across {
     bool known = false;
 };
 
-Across across_at(const FormedSurface& formed, const Signals& signals, PointIndex point) {
+Across across_at(const AsMachinedSurface& as_machined, const Signals& signals, PointIndex point) {
     Across a;
     const Eigen::Vector3f feed = signals.feed(point);
-    const Vec3 contact = formed.contact(point);
+    const Vec3 contact = as_machined.contact(point);
     const Vec2 flat = feed.head<2>().cast<double>();
     if (!contact.allFinite() || !feed.allFinite() || flat.norm() < 0.1) return a;
     a.at = contact.head<2>();
     a.direction = Vec2(-flat.y(), flat.x()).normalized();
     // The direction across that lies in the surface.
     const Vec3 in_surface = signals.normal(point).cross(feed).cast<double>();
-    a.step_over = formed.surface().step_over *
+    a.step_over = as_machined.surface().step_over *
                   std::clamp(in_surface.head<2>().norm() / std::max(in_surface.norm(), 1e-9), 0.2, 1.0);
     a.known = true;
     return a;
@@ -124,12 +124,12 @@ Level usual(const std::vector<double>& row, double coarse) {
 }
 
 /// Whether the depth in the as-machined surface is that of the pass alone, as far as both are known.
-bool agree(double formed, double alone) {
-    return std::abs(formed - alone) <= std::max(agreement, agreement_share * alone);
+bool agree(double as_machined, double alone) {
+    return std::abs(as_machined - alone) <= std::max(agreement, agreement_share * alone);
 }
 
 /// What there is to say of a mark whose pass alone would leave `alone` mm.
-FormedMark with_note(FormedMark mark, const Defect& defect) {
+AsMachinedMark with_note(AsMachinedMark mark, const Defect& defect) {
     const double alone = std::abs(defect.depth);
     if (!std::isfinite(mark.depth) || mark.note != MarkNote::none || agree(mark.depth, alone)) return mark;
     mark.note = !defect.pit && mark.depth < alone ? MarkNote::cut_away : MarkNote::other_passes;
@@ -138,13 +138,14 @@ FormedMark with_note(FormedMark mark, const Defect& defect) {
 
 }  // namespace
 
-FormedProfile measure_profile(const FormedSurface& formed, const Vec2& from, const Vec2& to) {
-    FormedProfile profile;
+AsMachinedProfile measure_profile(const AsMachinedSurface& as_machined, const Vec2& from, const Vec2& to) {
+    AsMachinedProfile profile;
     const double length = (to - from).norm();
-    const double spacing = formed.surface().step_over > 0 ? formed.surface().step_over : 20 * formed.usual_cell();
+    const double spacing =
+        as_machined.surface().step_over > 0 ? as_machined.surface().step_over : 20 * as_machined.usual_cell();
     const auto pieces = static_cast<std::int64_t>(std::max(1.0, std::ceil(length * steps_per_pass / spacing)));
     profile.step = length / static_cast<double>(pieces);
-    profile.deviation = row_of(formed, from, (to - from) / length, profile.step, pieces + 1);
+    profile.deviation = row_of(as_machined, from, (to - from) / length, profile.step, pieces + 1);
     std::size_t run = 0;
     for (std::size_t k = 0; k < profile.deviation.size(); ++k) {
         run = std::isfinite(profile.deviation[k]) ? run + 1 : 0;
@@ -154,11 +155,11 @@ FormedProfile measure_profile(const FormedSurface& formed, const Vec2& from, con
         }
     }
     profile.roughness = roughness_of(std::span(profile.deviation).subspan(profile.first, profile.count), profile.step,
-                                     cutoff_for(formed.surface().step_over));
+                                     cutoff_for(as_machined.surface().step_over));
     return profile;
 }
 
-FormedMark mark_depth(std::span<const double> deviation, double step, double step_over, bool pit) {
+AsMachinedMark mark_depth(std::span<const double> deviation, double step, double step_over, bool pit) {
     const auto piece = static_cast<std::size_t>(std::max(1.0, std::round(step_over / step)));
     std::vector<double> levels;
     for (std::size_t first = 0; first + piece <= deviation.size(); first += piece) {
@@ -193,20 +194,20 @@ std::string_view name_of(MarkNote note) {
     return "";
 }
 
-double usual_scallop(const FormedSurface& formed, const Signals& signals) {
-    if (formed.tool().kind != ToolKind::ball) return 0;
-    const double ball = formed.tool().radius;
-    const Adjacency& neighbours = formed.surface().neighbours;
+double usual_scallop(const AsMachinedSurface& as_machined, const Signals& signals) {
+    if (as_machined.tool().kind != ToolKind::ball) return 0;
+    const double ball = as_machined.tool().radius;
+    const Adjacency& neighbours = as_machined.surface().neighbours;
     const PointIndex stride = std::max<PointIndex>(1, signals.size() / scallop_places);
     std::vector<double> heights;
     for (PointIndex i = 0; i < signals.size(); i += stride) {
-        const Vec3 here = formed.contact(i);
+        const Vec3 here = as_machined.contact(i);
         if (signals[i].zone < Zone::near_end || !here.allFinite()) continue;
         const Vec3 feed = signals.feed(i).cast<double>();
         for (const Side side : {Side::left, Side::right}) {
             if (!neighbours.has(side, i)) continue;
             const PointIndex j = neighbours.neighbour(side, i);
-            Vec3 apart = formed.contact(j) - here;
+            Vec3 apart = as_machined.contact(j) - here;
             apart -= apart.dot(feed) * feed;
             const double chord = apart.norm();
             const double turn = (signals.normal(j) - signals.normal(i)).cast<double>().dot(apart);
@@ -220,13 +221,14 @@ double usual_scallop(const FormedSurface& formed, const Signals& signals) {
     return heights.empty() ? 0 : median(heights);
 }
 
-FormedReport measure_formed(const FormedSurface& formed, const Signals& signals, const QualityReport& report) {
-    FormedReport result;
-    result.marks.assign(report.defects.size(), FormedMark{missing<double>, MarkNote::unknown_form});
-    const double s = formed.surface().step_over;
+AsMachinedReport measure_as_machined(const AsMachinedSurface& as_machined, const Signals& signals,
+                                     const QualityReport& report) {
+    AsMachinedReport result;
+    result.marks.assign(report.defects.size(), AsMachinedMark{missing<double>, MarkNote::unknown_form});
+    const double s = as_machined.surface().step_over;
     if (s <= 0) return result;
     result.cutoff = cutoff_for(s);
-    result.scallop = usual_scallop(formed, signals);
+    result.scallop = usual_scallop(as_machined, signals);
 
     const std::vector<PointIndex> points = spread_points(signals);
     std::vector<RoughPatch> patches(points.size());
@@ -236,19 +238,19 @@ FormedReport measure_formed(const FormedSurface& formed, const Signals& signals,
                 const auto at = static_cast<std::size_t>(k);
                 const bool is_patch = at < points.size();
                 const Across across =
-                    across_at(formed, signals, is_patch ? points[at] : report.defects[at - points.size()].point);
+                    across_at(as_machined, signals, is_patch ? points[at] : report.defects[at - points.size()].point);
                 if (!across.known) continue;
                 if (is_patch) {
                     patches[at].point = points[at];
-                    patches[at].contact = formed.contact(points[at]);
+                    patches[at].contact = as_machined.contact(points[at]);
                     const Vec2 half = 0.5 * profile_cutoffs * result.cutoff * across.direction;
-                    patches[at].profile = measure_profile(formed, across.at - half, across.at + half).roughness;
+                    patches[at].profile = measure_profile(as_machined, across.at - half, across.at + half).roughness;
                     const Vec2 corner = Vec2::Constant(0.5 * patch_cutoffs * result.cutoff);
                     const Box2 box(across.at - corner, across.at + corner);
-                    const Form form(formed, box);
+                    const Form form(as_machined, box);
                     std::vector<float> cells;
                     const std::int64_t unknown = map_deviation(
-                        formed, form, frame_of(box, formed.usual_cell()),
+                        as_machined, form, frame_of(box, as_machined.usual_cell()),
                         [&](std::int64_t, std::span<float> z) { cells.insert(cells.end(), z.begin(), z.end()); });
                     patches[at].area = area_heights(cells);
                     const auto cut = static_cast<double>(unknown) + static_cast<double>(patches[at].area.cells);
@@ -259,9 +261,10 @@ FormedReport measure_formed(const FormedSurface& formed, const Signals& signals,
                 const auto count = static_cast<std::int64_t>(2 * passes_aside * steps_per_pass) + 1;
                 const Vec2 from = across.at - passes_aside * across.step_over * across.direction;
                 const Defect& defect = report.defects[at - points.size()];
-                result.marks[at - points.size()] = with_note(
-                    mark_depth(row_of(formed, from, across.direction, step, count), step, across.step_over, defect.pit),
-                    defect);
+                result.marks[at - points.size()] =
+                    with_note(mark_depth(row_of(as_machined, from, across.direction, step, count), step,
+                                         across.step_over, defect.pit),
+                              defect);
             }
         });
     for (const RoughPatch& patch : patches) {

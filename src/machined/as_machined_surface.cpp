@@ -16,7 +16,7 @@ namespace clsurf {
 namespace {
 
 constexpr double smooth_seconds = 0.015;  ///< as heights are (signals.cpp)
-constexpr PointIndex stretch_points = 64;
+constexpr PointIndex section_points = 64;
 constexpr std::int64_t tile_cells = 256;    ///< a side: 256 kB, which the L2 cache holds
 constexpr double step_overs_aside = 1.5;    ///< half width of the strip where passes lie as they should …
 constexpr double least_followed = 0.002;    ///< [mm] … or as far as the pits that are there reach, of this depth …
@@ -55,14 +55,15 @@ MapFrame frame_of(const Box2& box, double cell) {
 }
 
 /// The part of a frame that is worked on at a time.
-struct FormedSurface::Tile {
+struct AsMachinedSurface::Tile {
     const MapFrame& frame;
     Vec2 corner;  ///< [mm] middle of its first cell
     CellBlock cells;
 };
 
-FormedSurface::FormedSurface(const ClSurface& surface, const Signals& signals, Role surface_role,
-                             const Trajectory& swept, const std::vector<PointRange>& pieces, const CuttingTool& tool)
+AsMachinedSurface::AsMachinedSurface(const ClSurface& surface, const Signals& signals, Role surface_role,
+                                     const Trajectory& swept, const std::vector<PointRange>& pieces,
+                                     const CuttingTool& tool)
     : surface_(surface),
       signals_(signals),
       surface_role_(surface_role),
@@ -82,34 +83,34 @@ FormedSurface::FormedSurface(const ClSurface& surface, const Signals& signals, R
             (pass->kind == PassKind::link && stays_low(surface.positions, *pass, surface.step_over)))
             pieces_.push_back(piece);
     }
-    cut_stretches();
+    cut_sections();
 }
 
-void FormedSurface::cut_stretches() {
+void AsMachinedSurface::cut_sections() {
     for (std::size_t k = 0; k < pieces_.size(); ++k) {
         const PointRange& piece = pieces_[k];
         // The way goes on into the next piece, but over a gap in time nobody knows how.
         const bool joined = k + 1 < pieces_.size() && pieces_[k + 1].first == piece.last + 1;
-        for (PointIndex first = piece.first; first <= piece.last; first += stretch_points) {
-            Stretch stretch;
-            stretch.first = std::max(piece.first, first - 1);  // the segment before tells where the contact came from
-            stretch.last = std::min(piece.last, first + stretch_points - 1);
-            stretch.piece = k;
-            stretch.goes_on = stretch.last < piece.last || joined;
-            stretches_.push_back(stretch);
+        for (PointIndex first = piece.first; first <= piece.last; first += section_points) {
+            Section section;
+            section.first = std::max(piece.first, first - 1);  // the segment before tells where the contact came from
+            section.last = std::min(piece.last, first + section_points - 1);
+            section.piece = k;
+            section.goes_on = section.last < piece.last || joined;
+            sections_.push_back(section);
         }
     }
-    parallel_for(static_cast<std::int64_t>(stretches_.size()), 256, [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t k = first; k < last; ++k) measure(stretches_[static_cast<std::size_t>(k)]);
+    parallel_for(static_cast<std::int64_t>(sections_.size()), 256, [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t k = first; k < last; ++k) measure(sections_[static_cast<std::size_t>(k)]);
     });
     Eigen::AlignedBox2f all;
-    for (const Stretch& stretch : stretches_) all.extend(stretch.bounds);
+    for (const Section& section : sections_) all.extend(section.bounds);
     const Vec2 origin = surface_.positions.origin.head<2>();
     if (!all.isEmpty()) bounds_ = Box2(all.min().cast<double>() + origin, all.max().cast<double>() + origin);
 }
 
 /// The normal of a point, or of the next one that has one: links have no neighbours of their own.
-Eigen::Vector3f FormedSurface::normal_of(PointIndex point, PointRange within) const {
+Eigen::Vector3f AsMachinedSurface::normal_of(PointIndex point, PointRange within) const {
     const auto known = [&](PointIndex i) { return signals_.normal(i).allFinite(); };
     if (known(point)) return signals_.normal(point);
     const PointIndex count = swept_.count;
@@ -126,18 +127,18 @@ Eigen::Vector3f FormedSurface::normal_of(PointIndex point, PointRange within) co
     return (up - feed.z() * feed).normalized();
 }
 
-Vec3 FormedSurface::contact(PointIndex point) const {
+Vec3 AsMachinedSurface::contact(PointIndex point) const {
     const Eigen::Vector3f normal = signals_.normal(point);
     return surface_.positions.absolute(point) + contact_offset(tool_, normal.cast<double>());
 }
 
-/// How far the tool may run below its neighbours about a stretch [mm].
-double FormedSurface::depth_of(const Stretch& stretch) const {
+/// How far the tool may run below its neighbours about a section [mm].
+double AsMachinedSurface::depth_of(const Section& section) const {
     if (swept_.role != surface_role_ && !signals_.measured) return deepest_followed;
     double depth = least_followed;
     constexpr PointIndex stride = 8;
-    const PointIndex end = std::min(swept_.count, stretch.last + stretch_points);
-    for (PointIndex i = std::max<PointIndex>(0, stretch.first - stretch_points); i < end; i += stride) {
+    const PointIndex end = std::min(swept_.count, section.last + section_points);
+    for (PointIndex i = std::max<PointIndex>(0, section.first - section_points); i < end; i += stride) {
         // Below the chord between both neighbours by d is below one of them by no more than twice that.
         double below = signals_[i].relief < 0 ? -2.0 * signals_[i].relief : 0.0;
         if (swept_.role != surface_role_) {
@@ -156,19 +157,19 @@ double FormedSurface::depth_of(const Stretch& stretch) const {
 
 /// How wide the strip must be: where neighbours lie far apart, and as far as a pit reaches. Where two
 /// outlines of radius q, s apart, differ by d in height, the lower one cuts to s/2 + q d/s.
-void FormedSurface::measure(Stretch& stretch) const {
-    const PointRange piece = pieces_[stretch.piece];
+void AsMachinedSurface::measure(Section& section) const {
+    const PointRange piece = pieces_[section.piece];
     const double most = 2 * tool_.radius;
     const double s = surface_.step_over;
     double aside = s > 0 ? step_overs_aside * s : most;
     double before = 2 * usual_cell();
-    const double depth = depth_of(stretch);
+    const double depth = depth_of(section);
     double steepest = 0;
     const Positions& p = surface_.positions;
     std::vector<double> axes[3];
     for (std::vector<double>& axis : axes)
-        axis.resize(static_cast<std::size_t>(stretch.last - stretch.first + (stretch.goes_on ? 2 : 1)));
-    swept_.read(stretch.first, axes[0], axes[1], axes[2]);
+        axis.resize(static_cast<std::size_t>(section.last - section.first + (section.goes_on ? 2 : 1)));
+    swept_.read(section.first, axes[0], axes[1], axes[2]);
     Eigen::AlignedBox2f tips;
     for (std::size_t k = 0; k < axes[0].size(); ++k) {
         const Eigen::Vector2f tip = (Vec2(axes[0][k], axes[1][k]) - p.origin.head<2>()).cast<float>();
@@ -176,8 +177,8 @@ void FormedSurface::measure(Stretch& stretch) const {
     }
     Eigen::AlignedBox2f offsets;
     constexpr PointIndex stride = 8;
-    for (PointIndex i = stretch.first; i <= stretch.last; ++i) {
-        if (!p[i].allFinite() || !((i - stretch.first) % stride == 0 || i == stretch.last)) continue;
+    for (PointIndex i = section.first; i <= section.last; ++i) {
+        if (!p[i].allFinite() || !((i - section.first) % stride == 0 || i == section.last)) continue;
         const Vec3 normal = normal_of(i, piece).cast<double>();
         const Vec3 off = contact_offset(tool_, normal);
         const Eigen::Vector2f here = flat(p[i]) + off.head<2>().cast<float>();
@@ -195,42 +196,42 @@ void FormedSurface::measure(Stretch& stretch) const {
         }
     }
     aside = std::min(aside, most);
-    stretch.aside = static_cast<float>(aside);
+    section.aside = static_cast<float>(aside);
     // On a slope, what is cut beside the contact line lies ahead of it or behind.
-    stretch.before = static_cast<float>(std::min(before + 0.5 * steepest * aside * aside / tool_.radius, most));
+    section.before = static_cast<float>(std::min(before + 0.5 * steepest * aside * aside / tool_.radius, most));
     if (tips.isEmpty() || offsets.isEmpty()) return;
     // Between the normals that were looked at, and where the segments' own slope differs, the contact moves a little.
-    const double room = std::hypot(stretch.aside, stretch.before) + 0.1 * tool_.radius;
-    stretch.bounds = Eigen::AlignedBox2f(tips.min().array() + offsets.min().array() - static_cast<float>(room),
+    const double room = std::hypot(section.aside, section.before) + 0.1 * tool_.radius;
+    section.bounds = Eigen::AlignedBox2f(tips.min().array() + offsets.min().array() - static_cast<float>(room),
                                          tips.max().array() + offsets.max().array() + static_cast<float>(room));
 }
 
-/// Positions of a stretch and, where it goes on, of the next point.
-void FormedSurface::read_swept(const Stretch& stretch, std::vector<double> (&axes)[3]) const {
-    const PointRange piece = pieces_[stretch.piece];
-    const PointIndex end = stretch.last + (stretch.goes_on ? 1 : 0);
-    const auto count = static_cast<std::size_t>(end - stretch.first + 1);
+/// Positions of a section and, where it goes on, of the next point.
+void AsMachinedSurface::read_swept(const Section& section, std::vector<double> (&axes)[3]) const {
+    const PointRange piece = pieces_[section.piece];
+    const PointIndex end = section.last + (section.goes_on ? 1 : 0);
+    const auto count = static_cast<std::size_t>(end - section.first + 1);
     for (std::vector<double>& axis : axes) axis.resize(count);
     if (!smoothed_) {
-        swept_.read(stretch.first, axes[0], axes[1], axes[2]);
+        swept_.read(section.first, axes[0], axes[1], axes[2]);
         return;
     }
-    const PointIndex from = std::max(piece.first, stretch.first - smoother_.reach());
+    const PointIndex from = std::max(piece.first, section.first - smoother_.reach());
     const PointIndex to = std::min(piece.last, end + smoother_.reach());
     std::vector<double> raw[3];
     for (std::vector<double>& axis : raw) axis.resize(static_cast<std::size_t>(to - from + 1));
     swept_.read(from, raw[0], raw[1], raw[2]);
-    const auto inside = static_cast<std::size_t>(std::min(end, piece.last) - stretch.first + 1);
+    const auto inside = static_cast<std::size_t>(std::min(end, piece.last) - section.first + 1);
     for (std::size_t axis = 0; axis < 3; ++axis)
-        smoother_.apply(raw[axis], from, piece, stretch.first, std::span(axes[axis]).first(inside));
+        smoother_.apply(raw[axis], from, piece, section.first, std::span(axes[axis]).first(inside));
     if (inside == count) return;
     const Vec3 next = swept_.at(end);  // the next piece's first point
     for (std::size_t axis = 0; axis < 3; ++axis) axes[axis].back() = next[static_cast<Eigen::Index>(axis)];
 }
 
-void FormedSurface::lower_by(const Stretch& stretch, const Tile& tile) const {
+void AsMachinedSurface::lower_by(const Section& section, const Tile& tile) const {
     std::vector<double> axes[3];
-    read_swept(stretch, axes);
+    read_swept(section, axes);
     const Vec2 along = tile.frame.along;
     const Vec2 across = tile.frame.across();
     const auto in_tile = [&](std::size_t k) {
@@ -241,7 +242,7 @@ void FormedSurface::lower_by(const Stretch& stretch, const Tile& tile) const {
     // it that of the segment: the swept point lies behind the surface's by the lag.
     const auto offset = [&](std::size_t k, const Vec3& step) {
         const Vec3 normal =
-            normal_of(stretch.first + static_cast<PointIndex>(k), pieces_[stretch.piece]).cast<double>();
+            normal_of(section.first + static_cast<PointIndex>(k), pieces_[section.piece]).cast<double>();
         const Vec3 in_frame(along.dot(normal.head<2>()), across.dot(normal.head<2>()), normal.z());
         const Vec3 turned = in_frame - in_frame.dot(step) / std::max(step.squaredNorm(), 1e-20) * step;
         return std::pair(contact_offset(tool_, turned.normalized()), turned.normalized().z() >= least_up);
@@ -279,33 +280,33 @@ void FormedSurface::lower_by(const Stretch& stretch, const Tile& tile) const {
         g.dy = static_cast<float>(direction.y());
         g.length = stands ? 0.0F : static_cast<float>(length);
         g.slope = stands ? 0.0F : static_cast<float>(step.z() / length);
-        g.along_low = static_cast<float>(along_range.first) - stretch.before;
-        g.along_high = static_cast<float>(length + along_range.second) + stretch.before;
-        g.across_low = static_cast<float>(across_range.first) - stretch.aside;
-        g.across_high = static_cast<float>(across_range.second) + stretch.aside;
+        g.along_low = static_cast<float>(along_range.first) - section.before;
+        g.along_high = static_cast<float>(length + along_range.second) + section.before;
+        g.across_low = static_cast<float>(across_range.first) - section.aside;
+        g.across_high = static_cast<float>(across_range.second) + section.aside;
         lower(tool_, g, tile.cells);
         offset_before = here;
     }
 }
 
-std::vector<std::size_t> FormedSurface::stretches_in(const Box2& box) const {
+std::vector<std::size_t> AsMachinedSurface::sections_in(const Box2& box) const {
     const Vec2 origin = surface_.positions.origin.head<2>();
     const Eigen::AlignedBox2f near((box.min() - origin).cast<float>(), (box.max() - origin).cast<float>());
     std::vector<std::size_t> found;
-    for (std::size_t k = 0; k < stretches_.size(); ++k) {
-        if (!stretches_[k].bounds.isEmpty() && stretches_[k].bounds.intersects(near)) found.push_back(k);
+    for (std::size_t k = 0; k < sections_.size(); ++k) {
+        if (!sections_[k].bounds.isEmpty() && sections_[k].bounds.intersects(near)) found.push_back(k);
     }
     return found;
 }
 
-void FormedSurface::map(const MapFrame& frame, const TakeRows& take) const {
+void AsMachinedSurface::map(const MapFrame& frame, const TakeRows& take) const {
     const std::int64_t tiles = (frame.columns + tile_cells - 1) / tile_cells;
     constexpr float nothing = std::numeric_limits<float>::infinity();
     std::vector<float> rows;
     for (std::int64_t first_row = 0; first_row < frame.rows; first_row += tile_cells) {
         const std::int64_t high = std::min(tile_cells, frame.rows - first_row);
         rows.resize(static_cast<std::size_t>(high * frame.columns));
-        const std::vector<std::size_t> near = stretches_in(frame.bounds(0, first_row, frame.columns, high));
+        const std::vector<std::size_t> near = sections_in(frame.bounds(0, first_row, frame.columns, high));
         parallel_for(tiles, 1, [&](std::int64_t first, std::int64_t last) {
             std::vector<float> z;
             for (std::int64_t t = first; t < last; ++t) {
@@ -321,7 +322,7 @@ void FormedSurface::map(const MapFrame& frame, const TakeRows& take) const {
                 const Eigen::AlignedBox2f box((world.min() - origin).cast<float>(),
                                               (world.max() - origin).cast<float>());
                 for (const std::size_t k : near) {
-                    if (stretches_[k].bounds.intersects(box)) lower_by(stretches_[k], tile);
+                    if (sections_[k].bounds.intersects(box)) lower_by(sections_[k], tile);
                 }
                 for (std::int64_t r = 0; r < high; ++r) {
                     for (std::int64_t c = 0; c < wide; ++c) {
@@ -336,23 +337,23 @@ void FormedSurface::map(const MapFrame& frame, const TakeRows& take) const {
     }
 }
 
-std::vector<ContactPoint> FormedSurface::contacts(const Box2& box, double spacing) const {
+std::vector<ContactPoint> AsMachinedSurface::contacts(const Box2& box, double spacing) const {
     std::vector<ContactPoint> found;
-    const std::vector<std::size_t> near = stretches_in(box);
+    const std::vector<std::size_t> near = sections_in(box);
     for (const std::size_t number : near) {
-        const Stretch& stretch = stretches_[number];
+        const Section& section = sections_[number];
         bool goes_on = false;
         ContactPoint before;
-        for (PointIndex i = stretch.first; i <= stretch.last; ++i) {
+        for (PointIndex i = section.first; i <= section.last; ++i) {
             const ContactPoint now{contact(i), surface_.positions.absolute(i)};
             if (!now.at.allFinite()) {
                 goes_on = false;
                 continue;
             }
-            const double way = goes_on ? (now.at - before.at).norm() : spacing;
-            if (way < spacing) continue;
+            const double distance = goes_on ? (now.at - before.at).norm() : spacing;
+            if (distance < spacing) continue;
             // Points farther apart than that: as many between them as are missing.
-            const int pieces = goes_on ? static_cast<int>(std::min(way / spacing, most_between)) : 1;
+            const int pieces = goes_on ? static_cast<int>(std::min(distance / spacing, most_between)) : 1;
             for (int k = 1; k <= pieces; ++k) {
                 const double share = static_cast<double>(k) / pieces;
                 const ContactPoint between = goes_on ? ContactPoint{before.at + share * (now.at - before.at),

@@ -1,5 +1,5 @@
 #pragma once
-// FormedSurface: the as-machined surface. Over each place it is the lowest point of the tool outline along the
+// AsMachinedSurface: the as-machined surface. Over each place it is the lowest point of the tool outline along the
 // whole path (the fourth surface of Wu et al.). Scallops, lags and differences between passes add up as they
 // do on the part: a pit keeps its depth, and neighbours cut a bulge down.
 //
@@ -40,7 +40,7 @@ struct MapFrame {
 /// The axis-parallel frame of a box.
 [[nodiscard]] MapFrame frame_of(const Box2& box, double cell);
 
-/// rows [first_row, first_row + z.size() / columns): heights [mm] over FormedSurface::level(), row by
+/// rows [first_row, first_row + z.size() / columns): heights [mm] over AsMachinedSurface::level(), row by
 /// row; NaN: nothing was cut there.
 using TakeRows = std::function<void(std::int64_t first_row, std::span<float> z)>;
 
@@ -49,14 +49,14 @@ struct ContactPoint {
     Vec3 at = Vec3::Zero(), tip = Vec3::Zero();
 };
 
-class FormedSurface {
+class AsMachinedSurface {
 public:
     /// `surface`, gathered from the positions of `surface_role`, and `signals` (its normals) tell the
     /// contact, `swept` is what the tool did: commanded, feedback or actual positions of the same
     /// points. Signals with a lag of the swept positions make narrower strips do. All must outlive it.
     /// `pieces` (surface/smoothing_segments.h) bound the smoothing. O(points), parallel.
-    FormedSurface(const ClSurface& surface, const Signals& signals, Role surface_role, const Trajectory& swept,
-                  const std::vector<PointRange>& pieces, const CuttingTool& tool);
+    AsMachinedSurface(const ClSurface& surface, const Signals& signals, Role surface_role, const Trajectory& swept,
+                      const std::vector<PointRange>& pieces, const CuttingTool& tool);
 
     /// A twentieth of a step-over [mm]; without neighbours a fiftieth of the tool's radius.
     [[nodiscard]] double usual_cell() const {
@@ -72,7 +72,7 @@ public:
     [[nodiscard]] const std::string& note() const { return note_; }
 
     /// The height map, a row of tiles at a time, from the first row on. Memory: a row of tiles (256 rows
-    /// of cells) and a list of stretches of the way. The same for any number of threads.
+    /// of cells) and a list of sections of the path. The same for any number of threads.
     void map(const MapFrame& frame, const TakeRows& take) const;
 
     /// Contact points of the surface's own positions [mm] inside a box, about every `spacing` mm along
@@ -83,7 +83,7 @@ public:
 
 private:
     /// Some consecutive points, swept to the one after the last where there is one.
-    struct Stretch {
+    struct Section {
         PointIndex first = 0, last = 0;
         std::size_t piece = 0;
         bool goes_on = false;         ///< to point last + 1
@@ -92,13 +92,13 @@ private:
     };
     struct Tile;
 
-    void cut_stretches();
-    [[nodiscard]] double depth_of(const Stretch& stretch) const;
-    void measure(Stretch& stretch) const;
-    void read_swept(const Stretch& stretch, std::vector<double> (&axes)[3]) const;
-    void lower_by(const Stretch& stretch, const Tile& tile) const;
+    void cut_sections();
+    [[nodiscard]] double depth_of(const Section& section) const;
+    void measure(Section& section) const;
+    void read_swept(const Section& section, std::vector<double> (&axes)[3]) const;
+    void lower_by(const Section& section, const Tile& tile) const;
     [[nodiscard]] Eigen::Vector3f normal_of(PointIndex point, PointRange within) const;
-    [[nodiscard]] std::vector<std::size_t> stretches_in(const Box2& box) const;
+    [[nodiscard]] std::vector<std::size_t> sections_in(const Box2& box) const;
 
     const ClSurface& surface_;
     const Signals& signals_;
@@ -106,7 +106,7 @@ private:
     const Trajectory& swept_;
     CuttingTool tool_;
     std::vector<PointRange> pieces_;  ///< those that are swept
-    std::vector<Stretch> stretches_;
+    std::vector<Section> sections_;
     Differentiator smoother_;
     bool smoothed_ = false;
     Box2 bounds_;

@@ -102,16 +102,16 @@ PointIndex ContactPoints::walk(PointIndex point, PointRange within, double dista
 }
 
 std::optional<ContactPoints::Direction> ContactPoints::across_at(PointIndex point, const Eigen::Vector3f& feed) const {
-    const Station here{point, 0};
-    const Station left = beside(surface_, here, feed, Side::left);
-    const Station right = beside(surface_, here, feed, Side::right);
+    const PathLocation here{point, 0};
+    const PathLocation left = beside(surface_, here, feed, Side::left);
+    const PathLocation right = beside(surface_, here, feed, Side::right);
     if (!left.exists() && !right.exists()) return std::nullopt;
     if (left.exists() && right.exists()) return Direction{right, left, {}, {}};
     // Every second pass of a zigzag may lie a little off: steps of two passes do not see that.
-    const Station first = left.exists() ? left : right;
-    const Station second = beyond(surface_, here, first, feed);
+    const PathLocation first = left.exists() ? left : right;
+    const PathLocation second = beyond(surface_, here, first, feed);
     if (!second.exists()) return Direction{first, here, {}, {}};
-    const Station third = beyond(surface_, first, second, feed);
+    const PathLocation third = beyond(surface_, first, second, feed);
     return third.exists() ? Direction{second, here, third, first} : Direction{second, here, {}, {}};
 }
 
@@ -139,7 +139,7 @@ ContactPoints::Frame ContactPoints::make_frame(PointIndex point, PointRange pass
     return frame;
 }
 
-Vec3 ContactPoints::axis_at(const Station& at) const {
+Vec3 ContactPoints::axis_at(const PathLocation& at) const {
     if (!axes_) return Vec3::UnitZ();
     const Vec3 axis = axes_->at(at.point);
     if (at.fraction == 0) return axis;
@@ -147,7 +147,7 @@ Vec3 ContactPoints::axis_at(const Station& at) const {
 }
 
 /// The point of the tool whose surface has a normal of its own there (head of the file) [mm], from the positions' origin.
-Vec3 ContactPoints::tool_point(const Station& at, const Vec3& normal) const {
+Vec3 ContactPoints::tool_point(const PathLocation& at, const Vec3& normal) const {
     const Vec3 tip = position_at(surface_.positions, at).cast<double>();
     if (!axes_) return tip;
     const Vec3 axis = axis_at(at);
@@ -162,7 +162,7 @@ Vec3 ContactPoints::normal_by_neighbours(PointIndex point, PointRange pass) cons
     if (frame.across.empty()) return no_normal();
     const Vec3 axis = axis_at({point, 0});
     const auto estimate = [&](const Vec3& normal) {
-        const auto from_to = [&](const Station& from, const Station& to) {
+        const auto from_to = [&](const PathLocation& from, const PathLocation& to) {
             return Vec3((tool_point(to, normal) - tool_point(from, normal)).normalized());
         };
         const auto direction_of = [&](const Direction& d) {

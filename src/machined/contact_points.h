@@ -18,9 +18,9 @@
 #include <vector>
 
 #include "machined/tool.h"
-#include "toolpath/tool_axes.h"
 #include "surface/cl_surface.h"
 #include "surface/path_location.h"
+#include "toolpath/tool_axes.h"
 #include "toolpath/trajectory.h"
 
 namespace clsurf {
@@ -51,8 +51,8 @@ public:
 private:
     /// Places on the path that tell a direction at one place.
     struct Direction {
-        Station from, to;         ///< it is from → to …
-        Station before, towards;  ///< … carried on from before → towards, where that exists: at a border
+        PathLocation from, to;         ///< it is from → to …
+        PathLocation before, towards;  ///< … carried on from before → towards, where that exists: at a border
     };
     /// What tells the normal at a point: the directions along its pass and across it.
     struct Frame {
@@ -65,8 +65,8 @@ private:
     [[nodiscard]] Frame make_frame(PointIndex point, PointRange pass) const;
     [[nodiscard]] Vec3 normal_by_neighbours(PointIndex point, PointRange pass) const;
     [[nodiscard]] Vec3 normal_from_along(PointIndex point, PointRange piece) const;
-    [[nodiscard]] Vec3 axis_at(const Station& at) const;
-    [[nodiscard]] Vec3 tool_point(const Station& at, const Vec3& normal) const;
+    [[nodiscard]] Vec3 axis_at(const PathLocation& at) const;
+    [[nodiscard]] Vec3 tool_point(const PathLocation& at, const Vec3& normal) const;
 
     const ClSurface& surface_;
     Trajectory path_;

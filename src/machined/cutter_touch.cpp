@@ -64,7 +64,7 @@ CutterTouch CutterBody::touch(PointIndex point, PointRange piece, const Vec3& pl
         const double away = (off - centre).norm();
         if (!(away - tool_.corner < best.distance)) return;
         best = {nearest, away - tool_.corner, place};
-        if (away > 0) best.foot = tip + centre + tool_.corner / away * (off - centre);
+        if (away > 0) best.projection = tip + centre + tool_.corner / away * (off - centre);
     };
     look(point, path_.at(point), axis_at(point));
     for (PointIndex a = std::max(piece.first, point - 1); a <= std::min(point, piece.last - 1); ++a) {

@@ -18,9 +18,9 @@ namespace clsurf {
 
 /// The point of a piece of the path whose cutter comes nearest to a place.
 struct CutterTouch {
-    PointIndex point = -1;     ///< −1: none
-    double distance = 0;       ///< [mm] to the cutter there or on the way to the next point; < 0: the place is cut away
-    Vec3 foot = Vec3::Zero();  ///< [mm] of the place on the cutter
+    PointIndex point = -1;  ///< −1: none
+    double distance = 0;    ///< [mm] to the cutter there or on the way to the next point; < 0: the place is cut away
+    Vec3 projection = Vec3::Zero();  ///< [mm] of the place on the cutter
 };
 
 class CutterBody {
@@ -31,7 +31,7 @@ public:
 
     /// Distance [mm] from the cutter to a place that lies `off` [mm] from its tip; < 0: inside.
     [[nodiscard]] double distance(const Vec3& off, const Vec3& axis) const;
-    /// The least distance on the path's way through a point, from the one before to the next one, within `piece`.
+    /// The least distance on the path's arc length through a point, from the one before to the next one, within `piece`.
     /// Names the nearest point to where it is.
     [[nodiscard]] CutterTouch touch(PointIndex point, PointRange piece, const Vec3& place) const;
     /// The lowest height [mm] of an upright cutter over the place's x, y on that way; infinite: it does not reach.

@@ -74,10 +74,10 @@ private:
     }
 };
 
-Form::Form(const FormedSurface& formed, const Box2& region) {
-    pitch_ = formed.surface().step_over > 0 ? formed.surface().step_over : 10 * formed.usual_cell();
+Form::Form(const AsMachinedSurface& as_machined, const Box2& region) {
+    pitch_ = as_machined.surface().step_over > 0 ? as_machined.surface().step_over : 10 * as_machined.usual_cell();
     // Of the flat formula, with the tool's radius: a measure of size.
-    most_scatter_ = std::max(least_scatter, scallop_share * pitch_ * pitch_ / (8 * formed.tool().radius));
+    most_scatter_ = std::max(least_scatter, scallop_share * pitch_ * pitch_ / (8 * as_machined.tool().radius));
     if (region.isEmpty()) return;
     corner_ = region.min() - Vec2::Constant(pitch_);
     columns_ = static_cast<std::int64_t>(std::ceil(region.sizes().x() / pitch_)) + 3;
@@ -88,9 +88,9 @@ Form::Form(const FormedSurface& formed, const Box2& region) {
     const Vec2 room = Vec2::Constant((fit_reach + 1) * pitch_);
     wide.extend(Vec2(region.min() - room));
     wide.extend(Vec2(region.max() + room));
-    std::vector<Vec3> found = standing_contacts(formed, wide, sample_spacing * pitch_);
+    std::vector<Vec3> found = ungouged_contacts(as_machined, wide, sample_spacing * pitch_);
     Samples samples;
-    samples.level = formed.level();
+    samples.level = as_machined.level();
     samples.columns = columns_;
     samples.rows = rows_;
     // Points beside the grid belong to its outermost squares.
@@ -124,7 +124,7 @@ Form::Form(const FormedSurface& formed, const Box2& region) {
 
 bool Form::is_inside(const Vec2& place, const Samples& samples) const {
     double nearest = std::numeric_limits<double>::infinity();
-    Vec2 way = Vec2::Zero();
+    Vec2 offset = Vec2::Zero();
     const Vec2 at = (place - corner_) / pitch_;
     const auto column = static_cast<std::int64_t>(at.x());
     const auto row = static_cast<std::int64_t>(at.y());
@@ -134,7 +134,7 @@ bool Form::is_inside(const Vec2& place, const Samples& samples) const {
             const Vec2 off = p.head<2>() - place;
             if (off.squaredNorm() >= nearest) return true;
             nearest = off.squaredNorm();
-            way = off;
+            offset = off;
             return true;
         });
         // What lies in the rings beyond is farther away than that.
@@ -145,7 +145,7 @@ bool Form::is_inside(const Vec2& place, const Samples& samples) const {
     for (std::int64_t ring = 0; ring <= rings; ++ring) {
         const bool one_sided = samples.for_each_in_ring(column, row, ring, [&](const Vec3& p) {
             const Vec2 off = p.head<2>() - place;
-            return !(off.dot(way) < opposite * off.norm() * way.norm());
+            return !(off.dot(offset) < opposite * off.norm() * offset.norm());
         });
         if (!one_sided) return true;
     }
@@ -248,9 +248,10 @@ std::int64_t Form::subtract(const MapFrame& frame, std::int64_t first_row, std::
     return unknown;
 }
 
-std::int64_t map_deviation(const FormedSurface& formed, const Form& form, const MapFrame& frame, const TakeRows& take) {
+std::int64_t map_deviation(const AsMachinedSurface& as_machined, const Form& form, const MapFrame& frame,
+                           const TakeRows& take) {
     std::int64_t unknown = 0;
-    formed.map(frame, [&](std::int64_t first_row, std::span<float> z) {
+    as_machined.map(frame, [&](std::int64_t first_row, std::span<float> z) {
         unknown += form.subtract(frame, first_row, z);
         take(first_row, z);
     });

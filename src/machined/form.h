@@ -23,14 +23,14 @@ class LocalQuadratic;
 class Form {
 public:
     /// For places inside `region`. O(contact points near it + knots), parallel.
-    Form(const FormedSurface& formed, const Box2& region);
+    Form(const AsMachinedSurface& as_machined, const Box2& region);
 
-    /// Turns heights of FormedSurface::map() into deviations [mm] along the form's normal, + outside
+    /// Turns heights of AsMachinedSurface::map() into deviations [mm] along the form's normal, + outside
     /// of it; NaN stays, and becomes what has no form: beyond the outermost contact points, and where the form
     /// is not known. Returns how many heights that were. Parallel.
     std::int64_t subtract(const MapFrame& frame, std::int64_t first_row, std::span<float> z) const;
 
-    /// The form's height [mm] over FormedSurface::level(), and its slopes; NaN: none there.
+    /// The form's height [mm] over AsMachinedSurface::level(), and its slopes; NaN: none there.
     struct Facet {
         double z = 0, zx = 0, zy = 0;
         bool unknown = false;  ///< contact points lie about, but no smooth form goes through them
@@ -54,8 +54,9 @@ private:
     std::vector<std::uint8_t> inside_;  ///< on a grid four times as fine
 };
 
-/// FormedSurface::map() with the form taken off: deviations [mm]. Returns how many
+/// AsMachinedSurface::map() with the form taken off: deviations [mm]. Returns how many
 /// cells were cut where the form is not known.
-std::int64_t map_deviation(const FormedSurface& formed, const Form& form, const MapFrame& frame, const TakeRows& take);
+std::int64_t map_deviation(const AsMachinedSurface& as_machined, const Form& form, const MapFrame& frame,
+                           const TakeRows& take);
 
 }  // namespace clsurf

@@ -150,7 +150,7 @@ private:
             if (score >= best.score) return;
             best = {place, score};
             // In a groove the cutter touches more than one place, and no fitted normal tells which.
-            if (place.distance > own_contact * step_over_) best.place = place_of(here.point, here.foot);
+            if (place.distance > own_contact * step_over_) best.place = place_of(here.point, here.projection);
         };
         FoundPlace mine = place_of(touch.point, contacts_->at(touch.point));
         if (!mine.place.contact) mine.distance = infinite;

@@ -81,11 +81,12 @@ struct Extent {
 
 }  // namespace
 
-std::vector<Vec3> standing_contacts(const FormedSurface& formed, const Box2& region, double spacing) {
-    const CuttingTool& tool = formed.tool();
+std::vector<Vec3> ungouged_contacts(const AsMachinedSurface& as_machined, const Box2& region, double spacing) {
+    const CuttingTool& tool = as_machined.tool();
     // A contact point lies within a radius of its tip, and is cut away by tips within a radius of it.
     const Vec2 room = Vec2::Constant(2 * tool.radius);
-    const std::vector<ContactPoint> found = formed.contacts(Box2(region.min() - room, region.max() + room), spacing);
+    const std::vector<ContactPoint> found =
+        as_machined.contacts(Box2(region.min() - room, region.max() + room), spacing);
     const SquareGrid grid(found, region, tool.radius, 2 * spacing);
     std::vector<std::uint8_t> keep(found.size());
     constexpr std::int64_t grain = 64;

@@ -12,6 +12,7 @@ namespace clsurf {
 /// another, and the surface is lower there. Left out is what lies 20 µm or more inside the tool: chords and uneven
 /// passes are shallower. Tips are looked at one per square of a grid, which misses shallow cuts and
 /// finds none that is not there. O(contact points + squares), parallel.
-[[nodiscard]] std::vector<Vec3> standing_contacts(const FormedSurface& formed, const Box2& region, double spacing);
+[[nodiscard]] std::vector<Vec3> ungouged_contacts(const AsMachinedSurface& as_machined, const Box2& region,
+                                                  double spacing);
 
 }  // namespace clsurf

@@ -19,12 +19,12 @@ namespace {
 // Lengths in mm.
 constexpr double sure_distance = 0.02;      ///< a finishing tolerance: full confidence
 constexpr double off_distance = 0.1;        ///< the walk may be on the wrong way from here on
-constexpr double lost_way = 1.0;            ///< way gone off before the walk counts as lost
+constexpr double lost_length = 1.0;         ///< arc length gone off before the walk counts as lost
 constexpr double near_distance = 0.1;       ///< a new start must be this near
 constexpr PointIndex proof_points = 400;    ///< moving points over which a new start must stay near
 constexpr double least_jump = 10;           ///< to a placeholder
 constexpr double placeholder_reach = 1e-6;  ///< its position, moved to the workpiece
-constexpr double first_retry = 1.0;         ///< way until a failed search is repeated; doubles
+constexpr double first_retry = 1.0;         ///< arc length until a failed search is repeated; doubles
 
 class Aligner {
 public:
@@ -35,11 +35,11 @@ public:
     }
 
     void run() {
-        Stand stand;
+        WalkState state;
         Vec3 before = first_position(log_);
-        double off_way = 0;         // gone since the walk went off
+        double off_path = 0;        // gone since the walk went off
         PointIndex off_since = -1;  // first point of that
-        double retry_after = lost_way;
+        double retry_after = lost_length;
         bool reported = false;
         for (PointIndex i = 0; i < log_.count; ++i) {
             const Vec3 p = position(i);
@@ -52,41 +52,41 @@ public:
                 put(i, LineMap::no_motion, 0.0);
                 continue;
             }
-            stand = walk_.advance(stand, p, chord);
+            state = walk_.advance(state, p, chord);
             before = p;
-            put(i, static_cast<std::uint32_t>(stand.motion), confidence_of(stand.distance));
-            if (stand.distance < off_distance) {
+            put(i, static_cast<std::uint32_t>(state.motion), confidence_of(state.distance));
+            if (state.distance < off_distance) {
                 off_since = -1;
-                off_way = 0;
-                retry_after = lost_way;
+                off_path = 0;
+                retry_after = lost_length;
                 reported = false;
                 continue;
             }
             if (off_since < 0) off_since = i;
-            off_way += chord;
-            if (stand.distance < PathWalk::lost_distance || off_way < retry_after) continue;
-            if (const std::optional<Rejoined> found = rejoin(off_since, i, stand.motion)) {
+            off_path += chord;
+            if (state.distance < PathWalk::lost_distance || off_path < retry_after) continue;
+            if (const std::optional<Rejoined> found = rejoin(off_since, i, state.motion)) {
                 diagnostics_.add({Severity::note,
                                   "map.resumed",
                                   Place::of_point(log_.name, found->point),
                                   fmt::format("the log goes on at line {}, not after line {}",
-                                              line_of(found->stand.motion), line_of(stand.motion)),
+                                              line_of(found->state.motion), line_of(state.motion)),
                                   {}});
-                stand = found->stand;
+                state = found->state;
                 i = found->point;
                 before = position(i);
-                put(i, static_cast<std::uint32_t>(stand.motion), confidence_of(stand.distance));
+                put(i, static_cast<std::uint32_t>(state.motion), confidence_of(state.distance));
                 off_since = -1;
-                off_way = 0;
-                retry_after = lost_way;
+                off_path = 0;
+                retry_after = lost_length;
                 continue;
             }
-            retry_after = 2 * off_way + first_retry;
+            retry_after = 2 * off_path + first_retry;
             if (!reported) {
                 diagnostics_.add({Severity::warning, "map.lost", Place::of_point(log_.name, off_since),
                                   fmt::format("the log leaves the programmed path after line {} and "
                                               "is {:.3f} mm off",
-                                              line_of(stand.motion), stand.distance),
+                                              line_of(state.motion), state.distance),
                                   "another program, another version of it, or another work offset?"});
             }
             reported = true;
@@ -140,20 +140,20 @@ private:
     /// Where the walk begins anew.
     struct Rejoined {
         PointIndex point = 0;
-        Stand stand;
+        WalkState state;
     };
 
     /// From point `off` on, where the walk went off, or, after a way that is none of the program's (a
     /// retract, the way back to where a run is resumed), from the first point that is back on it; `now`
     /// is the last point that was looked at. O(log(now − off)) searches.
     std::optional<Rejoined> rejoin(PointIndex off, PointIndex now, std::int64_t from) {
-        if (const std::optional<Stand> stand = search(off, from)) return Rejoined{off, *stand};
-        const std::optional<Stand> stand = search(now, from);
-        if (!stand) return std::nullopt;
-        Rejoined back{now, *stand};
+        if (const std::optional<WalkState> state = search(off, from)) return Rejoined{off, *state};
+        const std::optional<WalkState> state = search(now, from);
+        if (!state) return std::nullopt;
+        Rejoined back{now, *state};
         for (PointIndex still_off = off; back.point - still_off > 1;) {
             const PointIndex middle = still_off + (back.point - still_off) / 2;
-            if (const std::optional<Stand> earlier = search(middle, from))
+            if (const std::optional<WalkState> earlier = search(middle, from))
                 back = {middle, *earlier};
             else
                 still_off = middle;
@@ -163,21 +163,21 @@ private:
 
     /// The first place at or after motion `from` (then: of the whole program) from where the walk
     /// stays near for the points that follow.
-    std::optional<Stand> search(PointIndex point, std::int64_t from) {
+    std::optional<WalkState> search(PointIndex point, std::int64_t from) {
         if (!grid_) grid_.emplace(path_);
         const Vec3 p = log_.at(point);
         std::vector<std::int64_t> near = grid_->near(p, near_distance);
         const auto after = std::lower_bound(near.begin(), near.end(), from);
         std::rotate(near.begin(), after, near.end());
         for (const std::int64_t motion : near) {
-            const Foot foot = path_.foot(motion, p);
-            const Stand start{motion, foot.fraction, foot.distance};
+            const Projection projection = path_.projection(motion, p);
+            const WalkState start{motion, projection.fraction, projection.distance};
             if (stays_near(start, point)) return start;
         }
         return std::nullopt;
     }
 
-    bool stays_near(Stand stand, PointIndex point) {
+    bool stays_near(WalkState state, PointIndex point) {
         Vec3 before = log_.at(point);
         PointIndex moving = 0;
         for (PointIndex i = point + 1; i < log_.count && moving < proof_points; ++i) {
@@ -185,9 +185,9 @@ private:
             const double chord = (p - before).norm();
             if (!(chord > 0) || (chord > least_jump && is_placeholder(p))) continue;
             ++moving;
-            stand = walk_.advance(stand, p, chord);
+            state = walk_.advance(state, p, chord);
             before = p;
-            if (stand.distance > near_distance) return false;
+            if (state.distance > near_distance) return false;
         }
         return moving > 0;
     }

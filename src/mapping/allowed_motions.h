@@ -33,6 +33,6 @@ struct MotionRange {
 
 /// How far the tool may leave the programmed path [mm]: the largest corner tolerance that the program gives, and
 /// where it allows blending without one, what a kernel takes at finishing feeds.
-[[nodiscard]] double corner_play(const Program& program);
+[[nodiscard]] double corner_tolerance(const Program& program);
 
 }  // namespace clsurf

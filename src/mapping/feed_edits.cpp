@@ -19,20 +19,20 @@ namespace {
 
 constexpr double another_feed = 0.03;           ///< of the programmed one
 constexpr double same_speed = 0.005;            ///< of a constant speed
-constexpr std::size_t fewest_of_stretch = 200;  ///< of a stretch
+constexpr std::size_t fewest_of_section = 200;  ///< of a section
 constexpr std::size_t most_reported = 3;
 
 /// Consecutive points whose motions have the same feed.
-struct FeedStretch {
+struct FeedSection {
     float feed = 0;  ///< [mm/s]; 0: none that is looked at
     LineNumber first_line = 0, last_line = 0;
     std::vector<float> speeds;  ///< [mm/s]
 };
 
-/// The speed at which a stretch mostly ran where it is constant, or the one that it reached where that is more than
+/// The speed at which a section mostly ran where it is constant, or the one that it reached where that is more than
 /// programmed; none: nothing tells.
-std::optional<double> speed_that_tells(FeedStretch& run) {
-    if (run.feed <= 0 || run.speeds.size() < fewest_of_stretch) return std::nullopt;
+std::optional<double> speed_that_tells(FeedSection& run) {
+    if (run.feed <= 0 || run.speeds.size() < fewest_of_section) return std::nullopt;
     const double middle = quantile_below(run.speeds, 0.5);
     const double high = quantile_below(run.speeds, 0.9);
     const bool constant = high - middle <= same_speed * high;
@@ -87,7 +87,7 @@ public:
 private:
     const Program& program_;
     std::vector<float> feed_;  ///< by motion [mm/s]; 0: a rapid, a dwell, or not per minute
-    FeedStretch now_;
+    FeedSection now_;
     std::vector<std::string> found_;
 };
 

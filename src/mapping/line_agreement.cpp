@@ -13,8 +13,8 @@
 namespace clsurf {
 namespace {
 
-constexpr PointIndex checked_stretches = 64;  ///< evenly spaced over the log
-constexpr PointIndex checked_stretch = 1600;  ///< points
+constexpr PointIndex checked_sections = 64;   ///< evenly spaced over the log
+constexpr PointIndex checked_section = 1600;  ///< points
 /// A reported line agrees when the point lies this near to it [mm]: a corner tolerance of finishing
 /// (0.01 mm) with room for the two records by which a kernel's line leads its axes.
 constexpr double agreeing_distance = 0.05;
@@ -26,7 +26,7 @@ double allowed_distance(const Toolpath& path, std::int64_t before, std::int64_t 
     if (motion < 0) return best;
     const MotionRange range = allowed_motions(before, motion, path.size());
     for (std::int64_t m = range.first; m <= range.last; ++m) {
-        const double distance = path.foot(m, position).distance;
+        const double distance = path.projection(m, position).distance;
         if (!(best <= distance)) best = distance;
     }
     return best;
@@ -40,7 +40,7 @@ double off_confidence(double distance) {
 
 }  // namespace
 
-double corner_play(const Program& program) {
+double corner_tolerance(const Program& program) {
     double play = agreeing_distance;
     for (const ProgramEvent& event : program.events) {
         if (!event.path_mode || event.path_mode->block_end != BlockEnd::rounded) continue;
@@ -53,20 +53,20 @@ double corner_play(const Program& program) {
 
 LineAgreement check_lines(const Trajectory& path, const Program& program, const LineMap& map) {
     LineAgreement agreement;
-    agreement.tolerance = corner_play(program);
+    agreement.tolerance = corner_tolerance(program);
     const Toolpath toolpath(program.motions, path.count > 0 ? path.at(0) : Vec3::Zero());
-    const PointIndex stretch = std::min(path.count, checked_stretch);
-    const PointIndex stretches = std::min<PointIndex>(checked_stretches, stretch > 0 ? path.count / stretch : 0);
+    const PointIndex section = std::min(path.count, checked_section);
+    const PointIndex sections = std::min<PointIndex>(checked_sections, section > 0 ? path.count / section : 0);
     Column<double> distances;
-    std::vector<double> x(static_cast<std::size_t>(stretch)), y(x.size()), z(x.size());
+    std::vector<double> x(static_cast<std::size_t>(section)), y(x.size()), z(x.size());
     std::vector<LineNumber> lines(x.size());
-    for (PointIndex s = 0; s < stretches; ++s) {
-        const PointIndex begin = stretches == 1 ? 0 : (path.count - stretch) / (stretches - 1) * s;
+    for (PointIndex s = 0; s < sections; ++s) {
+        const PointIndex begin = sections == 1 ? 0 : (path.count - section) / (sections - 1) * s;
         path.read(begin, x, y, z);
         map.read(begin, lines);
         std::int64_t earlier = -1, before = -1;
         std::int64_t motion = map.motion_at(begin);
-        // The first line of a stretch has no known one before it.
+        // The first line of a section has no known one before it.
         bool known = begin == 0;
         for (std::size_t i = 1; i < x.size(); ++i) {
             const PointIndex point = begin + static_cast<PointIndex>(i);
@@ -105,7 +105,7 @@ void read_confidences(const Trajectory& path, const Program& program, const Line
     // Where the first point's run begins, what was reported before it is known.
     std::int64_t motion = map.motion_at(begin);
     PointIndex first = begin;
-    while (first > 0 && begin - first < checked_stretch && map.motion_at(first) == motion) --first;
+    while (first > 0 && begin - first < checked_section && map.motion_at(first) == motion) --first;
     std::int64_t before = map.motion_at(first);
     for (std::size_t i = 0; i < out.size(); ++i) {
         const PointIndex point = begin + static_cast<PointIndex>(i);

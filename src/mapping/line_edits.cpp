@@ -14,17 +14,17 @@
 namespace clsurf {
 namespace {
 
-constexpr PointIndex sampled_stretches = 64;  ///< evenly spaced over the log
-constexpr PointIndex sampled_points = 1600;   ///< points
-constexpr std::size_t least_run = 5;          ///< moving points of a line whose middle tells it from the next one
-constexpr double steps_off = 1.5;             ///< chords that a point may lie off its line
-constexpr double least_confidence = 0.5;      ///< of an aligned point that tells where a line is
-constexpr PointIndex longest_lead = 4;        ///< records by which a reported line may lead the axes
-constexpr std::size_t lines_together = 9;     ///< lines that together tell a shift
-constexpr double together_share = 2.0 / 3;    ///< of them
-constexpr LineNumber soon_undone = 40;        ///< lines
-constexpr double explained_share = 0.8;       ///< of all lines, or no edit explains them
-constexpr std::size_t most_shifts = 1000;     ///< and of lines, one in ten at most
+constexpr PointIndex sampled_sections = 64;  ///< evenly spaced over the log
+constexpr PointIndex sampled_points = 1600;  ///< points
+constexpr std::size_t least_run = 5;         ///< moving points of a line whose middle tells it from the next one
+constexpr double steps_off = 1.5;            ///< chords that a point may lie off its line
+constexpr double least_confidence = 0.5;     ///< of an aligned point that tells where a line is
+constexpr PointIndex longest_lead = 4;       ///< records by which a reported line may lead the axes
+constexpr std::size_t lines_together = 9;    ///< lines that together tell a shift
+constexpr double together_share = 2.0 / 3;   ///< of them
+constexpr LineNumber soon_undone = 40;       ///< lines
+constexpr double explained_share = 0.8;      ///< of all lines, or no edit explains them
+constexpr std::size_t most_shifts = 1000;    ///< and of lines, one in ten at most
 
 /// Where each line of the old text stands now.
 struct Vote {
@@ -164,7 +164,7 @@ private:
         return most.shift;
     }
 
-    /// Lines cut into stretches of one shift each.
+    /// Lines cut into sections of one shift each.
     bool segment(std::span<const LineVote> votes) {
         std::int64_t shift = 0;
         std::size_t agreeing = 0;
@@ -294,7 +294,7 @@ public:
 
     void look_at(PointIndex begin, std::span<const LineNumber> lines, std::span<const double> x,
                  std::span<const double> y, std::span<const double> z) {
-        // The first run and the last one are cut off by the stretch.
+        // The first run and the last one are cut off by the section.
         std::size_t first = 0;
         bool whole = false;
         std::int64_t before = -1;
@@ -319,9 +319,9 @@ private:
         if (motion < 0 || !(chord > 0)) return;
         // What was merged into the line counts as the line.
         const bool merged = before >= 0 && before < motion && motion - before <= longest_merge;
-        double nearest = path_.foot(motion, p).distance;
+        double nearest = path_.projection(motion, p).distance;
         for (std::int64_t m = merged ? before + 1 : motion; m < motion; ++m)
-            nearest = std::min(nearest, path_.foot(m, p).distance);
+            nearest = std::min(nearest, path_.projection(m, p).distance);
         ++all_;
         off_ += nearest > std::max(tolerance_, steps_off * chord) ? 1 : 0;
     }
@@ -337,10 +337,10 @@ private:
 double displaced_share(const Trajectory& path, const Program& program, const LineMap& map) {
     const Toolpath toolpath(program.motions, path.count > 0 ? path.at(0) : Vec3::Zero());
     const PointIndex n = std::min(path.count, sampled_points);
-    const PointIndex count = n > 0 ? std::min(sampled_stretches, path.count / n) : 0;
+    const PointIndex count = n > 0 ? std::min(sampled_sections, path.count / n) : 0;
     std::vector<double> x(static_cast<std::size_t>(n)), y(x.size()), z(x.size());
     std::vector<LineNumber> lines(x.size());
-    MiddleCheck check(toolpath, map, corner_play(program));
+    MiddleCheck check(toolpath, map, corner_tolerance(program));
     for (PointIndex s = 0; s < count; ++s) {
         const PointIndex begin = count == 1 ? 0 : (path.count - n) / (count - 1) * s;
         path.read(begin, x, y, z);

@@ -29,7 +29,7 @@ struct LineEdits {
 };
 
 /// Whether points lie on the very line that the log gives them, by the middles of runs of points in evenly spaced
-/// stretches: the share that does not, 0 … 1. Unlike check_lines() it tells a line from the next one. O(1).
+/// sections: the share that does not, 0 … 1. Unlike check_lines() it tells a line from the next one. O(1).
 [[nodiscard]] double displaced_share(const Trajectory& path, const Program& program, const LineMap& map);
 
 /// The edits that explain how the reported lines differ from those that `aligned` found by geometry. `lines`: those

@@ -276,7 +276,7 @@ private:
     LineMap reported(const ChannelView& numbers, const ChannelView& lines, std::shared_ptr<const void> keep_alive) {
         Column<std::uint32_t> motions;
         if (lines_are_ambiguous(program_.motions))
-            motions = track_motions(path_, log_, program_, numbers, corner_play(program_));
+            motions = track_motions(path_, log_, program_, numbers, corner_tolerance(program_));
         return {lines, program_, std::move(keep_alive), std::move(motions)};
     }
 

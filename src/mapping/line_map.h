@@ -100,7 +100,7 @@ struct LineAgreement {
     double worst_distance = 0;  ///< [mm]
 };
 
-/// Checks a map against the geometry on about 10^5 points in evenly spaced stretches. A point may
+/// Checks a map against the geometry on about 10^5 points in evenly spaced sections. A point may
 /// lie on the motions from its previous distinct line to its line, one more on each side: a kernel
 /// changes the number where a blend begins, and reports the last line of those that it merged.
 [[nodiscard]] LineAgreement check_lines(const Trajectory& path, const Program& program, const LineMap& map);

@@ -24,7 +24,7 @@ MotionGrid::MotionGrid(const Toolpath& path) : path_(path) {
     for (std::int64_t m = 0; m < path.size(); ++m) {
         const double length = path.length(m);
         if (!(length > 0)) continue;
-        // A point per half cell of way: a motion is in every cell that it passes, but for clipped
+        // A point per half cell of arc length: a motion is in every cell that it passes, but for clipped
         // corners, which the search in neighbour cells makes good.
         const auto steps = static_cast<int>(std::ceil(2 * length / cell_));
         std::uint64_t before = ~std::uint64_t{0};
@@ -45,7 +45,7 @@ std::vector<std::int64_t> MotionGrid::near(const Vec3& p, double distance) const
                 const auto cell = cells_.find(key(centre + Eigen::Vector3i(dx, dy, dz)));
                 if (cell == cells_.end()) continue;
                 for (const std::uint32_t m : cell->second) {
-                    if (path_.foot(m, p).distance <= distance) found.push_back(m);
+                    if (path_.projection(m, p).distance <= distance) found.push_back(m);
                 }
             }
         }

@@ -19,14 +19,14 @@ constexpr std::int64_t group_window = 256;  ///< motions of one line that a walk
 
 /// Motions that run one after the other and stand in the same line of the same file, or are made by the same
 /// line that calls.
-struct Stretch {
+struct Section {
     std::uint32_t first = 0, last = 0;
 };
 
-/// The stretches of each line of each file, in the order in which they run.
-class LineStretches {
+/// The sections of each line of each file, in the order in which they run.
+class LineSections {
 public:
-    explicit LineStretches(const Program& program) {
+    explicit LineSections(const Program& program) {
         const Motions& motions = program.motions;
         for (const SourceText& file : program.files) {
             base_.push_back(keys_);
@@ -45,24 +45,24 @@ public:
         };
         first_of_key_ = Column<std::uint32_t>(keys_ + 1, 0);
         const auto for_each = [&](auto&& body) {
-            for_each_stretch(
+            for_each_section(
                 own.size(), [&](std::size_t i) { return own[i]; }, body);
-            if (!motions.call.empty()) for_each_stretch(own.size(), called, body);
+            if (!motions.call.empty()) for_each_section(own.size(), called, body);
         };
-        for_each([&](std::size_t k, Stretch) { ++first_of_key_[k + 1]; });
+        for_each([&](std::size_t k, Section) { ++first_of_key_[k + 1]; });
         for (std::size_t k = 0; k < keys_; ++k) first_of_key_[k + 1] += first_of_key_[k];
-        stretches_.resize(first_of_key_[keys_]);
+        sections_.resize(first_of_key_[keys_]);
         Column<std::uint32_t> next = first_of_key_;
-        for_each([&](std::size_t k, Stretch s) { stretches_[next[k]++] = s; });
+        for_each([&](std::size_t k, Section s) { sections_[next[k]++] = s; });
     }
 
     [[nodiscard]] std::size_t files() const { return base_.size(); }
     /// Those of a line; none where the file does not have it.
-    [[nodiscard]] std::span<const Stretch> of(std::size_t file, LineNumber line) const {
+    [[nodiscard]] std::span<const Section> of(std::size_t file, LineNumber line) const {
         const std::size_t end = file + 1 < base_.size() ? base_[file + 1] : keys_;
         if (base_[file] + line >= end) return {};
         const std::size_t k = base_[file] + line;
-        return {stretches_.data() + first_of_key_[k], stretches_.data() + first_of_key_[k + 1]};
+        return {sections_.data() + first_of_key_[k], sections_.data() + first_of_key_[k + 1]};
     }
 
 private:
@@ -81,7 +81,7 @@ private:
     }
 
     template <typename KeyOf, typename Body>
-    static void for_each_stretch(std::size_t count, const KeyOf& key_of, const Body& body) {
+    static void for_each_section(std::size_t count, const KeyOf& key_of, const Body& body) {
         for (std::size_t i = 0; i < count;) {
             const std::size_t k = key_of(i);
             const std::size_t first = i;
@@ -93,7 +93,7 @@ private:
     std::size_t keys_ = 0;
     std::vector<std::size_t> base_;       ///< by file: key of its line 0
     Column<std::uint32_t> first_of_key_;  ///< by key: where in stretches_ its own begin
-    Column<Stretch> stretches_;           ///< sorted by key, then by motion
+    Column<Section> sections_;            ///< sorted by key, then by motion
 };
 
 class MotionTracker {
@@ -102,7 +102,7 @@ public:
         : path_(path),
           toolpath_(program.motions, path.count > 0 ? path.at(0) : Vec3::Zero()),
           walk_(toolpath_),
-          stretches_(program),
+          sections_(program),
           tolerance_(tolerance) {}
 
     static constexpr std::int32_t any_file = -1, unknown_file = -2;
@@ -123,17 +123,17 @@ public:
         } else if (has_motion_ && p.allFinite()) {
             go_on(p, chord);
         }
-        return has_motion_ ? stand_.motion : -1;
+        return has_motion_ ? state_.motion : -1;
     }
 
 private:
-    /// The first stretch of the run's line that begins behind `motion`; nullptr: none.
-    [[nodiscard]] const Stretch* next_after(std::int64_t motion) const {
-        const Stretch* next = nullptr;
+    /// The first section of the run's line that begins behind `motion`; nullptr: none.
+    [[nodiscard]] const Section* next_after(std::int64_t motion) const {
+        const Section* next = nullptr;
         for_files([&](std::size_t file) {
-            const std::span<const Stretch> all = stretches_.of(file, line_);
+            const std::span<const Section> all = sections_.of(file, line_);
             const auto at = std::upper_bound(all.begin(), all.end(), motion,
-                                             [](std::int64_t m, const Stretch& s) { return m < s.first; });
+                                             [](std::int64_t m, const Section& s) { return m < s.first; });
             if (at != all.end() && (next == nullptr || at->first < next->first)) next = &*at;
         });
         return next;
@@ -145,52 +145,52 @@ private:
             body(static_cast<std::size_t>(file_));
             return;
         }
-        for (std::size_t file = 0; file < stretches_.files(); ++file) body(file);
+        for (std::size_t file = 0; file < sections_.files(); ++file) body(file);
     }
 
     void begin_run(const Vec3& p) {
-        const std::int64_t from = has_motion_ ? stand_.motion : -1;
-        const Stretch* next = next_after(from);
+        const std::int64_t from = has_motion_ ? state_.motion : -1;
+        const Section* next = next_after(from);
         if (next == nullptr) next = next_after(-1);  // the program begins again
         has_motion_ = next != nullptr;
         if (next == nullptr) return;
-        stretch_ = *next;
-        if (p.allFinite() && allowed_distance(from, stretch_, p) > tolerance_) look_for(from, p);
-        stand_ = {stretch_.first, 0, 0};
-        if (p.allFinite() && stretch_.last > stretch_.first) stand_ = walk_.advance(stand_, p, 0, reach());
+        section_ = *next;
+        if (p.allFinite() && allowed_distance(from, section_, p) > tolerance_) look_for(from, p);
+        state_ = {section_.first, 0, 0};
+        if (p.allFinite() && section_.last > section_.first) state_ = walk_.advance(state_, p, 0, reach());
     }
 
     void go_on(const Vec3& p, double chord) {
-        const Stand next = walk_.advance(stand_, p, chord, reach());
-        if (next.distance > settled && next.motion == stretch_.last) {
+        const WalkState next = walk_.advance(state_, p, chord, reach());
+        if (next.distance > settled && next.motion == section_.last) {
             // A kernel that merges lines may report one line through several of its runs.
-            const Stretch* again = next_after(stretch_.last);
-            if (again != nullptr && again->first - stand_.motion <= longest_merge) {
-                const Stand beyond = walk_.advance(stand_, p, chord, again->last);
-                if (beyond.distance < next.distance && beyond.motion > stretch_.last) {
-                    stretch_.last = again->last;
-                    stand_ = beyond;
+            const Section* again = next_after(section_.last);
+            if (again != nullptr && again->first - state_.motion <= longest_merge) {
+                const WalkState beyond = walk_.advance(state_, p, chord, again->last);
+                if (beyond.distance < next.distance && beyond.motion > section_.last) {
+                    section_.last = again->last;
+                    state_ = beyond;
                     return;
                 }
             }
         }
-        stand_ = next;
+        state_ = next;
     }
 
-    /// The last motion of the stretch that the walk may see.
+    /// The last motion of the section that the walk may see.
     [[nodiscard]] std::int64_t reach() const {
-        return std::min<std::int64_t>(stretch_.last,
-                                      std::max<std::int64_t>(stand_.motion, stretch_.first) + group_window);
+        return std::min<std::int64_t>(section_.last,
+                                      std::max<std::int64_t>(state_.motion, section_.first) + group_window);
     }
 
     /// To the motions that the line allows where the walk was on `from` before.
-    double allowed_distance(std::int64_t from, const Stretch& of, const Vec3& p) {
+    double allowed_distance(std::int64_t from, const Section& of, const Vec3& p) {
         const MotionRange range = allowed_motions(from, of.first, toolpath_.size());
         const std::int64_t last =
             std::max<std::int64_t>(range.last, std::min<std::int64_t>(of.last, of.first + group_window));
         double best = std::numeric_limits<double>::infinity();
         for (std::int64_t m = range.first; m <= last && !(best <= tolerance_); ++m) {
-            best = std::min(best, toolpath_.foot(m, p).distance);
+            best = std::min(best, toolpath_.projection(m, p).distance);
             --budget_;
         }
         return best;
@@ -199,11 +199,11 @@ private:
     /// The first run of the line, ahead and then from the start, on which the point is; the order of the
     /// runs holds where it is on none, or where too many have been looked at.
     void look_for(std::int64_t from, const Vec3& p) {
-        const Stretch in_order = stretch_;
-        const Stretch* candidate = next_after(in_order.first);
+        const Section in_order = section_;
+        const Section* candidate = next_after(in_order.first);
         while (candidate != nullptr && budget_ > 0) {
             if (allowed_distance(-1, *candidate, p) <= tolerance_) {
-                stretch_ = *candidate;
+                section_ = *candidate;
                 return;
             }
             candidate = next_after(candidate->first);
@@ -211,7 +211,7 @@ private:
         for (candidate = next_after(-1); candidate != nullptr && candidate->first <= from && budget_ > 0;
              candidate = next_after(candidate->first)) {
             if (allowed_distance(-1, *candidate, p) <= tolerance_) {
-                stretch_ = *candidate;
+                section_ = *candidate;
                 return;
             }
         }
@@ -222,13 +222,13 @@ private:
     const Trajectory& path_;
     Toolpath toolpath_;
     PathWalk walk_;
-    LineStretches stretches_;
+    LineSections sections_;
     double tolerance_;
     LineNumber line_ = 0;  ///< of the run
     std::int32_t file_ = any_file;
     bool has_motion_ = false;
-    Stretch stretch_;  ///< of the run
-    Stand stand_;
+    Section section_;  ///< of the run
+    WalkState state_;
     Vec3 before_ = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
     std::int64_t budget_ = 100'000;
 };

@@ -64,9 +64,9 @@ struct Distances {
             along.emplace_back();
             rising.emplace_back();
             for (std::size_t i = 0; i + lag < profile.size(); ++i) {
-                const Vec3 way = profile.points[i + lag] - profile.points[i];
-                along.back().push_back(static_cast<float>(way.norm()));
-                rising.back().push_back(static_cast<float>(way.z()));
+                const Vec3 displacement = profile.points[i + lag] - profile.points[i];
+                along.back().push_back(static_cast<float>(displacement.norm()));
+                rising.back().push_back(static_cast<float>(displacement.z()));
             }
         }
     }
@@ -170,9 +170,10 @@ Eigen::Isometry3d follow(const PathProfile& program, const PathProfile& log, con
             const auto to = static_cast<std::ptrdiff_t>(std::clamp(std::ceil(expected + window), 0.0, last));
             for (std::ptrdiff_t i = from; i < to; ++i) {
                 const Vec3& a = program.points[static_cast<std::size_t>(i)];
-                const Vec3 way = program.points[static_cast<std::size_t>(i + 1)] - a;
-                const double part = std::clamp((p - a).dot(way) / std::max(way.squaredNorm(), 1e-12), 0.0, 1.0);
-                const double distance = (a + part * way - p).squaredNorm();
+                const Vec3 displacement = program.points[static_cast<std::size_t>(i + 1)] - a;
+                const double part =
+                    std::clamp((p - a).dot(displacement) / std::max(displacement.squaredNorm(), 1e-12), 0.0, 1.0);
+                const double distance = (a + part * displacement - p).squaredNorm();
                 if (distance >= least) continue;
                 least = distance;
                 at[j] = static_cast<double>(i) + part;

@@ -9,7 +9,7 @@
 namespace clsurf {
 
 /// Where a walk is on the path.
-struct Stand {
+struct WalkState {
     std::int64_t motion = 0;
     double fraction = 0;  ///< of the motion's length, 0 … 1
     double distance = 0;  ///< [mm] from the point to the path there
@@ -20,12 +20,12 @@ public:
     /// `path` must outlive it. O(motions).
     explicit PathWalk(const Toolpath& path);
 
-    /// The foot of `p` at or after `from`, on no motion beyond `last`, for a tool that moved by `chord` [mm].
-    /// Looks as far ahead as the tool can have gone. Where several feet are equally near (out and back on
+    /// The projection of `p` at or after `from`, on no motion beyond `last`, for a tool that moved by `chord` [mm].
+    /// Looks as far ahead as the tool can have gone. Where several projections are equally near (out and back on
     /// the same line), the one whose arc length fits the chord.
-    [[nodiscard]] Stand advance(const Stand& from, const Vec3& p, double chord, std::int64_t last) const;
+    [[nodiscard]] WalkState advance(const WalkState& from, const Vec3& p, double chord, std::int64_t last) const;
     /// As above, to the end of the program.
-    [[nodiscard]] Stand advance(const Stand& from, const Vec3& p, double chord) const {
+    [[nodiscard]] WalkState advance(const WalkState& from, const Vec3& p, double chord) const {
         return advance(from, p, chord, path_.size() - 1);
     }
 

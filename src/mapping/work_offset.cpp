@@ -22,9 +22,9 @@
 namespace clsurf {
 namespace {
 
-constexpr PointIndex stretches = 64;  ///< evenly spaced over the log
-constexpr PointIndex stretch = 1600;  ///< points
-constexpr std::size_t samples_of_stretch = 24;
+constexpr PointIndex sections = 64;   ///< evenly spaced over the log
+constexpr PointIndex section = 1600;  ///< points
+constexpr std::size_t samples_of_section = 24;
 constexpr std::size_t least_samples = 100;
 constexpr std::size_t least_changes = 10;  ///< of the line, for a first guess from them
 constexpr double near = 0.05;              ///< [mm] on the path: a corner tolerance of finishing
@@ -60,12 +60,12 @@ PathSamples take_samples(const Trajectory& path, const Toolpath& toolpath, const
         return system == 0 || toolpath.motions().frame_of(motion).system == system;
     };
     PathSamples samples;
-    const PointIndex n = std::min(path.count, stretch);
-    const PointIndex count = std::min(stretches, path.count / n);
+    const PointIndex n = std::min(path.count, section);
+    const PointIndex count = std::min(sections, path.count / n);
     std::vector<double> x(static_cast<std::size_t>(n)), y(x.size()), z(x.size());
     std::vector<LineNumber> lines(x.size(), 0);
     const std::size_t every = std::max<std::size_t>(
-        1, x.size() * static_cast<std::size_t>(count) / (static_cast<std::size_t>(stretches) * samples_of_stretch));
+        1, x.size() * static_cast<std::size_t>(count) / (static_cast<std::size_t>(sections) * samples_of_section));
     for (PointIndex s = 0; s < count; ++s) {
         const PointIndex begin = count == 1 ? 0 : (path.count - n) / (count - 1) * s;
         path.read(begin, x, y, z);
@@ -196,7 +196,7 @@ public:
     }
 
 private:
-    /// From the moved point to its foot, the motion's direction there (zero at its ends), and the point.
+    /// From the moved point to its projection, the motion's direction there (zero at its ends), and the point.
     struct Residual {
         Vec3 off, direction, point;
     };
@@ -205,12 +205,12 @@ private:
         residuals_.clear();
         for (const PathSample& sample : samples_) {
             const Vec3 p = pose * sample.position;
-            Foot best{std::numeric_limits<double>::infinity(), 0};
+            Projection best{std::numeric_limits<double>::infinity(), 0};
             std::int64_t at = -1;
             const auto consider = [&](std::int64_t m) {
-                const Foot foot = path_.foot(m, p);
-                if (!(foot.distance < best.distance)) return;
-                best = foot;
+                const Projection projection = path_.projection(m, p);
+                if (!(projection.distance < best.distance)) return;
+                best = projection;
                 at = m;
             };
             if (sample.motions.last < sample.motions.first) {
@@ -220,15 +220,15 @@ private:
                 for (std::int64_t m = sample.motions.first; m <= sample.motions.last; ++m) consider(m);
             }
             if (at < 0) continue;
-            const Vec3 foot = path_.at(at, best.fraction);
-            constexpr double ahead = 1e-4;  // of the motion's way
+            const Vec3 projection = path_.at(at, best.fraction);
+            constexpr double ahead = 1e-4;  // of the motion's arc length
             Vec3 direction = Vec3::Zero();
             if (best.fraction > 0 && best.fraction < 1) {
                 direction = (path_.at(at, std::min(1.0, best.fraction + ahead)) -
                              path_.at(at, std::max(0.0, best.fraction - ahead)))
                                 .normalized();
             }
-            residuals_.push_back({foot - p, direction, p});
+            residuals_.push_back({projection - p, direction, p});
         }
     }
 
@@ -290,8 +290,8 @@ std::optional<Eigen::Isometry3d> guess_from_changes(const std::vector<PointPair>
     std::vector<PointPair> most_agreeing, agreeing;
     for (std::size_t k = 0; k < hypotheses; ++k) {
         const PointPair &a = pairs[any(random)], &b = pairs[any(random)];
-        const Vec2 way = (b.program - a.program).head<2>(), logged = (b.log - a.log).head<2>();
-        if (way.norm() < apart || std::abs(way.norm() - logged.norm()) > reach_of_pair) continue;
+        const Vec2 displacement = (b.program - a.program).head<2>(), logged = (b.log - a.log).head<2>();
+        if (displacement.norm() < apart || std::abs(displacement.norm() - logged.norm()) > reach_of_pair) continue;
         const Eigen::Isometry3d pose = pose_of_pairs({a, b});
         agreeing.clear();
         for (const PointPair& pair : pairs) {
@@ -369,7 +369,7 @@ std::vector<Eigen::Isometry3d> find_with(const Trajectory& path, const Program& 
     const Toolpath toolpath = known_path(program);
     PathSamples samples = take_samples(path, toolpath, map, system);
     if (samples.points.size() < least_samples) return {};
-    const double play = corner_play(program);
+    const double play = corner_tolerance(program);
     Fit fit(toolpath, std::move(samples.points), play);
     if (const std::optional<Eigen::Isometry3d> guess = guess_from_changes(samples.at_changes, play)) {
         if (std::vector<Eigen::Isometry3d> found = best_of({*guess}, fit); !found.empty()) return found;
@@ -404,7 +404,7 @@ double share_on_path(const Trajectory& path, const Program& program) {
     const Toolpath toolpath = known_path(program);
     PathSamples samples = take_samples(path, toolpath, nullptr);
     if (samples.points.empty()) return 0;
-    return Fit(toolpath, std::move(samples.points), corner_play(program)).share(Eigen::Isometry3d::Identity());
+    return Fit(toolpath, std::move(samples.points), corner_tolerance(program)).share(Eigen::Isometry3d::Identity());
 }
 
 std::string pose_numbers(const Eigen::Isometry3d& pose) {
@@ -480,7 +480,7 @@ bool note_pose(const Trajectory& path, const Program& program, const LineMap* ma
         by = found->inverse().translation();
     }
     // Rounded corners lie inside of the programmed ones: a best fit is off by some of it.
-    const double play = corner_play(program);
+    const double play = corner_tolerance(program);
     const std::string known_to =
         play > near ? fmt::format("; its corners may be rounded by {} mm, and the shift is no surer", decimals(play, 3))
                     : "";

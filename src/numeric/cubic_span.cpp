@@ -5,7 +5,7 @@
 namespace clsurf {
 namespace {
 
-constexpr double way_exact = 1e-12;  ///< of the chord: where Newton's steps end
+constexpr double arc_length_exact = 1e-12;  ///< of the chord: where Newton's steps end
 constexpr int most_steps = 60;
 constexpr double length_exact = 1e-10;  ///< of the length: what twice as many pieces may change
 constexpr int most_pieces = 64;
@@ -22,7 +22,7 @@ Vec3 CubicSpan::derivative(double u) const {
 
 Vec3 CubicSpan::second_derivative(double u) const { return 2 * coefficients[2] + 6 * u * coefficients[3]; }
 
-double CubicSpan::way_to(double u) const {
+double CubicSpan::arc_length_to(double u) const {
     static constexpr std::array<double, 5> node{0, -0.5384693101056831, 0.5384693101056831, -0.9061798459386640,
                                                 0.9061798459386640};
     static constexpr std::array<double, 5> weight{0.5688888888888889, 0.4786286704993665, 0.4786286704993665,
@@ -38,10 +38,10 @@ double CubicSpan::way_to(double u) const {
 
 void CubicSpan::choose_pieces() {
     pieces = 1;
-    double before = way_to(chord);
+    double before = arc_length_to(chord);
     while (pieces < most_pieces) {
         pieces *= 2;
-        const double length = way_to(chord);
+        const double length = arc_length_to(chord);
         if (std::abs(length - before) <= length_exact * length) {
             pieces /= 2;
             return;
@@ -50,14 +50,14 @@ void CubicSpan::choose_pieces() {
     }
 }
 
-double CubicSpan::at_way(double way, double length) const {
+double CubicSpan::at_arc_length(double arc_length, double length) const {
     double low = 0, high = chord;
-    if (way <= 0) return low;
-    if (way >= length) return high;
-    double u = chord * way / length;
+    if (arc_length <= 0) return low;
+    if (arc_length >= length) return high;
+    double u = chord * arc_length / length;
     for (int step = 0; step < most_steps; ++step) {
-        const double over = way_to(u) - way;
-        if (std::abs(over) <= way_exact * chord) break;
+        const double over = arc_length_to(u) - arc_length;
+        if (std::abs(over) <= arc_length_exact * chord) break;
         (over > 0 ? high : low) = u;
         const double speed = derivative(u).norm();
         const double next = speed > 0 ? u - over / speed : high;

@@ -39,11 +39,11 @@ public:
     explicit Differentiator(const DerivativeFilter& filter);
 
     [[nodiscard]] const DerivativeFilter& filter() const { return filter_; }
-    /// How many points beyond a stretch are looked at.
+    /// How many points beyond a section are looked at.
     [[nodiscard]] PointIndex reach() const { return filter_.points; }
 
     /// Derivatives of points [first, first + out.size()) of a piece. `samples` holds the piece's
-    /// points from `samples_first` on, at least `reach()` beyond both ends of the stretch or to the
+    /// points from `samples_first` on, at least `reach()` beyond both ends of the section or to the
     /// piece's ends. A piece with fewer points than the window is fitted whole; with fewer than
     /// order + 1 its derivatives are NaN. Units: samples' unit / s^d.
     void apply(std::span<const double> samples, PointIndex samples_first, PointRange piece, PointIndex first,

@@ -88,13 +88,13 @@ std::vector<double> curvatures(std::span<const Vec3> points, double reach) {
     const std::size_t n = points.size();
     std::vector<double> result(n, 0);
     if (n < 3) return result;
-    std::vector<double> way(n, 0);
-    for (std::size_t i = 1; i < n; ++i) way[i] = way[i - 1] + (points[i] - points[i - 1]).norm();
+    std::vector<double> arc_length(n, 0);
+    for (std::size_t i = 1; i < n; ++i) arc_length[i] = arc_length[i - 1] + (points[i] - points[i - 1]).norm();
     std::size_t before = 0, after = 1;
     for (std::size_t i = 1; i + 1 < n; ++i) {
-        while (before + 1 < i && way[i] - way[before + 1] >= reach) ++before;
+        while (before + 1 < i && arc_length[i] - arc_length[before + 1] >= reach) ++before;
         after = std::max(after, i + 1);
-        while (after + 1 < n && way[after] - way[i] < reach) ++after;
+        while (after + 1 < n && arc_length[after] - arc_length[i] < reach) ++after;
         result[i] = three_point_curvature(points[before], points[i], points[after]);
     }
     result.front() = result[1];
@@ -171,14 +171,14 @@ std::vector<SpeedInterval> divide(std::span<const Vec3> points, const IntervalRu
     std::vector<SpeedInterval> intervals;
     for (std::size_t k = 1; k < boundaries.size(); ++k) {
         SpeedInterval interval{boundaries[k - 1], boundaries[k], 0, 0};
-        double sum = 0, way = 0;
+        double sum = 0, arc_length = 0;
         for (std::size_t i = interval.first + 1; i < interval.last; ++i) {
             const double mine = 0.5 * ((points[i] - points[i - 1]).norm() + (points[i + 1] - points[i]).norm());
             sum += curvature[i] * mine;
-            way += mine;
+            arc_length += mine;
             interval.greatest_curvature = std::max(interval.greatest_curvature, curvature[i]);
         }
-        if (way > 0) interval.mean_curvature = sum / way;
+        if (arc_length > 0) interval.mean_curvature = sum / arc_length;
         intervals.push_back(interval);
     }
     return intervals;

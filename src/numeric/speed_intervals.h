@@ -22,7 +22,7 @@ struct IntervalRules {
     double curvature_ratio = 2;    ///< of the curvatures before and behind, likewise
     double flat_curvature = 1e-3;  ///< [1/mm] less counts as this much
     double drift_ratio = 4;        ///< greatest over least curvature inside; 0: not looked at
-    double reach = 0;              ///< [mm] of way to each side that a curvature is measured over, at least
+    double reach = 0;              ///< [mm] of arc length to each side that a curvature is measured over, at least
 };
 
 /// Points first … last of a pass; neighbours share the point between them.

@@ -14,15 +14,16 @@ constexpr int rounds = 60;
 using Banded = std::vector<std::array<double, width + 1>>;
 
 /// The sum of outer products of third divided differences, as differences of points that lie the mean spacing apart.
-Banded third_differences(std::span<const double> ways) {
-    const std::size_t n = ways.size();
-    const double spacing = (ways.back() - ways.front()) / static_cast<double>(n - 1);
+Banded third_differences(std::span<const double> arc_lengths) {
+    const std::size_t n = arc_lengths.size();
+    const double spacing = (arc_lengths.back() - arc_lengths.front()) / static_cast<double>(n - 1);
     Banded sum(n, std::array<double, width + 1>{});
     for (std::size_t k = 0; k + width < n; ++k) {
         std::array<double, width + 1> row{};
         for (std::size_t i = 0; i <= width; ++i) {
             row[i] = 6;
-            for (std::size_t j = 0; j <= width; ++j) row[i] *= j == i ? 1 : spacing / (ways[k + i] - ways[k + j]);
+            for (std::size_t j = 0; j <= width; ++j)
+                row[i] *= j == i ? 1 : spacing / (arc_lengths[k + i] - arc_lengths[k + j]);
         }
         for (std::size_t i = 0; i <= width; ++i) {
             for (std::size_t j = 0; j <= i; ++j) sum[k + i][i - j] += row[i] * row[j];
@@ -65,14 +66,14 @@ Vec3 held(const Vec3& p, const Vec3& place, double radius) {
 
 }  // namespace
 
-std::vector<Vec3> smoothest_in_tube(std::span<const Vec3> places, std::span<const double> ways,
+std::vector<Vec3> smoothest_in_tube(std::span<const Vec3> places, std::span<const double> arc_lengths,
                                     std::span<const double> radii, std::span<const Vec3> start) {
     const std::span<const Vec3> from = start.empty() ? places : start;
     std::vector<Vec3> inside(from.begin(), from.end());
     const std::size_t n = places.size();
     if (n <= width) return inside;
     for (std::size_t i = 0; i < n; ++i) inside[i] = held(inside[i], places[i], radii[i]);
-    Banded matrix = third_differences(ways);
+    Banded matrix = third_differences(arc_lengths);
     for (auto& row : matrix) row[0] += penalty;
     factorise(matrix);
     std::vector<Vec3> smooth(n), owed(n, Vec3::Zero());

@@ -17,7 +17,7 @@ namespace clsurf {
 /// Alternating directions (S. Boyd et al., Foundations and Trends in Machine Learning 3 (2011) 1–122, section 3) over a
 /// matrix with three diagonals to each side: 60 rounds, of which the last ends inside the tube; not the optimum, but
 /// within some per cent of its speed. O(points).
-[[nodiscard]] std::vector<Vec3> smoothest_in_tube(std::span<const Vec3> places, std::span<const double> ways,
+[[nodiscard]] std::vector<Vec3> smoothest_in_tube(std::span<const Vec3> places, std::span<const double> arc_lengths,
                                                   std::span<const double> radii, std::span<const Vec3> start);
 
 }  // namespace clsurf

@@ -4,7 +4,7 @@
 
 namespace clsurf {
 
-FormedSurface ToolRun::formed(const CuttingTool& tool) const {
+AsMachinedSurface ToolRun::as_machined(const CuttingTool& tool) const {
     return {surface, read.signals, path.role, read.swept(path), read.pieces, tool};
 }
 
@@ -23,11 +23,12 @@ std::unique_ptr<const UprightPart> upright_part(const Part& part, std::optional<
     return upright;
 }
 
-FormedPart::FormedPart(const Part& part, const ClSurface& surface, std::optional<Role> role, const CuttingTool& tool)
+AsMachinedPart::AsMachinedPart(const Part& part, const ClSurface& surface, std::optional<Role> role,
+                               const CuttingTool& tool)
     : upright_(upright_part(part, role, tool)) {
     if (!upright_) read_ = signals_of(part, surface, role);
     const ToolRun run = upright_ ? upright_->run() : ToolRun{part.path, surface, read_};
-    formed_.emplace(run.formed(tool));
+    as_machined_.emplace(run.as_machined(tool));
 }
 
 }  // namespace clsurf

@@ -1,5 +1,5 @@
 #pragma once
-// FormedPart: the surface that the tool leaves, swept along the positions of a part.
+// AsMachinedPart: the surface that the tool leaves, swept along the positions of a part.
 
 #include <memory>
 #include <optional>
@@ -17,7 +17,7 @@ struct ToolRun {
     const PartSignals& read;
 
     /// Refers to what this refers to.
-    [[nodiscard]] FormedSurface formed(const CuttingTool& tool) const;
+    [[nodiscard]] AsMachinedSurface as_machined(const CuttingTool& tool) const;
 };
 
 /// A part as an upright tool that cuts the same goes over it.
@@ -35,23 +35,23 @@ struct UprightPart {
                                                               const CuttingTool& tool);
 
 /// A formed surface with what it refers to; does not move once it is made.
-class FormedPart {
+class AsMachinedPart {
 public:
     /// Sweeps `tool` along the role's positions (none: the most truthful ones of the log) of the part,
     /// whose path is the commanded one where the log has it. Part and surface must outlive it. Throws UsageError as
     /// upright_part() does. O(points), parallel.
-    FormedPart(const Part& part, const ClSurface& surface, std::optional<Role> role, const CuttingTool& tool);
-    FormedPart(const FormedPart&) = delete;
-    FormedPart& operator=(const FormedPart&) = delete;
+    AsMachinedPart(const Part& part, const ClSurface& surface, std::optional<Role> role, const CuttingTool& tool);
+    AsMachinedPart(const AsMachinedPart&) = delete;
+    AsMachinedPart& operator=(const AsMachinedPart&) = delete;
 
-    [[nodiscard]] const FormedSurface& surface() const { return *formed_; }
+    [[nodiscard]] const AsMachinedSurface& surface() const { return *as_machined_; }
     [[nodiscard]] const Signals& signals() const { return upright_ ? upright_->read.signals : read_.signals; }
 
 private:
     std::unique_ptr<const UprightPart>
         upright_;  ///< of a tool that is tilted; then nothing was read of the part itself
     PartSignals read_;
-    std::optional<FormedSurface> formed_;
+    std::optional<AsMachinedSurface> as_machined_;
 };
 
 }  // namespace clsurf

@@ -53,9 +53,9 @@ void PartContacts::locate(QualityReport& report) const {
 }
 
 void PartContacts::locate(RunReport& report) const {
-    for_each_index(report.stretches.size(), [&](std::size_t k) {
-        RunDifferenceStretch& stretch = report.stretches[k];
-        stretch.place.contact = contact_of(stretch.point);
+    for_each_index(report.sections.size(), [&](std::size_t k) {
+        RunDifferenceSection& section = report.sections[k];
+        section.place.contact = contact_of(section.point);
     });
 }
 

@@ -12,14 +12,14 @@ namespace clsurf {
 namespace {
 
 /// Roughness and scallops of the formed surface, and the places of its rough patches.
-void measure_formed_surface(const Part& part, const ClSurface& surface, std::optional<Role> measured,
-                            const PartSignals& read, const PartContacts& contacts, Quality& quality) {
+void measure_as_machined_surface(const Part& part, const ClSurface& surface, std::optional<Role> measured,
+                                 const PartSignals& read, const PartContacts& contacts, Quality& quality) {
     const CuttingTool tool = *part.tool;
     const std::unique_ptr<const UprightPart> upright = upright_part(part, measured, tool);
     const ToolRun run = upright ? upright->run() : ToolRun{part.path, surface, read};
-    quality.formed = measure_formed(run.formed(tool), run.read.signals, quality.report);
-    quality.scallop = quality.formed->scallop;
-    for (RoughPatch& patch : quality.formed->patches)
+    quality.as_machined = measure_as_machined(run.as_machined(tool), run.read.signals, quality.report);
+    quality.scallop = quality.as_machined->scallop;
+    for (RoughPatch& patch : quality.as_machined->patches)
         patch.contact = contacts.place(patch.point).contact.value_or(patch.contact);
 }
 
@@ -66,7 +66,7 @@ Quality judge(const Part& part, const ClSurface& surface, std::optional<Role> me
              {}});
         return quality;
     }
-    measure_formed_surface(part, surface, measured, read, contacts, quality);
+    measure_as_machined_surface(part, surface, measured, read, contacts, quality);
     return quality;
 }
 

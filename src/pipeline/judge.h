@@ -14,9 +14,9 @@ namespace clsurf {
 
 struct Quality {
     QualityReport report;
-    double scallop = 0;                  ///< [mm] 0: not known
-    std::optional<FormedReport> formed;  ///< where the tool is known
-    Diagnostics diagnostics;             ///< `quality.…`: why nothing is judged, what is not known of the tool
+    double scallop = 0;                           ///< [mm] 0: not known
+    std::optional<AsMachinedReport> as_machined;  ///< where the tool is known
+    Diagnostics diagnostics;  ///< `quality.…`: why nothing is judged, what is not known of the tool
 };
 
 /// The defects at tool tips, each of `report.judgement`'s reasons included that speak against a verdict.

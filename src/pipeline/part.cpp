@@ -98,8 +98,8 @@ std::vector<Trajectory> other_roles(const Part& part) {
 
 std::shared_ptr<const MotionEstimate> estimate_motion(const Part& part, const Passes& pieces) {
     if (part.derivative == DerivativeMethod::savgol) return nullptr;
-    return std::make_shared<const MotionEstimate>(part.log, part.path,
-                                                  split_at_standstills(smooth_pieces(part.log, pieces), part.path));
+    return std::make_shared<const MotionEstimate>(
+        part.log, part.path, split_at_standstills(smoothing_segments(part.log, pieces), part.path));
 }
 
 }  // namespace clsurf

@@ -7,7 +7,7 @@ namespace clsurf {
 
 PartSignals signals_along(const Log& log, const Trajectory& path, const ClSurface& surface,
                           std::optional<Role> wanted) {
-    PartSignals result{std::nullopt, smooth_pieces(log, surface.passes), {}};
+    PartSignals result{std::nullopt, smoothing_segments(log, surface.passes), {}};
     if (const std::optional<Role> role = measured_role(log, path, wanted))
         result.measured = reconstruct_like(log, *role, path);
     result.signals = derive_signals(surface, path, result.measured ? &*result.measured : nullptr, result.pieces,

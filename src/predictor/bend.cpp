@@ -8,7 +8,8 @@ namespace clsurf {
 namespace {
 
 constexpr float bend_cosine = 0.906F;  ///< cos 25°: the path bends where it turns more than that …
-constexpr float net_reach = 2;         ///< … and still does so many step-overs away on both sides: no jog to and fro
+constexpr float net_reach =
+    2;  ///< … and still does so many step-overs away on both sides: no step-over move to and fro
 constexpr float slight_cosine = 0.996F;  ///< cos 5°: enough where the passes beside it do not …
 constexpr float own_share = 0.7F;        ///< … turn by more than this share of its turn
 constexpr float beside_every = 0.5F;     ///< step-overs between the places that are looked at on them
@@ -39,16 +40,16 @@ Bends::Bends(const ClSurface& surface, const Signals& signals, const Thresholds&
 bool Bends::explain(PointIndex point, const Comparison& comparison) const {
     constexpr std::size_t q = index_of(Quantity::speed);
     const float residual = comparison.residual[q], slight = hardly_slower * thresholds_.of[q];
-    const std::array<Station, 2> sides{comparison.beside_left, comparison.beside_right};
+    const std::array<PathLocation, 2> sides{comparison.beside_left, comparison.beside_right};
     if (residual < -slight) return slows_for_bend(point);
     if (!(residual > slight)) {  // the accelerations differ alone
-        return slows_for_bend(point) || std::any_of(sides.begin(), sides.end(), [&](const Station& at) {
+        return slows_for_bend(point) || std::any_of(sides.begin(), sides.end(), [&](const PathLocation& at) {
                    return at.exists() && slows_for_bend(at.nearest());
                });
     }
     const float least = signals_[point].speed * (1 - slight);
     int explained = 0;
-    for (const Station& at : sides) {
+    for (const PathLocation& at : sides) {
         if (!at.exists() || !(signals_[at.nearest()].speed < least)) continue;
         if (!slows_for_bend(at.nearest())) return false;
         ++explained;
@@ -65,14 +66,14 @@ PointIndex Bends::stride_at(PointIndex point) const {
 /// The point of its pass so far along, or the last one before its end.
 PointIndex Bends::at_distance(PointIndex from, int direction, float distance) const {
     const PointIndex stride = stride_at(from);
-    float way = 0;
+    float arc_length = 0;
     PointIndex at = from;
-    while (way < distance) {
+    while (arc_length < distance) {
         const PointIndex next = at + direction * stride;
         if (next < 0 || next >= signals_.size() || !(signals_[next].speed > 0)) break;
         const float step = (surface_.positions[next] - surface_.positions[at]).norm();
         if (!(step >= 0)) break;
-        way += step + look_every * look_every * step_over_;  // a tool that stands still does not hold the search
+        arc_length += step + look_every * look_every * step_over_;  // a tool that stands still does not hold the search
         at = next;
     }
     return at;
@@ -107,7 +108,7 @@ Bends::Turn Bends::turn_at(PointIndex point) const {
 /// A pass beside it takes a bend like it, and takes it faster.
 bool Bends::taken_faster_beside(PointIndex bend, const Turn& turn) const {
     for (const Side side : {Side::left, Side::right}) {
-        const Station at = beside(surface_, {bend, 0}, signals_.feed(bend), side);
+        const PathLocation at = beside(surface_, {bend, 0}, signals_.feed(bend), side);
         if (!at.exists() || signals_[at.nearest()].zone == Zone::outside) continue;
         PointIndex slowest = at.nearest();
         for (const int direction : {-1, 1}) {
@@ -127,7 +128,7 @@ bool Bends::turns_alone(PointIndex bend, const Turn& turn) const {
     const float slight = std::acos(turn.cosine) * own_share;
     bool beside_any = false;
     for (const Side side : {Side::left, Side::right}) {
-        const Station at = beside(surface_, {bend, 0}, signals_.feed(bend), side);
+        const PathLocation at = beside(surface_, {bend, 0}, signals_.feed(bend), side);
         if (!at.exists() || signals_[at.nearest()].zone == Zone::outside) continue;
         beside_any = true;
         for (float along = -beside_reach; along <= beside_reach; along += beside_every) {
@@ -149,8 +150,8 @@ bool Bends::leads_aside(PointIndex point, float reach) const {
     const PointIndex after = at_distance(point, +1, reach);
     const Eigen::Vector3f in = signals_.feed(before), out = signals_.feed(after);
     if (!(in.dot(out) > link_cosine)) return false;
-    const Eigen::Vector3f along = (in + out).normalized(), way = p[after] - p[before];
-    const Eigen::Vector3f aside = way - way.dot(along) * along;
+    const Eigen::Vector3f along = (in + out).normalized(), chord = p[after] - p[before];
+    const Eigen::Vector3f aside = chord - chord.dot(along) * along;
     if (!(aside.norm() > link_aside * step_over_)) return false;
     const Eigen::Vector3f sideways = aside.normalized();
     float steepest = 0;  // against a path that turns evenly from one run to the other
@@ -177,22 +178,22 @@ std::optional<PointIndex> Bends::slowest_ahead(PointIndex point, int direction) 
     const float speed = signals_[point].speed;
     const PointIndex stride = stride_at(point);
     PointIndex slowest = point, at = point;
-    float way = 0, way_to_slowest = 0;
-    while (speed * speed > a * (way - net_reach * step_over_)) {
+    float arc_length = 0, arc_length_to_slowest = 0;
+    while (speed * speed > a * (arc_length - net_reach * step_over_)) {
         const PointIndex next = at + direction * stride;
         if (next < 0 || next >= signals_.size() || !(signals_[next].speed > 0)) break;
-        way += (surface_.positions[next] - surface_.positions[at]).norm() + look_every * look_every * step_over_;
+        arc_length += (surface_.positions[next] - surface_.positions[at]).norm() + look_every * look_every * step_over_;
         at = next;
         const float least = signals_[slowest].speed, there = signals_[at].speed;
         if (there < least) {
             slowest = at;
-            way_to_slowest = way;
+            arc_length_to_slowest = arc_length;
         } else if (!(there <= rises_again * least)) {
             break;
         }
     }
     const float least = signals_[slowest].speed;
-    const float ramp = std::max(0.0F, way_to_slowest - turn_reach * step_over_);
+    const float ramp = std::max(0.0F, arc_length_to_slowest - turn_reach * step_over_);
     if (speed * speed < least * least + a * ramp) return std::nullopt;
     return slowest;
 }

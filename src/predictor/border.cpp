@@ -14,49 +14,49 @@ constexpr double flank_ramps = 1.5;      ///< jerk makes ramps longer than the a
 
 }  // namespace
 
-Border::Border(const ClSurface& surface, const Signals& signals, const Way& way, const Suspects& suspects, double along,
-               const Thresholds& thresholds)
-    : surface_(surface), signals_(signals), way_(way), along_(along), thresholds_(thresholds) {
-    for (const Suspect* s : suspects) {
+Border::Border(const ClSurface& surface, const Signals& signals, const ArcLength& arc_length,
+               const DefectCandidates& candidates, double along, const Thresholds& thresholds)
+    : surface_(surface), signals_(signals), arc_length_(arc_length), along_(along), thresholds_(thresholds) {
+    for (const DefectCandidate* s : candidates) {
         if (s->border || s->bend) at_border_.push_back(s);
     }
 }
 
 std::optional<PointIndex> Border::as_strong_near(PointIndex point, std::size_t pass, float share,
                                                  Quantity quantity) const {
-    const auto by_point = [](const Suspect* s, PointIndex p) { return s->point < p; };
+    const auto by_point = [](const DefectCandidate* s, PointIndex p) { return s->point < p; };
     const auto after = std::lower_bound(at_border_.begin(), at_border_.end(), point, by_point);
-    const auto strong = [&](const Suspect* s) {
+    const auto strong = [&](const DefectCandidate* s) {
         return s->pass == pass && s->expected(quantity) && s->share[index_of(quantity)] >= share &&
-               !way_.at_least(s->point, point, along_);
+               !arc_length_.at_least(s->point, point, along_);
     };
     // Within that way there are few of them.
-    for (auto k = after; k != at_border_.end() && !way_.at_least(point, (*k)->point, along_); ++k) {
+    for (auto k = after; k != at_border_.end() && !arc_length_.at_least(point, (*k)->point, along_); ++k) {
         if (strong(*k)) return (*k)->point;
     }
-    for (auto k = after; k != at_border_.begin() && !way_.at_least((*(k - 1))->point, point, along_); --k) {
+    for (auto k = after; k != at_border_.begin() && !arc_length_.at_least((*(k - 1))->point, point, along_); --k) {
         if (strong(*(k - 1))) return (*(k - 1))->point;
     }
     return std::nullopt;
 }
 
-std::optional<PointIndex> Border::flank_of(const Suspects& core, Quantity quantity) const {
+std::optional<PointIndex> Border::flank_of(const DefectCandidates& core, Quantity quantity) const {
     const std::size_t q = index_of(quantity);
-    const auto weaker = [q](const Suspect* a, const Suspect* b) { return a->share[q] < b->share[q]; };
+    const auto weaker = [q](const DefectCandidate* a, const DefectCandidate* b) { return a->share[q] < b->share[q]; };
     const auto strongest = std::max_element(core.begin(), core.end(), weaker);
     const float peak = (*strongest)->share[q];
-    const auto hangs = [&](const Suspect* a, const Suspect* b) {
-        return a->pass == b->pass && !way_.at_least(a->point, b->point, along_);
+    const auto hangs = [&](const DefectCandidate* a, const DefectCandidate* b) {
+        return a->pass == b->pass && !arc_length_.at_least(a->point, b->point, along_);
     };
     auto first = strongest, last = strongest;
     while (first != core.begin() && hangs(*(first - 1), *first)) --first;
     while (last + 1 != core.end() && hangs(*last, *(last + 1))) ++last;
     const std::size_t pass = (*strongest)->pass;
-    for (const Suspect* end : {*first, *last}) {
+    for (const DefectCandidate* end : {*first, *last}) {
         if (const auto at = as_strong_near(end->point, pass, peak, quantity)) return at;
     }
     const Comparison& c = (*strongest)->comparison;
-    for (const Station& at : {c.beside_left, c.beside_right}) {
+    for (const PathLocation& at : {c.beside_left, c.beside_right}) {
         if (!at.exists()) continue;
         if (const auto near = as_strong_near(at.nearest(), pass_of(surface_.passes, at.nearest()), peak, quantity))
             return near;
@@ -64,11 +64,11 @@ std::optional<PointIndex> Border::flank_of(const Suspects& core, Quantity quanti
     return std::nullopt;
 }
 
-double Border::flank_reach(const Suspects& core, Quantity quantity) const {
+double Border::flank_reach(const DefectCandidates& core, Quantity quantity) const {
     double ramp = thresholds_.usual_speed * flank_seconds;
     if (quantity == Quantity::speed || quantity == Quantity::acceleration) {
         float jump = 0;
-        for (const Suspect* s : core) jump = std::max(jump, std::abs(s->comparison.speed_jump));
+        for (const DefectCandidate* s : core) jump = std::max(jump, std::abs(s->comparison.speed_jump));
         if (thresholds_.usual_acceleration > 0)
             ramp = std::max<double>(ramp, thresholds_.usual_speed * jump / thresholds_.usual_acceleration);
     }
@@ -80,7 +80,7 @@ bool Border::ramps(PointIndex point) const {
     return !(std::abs(along) < steady_share * thresholds_.usual_acceleration);
 }
 
-bool Border::on_flank(const Suspect& site, PointIndex at, double reach, Quantity quantity) const {
+bool Border::on_flank(const DefectCandidate& site, PointIndex at, double reach, Quantity quantity) const {
     const double distance = (surface_.positions[site.point] - surface_.positions[at]).norm();
     if (distance >= reach) return false;
     if (quantity != Quantity::speed || distance < along_ || ramps(site.point)) return true;
@@ -92,14 +92,14 @@ bool Border::on_flank(const Suspect& site, PointIndex at, double reach, Quantity
 bool Border::goes_on(PointIndex point, int direction) const {
     for (PointIndex i = point; i >= 0 && i < signals_.size(); i += direction) {
         if (signals_[i].zone == Zone::outside) return false;
-        if (way_.at_least(std::min(i, point), std::max(i, point), along_)) return true;
+        if (arc_length_.at_least(std::min(i, point), std::max(i, point), along_)) return true;
     }
     return false;
 }
 
-bool Border::stands_out(const Suspects& core, Quantity quantity) const {
+bool Border::stands_out(const DefectCandidates& core, Quantity quantity) const {
     const std::size_t q = index_of(quantity);
-    const auto clear = [&](const Suspect* s) {
+    const auto clear = [&](const DefectCandidate* s) {
         const Comparison& c = s->comparison;
         if (s->turns || s->bends(quantity) || std::min(s->score[q], s->share[q]) < clear_score) return false;
         if (!s->border) return true;
@@ -109,7 +109,7 @@ bool Border::stands_out(const Suspects& core, Quantity quantity) const {
     for (std::size_t k = 0; k < core.size();) {
         std::size_t end = k + 1;
         while (end < core.size() && core[end]->pass == core[k]->pass &&
-               !way_.at_least(core[end - 1]->point, core[end]->point, along_))
+               !arc_length_.at_least(core[end - 1]->point, core[end]->point, along_))
             ++end;
         const auto first = core.begin() + static_cast<std::ptrdiff_t>(k);
         const auto last = core.begin() + static_cast<std::ptrdiff_t>(end);

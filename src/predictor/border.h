@@ -2,7 +2,7 @@
 // Border: where a part's border explains a difference, and where it does not.
 //
 // The outermost passes have a neighbour on one side only, and where a pass begins or ends beside one that goes on, both
-// differ: suspects are marked so (Suspect::border), and what they make is expected. Expected is no more than that: what
+// differ: candidates are marked so (DefectCandidate::border), and what they make is expected. Expected is no more than that: what
 // lies beside it is a defect of its own unless it is its flank, and what stands out of it is a defect, too.
 
 #include <optional>
@@ -14,26 +14,26 @@ namespace clsurf {
 
 class Border {
 public:
-    /// All must outlive it. `suspects` in the order of their points; `along`: joined_along().
-    Border(const ClSurface& surface, const Signals& signals, const Way& way, const Suspects& suspects, double along,
-           const Thresholds& thresholds);
+    /// All must outlive it. `candidates` in the order of their points; `along`: joined_along().
+    Border(const ClSurface& surface, const Signals& signals, const ArcLength& arc_length,
+           const DefectCandidates& candidates, double along, const Thresholds& thresholds);
 
     /// Where sites away from the border are the flank of something at it: their strongest one lies next to a site of the border
-    /// that is as strong or stronger, along the pass or beside it. That one's point. O(sites + log suspects).
-    [[nodiscard]] std::optional<PointIndex> flank_of(const Suspects& core, Quantity quantity) const;
+    /// that is as strong or stronger, along the pass or beside it. That one's point. O(sites + log candidates).
+    [[nodiscard]] std::optional<PointIndex> flank_of(const DefectCandidates& core, Quantity quantity) const;
 
     /// How far [mm] a flank reaches from there: as far as the tool needs to make up the difference with the usual acceleration.
-    [[nodiscard]] double flank_reach(const Suspects& core, Quantity quantity) const;
+    [[nodiscard]] double flank_reach(const DefectCandidates& core, Quantity quantity) const;
 
     /// A site belongs to the flank of the place `at` of the border: it lies within `reach`, and next to it unless a ramp makes
     /// the difference there. Where neither the tool nor those beside it speed up or slow down, no ramp does.
-    [[nodiscard]] bool on_flank(const Suspect& site, PointIndex at, double reach, Quantity quantity) const;
+    [[nodiscard]] bool on_flank(const DefectCandidate& site, PointIndex at, double reach, Quantity quantity) const;
 
-    /// Sites at the border differ clearly over a stretch, while their pass does not before and after it: step and residual are twice the
+    /// Sites at the border differ clearly over a section, while their pass does not before and after it: step and residual are twice the
     /// threshold against three passes or more, or slower than passes that begin or end beside it, where it goes on. Sites in corners do not count: the
     /// passes that go round them are no measure.
     /// O(sites).
-    [[nodiscard]] bool stands_out(const Suspects& core, Quantity quantity) const;
+    [[nodiscard]] bool stands_out(const DefectCandidates& core, Quantity quantity) const;
 
 private:
     [[nodiscard]] std::optional<PointIndex> as_strong_near(PointIndex point, std::size_t pass, float share,
@@ -43,10 +43,10 @@ private:
 
     const ClSurface& surface_;
     const Signals& signals_;
-    const Way& way_;
+    const ArcLength& arc_length_;
     double along_;
     const Thresholds& thresholds_;
-    Suspects at_border_;  ///< in the order of their points
+    DefectCandidates at_border_;  ///< in the order of their points
 };
 
 }  // namespace clsurf

@@ -15,27 +15,27 @@ namespace clsurf {
 namespace {
 
 constexpr int fewest_alike = 2;  ///< passes of the same way on each side, where two ways cannot be told from a fault
-constexpr float suspect_share = 0.5F;  ///< of a threshold
+constexpr float candidate_share = 0.5F;  ///< of a threshold
 constexpr double ends_apart = 1;   ///< step-overs along the feed between ends of passes that do not end side by side
 constexpr double ramp_room = 1.5;  ///< times what the steeper one of both ramps makes of that way
-constexpr float joined_beside = 1.0F;  ///< step-overs along the feed between suspects of two passes
+constexpr float joined_beside = 1.0F;  ///< step-overs along the feed between candidates of two passes
 
 /// How far residual and step pass the thresholds, together.
-void measure(Suspect& suspect, const Thresholds& thresholds) {
-    suspect.share.fill(0);
-    suspect.score.fill(0);
+void measure(DefectCandidate& candidate, const Thresholds& thresholds) {
+    candidate.share.fill(0);
+    candidate.score.fill(0);
     for (std::size_t q = 0; q < quantities; ++q) {
-        const Comparison& c = suspect.comparison;
+        const Comparison& c = candidate.comparison;
         const float share =
             std::max(std::abs(c.residual[q]) - c.slack[q], 0.0F) / thresholds.of[q];  // NaN stays NaN in this order
         if (!(share == share)) continue;
-        suspect.share[q] = share;
+        candidate.share[q] = share;
         const float step = (c.step[q] - c.play[q] - c.slack[q]) / thresholds.of[q];
-        suspect.score[q] = step == step ? std::min(step, 2 * share) : 0;
+        candidate.score[q] = step == step ? std::min(step, 2 * share) : 0;
     }
 }
 
-/// Sets of suspects that were joined, from any number of threads: roots are hung below lower ones only,
+/// Sets of candidates that were joined, from any number of threads: roots are hung below lower ones only,
 /// so that the sets do not depend on who joins first.
 class Groups {
 public:
@@ -109,27 +109,28 @@ PointIndex count_compared(const ClSurface& surface, const Signals& signals) {
 
 namespace {
 
-class SuspectFinder {
+class CandidateFinder {
 public:
-    SuspectFinder(const ClSurface& surface, const Signals& signals, const Way& way, const Thresholds& thresholds)
+    CandidateFinder(const ClSurface& surface, const Signals& signals, const ArcLength& arc_length,
+                    const Thresholds& thresholds)
         : surface_(surface),
           signals_(signals),
-          way_(way),
+          arc_length_(arc_length),
           thresholds_(thresholds),
           comparer_(surface, signals, thresholds.least_speed),
           bends_(surface, signals, thresholds),
           sites_(surface, signals),
           judged_(static_cast<std::size_t>(signals.size()), false) {}
 
-    FoundSuspects find() {
+    FoundCandidates find() {
         std::vector<PointIndex> frontier = judge(sites_with_step());
         const auto in_order = static_cast<std::ptrdiff_t>(frontier.size());
         while (!frontier.empty()) frontier = judge(beside_all(frontier));
-        for (const std::vector<Suspect>& piece : found_.kept) {
-            for (const Suspect& suspect : piece) found_.suspects.push_back(&suspect);
+        for (const std::vector<DefectCandidate>& piece : found_.kept) {
+            for (const DefectCandidate& candidate : piece) found_.candidates.push_back(&candidate);
         }
-        const auto by_point = [](const Suspect* a, const Suspect* b) { return a->point < b->point; };
-        Suspects& all = found_.suspects;
+        const auto by_point = [](const DefectCandidate* a, const DefectCandidate* b) { return a->point < b->point; };
+        DefectCandidates& all = found_.candidates;
         std::sort(all.begin() + in_order, all.end(), by_point);
         std::inplace_merge(all.begin(), all.begin() + in_order, all.end(), by_point);
         return std::move(found_);
@@ -147,7 +148,7 @@ private:
                 const Comparison c = comparer_.compare(sites_.place(i), 1);
                 bool steps = false;
                 for (std::size_t q = 0; q < quantities; ++q)
-                    steps = steps || c.step[q] >= suspect_share * thresholds_.of[q];
+                    steps = steps || c.step[q] >= candidate_share * thresholds_.of[q];
                 if (steps) mine.push_back(i);
             });
         });
@@ -156,7 +157,7 @@ private:
         return sites;
     }
 
-    /// The sites on both sides of suspects.
+    /// The sites on both sides of candidates.
     [[nodiscard]] std::vector<PointIndex> beside_all(const std::vector<PointIndex>& points) const {
         std::vector<PointIndex> sites;
         for (const PointIndex i : points) {
@@ -170,10 +171,10 @@ private:
     }
 
     /// A pass and the one beside it do not end side by side: one goes on, or its ramp lies farther on and so makes the difference.
-    [[nodiscard]] bool ends_elsewhere(PointIndex point, const Station& beside) const {
+    [[nodiscard]] bool ends_elsewhere(PointIndex point, const PathLocation& beside) const {
         const PointIndex other = beside.nearest();
         if (signals_[other].zone == Zone::inner) return true;
-        const double farther = way_to_end(point) - way_to_end(other);
+        const double farther = arc_length_to_end(point) - arc_length_to_end(other);
         const double faster = signals_[point].speed - signals_[other].speed;
         if (std::abs(farther) < ends_apart * surface_.step_over || !(farther * faster > 0)) return false;
         return std::abs(faster) <= ramp_room * std::abs(farther) * std::max(ramp_at(point), ramp_at(other));
@@ -186,59 +187,60 @@ private:
     }
 
     /// [mm] to the nearer end of what is judged of the pass there.
-    [[nodiscard]] double way_to_end(PointIndex point) const {
+    [[nodiscard]] double arc_length_to_end(PointIndex point) const {
         const std::vector<PointRange>& pieces = signals_.pieces;
         const auto after = std::upper_bound(pieces.begin(), pieces.end(), point,
                                             [](PointIndex p, const PointRange& r) { return p < r.first; });
         if (after == pieces.begin()) return 0;
         const PointRange& piece = *(after - 1);
-        const double here = way_.to(point);
-        return std::min(here - way_.to(piece.first), way_.to(piece.last) - here);
+        const double here = arc_length_.to(point);
+        return std::min(here - arc_length_.to(piece.first), arc_length_.to(piece.last) - here);
     }
 
     /// Compares where passes begin or end. Beside one that goes on, and where there is no pass on one side, a
     /// difference is no surprise. Where all begin or end, the two ways of a zigzag differ by nature: there
-    /// a suspect is what differs from passes of its own way.
-    void compare_at_end(const Station& place, Suspect& suspect) const {
-        const Comparison& c = suspect.comparison;
-        suspect.border = c.left == 0 || c.right == 0;
-        if (suspect.border) return;
+    /// a candidate is what differs from passes of its own way.
+    void compare_at_end(const PathLocation& place, DefectCandidate& candidate) const {
+        const Comparison& c = candidate.comparison;
+        candidate.border = c.left == 0 || c.right == 0;
+        if (candidate.border) return;
         if (!c.ramp) return;
-        suspect.border = signals_[suspect.point].zone == Zone::inner || ends_elsewhere(suspect.point, c.beside_left) ||
-                         ends_elsewhere(suspect.point, c.beside_right);
-        if (suspect.border) {
+        candidate.border = signals_[candidate.point].zone == Zone::inner ||
+                           ends_elsewhere(candidate.point, c.beside_left) ||
+                           ends_elsewhere(candidate.point, c.beside_right);
+        if (candidate.border) {
             // A ramp makes its pass the slower one. Where it is the faster one, something else is the matter.
             constexpr std::size_t q = index_of(Quantity::speed);
-            const bool ramps = signals_[suspect.point].zone == Zone::ramp;
-            suspect.border = suspect.share[q] < suspect_share || (c.residual[q] < 0) == ramps;
+            const bool ramps = signals_[candidate.point].zone == Zone::ramp;
+            candidate.border = candidate.share[q] < candidate_share || (c.residual[q] < 0) == ramps;
             return;
         }
         const Comparison alike = comparer_.compare_at_end(place);
-        suspect.border = std::min(alike.left, alike.right) < fewest_alike;
-        if (suspect.border) return;
-        suspect.comparison = alike;
-        measure(suspect, thresholds_);
+        candidate.border = std::min(alike.left, alike.right) < fewest_alike;
+        if (candidate.border) return;
+        candidate.comparison = alike;
+        measure(candidate, thresholds_);
     }
 
     /// Where one of the passes turns, the chord over it does not lie straight across: its height is no relief.
-    void forget_relief_in_corner(Suspect& suspect) const {
+    void forget_relief_in_corner(DefectCandidate& candidate) const {
         constexpr std::size_t q = index_of(Quantity::relief);
-        if (suspect.share[q] < suspect_share) return;
-        const auto turns = [&](const Station& at) {
+        if (candidate.share[q] < candidate_share) return;
+        const auto turns = [&](const PathLocation& at) {
             return at.exists() && turns_on_surface(surface_, signals_, at.nearest());
         };
-        const Comparison& c = suspect.comparison;
-        if (!turns({suspect.point, 0}) && !turns(c.beside_left) && !turns(c.beside_right)) return;
-        suspect.comparison.residual[q] = suspect.comparison.step[q] = 0;
-        suspect.share[q] = suspect.score[q] = 0;
+        const Comparison& c = candidate.comparison;
+        if (!turns({candidate.point, 0}) && !turns(c.beside_left) && !turns(c.beside_right)) return;
+        candidate.comparison.residual[q] = candidate.comparison.step[q] = 0;
+        candidate.share[q] = candidate.score[q] = 0;
     }
 
-    [[nodiscard]] static bool moves_otherwise(const Suspect& suspect) {
-        return std::max(suspect.share[index_of(Quantity::speed)], suspect.share[index_of(Quantity::acceleration)]) >=
-               suspect_share;
+    [[nodiscard]] static bool moves_otherwise(const DefectCandidate& candidate) {
+        return std::max(candidate.share[index_of(Quantity::speed)],
+                        candidate.share[index_of(Quantity::acceleration)]) >= candidate_share;
     }
 
-    /// Looks at those that were not looked at yet. Returns the suspects among them.
+    /// Looks at those that were not looked at yet. Returns the candidates among them.
     std::vector<PointIndex> judge(const std::vector<PointIndex>& sites) {
         std::vector<PointIndex> fresh;
         for (const PointIndex site : sites) {
@@ -248,31 +250,31 @@ private:
         }
         constexpr std::int64_t grain = 1024;
         const auto count = static_cast<std::int64_t>(fresh.size());
-        std::vector<std::vector<Suspect>> of_piece(static_cast<std::size_t>((count + grain - 1) / grain));
+        std::vector<std::vector<DefectCandidate>> of_piece(static_cast<std::size_t>((count + grain - 1) / grain));
         parallel_for(count, grain, [&](std::int64_t first, std::int64_t last) {
             for (std::int64_t k = first; k < last; ++k) {
-                Suspect suspect;
-                suspect.point = fresh[static_cast<std::size_t>(k)];
-                const Station place = sites_.place(suspect.point);
-                suspect.comparison = comparer_.compare(place);
-                measure(suspect, thresholds_);
-                if (*std::max_element(suspect.share.begin(), suspect.share.end()) < suspect_share) continue;
-                comparer_.compare_along_slant(place, suspect.comparison);
-                measure(suspect, thresholds_);
-                if (*std::max_element(suspect.share.begin(), suspect.share.end()) < suspect_share) continue;
-                forget_relief_in_corner(suspect);
-                if (*std::max_element(suspect.share.begin(), suspect.share.end()) < suspect_share) continue;
-                compare_at_end(place, suspect);
-                suspect.turns = suspect.border && turns_on_surface(surface_, signals_, suspect.point);
-                if (*std::max_element(suspect.share.begin(), suspect.share.end()) < suspect_share) continue;
-                suspect.pass = pass_of(surface_.passes, suspect.point);
-                suspect.bend = moves_otherwise(suspect) && bends_.explain(suspect.point, suspect.comparison);
-                of_piece[static_cast<std::size_t>(first / grain)].push_back(suspect);
+                DefectCandidate candidate;
+                candidate.point = fresh[static_cast<std::size_t>(k)];
+                const PathLocation place = sites_.place(candidate.point);
+                candidate.comparison = comparer_.compare(place);
+                measure(candidate, thresholds_);
+                if (*std::max_element(candidate.share.begin(), candidate.share.end()) < candidate_share) continue;
+                comparer_.compare_obliquely_around(place, candidate.comparison);
+                measure(candidate, thresholds_);
+                if (*std::max_element(candidate.share.begin(), candidate.share.end()) < candidate_share) continue;
+                forget_relief_in_corner(candidate);
+                if (*std::max_element(candidate.share.begin(), candidate.share.end()) < candidate_share) continue;
+                compare_at_end(place, candidate);
+                candidate.turns = candidate.border && turns_on_surface(surface_, signals_, candidate.point);
+                if (*std::max_element(candidate.share.begin(), candidate.share.end()) < candidate_share) continue;
+                candidate.pass = pass_of(surface_.passes, candidate.point);
+                candidate.bend = moves_otherwise(candidate) && bends_.explain(candidate.point, candidate.comparison);
+                of_piece[static_cast<std::size_t>(first / grain)].push_back(candidate);
             }
         });
         std::vector<PointIndex> found;
-        for (std::vector<Suspect>& piece : of_piece) {
-            for (const Suspect& suspect : piece) found.push_back(suspect.point);
+        for (std::vector<DefectCandidate>& piece : of_piece) {
+            for (const DefectCandidate& candidate : piece) found.push_back(candidate.point);
             if (!piece.empty()) found_.kept.push_back(std::move(piece));
         }
         return found;
@@ -280,20 +282,20 @@ private:
 
     const ClSurface& surface_;
     const Signals& signals_;
-    const Way& way_;
+    const ArcLength& arc_length_;
     const Thresholds& thresholds_;
     Comparer comparer_;
     Bends bends_;
     Sites sites_;
     std::vector<bool> judged_;  ///< by point
-    FoundSuspects found_;
+    FoundCandidates found_;
 };
 
 }  // namespace
 
-FoundSuspects find_suspects(const ClSurface& surface, const Signals& signals, const Way& way,
-                            const Thresholds& thresholds) {
-    return SuspectFinder(surface, signals, way, thresholds).find();
+FoundCandidates find_candidates(const ClSurface& surface, const Signals& signals, const ArcLength& arc_length,
+                                const Thresholds& thresholds) {
+    return CandidateFinder(surface, signals, arc_length, thresholds).find();
 }
 
 double joined_along(const ClSurface& surface, double record) {
@@ -302,14 +304,15 @@ double joined_along(const ClSurface& surface, double record) {
     return std::max({least, step_overs * surface.step_over, records * record});
 }
 
-std::vector<Suspects> group_suspects(const Suspects& suspects, const ClSurface& surface, const Way& way, double along) {
-    const auto count = static_cast<std::int64_t>(suspects.size());
+std::vector<DefectCandidates> group_candidates(const DefectCandidates& candidates, const ClSurface& surface,
+                                               const ArcLength& arc_length, double along) {
+    const auto count = static_cast<std::int64_t>(candidates.size());
     std::vector<PointIndex> points;  // side by side, to be searched
-    points.reserve(suspects.size());
-    for (const Suspect* s : suspects) points.push_back(s->point);
-    Groups groups(suspects.size());
+    points.reserve(candidates.size());
+    for (const DefectCandidate* s : candidates) points.push_back(s->point);
+    Groups groups(candidates.size());
     const float beside = joined_beside * static_cast<float>(surface.step_over);
-    /// Joins a suspect with those of another pass round a point of it. `hint`: where the last one was.
+    /// Joins a candidate with those of another pass round a point of it. `hint`: where the last one was.
     const auto join_near = [&](std::size_t k, PointIndex point, std::size_t& hint) {
         const std::size_t after = hint = lower_bound_near(points, hint, point);
         const Eigen::Vector3f place = surface.positions[point];
@@ -321,7 +324,7 @@ std::vector<Suspects> group_suspects(const Suspects& suspects, const ClSurface& 
     using Hints = std::array<std::array<std::size_t, 3>, 2>;  // by side: beside, and over that pass
     const auto join = [&](std::size_t k, Hints& hints) {
         const PointIndex point = points[k];
-        if (k > 0 && !way.at_least(points[k - 1], point, along)) groups.join(k - 1, k);
+        if (k > 0 && !arc_length.at_least(points[k - 1], point, along)) groups.join(k - 1, k);
         for (const Side side : {Side::left, Side::right}) {
             if (!surface.neighbours.has(side, point)) continue;
             const PointIndex adjacent = surface.neighbours.neighbour(side, point);
@@ -342,15 +345,15 @@ std::vector<Suspects> group_suspects(const Suspects& suspects, const ClSurface& 
         Hints hints{};
         for (std::int64_t k = first; k < last; ++k) join(static_cast<std::size_t>(k), hints);
     });
-    std::vector<Suspects> result;
-    std::vector<std::size_t> number(suspects.size());  // of the group, by its root
-    for (std::size_t k = 0; k < suspects.size(); ++k) {
+    std::vector<DefectCandidates> result;
+    std::vector<std::size_t> number(candidates.size());  // of the group, by its root
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
         const std::size_t root = groups.root(k);
         if (root == k) {
             number[k] = result.size();
             result.emplace_back();
         }
-        result[number[root]].push_back(suspects[k]);
+        result[number[root]].push_back(candidates[k]);
     }
     return result;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Suspects: the sites of a surface that differ from their neighbour passes, and how they belong
+// Candidates: the sites of a surface that differ from their neighbour passes, and how they belong
 // together.
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace clsurf {
 
-struct Suspect {
+struct DefectCandidate {
     PointIndex point = 0;
     std::size_t pass = 0;  ///< index into surface.passes
     bool border = false;   ///< no pass on one side, or one begins or ends there: the difference is expected
@@ -31,29 +31,30 @@ struct Suspect {
 /// Points of cut passes that have a neighbour on both sides and lie away from the ends. O(points).
 [[nodiscard]] PointIndex count_compared(const ClSurface& surface, const Signals& signals);
 
-/// Some suspects, in the order of their points. They stay where they were found: each is 150 bytes, and
+/// Some candidates, in the order of their points. They stay where they were found: each is 150 bytes, and
 /// a bad part has a million.
-using Suspects = std::vector<const Suspect*>;
+using DefectCandidates = std::vector<const DefectCandidate*>;
 
-/// All suspects of a part, and where they are kept.
-struct FoundSuspects {
-    std::vector<std::vector<Suspect>> kept;
-    Suspects suspects;
+/// All candidates of a part, and where they are kept.
+struct FoundCandidates {
+    std::vector<std::vector<DefectCandidate>> kept;
+    DefectCandidates candidates;
 };
 
 /// Sites (sites.h) whose residual passes half a threshold, in the order of their points. Only sites with a step are
-/// looked at with all passes around, and then what lies beside a suspect: the inner passes of a band
+/// looked at with all passes around, and then what lies beside a candidate: the inner passes of a band
 /// have no step of their own. O(points), parallel; the same for any number of threads.
-[[nodiscard]] FoundSuspects find_suspects(const ClSurface& surface, const Signals& signals, const Way& way,
-                                          const Thresholds& thresholds);
+[[nodiscard]] FoundCandidates find_candidates(const ClSurface& surface, const Signals& signals,
+                                              const ArcLength& arc_length, const Thresholds& thresholds);
 
-/// How much way [mm] may lie between suspects of one pass that belong together: a millimetre, two step-overs or two records, with room.
-/// `record`: the way of one at the usual speed.
+/// How much arc length [mm] may lie between candidates of one pass that belong together: a millimetre, two step-overs or two records, with room.
+/// `record`: the length of one at the usual speed.
 [[nodiscard]] double joined_along(const ClSurface& surface, double record);
 
-/// Suspects that hang together along a pass (`along`: joined_along()), across to the next one or over one clean pass; each group
-/// in the order of its points, and groups in the order of their first ones. O(suspects log suspects), parallel.
-[[nodiscard]] std::vector<Suspects> group_suspects(const Suspects& suspects, const ClSurface& surface, const Way& way,
-                                                   double along);
+/// Candidates that hang together along a pass (`along`: joined_along()), across to the next one or over one clean pass; each group
+/// in the order of its points, and groups in the order of their first ones. O(candidates log candidates), parallel.
+[[nodiscard]] std::vector<DefectCandidates> group_candidates(const DefectCandidates& candidates,
+                                                             const ClSurface& surface, const ArcLength& arc_length,
+                                                             double along);
 
 }  // namespace clsurf

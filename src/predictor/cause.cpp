@@ -10,19 +10,19 @@
 namespace clsurf {
 namespace {
 
-constexpr double uneven_spacing = 1.5;     ///< ratio of the programmed steps
-constexpr LineNumber most_lines = 10'000;  ///< of a run that are looked at
-constexpr double corner_way = 0.3;         ///< [mm] in which a corner turns
-constexpr float corner_cosine = 0.906F;    ///< cos 25°
-constexpr double reversal_way = 0.3;       ///< [mm] before the run begins
-constexpr float axis_moves = 0.01F;        ///< of the feed; less is noise
-constexpr float lobe = 0.4F;               ///< of the peak: a swing counts
+constexpr double uneven_spacing = 1.5;       ///< ratio of the programmed steps
+constexpr LineNumber most_lines = 10'000;    ///< of a run that are looked at
+constexpr double corner_arc_length = 0.3;    ///< [mm] in which a corner turns
+constexpr float corner_cosine = 0.906F;      ///< cos 25°
+constexpr double reversal_arc_length = 0.3;  ///< [mm] before the run begins
+constexpr float axis_moves = 0.01F;          ///< of the feed; less is noise
+constexpr float lobe = 0.4F;                 ///< of the peak: a swing counts
 constexpr int lobes_of_oscillation = 3;
 
 /// How often the speed goes to the other side of that of the neighbours, within one run.
-int count_lobes(std::span<const Suspect* const> sites) {
+int count_lobes(std::span<const DefectCandidate* const> sites) {
     float peak = 0;
-    for (const Suspect* s : sites) {
+    for (const DefectCandidate* s : sites) {
         const float r = std::abs(s->comparison.residual[index_of(Quantity::speed)]);
         if (r > peak) peak = r;
     }
@@ -30,7 +30,7 @@ int count_lobes(std::span<const Suspect* const> sites) {
     int lobes = 0;
     int sign = 0;
     std::size_t pass = std::numeric_limits<std::size_t>::max();
-    for (const Suspect* s : sites) {
+    for (const DefectCandidate* s : sites) {
         if (s->pass != pass) {
             pass = s->pass;
             lobes = 0;
@@ -96,7 +96,7 @@ bool CauseFinder::spaced_otherwise(const Defect& defect) const {
 bool CauseFinder::turns(const DefectRun& run) const {
     PointIndex behind = run.points.first;
     for (PointIndex i = run.points.first; i <= run.points.last; ++i) {
-        while (behind < i && way_.at_least(behind, i, corner_way)) ++behind;
+        while (behind < i && arc_length_.at_least(behind, i, corner_arc_length)) ++behind;
         const float cosine = signals_.feed(behind).dot(signals_.feed(i));
         if (cosine < corner_cosine) return true;
     }
@@ -105,10 +105,10 @@ bool CauseFinder::turns(const DefectRun& run) const {
 
 bool CauseFinder::begins_with_reversal(const DefectRun& run) const {
     PointIndex from = run.points.first;
-    while (from > 0 && !way_.at_least(from, run.points.first, reversal_way)) --from;
+    while (from > 0 && !arc_length_.at_least(from, run.points.first, reversal_arc_length)) --from;
     const Eigen::Vector3f before = signals_.feed(from);
     PointIndex to = run.points.first;
-    while (to < run.points.last && !way_.at_least(run.points.first, to, reversal_way)) ++to;
+    while (to < run.points.last && !arc_length_.at_least(run.points.first, to, reversal_arc_length)) ++to;
     const Eigen::Vector3f after = signals_.feed(to);
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
         if (before[axis] * after[axis] < 0 && std::min(std::abs(before[axis]), std::abs(after[axis])) > axis_moves)
@@ -117,7 +117,7 @@ bool CauseFinder::begins_with_reversal(const DefectRun& run) const {
     return false;
 }
 
-Cause CauseFinder::cause_of(const Defect& defect, std::span<const Suspect* const> sites) const {
+Cause CauseFinder::cause_of(const Defect& defect, std::span<const DefectCandidate* const> sites) const {
     if (defect.quantity == Quantity::relief || (defect.quantity != Quantity::lag && spaced_otherwise(defect)))
         return Cause::point_spacing;
     const auto most_runs = [&](auto&& test) {

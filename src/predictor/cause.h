@@ -14,11 +14,15 @@ class CauseFinder {
 public:
     /// All must outlive it.
     CauseFinder(const ClSurface& surface, const Signals& signals, const LineMap& lines, const Program& program,
-                const Way& way)
-        : surface_(surface), signals_(signals), lines_(lines), toolpath_(program.motions, Vec3::Zero()), way_(way) {}
+                const ArcLength& arc_length)
+        : surface_(surface),
+          signals_(signals),
+          lines_(lines),
+          toolpath_(program.motions, Vec3::Zero()),
+          arc_length_(arc_length) {}
 
     /// `sites`: those of the defect's runs, in order; its neighbours are known.
-    [[nodiscard]] Cause cause_of(const Defect& defect, std::span<const Suspect* const> sites) const;
+    [[nodiscard]] Cause cause_of(const Defect& defect, std::span<const DefectCandidate* const> sites) const;
 
 private:
     [[nodiscard]] bool spaced_otherwise(const Defect& defect) const;
@@ -30,7 +34,7 @@ private:
     const Signals& signals_;
     const LineMap& lines_;
     Toolpath toolpath_;
-    const Way& way_;
+    const ArcLength& arc_length_;
 };
 
 }  // namespace clsurf

@@ -28,7 +28,7 @@ void judge_passes(QualityReport& report) {
     }
 }
 
-/// Says so where it is the records that are too few to tell passes apart. `record` [mm]: way of one.
+/// Says so where it is the records that are too few to tell passes apart. `record` [mm]: arc length of one.
 void judge_records(double record, QualityReport& report) {
     if (report.step_over <= 0 || report.coverage() >= least_coverage || !(record > report.step_over)) return;
     report.judgement.refuse(fmt::format(

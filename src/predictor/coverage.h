@@ -5,7 +5,7 @@
 
 namespace clsurf {
 
-/// Refuses a verdict in `report` where too little could be compared, and says why. `record` [mm]: the way of one record at the
+/// Refuses a verdict in `report` where too little could be compared, and says why. `record` [mm]: the length of one record at the
 /// usual speed.
 void judge_coverage(double record, QualityReport& report);
 

@@ -49,8 +49,8 @@ double plateau(const std::vector<double>& values, double sign) {
     return same.empty() ? 0 : std::copysign(nearest_quantile(same, shown_share), sign);
 }
 
-/// Suspects in the order of their points.
-using SuspectSpan = std::span<const Suspect* const>;
+/// Candidates in the order of their points.
+using CandidateSpan = std::span<const DefectCandidate* const>;
 
 /// Quantities that are grouped together.
 using Family = std::span<const Quantity>;
@@ -66,10 +66,10 @@ float largest(const std::array<float, quantities>& values, Family family) {
 
 /// The quantity that shows a group best: the first of its family that is there at all. Accelerations
 /// are the edges of something else, and speak only where nothing else does.
-Quantity main_quantity(SuspectSpan group, Family family) {
+Quantity main_quantity(CandidateSpan group, Family family) {
     for (const Quantity q : family) {
         const bool there = std::any_of(group.begin(), group.end(),
-                                       [&](const Suspect* s) { return s->share[index_of(q)] >= half_of_peak; });
+                                       [&](const DefectCandidate* s) { return s->share[index_of(q)] >= half_of_peak; });
         if (there) return q;
     }
     return family.back();
@@ -78,12 +78,12 @@ Quantity main_quantity(SuspectSpan group, Family family) {
 class Builder {
 public:
     Builder(const ClSurface& surface, const Signals& signals, const LineMap& lines, const CauseFinder& causes,
-            const Way& way, double joined, const Thresholds& thresholds, const QualityRules& rules)
+            const ArcLength& arc_length, double joined, const Thresholds& thresholds, const QualityRules& rules)
         : surface_(surface),
           signals_(signals),
           lines_(lines),
           causes_(causes),
-          way_(way),
+          arc_length_(arc_length),
           thresholds_(thresholds),
           rules_(rules),
           joined_(joined) {
@@ -92,22 +92,22 @@ public:
     }
 
     /// Sets of sites that each make a defect: what hangs together and differs in one direction.
-    [[nodiscard]] std::vector<Suspects> parts_of(const Suspects& sites, Quantity quantity) const {
-        std::vector<Suspects> parts;
-        for (Suspects& core : regroup(sites)) {
-            std::vector<Suspects> signs = split_opposites(core, quantity, signals_, way_, joined_);
+    [[nodiscard]] std::vector<DefectCandidates> parts_of(const DefectCandidates& sites, Quantity quantity) const {
+        std::vector<DefectCandidates> parts;
+        for (DefectCandidates& core : regroup(sites)) {
+            std::vector<DefectCandidates> signs = split_opposites(core, quantity, signals_, arc_length_, joined_);
             if (signs.size() == 1) {
                 parts.push_back(std::move(core));
                 continue;
             }
-            for (const Suspects& sign : signs) {
-                for (Suspects& part : regroup(sign)) parts.push_back(std::move(part));
+            for (const DefectCandidates& sign : signs) {
+                for (DefectCandidates& part : regroup(sign)) parts.push_back(std::move(part));
             }
         }
         return parts;
     }
-    [[nodiscard]] std::vector<Suspects> regroup(const Suspects& sites) const {
-        return group_suspects(sites, surface_, way_, joined_);
+    [[nodiscard]] std::vector<DefectCandidates> regroup(const DefectCandidates& sites) const {
+        return group_candidates(sites, surface_, arc_length_, joined_);
     }
 
     [[nodiscard]] std::int64_t cut_passes() const {
@@ -118,27 +118,27 @@ public:
     /// its peak there; short dips between are its own (an oscillation crosses zero).
     /// Runs that are much weaker than the strongest go to `rest`: something else, that hangs together
     /// with it by chance.
-    [[nodiscard]] Suspects core_of(SuspectSpan group, Quantity quantity, Suspects& rest) const {
+    [[nodiscard]] DefectCandidates core_of(CandidateSpan group, Quantity quantity, DefectCandidates& rest) const {
         const std::size_t q = index_of(quantity);
-        const auto share = [q](const Suspect* s) { return s->share[q]; };
+        const auto share = [q](const DefectCandidate* s) { return s->share[q]; };
         float peak = 0;
-        for (const Suspect* s : group) peak = std::max(peak, share(s));
+        for (const DefectCandidate* s : group) peak = std::max(peak, share(s));
         const float enough = std::max(std::min(1.0F, half_of_peak * peak),
-                                      weak_run * peak);  // a pass that is hardly suspect is not at fault
-        Suspects core;
-        for_each_run(group, [&](SuspectSpan run) {
+                                      weak_run * peak);  // a pass that is hardly candidate is not at fault
+        DefectCandidates core;
+        for_each_run(group, [&](CandidateSpan run) {
             float run_peak = 0;
-            for (const Suspect* s : run) run_peak = std::max(run_peak, share(s));
+            for (const DefectCandidate* s : run) run_peak = std::max(run_peak, share(s));
             if (run_peak < enough) {
                 rest.insert(rest.end(), run.begin(), run.end());
                 return;
             }
-            const auto strong = [&](const Suspect* s) { return share(s) >= half_of_peak * run_peak; };
+            const auto strong = [&](const DefectCandidate* s) { return share(s) >= half_of_peak * run_peak; };
             for (std::size_t k = 0; k < run.size(); ++k) {
                 if (!strong(run[k])) continue;
                 std::size_t last = k;
-                for (std::size_t j = k + 1; j < run.size() && !way_.at_least(run[last]->point, run[j]->point, joined_);
-                     ++j) {
+                for (std::size_t j = k + 1;
+                     j < run.size() && !arc_length_.at_least(run[last]->point, run[j]->point, joined_); ++j) {
                     if (strong(run[j])) last = j;
                 }
                 core.insert(core.end(), run.begin() + static_cast<std::ptrdiff_t>(k),
@@ -150,19 +150,19 @@ public:
     }
 
     /// The defect that the sites of a core make, in the order of their points.
-    [[nodiscard]] Defect build(SuspectSpan core, Quantity quantity, Family family) const {
+    [[nodiscard]] Defect build(CandidateSpan core, Quantity quantity, Family family) const {
         Defect defect;
         defect.quantity = quantity;
-        const auto weaker = [&](const Suspect* a, const Suspect* b) {
+        const auto weaker = [&](const DefectCandidate* a, const DefectCandidate* b) {
             return a->share[index_of(quantity)] < b->share[index_of(quantity)];
         };
-        const Suspect& strongest = **std::max_element(core.begin(), core.end(), weaker);
+        const DefectCandidate& strongest = **std::max_element(core.begin(), core.end(), weaker);
         defect.point = strongest.point;
         defect.speed = signals_[strongest.point].speed;
         defect.speed_beside = defect.speed - strongest.comparison.speed_jump;
         defect.place.tip = surface_.positions.absolute(defect.point);
-        for (const Suspect* s : core) defect.score = std::max(defect.score, largest(s->score, family));
-        for_each_run(core, [&](SuspectSpan run) {
+        for (const DefectCandidate* s : core) defect.score = std::max(defect.score, largest(s->score, family));
+        for_each_run(core, [&](CandidateSpan run) {
             defect.runs.push_back(run_of(run.front()->pass, {run.front()->point, run.back()->point}));
         });
         measure(core, defect);
@@ -194,16 +194,16 @@ public:
         for (std::size_t k = 0; k < lag.sites.size();) {
             std::size_t end = k + 1;
             while (end < lag.sites.size() && lag.sites[end].pass == lag.sites[k].pass &&
-                   !way_.at_least(lag.sites[end - 1].point, lag.sites[end].point, joined_))
+                   !arc_length_.at_least(lag.sites[end - 1].point, lag.sites[end].point, joined_))
                 ++end;
             defect.runs.push_back(run_of(lag.sites[k].pass, {lag.sites[k].point, lag.sites[end - 1].point}));
             k = end;
         }
-        const double way = add_up_runs(defect);
+        const double arc_length = add_up_runs(defect);
         double all = 0;
         for (const Pass& pass : surface_.passes)
-            all += pass.kind == PassKind::cut ? way_.to(pass.last) - way_.to(pass.first) : 0;
-        defect.share = way / all;
+            all += pass.kind == PassKind::cut ? arc_length_.to(pass.last) - arc_length_.to(pass.first) : 0;
+        defect.share = arc_length / all;
         keep_longest(most_systematic_runs, defect.runs);
         defect.severity = severity_of({defect.depth, defect.score, false, true}, rules_.severity);
         return defect;
@@ -222,25 +222,25 @@ private:
         return run;
     }
 
-    /// f(run) for the stretches of sites of one pass that hang together.
+    /// f(run) for the sections of sites of one pass that hang together.
     template <typename F>
-    void for_each_run(SuspectSpan sites, F&& f) const {
+    void for_each_run(CandidateSpan sites, F&& f) const {
         for (std::size_t k = 0; k < sites.size();) {
             std::size_t end = k + 1;
             while (end < sites.size() && sites[end]->pass == sites[k]->pass &&
-                   !way_.at_least(sites[end - 1]->point, sites[end]->point, joined_))
+                   !arc_length_.at_least(sites[end - 1]->point, sites[end]->point, joined_))
                 ++end;
             f(sites.subspan(k, end - k));
             k = end;
         }
     }
 
-    void measure(SuspectSpan core, Defect& defect) const {
+    void measure(CandidateSpan core, Defect& defect) const {
         std::vector<double> heights;
         std::vector<double> speeds;
         std::vector<double> mismatches;
         std::vector<double> accelerations;
-        for (const Suspect* s : core) {
+        for (const DefectCandidate* s : core) {
             const Comparison& c = s->comparison;
             // Measured and commanded relief differ by the lag; where nothing was measured the relief is all.
             const bool by_relief = defect.quantity == Quantity::relief || !signals_.measured;
@@ -264,7 +264,9 @@ private:
     /// In the order of their points.
     void keep_longest(std::size_t most, std::vector<DefectRun>& runs) const {
         if (runs.size() <= most) return;
-        const auto length = [&](const DefectRun& run) { return way_.to(run.points.last) - way_.to(run.points.first); };
+        const auto length = [&](const DefectRun& run) {
+            return arc_length_.to(run.points.last) - arc_length_.to(run.points.first);
+        };
         std::nth_element(runs.begin(), runs.begin() + static_cast<std::ptrdiff_t>(most), runs.end(),
                          [&](const DefectRun& a, const DefectRun& b) {
                              const double in_a = length(a), in_b = length(b);
@@ -275,23 +277,23 @@ private:
                   [](const DefectRun& a, const DefectRun& b) { return a.points.first < b.points.first; });
     }
 
-    /// Length and area of a defect from its runs. Returns the way of all runs [mm].
+    /// Length and area of a defect from its runs. Returns the length of all runs [mm].
     double add_up_runs(Defect& defect) const {
-        double way = 0;
+        double arc_length = 0;
         for (const DefectRun& run : defect.runs) {
-            const double length = way_.to(run.points.last) - way_.to(run.points.first);
+            const double length = arc_length_.to(run.points.last) - arc_length_.to(run.points.first);
             defect.length = std::max(defect.length, length);
-            way += length;
+            arc_length += length;
         }
-        defect.area = way * surface_.step_over;
-        return way;
+        defect.area = arc_length * surface_.step_over;
+        return arc_length;
     }
 
-    /// The stretches beside `runs` on passes that are not at fault.
-    [[nodiscard]] std::vector<DefectRun> neighbours_of(SuspectSpan core, const std::vector<DefectRun>& runs) const {
+    /// The sections beside `runs` on passes that are not at fault.
+    [[nodiscard]] std::vector<DefectRun> neighbours_of(CandidateSpan core, const std::vector<DefectRun>& runs) const {
         std::map<std::size_t, PointRange> found;  // by pass
-        for (const Suspect* s : core) {
-            for (const Station& at : {s->comparison.beside_left, s->comparison.beside_right}) {
+        for (const DefectCandidate* s : core) {
+            for (const PathLocation& at : {s->comparison.beside_left, s->comparison.beside_right}) {
                 if (!at.exists()) continue;
                 const PointIndex n = at.nearest();
                 PointRange& points = found.try_emplace(pass_of(surface_.passes, n), PointRange{n, n}).first->second;
@@ -315,10 +317,10 @@ private:
     const Signals& signals_;
     const LineMap& lines_;
     const CauseFinder& causes_;
-    const Way& way_;
+    const ArcLength& arc_length_;
     const Thresholds& thresholds_;
     const QualityRules& rules_;
-    double joined_;                      ///< [mm] of way between sites that hang together
+    double joined_;                      ///< [mm] of arc length between sites that hang together
     std::vector<std::int64_t> numbers_;  ///< of the cut passes, by index
 };
 
@@ -331,18 +333,19 @@ bool worse(const Defect& a, const Defect& b) {
 /// A defect with the sites that it was built from.
 struct Built {
     Defect defect;
-    Suspects core;
+    DefectCandidates core;
     bool expected = false;
 };
 
 /// A start: where a score reaches 1. In the motion, accelerations start a defect only where they are
 /// strong and change the speed by something: noise of the second derivative leaves no mark.
-bool starts_defect(SuspectSpan sites, Family family) {
+bool starts_defect(CandidateSpan sites, Family family) {
     const auto any = [&](auto&& test) { return std::any_of(sites.begin(), sites.end(), test); };
-    if (family.size() == 1) return any([&](const Suspect* s) { return s->score[index_of(family.front())] >= 1; });
-    return any([](const Suspect* s) { return s->score[index_of(Quantity::speed)] >= 1; }) ||
-           (any([](const Suspect* s) { return s->score[index_of(Quantity::acceleration)] >= strong_alone; }) &&
-            any([](const Suspect* s) { return s->share[index_of(Quantity::speed)] >= least_speed_share; }));
+    if (family.size() == 1)
+        return any([&](const DefectCandidate* s) { return s->score[index_of(family.front())] >= 1; });
+    return any([](const DefectCandidate* s) { return s->score[index_of(Quantity::speed)] >= 1; }) ||
+           (any([](const DefectCandidate* s) { return s->score[index_of(Quantity::acceleration)] >= strong_alone; }) &&
+            any([](const DefectCandidate* s) { return s->share[index_of(Quantity::speed)] >= least_speed_share; }));
 }
 
 /// Builds the defects of one family of quantities, of an area of `smallest` [mm²] or more, at the border of the part or away
@@ -352,46 +355,47 @@ public:
     FamilyBuilder(Family family, bool at_border, double smallest, const Border& border, const Builder& builder)
         : family_(family), at_border_(at_border), smallest_(smallest), border_(border), builder_(builder) {}
 
-    std::vector<Built> build(const Suspects& suspects) {
-        Suspects mine;
-        for (const Suspect* s : suspects) {
+    std::vector<Built> build(const DefectCandidates& candidates) {
+        DefectCandidates mine;
+        for (const DefectCandidate* s : candidates) {
             if (s->expected(family_.front()) == at_border_ && largest(s->share, family_) >= half_of_peak)
                 mine.push_back(s);
         }
-        std::vector<Suspects> groups = builder_.regroup(mine);
+        std::vector<DefectCandidates> groups = builder_.regroup(mine);
         for (std::size_t g = 0; g < groups.size(); ++g) {
-            const Suspects group = std::move(groups[g]);
+            const DefectCandidates group = std::move(groups[g]);
             if (!starts_defect(group, family_)) continue;
             const Quantity quantity = main_quantity(group, family_);
-            // Cut back, a group may fall apart: weak suspects had joined several defects.
-            Suspects rest;
-            const Suspects strong_sites = builder_.core_of(group, quantity, rest);
+            // Cut back, a group may fall apart: weak candidates had joined several defects.
+            DefectCandidates rest;
+            const DefectCandidates strong_sites = builder_.core_of(group, quantity, rest);
             if (rest.size() < group.size()) {
-                for (Suspects& left : builder_.regroup(rest)) groups.push_back(std::move(left));
+                for (DefectCandidates& left : builder_.regroup(rest)) groups.push_back(std::move(left));
             }
-            for (Suspects& core : builder_.parts_of(strong_sites, quantity)) add(std::move(core), quantity);
+            for (DefectCandidates& core : builder_.parts_of(strong_sites, quantity)) add(std::move(core), quantity);
         }
         return std::move(built_);
     }
 
 private:
-    void add(Suspects core, Quantity quantity) {
+    void add(DefectCandidates core, Quantity quantity) {
         if (core.size() < fewest_sites || !starts_defect(core, family_)) return;
         if (at_border_) return keep(core, quantity, !border_.stands_out(core, quantity));
         const std::optional<PointIndex> flank = border_.flank_of(core, quantity);
         if (!flank) return keep(core, quantity, false);
         // A flank ends. What goes on beyond it is something of its own.
         const double reach = border_.flank_reach(core, quantity);
-        const auto beyond = std::stable_partition(
-            core.begin(), core.end(), [&](const Suspect* s) { return border_.on_flank(*s, *flank, reach, quantity); });
+        const auto beyond = std::stable_partition(core.begin(), core.end(), [&](const DefectCandidate* s) {
+            return border_.on_flank(*s, *flank, reach, quantity);
+        });
         if (beyond == core.begin()) return keep(core, quantity, false);
-        const Suspects rest(beyond, core.end());
+        const DefectCandidates rest(beyond, core.end());
         core.erase(beyond, core.end());
         keep(core, quantity, true);
-        for (Suspects& part : builder_.regroup(rest)) add(std::move(part), quantity);
+        for (DefectCandidates& part : builder_.regroup(rest)) add(std::move(part), quantity);
     }
 
-    void keep(const Suspects& core, Quantity quantity, bool expected) {
+    void keep(const DefectCandidates& core, Quantity quantity, bool expected) {
         if (core.size() < fewest_sites) return;
         Defect defect = builder_.build(core, quantity, family_);
         if (defect.area >= smallest_) built_.push_back({std::move(defect), core, expected});
@@ -420,10 +424,10 @@ QualityReport find_defects(const ClSurface& surface, const Signals& signals, con
     report.has_lag = signals.measured;
     report.note = signals.speed_note + ", " + signals.acceleration_note + ", " + signals.height_note;
     report.thresholds = rules.fixed ? *rules.fixed : measure_thresholds(surface, signals, rules.thresholds);
-    const Way way(surface.positions);
-    const CauseFinder causes(surface, signals, lines, program, way);
+    const ArcLength arc_length(surface.positions);
+    const CauseFinder causes(surface, signals, lines, program, arc_length);
     const double joined = joined_along(surface, report.thresholds.usual_speed * period);
-    const Builder builder(surface, signals, lines, causes, way, joined, report.thresholds, rules);
+    const Builder builder(surface, signals, lines, causes, arc_length, joined, report.thresholds, rules);
     report.passes = builder.cut_passes();
     for (const Pass& pass : surface.passes) report.points += pass.kind == PassKind::cut ? pass.size() : 0;
     report.not_finishing = surface.not_finishing;
@@ -431,18 +435,18 @@ QualityReport find_defects(const ClSurface& surface, const Signals& signals, con
     for (const std::string& reason : signals.unfit) report.judgement.refuse(reason);
     judge_coverage(report.thresholds.usual_speed * period, report);
 
-    FoundSuspects found = find_suspects(surface, signals, way, report.thresholds);
-    const SystematicLag systematic = rules.group_systematic
-                                         ? take_systematic_lag(surface, signals, way, report.thresholds, joined, found)
-                                         : SystematicLag{};
-    const Suspects& suspects = found.suspects;
+    FoundCandidates found = find_candidates(surface, signals, arc_length, report.thresholds);
+    const SystematicLag systematic =
+        rules.group_systematic ? take_systematic_lag(surface, signals, arc_length, report.thresholds, joined, found)
+                               : SystematicLag{};
+    const DefectCandidates& candidates = found.candidates;
     const double smallest = smallest_area * surface.step_over * surface.step_over;
     const std::array<Family, 3> families{motion_family, lag_family, relief_family};
-    const Border border(surface, signals, way, suspects, joined, report.thresholds);
+    const Border border(surface, signals, arc_length, candidates, joined, report.thresholds);
     std::array<std::vector<Built>, 2 * families.size()> of_family;  // away from the border and at it
     parallel_for(of_family.size(), 1, [&](std::int64_t first, std::int64_t last) {
         for (auto k = static_cast<std::size_t>(first); k < static_cast<std::size_t>(last); ++k) {
-            of_family[k] = FamilyBuilder(families[k / 2], k % 2 == 1, smallest, border, builder).build(suspects);
+            of_family[k] = FamilyBuilder(families[k / 2], k % 2 == 1, smallest, border, builder).build(candidates);
         }
     });
     std::vector<Built> all;

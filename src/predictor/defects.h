@@ -2,8 +2,8 @@
 // Defects: places where a pass differs from its neighbours enough to leave a mark, each with its
 // cause, depth and the program lines on both sides.
 //
-// Judged are sites (sites.h), places every few milliseconds that stand fixed in the workpiece. A site is suspect where its residual passes half
-// the threshold, and it starts a defect where residual and step both pass it. Suspects are joined along
+// Judged are sites (sites.h), places every few milliseconds that stand fixed in the workpiece. A site is a candidate where its residual passes half
+// the threshold, and it starts a defect where residual and step both pass it. Candidates are joined along
 // their pass, across to the neighbour and over one clean pass (the lag of a zigzag shows on every
 // second one); groups without a start are dropped. What is left is cut back on each pass to where its
 // main quantity is at least half of its peak there. Motion (speed and acceleration) and heights are
@@ -24,7 +24,7 @@
 namespace clsurf {
 
 enum class Cause : std::uint8_t {
-    feed_drop,      ///< slower (or faster) than its neighbours over a stretch
+    feed_drop,      ///< slower (or faster) than its neighbours over a section
     oscillation,    ///< the speed swings about that of the neighbours
     lag_step,       ///< the axes leave the commanded path otherwise than beside it
     point_spacing,  ///< the program's own points lie otherwise than beside it
@@ -35,7 +35,7 @@ enum class Cause : std::uint8_t {
 [[nodiscard]] std::string_view name_of(Cause cause);         ///< "feed_drop"
 [[nodiscard]] std::string_view description_of(Cause cause);  ///< "slower than its neighbours"
 
-/// A stretch of one pass.
+/// A section of one pass.
 struct DefectRun {
     std::int64_t pass = 0;  ///< number of the cut pass, from 1
     PointRange points;
@@ -57,7 +57,7 @@ struct Defect {
     Quantity quantity = Quantity::speed;  ///< that shows it best
     float score = 0;                      ///< peak over threshold: how far it stands out of what the part is like
     bool systematic = false;              ///< lag that alternates with the direction of travel (systematic_lag.h)
-    double share = 0;                     ///< of a systematic one: of the way of all cut passes, 0 … 1
+    double share = 0;                     ///< of a systematic one: of the path of all cut passes, 0 … 1
     std::vector<AxisDelay> delays;      ///< of a systematic one: the axes that differ, slowest first; empty: not known
     CutterPlace place;                  ///< where it is strongest; the contact where the tool is known
     PointIndex point = 0;               ///< there
@@ -107,7 +107,7 @@ struct QualityReport {
 };
 
 /// All discontinuities between adjacent passes. `lines` names them; `program` tells corners and point
-/// spacing. O(points + suspects log suspects), parallel; the same for any number of threads.
+/// spacing. O(points + candidates log candidates), parallel; the same for any number of threads.
 [[nodiscard]] QualityReport find_defects(const ClSurface& surface, const Signals& signals, const LineMap& lines,
                                          const Program& program, double period, const QualityRules& rules);
 

@@ -15,19 +15,19 @@ public:
     /// Adds something that was found. `room`: points round a run that are its own too.
     void add(const std::vector<DefectRun>& runs, PointIndex room);
 
-    /// At least half of the sites, in the order of their points, lie in the stretches of one that was added. O(sites log runs), and
+    /// At least half of the sites, in the order of their points, lie in the sections of one that was added. O(sites log runs), and
     /// at the first call O(runs log runs).
-    [[nodiscard]] bool explain(std::span<const Suspect* const> sites);
+    [[nodiscard]] bool explain(std::span<const DefectCandidate* const> sites);
 
 private:
-    struct Stretch {
+    struct Section {
         PointIndex first, last;
         PointIndex farthest;  ///< last of this one and all before
         std::size_t found;
     };
     void sort();
 
-    std::vector<Stretch> stretches_;
+    std::vector<Section> sections_;
     std::size_t added_ = 0;
     bool sorted_ = true;
 };

@@ -44,7 +44,7 @@ Compared no_pass() {
     return {missing<float>, missing<float>, missing<float>, Eigen::Vector3f::Constant(missing<float>)};
 }
 
-bool runs_against(const Signals& signals, PointIndex point, const Station& at) {
+bool runs_against(const Signals& signals, PointIndex point, const PathLocation& at) {
     return signals.feed(at.nearest()).dot(signals.feed(point)) < 0;
 }
 
@@ -174,7 +174,7 @@ std::string_view name_of(Quantity quantity) {
     return "";
 }
 
-Compared compared_at(const Signals& signals, const Station& at, const Eigen::Vector3f& normal) {
+Compared compared_at(const Signals& signals, const PathLocation& at, const Eigen::Vector3f& normal) {
     const Sample& a = signals[at.point];
     Compared result{a.speed, a.lag, a.relief, vector_of(a.acceleration)};
     if (at.fraction > 0) {
@@ -192,47 +192,51 @@ Compared compared_at(const Signals& signals, const Station& at, const Eigen::Vec
 }
 
 template <typename F>
-Station Comparer::for_each_beside(const Station& from, Side side, int aside, float least_cosine, F&& f) const {
-    Station before = from;
-    Station at = beside(surface_, before, signals_.feed(before.nearest()), side);
-    const Station adjacent = at;
+PathLocation Comparer::for_each_beside(const PathLocation& from, Side side, int aside, float least_cosine,
+                                       F&& f) const {
+    PathLocation before = from;
+    PathLocation at = beside(surface_, before, signals_.feed(before.nearest()), side);
+    const PathLocation adjacent = at;
     for (int passes = 1; passes <= aside && at.exists(); ++passes) {
         const Eigen::Vector3f feed = signals_.feed(at.nearest());
         const bool runs_along = std::abs(feed.dot(signals_.feed(before.nearest()))) > least_cosine;
         if (signals_[at.nearest()].zone == Zone::outside || !runs_along) break;
         f(at, passes);
         if (passes == aside) break;
-        const Station next = beyond(surface_, before, at, feed);
+        const PathLocation next = beyond(surface_, before, at, feed);
         before = at;
         at = next;
     }
     return adjacent;
 }
 
-void Comparer::compare_along_slant(const Station& here, Comparison& comparison) const {
+void Comparer::compare_obliquely_around(const PathLocation& here, Comparison& comparison) const {
     constexpr int aside = 3;
     std::array<Beside, 2 * aside> places;
     std::size_t count = 0;
     for (const Side side : {Side::left, Side::right}) {
-        (void)for_each_beside(here, side, aside, round_a_corner, [&](const Station& at, int passes) {
+        (void)for_each_beside(here, side, aside, round_a_corner, [&](const PathLocation& at, int passes) {
             places[count++] = {at, side == Side::left ? passes : -passes};
         });
     }
-    const std::optional<AlongSlant> slanted = along_slant(surface_, signals_, here, std::span(places).first(count));
-    if (!slanted) return;
+    const std::optional<ObliqueComparison> oblique =
+        compare_obliquely(surface_, signals_, here, std::span(places).first(count));
+    if (!oblique) return;
     const Compared mine = compared_at(signals_, here, signals_.normal(here.nearest()));
-    const float reference = std::max(slanted->speed, least_speed_);
+    const float reference = std::max(oblique->speed, least_speed_);
     const auto lessen = [&](Quantity q, float residual, float step) {
         if (std::abs(residual) < std::abs(comparison.residual[index_of(q)]))
             comparison.residual[index_of(q)] = residual;
         comparison.step[index_of(q)] = std::min(comparison.step[index_of(q)], step);
     };
-    lessen(Quantity::speed, (mine.speed - slanted->speed) / reference, slanted->speed_step / reference);
-    lessen(Quantity::acceleration, (mine.acceleration - slanted->acceleration).norm(), slanted->acceleration_step);
-    if (slanted->corner) lessen(Quantity::relief, mine.relief - slanted->relief, slanted->relief_step);
+    lessen(Quantity::speed, (mine.speed - oblique->speed) / reference, oblique->speed_step / reference);
+    lessen(Quantity::acceleration, (mine.acceleration - oblique->acceleration).norm(), oblique->acceleration_step);
+    if (oblique->corner) lessen(Quantity::relief, mine.relief - oblique->relief, oblique->relief_step);
 }
 
-Comparison Comparer::compare(const Station& here, int aside) const { return compare_with(Peers::all, here, aside); }
+Comparison Comparer::compare(const PathLocation& here, int aside) const {
+    return compare_with(Peers::all, here, aside);
+}
 
 std::array<float, quantities> Comparer::change_nearby(PointIndex point, float reference) const {
     std::array<float, quantities> change{};
@@ -253,7 +257,7 @@ std::array<float, quantities> Comparer::change_nearby(PointIndex point, float re
     return change;
 }
 
-Comparison Comparer::compare_at_end(const Station& here) const {
+Comparison Comparer::compare_at_end(const PathLocation& here) const {
     const PointIndex point = here.nearest();
     Comparison result = compare_with(Peers::same_way, here, passes_aside);
     const float reference = std::max(signals_[point].speed, least_speed_);
@@ -261,7 +265,7 @@ Comparison Comparer::compare_at_end(const Station& here) const {
     // What the others do not, it does by itself.
     std::array<float, quantities> others{};
     for (const Side side : {Side::left, Side::right}) {
-        (void)for_each_beside(here, side, passes_aside, along_or_against, [&](const Station& at, int) {
+        (void)for_each_beside(here, side, passes_aside, along_or_against, [&](const PathLocation& at, int) {
             if (runs_against(signals_, point, at)) return;
             const std::array<float, quantities> there = change_nearby(at.nearest(), reference);
             for (std::size_t q = 0; q < quantities; ++q) others[q] = std::max(others[q], there[q]);
@@ -271,7 +275,7 @@ Comparison Comparer::compare_at_end(const Station& here) const {
     return result;
 }
 
-Comparison Comparer::compare_with(Peers peers, const Station& here, int aside) const {
+Comparison Comparer::compare_with(Peers peers, const PathLocation& here, int aside) const {
     Comparison result;
     result.step.fill(missing<float>);
     result.residual.fill(missing<float>);
@@ -286,8 +290,8 @@ Comparison Comparer::compare_with(Peers peers, const Station& here, int aside) c
     for (const Side side : {Side::left, Side::right}) {
         const auto s = static_cast<std::size_t>(side);
         bool against = false;  // as in a zigzag: the next pass of this way is the second one
-        Station& adjacent_place = side == Side::left ? result.beside_left : result.beside_right;
-        adjacent_place = for_each_beside(here, side, aside, along_or_against, [&](const Station& at, int passes) {
+        PathLocation& adjacent_place = side == Side::left ? result.beside_left : result.beside_right;
+        adjacent_place = for_each_beside(here, side, aside, along_or_against, [&](const PathLocation& at, int passes) {
             if (passes == 1) against = runs_against(signals_, point, at);
             if ((passes == 1 || (passes == 2 && against)) && signals_[at.nearest()].zone == Zone::ramp)
                 result.ramp = true;

@@ -27,9 +27,9 @@ struct Compared {
     Eigen::Vector3f acceleration;
 };
 
-/// The signals at a station, linear between the points. Heights are counted along `normal`: normals of
+/// The signals at a location, linear between the points. Heights are counted along `normal`: normals of
 /// steep walls turn round with the feed.
-[[nodiscard]] Compared compared_at(const Signals& signals, const Station& at, const Eigen::Vector3f& normal);
+[[nodiscard]] Compared compared_at(const Signals& signals, const PathLocation& at, const Eigen::Vector3f& normal);
 
 /// Speeds relative to that of the neighbours, accelerations [mm/s²], heights [mm].
 struct Comparison {
@@ -41,7 +41,7 @@ struct Comparison {
     float speed_jump = 0;                         ///< residual of the speed [mm/s]
     int left = 0, right = 0;                      ///< passes that were compared with
     bool ramp = false;  ///< it lies in the ramp of its pass, of an adjacent one, or of the next of its own way
-    Station beside_left, beside_right;  ///< on the adjacent passes
+    PathLocation beside_left, beside_right;  ///< on the adjacent passes
 };
 
 class Comparer {
@@ -53,30 +53,30 @@ public:
         : surface_(surface), signals_(signals), least_speed_(least_speed) {}
 
     /// O(1): up to `aside` passes on each side. With one, the steps are the same, residuals mean little.
-    [[nodiscard]] Comparison compare(const Station& here, int aside = passes_aside) const;
+    [[nodiscard]] Comparison compare(const PathLocation& here, int aside = passes_aside) const;
 
     /// Among passes of the place's own way, where all of them begin or end there. They do so a little apart,
     /// and change fast: as much as all of them change within half a step-over is slack.
-    [[nodiscard]] Comparison compare_at_end(const Station& here) const;
+    [[nodiscard]] Comparison compare_at_end(const PathLocation& here) const;
 
     /// Where the passes round a place do one after the other what it does too, its motion is
-    /// compared along their slant (oblique_alignment.h), in corners its relief too: they differ by the lesser of both.
-    void compare_along_slant(const Station& here, Comparison& comparison) const;
+    /// compared along their obliquity (oblique_alignment.h), in corners its relief too: they differ by the lesser of both.
+    void compare_obliquely_around(const PathLocation& here, Comparison& comparison) const;
 
 private:
     /// What a place is compared with: all passes, or those only that run the same way, of a zigzag every
     /// second one.
     enum class Peers : std::uint8_t { all, same_way };
 
-    [[nodiscard]] Comparison compare_with(Peers peers, const Station& here, int aside) const;
+    [[nodiscard]] Comparison compare_with(Peers peers, const PathLocation& here, int aside) const;
 
     /// How much each quantity changes along the pass within half a step-over; speeds over `reference`.
     [[nodiscard]] std::array<float, quantities> change_nearby(PointIndex point, float reference) const;
 
-    /// f(station, passes away: from 1) for the passes on one side, at most `aside`, as long as each turns
+    /// f(location, passes away: from 1) for the passes on one side, at most `aside`, as long as each turns
     /// by less than the angle of that cosine from the one before. Returns the place on the adjacent pass.
     template <typename F>
-    Station for_each_beside(const Station& from, Side side, int aside, float least_cosine, F&& f) const;
+    PathLocation for_each_beside(const PathLocation& from, Side side, int aside, float least_cosine, F&& f) const;
 
     const ClSurface& surface_;
     const Signals& signals_;

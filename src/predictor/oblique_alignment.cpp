@@ -14,7 +14,7 @@ namespace {
 
 constexpr float steepest = 1.5F;                 ///< step-overs along the feed per pass: an edge at 34° to the feed
 constexpr float sampled_every = 0.25F;           ///< step-overs
-constexpr int tries = 24;                        ///< slants on either side of the straight one …
+constexpr int tries = 24;                        ///< obliquities on either side of the straight one …
 constexpr int halvings = 3;                      ///< … and how often their distance is halved round the best
 constexpr int most_passes = 3;                   ///< on either side
 constexpr std::size_t fewest = 4;                ///< passes, with some on either side …
@@ -23,7 +23,7 @@ constexpr float oblique_corner_cosine = 0.906F;  ///< cos 25°
 constexpr float same_speed = 0.01F;              ///< of the speed: nothing that moves on from pass to pass
 constexpr float clearly_better = 0.5F;           ///< share of the disagreement straight across
 
-/// A pass round its station: speeds at even distances along the feed of the point that is looked at.
+/// A pass round its location: speeds at even distances along the feed of the point that is looked at.
 class Profile {
 public:
     Profile(const ClSurface& surface, const Signals& signals, const Beside& place, const Eigen::Vector3f& feed)
@@ -32,17 +32,17 @@ public:
         const auto samples = static_cast<std::size_t>(std::ceil(reach / spacing_)) + 1;
         const bool along = signals.feed(place.at.nearest()).dot(feed) > 0;
         for (const bool onwards : {true, false})
-            walk(surface.positions, signals, place.at, along == onwards ? 1 : -1, samples, stations_[onwards ? 1 : 0]);
+            walk(surface.positions, signals, place.at, along == onwards ? 1 : -1, samples, locations_[onwards ? 1 : 0]);
     }
 
     [[nodiscard]] int passes() const { return passes_; }
-    /// The station next to `distance` [mm] on along the feed; domain: speed() is there.
-    [[nodiscard]] const Station& at(float distance) const {
-        const std::vector<Station>& side = stations_[distance >= 0 ? 1 : 0];
+    /// The location next to `distance` [mm] on along the feed; domain: speed() is there.
+    [[nodiscard]] const PathLocation& at(float distance) const {
+        const std::vector<PathLocation>& side = locations_[distance >= 0 ? 1 : 0];
         return side[std::min(side.size() - 1, static_cast<std::size_t>(std::lround(std::abs(distance) / spacing_)))];
     }
     [[nodiscard]] float speed(const Signals& signals, float distance) const {
-        const std::vector<Station>& side = stations_[distance >= 0 ? 1 : 0];
+        const std::vector<PathLocation>& side = locations_[distance >= 0 ? 1 : 0];
         const float place = std::abs(distance) / spacing_;
         const auto k = static_cast<std::size_t>(place);
         if (k + 1 >= side.size()) return missing<float>;
@@ -52,15 +52,15 @@ public:
 
     /// What the pass does within the profile that is nearest to what the point does, each quantity on its own.
     [[nodiscard]] Compared nearest(const Signals& signals, const Compared& own, const Eigen::Vector3f& normal) const {
-        Compared result = compared_at(signals, stations_[0].front(), normal);
+        Compared result = compared_at(signals, locations_[0].front(), normal);
         const auto take = [](float& best, float value, float wanted) {
             if (!(std::abs(best - wanted) <= std::abs(value - wanted))) best = value;
         };
-        for (const std::vector<Station>& side : stations_) {
+        for (const std::vector<PathLocation>& side : locations_) {
             Compared before = compared_at(signals, side.front(), normal);
-            for (const Station& at : side) {
+            for (const PathLocation& at : side) {
                 const Compared there = compared_at(signals, at, normal);
-                // Between two stations it goes through all that lies between.
+                // Between two locations it goes through all that lies between.
                 const auto passes_through = [&](float Compared::*value) {
                     return std::clamp(own.*value, std::min(before.*value, there.*value),
                                       std::max(before.*value, there.*value));
@@ -77,18 +77,18 @@ public:
     }
 
 private:
-    static float speed_at(const Signals& signals, const Station& at) {
+    static float speed_at(const Signals& signals, const PathLocation& at) {
         const float a = signals[at.point].speed;
         return at.fraction == 0 ? a : a + at.fraction * (signals[at.point + 1].speed - a);
     }
 
     /// Stations `spacing_` apart from one on, as long as the pass is judged.
-    void walk(const Positions& p, const Signals& signals, const Station& from, int direction, std::size_t samples,
-              std::vector<Station>& out) const {
+    void walk(const Positions& p, const Signals& signals, const PathLocation& from, int direction, std::size_t samples,
+              std::vector<PathLocation>& out) const {
         out.push_back(from);
         PointIndex next = direction > 0 ? from.point + 1 : from.fraction > 0 ? from.point : from.point - 1;
         Eigen::Vector3f here = position_at(p, from);
-        float left = spacing_;  // to the next station
+        float left = spacing_;  // to the next location
         while (out.size() < samples && next >= 0 && next < p.size() && signals[next].zone != Zone::outside) {
             const Eigen::Vector3f step = p[next] - here;
             const float length = step.norm();
@@ -104,25 +104,25 @@ private:
             const PointIndex before = next - direction;
             const float whole = (p[next] - p[before]).norm();
             const float share = whole > 0 ? std::min(1.0F, (here - p[before]).norm() / whole) : 0.0F;
-            out.push_back(direction > 0 ? Station{before, share} : Station{next, 1 - share});
+            out.push_back(direction > 0 ? PathLocation{before, share} : PathLocation{next, 1 - share});
         }
     }
 
     int passes_;
     float spacing_;
-    std::array<std::vector<Station>, 2> stations_;  ///< against the feed and with it, from the station itself on
+    std::array<std::vector<PathLocation>, 2> locations_;  ///< against the feed and with it, from the location itself on
 };
 
-/// Speeds of the passes on a slant [mm along the feed per pass], and how far they are from their median.
+/// Speeds of the passes on an obliquity [mm along the feed per pass], and how far they are from their median.
 struct Agreement {
     float speed = missing<float>;
     float disagreement = std::numeric_limits<float>::infinity();
 };
-Agreement agreement(const Signals& signals, std::span<const Profile> profiles, float slant) {
+Agreement agreement(const Signals& signals, std::span<const Profile> profiles, float obliquity) {
     std::array<float, 2 * most_passes> values;
     std::size_t count = 0;
     for (const Profile& profile : profiles) {
-        const float speed = profile.speed(signals, slant * static_cast<float>(profile.passes()));
+        const float speed = profile.speed(signals, obliquity * static_cast<float>(profile.passes()));
         if (speed != speed) return {};
         values[count++] = speed;
     }
@@ -143,9 +143,9 @@ bool agree_straight(const Signals& signals, std::span<const Beside> places) {
 
 /// The passes' medians, and the steps to those next to the point. `value(profile)`: what a pass does.
 template <typename F>
-AlongSlant summarise(const Compared& own, std::span<const Profile> profiles, F&& value) {
+ObliqueComparison summarise(const Compared& own, std::span<const Profile> profiles, F&& value) {
     std::array<Compared, 2 * most_passes> places;
-    AlongSlant result;
+    ObliqueComparison result;
     for (std::size_t k = 0; k < profiles.size(); ++k) {
         const Compared& there = places[k] = value(profiles[k]);
         if (std::abs(profiles[k].passes()) != 1) continue;
@@ -173,12 +173,13 @@ bool turns_on_surface(const ClSurface& surface, const Signals& signals, PointInd
     };
     const Eigen::Vector3f here = along_surface(point);
     for (const PointIndex step : {-1, 1}) {
-        float way = 0, looked = 0;
+        float arc_length = 0, looked = 0;
         for (PointIndex i = point + step;
-             i >= 0 && i < p.size() && signals[i].zone != Zone::outside && way < steepest * step_over; i += step) {
-            way += (p[i] - p[i - step]).norm();
-            if (way < looked) continue;
-            looked = way + sampled_every * step_over;
+             i >= 0 && i < p.size() && signals[i].zone != Zone::outside && arc_length < steepest * step_over;
+             i += step) {
+            arc_length += (p[i] - p[i - step]).norm();
+            if (arc_length < looked) continue;
+            looked = arc_length + sampled_every * step_over;
             const Eigen::Vector3f there = along_surface(i);
             const float dot = there.dot(here);
             if (dot < 0 ||
@@ -189,8 +190,8 @@ bool turns_on_surface(const ClSurface& surface, const Signals& signals, PointInd
     return false;
 }
 
-std::optional<AlongSlant> along_slant(const ClSurface& surface, const Signals& signals, const Station& here,
-                                      std::span<const Beside> places) {
+std::optional<ObliqueComparison> compare_obliquely(const ClSurface& surface, const Signals& signals,
+                                                   const PathLocation& here, std::span<const Beside> places) {
     if (places.empty()) return std::nullopt;
     const PointIndex point = here.nearest();
     const Eigen::Vector3f feed = signals.feed(point);
@@ -204,33 +205,33 @@ std::optional<AlongSlant> along_slant(const ClSurface& surface, const Signals& s
     profiles.reserve(places.size());
     for (const Beside& place : places) profiles.emplace_back(surface, signals, place, feed);
     if (corner) {
-        // In a corner passes agree on no straight slant: across it some are on the straight, some in the bend.
-        AlongSlant result =
+        // In a corner passes agree on no straight obliquity: across it some are on the straight, some in the bend.
+        ObliqueComparison result =
             summarise(own, profiles, [&](const Profile& profile) { return profile.nearest(signals, own, normal); });
         result.corner = true;
         return result;
     }
     const Agreement straight = agreement(signals, profiles, 0);
     Agreement best = straight;
-    float slant = 0;
+    float obliquity = 0;
     const auto consider = [&](float tried) {
         const Agreement there = agreement(signals, profiles, tried);
         if (!(there.disagreement < best.disagreement)) return;
         best = there;
-        slant = tried;
+        obliquity = tried;
     };
     float apart = steepest * static_cast<float>(surface.step_over) / tries;
     for (int k = -tries; k <= tries; ++k) consider(apart * static_cast<float>(k));
     for (int k = 0; k < halvings; ++k) {
         apart *= 0.5F;
-        const float middle = slant;
+        const float middle = obliquity;
         consider(middle - apart);
         consider(middle + apart);
     }
     if (!(best.disagreement < clearly_better * straight.disagreement)) return std::nullopt;
 
     return summarise(own, profiles, [&](const Profile& profile) {
-        return compared_at(signals, profile.at(slant * static_cast<float>(profile.passes())), normal);
+        return compared_at(signals, profile.at(obliquity * static_cast<float>(profile.passes())), normal);
     });
 }
 

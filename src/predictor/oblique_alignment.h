@@ -1,5 +1,5 @@
 #pragma once
-// Slant: the displacement along the feed, from one pass to the next, of what the passes do.
+// Oblique alignment: the displacement along the feed, from one pass to the next, of what the passes do.
 //
 // Passes that follow each other around a corner, or along an edge oblique to them, slow down one after the
 // other: next to the place where one is slowest, the next one is not yet slow or no longer. A plane normal to
@@ -17,12 +17,12 @@ namespace clsurf {
 
 /// The place beside a point on another pass.
 struct Beside {
-    Station at;
+    PathLocation at;
     int passes = 0;  ///< away: positive on the left, negative on the right
 };
 
-/// Motion and relief of the passes round a point, where the slant meets them.
-struct AlongSlant {
+/// Motion and relief of the passes round a point, where the obliquity meets them.
+struct ObliqueComparison {
     float speed = 0;               ///< [mm/s] median of the passes
     Eigen::Vector3f acceleration;  ///< median by component
     bool corner = false;           ///< the path turns there
@@ -34,12 +34,13 @@ struct AlongSlant {
 /// Within 1.5 step-overs the path turns on the surface, about its normal, by more than 25°.
 [[nodiscard]] bool turns_on_surface(const ClSurface& surface, const Signals& signals, PointIndex point);
 
-/// The slant on which the passes beside a point agree best among themselves, whatever the point itself
+/// The obliquity on which the passes beside a point agree best among themselves, whatever the point itself
 /// does. Nothing where they agree straight across the feed about as well, or are fewer than four, or three on one side alone. Where
 /// the path turns on the surface by more than 25° within 1.5 step-overs: of each pass what is nearest to the point's
 /// own motion within 1.5 step-overs per pass.
-/// `places`: up to three on either side. O(points within some five step-overs of way).
-[[nodiscard]] std::optional<AlongSlant> along_slant(const ClSurface& surface, const Signals& signals,
-                                                    const Station& here, std::span<const Beside> places);
+/// `places`: up to three on either side. O(points within some five step-overs of arc length).
+[[nodiscard]] std::optional<ObliqueComparison> compare_obliquely(const ClSurface& surface, const Signals& signals,
+                                                                 const PathLocation& here,
+                                                                 std::span<const Beside> places);
 
 }  // namespace clsurf

@@ -23,14 +23,15 @@ struct SignedRun {
 
 class Splitter {
 public:
-    Splitter(const Suspects& core, Quantity quantity, const Signals& signals, const Way& way, double along)
-        : core_(core), quantity_(index_of(quantity)), signals_(signals), way_(way), along_(along) {}
+    Splitter(const DefectCandidates& core, Quantity quantity, const Signals& signals, const ArcLength& arc_length,
+             double along)
+        : core_(core), quantity_(index_of(quantity)), signals_(signals), arc_length_(arc_length), along_(along) {}
 
-    std::vector<Suspects> split() {
+    std::vector<DefectCandidates> split() {
         for (std::size_t k = 0; k < core_.size();) {
             std::size_t end = k + 1;
             while (end < core_.size() && core_[end]->pass == core_[k]->pass &&
-                   !way_.at_least(core_[end - 1]->point, core_[end]->point, along_))
+                   !arc_length_.at_least(core_[end - 1]->point, core_[end]->point, along_))
                 ++end;
             if (cut_at_signs(k, end) >= (quantity_ == index_of(Quantity::speed) ? 1 : changes_of_swing)) return {core_};
             k = end;
@@ -39,9 +40,9 @@ public:
         if (peak[0] == 0 || peak[1] == 0) return {core_};
         const bool weaker = peak[1] < peak[0];
         if (is_edge(weaker) || alternates()) return {core_};
-        std::vector<Suspects> parts(2);
+        std::vector<DefectCandidates> parts(2);
         for (const SignedRun& run : runs_) {
-            Suspects& part = parts[run.above ? 1 : 0];
+            DefectCandidates& part = parts[run.above ? 1 : 0];
             part.insert(part.end(), core_.begin() + static_cast<std::ptrdiff_t>(run.first),
                         core_.begin() + static_cast<std::ptrdiff_t>(run.end));
         }
@@ -95,7 +96,7 @@ private:
         for (const SignedRun& run : runs_) {
             if (run.above != above) others.push_back({core_[run.first]->point, core_[run.end - 1]->point});
         }
-        const auto touches = [&](const Station& at) {
+        const auto touches = [&](const PathLocation& at) {
             if (!at.exists()) return false;
             const auto after = std::upper_bound(others.begin(), others.end(), at.nearest(),
                                                 [](PointIndex p, const PointRange& r) { return p < r.first; });
@@ -109,19 +110,19 @@ private:
         });
     }
 
-    const Suspects& core_;
+    const DefectCandidates& core_;
     std::size_t quantity_;
     const Signals& signals_;
-    const Way& way_;
+    const ArcLength& arc_length_;
     double along_;
     std::vector<SignedRun> runs_;
 };
 
 }  // namespace
 
-std::vector<Suspects> split_opposites(const Suspects& core, Quantity quantity, const Signals& signals, const Way& way,
-                                      double along) {
-    return Splitter(core, quantity, signals, way, along).split();
+std::vector<DefectCandidates> split_opposites(const DefectCandidates& core, Quantity quantity, const Signals& signals,
+                                              const ArcLength& arc_length, double along) {
+    return Splitter(core, quantity, signals, arc_length, along).split();
 }
 
 }  // namespace clsurf

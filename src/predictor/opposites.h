@@ -1,5 +1,5 @@
 #pragma once
-// Opposites: parts of a group of suspects that differ from the adjacent passes in opposite directions. A pit
+// Opposites: parts of a group of candidates that differ from the adjacent passes in opposite directions. A pit
 // next to a bulge is two defects; as one, its depth would be that of the deeper one and its place between
 // both.
 //
@@ -15,7 +15,8 @@ namespace clsurf {
 
 /// The parts of `core`, each in the order of its points: one, or those above and those below. `along`: joined_along(). Accelerations
 /// have no sign. O(sites log sites).
-[[nodiscard]] std::vector<Suspects> split_opposites(const Suspects& core, Quantity quantity, const Signals& signals,
-                                                    const Way& way, double along);
+[[nodiscard]] std::vector<DefectCandidates> split_opposites(const DefectCandidates& core, Quantity quantity,
+                                                            const Signals& signals, const ArcLength& arc_length,
+                                                            double along);
 
 }  // namespace clsurf

@@ -8,8 +8,8 @@
 namespace clsurf {
 namespace {
 
-constexpr float sample_way = 0.25F;  ///< step-overs between corners along a pass
-constexpr float joined_way = 2.0F;   ///< step-overs: runs of one pass that lie closer are drawn as one
+constexpr float sample_arc_length = 0.25F;  ///< step-overs between corners along a pass
+constexpr float joined_arc_length = 2.0F;   ///< step-overs: runs of one pass that lie closer are drawn as one
 
 /// The points of a defect, and of the clean passes between two of its own.
 class Region {
@@ -33,11 +33,11 @@ public:
         return after != ranges_.begin() && i <= (after - 1)->last;
     }
 
-    /// Points of a range, evenly spaced along its way, the first and the last one among them.
+    /// Points of a range, evenly spaced along it, the first and the last one among them.
     [[nodiscard]] std::vector<PointIndex> samples(const PointRange& range) const {
         std::vector<PointIndex> points{range.first};
         for (PointIndex i = range.first + 1; i < range.last; ++i) {
-            if ((surface_.positions[i] - surface_.positions[points.back()]).norm() >= sample_way * step_over())
+            if ((surface_.positions[i] - surface_.positions[points.back()]).norm() >= sample_arc_length * step_over())
                 points.push_back(i);
         }
         if (range.last > range.first) points.push_back(range.last);
@@ -80,7 +80,7 @@ private:
     [[nodiscard]] bool near(PointIndex end, PointIndex begin) const {
         return begin <= end ||
                (pass_of(surface_.passes, end) == pass_of(surface_.passes, begin) &&
-                (surface_.positions[begin] - surface_.positions[end]).norm() < joined_way * step_over());
+                (surface_.positions[begin] - surface_.positions[end]).norm() < joined_arc_length * step_over());
     }
 
     const ClSurface& surface_;

@@ -18,7 +18,7 @@ template <typename Difference>
 float largest_beside(const ClSurface& surface, const Signals& signals, PointIndex i, Difference&& difference) {
     float most = missing<float>;
     for (const Side side : {Side::left, Side::right}) {
-        const Station at = beside(surface, {i, 0}, signals.feed(i), side);
+        const PathLocation at = beside(surface, {i, 0}, signals.feed(i), side);
         if (!at.exists()) continue;
         const float d = difference(at);
         if (!(std::abs(most) >= std::abs(d))) most = d == d ? d : most;
@@ -28,13 +28,14 @@ float largest_beside(const ClSurface& surface, const Signals& signals, PointInde
 
 float speed_mismatch(const ClSurface& surface, const Signals& signals, PointIndex i) {
     const float own = signals[i].speed;
-    return largest_beside(surface, signals, i,
-                          [&](const Station& at) { return own - compared_at(signals, at, signals.normal(i)).speed; });
+    return largest_beside(surface, signals, i, [&](const PathLocation& at) {
+        return own - compared_at(signals, at, signals.normal(i)).speed;
+    });
 }
 
 float acceleration_mismatch(const ClSurface& surface, const Signals& signals, PointIndex i) {
     const Eigen::Vector3f own = signals.acceleration(i);
-    return largest_beside(surface, signals, i, [&](const Station& at) {
+    return largest_beside(surface, signals, i, [&](const PathLocation& at) {
         return (own - compared_at(signals, at, signals.normal(i)).acceleration).norm();
     });
 }

@@ -21,8 +21,9 @@ namespace clsurf {
 namespace {
 
 constexpr double speed_seconds = 0.010;  ///< longest window: an oscillation of 20 ms keeps four fifths of its height …
-constexpr double speed_way = 0.4;  ///< [mm] … and of fast passes one of 0.8 mm, since marks are seen by their length
-constexpr double speed_steps = 150;         ///< steps of the positions, of way: rounding is then 1 % of the speed …
+constexpr double speed_arc_length =
+    0.4;  ///< [mm] … and of fast passes one of 0.8 mm, since marks are seen by their length
+constexpr double speed_steps = 150;  ///< steps of the positions, of arc length: rounding is then 1 % of the speed …
 constexpr double scatter_deviations = 6;    ///< by which two passes differ from scatter of the positions alone, at most
 constexpr double acceleration_windows = 2;  ///< … and accelerations of slow passes are taken over twice the way
 constexpr double height_window = 0.015;     ///< window of the mean that heights are smoothed with
@@ -53,8 +54,8 @@ double noise_gain(const DerivativeFilter& filter) {
 
 /// The window of the speed [s] for a usual speed [mm/s] and positions that come in steps of `quantum` [mm].
 double speed_window(double usual_speed, double quantum) {
-    const double rounded = usual_speed > 0 ? std::min(speed_steps * quantum, speed_way) / usual_speed : 0;
-    return std::max(std::min(speed_seconds, speed_way / usual_speed), rounded);
+    const double rounded = usual_speed > 0 ? std::min(speed_steps * quantum, speed_arc_length) / usual_speed : 0;
+    return std::max(std::min(speed_seconds, speed_arc_length / usual_speed), rounded);
 }
 
 DerivativeFilter speed_filter(double usual_speed, double quantum, double period) {
@@ -107,9 +108,9 @@ private:
     int half_;
 };
 
-/// f(piece, first, last) for every stretch of every piece, last inclusive, in parallel.
+/// f(piece, first, last) for every section of every piece, last inclusive, in parallel.
 template <typename F>
-void for_each_stretch(PointIndex count, const std::vector<PointRange>& pieces, F&& f) {
+void for_each_section(PointIndex count, const std::vector<PointRange>& pieces, F&& f) {
     for_each_block(count, [&](PointIndex begin, PointIndex end) {
         auto piece = std::upper_bound(pieces.begin(), pieces.end(), begin,
                                       [](PointIndex p, const PointRange& r) { return p < r.first; });
@@ -223,8 +224,8 @@ private:
         const Eigen::Vector3f feed = out_.feed(i);
         const Positions& p = surface_.positions;
         const Eigen::Vector3f here = p[i];
-        const Station left = beside(surface_, {i, 0}, feed, Side::left);
-        const Station right = beside(surface_, {i, 0}, feed, Side::right);
+        const PathLocation left = beside(surface_, {i, 0}, feed, Side::left);
+        const PathLocation right = beside(surface_, {i, 0}, feed, Side::right);
         if (!left.exists() && !right.exists()) return missing<float>;
         const Eigen::Vector3f a = left.exists() ? position_at(p, left) : here;
         const Eigen::Vector3f b = right.exists() ? position_at(p, right) : here;
@@ -292,8 +293,8 @@ double usual_speed_of(const ClSurface& surface, double period) {
     for (const Pass& pass : surface.passes) {
         if (pass.kind != PassKind::cut) continue;
         for (PointIndex i = (pass.first + every - 1) / every * every; i + chord <= pass.last; i += every) {
-            const float way = (positions[i + chord] - positions[i]).norm();
-            if (way > 0) speeds.push_back(way / static_cast<float>(static_cast<double>(chord) * period));
+            const float arc_length = (positions[i + chord] - positions[i]).norm();
+            if (arc_length > 0) speeds.push_back(arc_length / static_cast<float>(static_cast<double>(chord) * period));
         }
     }
     return speeds.empty() ? 0 : quantile_below(speeds, 0.95);
@@ -310,8 +311,8 @@ float quantum_of_axes(const Trajectory& role) {
 }
 
 /// The zones at one end of a piece, walked from `end` inwards in `direction`.
-void mark_end(PointIndex end, PointIndex count, int direction, double end_zone, PointIndex stride, const Way& way,
-              Signals& signals) {
+void mark_end(PointIndex end, PointIndex count, int direction, double end_zone, PointIndex stride,
+              const ArcLength& arc_length, Signals& signals) {
     double gone = 0;
     float before = 0;
     bool ramp = true;
@@ -330,22 +331,22 @@ void mark_end(PointIndex end, PointIndex count, int direction, double end_zone, 
             if (gone >= end_zone && !(speed > (1 + least_rise) * before)) ramp = false;
             before = speed;
         }
-        if (k + 1 < count) gone += way.step(direction > 0 ? i : i - 1);
+        if (k + 1 < count) gone += arc_length.step(direction > 0 ? i : i - 1);
     }
 }
 
 /// Marks what may be compared with what.
 void mark_zones(const ClSurface& surface, const std::vector<PointRange>& pieces, double end_zone, double period,
                 Signals& signals) {
-    const Way way(surface.positions);
+    const ArcLength arc_length(surface.positions);
     for (const Pass& pass : surface.passes) {
         const Zone zone = pass.kind == PassKind::cut ? Zone::inner : Zone::outside;
         for (PointIndex i = pass.first; i <= pass.last; ++i) signals[i].zone = zone;
     }
     const auto stride = std::max<PointIndex>(1, std::lround(std::min(rise_seconds / period, 1e6)));
     for (const PointRange& piece : pieces) {
-        mark_end(piece.first, piece.size(), +1, end_zone, stride, way, signals);
-        mark_end(piece.last, piece.size(), -1, end_zone, stride, way, signals);
+        mark_end(piece.first, piece.size(), +1, end_zone, stride, arc_length, signals);
+        mark_end(piece.last, piece.size(), -1, end_zone, stride, arc_length, signals);
     }
 }
 
@@ -384,7 +385,7 @@ Signals derive_signals(const ClSurface& surface, const Trajectory& path, const T
     Signals signals;
     // Where loops are joined the speed sideways is not that of the pass.
     std::vector<PointRange> pieces;
-    JogCutter cutter(surface.jogs);
+    StepOverMoveCutter cutter(surface.step_over_moves);
     for (const PointRange& piece : smooth)
         cutter.cut(piece, [&](const PointRange& part, bool) { pieces.push_back(part); });
     signals.samples.resize(static_cast<std::size_t>(path.count));
@@ -396,11 +397,11 @@ Signals derive_signals(const ClSurface& surface, const Trajectory& path, const T
     deriver.note_windows(signals);
     signals.unfit = reasons_against(path);
     deriver.note_noise(quantum, position_noise(path, pieces), signals);
-    for_each_stretch(path.count, pieces, [&](PointRange piece, PointIndex first, PointIndex last) {
+    for_each_section(path.count, pieces, [&](PointRange piece, PointIndex first, PointIndex last) {
         deriver.derive_motion(piece, first, last);
     });
     mark_zones(surface, pieces, end_zone, path.period, signals);
-    for_each_stretch(path.count, pieces, [&](PointRange piece, PointIndex first, PointIndex last) {
+    for_each_section(path.count, pieces, [&](PointRange piece, PointIndex first, PointIndex last) {
         deriver.derive_heights(piece, first, last);
     });
     return signals;

@@ -1,7 +1,7 @@
 #pragma once
 // Signals: what is compared between neighbouring passes, once for every logged point: speed, feed
 // direction, acceleration, and two heights along the surface normal. Everything is smoothed over a
-// stated window inside one piece of the way, never across a link.
+// stated window inside one piece of the path, never across a link.
 
 #include <string>
 #include <vector>

@@ -10,8 +10,8 @@ namespace {
 
 constexpr double site_length = 0.2;    ///< [mm] marks are seen by their length; halved where the tool …
 constexpr float slow_from = 70.7107F;  ///< [mm/s] … moves at half of this or less, and so on: 3 to 6 ms between sites
-constexpr double site_way = 0.1;       ///< step-overs between sites, at least
-constexpr PointIndex farthest = 128;   ///< points from a point to its site
+constexpr double site_arc_length = 0.1;  ///< step-overs between sites, at least
+constexpr PointIndex farthest = 128;     ///< points from a point to its site
 
 static_assert(block_points % 64 == 0);  // blocks share no word
 
@@ -20,8 +20,8 @@ static_assert(block_points % 64 == 0);  // blocks share no word
 Sites::Sites(const ClSurface& surface, const Signals& signals)
     : surface_(surface),
       signals_(signals),
-      most_halvings_(
-          static_cast<int>(std::clamp(std::floor(std::log2(site_length / (site_way * surface.step_over))), 0.0, 30.0))),
+      most_halvings_(static_cast<int>(
+          std::clamp(std::floor(std::log2(site_length / (site_arc_length * surface.step_over))), 0.0, 30.0))),
       words_(static_cast<std::size_t>((signals.size() + 63) / 64), 0) {
     for_each_block(signals.size(), [&](PointIndex first, PointIndex last) {
         for (PointIndex i = std::max<PointIndex>(first, 1); i < last; ++i) {
@@ -48,7 +48,7 @@ Sites::Crossing Sites::crossing(PointIndex point) const {
     return {true, static_cast<float>((plane - before) / (now - before))};
 }
 
-Station Sites::place(PointIndex site) const { return {site - 1, crossing(site).fraction}; }
+PathLocation Sites::place(PointIndex site) const { return {site - 1, crossing(site).fraction}; }
 
 PointIndex Sites::nearest(PointIndex point) const {
     for (PointIndex k = 0; k < farthest; ++k) {

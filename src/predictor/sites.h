@@ -23,7 +23,7 @@ public:
         return (words_[static_cast<std::size_t>(point / 64)] >> (point % 64) & 1) != 0;
     }
     /// Where the plane is crossed before a site. Domain: at(site).
-    [[nodiscard]] Station place(PointIndex site) const;
+    [[nodiscard]] PathLocation place(PointIndex site) const;
     /// The site nearest to a point; −1: none is near.
     [[nodiscard]] PointIndex nearest(PointIndex point) const;
     /// f(site) for those from `first` to `last`, `last` exclusive, in order. Both are multiples of 64, or the end.
@@ -38,7 +38,7 @@ public:
 private:
     struct Crossing {
         bool crosses = false;
-        float fraction = 0;  ///< of the way from the point before
+        float fraction = 0;  ///< of the path from the point before
     };
     [[nodiscard]] Crossing crossing(PointIndex point) const;
 

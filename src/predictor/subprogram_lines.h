@@ -9,7 +9,7 @@
 
 namespace clsurf {
 
-/// Sets file, file_first_line and file_last_line of the stretches that run there. O(points of the stretches).
+/// Sets file, file_first_line and file_last_line of the sections that run there. O(points of the sections).
 void name_subprograms(const Program& program, const LineMap& lines, std::vector<Defect>& defects);
 
 }  // namespace clsurf

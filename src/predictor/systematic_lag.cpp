@@ -19,7 +19,7 @@ constexpr float one_sided_bend = 1.5F;  ///< as far again to the place as from r
 constexpr float alternates = 0.5F;      ///< of the threshold
 constexpr std::size_t fewest_of_a_kind = 2;  ///< passes of each direction, for a median
 constexpr std::size_t fewest_passes = 8;     ///< that a region spans
-constexpr double least_share = 0.05;         ///< of the way of all cut passes, that is systematic
+constexpr double least_share = 0.05;         ///< of the path of all cut passes, that is systematic
 constexpr float shift_step_overs =
     2;  ///< along the feed: beside an edge at 45° the next pass of its direction changes so much later
 
@@ -35,14 +35,14 @@ class LagComparer {
 public:
     LagComparer(const ClSurface& surface, const Signals& signals) : surface_(surface), signals_(signals) {}
 
-    [[nodiscard]] LagAround around(const Station& here) const {
+    [[nodiscard]] LagAround around(const PathLocation& here) const {
         const PointIndex point = here.nearest();
         const Eigen::Vector3f normal = signals_.normal(point);
         std::array<Directions, 2> sides;
         float slack_of_others = 0;
         for (const Side side : {Side::left, Side::right}) {
             Directions& mine = sides[static_cast<std::size_t>(side)];
-            walk(here, side, [&](const Station& at) {
+            walk(here, side, [&](const PathLocation& at) {
                 const float lag = compared_at(signals_, at, normal).lag;
                 if (!(lag == lag)) return;
                 const bool against = signals_.feed(at.nearest()).dot(signals_.feed(point)) < 0;
@@ -106,16 +106,16 @@ private:
     }
 
     template <typename F>
-    void walk(const Station& from, Side side, F&& f) const {
-        Station before = from;
-        Station at = beside(surface_, before, signals_.feed(before.nearest()), side);
+    void walk(const PathLocation& from, Side side, F&& f) const {
+        PathLocation before = from;
+        PathLocation at = beside(surface_, before, signals_.feed(before.nearest()), side);
         for (int passes = 1; at.exists(); ++passes) {
             const Eigen::Vector3f feed = signals_.feed(at.nearest());
             const bool in_line = std::abs(feed.dot(signals_.feed(before.nearest()))) > same_line;
             if (signals_[at.nearest()].zone == Zone::outside || !in_line) return;
             f(at);
             if (passes == lag_passes_aside) return;
-            const Station next = beyond(surface_, before, at, feed);
+            const PathLocation next = beyond(surface_, before, at, feed);
             before = at;
             at = next;
         }
@@ -139,50 +139,51 @@ private:
     const Signals& signals_;
 };
 
-/// A suspect round which the passes alternate, or where that is not known: too few of them run on.
+/// A candidate round which the passes alternate, or where that is not known: too few of them run on.
 struct Candidate {
-    Suspect* suspect = nullptr;
+    DefectCandidate* defect_candidate = nullptr;
     LagAround lag;
     [[nodiscard]] bool known() const { return lag.alternating == lag.alternating; }
 };
 
 /// Those of `found` round which the lag alternates, in the order of their points.
 std::vector<Candidate> find_candidates(const LagComparer& comparer, const Thresholds& thresholds,
-                                       FoundSuspects& found) {
+                                       FoundCandidates& found) {
     std::vector<Candidate> all;
     const std::size_t lag = index_of(Quantity::lag);
-    for (std::vector<Suspect>& piece : found.kept) {
-        for (Suspect& suspect : piece) {
-            if (suspect.share[lag] > 0) all.push_back({&suspect, {}});
+    for (std::vector<DefectCandidate>& piece : found.kept) {
+        for (DefectCandidate& defect_candidate : piece) {
+            if (defect_candidate.share[lag] > 0) all.push_back({&defect_candidate, {}});
         }
     }
     constexpr std::int64_t grain = 1024;
     parallel_for(static_cast<std::int64_t>(all.size()), grain, [&](std::int64_t first, std::int64_t last) {
         for (auto k = static_cast<std::size_t>(first); k < static_cast<std::size_t>(last); ++k)
-            all[k].lag = comparer.around({all[k].suspect->point, 0});
+            all[k].lag = comparer.around({all[k].defect_candidate->point, 0});
     });
     std::erase_if(all, [&](const Candidate& c) {
         return std::abs(c.lag.alternating) < alternates * thresholds.of[index_of(Quantity::lag)];
     });
-    std::sort(all.begin(), all.end(),
-              [](const Candidate& a, const Candidate& b) { return a.suspect->point < b.suspect->point; });
+    std::sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
+        return a.defect_candidate->point < b.defect_candidate->point;
+    });
     return all;
 }
 
-double cut_way(const ClSurface& surface, const Way& way) {
+double cut_arc_length(const ClSurface& surface, const ArcLength& arc_length) {
     double sum = 0;
     for (const Pass& pass : surface.passes) {
-        if (pass.kind == PassKind::cut) sum += way.to(pass.last) - way.to(pass.first);
+        if (pass.kind == PassKind::cut) sum += arc_length.to(pass.last) - arc_length.to(pass.first);
     }
     return sum;
 }
 
 /// The way between sites of one pass that follow each other [mm].
-double way_of(std::span<const AlternatingSite> sites, const Way& way, double joined) {
+double arc_length_of(std::span<const AlternatingSite> sites, const ArcLength& arc_length, double joined) {
     double sum = 0;
     for (std::size_t k = 1; k < sites.size(); ++k) {
-        if (sites[k].pass == sites[k - 1].pass && !way.at_least(sites[k - 1].point, sites[k].point, joined))
-            sum += way.to(sites[k].point) - way.to(sites[k - 1].point);
+        if (sites[k].pass == sites[k - 1].pass && !arc_length.at_least(sites[k - 1].point, sites[k].point, joined))
+            sum += arc_length.to(sites[k].point) - arc_length.to(sites[k - 1].point);
     }
     return sum;
 }
@@ -190,10 +191,10 @@ double way_of(std::span<const AlternatingSite> sites, const Way& way, double joi
 /// Whether places spread over so many passes that they are no fault of some of them. In the order of their points.
 bool is_wide(std::span<const std::size_t> region, const std::vector<Candidate>& candidates) {
     std::size_t passes = 0;
-    const Suspect* before = nullptr;
+    const DefectCandidate* before = nullptr;
     for (const std::size_t k : region) {
         if (!candidates[k].known()) continue;
-        const Suspect* here = candidates[k].suspect;
+        const DefectCandidate* here = candidates[k].defect_candidate;
         passes += before == nullptr || here->pass != before->pass ? 1 : 0;
         before = here;
     }
@@ -203,7 +204,7 @@ bool is_wide(std::span<const std::size_t> region, const std::vector<Candidate>& 
 /// From now on its lag is what the passes of its own direction do not explain; nothing where that is not known.
 void subtract(const Candidate& candidate, const Thresholds& thresholds) {
     constexpr std::size_t q = index_of(Quantity::lag);
-    Suspect& s = *candidate.suspect;
+    DefectCandidate& s = *candidate.defect_candidate;
     const LagAround& lag = candidate.lag;
     const float left = candidate.known() ? std::max(std::abs(lag.residual) - lag.slack, 0.0F) : 0;
     const float step = candidate.known() ? std::max(lag.step - lag.slack, 0.0F) : 0;
@@ -214,26 +215,26 @@ void subtract(const Candidate& candidate, const Thresholds& thresholds) {
     s.score[q] = std::max(0.0F, std::min((step - s.comparison.play[q]) / thresholds.of[q], 2 * s.share[q]));
 }
 
-/// Domain: a suspect of that point is there. O(log suspects).
-std::size_t index_by_point(const Suspects& suspects, PointIndex point) {
-    const auto at = std::lower_bound(suspects.begin(), suspects.end(), point,
-                                     [](const Suspect* s, PointIndex p) { return s->point < p; });
-    return static_cast<std::size_t>(at - suspects.begin());
+/// Domain: a candidate of that point is there. O(log candidates).
+std::size_t index_by_point(const DefectCandidates& defect_candidates, PointIndex point) {
+    const auto at = std::lower_bound(defect_candidates.begin(), defect_candidates.end(), point,
+                                     [](const DefectCandidate* s, PointIndex p) { return s->point < p; });
+    return static_cast<std::size_t>(at - defect_candidates.begin());
 }
 
 }  // namespace
 
-SystematicLag take_systematic_lag(const ClSurface& surface, const Signals& signals, const Way& way,
-                                  const Thresholds& thresholds, double along, FoundSuspects& found) {
+SystematicLag take_systematic_lag(const ClSurface& surface, const Signals& signals, const ArcLength& arc_length,
+                                  const Thresholds& thresholds, double along, FoundCandidates& found) {
     SystematicLag result;
     if (!signals.measured) return result;
     const std::vector<Candidate> candidates = find_candidates(LagComparer(surface, signals), thresholds, found);
-    Suspects suspects;
-    for (const Candidate& candidate : candidates) suspects.push_back(candidate.suspect);
+    DefectCandidates defect_candidates;
+    for (const Candidate& candidate : candidates) defect_candidates.push_back(candidate.defect_candidate);
     std::vector<std::size_t> wide;  // candidates of wide regions
-    for (const Suspects& region : group_suspects(suspects, surface, way, along)) {
+    for (const DefectCandidates& region : group_candidates(defect_candidates, surface, arc_length, along)) {
         std::vector<std::size_t> members;
-        for (const Suspect* s : region) members.push_back(index_by_point(suspects, s->point));
+        for (const DefectCandidate* s : region) members.push_back(index_by_point(defect_candidates, s->point));
         if (is_wide(members, candidates)) wide.insert(wide.end(), members.begin(), members.end());
     }
     std::sort(wide.begin(), wide.end());
@@ -241,9 +242,9 @@ SystematicLag take_systematic_lag(const ClSurface& surface, const Signals& signa
     for (const std::size_t k : wide) {
         const Candidate& c = candidates[k];
         if (std::abs(c.lag.alternating) >= threshold)
-            result.sites.push_back({c.suspect->point, c.suspect->pass, c.lag.alternating});
+            result.sites.push_back({c.defect_candidate->point, c.defect_candidate->pass, c.lag.alternating});
     }
-    if (way_of(result.sites, way, along) < least_share * cut_way(surface, way)) {
+    if (arc_length_of(result.sites, arc_length, along) < least_share * cut_arc_length(surface, arc_length)) {
         result.sites.clear();
         return result;
     }

@@ -29,10 +29,11 @@ struct SystematicLag {
         sites;  ///< where the step passes the threshold, in the order of their points; empty: none
 };
 
-/// Finds where the lag of `found` alternates over a large part of the surface, and takes the alternating part out of the suspects
+/// Finds where the lag of `found` alternates over a large part of the surface, and takes the alternating part out of the candidates
 /// there: their lag shares, scores and residuals are then those against the passes of the same direction. `along`: joined_along().
-/// O(suspects log suspects), parallel; the same for any number of threads.
-[[nodiscard]] SystematicLag take_systematic_lag(const ClSurface& surface, const Signals& signals, const Way& way,
-                                                const Thresholds& thresholds, double along, FoundSuspects& found);
+/// O(candidates log candidates), parallel; the same for any number of threads.
+[[nodiscard]] SystematicLag take_systematic_lag(const ClSurface& surface, const Signals& signals,
+                                                const ArcLength& arc_length, const Thresholds& thresholds, double along,
+                                                FoundCandidates& found);
 
 }  // namespace clsurf

@@ -14,29 +14,29 @@ Drafter::Drafter(const Program& program, const ReadProgram& read, const Optimize
       shortest_line_(shortest_line),
       slows_anywhere_(slows_anywhere),
       orientation_(orientation),
-      laid_(lay_out(program)) {}
+      programmed_(build_programmed_surface(program)) {}
 
 Draft Drafter::draft(double chord_error, std::vector<std::uint8_t> needed) const {
     Draft draft;
     draft.chord_error = chord_error;
     LineEditor editor(program_, rules_.least_decimals);
-    const double spacing = 0.5 * fitting_spacing(program_, laid_, chord_error);
-    const std::vector<ResampledStretch> stretches =
-        resample(program_, laid_, editor,
+    const double spacing = 0.5 * fitting_spacing(program_, programmed_, chord_error);
+    const std::vector<ResampledSegment> segments =
+        resample(program_, programmed_, editor,
                  {rules_.tolerance, spacing, chord_error, shortest_line_, ResampleRules{}.corner_angle, most_turned},
                  needed, orientation_);
     std::int64_t old = 0;  // motions so far
-    for (const ResampledStretch& stretch : stretches) {
-        const std::size_t lines = editor.replace(stretch.first, stretch.last, stretch.points, stretch.angles);
+    for (const ResampledSegment& segment : segments) {
+        const std::size_t lines = editor.replace(segment.first, segment.last, segment.points, segment.angles);
         if (slows_anywhere_) continue;
-        draft.may_slow.insert(draft.may_slow.end(), needed.begin() + old, needed.begin() + stretch.first);
+        draft.may_slow.insert(draft.may_slow.end(), needed.begin() + old, needed.begin() + segment.first);
         draft.may_slow.insert(draft.may_slow.end(), lines, 1);
-        old = stretch.last + 1;
+        old = segment.last + 1;
     }
     if (!slows_anywhere_) draft.may_slow.insert(draft.may_slow.end(), needed.begin() + old, needed.end());
     draft.text = editor.text(rules_.header);
     draft.program = read_(draft.text);
-    draft.stretches = stretches.size();
+    draft.segments = segments.size();
     draft.changed_lines = editor.changed_lines();
     draft.needed = std::move(needed);
     return draft;

@@ -20,7 +20,7 @@ using ReadProgram = std::function<Program(const std::string& text)>;
 struct Draft {
     Program program;
     std::string text;
-    std::size_t stretches = 0, changed_lines = 0;
+    std::size_t segments = 0, changed_lines = 0;
     double chord_error = 0;                ///< [mm] of its lines against the smooth curve
     std::vector<std::uint8_t> needed{};    ///< per motion of the old program: 0 has kept its points
     std::vector<std::uint8_t> may_slow{};  ///< per motion of the draft, whether it may get a feed; empty: all may
@@ -46,7 +46,7 @@ private:
     double shortest_line_;
     bool slows_anywhere_;
     const Orientation* orientation_;
-    ProgrammedSurface laid_;
+    ProgrammedSurface programmed_;
 };
 
 }  // namespace clsurf

@@ -46,18 +46,18 @@ std::vector<float> eased_targets(const Proposal& from, const Proposal& made, con
     return targets;
 }
 
-/// Whether a cure left fewer defects about some of those that it was for and not about others; such become hopeless.
-bool gives_up_losses(const Proposal& from, const CuringSpeeds& cure, const Proposal& cured,
-                     std::vector<Vec3>& hopeless) {
-    const std::vector<int> gains = gains_of(cure, from.run, cured.run);
+/// Whether a feed reduction left fewer defects about some of those that it was for and not about others; such become hopeless.
+bool gives_up_losses(const Proposal& from, const ReducedSpeeds& reduce_feeds, const Proposal& reduced,
+                     std::vector<Vec3>& abandoned) {
+    const std::vector<int> gains = gains_of(reduce_feeds, from.run, reduced.run);
     std::set<std::size_t> tried;
-    for (const std::int32_t cause : cure.causes) {
+    for (const std::int32_t cause : reduce_feeds.causes) {
         if (cause >= 0) tried.insert(static_cast<std::size_t>(cause));
     }
     std::size_t lost = 0;
     for (const std::size_t k : tried) {
         if (gains[k] > 0) continue;
-        hopeless.push_back(from.run.report.defects[k].place.tip);
+        abandoned.push_back(from.run.report.defects[k].place.tip);
         ++lost;
     }
     return lost > 0 && lost < tried.size();
@@ -65,75 +65,77 @@ bool gives_up_losses(const Proposal& from, const CuringSpeeds& cure, const Propo
 
 }  // namespace
 
-FeedSearch::FeedSearch(Prover& prover, const Machine& machine)
-    : prover_(prover), lag_power_(lag_power(machine)), ramp_(ramp_of(machine)) {}
+FeedSearch::FeedSearch(Evaluator& evaluator, const Machine& machine)
+    : evaluator_(evaluator), lag_power_(lag_power(machine)), ramp_(ramp_of(machine)) {}
 
-void FeedSearch::level(const Tried& from) {
-    const Leveller leveller(from->run);
+void FeedSearch::level(const TriedProposal& from) {
+    const FeedEqualiser equaliser(from->run);
     for (const double step : steps_between_passes) {
-        if (!prover_.has_time()) return;
-        const Tried levelled =
-            prover_.propose(from->draft, lowered_targets(*from, leveller.everywhere({step, 0, ramp_})));
-        if (levelled->run.duration > prover_.longest()) return;  // lower feeds take longer still
+        if (!evaluator_.has_time()) return;
+        const TriedProposal equalised =
+            evaluator_.propose(from->draft, lowered_targets(*from, equaliser.everywhere({step, 0, ramp_})));
+        if (equalised->run.duration > evaluator_.longest()) return;  // lower feeds take longer still
     }
 }
 
-void FeedSearch::level_in_time(const Tried& from) {
-    const double there = prover_.longest() - from->run.duration;
-    const Leveller leveller(from->run);
+void FeedSearch::equalise_in_time(const TriedProposal& from) {
+    const double there = evaluator_.longest() - from->run.duration;
+    const FeedEqualiser equaliser(from->run);
     double budget = most_share * there;
-    for (int round = 0; round < levelling_rounds && budget > 0 && prover_.has_time(); ++round) {
+    for (int round = 0; round < levelling_rounds && budget > 0 && evaluator_.has_time(); ++round) {
         const std::vector<float> targets =
-            lowered_targets(*from, leveller.everywhere({0, leveller.affordable_step(ramp_, budget), ramp_}));
+            lowered_targets(*from, equaliser.everywhere({0, equaliser.affordable_step(ramp_, budget), ramp_}));
         if (targets == from->targets) return;
-        const Tried levelled = prover_.propose(from->draft, targets);
-        const double taken = levelled->run.duration - from->run.duration;
+        const TriedProposal equalised = evaluator_.propose(from->draft, targets);
+        const double taken = equalised->run.duration - from->run.duration;
         if (taken <= there && taken > time_used * there) return;
         if (taken <= 0) return;
         budget *= std::clamp(0.5 * (1 + time_used) * there / taken, 0.2, 2.0);
     }
 }
 
-void FeedSearch::cure(Curing& curing, int rounds) {
-    const JudgedRun& before = prover_.before();
-    CureRules rules;
-    rules.step = curing.step * before.report.thresholds.of[index_of(Quantity::speed)];
+void FeedSearch::reduce_feeds(FeedReduction& reduction, int rounds) {
+    const JudgedRun& before = evaluator_.before();
+    FeedReductionRules rules;
+    rules.step = reduction.step * before.report.thresholds.of[index_of(Quantity::speed)];
     rules.lag_power = lag_power_;
     rules.ramp = ramp_;
-    Tried last_from;
+    TriedProposal last_from;
     std::vector<float> last_targets;
-    for (int round = 0; round < rounds && prover_.has_time(); ++round) {
-        const Tried from = curing.from;
-        rules.budget = curing.share * (prover_.longest() - from->run.duration);
+    for (int round = 0; round < rounds && evaluator_.has_time(); ++round) {
+        const TriedProposal from = reduction.from;
+        rules.budget = reduction.share * (evaluator_.longest() - from->run.duration);
         if (rules.budget <= 0) return;
-        rules.hopeless = curing.hopeless;
-        CuringSpeeds cure = curing_speeds(from->run, rules);
-        std::vector<float> targets = lowered_targets(*from, cure.speeds);
+        rules.abandoned = reduction.abandoned;
+        ReducedSpeeds reduce_feeds = reduced_speeds(from->run, rules);
+        std::vector<float> targets = lowered_targets(*from, reduce_feeds.speeds);
         if (targets == from->targets) {
-            if (curing.share == most_share) return;
-            curing.share = std::min(2 * curing.share, most_share);
+            if (reduction.share == most_share) return;
+            reduction.share = std::min(2 * reduction.share, most_share);
             continue;
         }
         if (from == last_from && targets == last_targets) {
-            curing.share /= 2;  // it was tried: for less time there may be another one
+            reduction.share /= 2;  // it was tried: for less time there may be another one
             continue;
         }
         last_from = from;
         last_targets = targets;
-        std::vector<Tried> attempts{prover_.propose(from->draft, targets)};
-        if (gives_up_losses(*from, cure, *attempts.back(), rules.hopeless) && prover_.has_time()) {
-            cure = curing_speeds(from->run, rules);
-            targets = lowered_targets(*from, cure.speeds);
-            if (targets != from->targets) attempts.push_back(prover_.propose(from->draft, targets));
+        std::vector<TriedProposal> attempts{evaluator_.propose(from->draft, targets)};
+        if (gives_up_losses(*from, reduce_feeds, *attempts.back(), rules.abandoned) && evaluator_.has_time()) {
+            reduce_feeds = reduced_speeds(from->run, rules);
+            targets = lowered_targets(*from, reduce_feeds.speeds);
+            if (targets != from->targets) attempts.push_back(evaluator_.propose(from->draft, targets));
         }
-        if (prover_.has_time())
-            attempts.push_back(prover_.propose(from->draft, eased_targets(*from, *attempts.back(), cure.speeds)));
-        for (const Tried& tried : attempts) {
-            if (tried->run.duration <= prover_.longest() && prover_.score(*tried) < prover_.score(*curing.from))
-                curing.from = tried;
+        if (evaluator_.has_time())
+            attempts.push_back(
+                evaluator_.propose(from->draft, eased_targets(*from, *attempts.back(), reduce_feeds.speeds)));
+        for (const TriedProposal& tried : attempts) {
+            if (tried->run.duration <= evaluator_.longest() &&
+                evaluator_.score(*tried) < evaluator_.score(*reduction.from))
+                reduction.from = tried;
         }
-        curing.hopeless = rules.hopeless;
-        curing.share = curing.from == from ? curing.share / 2 : std::min(2 * curing.share, most_share);
+        reduction.abandoned = rules.abandoned;
+        reduction.share = reduction.from == from ? reduction.share / 2 : std::min(2 * reduction.share, most_share);
     }
 }
 

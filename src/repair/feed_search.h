@@ -12,33 +12,33 @@
 namespace clsurf {
 
 /// The state of a feed reduction over several rounds.
-struct Curing {
+struct FeedReduction {
     static constexpr double usual_step = 0.7;
-    Tried from;                    ///< the last one kept
-    double share = 0;              ///< of the time there is to lose, that the next round may take
-    double step = usual_step;      ///< of the threshold of a speed step, that is left about defects
-    std::vector<Vec3> hopeless{};  ///< [mm] places of defects that are let be
+    TriedProposal from;             ///< the last one kept
+    double share = 0;               ///< of the time there is to lose, that the next round may take
+    double step = usual_step;       ///< of the threshold of a speed step, that is left about defects
+    std::vector<Vec3> abandoned{};  ///< [mm] places of defects that are let be
 };
 
 class FeedSearch {
 public:
-    /// The prover must outlive it.
-    FeedSearch(Prover& prover, const Machine& machine);
+    /// The evaluator must outlive it.
+    FeedSearch(Evaluator& evaluator, const Machine& machine);
 
     /// Feeds that make adjacent passes equal everywhere within a step [mm/s], the smallest one that the time saved by
     /// `from` allows.
-    void level_in_time(const Tried& from);
+    void equalise_in_time(const TriedProposal& from);
 
     /// The same with steps that are fixed fractions of the speed.
-    void level(const Tried& from);
+    void level(const TriedProposal& from);
 
     /// Slows down around remaining defects, round by round, as long as the time budget lasts. Each round is one feed
     /// reduction, the same only for the defects that it removed, and the last of these with feeds as high as its speeds
     /// need.
-    void cure(Curing& curing, int rounds);
+    void reduce_feeds(FeedReduction& reduction, int rounds);
 
 private:
-    Prover& prover_;
+    Evaluator& evaluator_;
     double lag_power_;
     Ramp ramp_;
 };

@@ -5,7 +5,7 @@
 // A line may be rewritten where it holds nothing but a line number, G1 and X, Y, Z, with or without A, B, C, in plain
 // numbers, is run once, says in absolute coordinates where its motion ends, the tip's on five axes, and is run at a feed
 // per minute (G94). Comments, feeds, other codes, tool axes as vectors, variables and subprograms are therefore never
-// touched: they end the stretch.
+// touched: they end the section.
 
 #include <array>
 #include <optional>

@@ -16,17 +16,17 @@ namespace {
 
 constexpr std::array<double, 3> shares_of_tolerance{0.2, 0.1, 0.4};  ///< that lines may leave the curve by
 constexpr double block_reserve = 1.1;                                ///< of the way in a block time
-constexpr NeedRules worst_alone{0.5, 2, 2};                          ///< a draft that leaves the more as it is
+constexpr RepairMaskRules worst_alone{0.5, 2, 2};                    ///< a draft that leaves the more as it is
 constexpr std::size_t most_mixed = 2;                                ///< drafts of which regions are given back …
 constexpr int mixing_rounds = 3;                                     ///< … so many times …
 constexpr int most_mixing_rounds = 6;                                ///< … or more, while the run is refused
 constexpr double share_of_drafts = 0.35;  ///< of all runs, that points alone may take; the others seek feeds
 constexpr std::size_t most_fed = 5;       ///< drafts that feeds are sought for
-constexpr double most_behind = 0.2;       ///< the best, by score, after the first rounds: others are not cured on
-constexpr double small_share = 0.3;       ///< of the time, for a cure that begins with the cheap defects …
+constexpr double most_behind = 0.2;       ///< the best, by score, after the first rounds: others are not repaired on
+constexpr double small_share = 0.3;       ///< of the time, for a feed reduction that begins with the cheap defects …
 constexpr double large_share = 0.65;      ///< … and for one that takes all it can
 constexpr int first_rounds = 2, more_rounds = 8;
-constexpr std::array<double, 2> other_steps{0.85, 0.55};  ///< that cures are tried with as well …
+constexpr std::array<double, 2> other_steps{0.85, 0.55};  ///< that feed reductions are tried with as well …
 constexpr std::size_t most_cured_otherwise = 2;           ///< … for so many drafts
 
 /// The median feed of the cutting lines [mm/s].
@@ -49,8 +49,8 @@ public:
           machine_(machine),
           rules_(rules),
           diagnostics_(diagnostics),
-          prover_(program, read, machine, rules, progress, diagnostics) {
-        if (prover_.before().surface.step_over <= 0)
+          evaluator_(program, read, machine, rules, progress, diagnostics) {
+        if (evaluator_.before().surface.step_over <= 0)
             throw InputError(Place::of_file(program_.main().name()),
                              "has no passes beside each other: there is nothing to bring into step");
     }
@@ -61,14 +61,14 @@ public:
         if (has_log)
             result.measured = judge_measured(std::move(*measured));
         else
-            look_for_need(prover_.before());
+            look_for_need(evaluator_.before());
         propose_all({program_, read_, rules_, block_reserve * machine_.controller.block_time * usual_feed(program_),
-                     !has_log, prover_.orientation()});
-        result.five_axes = prover_.orientation() != nullptr;
-        result.before = prover_.take_before();
-        result.run_before = prover_.summary_before();
-        Proposal& best = *prover_.best();
-        result.proof = std::move(best.proof);
+                     !has_log, evaluator_.orientation()});
+        result.five_axes = evaluator_.orientation() != nullptr;
+        result.before = evaluator_.take_before();
+        result.run_before = evaluator_.summary_before();
+        Proposal& best = *evaluator_.best();
+        result.evaluation = std::move(best.evaluation);
         result.text = std::move(best.text);
         result.after = std::move(best.run);
         result.run_after = std::move(best.summary);
@@ -82,7 +82,8 @@ private:
     }
 
     Measured judge_measured(Log log) {
-        const JudgedRun run = judge_run(std::move(log), program_, rules_.quality, diagnostics_, prover_.kinematics());
+        const JudgedRun run =
+            judge_run(std::move(log), program_, rules_.quality, diagnostics_, evaluator_.kinematics());
         if (run.surface.step_over <= 0)
             throw InputError(Place::of_file(run.log.name),
                              "has no passes beside each other: it does not tell what is out of step");
@@ -92,27 +93,27 @@ private:
     }
 
     void propose_all(const Drafter& drafter) {
-        std::vector<Tried> drafts;  // points alone
+        std::vector<TriedProposal> drafts;  // points alone
         for (const double share : shares_of_tolerance) {
             // What is tried last is left out first where a program is long.
-            if (prover_.has_time()) propose(drafter.draft(share * rules_.tolerance, needed_), drafts);
+            if (evaluator_.has_time()) propose(drafter.draft(share * rules_.tolerance, needed_), drafts);
         }
         if (drafts.empty()) {
-            (void)prover_.propose(std::make_shared<const Draft>(drafter.unchanged()), {});
+            (void)evaluator_.propose(std::make_shared<const Draft>(drafter.unchanged()), {});
             return;
         }
         sort(drafts);
-        std::vector<Tried> mixed, narrow;
+        std::vector<TriedProposal> mixed, narrow;
         for (std::size_t k = 0; k < std::min(most_mixed, drafts.size()); ++k) {
             mix(drafter, drafts[k], mixed);
-            if (prover_.has_time(share_of_drafts))
+            if (evaluator_.has_time(share_of_drafts))
                 propose(drafter.draft(drafts[k]->draft->chord_error, in_worst_need_), narrow);
         }
         sort(mixed);
         // In turn: what saves most time may be worth more, with feeds, than what is better without.
-        std::vector<Tried> order;
+        std::vector<TriedProposal> order;
         for (std::size_t k = 0; k < std::max({drafts.size(), mixed.size(), narrow.size()}); ++k) {
-            for (const std::vector<Tried>* each : {&drafts, &narrow, &mixed}) {
+            for (const std::vector<TriedProposal>* each : {&drafts, &narrow, &mixed}) {
                 if (k < each->size()) order.push_back((*each)[k]);
             }
         }
@@ -120,68 +121,68 @@ private:
     }
 
     /// Feeds for the first drafts, a little for each; then all that can be done, the best first.
-    void seek_feeds(const std::vector<Tried>& drafts) {
-        FeedSearch feeds(prover_, machine_);
+    void seek_feeds(const std::vector<TriedProposal>& drafts) {
+        FeedSearch feeds(evaluator_, machine_);
         struct Fed {
-            Tried points;
-            Curing curing;
+            TriedProposal points;
+            FeedReduction reduction;
         };
         std::vector<Fed> fed;
-        for (const Tried& points : drafts) {
+        for (const TriedProposal& points : drafts) {
             if (fed.size() == most_fed) break;
             fed.push_back({points, {points, small_share}});
-            feeds.cure(fed.back().curing, first_rounds);
+            feeds.reduce_feeds(fed.back().reduction, first_rounds);
         }
         std::stable_sort(fed.begin(), fed.end(), [&](const Fed& a, const Fed& b) {
-            return prover_.score(*a.curing.from) < prover_.score(*b.curing.from);
+            return evaluator_.score(*a.reduction.from) < evaluator_.score(*b.reduction.from);
         });
         for (Fed& each : fed) {
-            if (prover_.score(*each.curing.from) < prover_.score(*prover_.best()) + most_behind)
-                feeds.cure(each.curing, more_rounds - first_rounds);
+            if (evaluator_.score(*each.reduction.from) < evaluator_.score(*evaluator_.best()) + most_behind)
+                feeds.reduce_feeds(each.reduction, more_rounds - first_rounds);
         }
-        feeds.level_in_time(prover_.best());
-        for (const Fed& each : fed) feeds.level_in_time(each.points);
+        feeds.equalise_in_time(evaluator_.best());
+        for (const Fed& each : fed) feeds.equalise_in_time(each.points);
         for (const double step : other_steps) {
             for (std::size_t k = 0; k < std::min(fed.size(), most_cured_otherwise); ++k) {
-                Curing other{fed[k].points, small_share, step};
-                feeds.cure(other, more_rounds);
+                FeedReduction other{fed[k].points, small_share, step};
+                feeds.reduce_feeds(other, more_rounds);
             }
-            cure_best(feeds, step);
+            reduce_best(feeds, step);
         }
         for (const Fed& each : fed) {
-            Curing other{each.points, large_share};
-            feeds.cure(other, more_rounds);
+            FeedReduction other{each.points, large_share};
+            feeds.reduce_feeds(other, more_rounds);
             feeds.level(each.points);
         }
-        cure_best(feeds);
+        reduce_best(feeds);
         if (rules_.more_time <= 0) return;
         // After all that costs nothing: what the user gives is added to that, and never makes it worse.
-        prover_.allow_more_time();
-        cure_best(feeds);
+        evaluator_.allow_more_time();
+        reduce_best(feeds);
         for (const Fed& each : fed) {
-            feeds.level_in_time(each.points);
-            Curing other{each.points, large_share};
-            feeds.cure(other, more_rounds);
+            feeds.equalise_in_time(each.points);
+            FeedReduction other{each.points, large_share};
+            feeds.reduce_feeds(other, more_rounds);
         }
     }
 
-    void cure_best(FeedSearch& feeds, double step = Curing::usual_step) const {
-        Curing best{prover_.best(), large_share, step};
-        if (best.from->proof.accepted) feeds.cure(best, more_rounds);
+    void reduce_best(FeedSearch& feeds, double step = FeedReduction::usual_step) const {
+        FeedReduction best{evaluator_.best(), large_share, step};
+        if (best.from->evaluation.accepted) feeds.reduce_feeds(best, more_rounds);
     }
 
     /// A draft alone; nullptr: it changes nothing.
-    Tried propose(Draft draft, std::vector<Tried>& drafts) {
-        if (draft.stretches == 0) return nullptr;
-        drafts.push_back(prover_.propose(std::make_shared<const Draft>(std::move(draft)), {}));
+    TriedProposal propose(Draft draft, std::vector<TriedProposal>& drafts) {
+        if (draft.segments == 0) return nullptr;
+        drafts.push_back(evaluator_.propose(std::make_shared<const Draft>(std::move(draft)), {}));
         return drafts.back();
     }
 
     /// Round by round, motions get their old points back where a draft runs worse than the program does.
-    void mix(const Drafter& drafter, Tried from, std::vector<Tried>& drafts) {
-        for (int round = 0; round < most_mixing_rounds && from && prover_.has_time(share_of_drafts); ++round) {
-            if (round >= mixing_rounds && from->proof.accepted) return;
-            const std::vector<std::uint8_t> worse = worse_motions(prover_.before(), from->run, program_, {});
+    void mix(const Drafter& drafter, TriedProposal from, std::vector<TriedProposal>& drafts) {
+        for (int round = 0; round < most_mixing_rounds && from && evaluator_.has_time(share_of_drafts); ++round) {
+            if (round >= mixing_rounds && from->evaluation.accepted) return;
+            const std::vector<std::uint8_t> worse = worse_motions(evaluator_.before(), from->run, program_, {});
             std::vector<std::uint8_t> needed = from->draft->needed;
             for (std::size_t i = 0; i < needed.size(); ++i) needed[i] = needed[i] != 0 && worse[i] == 0 ? 1 : 0;
             if (needed == from->draft->needed) return;
@@ -190,11 +191,12 @@ private:
     }
 
     /// The best accepted one first, then by score.
-    void sort(std::vector<Tried>& drafts) const {
-        std::stable_sort(drafts.begin(), drafts.end(),
-                         [&](const Tried& a, const Tried& b) { return prover_.score(*a) < prover_.score(*b); });
-        const auto accepted =
-            std::find_if(drafts.begin(), drafts.end(), [](const Tried& tried) { return tried->proof.accepted; });
+    void sort(std::vector<TriedProposal>& drafts) const {
+        std::stable_sort(drafts.begin(), drafts.end(), [&](const TriedProposal& a, const TriedProposal& b) {
+            return evaluator_.score(*a) < evaluator_.score(*b);
+        });
+        const auto accepted = std::find_if(drafts.begin(), drafts.end(),
+                                           [](const TriedProposal& tried) { return tried->evaluation.accepted; });
         if (accepted != drafts.end()) std::rotate(drafts.begin(), accepted, accepted + 1);
     }
 
@@ -203,7 +205,7 @@ private:
     const Machine& machine_;
     const OptimizeRules& rules_;
     Diagnostics& diagnostics_;
-    Prover prover_;
+    Evaluator evaluator_;
     std::vector<std::uint8_t> needed_, in_worst_need_;  ///< one entry a motion
 };
 

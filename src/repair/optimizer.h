@@ -20,7 +20,7 @@ struct Measured {
 };
 
 struct Optimized {
-    Proof proof;             ///< by simulation, also where a recorded run was given
+    Evaluation evaluation;   ///< by simulation, also where a recorded run was given
     bool five_axes = false;  ///< the program was run on them
     std::optional<Measured> measured;
     std::string text;  ///< of the new program; that of the best proposal where none was accepted

@@ -24,8 +24,8 @@ constexpr double beyond_goal = 0.1;       ///< … less mismatch counts less
 
 }  // namespace
 
-Prover::Prover(const Program& program, const ReadProgram& read, const Machine& machine, const OptimizeRules& rules,
-               const Progress& progress, Diagnostics& diagnostics)
+Evaluator::Evaluator(const Program& program, const ReadProgram& read, const Machine& machine,
+                     const OptimizeRules& rules, const Progress& progress, Diagnostics& diagnostics)
     : program_(program), read_(read), machine_(machine), rules_(rules), progress_(progress), diagnostics_(diagnostics) {
     if (runs_on_five_axes(program_, machine_)) {
         kinematics_ = std::make_shared<const Kinematics>(machine_.kinematics);
@@ -36,26 +36,26 @@ Prover::Prover(const Program& program, const ReadProgram& read, const Machine& m
     before_ = judge_run(std::move(simulated.log), program_, rules_.quality, diagnostics_, kinematics_);
 }
 
-bool Prover::has_time(double share) const {
+bool Evaluator::has_time(double share) const {
     const auto one_run = static_cast<double>(before_.log.records);
     return (points_ == 0 || points_ + one_run <= share * most_points()) && in_vain_ < most_in_vain;
 }
 
-double Prover::most_points() const {
+double Evaluator::most_points() const {
     const double size = std::min(1.0, static_cast<double>(before_.log.records) / large_run);
     return most_run_points * (1 - (1 - share_of_large) * size);
 }
 
-void Prover::allow_more_time() {
+void Evaluator::allow_more_time() {
     more_time_ = rules_.more_time;
     points_ = std::min(points_, 0.5 * most_points());
     in_vain_ = 0;
     if (!best_) return;
-    best_->proof.reason = objection(*best_);
-    best_->proof.accepted = best_->proof.reason.empty();
+    best_->evaluation.reason = objection(*best_);
+    best_->evaluation.accepted = best_->evaluation.reason.empty();
 }
 
-Tried Prover::propose(const std::shared_ptr<const Draft>& draft, std::vector<float> targets) {
+TriedProposal Evaluator::propose(const std::shared_ptr<const Draft>& draft, std::vector<float> targets) {
     const auto tried = std::make_shared<Proposal>(prove(draft, std::move(targets)));
     ++in_vain_;
     if (!best_ || better(*tried, *best_)) {
@@ -65,81 +65,83 @@ Tried Prover::propose(const std::shared_ptr<const Draft>& draft, std::vector<flo
     return tried;
 }
 
-Proposal Prover::prove(const std::shared_ptr<const Draft>& draft, std::vector<float> targets) {
+Proposal Evaluator::prove(const std::shared_ptr<const Draft>& draft, std::vector<float> targets) {
     Proposal result;
     result.draft = draft;
     result.targets = std::move(targets);
     result.text = draft->text;
-    Proof& proof = result.proof;
-    proof.intervals = draft->stretches;
-    proof.changed_lines = draft->changed_lines;
+    Evaluation& evaluation = result.evaluation;
+    evaluation.intervals = draft->segments;
+    evaluation.changed_lines = draft->changed_lines;
     if (!result.targets.empty()) {
         LineEditor editor(draft->program);
-        editor.set_feeds(levelling_feeds(result.targets, draft->may_slow, interval_width));
+        editor.set_feeds(equalised_feeds(result.targets, draft->may_slow, interval_width));
         result.text = editor.text("");
-        proof.changed_lines += editor.changed_lines();
+        evaluation.changed_lines += editor.changed_lines();
     }
     const Program changed = read_(result.text);
-    proof.lines_before = program_.main().line_count();
-    proof.lines_after = changed.main().line_count();
+    evaluation.lines_before = program_.main().line_count();
+    evaluation.lines_after = changed.main().line_count();
     SimulatedRun simulated;
     parallel_invoke([&] { simulated = simulate_to_log(changed, machine_, rules_.start, progress_, rules_.zero); },
-                    [&] { proof.deviation = deviation_of(changed); });
+                    [&] { evaluation.deviation = deviation_of(changed); });
     result.summary = std::move(simulated.summary);
     points_ += static_cast<double>(result.summary.points);
     // A cleaner run must not be judged more strictly for being cleaner.
     QualityRules as_before = rules_.quality;
     as_before.fixed = before_.report.thresholds;
     result.run = judge_run(std::move(simulated.log), changed, as_before, diagnostics_, kinematics_);
-    proof.defects_before = before_.report.defects.size();
-    proof.defects_after = result.run.report.defects.size();
-    proof.reason = objection(result);
-    proof.accepted = proof.reason.empty();
+    evaluation.defects_before = before_.report.defects.size();
+    evaluation.defects_after = result.run.report.defects.size();
+    evaluation.reason = objection(result);
+    evaluation.accepted = evaluation.reason.empty();
     return result;
 }
 
-Deviation Prover::deviation_of(const Program& changed) const {
+Deviation Evaluator::deviation_of(const Program& changed) const {
     if (orientation_ == nullptr) return measure_deviation(program_, changed);
     const Orientation after(changed, machine_, rules_.zero, rules_.start);
     return measure_deviation(program_, changed, Deviation::usual_step, {orientation_.get(), &after});
 }
 
 /// Why a proposal cannot be taken; empty: it can.
-std::string Prover::objection(const Proposal& p) const {
-    if (p.proof.changed_lines == 0) return "no stretch of the program can be rewritten";
-    if (p.proof.deviation.disordered > 0)
-        return fmt::format("line {} would no longer do the same", p.proof.deviation.disordered);
-    if (p.proof.deviation.greatest > rules_.tolerance)
-        return fmt::format("it would leave the programmed path by {:.4f} mm at line {}", p.proof.deviation.greatest,
-                           p.proof.deviation.line);
-    if (p.proof.deviation.turned > most_turned)
+std::string Evaluator::objection(const Proposal& p) const {
+    if (p.evaluation.changed_lines == 0) return "no stretch of the program can be rewritten";
+    if (p.evaluation.deviation.disordered > 0)
+        return fmt::format("line {} would no longer do the same", p.evaluation.deviation.disordered);
+    if (p.evaluation.deviation.greatest > rules_.tolerance)
+        return fmt::format("it would leave the programmed path by {:.4f} mm at line {}",
+                           p.evaluation.deviation.greatest, p.evaluation.deviation.line);
+    if (p.evaluation.deviation.turned > most_turned)
         return fmt::format("it would turn the tool axis away from the programmed one by {:.4f} deg at line {}",
-                           p.proof.deviation.turned * deg_per_rad, p.proof.deviation.turned_line);
+                           p.evaluation.deviation.turned * deg_per_rad, p.evaluation.deviation.turned_line);
     if (!p.summary.limits_ok)
         return summary_before_.limits_ok ? "the machine's limits would not be kept"
                                          : "the machine's limits are not kept, nor are they by the program as it is";
     if (p.run.mismatch >= before_.mismatch)
         return fmt::format("the speeds of neighbour passes would differ by {:.0f} instead of {:.0f} mm/min",
                            p.run.mismatch * seconds_per_minute, before_.mismatch * seconds_per_minute);
-    if (p.proof.defects_after > p.proof.defects_before)
-        return fmt::format("there would be {} defects instead of {}", p.proof.defects_after, p.proof.defects_before);
+    if (p.evaluation.defects_after > p.evaluation.defects_before)
+        return fmt::format("there would be {} defects instead of {}", p.evaluation.defects_after,
+                           p.evaluation.defects_before);
     if (p.run.duration > longest())
         return fmt::format("it would take {:.3f} instead of {:.3f} s", p.run.duration, longest());
     return {};
 }
 
-double Prover::score(const Proposal& p) const {
-    const double growth = static_cast<double>(p.proof.lines_after) / static_cast<double>(p.proof.lines_before);
+double Evaluator::score(const Proposal& p) const {
+    const double growth =
+        static_cast<double>(p.evaluation.lines_after) / static_cast<double>(p.evaluation.lines_before);
     const double mismatch = p.run.mismatch / before_.mismatch,
-                 defects = static_cast<double>(p.proof.defects_after) /
-                           std::max<double>(1, static_cast<double>(p.proof.defects_before));
+                 defects = static_cast<double>(p.evaluation.defects_after) /
+                           std::max<double>(1, static_cast<double>(p.evaluation.defects_before));
     const double later = std::clamp(p.run.duration / before_.duration - 1, 0.0, more_time_);
     return growth_weight * growth + std::max(mismatch, goal_of_mismatch) +
            beyond_goal * std::min(mismatch, goal_of_mismatch) + defects + later;
 }
 
-bool Prover::better(const Proposal& a, const Proposal& b) const {
-    if (a.proof.accepted != b.proof.accepted) return a.proof.accepted;
+bool Evaluator::better(const Proposal& a, const Proposal& b) const {
+    if (a.evaluation.accepted != b.evaluation.accepted) return a.evaluation.accepted;
     return score(a) < score(b);
 }
 

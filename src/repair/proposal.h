@@ -34,11 +34,11 @@ struct OptimizeRules {
 };
 
 /// The comparison of a proposal with the program.
-struct Proof {
+struct Evaluation {
     bool accepted = false;
     std::string reason;  ///< why not, or empty
     Deviation deviation;
-    std::size_t intervals = 0;  ///< stretches that were changed
+    std::size_t intervals = 0;  ///< sections that were changed
     LineNumber lines_before = 0, lines_after = 0;
     std::size_t changed_lines = 0;                      ///< of the old program
     std::size_t defects_before = 0, defects_after = 0;  ///< by the thresholds of the run before
@@ -48,20 +48,20 @@ struct Proof {
 struct Proposal {
     std::shared_ptr<const Draft> draft;
     std::vector<float> targets;  ///< [mm/s] per motion of the draft: speeds that feeds hold it to; 0: none
-    Proof proof;
+    Evaluation evaluation;
     std::string text;
     JudgedRun run;
     SimulationSummary summary;
 };
 
-using Tried = std::shared_ptr<Proposal>;
+using TriedProposal = std::shared_ptr<Proposal>;
 
 /// Runs proposals on the machine and keeps the best of them.
-class Prover {
+class Evaluator {
 public:
     /// Runs the program itself. All must outlive it. Throws what simulate() throws.
-    Prover(const Program& program, const ReadProgram& read, const Machine& machine, const OptimizeRules& rules,
-           const Progress& progress, Diagnostics& diagnostics);
+    Evaluator(const Program& program, const ReadProgram& read, const Machine& machine, const OptimizeRules& rules,
+              const Progress& progress, Diagnostics& diagnostics);
 
     [[nodiscard]] const JudgedRun& before() const { return before_; }
     [[nodiscard]] JudgedRun take_before() { return std::move(before_); }
@@ -78,8 +78,8 @@ public:
     [[nodiscard]] bool has_time(double share = 1) const;
 
     /// `targets`: as those of a Proposal, or none at all.
-    Tried propose(const std::shared_ptr<const Draft>& draft, std::vector<float> targets);
-    [[nodiscard]] const Tried& best() const { return best_; }
+    TriedProposal propose(const std::shared_ptr<const Draft>& draft, std::vector<float> targets);
+    [[nodiscard]] const TriedProposal& best() const { return best_; }
 
     /// Accepted proposals are better than others; then the one with less remaining mismatch and fewer defects; of two
     /// nearly equal ones the shorter.
@@ -103,7 +103,7 @@ private:
     std::unique_ptr<const Orientation> orientation_;
     JudgedRun before_;
     SimulationSummary summary_before_;
-    Tried best_;
+    TriedProposal best_;
     double more_time_ = 0;  ///< a share
     double points_ = 0;     ///< simulated so far
     int in_vain_ = 0;       ///< proposals since the best one

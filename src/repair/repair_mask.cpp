@@ -15,7 +15,7 @@ void mark(Marks& marks, const PointRange& points) {
     for (PointIndex i = points.first; i <= points.last; ++i) marks[static_cast<std::size_t>(i)] = 1;
 }
 
-Marks marked_places(const JudgedRun& run, const NeedRules& rules) {
+Marks marked_places(const JudgedRun& run, const RepairMaskRules& rules) {
     Marks marks(static_cast<std::size_t>(run.surface.positions.size()), 0);
     const double step =
         rules.share * run.report.thresholds.of[index_of(Quantity::speed)] * run.report.thresholds.usual_speed;
@@ -37,14 +37,14 @@ Marks spread_aside(const JudgedRun& run, const Marks& marks) {
     for (PointIndex i = 0; i < run.surface.positions.size(); ++i) {
         if (marks[static_cast<std::size_t>(i)] == 0) continue;
         for (const Side side : {Side::left, Side::right}) {
-            const Station at = beside(run.surface, {i, 0}, run.signals.feed(i), side);
+            const PathLocation at = beside(run.surface, {i, 0}, run.signals.feed(i), side);
             if (at.exists()) spread[static_cast<std::size_t>(at.nearest())] = 1;
         }
     }
     return spread;
 }
 
-/// All points within `reach` of way of a mark on its pass, forth or back.
+/// All points within `reach` of arc length of a mark on its pass, forth or back.
 void spread_along(const JudgedRun& run, double reach, Marks& marks) {
     for (const Pass& pass : run.surface.passes) {
         if (pass.kind != PassKind::cut) continue;
@@ -88,7 +88,7 @@ std::vector<std::uint8_t> marked_motions(const JudgedRun& run, const Program& pr
     return marked_ones;
 }
 
-std::vector<std::uint8_t> motions_in_need(const JudgedRun& run, const Program& program, const NeedRules& rules) {
+std::vector<std::uint8_t> motions_in_need(const JudgedRun& run, const Program& program, const RepairMaskRules& rules) {
     Marks marks = marked_places(run, rules);
     for (int k = 0; k < rules.passes_aside; ++k) marks = spread_aside(run, marks);
     spread_along(run, rules.reach, marks);

@@ -8,9 +8,9 @@
 
 namespace clsurf {
 
-struct NeedRules {
+struct RepairMaskRules {
     double share = 0.25;   ///< of the threshold of a speed step, from which on a place is repaired
-    double reach = 4;      ///< [mm] of way before and behind such a place
+    double reach = 4;      ///< [mm] of arc length before and behind such a place
     int passes_aside = 4;  ///< which are repaired with it
 };
 
@@ -18,7 +18,7 @@ struct NeedRules {
 /// near a defect of motion or of point spacing; 0 otherwise, and where the run has no data. Defects of lag alone belong
 /// to the machine: other points do not remove them. O(points).
 [[nodiscard]] std::vector<std::uint8_t> motions_in_need(const JudgedRun& run, const Program& program,
-                                                        const NeedRules& rules);
+                                                        const RepairMaskRules& rules);
 
 /// Per motion of the program: 1 if a run has marked points on it, one flag per point. Motions between the lines of two
 /// consecutive marked points were passed within one period and count too. O(points).

@@ -18,13 +18,13 @@ using Vec3f = Eigen::Vector3f;
 constexpr float nearest_neighbour = 0.2F;   ///< nearer is the same pass cut again
 constexpr float usual_neighbour = 1.6F;     ///< farther, a nearer one may have begun: it is sought
 constexpr float farthest_neighbour = 4.0F;  ///< on steep flanks passes are so far apart
-constexpr float along_play = 0.35F;         ///< how far a foot may lie along the feed
+constexpr float along_play = 0.35F;         ///< how far a projection may lie along the feed
 constexpr float steep_share = 0.12F;        ///< squared cosine to the horizontal below which a neighbour is above
-constexpr float direction_chord = 0.75F;    ///< way of the chords that give the feed direction
+constexpr float direction_chord = 0.75F;    ///< arc length of the chords that give the feed direction
 constexpr double grid_cell = 4.0;
 constexpr double grid_records = 1.5;  ///< no less than so many records of usual length: cells hold a point of each pass
-constexpr float search_again = 0.25F;      ///< way without a neighbour after which it is sought anew
-constexpr float own_way = 1.7F;            ///< the way to a neighbour is this many distances or more
+constexpr float search_again = 0.25F;      ///< arc length without a neighbour after which it is sought anew
+constexpr float own_arc_length = 1.7F;     ///< the way to a neighbour is this many distances or more
 constexpr float running_along = 0.8660F;   ///< cos 30°
 constexpr PointIndex part_points = 65536;  ///< of a pass, walked by one thread
 
@@ -62,11 +62,11 @@ struct Across {
 
 class Walker {
 public:
-    Walker(const Positions& positions, const Passes& passes, const Way& way, const WayGrid& grid, double step_over,
-           Adjacency& out)
+    Walker(const Positions& positions, const Passes& passes, const ArcLength& arc_length, const PathGrid& grid,
+           double step_over, Adjacency& out)
         : p_(positions),
           passes_(passes),
-          way_(way),
+          arc_length_(arc_length),
           grid_(grid),
           step_over_(static_cast<float>(step_over)),
           out_(out) {}
@@ -74,12 +74,12 @@ public:
     /// Neighbours of points [first, last] of the pass.
     void walk(std::size_t pass, PointIndex first, PointIndex last) {
         const PointRange own{passes_[pass].first, passes_[pass].last};
-        Chords chords(way_, own, first, direction_chord * step_over_);
+        Chords chords(arc_length_, own, first, direction_chord * step_over_);
         std::array<Follower, 2> followers;
         Across across;
         for (PointIndex i = first; i <= last; ++i) {
             if (turn(across, i, p_[chords.ahead()] - p_[chords.behind()])) {
-                const float moved = i > first ? way_.step(i - 1) / step_over_ : 0.0F;
+                const float moved = i > first ? arc_length_.step(i - 1) / step_over_ : 0.0F;
                 for (Follower& f : followers) f.since += moved;
                 follow(across, i, followers);
             }
@@ -174,11 +174,11 @@ private:
         return (n > pass.first && over(n - 1)) || (n < pass.last && over(n + 1));
     }
 
-    /// The neighbour is another part of the way: the way to it is much longer than the distance.
+    /// The neighbour is another part of the path: the way to it is much longer than the distance.
     [[nodiscard]] bool elsewhere(PointIndex i, PointIndex n) const {
         // Far apart along the way is enough; only near a turn is the distance asked for.
-        const float most = own_way * farthest_neighbour * step_over_;
-        return way_.at_least(i, n, most) || way_.at_least(i, n, own_way * (p_[n] - p_[i]).norm());
+        const float most = own_arc_length * farthest_neighbour * step_over_;
+        return arc_length_.at_least(i, n, most) || arc_length_.at_least(i, n, own_arc_length * (p_[n] - p_[i]).norm());
     }
 
     /// The neighbour's pass runs along or against the feed.
@@ -201,7 +201,7 @@ private:
             if (followers[s].point >= 0) best[s] = across.aside(p_[followers[s].point]).norm() - 0.1F * step_over_;
         }
         std::array<Follower, 2> found;
-        grid_.for_each_near(across.here, [&](const WayGrid::Entry& entry) {
+        grid_.for_each_near(across.here, [&](const PathGrid::Entry& entry) {
             const PointRange pass{passes_[static_cast<std::size_t>(entry.pass)].first,
                                   passes_[static_cast<std::size_t>(entry.pass)].last};
             int direction = 1;
@@ -223,19 +223,19 @@ private:
 
     const Positions& p_;
     const Passes& passes_;
-    const Way& way_;
-    const WayGrid& grid_;
+    const ArcLength& arc_length_;
+    const PathGrid& grid_;
     float step_over_;
     Adjacency& out_;
 };
 
-/// Mean way of a record on cut passes [mm].
-double record_length(const Passes& passes, const Way& way) {
+/// Mean arc length of a record on cut passes [mm].
+double record_length(const Passes& passes, const ArcLength& arc_length) {
     double length = 0;
     PointIndex records = 0;
     for (const Pass& pass : passes) {
         if (pass.kind != PassKind::cut) continue;
-        length += way.to(pass.last) - way.to(pass.first);
+        length += arc_length.to(pass.last) - arc_length.to(pass.first);
         records += pass.size() - 1;
     }
     return records > 0 ? length / static_cast<double>(records) : 0;
@@ -248,7 +248,8 @@ struct Part {
 
 }  // namespace
 
-Adjacency find_neighbours(const Positions& positions, const Passes& passes, const Way& way, double step_over) {
+Adjacency find_neighbours(const Positions& positions, const Passes& passes, const ArcLength& arc_length,
+                          double step_over) {
     Adjacency adjacency;
     const auto count = static_cast<std::size_t>(positions.size());
     adjacency.left.resize(count);
@@ -261,13 +262,14 @@ Adjacency find_neighbours(const Positions& positions, const Passes& passes, cons
         }
     }
     const double cell =
-        std::max(grid_cell * (step_over > 0 ? step_over : 1.0), grid_records * record_length(passes, way));
-    const WayGrid grid(positions, step_over > 0 ? passes : Passes(), way, cell);
+        std::max(grid_cell * (step_over > 0 ? step_over : 1.0), grid_records * record_length(passes, arc_length));
+    const PathGrid grid(positions, step_over > 0 ? passes : Passes(), arc_length, cell);
     parallel_for(static_cast<std::int64_t>(parts.size()), 1, [&](std::int64_t from, std::int64_t to) {
         for (std::int64_t k = from; k < to; ++k) {
             const Part& part = parts[static_cast<std::size_t>(k)];
             if (step_over > 0 && passes[part.pass].kind == PassKind::cut) {
-                Walker(positions, passes, way, grid, step_over, adjacency).walk(part.pass, part.first, part.last);
+                Walker(positions, passes, arc_length, grid, step_over, adjacency)
+                    .walk(part.pass, part.first, part.last);
                 continue;
             }
             for (PointIndex i = part.first; i <= part.last; ++i) {

@@ -35,7 +35,7 @@ struct Adjacency {
 
 /// Neighbours of all points of cut passes, for a step-over [mm]; 0: nobody has neighbours.
 /// O(points), parallel over pieces of passes; the same for any number of threads.
-[[nodiscard]] Adjacency find_neighbours(const Positions& positions, const Passes& passes, const Way& way,
+[[nodiscard]] Adjacency find_neighbours(const Positions& positions, const Passes& passes, const ArcLength& arc_length,
                                         double step_over);
 
 }  // namespace clsurf

@@ -8,61 +8,63 @@
 namespace clsurf {
 namespace {
 
-constexpr double jog_reach = 4.0;  ///< step-overs of way round a seam in which the link of a loop is looked for
-constexpr float jog_half = 0.25F;  ///< step-overs of way from a point to the ends of its own chord
+constexpr double jog_reach = 4.0;  ///< step-overs of arc length round a seam in which the link of a loop is looked for
+constexpr float jog_half = 0.25F;  ///< step-overs of arc length from a point to the ends of its own chord
 constexpr float run_near = 0.6F;   ///< … and of the chords before and after it
 constexpr float run_far = 2.0F;
-constexpr float jog_cosine = 0.7F;  ///< a jog turns off by more than 45° and comes back into the old direction
+constexpr float step_over_move_cosine =
+    0.7F;  ///< a step-over move turns off by more than 45° and comes back into the old direction
 
-/// Where closed loops are joined by a step sideways: what runs along, jogs, and runs along again.
-class JogFinder {
+/// Where closed loops are joined by a step sideways: what runs along, step-over moves, and runs along again.
+class StepOverMoveFinder {
 public:
-    JogFinder(const Positions& positions, const Way& way, double step_over)
-        : p_(positions), way_(way), step_over_(static_cast<float>(step_over)) {}
+    StepOverMoveFinder(const Positions& positions, const ArcLength& arc_length, double step_over)
+        : p_(positions), arc_length_(arc_length), step_over_(static_cast<float>(step_over)) {}
 
-    /// The jog nearest round a seam inside a pass; empty: a spiral has none.
+    /// The step-over move nearest round a seam inside a pass; empty: a spiral has none.
     [[nodiscard]] PointRange jog_at(PointIndex seam, const PointRange& pass) const {
         const PointIndex first = back(seam, static_cast<float>(jog_reach), pass.first);
         const PointIndex last = ahead(seam, static_cast<float>(jog_reach), pass.last);
-        PointRange jog;
+        PointRange step_over_move;
         for (PointIndex i = first; i <= last; ++i) {
-            if (!jogs(i, pass)) continue;
-            if (jog.size() <= 0) jog.first = i;
-            jog.last = i;
+            if (!step_over_moves(i, pass)) continue;
+            if (step_over_move.size() <= 0) step_over_move.first = i;
+            step_over_move.last = i;
         }
-        return jog;
+        return step_over_move;
     }
 
 private:
     [[nodiscard]] PointIndex back(PointIndex i, float step_overs, PointIndex limit) const {
         float gone = 0;
-        while (i > limit && gone < step_overs * step_over_) gone += way_.step(--i);
+        while (i > limit && gone < step_overs * step_over_) gone += arc_length_.step(--i);
         return i;
     }
     [[nodiscard]] PointIndex ahead(PointIndex i, float step_overs, PointIndex limit) const {
         float gone = 0;
-        while (i < limit && gone < step_overs * step_over_) gone += way_.step(i++);
+        while (i < limit && gone < step_overs * step_over_) gone += arc_length_.step(i++);
         return i;
     }
-    [[nodiscard]] bool jogs(PointIndex i, const PointRange& pass) const {
+    [[nodiscard]] bool step_over_moves(PointIndex i, const PointRange& pass) const {
         const auto direction = [&](PointIndex from, PointIndex to) { return (p_[to] - p_[from]).normalized(); };
         const Eigen::Vector3f here = direction(back(i, jog_half, pass.first), ahead(i, jog_half, pass.last));
         const PointIndex near_back = back(i, run_near, pass.first);
         const PointIndex near_ahead = ahead(i, run_near, pass.last);
         const Eigen::Vector3f before = direction(back(near_back, run_far - run_near, pass.first), near_back);
         const Eigen::Vector3f after = direction(near_ahead, ahead(near_ahead, run_far - run_near, pass.last));
-        return before.dot(after) > jog_cosine && here.dot(before) < jog_cosine && here.dot(after) < jog_cosine;
+        return before.dot(after) > step_over_move_cosine && here.dot(before) < step_over_move_cosine &&
+               here.dot(after) < step_over_move_cosine;
     }
 
     const Positions& p_;
-    const Way& way_;
+    const ArcLength& arc_length_;
     float step_over_;
 };
 
 /// A loop or a spiral has come round where its neighbour lies in the same piece: there the piece is
-/// cut, so that every turn is a pass. Adds the steps sideways from loop to loop to `jogs`.
-Passes cut_at_returns(const Passes& passes, const Adjacency& neighbours, const JogFinder& finder,
-                      std::vector<PointRange>& jogs) {
+/// cut, so that every turn is a pass. Adds the steps sideways from loop to loop to `step_over_moves`.
+Passes cut_at_returns(const Passes& passes, const Adjacency& neighbours, const StepOverMoveFinder& finder,
+                      std::vector<PointRange>& step_over_moves) {
     Passes turns;
     for (const Pass& pass : passes) {
         if (pass.kind != PassKind::cut) {
@@ -80,8 +82,8 @@ Passes cut_at_returns(const Passes& passes, const Adjacency& neighbours, const J
                 return false;
             }();
             if (!returned) continue;
-            const PointRange jog = finder.jog_at(i, {first, pass.last});
-            if (jog.size() > 0) jogs.push_back(jog);
+            const PointRange step_over_move = finder.jog_at(i, {first, pass.last});
+            if (step_over_move.size() > 0) step_over_moves.push_back(step_over_move);
             turns.push_back({first, i - 1, PassKind::cut});
             first = i;
         }
@@ -90,18 +92,19 @@ Passes cut_at_returns(const Passes& passes, const Adjacency& neighbours, const J
     return turns;
 }
 
-void stitch_runs(ClSurface& surface, const Passes& runs, const Way& way, double step_over) {
-    surface.step_over = step_over > 0 ? step_over : estimate_step_over(surface.positions, runs, way);
-    surface.jogs.clear();
+void stitch_runs(ClSurface& surface, const Passes& runs, const ArcLength& arc_length, double step_over) {
+    surface.step_over = step_over > 0 ? step_over : estimate_step_over(surface.positions, runs, arc_length);
+    surface.step_over_moves.clear();
     if (surface.step_over <= 0) {
         surface.passes = runs;
-        surface.neighbours = find_neighbours(surface.positions, runs, way, 0);
+        surface.neighbours = find_neighbours(surface.positions, runs, arc_length, 0);
         return;
     }
-    const Passes passes = find_passes(surface.positions, way, runs, surface.step_over);
-    surface.neighbours = find_neighbours(surface.positions, passes, way, surface.step_over);
+    const Passes passes = find_passes(surface.positions, arc_length, runs, surface.step_over);
+    surface.neighbours = find_neighbours(surface.positions, passes, arc_length, surface.step_over);
     surface.passes =
-        cut_at_returns(passes, surface.neighbours, JogFinder(surface.positions, way, surface.step_over), surface.jogs);
+        cut_at_returns(passes, surface.neighbours, StepOverMoveFinder(surface.positions, arc_length, surface.step_over),
+                       surface.step_over_moves);
 }
 
 /// The runs again, without the passes that are no finishing passes; counts their points.
@@ -141,11 +144,11 @@ ClSurface stitch(Positions positions, const LineMap& lines, double step_over) {
     ClSurface surface;
     surface.positions = std::move(positions);
     const Passes runs = find_runs(surface.positions, lines);
-    const Way way(surface.positions);
-    stitch_runs(surface, runs, way, step_over);
+    const ArcLength arc_length(surface.positions);
+    stitch_runs(surface, runs, arc_length, step_over);
     if (surface.step_over <= 0) return surface;
     const Passes finishing = without_other_cutting(surface, runs, surface.not_finishing);
-    if (surface.not_finishing > 0) stitch_runs(surface, finishing, way, step_over);
+    if (surface.not_finishing > 0) stitch_runs(surface, finishing, arc_length, step_over);
     return surface;
 }
 

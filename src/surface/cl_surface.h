@@ -15,8 +15,8 @@ namespace clsurf {
 
 struct ClSurface {
     Positions positions;
-    Passes passes;                 ///< by turns back and by returning to themselves (a turn of a spiral is one)
-    std::vector<PointRange> jogs;  ///< steps sideways from one closed loop to the next, in order
+    Passes passes;  ///< by turns back and by returning to themselves (a turn of a spiral is one)
+    std::vector<PointRange> step_over_moves;  ///< steps sideways from one closed loop to the next, in order
     Adjacency neighbours;
     double step_over = 0;  ///< [mm]; 0: a single pass, no neighbours
     /// Points that cut and belong to no finishing pass (surface/finishing.h); among the passes they count as rapid.
@@ -24,27 +24,28 @@ struct ClSurface {
 };
 
 /// The parts of ranges, which rise, between steps sideways and inside them.
-class JogCutter {
+class StepOverMoveCutter {
 public:
-    /// `jogs` must outlive it.
-    explicit JogCutter(std::span<const PointRange> jogs) : jogs_(jogs) {}
+    /// `step_over_moves` must outlive it.
+    explicit StepOverMoveCutter(std::span<const PointRange> step_over_moves) : step_over_moves_(step_over_moves) {}
 
     /// f(part, whether it is a step sideways) for the next range. Amortised O(parts).
     template <typename F>
     void cut(PointRange range, F&& f) {
-        for (; next_ < jogs_.size() && jogs_[next_].first <= range.last; ++next_) {
-            const PointRange& jog = jogs_[next_];
-            if (jog.first > range.first) f(PointRange{range.first, jog.first - 1}, false);
-            const PointRange inside{std::max(range.first, jog.first), std::min(range.last, jog.last)};
+        for (; next_ < step_over_moves_.size() && step_over_moves_[next_].first <= range.last; ++next_) {
+            const PointRange& step_over_move = step_over_moves_[next_];
+            if (step_over_move.first > range.first) f(PointRange{range.first, step_over_move.first - 1}, false);
+            const PointRange inside{std::max(range.first, step_over_move.first),
+                                    std::min(range.last, step_over_move.last)};
             if (inside.size() > 0) f(inside, true);
             range.first = std::max(range.first, inside.last + 1);
-            if (jog.last > range.last) return;  // goes on in the next range
+            if (step_over_move.last > range.last) return;  // goes on in the next range
         }
         if (range.size() > 0) f(range, false);
     }
 
 private:
-    std::span<const PointRange> jogs_;
+    std::span<const PointRange> step_over_moves_;
     std::size_t next_ = 0;
 };
 

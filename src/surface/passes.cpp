@@ -9,13 +9,13 @@
 namespace clsurf {
 namespace {
 
-constexpr float turning_cosine = -0.5F;   ///< chords that enclose more than 120° turn back
-constexpr double chord_step_overs = 1.5;  ///< way of a chord
-constexpr float corner_play = 1e-6F;      ///< [mm²] of reach times chord; less is no progress
-constexpr double shortest_pass = 2.0;     ///< step-overs of way; a shorter piece belongs to its link
-constexpr float vertical_slope = 0.02F;   ///< horizontal per vertical way of an approach
-constexpr float vertical_play = 0.005F;   ///< [mm]
-constexpr float least_approach = 0.1F;    ///< [mm]; a shorter vertical piece is left alone
+constexpr float turning_cosine = -0.5F;    ///< chords that enclose more than 120° turn back
+constexpr double chord_step_overs = 1.5;   ///< arc length of a chord
+constexpr float corner_tolerance = 1e-6F;  ///< [mm²] of reach times chord; less is no progress
+constexpr double shortest_pass = 2.0;      ///< step-overs of arc length; a shorter piece belongs to its link
+constexpr float vertical_slope = 0.02F;    ///< horizontal per vertical arc length of an approach
+constexpr float vertical_play = 0.005F;    ///< [mm]
+constexpr float least_approach = 0.1F;     ///< [mm]; a shorter vertical piece is left alone
 
 /// Appends a piece; joins it with the one before when it is of the same kind.
 void append(Passes& passes, Pass piece) {
@@ -32,8 +32,8 @@ PointIndex vertical_points(const Positions& p, PointIndex from, PointIndex to, i
     const Eigen::Vector3f start = p[from];
     PointIndex i = from;
     while (i != to) {
-        const Eigen::Vector3f way = p[i + direction] - start;
-        if (std::hypot(way.x(), way.y()) > vertical_play + vertical_slope * std::abs(way.z())) break;
+        const Eigen::Vector3f offset = p[i + direction] - start;
+        if (std::hypot(offset.x(), offset.y()) > vertical_play + vertical_slope * std::abs(offset.z())) break;
         i += direction;
     }
     if (std::abs((p[i] - start).z()) < least_approach) return 0;
@@ -92,9 +92,9 @@ Passes find_runs(const Positions& positions, const LineMap& lines) {
 namespace {
 
 /// True where the way turns back.
-bool turns_back(const Positions& p, const Chords& chords, float way) {
+bool turns_back(const Positions& p, const Chords& chords, float arc_length) {
     // Near the end of a run there is no way ahead to judge by.
-    if (chords.way_behind() < 0.5F * way || chords.way_ahead() < 0.5F * way) return false;
+    if (chords.arc_length_behind() < 0.5F * arc_length || chords.arc_length_ahead() < 0.5F * arc_length) return false;
     const Eigen::Vector3f here = p[chords.point()];
     const Eigen::Vector3f back = here - p[chords.behind()];
     const Eigen::Vector3f ahead = p[chords.ahead()] - here;
@@ -104,11 +104,11 @@ bool turns_back(const Positions& p, const Chords& chords, float way) {
 }
 
 /// Pieces between two links that are too short to be passes belong to the link.
-void append_cleaned(Passes& passes, const Way& way, const Passes& pieces, double least) {
+void append_cleaned(Passes& passes, const ArcLength& arc_length, const Passes& pieces, double least) {
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         Pass piece = pieces[i];
         const bool between = i > 0 && i + 1 < pieces.size();
-        if (piece.kind == PassKind::cut && between && way.to(piece.last) - way.to(piece.first) < least) {
+        if (piece.kind == PassKind::cut && between && arc_length.to(piece.last) - arc_length.to(piece.first) < least) {
             piece.kind = PassKind::link;
         }
         append(passes, piece);
@@ -121,9 +121,9 @@ PointIndex farthest(const Positions& p, PointIndex from, PointIndex to, const Ei
     float most = 0;
     const PointIndex step = to >= from ? 1 : -1;
     for (PointIndex i = from; i != to + step; i += step) {
-        const float way = (p[i] - p[from]).dot(direction);
-        if (way > most + corner_play) {
-            most = way;
+        const float arc_length = (p[i] - p[from]).dot(direction);
+        if (arc_length > most + corner_tolerance) {
+            most = arc_length;
             best = i;
         }
     }
@@ -132,14 +132,14 @@ PointIndex farthest(const Positions& p, PointIndex from, PointIndex to, const Ei
 
 /// Chords see a turn before it comes. The pass itself ends at its outermost point, the next begins
 /// at its own; what lies between is the link.
-void tighten_links(Passes& passes, const Positions& p, const Way& lengths, float way) {
+void tighten_links(Passes& passes, const Positions& p, const ArcLength& lengths, float arc_length) {
     for (std::size_t k = 1; k + 1 < passes.size(); ++k) {
         Pass& link = passes[k];
         Pass& before = passes[k - 1];
         Pass& after = passes[k + 1];
         if (link.kind != PassKind::link || before.kind != PassKind::cut || after.kind != PassKind::cut) continue;
-        const Chords arriving(lengths, {before.first, link.first}, link.first, way);
-        const Chords leaving(lengths, {link.last, after.last}, link.last, way);
+        const Chords arriving(lengths, {before.first, link.first}, link.first, arc_length);
+        const Chords leaving(lengths, {link.last, after.last}, link.last, arc_length);
         const PointIndex end = farthest(p, link.first, link.last, p[link.first] - p[arriving.behind()]);
         const PointIndex begin = farthest(p, link.last, link.first, p[link.last] - p[leaving.ahead()]);
         if (end >= begin) continue;  // no way between the corners: leave it as it was seen
@@ -152,8 +152,8 @@ void tighten_links(Passes& passes, const Positions& p, const Way& lengths, float
 
 }  // namespace
 
-Passes find_passes(const Positions& positions, const Way& lengths, const Passes& runs, double step_over) {
-    const auto way = static_cast<float>(chord_step_overs * step_over);
+Passes find_passes(const Positions& positions, const ArcLength& lengths, const Passes& runs, double step_over) {
+    const auto arc_length = static_cast<float>(chord_step_overs * step_over);
     Passes passes;
     for (const Pass& run : runs) {
         if (run.kind != PassKind::cut) {
@@ -164,12 +164,12 @@ Passes find_passes(const Positions& positions, const Way& lengths, const Passes&
         std::vector<Passes> of_part(parts);
         for_each_block(run.size(), [&](PointIndex first, PointIndex last) {
             Passes& mine = of_part[static_cast<std::size_t>(first / block_points)];
-            Chords chords(lengths, {run.first, run.last}, run.first + first, way);
+            Chords chords(lengths, {run.first, run.last}, run.first + first, arc_length);
             PointIndex begin = run.first + first;
-            bool before = turns_back(positions, chords, way);
+            bool before = turns_back(positions, chords, arc_length);
             for (PointIndex i = begin + 1; i < run.first + last; ++i) {
                 chords.advance();
-                const bool back = turns_back(positions, chords, way);
+                const bool back = turns_back(positions, chords, arc_length);
                 if (back == before) continue;
                 append(mine, {begin, i - 1, before ? PassKind::link : PassKind::cut});
                 begin = i;
@@ -183,7 +183,7 @@ Passes find_passes(const Positions& positions, const Way& lengths, const Passes&
         }
         append_cleaned(passes, lengths, pieces, shortest_pass * step_over);
     }
-    tighten_links(passes, positions, lengths, way);
+    tighten_links(passes, positions, lengths, arc_length);
     return passes;
 }
 

@@ -42,6 +42,7 @@ using Passes = Column<Pass>;
 [[nodiscard]] Passes find_runs(const Positions& positions, const LineMap& lines);
 
 /// Runs cut into passes at turns back, for a step-over [mm] > 0; links between. O(points), parallel.
-[[nodiscard]] Passes find_passes(const Positions& positions, const Way& lengths, const Passes& runs, double step_over);
+[[nodiscard]] Passes find_passes(const Positions& positions, const ArcLength& lengths, const Passes& runs,
+                                 double step_over);
 
 }  // namespace clsurf

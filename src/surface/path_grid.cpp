@@ -4,7 +4,7 @@
 
 namespace clsurf {
 
-WayGrid::WayGrid(const Positions& positions, const Passes& passes, const Way& way, double cell)
+PathGrid::PathGrid(const Positions& positions, const Passes& passes, const ArcLength& arc_length, double cell)
     : per_mm_(static_cast<float>(1.0 / cell)) {
     Column<Entry> found;
     Column<std::uint64_t> cells;
@@ -12,7 +12,7 @@ WayGrid::WayGrid(const Positions& positions, const Passes& passes, const Way& wa
         if (passes[pass].kind != PassKind::cut) continue;
         double since = cell;
         for (PointIndex i = passes[pass].first; i <= passes[pass].last; ++i) {
-            if (i > passes[pass].first) since += way.step(i - 1);
+            if (i > passes[pass].first) since += arc_length.step(i - 1);
             if (since < cell && i != passes[pass].last) continue;
             since = 0;
             found.push_back({i, static_cast<std::int32_t>(pass)});

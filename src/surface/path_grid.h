@@ -1,5 +1,5 @@
 #pragma once
-// WayGrid: sparse points of the cutting passes by cell, to find a nearby part of the path. Used only where a
+// PathGrid: sparse points of the cutting passes by cell, to find a nearby part of the path. Used only where a
 // search along the adjacent pass starts or is lost.
 
 #include <cstdint>
@@ -10,10 +10,10 @@
 
 namespace clsurf {
 
-class WayGrid {
+class PathGrid {
 public:
-    /// One entry per `cell` [mm] of way of every cut pass. O(points).
-    WayGrid(const Positions& positions, const Passes& passes, const Way& way, double cell);
+    /// One entry per `cell` [mm] of arc length of every cut pass. O(points).
+    PathGrid(const Positions& positions, const Passes& passes, const ArcLength& arc_length, double cell);
 
     struct Entry {
         PointIndex point = 0;

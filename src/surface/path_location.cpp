@@ -7,7 +7,7 @@ constexpr int farthest_walk = 8;  ///< points from the adjacency's neighbour to 
 
 }  // namespace
 
-Station beside(const ClSurface& surface, const Station& from, const Eigen::Vector3f& feed, Side side) {
+PathLocation beside(const ClSurface& surface, const PathLocation& from, const Eigen::Vector3f& feed, Side side) {
     const PointIndex own = from.nearest();
     if (!surface.neighbours.has(side, own)) return {};
     const Positions& p = surface.positions;
@@ -27,7 +27,7 @@ Station beside(const ClSurface& surface, const Station& from, const Eigen::Vecto
         if (!(then == then)) return {};
         if (at * then <= 0) {
             const float share = at / (at - then);
-            return direction > 0 ? Station{k, share} : Station{next, 1 - share};
+            return direction > 0 ? PathLocation{k, share} : PathLocation{next, 1 - share};
         }
         if (std::abs(then) > std::abs(at)) break;
         k = next;
@@ -37,7 +37,8 @@ Station beside(const ClSurface& surface, const Station& from, const Eigen::Vecto
     return {k, 0};
 }
 
-Station beyond(const ClSurface& surface, const Station& before, const Station& from, const Eigen::Vector3f& feed) {
+PathLocation beyond(const ClSurface& surface, const PathLocation& before, const PathLocation& from,
+                    const Eigen::Vector3f& feed) {
     const PointIndex own = from.nearest();
     const Positions& p = surface.positions;
     const Eigen::Vector3f across = p[own] - position_at(p, before);

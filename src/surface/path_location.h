@@ -1,6 +1,6 @@
 #pragma once
-// Station: a place on the path between two logged points, and the point where the plane normal to the feed at
-// one station meets the adjacent pass. A comparison with the nearest logged point instead would compare places
+// PathLocation: a place on the path between two logged points, and the point where the plane normal to the feed at
+// one location meets the adjacent pass. A comparison with the nearest logged point instead would compare places
 // up to half a period apart along the feed: while braking at 600 mm/s², this alone is a speed difference of
 // 0.3 mm/s.
 
@@ -10,7 +10,7 @@
 
 namespace clsurf {
 
-struct Station {
+struct PathLocation {
     PointIndex point = -1;  ///< −1: none
     float fraction = 0;     ///< of the step from point to point + 1, 0 … 1
 
@@ -18,25 +18,26 @@ struct Station {
     [[nodiscard]] PointIndex nearest() const { return fraction < 0.5F ? point : point + 1; }
 };
 
-/// A column's value at a station, linear between the points. Domain: exists().
+/// A column's value at a location, linear between the points. Domain: exists().
 template <typename T>
-[[nodiscard]] T interpolate(const Column<T>& column, const Station& at) {
+[[nodiscard]] T interpolate(const Column<T>& column, const PathLocation& at) {
     const auto i = static_cast<std::size_t>(at.point);
     if (at.fraction == 0) return column[i];
     return column[i] + at.fraction * (column[i + 1] - column[i]);
 }
 
-[[nodiscard]] inline Eigen::Vector3f position_at(const Positions& p, const Station& at) {
+[[nodiscard]] inline Eigen::Vector3f position_at(const Positions& p, const PathLocation& at) {
     return {interpolate(p.x, at), interpolate(p.y, at), interpolate(p.z, at)};
 }
 
 /// Where the plane through `from`, normal to `feed` (any length), meets the pass on that side; none
 /// where there is no neighbour. O(1): the adjacency knows the point next to it.
-[[nodiscard]] Station beside(const ClSurface& surface, const Station& from, const Eigen::Vector3f& feed, Side side);
+[[nodiscard]] PathLocation beside(const ClSurface& surface, const PathLocation& from, const Eigen::Vector3f& feed,
+                                  Side side);
 
 /// The same away from `before`, where the way from pass to pass came from: sides are those of the
 /// feed, which turns round on every other pass of a zigzag.
-[[nodiscard]] Station beyond(const ClSurface& surface, const Station& before, const Station& from,
-                             const Eigen::Vector3f& feed);
+[[nodiscard]] PathLocation beyond(const ClSurface& surface, const PathLocation& before, const PathLocation& from,
+                                  const Eigen::Vector3f& feed);
 
 }  // namespace clsurf

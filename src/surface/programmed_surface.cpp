@@ -69,39 +69,39 @@ double usual_length(const Toolpath& path) {
 }
 
 ProgrammedSurface stitch_sampled(Sampled sampled, const Program& program, double step_over) {
-    ProgrammedSurface laid;
-    laid.motion = std::move(sampled.motion);
-    laid.is_end = std::move(sampled.is_end);
-    Column<std::uint32_t> motion(laid.motion.size());
-    std::copy(laid.motion.begin(), laid.motion.end(), motion.begin());
-    const LineMap lines(std::move(motion), Column<std::uint8_t>(laid.motion.size(), 255), program);
-    laid.surface = stitch(std::move(sampled.positions), lines, step_over);
-    return laid;
+    ProgrammedSurface programmed;
+    programmed.motion = std::move(sampled.motion);
+    programmed.is_end = std::move(sampled.is_end);
+    Column<std::uint32_t> motion(programmed.motion.size());
+    std::copy(programmed.motion.begin(), programmed.motion.end(), motion.begin());
+    const LineMap lines(std::move(motion), Column<std::uint8_t>(programmed.motion.size(), 255), program);
+    programmed.surface = stitch(std::move(sampled.positions), lines, step_over);
+    return programmed;
 }
 
 }  // namespace
 
-ProgrammedSurface lay_out(const Program& program) {
+ProgrammedSurface build_programmed_surface(const Program& program) {
     const Toolpath path = toolpath_of(program);
     const double coarsest = std::max(cutting_length(path) / most_laid_points, 1e-4);
     double spacing = std::max(coarsest, usual_length(path));
-    ProgrammedSurface laid = stitch_sampled(sample(path, spacing), program, 0);
+    ProgrammedSurface programmed = stitch_sampled(sample(path, spacing), program, 0);
     // Passes and neighbours need points closer than passes lie; the first look only tells how close.
-    const double wanted = std::max(coarsest, spacing_of_step_over * laid.surface.step_over);
-    if (laid.surface.step_over > 0 && wanted < 0.9 * spacing) {
-        laid = stitch_sampled(sample(path, wanted), program, laid.surface.step_over);
+    const double wanted = std::max(coarsest, spacing_of_step_over * programmed.surface.step_over);
+    if (programmed.surface.step_over > 0 && wanted < 0.9 * spacing) {
+        programmed = stitch_sampled(sample(path, wanted), program, programmed.surface.step_over);
     }
-    return laid;
+    return programmed;
 }
 
-std::vector<ProgrammedPass> cut_passes(const ProgrammedSurface& laid) {
+std::vector<ProgrammedPass> cut_passes(const ProgrammedSurface& programmed) {
     std::vector<ProgrammedPass> passes;
     std::int64_t number = 0;
-    for (const Pass& pass : laid.surface.passes) {
+    for (const Pass& pass : programmed.surface.passes) {
         if (pass.kind != PassKind::cut) continue;
         ProgrammedPass mine{++number, {pass.first, pass.last}, {pass.first}};
         for (PointIndex i = pass.first + 1; i <= pass.last; ++i) {
-            if (laid.ends_motion(i)) mine.ends.push_back(i);
+            if (programmed.ends_motion(i)) mine.ends.push_back(i);
         }
         if (mine.ends.size() > 1) passes.push_back(std::move(mine));
     }

@@ -23,7 +23,7 @@ struct ProgrammedSurface {
 /// Points at the ends of all motions and, where a motion is longer than half a step-over, evenly inside
 /// it. Coordinates that the program never sets count as 0. O(points); memory: bounded by 20 million points,
 /// beyond which long motions get fewer.
-[[nodiscard]] ProgrammedSurface lay_out(const Program& program);
+[[nodiscard]] ProgrammedSurface build_programmed_surface(const Program& program);
 
 /// The motions of a cut pass in order, as the points where they end; the first point is the start of the pass.
 struct ProgrammedPass {
@@ -33,6 +33,6 @@ struct ProgrammedPass {
 };
 
 /// All cut passes with at least two points. O(points).
-[[nodiscard]] std::vector<ProgrammedPass> cut_passes(const ProgrammedSurface& laid);
+[[nodiscard]] std::vector<ProgrammedPass> cut_passes(const ProgrammedSurface& programmed);
 
 }  // namespace clsurf

@@ -57,7 +57,7 @@ std::vector<PointRange> standstills(const Trajectory& path, PointRange range) {
 
 }  // namespace
 
-std::vector<PointRange> smooth_pieces(const Log& log, const Passes& passes) {
+std::vector<PointRange> smoothing_segments(const Log& log, const Passes& passes) {
     std::vector<PointRange> pieces;
     PassKind before = PassKind::rapid;
     for (const Pass& pass : passes) {

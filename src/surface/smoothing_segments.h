@@ -12,7 +12,7 @@ namespace clsurf {
 
 /// Passes in order, neighbouring turns of a spiral as one piece, cut where records are missing.
 /// O(points) where the log has a time channel, O(passes) otherwise.
-[[nodiscard]] std::vector<PointRange> smooth_pieces(const Log& log, const Passes& passes);
+[[nodiscard]] std::vector<PointRange> smoothing_segments(const Log& log, const Passes& passes);
 
 /// The same cut where the tool stands, at least as long as a derivative's window and for three records: a window that reached from
 /// there into the motion would show speed before it begins. The records that stand are pieces of their own; the first and the last of

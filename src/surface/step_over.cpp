@@ -12,8 +12,8 @@ namespace clsurf {
 namespace {
 
 constexpr std::size_t probes_wanted = 384;
-/// Another part of the way: it is this many times farther along the way than straight across.
-constexpr double way_over_distance = 3.0;
+/// Another part of the path: it is this many times farther along the way than straight across.
+constexpr double arc_length_over_distance = 3.0;
 constexpr double same_place = 1e-3;   ///< [mm]; nearer is the same pass cut again
 constexpr double finest_cells = 256;  ///< cells along the part's diagonal in the first look
 constexpr int coarsest_look = 7;
@@ -21,7 +21,7 @@ constexpr double enough = 0.5;  ///< share of probes that must have found a neig
 
 struct Probe {
     PointIndex point = 0;
-    double way = 0;          ///< from the start [mm]
+    double arc_length = 0;   ///< from the start [mm]
     double nearest = 1e300;  ///< [mm]
 };
 
@@ -57,10 +57,10 @@ private:
 };
 
 double distance_to_segment(const Eigen::Vector3f& p, const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
-    const Eigen::Vector3f way = b - a;
-    const float squared = way.squaredNorm();
-    const float t = squared > 0 ? std::clamp((p - a).dot(way) / squared, 0.0F, 1.0F) : 0.0F;
-    return (a + t * way - p).norm();
+    const Eigen::Vector3f chord = b - a;
+    const float squared = chord.squaredNorm();
+    const float t = squared > 0 ? std::clamp((p - a).dot(chord) / squared, 0.0F, 1.0F) : 0.0F;
+    return (a + t * chord - p).norm();
 }
 
 Eigen::AlignedBox3f box_of(const Positions& p, const Passes& runs) {
@@ -78,15 +78,15 @@ Eigen::AlignedBox3f box_of(const Positions& p, const Passes& runs) {
     return box;
 }
 
-/// A point of the way and how far along it lies.
+/// A point of the path and how far along it lies.
 struct Sample {
     PointIndex point = 0;
-    double way = 0;       ///< [mm]
-    bool joined = false;  ///< the sample before lies on the same run
+    double arc_length = 0;  ///< [mm]
+    bool joined = false;    ///< the sample before lies on the same run
 };
 
-/// Points of the cutting runs, one per `spacing` [mm] of way or little more.
-std::vector<Sample> thinned(const Passes& runs, const Way& way, double spacing) {
+/// Points of the cutting runs, one per `spacing` [mm] of arc length or little more.
+std::vector<Sample> thinned(const Passes& runs, const ArcLength& arc_length, double spacing) {
     std::vector<std::vector<Sample>> of_block;
     for (const Pass& run : runs) {
         if (run.kind != PassKind::cut) continue;
@@ -94,11 +94,11 @@ std::vector<Sample> thinned(const Passes& runs, const Way& way, double spacing) 
         of_block.resize(base + static_cast<std::size_t>((run.size() + block_points - 1) / block_points));
         for_each_block(run.size(), [&](PointIndex first, PointIndex last) {
             std::vector<Sample>& mine = of_block[base + static_cast<std::size_t>(first / block_points)];
-            double at = way.to(run.first + first);
+            double at = arc_length.to(run.first + first);
             mine.push_back({run.first + first, at, first > 0});
             for (PointIndex i = run.first + first + 1; i < run.first + last; ++i) {
-                at += way.step(i - 1);
-                if (at - mine.back().way >= spacing) mine.push_back({i, at, true});
+                at += arc_length.step(i - 1);
+                if (at - mine.back().arc_length >= spacing) mine.push_back({i, at, true});
             }
         });
     }
@@ -109,14 +109,16 @@ std::vector<Sample> thinned(const Passes& runs, const Way& way, double spacing) 
 
 }  // namespace
 
-double estimate_step_over(const Positions& positions, const Passes& runs, const Way& way) {
+double estimate_step_over(const Positions& positions, const Passes& runs, const ArcLength& arc_length) {
     const Eigen::AlignedBox3f box = box_of(positions, runs);
     if (box.isEmpty() || box.diagonal().norm() <= 0) return 0;
     const float diagonal = box.diagonal().norm();
-    const std::vector<Sample> path = thinned(runs, way, diagonal / (finest_cells * 8));
+    const std::vector<Sample> path = thinned(runs, arc_length, diagonal / (finest_cells * 8));
     std::vector<Probe> probes;
     const std::size_t stride = std::max<std::size_t>(1, path.size() / probes_wanted);
-    for (std::size_t i = stride / 2; i < path.size(); i += stride) { probes.push_back({path[i].point, path[i].way}); }
+    for (std::size_t i = stride / 2; i < path.size(); i += stride) {
+        probes.push_back({path[i].point, path[i].arc_length});
+    }
     float cell = diagonal / static_cast<float>(finest_cells);
     for (int look = 0; look < coarsest_look; ++look, cell *= 2) {
         const ProbeCells cells(positions, probes, cell);
@@ -129,7 +131,8 @@ double estimate_step_over(const Positions& positions, const Passes& runs, const 
             for (const std::uint32_t i : *near) {
                 Probe& probe = probes[i];
                 const double distance = distance_to_segment(positions[probe.point], before, here);
-                const bool other = std::abs(path[k].way - probe.way) > way_over_distance * distance;
+                const bool other =
+                    std::abs(path[k].arc_length - probe.arc_length) > arc_length_over_distance * distance;
                 if (other && distance > same_place && distance < probe.nearest) probe.nearest = distance;
             }
         }

@@ -7,8 +7,8 @@
 
 namespace clsurf {
 
-/// Step-over [mm] of the cutting runs, or 0 where no part of the way has another beside it (a single
+/// Step-over [mm] of the cutting runs, or 0 where no part of the path has another beside it (a single
 /// pass). O(points), parallel.
-[[nodiscard]] double estimate_step_over(const Positions& positions, const Passes& runs, const Way& way);
+[[nodiscard]] double estimate_step_over(const Positions& positions, const Passes& runs, const ArcLength& arc_length);
 
 }  // namespace clsurf

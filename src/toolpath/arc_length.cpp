@@ -22,7 +22,7 @@ CLSURF_VECTORISED void measure(const float* x, const float* y, const float* z, f
 
 }  // namespace
 
-Way::Way(const Positions& positions) {
+ArcLength::ArcLength(const Positions& positions) {
     const PointIndex count = positions.size();
     steps_.resize(static_cast<std::size_t>(count));
     sums_ = Column<double>(static_cast<std::size_t>((count + stride - 1) / stride + 1), 0.0);
@@ -39,19 +39,19 @@ Way::Way(const Positions& positions) {
     for (std::size_t k = 1; k < sums_.size(); ++k) sums_[k] += sums_[k - 1];
 }
 
-double Way::to(PointIndex i) const {
+double ArcLength::to(PointIndex i) const {
     const PointIndex block = i / stride;
-    double way = sums_[static_cast<std::size_t>(block)];
-    for (PointIndex k = block * stride; k < i; ++k) way += step(k);
-    return way;
+    double arc_length = sums_[static_cast<std::size_t>(block)];
+    for (PointIndex k = block * stride; k < i; ++k) arc_length += step(k);
+    return arc_length;
 }
 
-bool Way::at_least(PointIndex i, PointIndex j, double distance) const {
+bool ArcLength::at_least(PointIndex i, PointIndex j, double distance) const {
     if (i > j) std::swap(i, j);
     if (j - i <= stride) {
-        double way = 0;
-        for (PointIndex k = i; k < j && way < distance; ++k) way += step(k);
-        return way >= distance;
+        double arc_length = 0;
+        for (PointIndex k = i; k < j && arc_length < distance; ++k) arc_length += step(k);
+        return arc_length >= distance;
     }
     const PointIndex from = (i + stride - 1) / stride;
     const PointIndex to = j / stride;

@@ -1,5 +1,5 @@
 #pragma once
-// Way: arc length from point to point and in total. A prefix sum for every 64th point is enough to know in
+// ArcLength: arc length from point to point and in total. A prefix sum for every 64th point is enough to know in
 // O(1) that two points are far apart along the path.
 
 #include "core/column.h"
@@ -7,15 +7,15 @@
 
 namespace clsurf {
 
-class Way {
+class ArcLength {
 public:
     /// O(points), parallel.
-    explicit Way(const Positions& positions);
+    explicit ArcLength(const Positions& positions);
 
-    /// Way from point i to the next [mm]; 0 from or to a missing position.
+    /// Arc length from point i to the next [mm]; 0 from or to a missing position.
     [[nodiscard]] float step(PointIndex i) const { return steps_[static_cast<std::size_t>(i)]; }
 
-    /// Way from the first point to point i [mm]. O(64).
+    /// Arc length from the first point to point i [mm]. O(64).
     [[nodiscard]] double to(PointIndex i) const;
 
     /// True where the way between two points is at least `distance` [mm]. O(1) but where it is close.
@@ -25,7 +25,7 @@ private:
     static constexpr PointIndex stride = 64;
 
     Column<float> steps_;
-    Column<double> sums_;  ///< way to point 64 k
+    Column<double> sums_;  ///< arc length to point 64 k
 };
 
 }  // namespace clsurf

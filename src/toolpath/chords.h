@@ -9,11 +9,11 @@ namespace clsurf {
 
 class Chords {
 public:
-    /// Stands at `point` of the run [first, last]; chords reach over `way` [mm] to each side, less at
+    /// Stands at `point` of the run [first, last]; chords reach over `arc_length` [mm] to each side, less at
     /// the run's ends. O(points in the window).
-    Chords(const Way& lengths, PointRange run, PointIndex point, float way)
-        : lengths_(&lengths), run_(run), way_(way), at_(point), behind_(point), ahead_(point) {
-        while (behind_ > run_.first && way_behind_ < way_) way_behind_ += step(--behind_);
+    Chords(const ArcLength& lengths, PointRange run, PointIndex point, float arc_length)
+        : lengths_(&lengths), run_(run), arc_length_(arc_length), at_(point), behind_(point), ahead_(point) {
+        while (behind_ > run_.first && arc_length_behind_ < arc_length_) arc_length_behind_ += step(--behind_);
         extend();
     }
 
@@ -21,34 +21,35 @@ public:
     void advance() {
         const float gone = step(at_);
         ++at_;
-        way_behind_ += gone;
-        way_ahead_ -= gone;
-        while (behind_ < at_ && way_behind_ - step(behind_) >= way_) way_behind_ -= step(behind_++);
+        arc_length_behind_ += gone;
+        arc_length_ahead_ -= gone;
+        while (behind_ < at_ && arc_length_behind_ - step(behind_) >= arc_length_)
+            arc_length_behind_ -= step(behind_++);
         extend();
     }
 
     [[nodiscard]] PointIndex point() const { return at_; }
     [[nodiscard]] PointIndex behind() const { return behind_; }
     [[nodiscard]] PointIndex ahead() const { return ahead_; }
-    [[nodiscard]] float way_behind() const { return way_behind_; }  ///< [mm]
-    [[nodiscard]] float way_ahead() const { return way_ahead_; }    ///< [mm]
+    [[nodiscard]] float arc_length_behind() const { return arc_length_behind_; }  ///< [mm]
+    [[nodiscard]] float arc_length_ahead() const { return arc_length_ahead_; }    ///< [mm]
 
 private:
     [[nodiscard]] float step(PointIndex i) const { return lengths_->step(i); }
     void extend() {
         if (ahead_ < at_) {
             ahead_ = at_;
-            way_ahead_ = 0;
+            arc_length_ahead_ = 0;
         }
-        while (ahead_ < run_.last && way_ahead_ < way_) way_ahead_ += step(ahead_++);
+        while (ahead_ < run_.last && arc_length_ahead_ < arc_length_) arc_length_ahead_ += step(ahead_++);
     }
 
-    const Way* lengths_;
+    const ArcLength* lengths_;
     PointRange run_;
-    float way_;
+    float arc_length_;
     PointIndex at_, behind_, ahead_;
-    float way_behind_ = 0;
-    float way_ahead_ = 0;
+    float arc_length_behind_ = 0;
+    float arc_length_ahead_ = 0;
 };
 
 }  // namespace clsurf

@@ -13,8 +13,8 @@
 namespace clsurf {
 namespace {
 
-constexpr PointIndex looked_at = 2000;   ///< points of a stretch that the model is measured on
-constexpr PointIndex stretches = 48;     ///< evenly spaced over the pieces
+constexpr PointIndex looked_at = 2000;   ///< points of a section that the model is measured on
+constexpr PointIndex sections = 48;      ///< evenly spaced over the pieces
 constexpr PointIndex least_piece = 100;  ///< points
 constexpr double finest = 1e-8;          ///< [mm] no position is more exact
 constexpr double most_wandering = 1e2, least_wandering = 1e-17;
@@ -22,13 +22,13 @@ constexpr double per_sigma = 1.4826;  ///< standard deviation over median of abs
 /// A model is sure of itself only so far: the wandering is found to a factor of √10.
 constexpr double wandering_step = 3.1622776601683795;
 
-/// Stretches spread over the pieces that are long enough to tell anything.
+/// Sections spread over the pieces that are long enough to tell anything.
 std::vector<PointRange> samples_of(const std::vector<PointRange>& pieces) {
     PointIndex all = 0;
     for (const PointRange& piece : pieces) all += piece.size() >= least_piece ? piece.size() : 0;
-    const PointIndex every = std::max(looked_at, all / stretches);
+    const PointIndex every = std::max(looked_at, all / sections);
     std::vector<PointRange> samples;
-    PointIndex next = 0;  // where the next stretch begins, counted from the piece's first point
+    PointIndex next = 0;  // where the next section begins, counted from the piece's first point
     for (const PointRange& piece : pieces) {
         if (piece.size() < least_piece) continue;
         for (; next < piece.size(); next += every) {
@@ -103,7 +103,7 @@ void MotionEstimate::measure_positions(const std::vector<PointRange>& pieces) {
     }
 }
 
-/// Standard deviation of residual(states, sample, i) over the sampled stretches, robust.
+/// Standard deviation of residual(states, sample, i) over the sampled sections, robust.
 template <typename Residual>
 double MotionEstimate::agreement(const std::vector<PointRange>& pieces, Residual&& residual) const {
     std::vector<double> all;

@@ -116,9 +116,9 @@ private:
         int chords = std::clamp(static_cast<int>(std::ceil(turn / chord_turn)), 1, most_chords);
         const Arc* arc = is_arc(kind) ? from_->arc_of(motion) : nullptr;
         if (arc != nullptr) {
-            const double way = path_.length(motion);
+            const double arc_length = path_.length(motion);
             const double radius = std::max((end - arc->centre.vec()).norm(), arc_chord_error);
-            if (way > 0) chords = std::max(chords, chord_count(radius, way / radius, 0));
+            if (arc_length > 0) chords = std::max(chords, chord_count(radius, arc_length / radius, 0));
         }
         const Vec3 turned_from = motion > 0 ? from_->rotary[at - 1].vec() : Vec3::Zero();
         const Vec3 turned_to = from_->rotary[at].vec();

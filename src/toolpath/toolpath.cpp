@@ -55,10 +55,10 @@ Vec3 point_of(const Helix& h, double fraction) {
     return p;
 }
 
-Foot foot_on_helix(const Helix& h, const Vec3& p, double from) {
+Projection projection_on_helix(const Helix& h, const Vec3& p, double from) {
     const double angle = h.sign * (std::atan2(p[h.v] - h.centre[h.v], p[h.u] - h.centre[h.u]) - h.start_angle);
     // Candidates: the ends, and the same angle in every turn (the turn nearest in rise wins).
-    Foot best{(point_of(h, from) - p).norm(), from};
+    Projection best{(point_of(h, from) - p).norm(), from};
     const auto consider = [&](double fraction) {
         if (fraction < from || fraction > 1.0) return;
         const double distance = (point_of(h, fraction) - p).norm();
@@ -93,17 +93,19 @@ double Toolpath::length(std::int64_t motion) const {
     return std::hypot(mean_radius * h.sweep, h.rise);
 }
 
-Foot Toolpath::foot(std::int64_t motion, const Vec3& p, double from) const {
+Projection Toolpath::projection(std::int64_t motion, const Vec3& p, double from) const {
     const MotionKind kind = motions_->kind[static_cast<std::size_t>(motion)];
     const Vec3 a = begin(motion);
     const Vec3 b = end(motion);
     if (is_arc(kind)) {
-        if (const Arc* arc = motions_->arc_of(motion)) { return foot_on_helix(make_helix(*arc, kind, a, b), p, from); }
+        if (const Arc* arc = motions_->arc_of(motion)) {
+            return projection_on_helix(make_helix(*arc, kind, a, b), p, from);
+        }
     }
-    const Vec3 way = b - a;
-    const double squared = way.squaredNorm();
-    const double fraction = squared > 0 ? std::clamp((p - a).dot(way) / squared, from, 1.0) : 1.0;
-    return {(a + fraction * way - p).norm(), fraction};
+    const Vec3 displacement = b - a;
+    const double squared = displacement.squaredNorm();
+    const double fraction = squared > 0 ? std::clamp((p - a).dot(displacement) / squared, from, 1.0) : 1.0;
+    return {(a + fraction * displacement - p).norm(), fraction};
 }
 
 }  // namespace clsurf

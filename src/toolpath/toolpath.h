@@ -8,9 +8,9 @@
 namespace clsurf {
 
 /// The nearest point of a motion to a position.
-struct Foot {
+struct Projection {
     double distance = 0;  ///< [mm]
-    double fraction = 0;  ///< of the motion's way, 0 … 1
+    double fraction = 0;  ///< of the motion's arc length, 0 … 1
 };
 
 class Toolpath {
@@ -23,12 +23,12 @@ public:
     [[nodiscard]] const Motions& motions() const { return *motions_; }
     [[nodiscard]] Vec3 begin(std::int64_t motion) const { return known(motions_->begin_of(motion)); }
     [[nodiscard]] Vec3 end(std::int64_t motion) const { return known(motions_->end[static_cast<std::size_t>(motion)]); }
-    /// The point after a fraction of a motion's way.
+    /// The point after a fraction of a motion's arc length.
     [[nodiscard]] Vec3 at(std::int64_t motion, double fraction) const;
-    /// Way along a motion [mm].
+    /// Arc length along a motion [mm].
     [[nodiscard]] double length(std::int64_t motion) const;
     /// The nearest point of a motion at or after `from` (fraction of its way) to `p`.
-    [[nodiscard]] Foot foot(std::int64_t motion, const Vec3& p, double from = 0.0) const;
+    [[nodiscard]] Projection projection(std::int64_t motion, const Vec3& p, double from = 0.0) const;
 
 private:
     [[nodiscard]] Vec3 known(const Xyz& v) const {

@@ -124,7 +124,7 @@ bool for_angles(const Log& log, const AngleReader& angles, Body&& body) {
 
 using OwnColumns = std::array<Column<double>, 3>;
 
-/// Columns of `count` points. compute(first, last, x, y, z) fills a stretch of them.
+/// Columns of `count` points. compute(first, last, x, y, z) fills a section of them.
 template <typename Compute>
 std::shared_ptr<const OwnColumns> make_columns(PointIndex count, Compute&& compute) {
     auto columns = std::make_shared<OwnColumns>();

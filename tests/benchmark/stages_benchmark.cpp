@@ -46,35 +46,35 @@ const Positions& made_zigzag() {
     return p;
 }
 
-void measure_way(benchmark::State& state) {
-    for (auto _ : state) benchmark::DoNotOptimize(Way(made_zigzag()));
+void measure_arc_length(benchmark::State& state) {
+    for (auto _ : state) benchmark::DoNotOptimize(ArcLength(made_zigzag()));
     state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations()) * made_zigzag().size());
 }
-BENCHMARK(measure_way)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(measure_arc_length)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 void estimate_the_step_over(benchmark::State& state) {
     const Positions& p = made_zigzag();
-    const Way way(p);
+    const ArcLength arc_length(p);
     const Passes runs = test::one_run(p);
-    for (auto _ : state) benchmark::DoNotOptimize(estimate_step_over(p, runs, way));
+    for (auto _ : state) benchmark::DoNotOptimize(estimate_step_over(p, runs, arc_length));
     state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations()) * p.size());
 }
 BENCHMARK(estimate_the_step_over)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 void cut_into_passes(benchmark::State& state) {
     const Positions& p = made_zigzag();
-    const Way way(p);
+    const ArcLength arc_length(p);
     const Passes runs = test::one_run(p);
-    for (auto _ : state) benchmark::DoNotOptimize(find_passes(p, way, runs, 0.25).size());
+    for (auto _ : state) benchmark::DoNotOptimize(find_passes(p, arc_length, runs, 0.25).size());
     state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations()) * p.size());
 }
 BENCHMARK(cut_into_passes)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 void walk_both_neighbours(benchmark::State& state) {
     const Positions& p = made_zigzag();
-    const Way way(p);
-    const Passes passes = find_passes(p, way, test::one_run(p), 0.25);
-    for (auto _ : state) benchmark::DoNotOptimize(find_neighbours(p, passes, way, 0.25).left.size());
+    const ArcLength arc_length(p);
+    const Passes passes = find_passes(p, arc_length, test::one_run(p), 0.25);
+    for (auto _ : state) benchmark::DoNotOptimize(find_neighbours(p, passes, arc_length, 0.25).left.size());
     state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations()) * p.size());
 }
 BENCHMARK(walk_both_neighbours)->Unit(benchmark::kMillisecond)->UseRealTime();

@@ -21,7 +21,7 @@ ClSurface surface_of(const ComparedRun& run, double step_over = 2) {
     surface.positions = gather(run.path);
     surface.passes.push_back({0, run.path.count - 1, PassKind::cut});
     surface.step_over = step_over;
-    surface.neighbours = find_neighbours(surface.positions, surface.passes, Way(surface.positions), step_over);
+    surface.neighbours = find_neighbours(surface.positions, surface.passes, ArcLength(surface.positions), step_over);
     return surface;
 }
 
@@ -46,10 +46,10 @@ RunAlignment align(const MadeRun& a, const MadeRun& b) {
 /// How far, in way, a station lies off the truth at worst, among points of A inside [begin, end].
 double worst_error(const MadeRun& a, const MadeRun& b, const RunAlignment& alignment, double begin, double end) {
     double worst = 0;
-    for (std::size_t i = 0; i < a.way.size(); ++i) {
-        if (a.way[i] < begin || a.way[i] > end) continue;
-        const Station& at = alignment.stations[i];
-        worst = std::max(worst, at.exists() ? std::abs(b.way_at(at) - a.way[i]) : 1e9);
+    for (std::size_t i = 0; i < a.arc_length.size(); ++i) {
+        if (a.arc_length[i] < begin || a.arc_length[i] > end) continue;
+        const PathLocation& at = alignment.locations[i];
+        worst = std::max(worst, at.exists() ? std::abs(b.arc_length_at(at) - a.arc_length[i]) : 1e9);
     }
     return worst;
 }
@@ -61,9 +61,9 @@ RunRecipe zigzag_recipe() {
     return recipe;
 }
 
-std::vector<RunDifferenceStretch> stretches_of(const RunReport& report, RunQuantity q) {
-    std::vector<RunDifferenceStretch> found;
-    for (const RunDifferenceStretch& d : report.stretches) {
+std::vector<RunDifferenceSection> sections_of(const RunReport& report, RunQuantity q) {
+    std::vector<RunDifferenceSection> found;
+    for (const RunDifferenceSection& d : report.sections) {
         if (d.quantity == q) found.push_back(d);
     }
     return found;
@@ -76,7 +76,7 @@ TEST(RunDifference, IsExactlyZeroOfEqualRuns) {
     recipe.off = [](double s) { return Vec3(1e-3 * std::sin(s), 2e-3 * std::cos(3 * s), 1e-3); };
     const MadeRun run = make_run(recipe);
     const Compared c = compare(run, run);
-    EXPECT_NEAR(c.report.aligned, c.report.way, 1e-6);
+    EXPECT_NEAR(c.report.aligned, c.report.arc_length, 1e-6);
     for (const RunQuantityInfo& info : run_quantity_table()) {
         const Column<float>& values = c.differences.of[index_of(info.quantity)];
         PointIndex known = 0;
@@ -86,7 +86,7 @@ TEST(RunDifference, IsExactlyZeroOfEqualRuns) {
         }
         EXPECT_GT(known, run.log.records / 2) << info.name;
     }
-    EXPECT_TRUE(c.report.stretches.empty());
+    EXPECT_TRUE(c.report.sections.empty());
 }
 
 TEST(RunDifference, FindsADipOfSpeed) {
@@ -96,17 +96,17 @@ TEST(RunDifference, FindsADipOfSpeed) {
     recipe.phase = 0.37;
     const MadeRun b = make_run(recipe);
     const Compared c = compare(a, b);
-    const auto found = stretches_of(c.report, RunQuantity::speed);
+    const auto found = sections_of(c.report, RunQuantity::speed);
     ASSERT_EQ(found.size(), 1u);
     EXPECT_NEAR(found[0].relative_peak, -0.10, 0.01);
     EXPECT_NEAR(found[0].mean * 60, -180, 30);
     EXPECT_NEAR(found[0].length, 8, 0.8);
-    EXPECT_NEAR(a.way[static_cast<std::size_t>(found[0].points.first)], 75, 0.5);
-    EXPECT_NEAR(a.way[static_cast<std::size_t>(found[0].points.last)], 83, 0.5);
+    EXPECT_NEAR(a.arc_length[static_cast<std::size_t>(found[0].points.first)], 75, 0.5);
+    EXPECT_NEAR(a.arc_length[static_cast<std::size_t>(found[0].points.last)], 83, 0.5);
     EXPECT_NEAR(found[0].time, 8 / 27.0 - 8 / 30.0, 0.004);
     // Heights and lags are the same.
-    EXPECT_TRUE(stretches_of(c.report, RunQuantity::height).empty());
-    EXPECT_TRUE(stretches_of(c.report, RunQuantity::lag).empty());
+    EXPECT_TRUE(sections_of(c.report, RunQuantity::height).empty());
+    EXPECT_TRUE(sections_of(c.report, RunQuantity::lag).empty());
 }
 
 TEST(RunDifference, ChangesItsSignWhenTheRunsAreSwapped) {
@@ -117,7 +117,7 @@ TEST(RunDifference, ChangesItsSignWhenTheRunsAreSwapped) {
     const MadeRun b = make_run(recipe);
     const RunReport there = compare(a, b).report;
     const RunReport back = compare(b, a).report;
-    ASSERT_EQ(stretches_of(there, RunQuantity::speed).size(), stretches_of(back, RunQuantity::speed).size());
+    ASSERT_EQ(sections_of(there, RunQuantity::speed).size(), sections_of(back, RunQuantity::speed).size());
     for (const RunQuantity q : {RunQuantity::speed, RunQuantity::height}) {
         EXPECT_NEAR(there.find(q)->mean, -back.find(q)->mean, 0.02 * std::abs(there.find(q)->mean)) << index_of(q);
         EXPECT_NEAR(there.find(q)->lowest, -back.find(q)->highest, 0.02 * std::abs(there.find(q)->lowest) + 3e-4)
@@ -135,12 +135,12 @@ TEST(RunDifference, FindsALagOfThreeMicrometres) {
     const MadeRun a = make_run(recipe);
     recipe.off = [feed](double s) { return Vec3(-(s > 60 && s < 70 ? 0.013 : 0.010) * feed(s)); };
     const Compared c = compare(a, make_run(recipe));
-    const auto found = stretches_of(c.report, RunQuantity::lag);
+    const auto found = sections_of(c.report, RunQuantity::lag);
     ASSERT_EQ(found.size(), 1u);
     EXPECT_NEAR(found[0].peak, 0.003, 1e-4);
     EXPECT_NEAR(found[0].length, 10, 0.8);
-    EXPECT_NEAR(a.way[static_cast<std::size_t>(found[0].point)], 65, 5);
-    EXPECT_TRUE(stretches_of(c.report, RunQuantity::height).empty());  // along the feed nothing is higher
+    EXPECT_NEAR(a.arc_length[static_cast<std::size_t>(found[0].point)], 65, 5);
+    EXPECT_TRUE(sections_of(c.report, RunQuantity::height).empty());  // along the feed nothing is higher
 }
 
 TEST(RunDifference, FindsAHeightAlongTheNormalOfTheSurface) {
@@ -153,7 +153,7 @@ TEST(RunDifference, FindsAHeightAlongTheNormalOfTheSurface) {
         return s > 27 && s < 37 ? Vec3(0.003 * normal + Vec3(0.004, 0, 0)) : Vec3(0.004, 0, 0);
     };
     const Compared c = compare(a, make_run(recipe));
-    const auto found = stretches_of(c.report, RunQuantity::height);
+    const auto found = sections_of(c.report, RunQuantity::height);
     ASSERT_EQ(found.size(), 1u);
     EXPECT_NEAR(found[0].peak, 0.003, 1e-4);
     EXPECT_NEAR(found[0].mean, 0.003, 4e-4);
@@ -161,7 +161,7 @@ TEST(RunDifference, FindsAHeightAlongTheNormalOfTheSurface) {
     recipe.off = [=](double s) -> Vec3 {
         return s > 27 && s < 37 ? Vec3(0.003 * side + Vec3(0.004, 0, 0)) : Vec3(0.004, 0, 0);
     };
-    EXPECT_TRUE(stretches_of(compare(a, make_run(recipe)).report, RunQuantity::height).empty());
+    EXPECT_TRUE(sections_of(compare(a, make_run(recipe)).report, RunQuantity::height).empty());
 }
 
 TEST(RunDifference, IsSmallBetweenSamplingPeriods) {
@@ -173,10 +173,10 @@ TEST(RunDifference, IsSmallBetweenSamplingPeriods) {
         recipe.phase = 0.4;
         const MadeRun b = make_run(recipe);
         const Compared c = compare(a, b);
-        EXPECT_TRUE(c.report.stretches.empty()) << period;
+        EXPECT_TRUE(c.report.sections.empty()) << period;
         EXPECT_LT(c.report.find(RunQuantity::speed)->p95, 0.15) << period;  // [mm/s] of 30
         const Compared swapped = compare(b, a);
-        EXPECT_TRUE(swapped.report.stretches.empty()) << period;
+        EXPECT_TRUE(swapped.report.sections.empty()) << period;
     }
 }
 
@@ -188,11 +188,11 @@ TEST(RunDifference, TakesAPauseAsOnePlace) {
     const Compared c = compare(a, b);
     EXPECT_LT(worst_error(a, b, c.differences.alignment, 0, 200), 1e-3);
     EXPECT_NEAR(c.report.time_of_b - c.report.time, 21.5, 0.01);
-    for (const RunDifferenceStretch& d : stretches_of(c.report, RunQuantity::speed)) {
-        const double at = a.way[static_cast<std::size_t>(d.point)];
+    for (const RunDifferenceSection& d : sections_of(c.report, RunQuantity::speed)) {
+        const double at = a.arc_length[static_cast<std::size_t>(d.point)];
         EXPECT_TRUE(std::abs(at - 40) < 1 || std::abs(at - 101) < 1) << at;
     }
-    EXPECT_EQ(stretches_of(c.report, RunQuantity::speed).size(), 2u);
+    EXPECT_EQ(sections_of(c.report, RunQuantity::speed).size(), 2u);
     const Compared swapped = compare(b, a);
     EXPECT_LT(worst_error(b, a, swapped.differences.alignment, 0, 200), 1e-3);
     EXPECT_NEAR(swapped.report.time_of_b - swapped.report.time, -21.5, 0.01);
@@ -205,7 +205,7 @@ TEST(RunDifference, KeepsTheFeedOverrideApartFromThePlace) {
     const MadeRun b = make_run(recipe);
     const Compared c = compare(a, b);
     EXPECT_LT(worst_error(a, b, c.differences.alignment, 0, 199), 1e-3);
-    const auto found = stretches_of(c.report, RunQuantity::speed);
+    const auto found = sections_of(c.report, RunQuantity::speed);
     ASSERT_EQ(found.size(), 2u);
     EXPECT_NEAR(found[0].relative_mean, -0.3, 0.01);
     EXPECT_NEAR(found[1].relative_mean, 0.2, 0.01);
@@ -222,8 +222,10 @@ TEST(RunAlignment, FindsRunsThatBeginAndEndInside) {
     const RunAlignment there = align(whole, part);
     EXPECT_LT(worst_error(whole, part, there, 61.6, 150), 1e-3);
     EXPECT_NEAR(there.aligned, 150.2 - 61.3, 0.5);
-    for (std::size_t i = 0; i < whole.way.size(); ++i) {
-        if (whole.way[i] < 61 || whole.way[i] > 151) { EXPECT_FALSE(there.stations[i].exists()) << whole.way[i]; }
+    for (std::size_t i = 0; i < whole.arc_length.size(); ++i) {
+        if (whole.arc_length[i] < 61 || whole.arc_length[i] > 151) {
+            EXPECT_FALSE(there.locations[i].exists()) << whole.arc_length[i];
+        }
     }
 }
 
@@ -257,7 +259,7 @@ TEST(RunAlignment, ComesBackAfterARetractOfOneRun) {
     RunRecipe recipe = zigzag_recipe();
     const MadeRun plain = make_run(recipe);
     const auto path = recipe.path;
-    // At 70 mm 30 mm up and down again; what comes after has 60 mm more of way.
+    // At 70 mm 30 mm up and down again; what comes after has 60 mm more of arc length.
     recipe.path = [path](double s) -> Vec3 {
         if (s < 70) return path(s);
         if (s > 130) return path(s - 60);
@@ -265,13 +267,13 @@ TEST(RunAlignment, ComesBackAfterARetractOfOneRun) {
     };
     recipe.end = 260;
     MadeRun lifted = make_run(recipe);
-    for (double& s : lifted.way) s = s < 70 ? s : s > 130 ? s - 60 : 70;
+    for (double& s : lifted.arc_length) s = s < 70 ? s : s > 130 ? s - 60 : 70;
     const RunAlignment there = align(plain, lifted);
     EXPECT_LT(worst_error(plain, lifted, there, 0, 69), 1e-3);
     EXPECT_LT(worst_error(plain, lifted, there, 71, 199), 1e-3);
     const RunAlignment back = align(lifted, plain);
     EXPECT_NEAR(back.aligned, 200, 2);
-    EXPECT_EQ(back.stretches.size(), 2u);
+    EXPECT_EQ(back.sections.size(), 2u);
 }
 
 TEST(RunAlignment, LeavesOutWhatOnlyOneRunCuts) {
@@ -283,7 +285,7 @@ TEST(RunAlignment, LeavesOutWhatOnlyOneRunCuts) {
     recipe.path = [=](double s) { return s < 2 * piece ? path(s) : path(s + 2 * piece); };
     recipe.end = 200 - 2 * piece;
     MadeRun b = make_run(recipe);
-    for (double& s : b.way) s = s < 2 * piece ? s : s + 2 * piece;
+    for (double& s : b.arc_length) s = s < 2 * piece ? s : s + 2 * piece;
     const RunAlignment alignment = align(a, b);
     EXPECT_LT(worst_error(a, b, alignment, 0, 2 * piece - 0.2), 1e-3);
     EXPECT_LT(worst_error(a, b, alignment, 4 * piece + 0.5, 199), 1e-3);
@@ -301,8 +303,8 @@ TEST(RunAlignment, SkipsPositionsThatAreMissing) {
     EXPECT_LT(worst_error(a, b, there, 30.5, 89.9), 1e-3);  // beyond the gap of 0.3 mm
     EXPECT_LT(worst_error(a, b, there, 90.2, 199), 1e-3);
     const RunAlignment back = align(b, a);
-    EXPECT_FALSE(back.stations[1005].exists());
-    EXPECT_TRUE(back.stations[1020].exists());
+    EXPECT_FALSE(back.locations[1005].exists());
+    EXPECT_TRUE(back.locations[1020].exists());
 }
 
 TEST(RunAlignment, FindsNothingOfAnotherPart) {
@@ -311,7 +313,7 @@ TEST(RunAlignment, FindsNothingOfAnotherPart) {
     recipe.shift = [](double) -> Vec3 { return Vec3(0, 0, 40); };
     const RunAlignment alignment = align(a, make_run(recipe));
     EXPECT_EQ(alignment.aligned, 0);
-    EXPECT_TRUE(alignment.stretches.empty());
+    EXPECT_TRUE(alignment.sections.empty());
 }
 
 TEST(RunBudget, IsHeldAgainstTheGreatestDifferences) {

@@ -41,16 +41,16 @@ std::vector<double> random_moves(std::mt19937_64& random, std::size_t count, dou
     std::vector<double> positions;
     double x = 0;
     while (positions.size() < count) {
-        const double way = uniform(-30, 30), acceleration = uniform(600, 2500);
-        const double speed = std::min(uniform(20, 160), std::sqrt(acceleration * std::abs(way)));
-        const double ramp = speed / acceleration, end = ramp + std::abs(way) / speed;
+        const double arc_length = uniform(-30, 30), acceleration = uniform(600, 2500);
+        const double speed = std::min(uniform(20, 160), std::sqrt(acceleration * std::abs(arc_length)));
+        const double ramp = speed / acceleration, end = ramp + std::abs(arc_length) / speed;
         for (double t = period; t < end + period; t += period) {
-            double s = std::abs(way) - acceleration * std::pow(std::max(end - t, 0.0), 2) / 2;
+            double s = std::abs(arc_length) - acceleration * std::pow(std::max(end - t, 0.0), 2) / 2;
             if (t < ramp)
                 s = acceleration * t * t / 2;
             else if (t < end - ramp)
                 s = speed * (t - ramp / 2);
-            positions.push_back(x + std::copysign(s, way));
+            positions.push_back(x + std::copysign(s, arc_length));
         }
         x = positions.back();
         positions.insert(positions.end(), static_cast<std::size_t>(uniform(0, 60)), x);
@@ -164,7 +164,7 @@ TEST(ServoFit, GapsAreNotBridged) {
     run.commanded.erase(run.commanded.begin() + 5000, run.commanded.begin() + 5300);
     run.feedback.erase(run.feedback.begin() + 5000, run.feedback.begin() + 5300);
     AxisRecord record = run.record();
-    record.stretches = {{0, 4999}, {5000, static_cast<PointIndex>(run.commanded.size()) - 1}};
+    record.sections = {{0, 4999}, {5000, static_cast<PointIndex>(run.commanded.size()) - 1}};
     expect_loop(fit_servo({&record, 1}, 0.001), truth, 0.001, "with a gap");
 }
 

@@ -152,7 +152,7 @@ TEST(KeptPoints, ChordsOfACutAreAFewStepOversAtMost) {
     }
 }
 
-TEST(KeptPoints, WhereLinesAreAsManyAsPointsTheirStartsGiveWay) {
+TEST(KeptPoints, WhereLinesAreAsManyAsPointsTheirStartsGiveArcLength) {
     const Lines lines;
     const std::vector<Field> fields{noise()};
     const KeptPoints kept = keep_points(raster(), lines.map, fields, {}, 800);

@@ -13,7 +13,7 @@ namespace {
 
 LintReport lint_text(const std::string& text, const LintThresholds& rules = {}) {
     const Program program = read_text(text);
-    return lint(program, lay_out(program), rules);
+    return lint(program, build_programmed_surface(program), rules);
 }
 
 /// Even points 0.3 mm apart.

@@ -37,7 +37,7 @@ Program slow_pass() {
 
 TEST(OwnLintRule, IsOneRow) {
     const Program program = slow_pass();
-    const LintReport report = lint(program, lay_out(program), {}, std::span(&slow, 1));
+    const LintReport report = lint(program, build_programmed_surface(program), {}, std::span(&slow, 1));
     ASSERT_GE(report.count("slow-feed"), 1U);
     EXPECT_EQ(report.findings.size(), report.count("slow-feed"));
     EXPECT_NEAR(report.findings.front().found, 10, 1e-9);
@@ -48,7 +48,7 @@ TEST(OwnLintRule, StandsBesideOursInEveryReport) {
     const Program program = slow_pass();
     std::vector<LintRule> rules(lint_rules().begin(), lint_rules().end());
     rules.push_back(slow);
-    const LintReport report = lint(program, lay_out(program), {}, rules);
+    const LintReport report = lint(program, build_programmed_surface(program), {}, rules);
     EXPECT_GE(report.count("feed-difference"), 1U);
     const Diagnostics none;
     const io::ReportedLint reported{&report, &program, &none};

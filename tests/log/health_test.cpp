@@ -70,11 +70,11 @@ private:
         const double x = x_;
         const double y = y_;
         double speed = 0;
-        for (double way = 0; way < length;) {
-            speed = std::min({50.0, speed + 1000 * period, std::sqrt(2 * 1000 * (length - way)) + 1});
-            way = std::min(length, way + speed * period);
-            x_ = x + dx * way / length;
-            y_ = y + dy * way / length;
+        for (double arc_length = 0; arc_length < length;) {
+            speed = std::min({50.0, speed + 1000 * period, std::sqrt(2 * 1000 * (length - arc_length)) + 1});
+            arc_length = std::min(length, arc_length + speed * period);
+            x_ = x + dx * arc_length / length;
+            y_ = y + dy * arc_length / length;
             record(line);
         }
     }
@@ -138,7 +138,7 @@ TEST(Health, SaysThatARecordEveryTenthOfASecondShowsNoMarks) {
     expect_says(d, "a record every 100 ms");
 }
 
-TEST(Health, DoesNotCallTheWayOfAGapAJump) {
+TEST(Health, DoesNotCallTheArcLengthOfAGapAJump) {
     Made made;
     for (auto& [name, values] : made.columns) values.erase(values.begin() + 1000, values.begin() + 1040);
     expect_says(only(made.check(), "log.time-gap"), "40 records are missing");

@@ -25,11 +25,11 @@ struct Planted {
     Trajectory measured = reconstruct(log, Role::feedback, Vec3::Zero());
     LineMap lines = map_lines(path, log, program, true, diagnostics);
     ClSurface surface = stitch(gather(path), lines);
-    std::vector<PointRange> pieces = smooth_pieces(log, surface.passes);
+    std::vector<PointRange> pieces = smoothing_segments(log, surface.passes);
     Signals signals = derive_signals(surface, path, &measured, pieces, 1.0);
-    FormedSurface formed{surface, signals, Role::commanded, measured, pieces, {ToolKind::ball, 3, 3}};
+    AsMachinedSurface as_machined{surface, signals, Role::commanded, measured, pieces, {ToolKind::ball, 3, 3}};
     QualityReport report = find_defects(surface, signals, lines, program, log.period, {});
-    FormedReport result = measure_formed(formed, signals, report);
+    AsMachinedReport result = measure_as_machined(as_machined, signals, report);
 };
 
 planted::Recipe recipe_with(double amplitude, planted::Shape shape, planted::Surface surface) {
@@ -46,7 +46,7 @@ planted::Recipe recipe_with(double amplitude, planted::Shape shape, planted::Sur
     return recipe;
 }
 
-TEST(FormedReport, APlantedPitOfFiveMicrometresShowsAsFive) {
+TEST(AsMachinedReport, APlantedPitOfFiveMicrometresShowsAsFive) {
     // On the loops, the give of the axes makes the passes lie lower and lower across the pit.
     for (const planted::Shape shape : {planted::Shape::zigzag, planted::Shape::one_way, planted::Shape::loops}) {
         const Planted pit(recipe_with(-0.005, shape, planted::Surface::transition));
@@ -57,7 +57,7 @@ TEST(FormedReport, APlantedPitOfFiveMicrometresShowsAsFive) {
     }
 }
 
-TEST(FormedReport, APlantedBulgeIsCutDownByItsNeighbours) {
+TEST(AsMachinedReport, APlantedBulgeIsCutDownByItsNeighbours) {
     const double h = scallop_height(3, 0.3, std::numeric_limits<double>::infinity());
     const Planted bulge(recipe_with(0.006, planted::Shape::zigzag, planted::Surface::transition));
     ASSERT_EQ(bulge.report.defects.size(), 1U);
@@ -66,7 +66,7 @@ TEST(FormedReport, APlantedBulgeIsCutDownByItsNeighbours) {
     EXPECT_NEAR(bulge.result.marks[0].depth, cusp - h, 0.0006);
 }
 
-TEST(FormedReport, RoughnessOfACleanPartIsThatOfItsScallops) {
+TEST(AsMachinedReport, RoughnessOfACleanPartIsThatOfItsScallops) {
     for (const planted::Surface surface : {planted::Surface::transition, planted::Surface::wave}) {
         planted::Recipe recipe = recipe_with(0, planted::Shape::zigzag, surface);
         recipe.noise = 0;
@@ -79,7 +79,7 @@ TEST(FormedReport, RoughnessOfACleanPartIsThatOfItsScallops) {
         for (const RoughPatch& patch : patches) {
             mean += patch.profile.rz / static_cast<double>(patches.size());
             EXPECT_LE(patch.profile.rz, patches[clean.result.roughest].profile.rz);
-            EXPECT_NEAR((patch.contact - clean.formed.contact(patch.point)).norm(), 0, 1e-12);
+            EXPECT_NEAR((patch.contact - clean.as_machined.contact(patch.point)).norm(), 0, 1e-12);
         }
         EXPECT_NEAR(mean, clean.result.rz, 1e-12);
         EXPECT_NEAR(clean.result.rz, h, 0.15 * h);  // the surface's own roundness is 4 %, the log's micrometre the rest
@@ -88,7 +88,7 @@ TEST(FormedReport, RoughnessOfACleanPartIsThatOfItsScallops) {
     }
 }
 
-TEST(FormedReport, ScallopsFollowTheCurvatureAcrossTheFeed) {
+TEST(AsMachinedReport, ScallopsFollowTheCurvatureAcrossTheFeed) {
     // Tips on a sphere of radius r: the ball's centres lie on one as large, and it touches one of r − 3 mm.
     planted::Recipe recipe = recipe_with(0, planted::Shape::one_way, planted::Surface::dome);
     recipe.noise = 0;
@@ -102,7 +102,7 @@ TEST(FormedReport, ScallopsFollowTheCurvatureAcrossTheFeed) {
     EXPECT_GT(std::abs(dome.result.scallop - flat), 0.1 * flat);
 }
 
-TEST(FormedReport, WhereTheFormHasCreasesNothingIsMeasured) {
+TEST(AsMachinedReport, WhereTheFormHasCreasesNothingIsMeasured) {
     planted::Recipe recipe = recipe_with(0, planted::Shape::zigzag, planted::Surface::transition);
     recipe.noise = 0;
     recipe.give = 0;
@@ -117,7 +117,7 @@ TEST(FormedReport, WhereTheFormHasCreasesNothingIsMeasured) {
     EXPECT_NEAR(creased.result.rz, h, 0.15 * h);
 }
 
-TEST(FormedReport, AMarkAmongPassesToAndFroIsReadAgainstItsOwnDirection) {
+TEST(AsMachinedReport, AMarkAmongPassesToAndFroIsReadAgainstItsOwnDirection) {
     // Thirteen passes, every second one 0.04 mm lower, and the one in the middle, of the lower ones, 0.01 mm lower than these.
     std::vector<double> z;
     for (int k = 0; k < 1300; ++k) z.push_back((k / 100 % 2 == 0 ? -0.04 : 0) - (k / 100 == 6 ? 0.01 : 0));
@@ -125,12 +125,12 @@ TEST(FormedReport, AMarkAmongPassesToAndFroIsReadAgainstItsOwnDirection) {
     // Where all passes differ by more than the mark, there is no level to measure it from.
     const double off[] = {0, 0.03, -0.02, 0.05, -0.04, 0.01, 0, 0.06, 0.03, -0.05, 0.02, -0.01, 0.04};
     for (std::size_t k = 0; k < z.size(); ++k) z[k] = off[k / 100] - (k / 100 == 6 ? 0.01 : 0);
-    const FormedMark uneven = mark_depth(z, 0.01, 1, true);
+    const AsMachinedMark uneven = mark_depth(z, 0.01, 1, true);
     EXPECT_TRUE(std::isnan(uneven.depth));
     EXPECT_EQ(uneven.note, MarkNote::uneven_passes);
 }
 
-TEST(FormedReport, AMarkIsReadAgainstTheUsualValleysAndCusps) {
+TEST(AsMachinedReport, AMarkIsReadAgainstTheUsualValleysAndCusps) {
     // Eleven pieces of a parabola 4 high; in the middle one that is 3 lower, and one 2 higher at its edge.
     std::vector<double> z;
     for (int k = 0; k <= 1100; ++k) {
@@ -152,18 +152,18 @@ TEST(FormedReport, AMarkIsReadAgainstTheUsualValleysAndCusps) {
     z = clean;
     for (std::size_t k = 100; k < 200; ++k) z[k] -= 3;
     EXPECT_NEAR(mark_depth(z, 0.01, 1, true).depth, 0, 1e-12);
-    const FormedMark nothing = mark_depth(std::vector<double>(1100, std::nan("")), 0.01, 1, true);
+    const AsMachinedMark nothing = mark_depth(std::vector<double>(1100, std::nan("")), 0.01, 1, true);
     EXPECT_TRUE(std::isnan(nothing.depth));
     EXPECT_EQ(nothing.note, MarkNote::unknown_form);
 }
 
 TEST(Form, OnACurvedSurfaceItPassesThroughTheContacts) {
     const Planted clean(recipe_with(0, planted::Shape::zigzag, planted::Surface::wave));
-    const Form form(clean.formed, clean.formed.bounds());
+    const Form form(clean.as_machined, clean.as_machined.bounds());
     std::vector<double> off;
-    for (const auto& [p, tip] : clean.formed.contacts(clean.formed.bounds(), 0.3)) {
+    for (const auto& [p, tip] : clean.as_machined.contacts(clean.as_machined.bounds(), 0.3)) {
         const Form::Facet facet = form.at(p.head<2>());
-        if (facet.z == facet.z) off.push_back(std::abs(facet.z + clean.formed.level() - p.z()));
+        if (facet.z == facet.z) off.push_back(std::abs(facet.z + clean.as_machined.level() - p.z()));
     }
     ASSERT_GT(off.size(), 1000U);
     std::sort(off.begin(), off.end());

@@ -29,7 +29,7 @@ struct Made {
     explicit Made(MadeSurface surface) : made(std::move(surface)), signals(made.signals()) {
         for (const Pass& pass : made.surface.passes) pieces.push_back({pass.first, pass.last});
     }
-    [[nodiscard]] FormedSurface formed(const CuttingTool& tool) const {
+    [[nodiscard]] AsMachinedSurface as_machined(const CuttingTool& tool) const {
         return {made.surface, signals, Role::commanded, made.has_measured ? made.measured : made.path, pieces, tool};
     }
 };
@@ -37,19 +37,19 @@ struct Made {
 CuttingTool ball(double radius) { return {ToolKind::ball, radius, radius}; }
 
 /// One row of heights over z = 0, `step` apart.
-std::vector<double> profile(const FormedSurface& formed, const Vec2& from, const Vec2& along, double step,
+std::vector<double> profile(const AsMachinedSurface& as_machined, const Vec2& from, const Vec2& along, double step,
                             std::int64_t count) {
     std::vector<double> z;
-    formed.map({from, along, step, count, 1}, [&](std::int64_t, std::span<float> row) {
-        for (const float height : row) z.push_back(height + formed.level());
+    as_machined.map({from, along, step, count, 1}, [&](std::int64_t, std::span<float> row) {
+        for (const float height : row) z.push_back(height + as_machined.level());
     });
     return z;
 }
 
-std::vector<float> deviations(const FormedSurface& formed, const MapFrame& frame) {
-    const Form form(formed, frame.bounds(0, 0, frame.columns, frame.rows));
+std::vector<float> deviations(const AsMachinedSurface& as_machined, const MapFrame& frame) {
+    const Form form(as_machined, frame.bounds(0, 0, frame.columns, frame.rows));
     std::vector<float> all;
-    map_deviation(formed, form, frame,
+    map_deviation(as_machined, form, frame,
                   [&](std::int64_t, std::span<float> rows) { all.insert(all.end(), rows.begin(), rows.end()); });
     return all;
 }
@@ -59,19 +59,19 @@ double rise(const std::vector<double>& z) {
     return *high - *low;
 }
 
-TEST(FormedSurface, TheScallopOfABallIsTheClosedFormToOnePercent) {
+TEST(AsMachinedSurface, TheScallopOfABallIsTheClosedFormToOnePercent) {
     for (const double radius : {1.0, 3.0, 5.0, 8.0}) {
         for (const double apart : {0.1, 0.3, 0.5}) {
             const Made made(test::flat_zigzag(9, 6, apart, 40, {}));
             const std::vector<double> z =
-                profile(made.formed(ball(radius)), Vec2(3.01, 2 * apart), Vec2::UnitY(), apart / 200, 801);
+                profile(made.as_machined(ball(radius)), Vec2(3.01, 2 * apart), Vec2::UnitY(), apart / 200, 801);
             const double closed = scallop_height(radius, apart, std::numeric_limits<double>::infinity());
             EXPECT_NEAR(rise(z), closed, 0.01 * closed) << radius << " " << apart;
         }
     }
 }
 
-TEST(FormedSurface, OnAnInclinedPlaneTheScallopIsThatAcrossTheSlope) {
+TEST(AsMachinedSurface, OnAnInclinedPlaneTheScallopIsThatAcrossTheSlope) {
     constexpr double radius = 3;
     constexpr double apart = 0.3;
     const double closed = scallop_height(radius, apart, std::numeric_limits<double>::infinity());
@@ -79,15 +79,16 @@ TEST(FormedSurface, OnAnInclinedPlaneTheScallopIsThatAcrossTheSlope) {
         for (const Vec3& axis : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitY()), Vec3(Vec3(1, 1, 0).normalized())}) {
             const Eigen::Matrix3d turn = Eigen::AngleAxisd(degrees * 0.017453292519943295, axis).toRotationMatrix();
             const Made made(test::flat_zigzag(15, 10, apart, 40, {}, [&](const Vec3& p) { return Vec3(turn * p); }));
-            const FormedSurface formed = made.formed(ball(radius));
+            const AsMachinedSurface as_machined = made.as_machined(ball(radius));
             // Across the passes through the middle of the contacts.
             const Vec3 n = turn * Vec3::UnitZ();
             const Vec3 from = turn * Vec3(5, 4 * apart, 0) + radius * (Vec3::UnitZ() - n);
             const Vec3 to = turn * Vec3(5, 10 * apart, 0) + radius * (Vec3::UnitZ() - n);
-            const Vec2 way = (to - from).head<2>();
+            const Vec2 displacement = (to - from).head<2>();
             constexpr std::int64_t count = 1201;
-            const MapFrame frame{from.head<2>(), way.normalized(), way.norm() / (count - 1), count, 1};
-            const std::vector<float> z = deviations(formed, frame);
+            const MapFrame frame{from.head<2>(), displacement.normalized(), displacement.norm() / (count - 1), count,
+                                 1};
+            const std::vector<float> z = deviations(as_machined, frame);
             const auto [low, high] = std::minmax_element(z.begin(), z.end());
             EXPECT_NEAR(*high - *low, closed, 0.01 * closed) << degrees << " about " << axis.transpose();
             EXPECT_NEAR(*low, 0, 0.00002) << degrees << " about " << axis.transpose();
@@ -145,13 +146,13 @@ const std::vector<Envelope> envelopes{
      0.0144165646089},
 };
 
-TEST(FormedSurface, PassesOfDifferentHeightsFormTheirEnvelope) {
+TEST(AsMachinedSurface, PassesOfDifferentHeightsFormTheirEnvelope) {
     for (const Envelope& e : envelopes) {
         const Made made(test::flat_zigzag(9, 6, e.apart, 40, [&](const Vec3& p, const Vec3&) {
             return Vec3(p + Vec3(0, 0, e.offsets[static_cast<std::size_t>(std::lround(p.y() / e.apart))]));
         }));
         constexpr int per_pass = 400;
-        const std::vector<double> z = profile(made.formed(ball(e.radius)), Vec2(3.01, e.apart), Vec2::UnitY(),
+        const std::vector<double> z = profile(made.as_machined(ball(e.radius)), Vec2(3.01, e.apart), Vec2::UnitY(),
                                               e.apart / per_pass, 6 * per_pass + 1);
         for (std::size_t k = 0; k < e.z.size(); ++k)
             EXPECT_NEAR(z[k * per_pass / 2], e.z[k], 2e-6 + 0.002 * std::abs(e.z[k])) << k;
@@ -162,7 +163,7 @@ TEST(FormedSurface, PassesOfDifferentHeightsFormTheirEnvelope) {
     }
 }
 
-TEST(FormedSurface, APitGoesThroughAndABulgeVanishesAtFourScallops) {
+TEST(AsMachinedSurface, APitGoesThroughAndABulgeVanishesAtFourScallops) {
     constexpr double radius = 3;
     constexpr double apart = 0.3;
     const double h = scallop_height(radius, apart, std::numeric_limits<double>::infinity());
@@ -170,7 +171,7 @@ TEST(FormedSurface, APitGoesThroughAndABulgeVanishesAtFourScallops) {
         const Made made(test::flat_zigzag(11, 6, apart, 40, [&](const Vec3& p, const Vec3&) {
             return Vec3(p + Vec3(0, 0, std::lround(p.y() / apart) == 5 ? offset : 0.0));
         }));
-        return rise(profile(made.formed(ball(radius)), Vec2(3, 3 * apart), Vec2::UnitY(), apart / 400, 1601));
+        return rise(profile(made.as_machined(ball(radius)), Vec2(3, 3 * apart), Vec2::UnitY(), apart / 400, 1601));
     };
     EXPECT_NEAR(rise_with(-0.005), h + 0.005, 0.00005);
     EXPECT_NEAR(rise_with(2 * h), h * 1.5 * 1.5, 0.01 * h);  // h (1 + δ/4h)²
@@ -178,26 +179,26 @@ TEST(FormedSurface, APitGoesThroughAndABulgeVanishesAtFourScallops) {
     EXPECT_NEAR(rise_with(9 * h), 4 * h, 0.02 * h);  // the pass does not cut at all
 }
 
-TEST(FormedSurface, SegmentsAreSweptAndNotStampedAtTheirEnds) {
+TEST(AsMachinedSurface, SegmentsAreSweptAndNotStampedAtTheirEnds) {
     // A point each 1 mm: a ball stamped there would leave cusps of 42 µm along the feed.
     const Made made(test::flat_zigzag(9, 20, 0.3, 1000, {}));
-    const std::vector<double> z = profile(made.formed(ball(3)), Vec2(5, 1.2), Vec2::UnitX(), 0.01, 1000);
+    const std::vector<double> z = profile(made.as_machined(ball(3)), Vec2(5, 1.2), Vec2::UnitX(), 0.01, 1000);
     EXPECT_LT(rise(z), 1e-6);
     // And down a slope along the feed.
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.5, Vec3::UnitY()).toRotationMatrix();
     const Made slope(test::flat_zigzag(9, 20, 0.3, 1000, {}, [&](const Vec3& p) { return Vec3(turn * p); }));
     const Vec2 from = (turn * Vec3(8, 1.2, 0) + 3 * (Vec3::UnitZ() - turn * Vec3::UnitZ())).head<2>();
-    const std::vector<float> down = deviations(slope.formed(ball(3)), {from, Vec2::UnitX(), 0.01, 500, 1});
+    const std::vector<float> down = deviations(slope.as_machined(ball(3)), {from, Vec2::UnitX(), 0.01, 500, 1});
     for (std::size_t k = 0; k < down.size(); ++k) EXPECT_NEAR(down[k], 0, 2e-6) << k;
 }
 
-TEST(FormedSurface, AFlatToolLeavesAPlaneAndABullCusps) {
+TEST(AsMachinedSurface, AFlatToolLeavesAPlaneAndABullCusps) {
     const auto pit = [](const Vec3& p, const Vec3&) {
         return Vec3(p + Vec3(0, 0, std::lround(p.y() / 2) == 4 ? -0.005 : 0.0));
     };
     const Made made(test::flat_zigzag(9, 30, 2, 40, pit));
     // A pit's groove is as wide as the flat tool.
-    const FormedSurface flat = made.formed({ToolKind::flat, 3, 0});
+    const AsMachinedSurface flat = made.as_machined({ToolKind::flat, 3, 0});
     const std::vector<double> z = profile(flat, Vec2(15, 4.51), Vec2::UnitY(), 0.05, 141);
     for (std::size_t k = 0; k < z.size(); ++k) {
         const double y = 4.51 + 0.05 * static_cast<double>(k);
@@ -207,11 +208,11 @@ TEST(FormedSurface, AFlatToolLeavesAPlaneAndABullCusps) {
     // Passes 4.4 mm apart of a tool of 2 mm flat half width: cusps of the corners 0.2 mm beside them.
     const Made wide(test::flat_zigzag(7, 30, 4.4, 100, {}));
     const std::vector<double> cusps =
-        profile(wide.formed({ToolKind::bull, 3, 1}), Vec2(15, 8.8), Vec2::UnitY(), 0.01, 881);
+        profile(wide.as_machined({ToolKind::bull, 3, 1}), Vec2(15, 8.8), Vec2::UnitY(), 0.01, 881);
     EXPECT_NEAR(rise(cusps), 1 - std::sqrt(1 - 0.04), 1e-5);
 }
 
-TEST(FormedSurface, ABullOnASlopeLeavesWhatItsTorusDoes) {
+TEST(AsMachinedSurface, ABullOnASlopeLeavesWhatItsTorusDoes) {
     // Passes along the slope's level lines: across them the tube's circle is what cuts.
     constexpr double apart = 0.2;
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.5, Vec3::UnitX()).toRotationMatrix();
@@ -221,49 +222,50 @@ TEST(FormedSurface, ABullOnASlopeLeavesWhatItsTorusDoes) {
     const Vec3 off = Vec3::UnitZ() - n - 2 * Vec3(n.x(), n.y(), 0).normalized();
     const Vec3 from = turn * Vec3(5, 4 * apart, 0) + off;
     const double step = apart / 400 * std::cos(0.5);
-    const std::vector<float> z = deviations(made.formed(tool), {from.head<2>(), Vec2::UnitY(), step, 2401, 1});
+    const std::vector<float> z = deviations(made.as_machined(tool), {from.head<2>(), Vec2::UnitY(), step, 2401, 1});
     const auto [low, high] = std::minmax_element(z.begin(), z.end());
     const double closed = scallop_height(1, apart, std::numeric_limits<double>::infinity());
     EXPECT_NEAR(*high - *low, closed, 0.01 * closed);
 }
 
-TEST(FormedSurface, WhatNoPassCutHasNoHeight) {
+TEST(AsMachinedSurface, WhatNoPassCutHasNoHeight) {
     const Made made(test::flat_zigzag(9, 6, 0.3, 40, {}));
-    for (const double z : profile(made.formed(ball(3)), Vec2(3, 5), Vec2::UnitY(), 0.1, 20)) EXPECT_TRUE(std::isnan(z));
+    for (const double z : profile(made.as_machined(ball(3)), Vec2(3, 5), Vec2::UnitY(), 0.1, 20))
+        EXPECT_TRUE(std::isnan(z));
 }
 
-TEST(FormedSurface, TheMapIsTheSameForAnyNumberOfThreads) {
+TEST(AsMachinedSurface, TheMapIsTheSameForAnyNumberOfThreads) {
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.3, Vec3(1, 2, 0).normalized()).toRotationMatrix();
     const Made made(test::flat_zigzag(40, 12, 0.3, 40, {}, [&](const Vec3& p) { return Vec3(turn * p); }));
-    const FormedSurface formed = made.formed(ball(3));
-    const MapFrame frame = frame_of(formed.bounds(), formed.usual_cell());
+    const AsMachinedSurface as_machined = made.as_machined(ball(3));
+    const MapFrame frame = frame_of(as_machined.bounds(), as_machined.usual_cell());
     EXPECT_GT(frame.columns * frame.rows, 500'000);
     std::vector<float> maps[2];
     for (int k = 0; k < 2; ++k) {
         set_thread_count(k == 0 ? 1 : 4);
-        maps[k] = deviations(formed, frame);
+        maps[k] = deviations(as_machined, frame);
     }
     set_thread_count(0);
     EXPECT_EQ(std::memcmp(maps[0].data(), maps[1].data(), maps[0].size() * sizeof(float)), 0);
 }
 
-TEST(FormedSurface, AHighLinkLeavesNothing) {
+TEST(AsMachinedSurface, AHighLinkLeavesNothing) {
     const Made low(test::flat_zigzag(9, 6, 0.3, 40, {}));
     ClSurface lifted = low.made.surface;
     for (const Pass& pass : lifted.passes) {
         if (pass.kind != PassKind::link) continue;
         for (PointIndex i = pass.first; i <= pass.last; ++i) lifted.positions.z[static_cast<std::size_t>(i)] += 2;
     }
-    const FormedSurface without(lifted, low.signals, Role::commanded, low.made.path, low.pieces, ball(3));
-    const auto cut = [](const FormedSurface& formed) {
+    const AsMachinedSurface without(lifted, low.signals, Role::commanded, low.made.path, low.pieces, ball(3));
+    const auto cut = [](const AsMachinedSurface& as_machined) {
         std::ptrdiff_t cells = 0;
-        formed.map(frame_of(Box2(Vec2(-2, -2), Vec2(8, 5)), 0.05), [&](std::int64_t, std::span<float> z) {
+        as_machined.map(frame_of(Box2(Vec2(-2, -2), Vec2(8, 5)), 0.05), [&](std::int64_t, std::span<float> z) {
             cells += std::count_if(z.begin(), z.end(), [](float v) { return v == v; });
         });
         return cells;
     };
     EXPECT_GT(cut(without), 6 * 2.4 / 0.0025);
-    EXPECT_LT(cut(without), cut(low.formed(ball(3))));
+    EXPECT_LT(cut(without), cut(low.as_machined(ball(3))));
 }
 
 /// Tips on a tent of 30° flanks: at its ridge each flank's contacts reach R sin 30° beyond it, where the
@@ -277,16 +279,16 @@ Made tent() {
     }));
 }
 
-TEST(StandingContacts, AreThoseOfTheTentOnTheirOwnSideOfTheRidge) {
+TEST(UngougedContacts, AreThoseOfTheTentOnTheirOwnSideOfTheRidge) {
     // A contact e beyond the ridge lies 2 e sin 30° = e inside the other flank's tools, and the nearest is 60 µm
     // beyond; tips are looked at one in 0.25 mm, which misses up to 0.25²/8R = 3 µm. The pass along the ridge leaves nothing.
     const Made made = tent();
-    const FormedSurface formed = made.formed(ball(3));
+    const AsMachinedSurface as_machined = made.as_machined(ball(3));
     const Box2 box(Vec2(2, -2.5), Vec2(10, 2.5));
     std::size_t expected = 0;
-    for (const ContactPoint& contact : formed.contacts(box, 0.05))
+    for (const ContactPoint& contact : as_machined.contacts(box, 0.05))
         expected += contact.at.y() * contact.tip.y() > 1e-9 ? 1U : 0U;
-    const std::vector<Vec3> standing = standing_contacts(formed, box, 0.05);
+    const std::vector<Vec3> standing = ungouged_contacts(as_machined, box, 0.05);
     EXPECT_GT(expected, 2000U);
     EXPECT_EQ(standing.size(), expected);
     for (const Vec3& at : standing)
@@ -314,11 +316,11 @@ TEST(Form, WhatTheToolCutsAwayAgainIsNoForm) {
     const double c = std::cos(M_PI / 6);
     const double s = 0.5;
     const Made made = tent();
-    const FormedSurface formed = made.formed(ball(3));
-    const Form form(formed, formed.bounds());
+    const AsMachinedSurface as_machined = made.as_machined(ball(3));
+    const Form form(as_machined, as_machined.bounds());
     for (const double y : {-3.0, -1.5, -1.2, 1.2, 1.5, 3.0}) {
         const Form::Facet facet = form.at({6, y});
-        EXPECT_NEAR(facet.z + formed.level(), -std::abs(y) * s / c - 3 * (1 - c) / c, 0.001) << y;
+        EXPECT_NEAR(facet.z + as_machined.level(), -std::abs(y) * s / c - 3 * (1 - c) / c, 0.001) << y;
         EXPECT_NEAR(facet.zy, y < 0 ? s / c : -s / c, 0.01) << y;
     }
 }

@@ -76,8 +76,8 @@ TEST(AkimaVectors, TangentsPointsAndLengths) {
         expect_points(middles(akima_spans(points, AkimaTangents::unit)), c.at("unit_mid"));
         const std::vector<CubicSpan> unit = akima_spans(points, AkimaTangents::unit);
         for (std::size_t i = 0; i < spans.size(); ++i) {
-            EXPECT_NEAR(spans[i].way_to(spans[i].chord), c.at("lengths")[i], 1e-6);
-            EXPECT_NEAR(unit[i].way_to(unit[i].chord), c.at("unit_lengths")[i], 1e-6);
+            EXPECT_NEAR(spans[i].arc_length_to(spans[i].chord), c.at("lengths")[i], 1e-6);
+            EXPECT_NEAR(unit[i].arc_length_to(unit[i].chord), c.at("unit_lengths")[i], 1e-6);
         }
     }
 }
@@ -86,7 +86,7 @@ TEST(Akima, OfTwoPointsIsTheirLine) {
     const std::vector<CubicSpan> spans = akima_spans(std::vector<Vec3>{{1, 2, 3}, {4, 6, 3}});
     ASSERT_EQ(spans.size(), 1U);
     EXPECT_LE((spans[0].at(2.5) - Vec3(2.5, 4, 3)).norm(), 1e-12);
-    EXPECT_NEAR(spans[0].way_to(5), 5, 1e-12);
+    EXPECT_NEAR(spans[0].arc_length_to(5), 5, 1e-12);
     EXPECT_TRUE(akima_spans(std::vector<Vec3>{{1, 2, 3}}).empty());
     EXPECT_TRUE(akima_spans({}).empty());
 }
@@ -152,12 +152,12 @@ TEST(Akima, ComesNearACircleWithTheFourthPower) {
     EXPECT_LT(error(10), 0.0003);
 }
 
-TEST(Akima, AtWayInvertsTheWay) {
+TEST(Akima, AtArcLengthInvertsTheArcLength) {
     std::mt19937 random(4);
     for (const CubicSpan& span : akima_spans(random_path(random, 200))) {
         for (const double part : {0.0, 0.1, 0.5, 0.93, 1.0}) {
-            const double way = part * span.way_to(span.chord);
-            EXPECT_NEAR(span.way_to(span.at_way(way)), way, 1e-9);
+            const double arc_length = part * span.arc_length_to(span.chord);
+            EXPECT_NEAR(span.arc_length_to(span.at_arc_length(arc_length)), arc_length, 1e-9);
         }
     }
 }

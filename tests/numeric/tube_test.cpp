@@ -14,7 +14,7 @@ constexpr double radius = 0.004;
 
 struct Tube {
     std::vector<Vec3> places;
-    std::vector<double> ways, radii;
+    std::vector<double> arc_lengths, radii;
 };
 
 /// Places on chords of a circle, `facets` to a quarter, seven to a facet.
@@ -28,7 +28,7 @@ Tube facetted(double r, int facets) {
     }
     tube.places.push_back(corner(facets));
     for (std::size_t i = 0; i < tube.places.size(); ++i)
-        tube.ways.push_back(i == 0 ? 0 : tube.ways.back() + (tube.places[i] - tube.places[i - 1]).norm());
+        tube.arc_lengths.push_back(i == 0 ? 0 : tube.arc_lengths.back() + (tube.places[i] - tube.places[i - 1]).norm());
     tube.radii.assign(tube.places.size(), radius);
     tube.radii.front() = tube.radii.back() = 0;
     return tube;
@@ -47,10 +47,10 @@ TEST(Tube, KeepsInsideAndItsEnds) {
         Tube tube;
         for (int i = 0; i < 3 + round; ++i) {
             tube.places.push_back(Vec3(0.1 * i, any(random), any(random)));
-            tube.ways.push_back(i + 0.4 * part(random));
+            tube.arc_lengths.push_back(i + 0.4 * part(random));
             tube.radii.push_back(i % 5 == 0 ? 0 : radius * part(random));
         }
-        const std::vector<Vec3> smooth = smoothest_in_tube(tube.places, tube.ways, tube.radii, {});
+        const std::vector<Vec3> smooth = smoothest_in_tube(tube.places, tube.arc_lengths, tube.radii, {});
         ASSERT_EQ(smooth.size(), tube.places.size());
         for (std::size_t i = 0; i < smooth.size(); ++i)
             EXPECT_LE((smooth[i] - tube.places[i]).norm(), tube.radii[i] + 1e-12);
@@ -61,7 +61,7 @@ TEST(Tube, KeepsInsideAndItsEnds) {
 // differences at a 7th of the facet are (0.3/7)³/5² = 3.1e-6 mm; those of the facets are up to 0.06 · 0.3/7 = 2.6e-3 mm.
 TEST(Tube, MakesFacetsRound) {
     const Tube tube = facetted(5, 26);
-    const std::vector<Vec3> smooth = smoothest_in_tube(tube.places, tube.ways, tube.radii, {});
+    const std::vector<Vec3> smooth = smoothest_in_tube(tube.places, tube.arc_lengths, tube.radii, {});
     EXPECT_LT(third_differences(smooth), 0.01 * third_differences(tube.places));
 }
 
@@ -70,11 +70,11 @@ TEST(Tube, LeavesAParabolaAlone) {
     Tube tube;
     for (int i = 0; i < 40; ++i) {
         const double s = 0.1 * i + (i % 3 == 0 ? 0.03 : 0);
-        tube.ways.push_back(s);
+        tube.arc_lengths.push_back(s);
         tube.places.push_back(Vec3(s, 0.7 * s * s - s, 0.2 * s * s));
     }
     tube.radii.assign(tube.places.size(), radius);
-    const std::vector<Vec3> smooth = smoothest_in_tube(tube.places, tube.ways, tube.radii, {});
+    const std::vector<Vec3> smooth = smoothest_in_tube(tube.places, tube.arc_lengths, tube.radii, {});
     for (std::size_t i = 0; i < smooth.size(); ++i) EXPECT_LT((smooth[i] - tube.places[i]).norm(), 1e-9) << i;
 }
 

@@ -54,7 +54,7 @@ TEST(Pipeline, FindsTheLinesOfASimulatedRunThatLeaveAMark) {
     const Vec3 step = part.program.motions.end[static_cast<std::size_t>(motion)].vec() -
                       part.program.motions.end[static_cast<std::size_t>(motion - 1)].vec();
     EXPECT_NEAR(std::abs(step.x()), 0.02, 0.001);
-    EXPECT_FALSE(quality.formed) << "no tool";
+    EXPECT_FALSE(quality.as_machined) << "no tool";
 }
 
 TEST(Pipeline, FindsTheSameStepByStep) {

@@ -117,7 +117,7 @@ TEST(Defects, AreNotJudgedOnDataThatCannotShowThem) {
 }
 
 TEST(Defects, OfARecordedPartAreWhereTheProgramHasThem) {
-    // Five passes of the sample have a stretch of points 0.02 mm apart, where the kernel falls from
+    // Five passes of the sample have a section of points 0.02 mm apart, where the kernel falls from
     // 3000 to some 600 mm/min (data/programs/README.md).
     const Program program = io::read_program(SAMPLE_DATA "/programs/bottle_uneven.nc");
     const Log log = io::open_log(SAMPLE_LOGS "/bottle_uneven.biip", {});
@@ -126,7 +126,7 @@ TEST(Defects, OfARecordedPartAreWhereTheProgramHasThem) {
     const Trajectory measured = reconstruct(log, Role::feedback, Vec3::Zero());
     const LineMap lines = map_lines(path, log, program, true, diagnostics);
     const ClSurface surface = stitch(gather(path), lines);
-    const Signals signals = derive_signals(surface, path, &measured, smooth_pieces(log, surface.passes), 1.0);
+    const Signals signals = derive_signals(surface, path, &measured, smoothing_segments(log, surface.passes), 1.0);
     const QualityReport report = find_defects(surface, signals, lines, program, log.period, {});
     for (const double y : {-5.6, -2.8, 0.0, 2.8, 5.6}) {
         const auto here = std::find_if(report.defects.begin(), report.defects.end(), [&](const Defect& d) {
@@ -329,8 +329,8 @@ TEST(SystematicLag, NamesTheAxesThatDiffer) {
     const Trajectory measured = reconstruct(log, Role::feedback, Vec3::Zero());
     const LineMap lines = map_lines(path, log, program, true, diagnostics);
     const ClSurface surface = stitch(gather(path), lines);
-    const Signals signals =
-        derive_signals(surface, path, &measured, smooth_pieces(log, surface.passes), usual_end_zone(surface.step_over));
+    const Signals signals = derive_signals(surface, path, &measured, smoothing_segments(log, surface.passes),
+                                           usual_end_zone(surface.step_over));
     QualityReport report = find_defects(surface, signals, lines, program, log.period, {});
     explain_systematic_lag(report, path, measured, signals);
     const auto lag =

@@ -53,7 +53,7 @@ TEST(Kinds, BendsOfLoopsRoundIslandsAreExpected) {
     }
 }
 
-/// A slow stretch that begins in a crease is more than the flank of what is expected there.
+/// A slow section that begins in a crease is more than the flank of what is expected there.
 TEST(Kinds, WhatIsExpectedInACreaseEndsThere) {
     planted::Score all;
     for (const planted::LogKind& kind : planted::log_kinds()) {

@@ -1,4 +1,4 @@
-// Comparison along a slant: passes that slow down one after the other, along an edge that runs slantwise over them.
+// Comparison along a obliquity: passes that slow down one after the other, along an edge that runs slantwise over them.
 #include "predictor/oblique_alignment.h"
 
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 constexpr double apart = 0.4, length = 40;
 constexpr int passes = 21;
 constexpr double dip = 0.5;   ///< of the speed that is lost where a pass is slowest
-constexpr double wide = 1.5;  ///< [mm] of way
+constexpr double wide = 1.5;  ///< [mm] of arc length
 
 /// Passes along X at 50 mm/s. Each is slow about x = 20 + slope (y − 4), and the middle one again at x = 30.
 test::MadeSurface made(double slope, bool fault) {
@@ -26,7 +26,7 @@ test::MadeSurface made(double slope, bool fault) {
 }
 
 struct Seen {
-    float straight = 0, slanted = 0;  ///< greatest steps of the speed
+    float straight = 0, oblique = 0;  ///< greatest steps of the speed
 };
 
 /// Over the cut points of the inner passes with `low` ≤ x ≤ `high`.
@@ -41,31 +41,31 @@ Seen greatest_steps(const test::MadeSurface& of, double low, double high) {
         Comparison c = comparer.compare({i, 0});
         const float straight = c.step[index_of(Quantity::speed)];
         if (!(straight == straight)) continue;
-        comparer.compare_along_slant({i, 0}, c);
+        comparer.compare_obliquely_around({i, 0}, c);
         seen.straight = std::max(seen.straight, straight);
-        seen.slanted = std::max(seen.slanted, c.step[index_of(Quantity::speed)]);
+        seen.oblique = std::max(seen.oblique, c.step[index_of(Quantity::speed)]);
         ++count;
     }
     EXPECT_GT(count, 150U);
     return seen;
 }
 
-TEST(AlongSlant, PassesThatSlowDownOneAfterTheOtherAgree) {
+TEST(ObliqueComparison, PassesThatSlowDownOneAfterTheOtherAgree) {
     for (const double slope : {1.2, -1.2}) {
         const Seen seen = greatest_steps(made(slope, false), 12, 27);
         EXPECT_GT(seen.straight, 0.05F) << slope;
-        EXPECT_LT(seen.slanted, 0.5F * seen.straight) << slope;
-        EXPECT_LT(seen.slanted, 0.05F) << slope;
+        EXPECT_LT(seen.oblique, 0.5F * seen.straight) << slope;
+        EXPECT_LT(seen.oblique, 0.05F) << slope;
     }
 }
 
-TEST(AlongSlant, APassThatIsSlowByItselfStandsOutAllTheSame) {
+TEST(ObliqueComparison, APassThatIsSlowByItselfStandsOutAllTheSame) {
     const Seen seen = greatest_steps(made(1.2, true), 28.5, 31.5);
     EXPECT_GT(seen.straight, 0.2F);
-    EXPECT_GT(seen.slanted, 0.9F * seen.straight);
+    EXPECT_GT(seen.oblique, 0.9F * seen.straight);
 }
 
-TEST(AlongSlant, IsNotLookedForWherePassesAgreeStraightAcross) {
+TEST(ObliqueComparison, IsNotLookedForWherePassesAgreeStraightAcross) {
     const test::MadeSurface of = made(0, false);
     const Signals signals = of.signals();
     const PointIndex middle = of.surface.passes[20].first + 200;
@@ -74,9 +74,10 @@ TEST(AlongSlant, IsNotLookedForWherePassesAgreeStraightAcross) {
         places.push_back({{middle, 0}, aside});
         places.push_back({{middle, 0}, -aside});
     }
-    // All places are the same one: they agree whatever the slant.
-    EXPECT_FALSE(along_slant(of.surface, signals, {middle, 0}, places).has_value());
-    EXPECT_FALSE(along_slant(of.surface, signals, {middle, 0}, std::span(places).first(3)).has_value()) << "too few";
+    // All places are the same one: they agree whatever the obliquity.
+    EXPECT_FALSE(compare_obliquely(of.surface, signals, {middle, 0}, places).has_value());
+    EXPECT_FALSE(compare_obliquely(of.surface, signals, {middle, 0}, std::span(places).first(3)).has_value())
+        << "too few";
 }
 
 }  // namespace

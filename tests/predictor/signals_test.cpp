@@ -51,14 +51,14 @@ TEST(Signals, AnOffsetAlongTheNormalIsTheHeight) {
     EXPECT_GT(with, 3000);
 }
 
-TEST(Signals, TheNormalPointsUpWhicheverWayThePassRuns) {
+TEST(Signals, TheNormalPointsUpWhicheverArcLengthThePassRuns) {
     const MadeSurface made = test::flat_zigzag(9, 30, 0.4, 50, {});
     const Signals s = made.signals();
     EXPECT_FALSE(s.measured);
     for_each_inner(s, [&](PointIndex i) { EXPECT_NEAR(s.normal(i).z(), 1.0F, 1e-5F); });
 }
 
-TEST(Signals, SpeedAndAccelerationAreThoseOfTheWay) {
+TEST(Signals, SpeedAndAccelerationAreThoseOfTheArcLength) {
     const MadeSurface made = test::flat_zigzag(9, 30, 0.4, 50, {});
     const Signals s = made.signals();
     for_each_inner(s, [&](PointIndex i) {

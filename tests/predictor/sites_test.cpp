@@ -35,7 +35,7 @@ struct StraightPass {
         sites.for_each(0, signals.size(), [&](PointIndex i) {
             EXPECT_TRUE(sites.at(i));
             EXPECT_EQ(sites.nearest(i), i);
-            const Station at = sites.place(i);
+            const PathLocation at = sites.place(i);
             EXPECT_EQ(at.point, i - 1);
             found.push_back(surface.positions.origin[axis] +
                             static_cast<double>(position_at(surface.positions, at)[axis]));
@@ -55,7 +55,7 @@ TEST(Sites, LieWherePlanesOfTheWorkpieceAreCrossed) {
     }
 }
 
-TEST(Sites, BackwardsAreThoseOfTheWayForth) {
+TEST(Sites, BackwardsAreThoseOfTheArcLengthForth) {
     // From 0.013 to 10.013 and back.
     const std::vector<double> forth = StraightPass(Vec3(0.013, 0, 0), Vec3(1, 0, 0), 50, 201).places(0);
     std::vector<double> back = StraightPass(Vec3(10.013, 0.4, 0), Vec3(-1, 0, 0), 50, 201).places(0);

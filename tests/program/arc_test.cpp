@@ -34,7 +34,7 @@ TEST(Arc, ShortArcByRadiusHasItsCentreBesideTheChord) {
     EXPECT_NEAR(arc_length(arc, false, words.begin, words.end), 10 * std::numbers::pi / 3, 1e-9);
 }
 
-TEST(Arc, NegativeRadiusTakesTheLongWay) {
+TEST(Arc, NegativeRadiusTakesTheLongArcLength) {
     ArcWords words = from_to({0, 0, 0}, {10, 0, 0}, false);
     words.has_radius = true;
     words.radius = -10;
@@ -130,9 +130,9 @@ TEST(ArcChords, ASpiralOfSeveralTurnsStaysWithinTheError) {
             const double part = (static_cast<double>(k) + 0.5) / static_cast<double>(chords.size());
             const double radius = 10 + 4 * part;
             const Vec3 on(radius * std::cos(part * sweep), radius * std::sin(part * sweep), 5 * part);
-            const Vec3 way = (chords[k] - from).normalized();
+            const Vec3 displacement = (chords[k] - from).normalized();
             const Vec3 off = on - from;
-            worst = std::max(worst, (off - off.dot(way) * way).norm());
+            worst = std::max(worst, (off - off.dot(displacement) * displacement).norm());
             from = chords[k];
         }
         EXPECT_LT(worst, error);

@@ -73,9 +73,9 @@ TEST(FanucFrame, UnevenFactorsMakeAnEllipseOfChordsWithinAMicrometre) {
         EXPECT_NEAR(std::hypot(b.x() / 2, b.y()), 500, 1e-9);
         // The ellipse's point half-way between the ends' angles, against the chord.
         const double t = 0.5 * (std::atan2(a.y(), a.x() / 2) + std::atan2(b.y(), b.x() / 2));
-        const Vec3 way = (b - a).normalized();
+        const Vec3 displacement = (b - a).normalized();
         const Vec3 off = Vec3(1000 * std::cos(t), 500 * std::sin(t), 0) - a;
-        EXPECT_LT((off - off.dot(way) * way).norm(), 1e-3);
+        EXPECT_LT((off - off.dot(displacement) * displacement).norm(), 1e-3);
     }
 }
 

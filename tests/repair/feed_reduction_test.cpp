@@ -1,4 +1,4 @@
-// The cure: speeds about the defects of a run, what they cost, and what they gained.
+// The feed reduction: speeds about the defects of a run, what they cost, and what they gained.
 
 #include "repair/feeds/feed_reduction.h"
 
@@ -15,12 +15,12 @@ namespace clsurf {
 namespace {
 
 /// Flat passes, the fourth of which has 100 points in 2 mm: blocks of 0.02 mm in 2 ms are passed at 10 mm/s instead of 50.
-/// With another stretch the sixth has points 0.08 mm apart in 2 mm, which are passed at 40 mm/s.
-struct SlowStretch {
+/// With another section the sixth has points 0.08 mm apart in 2 mm, which are passed at 40 mm/s.
+struct SlowSection {
     Program program;
     JudgedRun run;
 
-    explicit SlowStretch(double crowded = 0.02, bool another = false)
+    explicit SlowSection(double crowded = 0.02, bool another = false)
         : program(read_text(wavy_zigzag(
               9, 24,
               [=](int pass, double x) {
@@ -37,56 +37,58 @@ struct SlowStretch {
     }
 };
 
-// The passes beside the slow stretch go at most a step faster, those next to them two steps, and so on: a larger budget buys a smaller step.
-TEST(Levelling, TakesTheLeastStepThatABudgetPaysFor) {
-    const SlowStretch part;
-    const Leveller leveller(part.run);
+// The passes beside the slow section go at most a step faster, those next to them two steps, and so on: a larger budget buys a smaller step.
+TEST(FeedEqualisation, TakesTheLeastStepThatABudgetPaysFor) {
+    const SlowSection part;
+    const FeedEqualiser equaliser(part.run);
     double before = 0;
     for (const double wanted : {30.0, 12.0, 5.0}) {
-        const double budget = leveller.lost(leveller.everywhere({0, wanted}));
+        const double budget = equaliser.lost(equaliser.everywhere({0, wanted}));
         EXPECT_GT(budget, before) << wanted;
         before = budget;
-        const double step = leveller.affordable_step({}, budget);
+        const double step = equaliser.affordable_step({}, budget);
         EXPECT_NEAR(step, wanted, 0.1) << "one part in 1024 of twice the greatest difference";
-        EXPECT_LE(leveller.lost(leveller.everywhere({0, step})), budget);
+        EXPECT_LE(equaliser.lost(equaliser.everywhere({0, step})), budget);
     }
 }
 
-TEST(Cure, LevelsThePassesBesideASlowStretch) {
-    const SlowStretch part;
+TEST(FeedReductionTest, LevelsThePassesBesideASlowSection) {
+    const SlowSection part;
     ASSERT_FALSE(part.run.report.defects.empty());
-    const CuringSpeeds cure = curing_speeds(part.run, {.step = 0.25, .budget = 1e9, .lag_power = 3, .hopeless = {}});
+    const ReducedSpeeds reduction =
+        reduced_speeds(part.run, {.step = 0.25, .budget = 1e9, .lag_power = 3, .abandoned = {}});
     const std::vector<float> own = compared_speeds(part.run);
     std::size_t lowered = 0;
     for (std::size_t i = 0; i < own.size(); ++i) {
         if (!(own[i] == own[i])) continue;
-        ASSERT_LE(cure.speeds[i], own[i]);
-        lowered += cure.speeds[i] < 0.9F * own[i] ? 1 : 0;
-        if (cure.causes[i] < 0) {
-            EXPECT_EQ(cure.speeds[i], own[i]);
+        ASSERT_LE(reduction.speeds[i], own[i]);
+        lowered += reduction.speeds[i] < 0.9F * own[i] ? 1 : 0;
+        if (reduction.causes[i] < 0) {
+            EXPECT_EQ(reduction.speeds[i], own[i]);
             continue;
         }
         const auto point = static_cast<PointIndex>(i);
         for (const Side side : {Side::left, Side::right}) {
-            const Station at = beside(part.run.surface, {point, 0}, part.run.signals.feed(point), side);
+            const PathLocation at = beside(part.run.surface, {point, 0}, part.run.signals.feed(point), side);
             if (!at.exists()) continue;
             const auto j = static_cast<std::size_t>(at.point);
             const float other =
-                at.fraction > 0 ? cure.speeds[j] + at.fraction * (cure.speeds[j + 1] - cure.speeds[j]) : cure.speeds[j];
+                at.fraction > 0 ? reduction.speeds[j] + at.fraction * (reduction.speeds[j + 1] - reduction.speeds[j])
+                                : reduction.speeds[j];
             if (!(other == other)) continue;
-            EXPECT_LE(cure.speeds[i], 1.251F * other) << i;
+            EXPECT_LE(reduction.speeds[i], 1.251F * other) << i;
         }
     }
     // 2 mm at 50 mm/s are 40 points; a fifth of the speed is seven steps of a quarter away: more than that on both sides.
     EXPECT_GT(lowered, 80U);
 }
 
-TEST(Cure, KeepsItsBudget) {
-    const SlowStretch part;
-    const Leveller leveller(part.run);
+TEST(FeedReductionTest, KeepsItsBudget) {
+    const SlowSection part;
+    const FeedEqualiser equaliser(part.run);
     const auto lost = [&](double budget) {
-        return leveller.lost(
-            curing_speeds(part.run, {.step = 0.1, .budget = budget, .lag_power = 3, .hopeless = {}}).speeds);
+        return equaliser.lost(
+            reduced_speeds(part.run, {.step = 0.1, .budget = budget, .lag_power = 3, .abandoned = {}}).speeds);
     };
     const double whole = lost(1e9);
     EXPECT_GT(whole, 0.1);
@@ -94,17 +96,17 @@ TEST(Cure, KeepsItsBudget) {
 }
 
 // What a mild one costs is paid, though both together, or the severe one alone, cost more.
-TEST(Cure, TakesTheCheapestDefectsFirst) {
-    const SlowStretch part(0.02, true);
-    const Leveller leveller(part.run);
+TEST(FeedReductionTest, TakesTheCheapestDefectsFirst) {
+    const SlowSection part(0.02, true);
+    const FeedEqualiser equaliser(part.run);
     const auto lost_where = [&](double budget, double first, double last) {
         std::vector<float> speeds =
-            curing_speeds(part.run, {.step = 0.1, .budget = budget, .lag_power = 3, .hopeless = {}}).speeds;
+            reduced_speeds(part.run, {.step = 0.1, .budget = budget, .lag_power = 3, .abandoned = {}}).speeds;
         for (std::size_t i = 0; i < speeds.size(); ++i) {
             const double x = part.run.surface.positions.absolute(static_cast<PointIndex>(i)).x();
-            if (x < first || x > last) speeds[i] = leveller.own()[i];
+            if (x < first || x > last) speeds[i] = equaliser.own()[i];
         }
-        return leveller.lost(speeds);
+        return equaliser.lost(speeds);
     };
     const double severe = lost_where(1e9, 12, 24), mild = lost_where(1e9, 0, 12);
     ASSERT_GT(mild, 0);
@@ -114,59 +116,61 @@ TEST(Cure, TakesTheCheapestDefectsFirst) {
     EXPECT_EQ(lost_where(0.9 * mild, 0, 24), 0);
 }
 
-// A pass beside the slow stretch is lowered by a tenth there: those beside it follow, but need not become level with the slow one.
-TEST(Levelling, LeavesOtherSlowPlacesBesideALoweredOne) {
-    const SlowStretch part;
-    const Leveller leveller(part.run);
-    const std::size_t n = leveller.own().size();
-    const auto lost = [&](std::uint8_t levelled) {
-        Levelling levelling{leveller.own(), std::vector<std::int32_t>(n, -1), std::vector<std::uint8_t>(n, 0)};
+// A pass beside the slow section is lowered by a tenth there: those beside it follow, but need not become level with the slow one.
+TEST(FeedEqualisation, LeavesOtherSlowPlacesBesideALoweredOne) {
+    const SlowSection part;
+    const FeedEqualiser equaliser(part.run);
+    const std::size_t n = equaliser.own().size();
+    const auto lost = [&](std::uint8_t equalised) {
+        FeedEqualisation equalisation{equaliser.own(), std::vector<std::int32_t>(n, -1),
+                                      std::vector<std::uint8_t>(n, 0)};
         for (PointIndex i = 0; i < part.run.surface.positions.size(); ++i) {
             const Vec3 p = part.run.surface.positions.absolute(i);
             const auto k = static_cast<std::size_t>(i);
             if (std::abs(p.y() - 1.6) > 0.1 || std::abs(p.x() - 17) > 1) continue;  // the fifth pass
-            levelling.speeds[k] *= 0.9F;
-            levelling.causes[k] = 0;
-            levelling.levelled[k] = levelled;
+            equalisation.speeds[k] *= 0.9F;
+            equalisation.causes[k] = 0;
+            equalisation.equalised[k] = equalised;
         }
-        leveller.level({.share = 0.1}, levelling);
-        return leveller.lost(levelling.speeds);
+        equaliser.level({.share = 0.1}, equalisation);
+        return equaliser.lost(equalisation.speeds);
     };
     // 2 mm at 45 instead of 50 mm/s
     EXPECT_NEAR(lost(0), 2.0 / 45 - 2.0 / 50, 0.002);
     EXPECT_GT(lost(1), 10 * lost(0));
 }
 
-TEST(Cure, LetsHopelessPlacesBe) {
-    const SlowStretch part;
-    CureRules rules{.step = 0.1, .budget = 1e9, .lag_power = 3, .hopeless = {}};
-    for (const Defect& defect : part.run.report.defects) rules.hopeless.push_back(defect.place.tip);
-    EXPECT_EQ(Leveller(part.run).lost(curing_speeds(part.run, rules).speeds), 0);
+TEST(FeedReductionTest, LetsHopelessPlacesBe) {
+    const SlowSection part;
+    FeedReductionRules rules{.step = 0.1, .budget = 1e9, .lag_power = 3, .abandoned = {}};
+    for (const Defect& defect : part.run.report.defects) rules.abandoned.push_back(defect.place.tip);
+    EXPECT_EQ(FeedEqualiser(part.run).lost(reduced_speeds(part.run, rules).speeds), 0);
 }
 
-TEST(Cure, CountsWhatItGained) {
-    const SlowStretch slow, even(0.31);
-    const CuringSpeeds cure = curing_speeds(slow.run, {.step = 0.1, .budget = 1e9, .lag_power = 3, .hopeless = {}});
+TEST(FeedReductionTest, CountsWhatItGained) {
+    const SlowSection slow, even(0.31);
+    const ReducedSpeeds reduction =
+        reduced_speeds(slow.run, {.step = 0.1, .budget = 1e9, .lag_power = 3, .abandoned = {}});
     const auto sum = [](const std::vector<int>& gains) { return std::accumulate(gains.begin(), gains.end(), 0); };
-    EXPECT_EQ(sum(gains_of(cure, slow.run, slow.run)), 0);
-    EXPECT_GT(sum(gains_of(cure, slow.run, even.run)), 0);
+    EXPECT_EQ(sum(gains_of(reduction, slow.run, slow.run)), 0);
+    EXPECT_GT(sum(gains_of(reduction, slow.run, even.run)), 0);
 }
 
-TEST(Cure, KnowsHowLagGrowsWithSpeed) {
+TEST(FeedReductionTest, KnowsHowLagGrowsWithSpeed) {
     Machine machine;
     EXPECT_EQ(lag_power(machine), 3);
     machine.axes[2].servo.position_gain = 60;
     EXPECT_EQ(lag_power(machine), 1);
 }
 
-TEST(Levelling, FeedsAreThoseOfIntervals) {
+TEST(FeedEqualisation, FeedsAreThoseOfIntervals) {
     // 100.4 lies within 0.5 % of 100, 104 does not; the last motion may not be slowed.
-    EXPECT_EQ(levelling_feeds({0, 100.4F, 100, 104, 0, 50}, {1, 1, 1, 1, 1, 0}, 0.005),
+    EXPECT_EQ(equalised_feeds({0, 100.4F, 100, 104, 0, 50}, {1, 1, 1, 1, 1, 0}, 0.005),
               (std::vector<float>{0, 100, 100, 104, 0, 0}));
 }
 
 TEST(JudgedRun, IsJudgedByTheThresholdsOfAnother) {
-    const SlowStretch slow;
+    const SlowSection slow;
     QualityRules rules;
     rules.fixed = slow.run.report.thresholds;
     for (float& threshold : rules.fixed->of) threshold *= 100;

@@ -45,7 +45,7 @@ Program of_the_tip(const std::string& text, const Machine& machine) {
     return program;
 }
 
-double crowded(int pass, double way) { return pass == 3 && way > 3 && way < 4 ? 0.02 : 0.5; }
+double crowded(int pass, double arc_length) { return pass == 3 && arc_length > 3 && arc_length < 4 ? 0.02 : 0.5; }
 double even(int, double) { return 0.5; }
 
 TEST(FiveAxisRun, IsThatOfSimulateAndCheck) {
@@ -68,8 +68,8 @@ TEST(FiveAxisRun, IsThatOfSimulateAndCheck) {
                      measured = reconstruct_like(log, Role::feedback, path);
     const LineMap lines = map_lines(path, log, program, true, diagnostics);
     const ClSurface surface = stitch(gather(path), lines);
-    const Signals signals =
-        derive_signals(surface, path, &measured, smooth_pieces(log, surface.passes), usual_end_zone(surface.step_over));
+    const Signals signals = derive_signals(surface, path, &measured, smoothing_segments(log, surface.passes),
+                                           usual_end_zone(surface.step_over));
     const QualityReport report = find_defects(surface, signals, lines, program, log.period, {});
 
     ASSERT_EQ(run.surface.positions.size(), surface.positions.size());
@@ -155,7 +155,8 @@ Resampled resampled(const std::string& text, double tolerance, double spacing, c
     const Orientation orientation(r.before, machine, zero, Vec3::Zero());
     LineEditor editor(r.before);
     const ResampleRules rules{tolerance, spacing, 0.2 * tolerance, 0, 0.5, most_turned};
-    for (const ResampledStretch& s : resample(r.before, lay_out(r.before), editor, rules, {}, &orientation))
+    for (const ResampledSegment& s :
+         resample(r.before, build_programmed_surface(r.before), editor, rules, {}, &orientation))
         editor.replace(s.first, s.last, s.points, s.angles);
     r.text = editor.text("");
     r.after = of_the_tip(r.text, machine);
@@ -182,10 +183,10 @@ std::pair<double, double> farthest(const Motions& from, const Motions& to) {
             const Vec3 p = a + part * (b - a);
             double nearest = 1e9, angle = 0;
             for (std::size_t j = 2; j + 1 < to.end.size(); ++j) {
-                const Vec3 c = to.end[j - 1].vec(), d = to.end[j].vec(), foot = nearest_on_line(p, c, d);
-                if ((p - foot).norm() >= nearest) continue;
-                nearest = (p - foot).norm();
-                angle = angle_between(axis(from, i, part), axis(to, j, (foot - c).norm() / (d - c).norm()));
+                const Vec3 c = to.end[j - 1].vec(), d = to.end[j].vec(), projection = nearest_on_line(p, c, d);
+                if ((p - projection).norm() >= nearest) continue;
+                nearest = (p - projection).norm();
+                angle = angle_between(axis(from, i, part), axis(to, j, (projection - c).norm() / (d - c).norm()));
             }
             off = std::max(off, nearest);
             turned = std::max(turned, angle);
@@ -215,9 +216,9 @@ TEST(FiveAxisResample, KeepsTipAndToolAxis) {
 }
 
 TEST(FiveAxisResample, KeepsTheToolAxisAlongGreatCircles) {
-    for (const ToolAxisInterpolation way : {ToolAxisInterpolation::vector, ToolAxisInterpolation::safe}) {
+    for (const ToolAxisInterpolation mode : {ToolAxisInterpolation::vector, ToolAxisInterpolation::safe}) {
         Machine machine = trunnion();
-        machine.kinematics.interpolation = way;
+        machine.kinematics.interpolation = mode;
         const std::string text = tilted_zigzag(5, 8, crowded);
         const Resampled r = resampled(text, 0.005, 0.6, machine);
         EXPECT_NE(r.text, text);
@@ -225,7 +226,7 @@ TEST(FiveAxisResample, KeepsTheToolAxisAlongGreatCircles) {
         const Deviation measured = measure_deviation(r.before, r.after, 0.05, {&before, &after});
         EXPECT_EQ(measured.disordered, 0U);
         EXPECT_LE(measured.greatest, 0.005);
-        EXPECT_LE(measured.turned, most_turned) << name_of(way);
+        EXPECT_LE(measured.turned, most_turned) << name_of(mode);
     }
 }
 
@@ -289,11 +290,11 @@ TEST(FiveAxisOptimizer, IsBetterInEveryRespect) {
     Diagnostics diagnostics;
     const Program program = read_text(text);
     const Optimized result = optimize(program, read_text, machine, rules, {}, {}, diagnostics);
-    ASSERT_TRUE(result.proof.accepted) << result.proof.reason;
+    ASSERT_TRUE(result.evaluation.accepted) << result.evaluation.reason;
     EXPECT_TRUE(result.five_axes);
     EXPECT_LT(result.after.mismatch, result.before.mismatch);
     EXPECT_LE(result.after.duration, result.before.duration);
-    EXPECT_LE(result.proof.defects_after, result.proof.defects_before);
+    EXPECT_LE(result.evaluation.defects_after, result.evaluation.defects_before);
     const Program after = of_the_tip(result.text, machine), before = of_the_tip(text, machine);
     const auto [off, turned] = farthest(after.motions, before.motions);
     const auto [off_back, turned_back] = farthest(before.motions, after.motions);

@@ -43,9 +43,9 @@ double farthest(const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
 
 std::string resampled_text(const Program& program, double tolerance, double spacing) {
     LineEditor editor(program);
-    for (const ResampledStretch& stretch :
-         resample(program, lay_out(program), editor, {tolerance, spacing, 0.2 * tolerance, 0, 0.5}, {}))
-        editor.replace(stretch.first, stretch.last, stretch.points);
+    for (const ResampledSegment& section : resample(program, build_programmed_surface(program), editor,
+                                                    {tolerance, spacing, 0.2 * tolerance, 0, 0.5}, {}))
+        editor.replace(section.first, section.last, section.points);
     return editor.text("");
 }
 
@@ -99,12 +99,12 @@ TEST(Resample, LeavesCreasesAlone) {
     for (int pass = 0; pass < 5; ++pass) {
         const double y = 0.4 * pass, slope = std::tan(30 * std::numbers::pi / 180);
         const bool back = pass % 2 == 1;
-        std::vector<double> ways;
-        for (double x = 0; x < 4.9; x += 0.31) ways.push_back(x);
-        for (const double x : {4.96, 4.98, 5.0, 5.02, 5.04}) ways.push_back(x);
-        for (double x = 5.2; x < 10.1; x += 0.31) ways.push_back(x);
-        if (back) std::reverse(ways.begin(), ways.end());
-        for (const double x : ways) {
+        std::vector<double> arc_lengths;
+        for (double x = 0; x < 4.9; x += 0.31) arc_lengths.push_back(x);
+        for (const double x : {4.96, 4.98, 5.0, 5.02, 5.04}) arc_lengths.push_back(x);
+        for (double x = 5.2; x < 10.1; x += 0.31) arc_lengths.push_back(x);
+        if (back) std::reverse(arc_lengths.begin(), arc_lengths.end());
+        for (const double x : arc_lengths) {
             const double off = std::abs(x - 5), z = slope * (off < 0.05 ? off * off / 0.1 + 0.025 : off);
             const std::string line = fmt::format("X{:.4f} Y{:.4f} Z{:.4f}", x, y, z);
             if (off < 0.03) crease.push_back(line);
@@ -123,10 +123,10 @@ TEST(Resample, LaysNoLineShorterThanItMay) {
         7, 12, [](int pass, double x) { return 0.25 + 0.05 * std::sin(pass + x); }, 0.2));
     LineEditor editor(program);
     const double shortest = 0.2;
-    for (const ResampledStretch& stretch :
-         resample(program, lay_out(program), editor, {0.01, 0.09, 0.004, shortest, 0.5}, {})) {
-        for (std::size_t k = 1; k < stretch.points.size(); ++k)
-            EXPECT_GE((stretch.points[k] - stretch.points[k - 1]).norm(), 0.99 * shortest);
+    for (const ResampledSegment& section :
+         resample(program, build_programmed_surface(program), editor, {0.01, 0.09, 0.004, shortest, 0.5}, {})) {
+        for (std::size_t k = 1; k < section.points.size(); ++k)
+            EXPECT_GE((section.points[k] - section.points[k - 1]).norm(), 0.99 * shortest);
     }
 }
 
@@ -189,14 +189,14 @@ TEST(Optimizer, IsBetterInEveryRespectOrRefuses) {
     rules.header = "by a test";
     Diagnostics diagnostics;
     const Optimized result = optimize(program, read_text, brisk(), rules, {}, {}, diagnostics);
-    EXPECT_EQ(result.proof.accepted, result.proof.reason.empty());
-    EXPECT_EQ(result.proof.defects_before, result.before.report.defects.size());
-    EXPECT_EQ(result.proof.defects_after, result.after.report.defects.size());
+    EXPECT_EQ(result.evaluation.accepted, result.evaluation.reason.empty());
+    EXPECT_EQ(result.evaluation.defects_before, result.before.report.defects.size());
+    EXPECT_EQ(result.evaluation.defects_after, result.after.report.defects.size());
     EXPECT_EQ(result.before.report.thresholds.of, result.after.report.thresholds.of);
-    if (!result.proof.accepted) return;
+    if (!result.evaluation.accepted) return;
     EXPECT_LT(result.after.mismatch, result.before.mismatch);
     EXPECT_LE(result.after.duration, result.before.duration);
-    EXPECT_LE(result.proof.defects_after, result.proof.defects_before);
+    EXPECT_LE(result.evaluation.defects_after, result.evaluation.defects_before);
     const Program changed = read_text(result.text);
     EXPECT_LE(std::max(farthest(corners_of(changed), corners_of(program)),
                        farthest(corners_of(program), corners_of(changed))),
@@ -216,7 +216,7 @@ TEST(Optimizer, IsBetterInEveryRespectOrRefuses) {
 }
 
 TEST(Optimizer, SlowsNeighboursDownOnlyInTheTimeThatIsAllowed) {
-    // One pass is slower than those beside it. Feeds are only ever lowered: there is no cure that takes no time.
+    // One pass is slower than those beside it. Feeds are only ever lowered: there is no feed reduction that takes no time.
     std::string text = wavy_zigzag(
         7, 10, [](int, double) { return 0.3; }, 0);
     for (const auto& [begin, feed] : {std::pair{"Y1.2000", " F2700"}, std::pair{"Y1.6000", " F3000"}})
@@ -226,11 +226,11 @@ TEST(Optimizer, SlowsNeighboursDownOnlyInTheTimeThatIsAllowed) {
     OptimizeRules rules;
     const Optimized refused = optimize(program, read_text, brisk(), rules, {}, {}, diagnostics);
     EXPECT_GT(refused.before.report.defects.size(), 0U);
-    EXPECT_FALSE(refused.proof.accepted && refused.proof.defects_after < refused.proof.defects_before);
+    EXPECT_FALSE(refused.evaluation.accepted && refused.evaluation.defects_after < refused.evaluation.defects_before);
     rules.more_time = 0.1;
     const Optimized taken = optimize(program, read_text, brisk(), rules, {}, {}, diagnostics);
-    EXPECT_TRUE(taken.proof.accepted) << taken.proof.reason;
-    EXPECT_EQ(taken.proof.defects_after, 0U);
+    EXPECT_TRUE(taken.evaluation.accepted) << taken.evaluation.reason;
+    EXPECT_EQ(taken.evaluation.defects_after, 0U);
     EXPECT_LT(taken.after.mismatch, 0.5 * taken.before.mismatch);
     EXPECT_GT(taken.after.duration, taken.before.duration);
     EXPECT_LE(taken.after.duration, 1.1 * taken.before.duration);
@@ -243,8 +243,8 @@ TEST(Optimizer, RefusesWhereNothingCanBeRewritten) {
     const Program program = read_text(commented);
     Diagnostics diagnostics;
     const Optimized result = optimize(program, read_text, brisk(), {}, {}, {}, diagnostics);
-    EXPECT_FALSE(result.proof.accepted);
-    EXPECT_EQ(result.proof.reason, "no stretch of the program can be rewritten");
+    EXPECT_FALSE(result.evaluation.accepted);
+    EXPECT_EQ(result.evaluation.reason, "no stretch of the program can be rewritten");
 }
 
 TEST(Optimizer, RefusesASinglePass) {

@@ -28,8 +28,9 @@ std::string wavy_zigzag(int passes, double length, const Spacing& spacing, doubl
         const bool back = pass % 2 == 1;
         if (pass > 0)
             text += fmt::format("X{:.4f} Y{:.4f} Z{:.4f}\n", back ? length : 0.0, y, z(back ? length : 0.0, y));
-        for (double way = spacing(pass, 0.0); way < length + 1e-9; way += spacing(pass, way)) {
-            const double x = back ? length - way : way;
+        for (double arc_length = spacing(pass, 0.0); arc_length < length + 1e-9;
+             arc_length += spacing(pass, arc_length)) {
+            const double x = back ? length - arc_length : arc_length;
             text += fmt::format("X{:.4f} Z{:.4f}\n", x, z(x, y));
         }
         const double end = back ? 0.0 : length;
@@ -56,9 +57,11 @@ std::string tilted_zigzag(int passes, double length, const Spacing& spacing, int
     for (int pass = 0; pass < passes; ++pass) {
         const double y = 0.4 * pass;
         const bool back = pass % 2 == 1;
-        const auto x = [&](double way) { return from + (back ? length - way : way); };
+        const auto x = [&](double arc_length) { return from + (back ? length - arc_length : arc_length); };
         if (pass > 0) at("", x(0), y, 0, "");
-        for (double way = spacing(pass, 0.0); way < length - 1e-9; way += spacing(pass, way)) at("", x(way), y, 0, "");
+        for (double arc_length = spacing(pass, 0.0); arc_length < length - 1e-9;
+             arc_length += spacing(pass, arc_length))
+            at("", x(arc_length), y, 0, "");
         at("", x(length), y, 0, "");
     }
     return text + "G0 Z10\nG49\nM5\nM2\n%\n";

@@ -14,11 +14,11 @@ namespace {
 constexpr double period = 0.001;
 constexpr Ramp ramp{1000, 50'000};  // 1 mm/s² a period² of bend is 0.05 mm/s
 
-struct Stretch {
+struct Segment {
     std::vector<float> own, speeds;
     std::vector<std::int32_t> causes;
 
-    explicit Stretch(std::size_t points, float speed = 50)
+    explicit Segment(std::size_t points, float speed = 50)
         : own(points, speed), speeds(points, speed), causes(points, -1) {}
     void lower(std::size_t i, float speed) {
         speeds[i] = speed;
@@ -30,7 +30,7 @@ struct Stretch {
 // From a point that is lowered by 2 mm/s speed grows by j t²/2 and bends back the same way: half of it after √(2/j) s, 6.3 points,
 // all after twice that; steps of a period take half a point more or less.
 TEST(Ramp, LeavesALowPlaceAndComesBackByTheJerk) {
-    Stretch s(101);
+    Segment s(101);
     s.lower(50, 48);
     s.keep();
     EXPECT_FLOAT_EQ(s.speeds[50], 48);
@@ -45,7 +45,7 @@ TEST(Ramp, LeavesALowPlaceAndComesBackByTheJerk) {
 }
 
 TEST(Ramp, BendsNoSharperThanTheJerkAndRisesNoFasterThanTheAcceleration) {
-    Stretch s(400);
+    Segment s(400);
     s.lower(60, 46);
     s.lower(90, 44);
     s.lower(97, 43);
@@ -64,10 +64,10 @@ TEST(Ramp, BendsNoSharperThanTheJerkAndRisesNoFasterThanTheAcceleration) {
 }
 
 TEST(Ramp, TakesPlacesThatAreFarApartEachForItself) {
-    Stretch both(2000), left(2000), right(2000);
-    for (Stretch* s : {&both, &left}) s->lower(300, 20);
-    for (Stretch* s : {&both, &right}) s->lower(1500, 30);
-    for (Stretch* s : {&both, &left, &right}) s->keep();
+    Segment both(2000), left(2000), right(2000);
+    for (Segment* s : {&both, &left}) s->lower(300, 20);
+    for (Segment* s : {&both, &right}) s->lower(1500, 30);
+    for (Segment* s : {&both, &left, &right}) s->keep();
     for (std::size_t i = 0; i < both.speeds.size(); ++i)
         ASSERT_FLOAT_EQ(both.speeds[i], std::min(left.speeds[i], right.speeds[i])) << i;
     EXPECT_LT(both.speeds[330], 50);
@@ -75,7 +75,7 @@ TEST(Ramp, TakesPlacesThatAreFarApartEachForItself) {
 }
 
 TEST(Ramp, LetsSpeedsChangeAsTheMachineDid) {
-    Stretch s(200);
+    Segment s(200);
     for (std::size_t i = 0; i < s.own.size(); ++i)
         s.own[i] = static_cast<float>(40 + 10 * std::cos(0.1 * static_cast<double>(i)));
     s.speeds = s.own;
@@ -86,11 +86,11 @@ TEST(Ramp, LetsSpeedsChangeAsTheMachineDid) {
 }
 
 TEST(Ramp, IsNoneWhereNothingIsLoweredOrNothingLimits) {
-    Stretch idle(50);
+    Segment idle(50);
     idle.speeds[20] = 10;  // without a cause
     idle.keep();
     EXPECT_EQ(idle.speeds[21], 50);
-    Stretch free(50);
+    Segment free(50);
     free.lower(20, 10);
     free.keep({});
     EXPECT_EQ(free.speeds[21], 50);

@@ -100,7 +100,7 @@ TEST(Draft, KeepsWhatIsGivenBackByteForByte) {
     const ReadProgram read = read_text;
     OptimizeRules rules;
     const Draft draft = Drafter(program, read, rules, 0, true).draft(0.001, needed);
-    ASSERT_GT(draft.stretches, 0U);
+    ASSERT_GT(draft.sections, 0U);
     std::istringstream now(draft.text);
     std::size_t next = 0;
     for (std::string line; std::getline(now, line) && next < kept.size();) next += line == kept[next] ? 1 : 0;
@@ -116,15 +116,16 @@ TEST(Optimizer, IsNeverWorseThanADraftTakenWhole) {
     Diagnostics diagnostics;
     Optimized result = optimize(program, read, machine, rules, {}, silent, diagnostics);
     Proposal taken;
-    taken.proof = result.proof;
+    taken.evaluation = result.evaluation;
     taken.run = std::move(result.after);
-    Prover prover(program, read, machine, rules, silent, diagnostics);
+    Evaluator evaluator(program, read, machine, rules, silent, diagnostics);
     const Drafter drafter(program, read, rules, 1.1 * machine.controller.block_time * 50, true);
     for (const double share : {0.1, 0.2, 0.4}) {
-        const Tried whole = prover.propose(std::make_shared<const Draft>(drafter.draft(
-                                               share * rules.tolerance, motions_in_need(prover.before(), program, {}))),
-                                           {});
-        EXPECT_FALSE(prover.better(*whole, taken)) << share;
+        const TriedProposal whole =
+            evaluator.propose(std::make_shared<const Draft>(drafter.draft(
+                                  share * rules.tolerance, motions_in_need(evaluator.before(), program, {}))),
+                              {});
+        EXPECT_FALSE(evaluator.better(*whole, taken)) << share;
     }
 }
 

@@ -65,9 +65,9 @@ TEST(TransitionArcVectors, BetweenLines) {
         const double deflection = r.number();
         if (arc.kind != CornerKind::degenerate) near(arc.deflection, deflection, 1e-8, 1e-9, r.name);
         if (arc.kind != CornerKind::arc) continue;
-        const double way = r.number();
-        near(arc.way_before, way, 1e-8, 1e-9, r.name);
-        near(arc.way_after, way, 1e-8, 1e-9, r.name);
+        const double arc_length = r.number();
+        near(arc.arc_length_before, arc_length, 1e-8, 1e-9, r.name);
+        near(arc.arc_length_after, arc_length, 1e-8, 1e-9, r.name);
         near(arc.radius, r.number(), 1e-8, 1e-9, r.name);
         near(arc.error, r.number(), 1e-8, 1e-9, r.name);
         EXPECT_EQ(arc.limited == ArcLimit::error ? "error" : "length", r.word()) << r.name;
@@ -91,7 +91,7 @@ TEST(TransitionArcVectors, BetweenLineAndArcForthAndBack) {
         const TransitionArc forth = transition_arc(line(start, corner), arc(middle, corner, angle), error);
         const Vec3 end = middle + Eigen::AngleAxisd(angle, Vec3::UnitZ()) * (corner - middle);
         const TransitionArc back = transition_arc(arc(middle, end, -angle), line(corner, start), error);
-        const double alpha = std::abs(r.number()), way = r.number(), radius = r.number();
+        const double alpha = std::abs(r.number()), arc_length = r.number(), radius = r.number();
         const Vec3 centre = point_in_plane(r), begin = point_in_plane(r), stop = point_in_plane(r);
         const double e = r.number(), on_arc = r.number(), sweep = std::abs(r.number());
         for (const TransitionArc* found : {&forth, &back}) {
@@ -102,10 +102,10 @@ TEST(TransitionArcVectors, BetweenLineAndArcForthAndBack) {
             near(found->sweep, sweep, 1e-6, 1e-7, r.name);
             near(found->centre, centre, 1e-6, 1e-7, r.name);
         }
-        near(forth.way_before, way, 1e-6, 1e-7, r.name);
-        near(forth.way_after, on_arc, 1e-6, 1e-7, r.name);
-        near(back.way_after, way, 1e-6, 1e-7, r.name);
-        near(back.way_before, on_arc, 1e-6, 1e-7, r.name);
+        near(forth.arc_length_before, arc_length, 1e-6, 1e-7, r.name);
+        near(forth.arc_length_after, on_arc, 1e-6, 1e-7, r.name);
+        near(back.arc_length_after, arc_length, 1e-6, 1e-7, r.name);
+        near(back.arc_length_before, on_arc, 1e-6, 1e-7, r.name);
         near(forth.begin, begin, 1e-6, 1e-7, r.name);
         near(forth.end, stop, 1e-6, 1e-7, r.name);
         near(back.begin, stop, 1e-6, 1e-7, r.name);
@@ -130,9 +130,9 @@ TEST(TransitionArc, InTheValleyBetweenTwoArcs) {
     EXPECT_NEAR(a.deflection, 2 * std::atan2(4, 3), 1e-12);
     EXPECT_NEAR(a.radius, 13.0 / 12, 1e-8);
     near(a.centre, middle, 1e-8, 1e-8, "centre");
-    const double way = 5 * (direction_to(left, middle) - direction_to(left, Vec3::Zero()));
-    EXPECT_NEAR(a.way_before, way, 1e-8);
-    EXPECT_NEAR(a.way_after, way, 1e-8);
+    const double arc_length = 5 * (direction_to(left, middle) - direction_to(left, Vec3::Zero()));
+    EXPECT_NEAR(a.arc_length_before, arc_length, 1e-8);
+    EXPECT_NEAR(a.arc_length_after, arc_length, 1e-8);
     near(a.middle, Vec3(0, 0.5, 0), 1e-8, 1e-8, "the point next to the corner");
 }
 
@@ -145,9 +145,9 @@ TEST(TransitionArc, InTheTipOfALens) {
     EXPECT_EQ(a.limited, ArcLimit::error);
     EXPECT_NEAR(a.radius, 0.55, 1e-8);
     near(a.centre, middle, 1e-8, 1e-8, "centre");
-    const double way = 5 * (direction_to(left, Vec3::Zero()) - direction_to(left, middle));
-    EXPECT_NEAR(a.way_before, way, 1e-8);
-    EXPECT_NEAR(a.way_after, way, 1e-8);
+    const double arc_length = 5 * (direction_to(left, Vec3::Zero()) - direction_to(left, middle));
+    EXPECT_NEAR(a.arc_length_before, arc_length, 1e-8);
+    EXPECT_NEAR(a.arc_length_after, arc_length, 1e-8);
 }
 
 // Circles of 5 about (−4, −3) and of 13 about (5, −12), half of the first arc ending in (−1, 1), towards u = (3/5, 4/5) from its centre. A circle that
@@ -162,8 +162,8 @@ TEST(TransitionArc, AsLongAsHalfOfAnArcBetweenUnequalOnes) {
     EXPECT_NEAR(a.error, (std::sqrt(11138.0) - 90) / 31, 1e-8);
     near(a.begin, Vec3(-1, 1, 0), 1e-8, 1e-8, "begin");
     near(a.centre, middle, 1e-8, 1e-8, "centre");
-    EXPECT_NEAR(a.way_before, 5 * half, 1e-9);
-    EXPECT_NEAR(a.way_after, 13 * (direction_to(second, Vec3::Zero()) - direction_to(second, middle)), 1e-8);
+    EXPECT_NEAR(a.arc_length_before, 5 * half, 1e-9);
+    EXPECT_NEAR(a.arc_length_after, 13 * (direction_to(second, Vec3::Zero()) - direction_to(second, middle)), 1e-8);
 }
 
 // The centre of an arc between two arcs lies on the offsets of both: at |ρ ± r| from their centres.
@@ -191,12 +191,12 @@ TEST(TransitionArc, BetweenArcsTouchesBoth) {
         ++found;
         const PathElement e = a.element();
         EXPECT_LE(a.error, error * (1 + 1e-9));
-        EXPECT_LE(a.way_before, 0.5 * before.length + 1e-12);
-        EXPECT_LE(a.way_after, 0.5 * after.length + 1e-12);
-        near(e.at(0), before.at(before.length - a.way_before), 0, 1e-11, "begin");
-        near(e.at(e.length), after.at(a.way_after), 0, 1e-9, "end");
-        near(e.tangent(0), before.tangent(before.length - a.way_before), 0, 1e-10, "tangent in");
-        near(e.tangent(e.length), after.tangent(a.way_after), 0, 1e-8, "tangent out");
+        EXPECT_LE(a.arc_length_before, 0.5 * before.length + 1e-12);
+        EXPECT_LE(a.arc_length_after, 0.5 * after.length + 1e-12);
+        near(e.at(0), before.at(before.length - a.arc_length_before), 0, 1e-11, "begin");
+        near(e.at(e.length), after.at(a.arc_length_after), 0, 1e-9, "end");
+        near(e.tangent(0), before.tangent(before.length - a.arc_length_before), 0, 1e-10, "tangent in");
+        near(e.tangent(e.length), after.tangent(a.arc_length_after), 0, 1e-8, "tangent out");
         const auto off = [&](const Vec3& centre, double rho) {
             const double distance = (a.centre - centre).norm();
             return std::min(std::abs(distance - std::abs(rho - a.radius)), std::abs(distance - (rho + a.radius)));
@@ -206,7 +206,7 @@ TEST(TransitionArc, BetweenArcsTouchesBoth) {
         if (a.limited == ArcLimit::error) {
             near(a.error, error, 1e-6, 0, "as large as allowed");
         } else if (a.deflection < 2) {
-            EXPECT_GT(std::max(a.way_before / before.length, a.way_after / after.length), 0.05);
+            EXPECT_GT(std::max(a.arc_length_before / before.length, a.arc_length_after / after.length), 0.05);
         }
     }
     EXPECT_GT(found, 0.9 * trials);

@@ -61,13 +61,13 @@ double worst_share(const Recorded& r, const Machine& machine) {
 }
 
 TEST(FiveAxisSimulator, ADomeHoldsLimitsAndPath) {
-    for (const ToolAxisInterpolation way :
+    for (const ToolAxisInterpolation mode :
          {ToolAxisInterpolation::linear, ToolAxisInterpolation::vector, ToolAxisInterpolation::safe}) {
         Machine machine = trunnion();
-        machine.kinematics.interpolation = way;
+        machine.kinematics.interpolation = mode;
         const Recorded r = run(test::dome_program(), machine);
-        EXPECT_TRUE(r.summary.run.limits_ok) << name_of(way);
-        EXPECT_LE(worst_share(r, machine), 1.0011) << name_of(way);
+        EXPECT_TRUE(r.summary.run.limits_ok) << name_of(mode);
+        EXPECT_LE(worst_share(r, machine), 1.0011) << name_of(mode);
         // Every tip is as near to the programmed path as corners may be rounded; programmed axes are met.
         const Toolpath path(r.program.motions, Vec3::Zero());
         double off = 0;
@@ -77,19 +77,19 @@ TEST(FiveAxisSimulator, ADomeHoldsLimitsAndPath) {
             for (std::int64_t m = 0; m < path.size(); ++m) {
                 const LineNumber line = r.program.motions.line[static_cast<std::size_t>(m)];
                 if (line + 2 >= r.points[i].line && line <= r.points[i].line + 2)
-                    nearest = std::min(nearest, path.foot(m, tip).distance);
+                    nearest = std::min(nearest, path.projection(m, tip).distance);
             }
             off = std::max(off, nearest);
         }
-        EXPECT_LE(off, 1.05 * machine.controller.tolerance) << name_of(way);
+        EXPECT_LE(off, 1.05 * machine.controller.tolerance) << name_of(mode);
         const ToolPose end = pose_of(machine, r.points.back().commanded);
         const auto last = static_cast<std::size_t>(r.program.motions.size() - 1);
-        EXPECT_LE((end.tip - r.program.motions.end[last].vec()).norm(), 1e-9) << name_of(way);
+        EXPECT_LE((end.tip - r.program.motions.end[last].vec()).norm(), 1e-9) << name_of(mode);
         EXPECT_LE(angle_between(end.axis, machine.kinematics.axis_of(
                                               machine.kinematics.angles_of(r.program.motions.rotary[last].vec()))),
                   1e-9);
         // Half a degree is what a triangle of 16 periods takes from the changes of direction at the passes' ends.
-        EXPECT_LT(r.summary.orientation_error, 0.6 * rad_per_deg) << name_of(way);
+        EXPECT_LT(r.summary.orientation_error, 0.6 * rad_per_deg) << name_of(mode);
     }
 }
 

@@ -1,4 +1,4 @@
-// The rounded rectangle of Li et al., Optimal Control of CNC Machining Tool Motion in Green Converter Station
+// The rounded rectangle of Li et al., Optimal Control of CNC Machining Tool Motion in Green Converter PathSample
 // Based on Multisensor Fusion Data, Sensors and Materials (2025): its times and its Fig. 5, with
 // docs/rounded_rectangle.md saying what of the printed numbers cannot hold. mm, s.
 
@@ -20,18 +20,18 @@ constexpr double none = std::numeric_limits<double>::infinity();
 constexpr double jerk = 300;
 constexpr double mm_s(double m_min) { return m_min * 1000 / 60; }
 constexpr double at_b = mm_s(0.19), fast = mm_s(1.26), at_k = mm_s(0.13);
-constexpr double way_ab = 22.92;
+constexpr double arc_length_ab = 22.92;
 constexpr double lap = 4 * 400 + 2 * std::numbers::pi * 5;
 
 /// No acceleration limit: the five phases of the paper.
-SCurve profile(double way, double start, double end, double speed) {
-    return plan_scurve(way, start, end, {speed, none, none, jerk}).profile;
+SCurve profile(double arc_length, double start, double end, double speed) {
+    return plan_scurve(arc_length, start, end, {speed, none, none, jerk}).profile;
 }
 
 TEST(RoundedRectangle, HalfRampsAreWhatThePaperPrintsAsRamps) {
-    EXPECT_NEAR(profile(way_ab, 0, at_b, at_b).durations()[0], 0.102740233383, 1e-9);  // printed 0.10
-    EXPECT_NEAR(profile(lap, at_b, at_k, fast).durations()[0], 0.243812313972, 1e-9);  // printed 0.24
-    EXPECT_NEAR(profile(lap, at_b, at_k, fast).durations()[4], 0.25055493964, 1e-9);   // printed 0.25
+    EXPECT_NEAR(profile(arc_length_ab, 0, at_b, at_b).durations()[0], 0.102740233383, 1e-9);  // printed 0.10
+    EXPECT_NEAR(profile(lap, at_b, at_k, fast).durations()[0], 0.243812313972, 1e-9);         // printed 0.24
+    EXPECT_NEAR(profile(lap, at_b, at_k, fast).durations()[4], 0.25055493964, 1e-9);          // printed 0.25
     EXPECT_NEAR(ramp_time(at_b, none, jerk), 2 * 0.102740233383, 1e-9);
 }
 
@@ -41,12 +41,13 @@ TEST(RoundedRectangle, LapAndTotals) {
     EXPECT_NEAR(round.durations()[3], 77.1294891832, 1e-6);
     EXPECT_NEAR(round.length() - ramp_distance(at_b, fast, none, jerk) - ramp_distance(fast, at_k, none, jerk), 1619.72,
                 0.01);
-    EXPECT_NEAR(profile(way_ab, 0, at_b, at_b).duration() + round.duration(), 85.4588586606, 1e-6);
-    EXPECT_NEAR(profile(way_ab, at_k, at_b, at_b).duration() + round.duration(), 85.374350541, 1e-6);  // printed 85.38
+    EXPECT_NEAR(profile(arc_length_ab, 0, at_b, at_b).duration() + round.duration(), 85.4588586606, 1e-6);
+    EXPECT_NEAR(profile(arc_length_ab, at_k, at_b, at_b).duration() + round.duration(), 85.374350541,
+                1e-6);  // printed 85.38
     // The start acceleration as a state of the machine, taken back under the jerk limit.
     const RunningRamp running = ramp_from_state(at_k, 20, at_b, none, jerk);
     EXPECT_NEAR(running.time(), 0.0824045318333, 1e-9);
-    EXPECT_NEAR(running.time() + (way_ab - running.way) / at_b + round.duration(), 85.3649383333, 1e-6);
+    EXPECT_NEAR(running.time() + (arc_length_ab - running.arc_length) / at_b + round.duration(), 85.3649383333, 1e-6);
 }
 
 TEST(RoundedRectangle, TheRadiusDoesNotBearTheSpeedUnderItsOwnJerkLimit) {
@@ -56,7 +57,7 @@ TEST(RoundedRectangle, TheRadiusDoesNotBearTheSpeedUnderItsOwnJerkLimit) {
 }
 
 // Fig. 5: the least of three speeds over the interior angle 2θ; the radius follows from E_rr less the chord error.
-TEST(RoundedRectangle, ThreeWayMinimumAtACorner) {
+TEST(RoundedRectangle, ThreeArcLengthMinimumAtACorner) {
     constexpr double contour_error = 0.002, chord_error = 0.0009, acceleration = 600, period = 0.001;
     struct Row {
         double angle, radius, one_period, chord, arc;

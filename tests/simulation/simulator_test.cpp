@@ -185,7 +185,7 @@ TEST(Simulator, OverrideScalesTheFeed) {
     machine.controller.feed_override = 0.5;
     const Recorded r = run("G1 X50 F6000\nM2\n", machine);
     EXPECT_NEAR(r.summary.max_speed, 50, 1e-9);
-    EXPECT_GT(r.summary.ruled[static_cast<std::size_t>(Ruling::feed_override)], 500);
+    EXPECT_GT(r.summary.limited_by[static_cast<std::size_t>(LimitingFactor::feed_override)], 500);
 }
 
 TEST(Simulator, TheSameToTheBitAndWithoutALookAheadSlower) {
@@ -308,19 +308,19 @@ TEST(Simulator, ABlockTimeHoldsShortBlocksBack) {
     machine.controller.block_time = 0.005;
     const Recorded r = run(text + "M2\n", machine);
     EXPECT_NEAR(r.summary.max_speed, 0.05 / 0.005, 1e-6);
-    EXPECT_GT(r.summary.ruled[static_cast<std::size_t>(Ruling::block_time)], 4000);
+    EXPECT_GT(r.summary.limited_by[static_cast<std::size_t>(LimitingFactor::block_time)], 4000);
 }
 
 // From 47.27 mm/s a way of 7.58e-7 mm gains 3.5e-12 mm/s, which is 500 times the rounding of the speed itself, so that
 // the way that its ramp takes is known to 0.05 %.
-TEST(Simulator, ASpeedReachedOverHardlyAnyWayIsPlanned) {
-    const double way = 7.58264e-07, jerk = 50000, acceleration = 2000, before = 47.273111160212636;
-    const double after = reach(before, way, acceleration, jerk);
+TEST(Simulator, ASpeedReachedOverHardlyAnyArcLengthIsPlanned) {
+    const double arc_length = 7.58264e-07, jerk = 50000, acceleration = 2000, before = 47.273111160212636;
+    const double after = reach(before, arc_length, acceleration, jerk);
     for (const auto& [from, to] :
          {std::pair{before, after}, std::pair{after, before}, std::pair{47.273111160215855, before}}) {
-        const PlannedProfile plan = plan_scurve(way, from, to, {100, acceleration, acceleration, jerk});
+        const PlannedProfile plan = plan_scurve(arc_length, from, to, {100, acceleration, acceleration, jerk});
         EXPECT_EQ(plan.status, ProfileStatus::ok);
-        EXPECT_EQ(plan.profile.length(), way);
+        EXPECT_EQ(plan.profile.length(), arc_length);
     }
 }
 

@@ -107,7 +107,7 @@ TEST(SpeedProblem, TakesTheTimeOfTheOptimum) {
             for (const double part : {0.0, 0.5, 1.0}) {
                 PathSample at = path_at(begin + part * cell_length, of.k);
                 at.at = part * cell_length;
-                problem.add_station(at);
+                problem.add_sample(at);
             }
         }
         ASSERT_TRUE(problem.solve({of.speed, 0}, {of.speed, 0}));

@@ -88,9 +88,9 @@ TEST(ToolAxisPath, SafePassesThePole) {
 }
 
 TEST(ToolAxisPath, DegenerateEnds) {
-    for (const ToolAxisInterpolation way :
+    for (const ToolAxisInterpolation mode :
          {ToolAxisInterpolation::linear, ToolAxisInterpolation::vector, ToolAxisInterpolation::safe}) {
-        const Kinematics k = trunnion(way);
+        const Kinematics k = trunnion(mode);
         for (const auto& [from, to] :
              {std::pair{RotaryAngles{0, 0}, RotaryAngles{0, 2}}, std::pair{RotaryAngles{0, 0}, RotaryAngles{0.5, 1}},
               std::pair{RotaryAngles{0.5, 0}, RotaryAngles{0.5, std::numbers::pi}},

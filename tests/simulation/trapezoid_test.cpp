@@ -48,7 +48,7 @@ TEST(TrapezoidalPlanner, ALineTakesTheTimeOnPaper) {
     EXPECT_NEAR(r.points[first + 200].commanded.x(), 10 - 0.625, 1e-12);
     EXPECT_NEAR(r.points[first + 225].commanded.x(), 10, 1e-9);
     EXPECT_NEAR(r.summary.max_speed, 50, 1e-9);
-    EXPECT_LT(r.summary.max_acceleration.x(), 2000 * limit_play);
+    EXPECT_LT(r.summary.max_acceleration.x(), 2000 * limit_tolerance);
 }
 
 TEST(TrapezoidalPlanner, AStopFallsOnAPeriod) {
@@ -60,7 +60,7 @@ TEST(TrapezoidalPlanner, AStopFallsOnAPeriod) {
     const auto begin =
         std::find_if(r.points.begin(), r.points.end(), [](const SimulatedPoint& p) { return p.commanded.x() > 0; });
     EXPECT_EQ(end - begin + 1, 226);
-    EXPECT_LT(r.summary.max_acceleration.x(), 2000 * limit_play);
+    EXPECT_LT(r.summary.max_acceleration.x(), 2000 * limit_tolerance);
 }
 
 TEST(TrapezoidalPlanner, OverlappingBlocksLeaveTheCornerByTheTolerance) {
@@ -85,7 +85,7 @@ TEST(TrapezoidalPlanner, OverlappingBlocksLeaveTheCornerByTheTolerance) {
     double nearest = 1;
     for (const SimulatedPoint& p : r.points) nearest = std::min(nearest, (p.commanded - Vec3(20, 0, 0)).norm());
     EXPECT_NEAR(nearest, 0.01, 0.003);  // a period at 7.5 mm/s is 7.5 µm
-    EXPECT_LT(r.summary.max_acceleration.x(), 2000 * limit_play);
+    EXPECT_LT(r.summary.max_acceleration.x(), 2000 * limit_tolerance);
 }
 
 TEST(TrapezoidalPlanner, AnArcIsAsLargeAsToleranceOrSpeedNeed) {

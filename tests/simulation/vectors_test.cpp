@@ -25,25 +25,25 @@ void near(double value, double expected, double relative, double absolute, const
 
 TEST(SCurveVectors, RampsAndReach) {
     for (VectorRow& r : rows("ramp_reach.txt")) {
-        const double v0 = r.number(), v1 = r.number(), way = r.number(), a = r.number(), j = r.number();
+        const double v0 = r.number(), v1 = r.number(), arc_length = r.number(), a = r.number(), j = r.number();
         near(ramp_time(std::abs(v1 - v0), a, j), r.number(), 1e-7, 1e-9, r.name);
         near(ramp_distance(v0, v1, a, j), r.number(), 1e-7, 1e-9, r.name);
-        near(reach(v0, way, a, j), r.number(), 1e-7, 1e-9, r.name);
+        near(reach(v0, arc_length, a, j), r.number(), 1e-7, 1e-9, r.name);
     }
 }
 
 TEST(SCurveVectors, SevenPhasesWithUnequalEndSpeeds) {
     for (VectorRow& r : rows("scurve.txt")) {
-        const double way = r.number(), vs = r.number(), ve = r.number();
+        const double arc_length = r.number(), vs = r.number(), ve = r.number();
         RampLimits limits{r.number(), r.number(), r.number(), r.number()};
-        const PlannedProfile plan = plan_scurve(way, vs, ve, limits);
+        const PlannedProfile plan = plan_scurve(arc_length, vs, ve, limits);
         const std::string status = r.word();
         const char* names[] = {"ok", "end_speed_lowered", "infeasible_decel"};
         EXPECT_EQ(names[static_cast<int>(plan.status)], status) << r.name;
         const double peak = r.number(), end = r.number();
         const std::vector<double> durations = r.numbers(7);
         const double time = r.number(), needed = r.number(), allowed = r.number();
-        near(plan.needed_way, needed, 1e-7, 1e-9, r.name);
+        near(plan.needed_arc_length, needed, 1e-7, 1e-9, r.name);
         if (plan.status == ProfileStatus::infeasible_decel) {
             near(plan.allowed_start, allowed, 1e-7, 1e-9, r.name);
             continue;
@@ -57,7 +57,7 @@ TEST(SCurveVectors, SevenPhasesWithUnequalEndSpeeds) {
         for (int i = 0; i < samples; ++i) {
             const double t = r.number();
             const MotionState s = plan.profile.at(t);
-            near(s.way, r.number(), 1e-7, 1e-9, r.name);
+            near(s.arc_length, r.number(), 1e-7, 1e-9, r.name);
             near(s.speed, r.number(), 1e-7, 1e-8, r.name);
             // A time of twelve digits moves the acceleration by the jerk times its rounding.
             near(s.acceleration, r.number(), 1e-7, 1e-8 + limits.jerk * 1e-11, r.name);
@@ -75,7 +75,7 @@ TEST(SCurveVectors, RampFromARunningState) {
             if (ramp.durations[i] > 0) near(ramp.jerks[i], jerks[i], 1e-8, 1e-9, r.name);
         }
         near(ramp.time(), r.number(), 1e-8, 1e-9, r.name);
-        near(ramp.way, r.number(), 1e-8, 1e-9, r.name);
+        near(ramp.arc_length, r.number(), 1e-8, 1e-9, r.name);
     }
 }
 
@@ -89,13 +89,13 @@ TEST(SCurveVectors, FivePhasesOfLi) {
         const int samples = static_cast<int>(r.number());
         for (int i = 0; i < samples; ++i) {
             const double t = r.number();
-            near(profile.at(t).way, r.number(), 1e-8, 1e-9, r.name);
+            near(profile.at(t).arc_length, r.number(), 1e-8, 1e-9, r.name);
         }
     }
     constexpr double none = std::numeric_limits<double>::infinity();
     for (VectorRow& r : rows("no_plateau.txt")) {
-        const double vs = r.number(), ve = r.number(), j = r.number(), way = r.number();
-        const SCurve profile = plan_scurve(way, vs, ve, {none, none, none, j}).profile;
+        const double vs = r.number(), ve = r.number(), j = r.number(), arc_length = r.number();
+        const SCurve profile = plan_scurve(arc_length, vs, ve, {none, none, none, j}).profile;
         near(profile.durations()[0], r.number(), 1e-8, 1e-9, r.name);
         near(profile.durations()[4], r.number(), 1e-8, 1e-9, r.name);
         near(profile.peak_speed(), r.number(), 1e-8, 1e-9, r.name);
@@ -107,16 +107,16 @@ TEST(InterpolatorVectors, EqualLengthsOfAPeriod) {
     for (VectorRow& r : rows("equal_length.txt")) {
         const double v0 = r.number(), v1 = r.number(), period = r.number();
         const int parts = static_cast<int>(r.number());
-        const double way = r.number();
+        const double arc_length = r.number();
         const double acceleration = (v1 - v0) / period;
         const std::vector<double> speeds = r.numbers(parts + 1), times = r.numbers(parts + 1);
-        near(CellMotion{way, v0, acceleration, 0}.duration(), period, 1e-9, 1e-12, r.name);
+        near(CellMotion{arc_length, v0, acceleration, 0}.duration(), period, 1e-9, 1e-12, r.name);
         double time = 0;
         for (std::size_t k = 0; k < static_cast<std::size_t>(parts); ++k) {
             near(time, times[k], 1e-9, 1e-12, r.name);
-            const CellMotion part{way / parts, speeds[k], acceleration, 0};
+            const CellMotion part{arc_length / parts, speeds[k], acceleration, 0};
             double speed = 0;
-            near(part.way_at(part.duration(), speed), way / parts, 1e-9, 1e-12, r.name);
+            near(part.arc_length_at(part.duration(), speed), arc_length / parts, 1e-9, 1e-12, r.name);
             near(speed, speeds[k + 1], 1e-9, 1e-9, r.name);
             time += part.duration();
         }
@@ -129,13 +129,13 @@ TEST(LookaheadVectors, JerkLimitedScan) {
         const double a = r.number(), j = r.number(), v0 = r.number(), end = r.number();
         const int n = static_cast<int>(r.number());
         const std::vector<double> lengths = r.numbers(n), limits = r.numbers(n - 1), feeds = r.numbers(n);
-        std::vector<ScanSegment> stretches;
+        std::vector<ScanSegment> sections;
         std::vector<double> speeds{v0};
         for (std::size_t i = 0; i < lengths.size(); ++i) {
-            stretches.push_back({lengths[i], a, j});
+            sections.push_back({lengths[i], a, j});
             speeds.push_back(i + 1 < lengths.size() ? std::min({limits[i], feeds[i], feeds[i + 1]}) : end);
         }
-        const bool braked = scan_speeds(stretches, speeds);
+        const bool braked = scan_speeds(sections, speeds);
         EXPECT_EQ(braked, r.word() == "ok") << r.name;
         const double expected_time = r.number();
         if (!braked) continue;

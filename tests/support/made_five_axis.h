@@ -64,7 +64,7 @@ struct MadeLog {
     }
 };
 
-/// Interpolates with steps of `step` mm of the programmed way, of half a degree where only angles turn.
+/// Interpolates with steps of `step` mm of the programmed arc length, of half a degree where only angles turn.
 /// `zero`: machine position of the program's zero [mm]. Where control of the tip has gone off, an axis stays
 /// where it is until a word moves it.
 inline MadeLog run(const Program& program, const Kinematics& kinematics, const Vec3& zero, double step) {

@@ -61,7 +61,7 @@ inline double distance_to(const PathElement& element, const Vec3& point) {
     constexpr int places = 32;
     int best = 0;
     double least = std::numeric_limits<double>::infinity();
-    const auto distance = [&](double way) { return (element.at(way) - point).norm(); };
+    const auto distance = [&](double arc_length) { return (element.at(arc_length) - point).norm(); };
     for (int k = 0; k <= places; ++k) {
         const double here = distance(element.length * k / places);
         if (here < least) least = here, best = k;

@@ -1,5 +1,5 @@
 #pragma once
-// Runs made for tests: a tool that follows a path of known way at a known speed, with pauses and with
+// Runs made for tests: a tool that follows a path of known arc length at a known speed, with pauses and with
 // measured positions where they are wanted; the way at every point is kept, so that an alignment can
 // be held against the truth.
 
@@ -15,25 +15,27 @@
 
 namespace clsurf::test {
 
-/// A position by way [mm].
-using PathOfWay = std::function<Vec3(double)>;
+/// A position by arc length [mm].
+using PathOfArcLength = std::function<Vec3(double)>;
 
 struct RunRecipe {
-    PathOfWay path;
-    double begin = 0, end = 100;                                        ///< [mm] of way
+    PathOfArcLength path;
+    double begin = 0, end = 100;                                        ///< [mm] of arc length
     double period = 0.001;                                              ///< [s]
-    std::function<double(double)> speed = [](double) { return 30.0; };  ///< [mm/s] by way
+    std::function<double(double)> speed = [](double) { return 30.0; };  ///< [mm/s] by arc length
     std::vector<std::pair<double, double>> pauses;                      ///< at a way [mm], for a time [s]
     std::function<Vec3(double)> off = [](double) -> Vec3 {
         return Vec3::Zero();
-    };  ///< measured minus commanded, by way
-    std::function<Vec3(double)> shift = [](double) -> Vec3 { return Vec3::Zero(); };  ///< of all positions, by way
+    };  ///< measured minus commanded, by arc length
+    std::function<Vec3(double)> shift = [](double) -> Vec3 {
+        return Vec3::Zero();
+    };                 ///< of all positions, by arc length
     double phase = 0;  ///< of a period, after which sampling begins
 };
 
 struct MadeRun {
     Log log;
-    std::vector<double> way;  ///< of every point
+    std::vector<double> arc_length;  ///< of every point
     std::shared_ptr<std::vector<double>> columns = std::make_shared<std::vector<double>>();
 
     [[nodiscard]] ComparedRun run() const {
@@ -46,9 +48,9 @@ struct MadeRun {
         return run;
     }
     /// The way at a station.
-    [[nodiscard]] double way_at(const Station& at) const {
+    [[nodiscard]] double arc_length_at(const PathLocation& at) const {
         const auto i = static_cast<std::size_t>(at.point);
-        return at.fraction == 0 ? way[i] : way[i] + at.fraction * (way[i + 1] - way[i]);
+        return at.fraction == 0 ? arc_length[i] : arc_length[i] + at.fraction * (arc_length[i + 1] - arc_length[i]);
     }
 };
 
@@ -57,7 +59,7 @@ inline MadeRun make_run(const RunRecipe& recipe) {
     std::vector<Vec3> commanded;
     std::vector<Vec3> measured;
     const auto put = [&](double s) {
-        made.way.push_back(s);
+        made.arc_length.push_back(s);
         commanded.push_back(recipe.path(s) + recipe.shift(s));
         measured.push_back(commanded.back() + recipe.off(s));
     };
@@ -94,7 +96,7 @@ inline MadeRun make_run(const RunRecipe& recipe) {
 }
 
 /// Passes along X of `length` mm, 2 mm apart, joined by half circles, on a plane that rises along Y.
-inline PathOfWay rounded_zigzag(double length) {
+inline PathOfArcLength rounded_zigzag(double length) {
     return [length](double s) {
         constexpr double radius = 1.0;
         const double piece = length + std::numbers::pi * radius;
@@ -109,7 +111,7 @@ inline PathOfWay rounded_zigzag(double length) {
 }
 
 /// The same circle again and again, then away from it.
-inline PathOfWay circles(double radius, int turns) {
+inline PathOfArcLength circles(double radius, int turns) {
     return [radius, turns](double s) {
         const double whole = 2 * std::numbers::pi * radius * turns;
         if (s > whole) return Vec3(radius, s - whole, 0);
@@ -117,8 +119,8 @@ inline PathOfWay circles(double radius, int turns) {
     };
 }
 
-/// A curve that crosses itself many times. Way is that of its parameter only roughly.
-inline PathOfWay crossing_curve() {
+/// A curve that crosses itself many times. ArcLength is that of its parameter only roughly.
+inline PathOfArcLength crossing_curve() {
     return [](double s) { return Vec3(20 * std::sin(3 * s / 50), 20 * std::sin(2 * s / 50 + 0.4), std::sin(s / 17)); };
 }
 

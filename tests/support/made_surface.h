@@ -80,7 +80,8 @@ inline MadeSurface made_zigzag(const std::vector<double>& speeds, double length,
     made.surface.positions = gather(made.path);
     made.surface.passes = made.passes;
     made.surface.step_over = apart;
-    made.surface.neighbours = find_neighbours(made.surface.positions, made.passes, Way(made.surface.positions), apart);
+    made.surface.neighbours =
+        find_neighbours(made.surface.positions, made.passes, ArcLength(made.surface.positions), apart);
     return made;
 }
 

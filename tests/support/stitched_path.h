@@ -11,9 +11,9 @@ namespace clsurf::test {
 
 inline ClSurface surface_of(Positions positions, double step_over) {
     ClSurface surface;
-    const Way way(positions);
-    surface.passes = find_passes(positions, way, one_run(positions), step_over);
-    surface.neighbours = find_neighbours(positions, surface.passes, way, step_over);
+    const ArcLength arc_length(positions);
+    surface.passes = find_passes(positions, arc_length, one_run(positions), step_over);
+    surface.neighbours = find_neighbours(positions, surface.passes, arc_length, step_over);
     surface.positions = std::move(positions);
     surface.step_over = step_over;
     return surface;

@@ -9,8 +9,8 @@ namespace clsurf {
 namespace {
 
 Adjacency neighbours_of(const Positions& p, double step_over) {
-    const Way way(p);
-    return find_neighbours(p, find_passes(p, way, test::one_run(p), step_over), way, step_over);
+    const ArcLength arc_length(p);
+    return find_neighbours(p, find_passes(p, arc_length, test::one_run(p), step_over), arc_length, step_over);
 }
 
 TEST(Adjacency, FindsBothNeighboursOfAZigzagBesideThePoint) {

@@ -10,20 +10,20 @@ namespace {
 
 TEST(StepOver, IsFoundOnAZigzagAndASpiral) {
     const Positions z = test::zigzag(12, 20, 0.4, 0.05);
-    EXPECT_NEAR(estimate_step_over(z, test::one_run(z), Way(z)), 0.4, 0.01);
+    EXPECT_NEAR(estimate_step_over(z, test::one_run(z), ArcLength(z)), 0.4, 0.01);
     const Positions s = test::spiral(10, 15, 0.3, 0.05);
-    EXPECT_NEAR(estimate_step_over(s, test::one_run(s), Way(s)), 0.3, 0.01);
+    EXPECT_NEAR(estimate_step_over(s, test::one_run(s), ArcLength(s)), 0.3, 0.01);
 }
 
 TEST(StepOver, IsNoneForASinglePass) {
     Positions p;
     test::add_line(p, {0, 0, 0}, {50, 0, 0}, 0.05);
-    EXPECT_EQ(estimate_step_over(p, test::one_run(p), Way(p)), 0.0);
+    EXPECT_EQ(estimate_step_over(p, test::one_run(p), ArcLength(p)), 0.0);
 }
 
 TEST(Passes, OfAZigzagEndAtItsCorners) {
     const Positions p = test::zigzag(9, 20, 0.4, 0.05);
-    const Passes passes = find_passes(p, Way(p), test::one_run(p), 0.4);
+    const Passes passes = find_passes(p, ArcLength(p), test::one_run(p), 0.4);
     std::size_t cuts = 0;
     PointIndex covered = 0;
     for (const Pass& pass : passes) {
@@ -43,7 +43,7 @@ TEST(Passes, AreNotCutWhereTheSpeedIsLow) {
     test::add_line(p, {0, 0, 0}, {10, 0, 0}, 0.05);
     test::add_line(p, {10, 0, 0}, {10.2, 0, 0}, 0.0005);
     test::add_line(p, {10.2, 0, 0}, {10.2, 10, 0}, 0.05);
-    const Passes passes = find_passes(p, Way(p), test::one_run(p), 0.4);
+    const Passes passes = find_passes(p, ArcLength(p), test::one_run(p), 0.4);
     EXPECT_EQ(passes.size(), 1u);
 }
 

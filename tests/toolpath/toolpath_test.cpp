@@ -21,24 +21,24 @@ Motions quarter_circle() {
 TEST(Toolpath, FindsTheFootOnAnArc) {
     const Motions m = quarter_circle();
     const Toolpath path(m, Vec3::Zero());
-    const Foot foot = path.foot(0, Vec3(2, 2, 0));
-    EXPECT_NEAR(foot.distance, std::sqrt(8.0) - 1, 1e-12);
-    EXPECT_NEAR(foot.fraction, 0.5, 1e-12);
+    const Projection projection = path.projection(0, Vec3(2, 2, 0));
+    EXPECT_NEAR(projection.distance, std::sqrt(8.0) - 1, 1e-12);
+    EXPECT_NEAR(projection.fraction, 0.5, 1e-12);
     EXPECT_NEAR(path.length(0), std::numbers::pi / 2, 1e-12);
 }
 
 TEST(Toolpath, FindsTheEndWhereTheAngleIsNotOnTheArc) {
     const Motions m = quarter_circle();
-    EXPECT_NEAR(Toolpath(m, Vec3::Zero()).foot(0, Vec3(0, -3, 0)).distance, std::sqrt(10.0), 1e-12);
+    EXPECT_NEAR(Toolpath(m, Vec3::Zero()).projection(0, Vec3(0, -3, 0)).distance, std::sqrt(10.0), 1e-12);
 }
 
 TEST(Toolpath, FindsTheTurnOfAHelix) {
     Motions m = quarter_circle();
     m.end[0] = Xyz(1, 0, 3);
     m.arcs[0].turns = 3;
-    const Foot foot = Toolpath(m, Vec3::Zero()).foot(0, Vec3(-1, 0, 1.5));
-    EXPECT_NEAR(foot.distance, 0.0, 1e-9);
-    EXPECT_NEAR(foot.fraction, 0.5, 1e-9);
+    const Projection projection = Toolpath(m, Vec3::Zero()).projection(0, Vec3(-1, 0, 1.5));
+    EXPECT_NEAR(projection.distance, 0.0, 1e-9);
+    EXPECT_NEAR(projection.fraction, 0.5, 1e-9);
 }
 
 TEST(Toolpath, BeginsUnknownAxesWhereTheToolRests) {

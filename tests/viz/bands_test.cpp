@@ -16,7 +16,7 @@ constexpr double length = 60;
 constexpr double apart = 0.1;
 constexpr double step = 0.02;
 
-double area_of(const ClSurface& surface, const WayVertices& vertices, const Bands& bands) {
+double area_of(const ClSurface& surface, const SectionVertices& vertices, const Bands& bands) {
     const auto at = [&](std::size_t k) -> Vec3 {
         return surface.positions[vertices.points[bands.triangles[k]]].cast<double>();
     };
@@ -40,7 +40,7 @@ TEST(Bands, FewVerticesFarApartLeaveNothingOpen) {
                 points.push_back(i);
             points.push_back(pass.last);
         }
-        const WayVertices vertices = way_vertices(surface, points);
+        const SectionVertices vertices = section_vertices(surface, points);
         const Bands bands = join_passes(surface, vertices, NearnessFrame(), std::numeric_limits<float>::max());
         const double whole = length * apart * (passes - 1);
         EXPECT_NEAR(area_of(surface, vertices, bands), whole, 0.005 * whole) << longest;

@@ -76,11 +76,11 @@ TEST(Detail, DrawsAStepSidewaysNowhereElse) {
         if (!in_jog(i)) continue;
         values[static_cast<std::size_t>(i)] = 100;
         if (in_jog(i - 1))
-            surface.jogs.back().last = i;
+            surface.step_over_moves.back().last = i;
         else
-            surface.jogs.push_back({i, i});
+            surface.step_over_moves.push_back({i, i});
     }
-    ASSERT_EQ(surface.jogs.size(), 11U);
+    ASSERT_EQ(surface.step_over_moves.size(), 11U);
     const Detail detail = detail_of(surface, values);
     const Covered covered(detail);
     for (double x = 5.65; x < 9.95; x += 0.043) {

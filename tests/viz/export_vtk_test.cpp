@@ -26,9 +26,9 @@ struct Made {
         surface.positions = std::move(positions);
         surface.positions.origin = Vec3(100, 0, 0);
         surface.step_over = 0.4;
-        const Way way(surface.positions);
-        surface.passes = find_passes(surface.positions, way, test::one_run(surface.positions), 0.4);
-        surface.neighbours = find_neighbours(surface.positions, surface.passes, way, 0.4);
+        const ArcLength arc_length(surface.positions);
+        surface.passes = find_passes(surface.positions, arc_length, test::one_run(surface.positions), 0.4);
+        surface.neighbours = find_neighbours(surface.positions, surface.passes, arc_length, 0.4);
         for (PointIndex i = 0; i < surface.positions.size(); ++i) values.push_back(static_cast<float>(i));
     }
 };

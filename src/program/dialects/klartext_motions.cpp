@@ -110,16 +110,16 @@ void fill(Line& line, const KlartextWords& words, Block& block) {
 }
 
 /// M140 MB50: back along the tool axis. How far MB MAX goes, the machine knows.
-void retract(Line& line, const KlartextValue& way) {
+void retract(Line& line, const KlartextValue& distance) {
     Interpreter& in = line.in;
-    if (!std::isfinite(way.value)) {
+    if (!std::isfinite(distance.value)) {
         in.note(Severity::warning, "program.retract",
-                "M140 MB MAX goes to the end of the travel, which is not known: no motion is read", way.column);
+                "M140 MB MAX goes to the end of the travel, which is not known: no motion is read", distance.column);
         return;
     }
     Vec3 axis = in.state_.tool_axis;
     if (axis.hasNaN()) axis = in.state_.frame.direction_to_work(Vec3::Unit(in.state_.plane_axis)).normalized();
-    in.straight(MotionKind::feed, in.state_.position + way.value * in.state_.unit_mm * axis, in.state_.rotary);
+    in.straight(MotionKind::feed, in.state_.position + distance.value * in.state_.unit_mm * axis, in.state_.rotary);
 }
 
 }  // namespace

@@ -145,9 +145,9 @@ private:
             if (!follows("MB")) return;
             const std::size_t column = c_.column();
             c_.at += 2;
-            const double way =
+            const double distance =
                 take("MAX") ? std::numeric_limits<double>::infinity() : read_klartext_value(c_, variables_, rules_);
-            words_.retract = KlartextValue{way, true, column};
+            words_.retract = KlartextValue{distance, true, column};
         }
     }
 

@@ -44,11 +44,11 @@ constexpr std::array<ControlWord, 17> control_words{{
 
 /// GOTO, GOTOF, GOTOB, GOTOC with its label, behind the letters GOTO.
 void read_go_to(Cursor& c, Control& control) {
-    const char way = c.at < c.text.size() ? upper(c.text[c.at]) : ' ';
-    const bool named = way == 'F' || way == 'B' || way == 'C';
+    const char letter = c.at < c.text.size() ? upper(c.text[c.at]) : ' ';
+    const bool named = letter == 'F' || letter == 'B' || letter == 'C';
     if (named) ++c.at;
-    control.direction = way == 'F' ? 1 : way == 'B' ? -1 : 0;
-    control.may_miss = way == 'C';
+    control.direction = letter == 'F' ? 1 : letter == 'B' ? -1 : 0;
+    control.may_miss = letter == 'C';
     control.label = c.identifier();
 }
 

@@ -263,16 +263,16 @@ void Interpreter::end_by_angle(const Block& block, Vec3& end) const {
     const int v = (state_.plane_axis + 2) % 3;
     const NamedWord& angle = *block.find("ANG");
     const Vec3 from = state_.programmed().array().isNaN().select(0.0, state_.programmed());
-    const Vec2 way(std::cos(angle.value * rad_per_deg), std::sin(angle.value * rad_per_deg));
+    const Vec2 displacement(std::cos(angle.value * rad_per_deg), std::sin(angle.value * rad_per_deg));
     const bool along = block.words.given("XYZ"[u]);
-    const double given = along ? way.x() : way.y();
+    const double given = along ? displacement.x() : displacement.y();
     if (std::abs(given) < 1e-9)
         fail(fmt::format("a line at ANG={:g} does not reach the given {}", angle.value, "XYZ"[along ? u : v]),
              angle.column);
     if (along)
-        end[v] = from[v] + (end[u] - from[u]) * way.y() / way.x();
+        end[v] = from[v] + (end[u] - from[u]) * displacement.y() / displacement.x();
     else
-        end[u] = from[u] + (end[v] - from[v]) * way.x() / way.y();
+        end[u] = from[u] + (end[v] - from[v]) * displacement.x() / displacement.y();
 }
 
 /// Arcs that are given by other words than I J K and R. `words` has begin, end and axis; true: centre and direction

@@ -44,7 +44,7 @@ struct ArcTolerance {
 /// Angle of an arc about its axis, always positive [rad].
 [[nodiscard]] double arc_sweep(const Arc& arc, bool clockwise, const Vec3& begin, const Vec3& end);
 
-/// Way along an arc or helix [mm].
+/// Arc length along an arc or helix [mm].
 [[nodiscard]] double arc_length(const Arc& arc, bool clockwise, const Vec3& begin, const Vec3& end);
 
 constexpr double arc_chord_error = 1e-3;  ///< [mm] of the chords that replace an arc

@@ -121,15 +121,15 @@ void Interpreter::compensated_straight(MotionKind kind, const Vec3& end, const V
     }
     const int axis = state_.plane_axis;
     if (compensation_.enters_beside) {
-        const Vec2 way = in_plane(end, axis) - in_plane(state_.position, axis);
-        if (!compensation_.entry_programmed || way.isZero()) {
+        const Vec2 displacement = in_plane(end, axis) - in_plane(state_.position, axis);
+        if (!compensation_.entry_programmed || displacement.isZero()) {
             if (!compensation_.entry_programmed) compensation_.open_motions = program_.motions.end.size();
-            compensation_.entry_programmed = compensation_.entry_programmed || !way.isZero();
+            compensation_.entry_programmed = compensation_.entry_programmed || !displacement.isZero();
             if (!compensation_.entry_programmed) compensation_.open_motions = program_.motions.end.size() + 1;
             straight(kind, end, rotary);
             return;
         }
-        enter_compensation(way.normalized());
+        enter_compensation(displacement.normalized());
     }
     push_compensated(compensation_.path.line(in_plane(state_.position, axis), in_plane(end, axis)), kind, end, rotary);
 }

@@ -68,12 +68,12 @@ std::string CutterCompensation::finish() { return entered() ? check_reach(centre
 CompensatedStep CutterCompensation::line(const Vec2& from, const Vec2& to) {
     if (first_) return entry_line(from, to);
     CompensatedStep step;
-    const Vec2 way = to - from;
-    if (way.norm() == 0) {  // along the axis only: it ends where the corner will be
+    const Vec2 displacement = to - from;
+    if (displacement.norm() == 0) {  // along the axis only: it ends where the corner will be
         step.moves.push_back({centre_});
         return step;
     }
-    const Vec2 direction = way.normalized();
+    const Vec2 direction = displacement.normalized();
     const Vec2 off = side() * radius_ * left_of(direction);
     Open next;
     next.direction = direction;
@@ -118,14 +118,14 @@ CompensatedStep CutterCompensation::arc(const Vec2& from, const Vec2& to, const 
 /// The tool's centre goes straight to beside the end of the first programmed motion.
 CompensatedStep CutterCompensation::entry_line(const Vec2& from, const Vec2& to) {
     CompensatedStep step;
-    const Vec2 way = to - from;
-    if (way.norm() < radius_ - no_length) {
+    const Vec2 displacement = to - from;
+    if (displacement.norm() < radius_ - no_length) {
         step.error = fmt::format(
             "the entry move into cutter compensation ({:.4f} mm) must be longer than the tool's radius ({:.4f} mm)",
-            way.norm(), radius_);
+            displacement.norm(), radius_);
         return step;
     }
-    const Vec2 off = side() * radius_ * left_of(way.normalized());
+    const Vec2 off = side() * radius_ * left_of(displacement.normalized());
     // LinuxCNC checks the reach of the entry against its side, not its way.
     open_ = {};
     open_.valid = true;

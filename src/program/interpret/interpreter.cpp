@@ -70,8 +70,8 @@ std::int64_t Interpreter::settled() const {
 
 std::int64_t Interpreter::place_settled(std::int64_t motions) {
     if (motions == 0) return 0;
-    keep_ways(motions);  // as the program counts them
-    ways_kept_ = true;
+    keep_tangents(motions);  // as the program counts them
+    tangents_kept_ = true;
     const std::int64_t placed = placer_.place(program_.motions, program_.events, motions);
     const std::int64_t more = placed - motions;
     compensation_.open_motions += static_cast<std::size_t>(more);
@@ -81,7 +81,7 @@ std::int64_t Interpreter::place_settled(std::int64_t motions) {
 }
 
 void Interpreter::forget(std::int64_t motions) {
-    if (!std::exchange(ways_kept_, false)) keep_ways(motions);
+    if (!std::exchange(tangents_kept_, false)) keep_tangents(motions);
     program_.motions.drop_front(motions);
     std::vector<ProgramEvent>& events = program_.events;
     events.erase(events.begin(), std::find_if(events.begin(), events.end(),

@@ -149,8 +149,8 @@ public:
     // tangential_arc.cpp
     void arc_along_tangent(ArcWords& words) const;
     [[nodiscard]] Vec2 end_tangent(int u, int v) const;
-    [[nodiscard]] Vec3 way_at_end(std::int64_t motion) const;
-    void keep_ways(std::int64_t motions);
+    [[nodiscard]] Vec3 tangent_at_end(std::int64_t motion) const;
+    void keep_tangents(std::int64_t motions);
 
     // tool_axis.cpp: five axes
     void control_tool_centre_point(bool on, const std::string& text);
@@ -287,8 +287,8 @@ public:
     Program program_;
     std::uint64_t most_motions_ = 0, forgotten_ = 0;
     std::vector<Vec3>
-        forgotten_ways_;      ///< of the motions forgotten the last, and the last that is not parallel to it [mm]
-    bool ways_kept_ = false;  ///< of the settled motions, in work coordinates
+        forgotten_tangents_;      ///< of the motions forgotten the last, and the last that is not parallel to it [mm]
+    bool tangents_kept_ = false;  ///< of the settled motions, in work coordinates
     FramePlacer placer_{{}, Coordinates::machine};
 
     ReadingPlace place_;

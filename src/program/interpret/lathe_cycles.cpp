@@ -87,8 +87,9 @@ std::optional<double> reach(const Vec2& first, const std::vector<CompensatedMove
 bool rises(const Vec2& first, const std::vector<CompensatedMove>& moves, const Frame2& frame) {
     Vec2 from = first;
     for (const CompensatedMove& move : moves) {
-        const Vec2 way = move.end - from;
-        if (way[frame.feed] * frame.onwards < -no_pocket || way[frame.depth] * frame.outwards < -no_pocket)
+        const Vec2 displacement = move.end - from;
+        if (displacement[frame.feed] * frame.onwards < -no_pocket ||
+            displacement[frame.depth] * frame.outwards < -no_pocket)
             return false;
         if (move.is_arc) {
             // Monotone arcs stay in one quadrant about their centre.

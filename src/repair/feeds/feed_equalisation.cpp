@@ -15,27 +15,28 @@ constexpr int halvings = 10;  ///< in search of a step
 /// Speeds that are brought down pass by pass.
 class Sweep {
 public:
-    Sweep(const JudgedRun& run, const LevelStep& step, const std::vector<float>& own, Levelling& levelling)
+    Sweep(const JudgedRun& run, const EqualisationStep& step, const std::vector<float>& own,
+          FeedEqualisation& equalisation)
         : run_(run),
           ratio_(static_cast<float>(1 + step.share)),
           more_(static_cast<float>(step.speed)),
           ramp_(step.ramp),
           own_(own),
-          speeds_(levelling.speeds),
-          causes_(levelling.causes),
-          levelled_(levelling.levelled) {}
+          speeds_(equalisation.speeds),
+          causes_(equalisation.causes),
+          equalised_(equalisation.equalised) {}
 
-    void bring_down(PointIndex i, const Station& left, const Station& right) {
+    void bring_down(PointIndex i, const PathLocation& left, const PathLocation& right) {
         const auto k = static_cast<std::size_t>(i);
         float& mine = speeds_[k];
         if (!(mine == mine)) return;
         std::int32_t& cause = causes_[k];
-        for (const Station* at : {&left, &right}) {
+        for (const PathLocation* at : {&left, &right}) {
             if (!at->exists()) continue;
             const auto other = static_cast<std::size_t>(at->nearest());
             if (cause < 0 && causes_[other] < 0) continue;
             float ratio = ratio_;
-            if (levelled_[k] == 0 && levelled_[other] == 0) ratio = std::max(ratio, own_[k] / value_at(own_, *at));
+            if (equalised_[k] == 0 && equalised_[other] == 0) ratio = std::max(ratio, own_[k] / value_at(own_, *at));
             const float limit = ratio * value_at(speeds_, *at) + more_;
             if (!(limit < mine)) continue;
             mine = limit;
@@ -43,7 +44,7 @@ public:
         }
     }
 
-    /// Each stretch of the pass that is compared.
+    /// Each section of the pass that is compared.
     void keep_to_ramps(const Pass& pass) {
         const auto end = static_cast<std::size_t>(pass.last) + 1;
         for (auto first = static_cast<std::size_t>(pass.first); first < end;) {
@@ -57,7 +58,7 @@ public:
     }
 
 private:
-    static float value_at(const std::vector<float>& values, const Station& at) {
+    static float value_at(const std::vector<float>& values, const PathLocation& at) {
         const auto j = static_cast<std::size_t>(at.point);
         return at.fraction > 0 ? values[j] + at.fraction * (values[j + 1] - values[j]) : values[j];
     }
@@ -68,7 +69,7 @@ private:
     const std::vector<float>& own_;
     std::vector<float>& speeds_;
     std::vector<std::int32_t>& causes_;
-    const std::vector<std::uint8_t>& levelled_;
+    const std::vector<std::uint8_t>& equalised_;
 };
 
 }  // namespace
@@ -81,7 +82,7 @@ std::vector<float> compared_speeds(const JudgedRun& run) {
     return speeds;
 }
 
-Leveller::Leveller(const JudgedRun& run)
+FeedEqualiser::FeedEqualiser(const JudgedRun& run)
     : run_(run), own_(compared_speeds(run)), beside_(own_.size()), passes_beside_(run.surface.passes.size()) {
     const Passes& passes = run.surface.passes;
     std::vector<std::size_t> pass_of(own_.size(), passes.size());
@@ -96,7 +97,7 @@ Leveller::Leveller(const JudgedRun& run)
                 const Eigen::Vector3f feed = run.signals.feed(i);
                 beside_[point] = {beside(run.surface, {i, 0}, feed, Side::left),
                                   beside(run.surface, {i, 0}, feed, Side::right)};
-                for (const Station& at : {beside_[point].left, beside_[point].right}) {
+                for (const PathLocation& at : {beside_[point].left, beside_[point].right}) {
                     if (!at.exists()) continue;
                     const std::size_t other = pass_of[static_cast<std::size_t>(at.nearest())];
                     if (other == passes.size()) continue;
@@ -107,15 +108,16 @@ Leveller::Leveller(const JudgedRun& run)
     });
 }
 
-void Leveller::level(const LevelStep& step, Levelling& levelling) const {
+void FeedEqualiser::level(const EqualisationStep& step, FeedEqualisation& equalisation) const {
     const Passes& passes = run_.surface.passes;
     std::vector<std::uint8_t> has_cause(passes.size(), 0);
     const auto look_for_cause = [&](std::size_t k) {
-        const auto first = levelling.causes.begin() + passes[k].first, last = levelling.causes.begin() + passes[k].last;
+        const auto first = equalisation.causes.begin() + passes[k].first,
+                   last = equalisation.causes.begin() + passes[k].last;
         has_cause[k] = std::any_of(first, last + 1, [](std::int32_t cause) { return cause >= 0; }) ? 1 : 0;
     };
     for (std::size_t k = 0; k < passes.size(); ++k) look_for_cause(k);
-    Sweep sweep(run_, step, own_, levelling);
+    Sweep sweep(run_, step, own_, equalisation);
     const auto over = [&](std::size_t k) {
         const Pass& pass = passes[k];
         const bool concerned =
@@ -133,13 +135,13 @@ void Leveller::level(const LevelStep& step, Levelling& levelling) const {
     for (std::size_t k = passes.size(); k-- > 0;) over(k);
 }
 
-std::vector<float> Leveller::everywhere(const LevelStep& step) const {
-    Levelling all{own_, std::vector<std::int32_t>(own_.size(), 0), std::vector<std::uint8_t>(own_.size(), 1)};
+std::vector<float> FeedEqualiser::everywhere(const EqualisationStep& step) const {
+    FeedEqualisation all{own_, std::vector<std::int32_t>(own_.size(), 0), std::vector<std::uint8_t>(own_.size(), 1)};
     level(step, all);
     return std::move(all.speeds);
 }
 
-double Leveller::affordable_step(const Ramp& ramp, double budget) const {
+double FeedEqualiser::affordable_step(const Ramp& ramp, double budget) const {
     double low = 0, high = 2 * run_.greatest_mismatch;
     for (int k = 0; k < halvings; ++k) {
         const double middle = 0.5 * (low + high);
@@ -148,7 +150,7 @@ double Leveller::affordable_step(const Ramp& ramp, double budget) const {
     return high;
 }
 
-double Leveller::lost(const std::vector<float>& speeds) const {
+double FeedEqualiser::lost(const std::vector<float>& speeds) const {
     double sum = 0;
     for (std::size_t i = 0; i < own_.size(); ++i) {
         if (speeds[i] > 0) sum += run_.log.period * (own_[i] / speeds[i] - 1);
@@ -168,7 +170,7 @@ std::vector<float> peaks_by_motion(const JudgedRun& run, const Program& program,
     return peaks;
 }
 
-std::vector<float> levelling_feeds(const std::vector<float>& target, const std::vector<std::uint8_t>& may_slow,
+std::vector<float> equalised_feeds(const std::vector<float>& target, const std::vector<std::uint8_t>& may_slow,
                                    double width) {
     std::vector<float> feeds(target.size(), 0);
     const auto apart = static_cast<float>(1 + width);

@@ -15,27 +15,27 @@ namespace clsurf {
 [[nodiscard]] std::vector<float> compared_speeds(const JudgedRun& run);
 
 /// How much faster than the adjacent pass a place may be: a fraction of its speed plus a speed.
-struct LevelStep {
+struct EqualisationStep {
     double share = 0;
     double speed = 0;  ///< [mm/s]
     Ramp ramp{};       ///< … and how a pass comes back to its own speed
 };
 
 /// Speeds during equalisation; one entry per point in each column.
-struct Levelling {
+struct FeedEqualisation {
     std::vector<float> speeds;         ///< [mm/s]
     std::vector<std::int32_t> causes;  ///< what a point is lowered for, ≥ 0; −1: nothing
     /// 1: to be equalised with the adjacent points. Where neither of two points is, their old relative difference may
     /// remain: next to a lowered place there may be another slow one that must not determine its speed.
-    std::vector<std::uint8_t> levelled;
+    std::vector<std::uint8_t> equalised;
 };
 
 /// Lowers the speeds of a run to what adjacent passes and the ramps allow. Reusable: it keeps the neighbours of each
 /// point. The run must outlive it. Several threads may use it.
-class Leveller {
+class FeedEqualiser {
 public:
     /// O(points)
-    explicit Leveller(const JudgedRun& run);
+    explicit FeedEqualiser(const JudgedRun& run);
 
     /// compared_speeds() of the run
     [[nodiscard]] const std::vector<float>& own() const { return own_; }
@@ -45,10 +45,10 @@ public:
     /// cause: if all start with one, speeds are equalised everywhere. Before and after a lowered place a pass follows
     /// the ramp, so the next pass is equalised with the real motion of the machine. Two sweeps, forward and backward,
     /// over the passes with a cause or next to one.
-    void level(const LevelStep& step, Levelling& levelling) const;
+    void level(const EqualisationStep& step, FeedEqualisation& equalisation) const;
 
     /// The highest speeds that are equal everywhere.
-    [[nodiscard]] std::vector<float> everywhere(const LevelStep& step) const;
+    [[nodiscard]] std::vector<float> everywhere(const EqualisationStep& step) const;
 
     /// The smallest step [mm/s] to which all speeds can be equalised without losing more than `budget` [s]. Ten
     /// equalisations: O(points).
@@ -59,7 +59,7 @@ public:
 
 private:
     struct Beside {
-        Station left, right;
+        PathLocation left, right;
     };
 
     const JudgedRun& run_;
@@ -77,7 +77,7 @@ private:
 /// Feeds that keep motions at a target [mm/s]; targets and feeds of 0: none. Motions whose entry in `may_slow` is 0 get
 /// none; empty: all may. Consecutive motions with a feed form constant-speed intervals, in which targets differ by less
 /// than `width` (a fraction). Each interval gets its lowest target.
-[[nodiscard]] std::vector<float> levelling_feeds(const std::vector<float>& target,
+[[nodiscard]] std::vector<float> equalised_feeds(const std::vector<float>& target,
                                                  const std::vector<std::uint8_t>& may_slow, double width);
 
 }  // namespace clsurf

@@ -13,13 +13,13 @@
 namespace clsurf {
 namespace {
 
-constexpr double levelled_reach = 1;  ///< [mm] of way before and behind a defect that is levelled with it
+constexpr double levelled_reach = 1;  ///< [mm] of arc length before and behind a defect that is equalised with it
 constexpr double lag_aim = 0.95;      ///< of the threshold, that a lag step is brought down to
 constexpr double slowest = 0.6;       ///< of its speed, to which a place is slowed at most for that
 constexpr double most_levelled =
-    2;  ///< times what slowing alone costs, that a lag step may cost that is levelled as well
+    2;  ///< times what slowing alone costs, that a lag step may cost that is equalised as well
 
-/// Which defect the points in each cell of space are levelled for.
+/// Which defect the points in each cell of space are equalised for.
 class CauseMap {
 public:
     void add(const Vec3& p, std::int32_t cause) { causes_.insert_or_assign(cell_of(p), cause); }
@@ -55,25 +55,25 @@ private:
 
 class Cure {
 public:
-    Cure(const JudgedRun& run, const CureRules& rules)
-        : run_(run), rules_(rules), leveller_(run), levelled_(run.report.defects.size(), 1) {}
+    Cure(const JudgedRun& run, const FeedReductionRules& rules)
+        : run_(run), rules_(rules), equaliser_(run), equalised_(run.report.defects.size(), 1) {}
 
     /// For the cheapest defects, each by what it costs alone: as many of them as the budget pays for together.
-    CuringSpeeds speeds() {
+    ReducedSpeeds speeds() {
         const std::vector<std::int32_t> order = by_cost();
         std::size_t paid = 0, too_many = order.size() + 1;
-        CuringSpeeds best = level({});
+        ReducedSpeeds best = level({});
         for (std::size_t many = order.size(); paid + 1 < too_many; many = (paid + too_many) / 2) {
-            CuringSpeeds cure = level(std::span(order).first(many));
-            const bool holds = leveller_.lost(cure.speeds) <= rules_.budget;
+            ReducedSpeeds reduction = level(std::span(order).first(many));
+            const bool holds = equaliser_.lost(reduction.speeds) <= rules_.budget;
             (holds ? paid : too_many) = many;
-            if (holds) best = std::move(cure);
+            if (holds) best = std::move(reduction);
         }
         return best;
     }
 
 private:
-    /// Those that can be cured, the cheapest first.
+    /// Those that can be repaired, the cheapest first.
     [[nodiscard]] std::vector<std::int32_t> by_cost() {
         std::vector<std::int32_t> order;
         for (std::size_t k = 0; k < run_.report.defects.size(); ++k) {
@@ -92,47 +92,48 @@ private:
         return order;
     }
 
-    /// … and whether it is levelled: a lag step lies beside other slow places, which may cost much more than it does.
+    /// … and whether it is equalised: a lag step lies beside other slow places, which may cost much more than it does.
     [[nodiscard]] double cost_alone(std::int32_t k) {
-        const double cost = leveller_.lost(level({&k, 1}).speeds);
+        const double cost = equaliser_.lost(level({&k, 1}).speeds);
         if (run_.report.defects[static_cast<std::size_t>(k)].quantity != Quantity::lag) return cost;
-        levelled_[static_cast<std::size_t>(k)] = 0;
-        const double slowed = leveller_.lost(level({&k, 1}).speeds);
+        equalised_[static_cast<std::size_t>(k)] = 0;
+        const double slowed = equaliser_.lost(level({&k, 1}).speeds);
         if (cost >= most_levelled * slowed) return slowed;
-        levelled_[static_cast<std::size_t>(k)] = 1;
+        equalised_[static_cast<std::size_t>(k)] = 1;
         return cost;
     }
 
     [[nodiscard]] bool can_be_cured(const Defect& defect) const {
         if (defect.quantity == Quantity::relief) return false;
-        return std::none_of(rules_.hopeless.begin(), rules_.hopeless.end(),
+        return std::none_of(rules_.abandoned.begin(), rules_.abandoned.end(),
                             [&](const Vec3& place) { return (place - defect.place.tip).norm() < levelled_reach; });
     }
 
     /// The speeds for some of the defects.
-    [[nodiscard]] CuringSpeeds level(std::span<const std::int32_t> taken) const {
-        const std::size_t n = leveller_.own().size();
-        Levelling levelling{leveller_.own(), std::vector<std::int32_t>(n, -1), std::vector<std::uint8_t>(n, 0)};
+    [[nodiscard]] ReducedSpeeds level(std::span<const std::int32_t> taken) const {
+        const std::size_t n = equaliser_.own().size();
+        FeedEqualisation equalisation{equaliser_.own(), std::vector<std::int32_t>(n, -1),
+                                      std::vector<std::uint8_t>(n, 0)};
         for (const std::int32_t k : taken) {
             const Defect& defect = run_.report.defects[static_cast<std::size_t>(k)];
-            for (const auto* stretches : {&defect.runs, &defect.neighbours}) {
-                for (const DefectRun& stretch : *stretches) mark(stretch.points, k, levelling);
+            for (const auto* segments : {&defect.runs, &defect.neighbours}) {
+                for (const DefectRun& segment : *segments) mark(segment.points, k, equalisation);
             }
-            if (defect.quantity == Quantity::lag) slow_for_lag(defect, levelling.speeds);
+            if (defect.quantity == Quantity::lag) slow_for_lag(defect, equalisation.speeds);
         }
-        leveller_.level({rules_.step, 0, rules_.ramp}, levelling);
-        return {std::move(levelling.speeds), std::move(levelling.causes)};
+        equaliser_.level({rules_.step, 0, rules_.ramp}, equalisation);
+        return {std::move(equalisation.speeds), std::move(equalisation.causes)};
     }
 
-    /// A stretch and what lies within `levelled_reach` before and behind it.
-    void mark(const PointRange& points, std::int32_t cause, Levelling& levelling) const {
-        const bool levelled = levelled_[static_cast<std::size_t>(cause)] != 0;
+    /// A section and what lies within `levelled_reach` before and behind it.
+    void mark(const PointRange& points, std::int32_t cause, FeedEqualisation& equalisation) const {
+        const bool equalised = equalised_[static_cast<std::size_t>(cause)] != 0;
         const auto mark_point = [&](PointIndex i) {
-            levelling.causes[static_cast<std::size_t>(i)] = cause;
-            if (levelled) levelling.levelled[static_cast<std::size_t>(i)] = 1;
+            equalisation.causes[static_cast<std::size_t>(i)] = cause;
+            if (equalised) equalisation.equalised[static_cast<std::size_t>(i)] = 1;
         };
         for (PointIndex i = points.first; i <= points.last; ++i) mark_point(i);
-        const std::vector<float>& own = leveller_.own();
+        const std::vector<float>& own = equaliser_.own();
         const auto walk = [&](PointIndex from, PointIndex step) {
             double left = levelled_reach;
             for (PointIndex i = from + step; left > 0 && i >= 0 && i < run_.signals.size() &&
@@ -148,14 +149,14 @@ private:
 
     void slow_for_lag(const Defect& defect, std::vector<float>& speeds) const {
         const double most = lag_aim * run_.report.thresholds.of[index_of(Quantity::lag)];
-        for (const auto* stretches : {&defect.runs, &defect.neighbours}) {
-            for (const DefectRun& stretch : *stretches) {
-                for (PointIndex i = stretch.points.first; i <= stretch.points.last; ++i) {
+        for (const auto* segments : {&defect.runs, &defect.neighbours}) {
+            for (const DefectRun& segment : *segments) {
+                for (PointIndex i = segment.points.first; i <= segment.points.last; ++i) {
                     const double share = std::pow(std::max(1.0, lag_step(i) / most), -1 / rules_.lag_power);
                     float& speed = speeds[static_cast<std::size_t>(i)];
                     if (share >= slowest)
                         speed =
-                            std::min(speed, static_cast<float>(share) * leveller_.own()[static_cast<std::size_t>(i)]);
+                            std::min(speed, static_cast<float>(share) * equaliser_.own()[static_cast<std::size_t>(i)]);
                 }
             }
         }
@@ -165,7 +166,7 @@ private:
     [[nodiscard]] double lag_step(PointIndex i) const {
         double most = 0;
         for (const Side side : {Side::left, Side::right}) {
-            const Station at = beside(run_.surface, {i, 0}, run_.signals.feed(i), side);
+            const PathLocation at = beside(run_.surface, {i, 0}, run_.signals.feed(i), side);
             if (!at.exists()) continue;
             const double step =
                 std::abs(run_.signals[i].lag - compared_at(run_.signals, at, run_.signals.normal(i)).lag);
@@ -175,9 +176,9 @@ private:
     }
 
     const JudgedRun& run_;
-    const CureRules& rules_;
-    Leveller leveller_;
-    std::vector<std::uint8_t> levelled_;  ///< per defect, whether the speeds about it are
+    const FeedReductionRules& rules_;
+    FeedEqualiser equaliser_;
+    std::vector<std::uint8_t> equalised_;  ///< per defect, whether the speeds about it are
 };
 
 }  // namespace
@@ -192,12 +193,15 @@ double lag_power(const Machine& machine) {
     return alike ? 3 : 1;
 }
 
-CuringSpeeds curing_speeds(const JudgedRun& run, const CureRules& rules) { return Cure(run, rules).speeds(); }
+ReducedSpeeds reduced_speeds(const JudgedRun& run, const FeedReductionRules& rules) {
+    return Cure(run, rules).speeds();
+}
 
-std::vector<int> gains_of(const CuringSpeeds& cure, const JudgedRun& run, const JudgedRun& cured) {
+std::vector<int> gains_of(const ReducedSpeeds& reduction, const JudgedRun& run, const JudgedRun& reduced) {
     CauseMap map;
-    for (std::size_t i = 0; i < cure.causes.size(); ++i) {
-        if (cure.causes[i] >= 0) map.add(run.surface.positions.absolute(static_cast<PointIndex>(i)), cure.causes[i]);
+    for (std::size_t i = 0; i < reduction.causes.size(); ++i) {
+        if (reduction.causes[i] >= 0)
+            map.add(run.surface.positions.absolute(static_cast<PointIndex>(i)), reduction.causes[i]);
     }
     std::vector<int> gains(run.report.defects.size(), 0);
     const auto count = [&](const JudgedRun& of, int each) {
@@ -207,7 +211,7 @@ std::vector<int> gains_of(const CuringSpeeds& cure, const JudgedRun& run, const 
         }
     };
     count(run, 1);
-    count(cured, -1);
+    count(reduced, -1);
     return gains;
 }
 

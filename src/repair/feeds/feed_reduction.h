@@ -10,12 +10,12 @@
 
 namespace clsurf {
 
-struct CureRules {
+struct FeedReductionRules {
     double step = 0.02;    ///< a share: how much faster than the pass beside it a place in or next to a defect may be
     double budget = 0;     ///< [s] that may be lost
     double lag_power = 0;  ///< of the speed, that lag steps grow with
     Ramp ramp{};           ///< of the machine
-    std::vector<Vec3> hopeless{};  ///< [mm] places of defects that are let be
+    std::vector<Vec3> abandoned{};  ///< [mm] places of defects that are let be
 };
 
 /// Exponent of the speed v with which the normal deviation that alternates with the direction of travel grows. A loop
@@ -23,19 +23,19 @@ struct CureRules {
 /// directions, so the third term remains: v³. If the loops differ, c₁x′ leaves the path: v.
 [[nodiscard]] double lag_power(const Machine& machine);
 
-struct CuringSpeeds {
+struct ReducedSpeeds {
     std::vector<float> speeds;         ///< [mm/s] one a point; NaN: it is not compared
-    std::vector<std::int32_t> causes;  ///< per point the index of the defect that it is levelled for; −1: none
+    std::vector<std::int32_t> causes;  ///< per point the index of the defect that it is equalised for; −1: none
 };
 
 /// Speeds that are equal within `step` around the defects of motion and lag, and so low that lag steps keep their
 /// threshold, if that takes at most four tenths of the speed. Defects of the programmed relief are excluded. Of the
 /// others the most expensive are dropped, each priced alone, until all together lose no more than the budget, by the
 /// times of the points. O(points · defects).
-[[nodiscard]] CuringSpeeds curing_speeds(const JudgedRun& run, const CureRules& rules);
+[[nodiscard]] ReducedSpeeds reduced_speeds(const JudgedRun& run, const FeedReductionRules& rules);
 
 /// Per defect of a run: how many defects fewer there are around the places that were slowed for it, on another run of
 /// the same path; 0 if none was slowed. O(points).
-[[nodiscard]] std::vector<int> gains_of(const CuringSpeeds& cure, const JudgedRun& run, const JudgedRun& cured);
+[[nodiscard]] std::vector<int> gains_of(const ReducedSpeeds& reduction, const JudgedRun& run, const JudgedRun& reduced);
 
 }  // namespace clsurf

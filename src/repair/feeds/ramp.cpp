@@ -33,10 +33,10 @@ public:
 
 private:
     /// From one end to the other no faster than speed can grow, whichever way the pass is run.
-    void grow(std::ptrdiff_t from, std::ptrdiff_t end, std::ptrdiff_t way, float least_growth) {
+    void grow(std::ptrdiff_t from, std::ptrdiff_t end, std::ptrdiff_t direction, float least_growth) {
         float growth = acceleration_;  // [mm/s²]
-        for (std::ptrdiff_t i = from + way; i != end; i += way) {
-            const auto k = static_cast<std::size_t>(i), before = static_cast<std::size_t>(i - way);
+        for (std::ptrdiff_t i = from + direction; i != end; i += direction) {
+            const auto k = static_cast<std::size_t>(i), before = static_cast<std::size_t>(i - direction);
             const float speed = speeds_[before];
             if (!(speed > 0)) continue;
             const float seconds = period_ * std::max(1.0F, own_[k] / speed);  // a lowered place takes longer
@@ -77,11 +77,11 @@ private:
     }
 
     /// The least of values[j] + bend (i − j)² over all j, for each i: a lower envelope of parabolas, each of which is the lowest on
-    /// one stretch. O(values). Felzenszwalb, Huttenlocher, Distance Transforms of Sampled Functions, Theory of Computing 8 (2012) 415.
+    /// one section. O(values). Felzenszwalb, Huttenlocher, Distance Transforms of Sampled Functions, Theory of Computing 8 (2012) 415.
     static std::vector<float> lowered_by_parabolas(const std::vector<float>& values, float bend) {
         struct Lowest {
             std::size_t apex = 0;
-            double from = 0;  ///< where its stretch begins
+            double from = 0;  ///< where its section begins
         };
         std::vector<Lowest> lowest;
         for (std::size_t i = 0; i < values.size(); ++i) {

@@ -16,17 +16,17 @@ constexpr int parts = 4;              ///< of a phase, that are told apart
 
 class PhaseRunner {
 public:
-    PhaseRunner(const ProgrammedSurface& laid, double spacing) : surface_(laid.surface) {
+    PhaseRunner(const ProgrammedSurface& programmed, double spacing) : surface_(programmed.surface) {
         phases_.spacing = spacing;
-        phases_.of_point.assign(laid.motion.size(), missing<double>);
+        phases_.of_point.assign(programmed.motion.size(), missing<double>);
     }
 
     void run(const PointRange& pass) {
         const auto n = static_cast<std::size_t>(pass.size());
-        way_.assign(n, 0);
+        arc_length_.assign(n, 0);
         for (std::size_t k = 1; k < n; ++k) {
             const PointIndex i = pass.first + static_cast<PointIndex>(k);
-            way_[k] = way_[k - 1] + (surface_.positions[i] - surface_.positions[i - 1]).norm();
+            arc_length_[k] = arc_length_[k - 1] + (surface_.positions[i] - surface_.positions[i - 1]).norm();
         }
         take_from_neighbours(pass);
         const double sign = scale_to_spacing();
@@ -40,14 +40,14 @@ public:
 private:
     /// The phase beside each point, from a pass that has one already.
     void take_from_neighbours(const PointRange& pass) {
-        mine_.assign(way_.size(), missing<double>);
+        mine_.assign(arc_length_.size(), missing<double>);
         for (std::size_t k = 0; k < mine_.size(); ++k) {
             const PointIndex i = pass.first + static_cast<PointIndex>(k);
             for (const Side side : {Side::left, Side::right}) {
                 if (!surface_.neighbours.has(side, i) || surface_.neighbours.neighbour(side, i) >= pass.first) continue;
                 const Eigen::Vector3f feed =
                     surface_.positions[std::min(i + 1, pass.last)] - surface_.positions[std::max(i - 1, pass.first)];
-                const Station at = beside(surface_, {i, 0}, feed, side);
+                const PathLocation at = beside(surface_, {i, 0}, feed, side);
                 if (!at.exists()) continue;
                 const auto j = static_cast<std::size_t>(at.point);
                 const double phase = at.fraction > 0 ? phases_.of_point[j] +
@@ -65,7 +65,7 @@ private:
         for (std::size_t k = 1; k < mine_.size(); ++k) {
             if (!(mine_[k] == mine_[k]) || !(mine_[k - 1] == mine_[k - 1])) continue;
             ++taken;
-            gone += way_[k] - way_[k - 1];
+            gone += arc_length_[k] - arc_length_[k - 1];
             turned += mine_[k] - mine_[k - 1];
         }
         const double rate = gone > 0 ? turned / gone * phases_.spacing : 0;
@@ -83,7 +83,7 @@ private:
     void keep_what_runs_evenly(double sign) {
         const auto known = [&](std::size_t k) { return mine_[k] == mine_[k]; };
         const auto follows = [&](std::size_t a, std::size_t b) {
-            const double run = sign * (mine_[b] - mine_[a]) * phases_.spacing, gone = way_[b] - way_[a],
+            const double run = sign * (mine_[b] - mine_[a]) * phases_.spacing, gone = arc_length_[b] - arc_length_[a],
                          play = jump_play * phases_.spacing;
             return run <= steepest * gone + play && run >= flattest * gone - play;
         };
@@ -121,39 +121,41 @@ private:
         }
         const double rate = sign / phases_.spacing;
         for (std::size_t k = 0; k < known.front(); ++k)
-            mine_[k] = mine_[known.front()] - rate * (way_[known.front()] - way_[k]);
+            mine_[k] = mine_[known.front()] - rate * (arc_length_[known.front()] - arc_length_[k]);
         for (std::size_t k = known.back() + 1; k < mine_.size(); ++k)
-            mine_[k] = mine_[known.back()] + rate * (way_[k] - way_[known.back()]);
+            mine_[k] = mine_[known.back()] + rate * (arc_length_[k] - arc_length_[known.back()]);
         for (std::size_t g = 1; g < known.size(); ++g) {
             const std::size_t a = known[g - 1], b = known[g];
             for (std::size_t k = a + 1; k < b; ++k)
-                mine_[k] = mine_[a] + (mine_[b] - mine_[a]) * (way_[k] - way_[a]) / std::max(way_[b] - way_[a], 1e-12);
+                mine_[k] = mine_[a] + (mine_[b] - mine_[a]) * (arc_length_[k] - arc_length_[a]) /
+                                          std::max(arc_length_[b] - arc_length_[a], 1e-12);
         }
     }
 
     const ClSurface& surface_;
     Phases phases_;
-    std::vector<double> way_, mine_;
+    std::vector<double> arc_length_, mine_;
 };
 
 }  // namespace
 
-Phases run_phases(const ProgrammedSurface& laid, double spacing) {
-    PhaseRunner runner(laid, spacing);
-    for (const Pass& pass : laid.surface.passes) {
+Phases run_phases(const ProgrammedSurface& programmed, double spacing) {
+    PhaseRunner runner(programmed, spacing);
+    for (const Pass& pass : programmed.surface.passes) {
         if (pass.kind == PassKind::cut) runner.run({pass.first, pass.last});
     }
     return runner.take();
 }
 
-std::vector<StationOfPass> stations_between(const ProgrammedSurface& laid, const Phases& phases, PointIndex first,
-                                            PointIndex last, double length) {
-    std::vector<StationOfPass> stations;
-    const double margin = nearest_station * phases.spacing;
-    double way = 0;
+std::vector<AlignedPoint> aligned_points_between(const ProgrammedSurface& programmed, const Phases& phases,
+                                                 PointIndex first, PointIndex last, double length) {
+    std::vector<AlignedPoint> aligned_points;
+    const double margin = nearest_aligned_point * phases.spacing;
+    double arc_length = 0;
     for (PointIndex i = first + 1; i <= last; ++i) {
-        const double step = (laid.surface.positions[i] - laid.surface.positions[i - 1]).norm(), begin = way;
-        way += step;
+        const double step = (programmed.surface.positions[i] - programmed.surface.positions[i - 1]).norm(),
+                     begin = arc_length;
+        arc_length += step;
         const double a = parts * phases.of_point[static_cast<std::size_t>(i - 1)],
                      b = parts * phases.of_point[static_cast<std::size_t>(i)];
         if (!(a == a) || !(b == b) || a == b) continue;
@@ -167,12 +169,12 @@ std::vector<StationOfPass> stations_between(const ProgrammedSurface& laid, const
             const std::int64_t number = a < b ? k : high - 1 - (k - low);
             if (number % every != 0) continue;
             const double at = begin + step * (static_cast<double>(number) - a) / (b - a);
-            const double before = stations.empty() ? 0 : stations.back().way;
+            const double before = aligned_points.empty() ? 0 : aligned_points.back().arc_length;
             if (at > std::max(margin, before + 0.5 * margin) && at < length - margin)
-                stations.push_back({at, number, part});
+                aligned_points.push_back({at, number, part});
         }
     }
-    return stations;
+    return aligned_points;
 }
 
 }  // namespace clsurf

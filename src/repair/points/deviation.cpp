@@ -10,7 +10,7 @@
 namespace clsurf {
 namespace {
 
-constexpr double window = 1.0;       ///< [mm] of way to both sides of where the walk has come to
+constexpr double window = 1.0;       ///< [mm] of arc length to both sides of where the walk has come to
 constexpr double same_place = 1e-9;  ///< [mm]
 constexpr double most_pieces = 1e6;  ///< of one motion
 constexpr double turn_step = rad_per_deg;
@@ -36,31 +36,33 @@ public:
     /// `orientation`: of the path; nullptr: three axes.
     Walk(const Toolpath& path, const Orientation* orientation) : path_(path), orientation_(orientation) {}
 
-    /// How far `sample` is from the path near the foot of the one before.
+    /// How far `sample` is from the path near the projection of the one before.
     [[nodiscard]] Apart apart(const Sample& sample) {
         std::int64_t low = at_;
-        double before = way_before_;
-        while (low > 0 && before > way_ - window) before -= path_.length(--low);
+        double before = arc_length_before_;
+        while (low > 0 && before > arc_length_ - window) before -= path_.length(--low);
         Apart apart;
-        double way = way_;
-        for (std::int64_t m = low; m < path_.size() && (before <= way + window || !std::isfinite(apart.distance));
-             ++m) {
+        double arc_length = arc_length_;
+        for (std::int64_t m = low;
+             m < path_.size() && (before <= arc_length + window || !std::isfinite(apart.distance)); ++m) {
             const double length = path_.length(m);
             if (length <= 0 && std::isfinite(apart.distance)) continue;
-            Foot foot = path_.foot(m, sample.position);
+            Projection projection = path_.projection(m, sample.position);
             if (length > 0) {
                 // Of a long motion only what lies in the window counts.
-                const double inside = std::clamp(foot.fraction, std::clamp((way - window - before) / length, 0.0, 1.0),
-                                                 std::clamp((way + window - before) / length, 0.0, 1.0));
-                if (inside != foot.fraction) foot = {(path_.at(m, inside) - sample.position).norm(), inside};
+                const double inside =
+                    std::clamp(projection.fraction, std::clamp((arc_length - window - before) / length, 0.0, 1.0),
+                               std::clamp((arc_length + window - before) / length, 0.0, 1.0));
+                if (inside != projection.fraction)
+                    projection = {(path_.at(m, inside) - sample.position).norm(), inside};
             }
             // The later of two that are as near: a path that goes back on itself is not to be walked back.
-            if (foot.distance <= apart.distance + same_place) {
-                if (orientation_ != nullptr) compare_axes(sample, m, foot, apart);
-                apart.distance = std::min(apart.distance, foot.distance);
+            if (projection.distance <= apart.distance + same_place) {
+                if (orientation_ != nullptr) compare_axes(sample, m, projection, apart);
+                apart.distance = std::min(apart.distance, projection.distance);
                 at_ = m;
-                way_before_ = before;
-                way_ = before + (length > 0 ? foot.fraction * length : 0);
+                arc_length_before_ = before;
+                arc_length_ = before + (length > 0 ? projection.fraction * length : 0);
             }
             before += length;
         }
@@ -70,12 +72,12 @@ public:
     /// Goes along the line of the path, if there is one from here, that is the same as line `i` of another: how far its points are is known.
     [[nodiscard]] bool goes_along(const Toolpath& other, std::int64_t i) {
         if (orientation_ != nullptr || !is_line(other, i)) return false;
-        double before = way_before_;
+        double before = arc_length_before_;
         for (std::int64_t m = at_; m < std::min(at_ + 2, path_.size()); before += path_.length(m++)) {
             if (!is_line(path_, m) || path_.begin(m) != other.begin(i) || path_.end(m) != other.end(i)) continue;
             at_ = m;
-            way_before_ = before;
-            way_ = before + path_.length(m);
+            arc_length_before_ = before;
+            arc_length_ = before + path_.length(m);
             return true;
         }
         return false;
@@ -85,11 +87,11 @@ private:
     [[nodiscard]] static bool is_line(const Toolpath& path, std::int64_t i) {
         return path.motions().kind[static_cast<std::size_t>(i)] == MotionKind::feed;
     }
-    /// Of feet that are as near, the one counts where the tool points most alike.
-    void compare_axes(const Sample& sample, std::int64_t motion, const Foot& foot, Apart& apart) const {
-        const RotaryAngles angles = orientation_->angles(motion, foot.fraction);
+    /// Of projections that are as near, the one counts where the tool points most alike.
+    void compare_axes(const Sample& sample, std::int64_t motion, const Projection& projection, Apart& apart) const {
+        const RotaryAngles angles = orientation_->angles(motion, projection.fraction);
         const double turned = angle_between(sample.axis, orientation_->axis(angles));
-        const bool as_near = foot.distance >= apart.distance - same_place;
+        const bool as_near = projection.distance >= apart.distance - same_place;
         if (as_near && turned > apart.turned) return;
         apart.turned = turned;
         apart.wound = turn_between(sample.angles, angles);
@@ -98,7 +100,7 @@ private:
     const Toolpath& path_;
     const Orientation* orientation_;
     std::int64_t at_ = 0;
-    double way_before_ = 0, way_ = 0;
+    double arc_length_before_ = 0, arc_length_ = 0;
 };
 
 /// A path, and where the tool points along it.
@@ -139,11 +141,11 @@ void compare(const Course& from, const Course& to, double step, const Take& take
     }
 }
 
-bool is_plain(const Course& way, std::int64_t i) {
-    const Motions& motions = way.path.motions();
+bool is_plain(const Course& arc_length, std::int64_t i) {
+    const Motions& motions = arc_length.path.motions();
     const auto k = static_cast<std::size_t>(i);
     const bool turns = !motions.rotary.empty() && i > 0 && !(motions.rotary[k] == motions.rotary[k - 1]);
-    const bool turns_on_the_way = way.orientation != nullptr && way.path.length(i) > 0;
+    const bool turns_on_the_way = arc_length.orientation != nullptr && arc_length.path.length(i) > 0;
     return motions.kind[k] == MotionKind::feed && (!turns || turns_on_the_way);
 }
 

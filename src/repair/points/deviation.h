@@ -8,7 +8,7 @@
 namespace clsurf {
 
 struct Deviation {
-    static constexpr double usual_step = 0.05;  ///< [mm] of way between measured points
+    static constexpr double usual_step = 0.05;  ///< [mm] of arc length between measured points
 
     double greatest = 0;           ///< [mm]
     LineNumber line = 0;           ///< of the second program, there

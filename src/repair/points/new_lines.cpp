@@ -8,14 +8,14 @@
 namespace clsurf {
 namespace {
 
-constexpr std::size_t reach_of_bends = 5;  ///< stations to both sides whose bends a line's length fits
+constexpr std::size_t reach_of_bends = 5;  ///< aligned points to both sides whose bends a line's length fits
 constexpr double most_doublings = 6;       ///< of a part
 
 class NewLines {
 public:
-    NewLines(const OldStretch& old, const SmoothStretch& curve, const std::vector<StationOfPass>& stations,
-             const LineRules& rules, const TurningStretch* turning)
-        : old_(old), curve_(curve), stations_(stations), rules_(rules), turning_(turning) {}
+    NewLines(const OldSegment& old, const SmoothSegment& curve, const std::vector<AlignedPoint>& aligned_points,
+             const LineRules& rules, const TurningSegment* turning)
+        : old_(old), curve_(curve), aligned_points_(aligned_points), rules_(rules), turning_(turning) {}
 
     std::vector<NewPlace> run() {
         const std::vector<std::uint8_t> kept = chosen();
@@ -44,24 +44,24 @@ private:
             for (std::size_t j = first; j <= last; ++j) most = std::max(most, bend[j]);
             const double wanted =
                 most > 0 ? std::min(std::sqrt(8 * rules_.chord_error / most), rules_.usual) : rules_.usual;
-            const StationOfPass& station = stations_[k - 1];
-            const int level = level_of(wanted, station.part);
-            const double line = std::ldexp(station.part, level),
-                         to_end = std::min(curve_.way[k], curve_.way.back() - curve_.way[k]);
-            const bool stump = to_end < std::max(rules_.shortest_line, nearest_station * line);
-            kept[k] = !stump && station.number % (std::int64_t{1} << level) == 0 ? 1 : 0;
+            const AlignedPoint& aligned_point = aligned_points_[k - 1];
+            const int level = level_of(wanted, aligned_point.part);
+            const double line = std::ldexp(aligned_point.part, level),
+                         to_end = std::min(curve_.arc_length[k], curve_.arc_length.back() - curve_.arc_length[k]);
+            const bool stump = to_end < std::max(rules_.shortest_line, nearest_aligned_point * line);
+            kept[k] = !stump && aligned_point.number % (std::int64_t{1} << level) == 0 ? 1 : 0;
         }
         drop_close(kept);
         return kept;
     }
 
-    /// Of two stations nearer to each other than the shortest line the one with the less round number is left out.
+    /// Of two aligned points nearer to each other than the shortest line the one with the less round number is left out.
     void drop_close(std::vector<std::uint8_t>& kept) const {
         std::size_t before = 0;  // kept
         for (std::size_t k = 1; k + 1 < kept.size(); ++k) {
             if (kept[k] == 0) continue;
-            if (before > 0 && curve_.way[k] - curve_.way[before] < rules_.shortest_line) {
-                const std::int64_t mine = stations_[k - 1].number, other = stations_[before - 1].number;
+            if (before > 0 && curve_.arc_length[k] - curve_.arc_length[before] < rules_.shortest_line) {
+                const std::int64_t mine = aligned_points_[k - 1].number, other = aligned_points_[before - 1].number;
                 const bool drop_other = (mine & -mine) > (other & -other);
                 kept[drop_other ? before : k] = 0;
                 if (!drop_other) continue;
@@ -77,7 +77,7 @@ private:
         return static_cast<int>(std::clamp(std::max(coarsest, finest), 0.0, most_doublings));
     }
 
-    [[nodiscard]] NewPlace place(std::size_t k) const { return {curve_.way[k], curve_.points[k]}; }
+    [[nodiscard]] NewPlace place(std::size_t k) const { return {curve_.arc_length[k], curve_.points[k]}; }
 
     /// The point at k, and before it those between it and the point `from` that the line needs to pass the old
     /// lines closely enough.
@@ -103,18 +103,20 @@ private:
 
     struct OldPoint {
         std::size_t index = 0;
-        double distance = 0;       ///< [mm] from a line
-        Vec3 foot = Vec3::Zero();  ///< on the line
+        double distance = 0;             ///< [mm] from a line
+        Vec3 projection = Vec3::Zero();  ///< on the line
     };
 
     /// Of the old points between two places the one farthest from the line between them.
     [[nodiscard]] OldPoint farthest_old_point(const NewPlace& from, const NewPlace& to) const {
         OldPoint found;
-        for (auto i = static_cast<std::size_t>(std::upper_bound(old_.way.begin(), old_.way.end(), from.way) -
-                                               old_.way.begin());
-             i < old_.way.size() && old_.way[i] < to.way; ++i) {
-            const Vec3 foot = nearest_on_line(old_.points[i], from.position, to.position);
-            if (const double off = (old_.points[i] - foot).norm(); off > found.distance) found = {i, off, foot};
+        for (auto i = static_cast<std::size_t>(
+                 std::upper_bound(old_.arc_length.begin(), old_.arc_length.end(), from.arc_length) -
+                 old_.arc_length.begin());
+             i < old_.arc_length.size() && old_.arc_length[i] < to.arc_length; ++i) {
+            const Vec3 projection = nearest_on_line(old_.points[i], from.position, to.position);
+            if (const double off = (old_.points[i] - projection).norm(); off > found.distance)
+                found = {i, off, projection};
         }
         return found;
     }
@@ -131,8 +133,8 @@ private:
             return;
         }
         const Vec3& left = old_.points[farthest.index];
-        const NewPlace middle{old_.way[farthest.index],
-                              left + (farthest.foot - left) * (rules_.radius / farthest.distance)};
+        const NewPlace middle{old_.arc_length[farthest.index],
+                              left + (farthest.projection - left) * (rules_.radius / farthest.distance)};
         pass_old_points(from, middle);
         ends_.push_back(middle);
         pass_old_points(middle, to);
@@ -143,27 +145,27 @@ private:
         if (turning_ == nullptr) return;
         const AxisError error = turning_->error_of(from, to);
         if (error.greatest <= rules_.most_turned || error.point == 0) return;
-        const NewPlace middle{old_.way[error.point],
+        const NewPlace middle{old_.arc_length[error.point],
                               nearest_on_line(old_.points[error.point], from.position, to.position)};
         pass_turns(from, middle);
         ends_.push_back(middle);
         pass_turns(middle, to);
     }
 
-    const OldStretch& old_;
-    const SmoothStretch& curve_;
-    const std::vector<StationOfPass>& stations_;
+    const OldSegment& old_;
+    const SmoothSegment& curve_;
+    const std::vector<AlignedPoint>& aligned_points_;
     const LineRules& rules_;
-    const TurningStretch* turning_;
+    const TurningSegment* turning_;
     std::vector<NewPlace> ends_;
 };
 
 }  // namespace
 
-std::vector<NewPlace> new_lines(const OldStretch& old, const SmoothStretch& curve,
-                                const std::vector<StationOfPass>& stations, const LineRules& rules,
-                                const TurningStretch* turning) {
-    return NewLines(old, curve, stations, rules, turning).run();
+std::vector<NewPlace> new_lines(const OldSegment& old, const SmoothSegment& curve,
+                                const std::vector<AlignedPoint>& aligned_points, const LineRules& rules,
+                                const TurningSegment* turning) {
+    return NewLines(old, curve, aligned_points, rules, turning).run();
 }
 
 }  // namespace clsurf

@@ -10,11 +10,11 @@
 namespace clsurf {
 
 /// The ends of the lines that replace a section, without its start; the last one is the end of the section. Lines end
-/// at every first, second, fourth … station, as the chord error permits; the station number determines which.
+/// at every first, second, fourth … aligned point, as the chord error permits; the aligned point number determines which.
 /// Additional points are inserted where a line would be too far from old points or would turn the tool axis away.
 /// `turning`: nullptr if the tool axis does not move. O(points).
-[[nodiscard]] std::vector<NewPlace> new_lines(const OldStretch& old, const SmoothStretch& curve,
-                                              const std::vector<StationOfPass>& stations, const LineRules& rules,
-                                              const TurningStretch* turning);
+[[nodiscard]] std::vector<NewPlace> new_lines(const OldSegment& old, const SmoothSegment& curve,
+                                              const std::vector<AlignedPoint>& aligned_points, const LineRules& rules,
+                                              const TurningSegment* turning);
 
 }  // namespace clsurf

@@ -6,19 +6,21 @@
 
 namespace clsurf {
 
-std::size_t OldStretch::line_at(double after) const {
-    return static_cast<std::size_t>(std::upper_bound(way.begin() + 1, way.end() - 1, after) - way.begin()) - 1;
+std::size_t OldSegment::line_at(double after) const {
+    return static_cast<std::size_t>(std::upper_bound(arc_length.begin() + 1, arc_length.end() - 1, after) -
+                                    arc_length.begin()) -
+           1;
 }
 
-Vec3 OldStretch::at(double after) const {
+Vec3 OldSegment::at(double after) const {
     const std::size_t line = line_at(after);
-    const double length = way[line + 1] - way[line];
-    return length > 0 ? Vec3(points[line] +
-                             (points[line + 1] - points[line]) * std::clamp((after - way[line]) / length, 0.0, 1.0))
+    const double length = arc_length[line + 1] - arc_length[line];
+    return length > 0 ? Vec3(points[line] + (points[line + 1] - points[line]) *
+                                                std::clamp((after - arc_length[line]) / length, 0.0, 1.0))
                       : points[line];
 }
 
-OldStretch::Foot OldStretch::foot(const Vec3& p, double after) const {
+OldSegment::Projection OldSegment::projection(const Vec3& p, double after) const {
     std::size_t on = line_at(after);
     Vec3 nearest = nearest_on_line(p, points[on], points[on + 1]);
     const std::size_t first = on >= 2 ? on - 2 : 0, last = std::min(on + 3, points.size() - 1);
@@ -29,7 +31,7 @@ OldStretch::Foot OldStretch::foot(const Vec3& p, double after) const {
             on = k;
         }
     }
-    return {nearest, way[on] + (nearest - points[on]).norm()};
+    return {nearest, arc_length[on] + (nearest - points[on]).norm()};
 }
 
 }  // namespace clsurf

@@ -1,5 +1,5 @@
 #pragma once
-// OldStretch: the section of the program between two fixed points of a pass.
+// OldSegment: the section of the program between two fixed points of a pass.
 
 #include <cstdint>
 #include <vector>
@@ -8,23 +8,23 @@
 
 namespace clsurf {
 
-struct OldStretch {
-    std::vector<Vec3> points;          ///< [mm] where lines end; the first is where the stretch begins
-    std::vector<double> way;           ///< [mm] to each
+struct OldSegment {
+    std::vector<Vec3> points;          ///< [mm] where lines end; the first is where the section begins
+    std::vector<double> arc_length;    ///< [mm] to each
     std::vector<std::int64_t> motion;  ///< that ends there
 
-    [[nodiscard]] double length() const { return way.back(); }
+    [[nodiscard]] double length() const { return arc_length.back(); }
     /// The position on the lines at an arc length [mm]; before and after them, their start and end.
     [[nodiscard]] Vec3 at(double after) const;
     /// The line at this place: it ends at the next point.
     [[nodiscard]] std::size_t line_at(double after) const;
 
-    struct Foot {
+    struct Projection {
         Vec3 position = Vec3::Zero();  ///< [mm]
-        double way = 0;                ///< [mm]
+        double arc_length = 0;         ///< [mm]
     };
     /// The place nearest to `p` on the lines around arc length `after` [mm].
-    [[nodiscard]] Foot foot(const Vec3& p, double after) const;
+    [[nodiscard]] Projection projection(const Vec3& p, double after) const;
 };
 
 }  // namespace clsurf

@@ -27,7 +27,7 @@ public:
 
     /// Angles at a fraction (0 … 1) of the arc length of a motion.
     [[nodiscard]] RotaryAngles angles(std::int64_t motion, double part) const {
-        return blocks_.way(static_cast<std::size_t>(motion)).at(part);
+        return blocks_.axis_path(static_cast<std::size_t>(motion)).at(part);
     }
     [[nodiscard]] Vec3 axis(const RotaryAngles& angles) const { return kinematics_->axis_of(angles); }
     /// The sine of the angle between the tool axis and its pole: the effect of a rotation of the table on it.

@@ -19,7 +19,7 @@ constexpr double most_used = 0.99;    ///< of what decimals leave of the toleran
 constexpr double finest_share = 0.2;  ///< of the usual spacing
 constexpr double line_reserve = 1.5;  ///< lines are one to two times as long as the shortest that they may be
 constexpr std::int64_t passes_a_piece = 4;
-constexpr std::size_t shortest_stretch = 3;  ///< motions
+constexpr std::size_t shortest_segment = 3;  ///< motions
 
 struct Spacings {
     double usual = 0;  ///< [mm] median
@@ -46,51 +46,51 @@ LineRules line_rules(const ResampleRules& rules, const Spacings& spacings, doubl
 
 class Resampler {
 public:
-    Resampler(const Program& program, const ProgrammedSurface& laid, const LineEditor& editor,
+    Resampler(const Program& program, const ProgrammedSurface& programmed, const LineEditor& editor,
               const ResampleRules& rules, const Spacings& spacings, std::span<const std::uint8_t> needed,
               const Orientation* orientation)
         : motions_(program.motions),
           path_(program.motions, Vec3::Zero()),
-          laid_(laid),
+          programmed_(programmed),
           editor_(editor),
           corner_angle_(rules.corner_angle),
           lines_(line_rules(rules, spacings, editor.rounding(), editor.turn_rounding())),
           needed_(needed),
           orientation_(orientation),
-          phases_(run_phases(laid, rules.spacing)) {}
+          phases_(run_phases(programmed, rules.spacing)) {}
 
-    [[nodiscard]] std::vector<ResampledStretch> run() const {
-        const std::vector<ProgrammedPass> passes = cut_passes(laid_);
-        std::vector<std::vector<ResampledStretch>> of_pass(passes.size());
+    [[nodiscard]] std::vector<ResampledSegment> run() const {
+        const std::vector<ProgrammedPass> passes = cut_passes(programmed_);
+        std::vector<std::vector<ResampledSegment>> of_pass(passes.size());
         parallel_for(static_cast<std::int64_t>(passes.size()), passes_a_piece,
                      [&](std::int64_t first, std::int64_t last) {
                          for (auto k = static_cast<std::size_t>(first); k < static_cast<std::size_t>(last); ++k)
                              run_pass(passes[k], of_pass[k]);
                      });
-        std::vector<ResampledStretch> stretches;
-        for (std::vector<ResampledStretch>& mine : of_pass)
-            stretches.insert(stretches.end(), std::make_move_iterator(mine.begin()),
-                             std::make_move_iterator(mine.end()));
-        return stretches;
+        std::vector<ResampledSegment> segments;
+        for (std::vector<ResampledSegment>& mine : of_pass)
+            segments.insert(segments.end(), std::make_move_iterator(mine.begin()), std::make_move_iterator(mine.end()));
+        return segments;
     }
 
 private:
-    [[nodiscard]] std::uint32_t motion(PointIndex i) const { return laid_.motion_of(i); }
+    [[nodiscard]] std::uint32_t motion(PointIndex i) const { return programmed_.motion_of(i); }
 
     /// Whether the line to end k of a pass may be rewritten as a whole.
     [[nodiscard]] bool editable(const ProgrammedPass& pass, std::size_t k) const {
         const std::uint32_t m = motion(pass.ends[k]);
-        return (needed_.empty() || needed_[m] != 0) && editor_.editable(m) && laid_.ends_motion(pass.ends[k - 1]) &&
-               motion(pass.ends[k - 1]) + 1 == m && (orientation_ == nullptr || may_be_divided(m));
+        return (needed_.empty() || needed_[m] != 0) && editor_.editable(m) &&
+               programmed_.ends_motion(pass.ends[k - 1]) && motion(pass.ends[k - 1]) + 1 == m &&
+               (orientation_ == nullptr || may_be_divided(m));
     }
 
     [[nodiscard]] bool may_be_divided(std::uint32_t m) const {
         return orientation_->divisible(m) && (lines_.most_turned > 0 || !orientation_->turns(m));
     }
 
-    void run_pass(const ProgrammedPass& pass, std::vector<ResampledStretch>& stretches) const {
+    void run_pass(const ProgrammedPass& pass, std::vector<ResampledSegment>& segments) const {
         const std::vector<std::uint8_t> creases = creases_of(pass);
-        std::size_t begin = 0;  // the end that the stretch begins at
+        std::size_t begin = 0;  // the end that the section begins at
         for (std::size_t k = 1; k < pass.ends.size(); ++k) {
             const bool may = editable(pass, k);
             const bool goes_on =
@@ -98,10 +98,10 @@ private:
                 (may && motions_.line[motion(pass.ends[k])] == motions_.line[motion(pass.ends[k - 1])] + 1 &&
                  creases[k - 1] == 0);
             if (may && goes_on) continue;
-            add(pass, begin, k - 1, stretches);
+            add(pass, begin, k - 1, segments);
             begin = may ? k - 1 : k;
         }
-        add(pass, begin, pass.ends.size() - 1, stretches);
+        add(pass, begin, pass.ends.size() - 1, segments);
     }
 
     /// Which ends of a pass lie where it turns within a spacing by more than the corner angle: at a corner, or in a crease that the program
@@ -109,21 +109,21 @@ private:
     [[nodiscard]] std::vector<std::uint8_t> creases_of(const ProgrammedPass& pass) const {
         const std::size_t n = pass.ends.size();
         const double reach = 0.5 * lines_.spacing;
-        const OldStretch way = old_stretch(pass, 0, n - 1);
+        const OldSegment arc_length = old_segment(pass, 0, n - 1);
         std::vector<std::uint8_t> creases(n, 0);
         for (std::size_t k = 1; k + 1 < n; ++k) {
-            const Vec3 before = way.points[k] - way.at(way.way[k] - reach),
-                       after = way.at(way.way[k] + reach) - way.points[k];
+            const Vec3 before = arc_length.points[k] - arc_length.at(arc_length.arc_length[k] - reach),
+                       after = arc_length.at(arc_length.arc_length[k] + reach) - arc_length.points[k];
             creases[k] = before.dot(after) < std::cos(corner_angle_) * before.norm() * after.norm() ? 1 : 0;
         }
         return creases;
     }
 
-    [[nodiscard]] OldStretch old_stretch(const ProgrammedPass& pass, std::size_t begin, std::size_t end) const {
-        OldStretch old;
+    [[nodiscard]] OldSegment old_segment(const ProgrammedPass& pass, std::size_t begin, std::size_t end) const {
+        OldSegment old;
         for (std::size_t k = begin; k <= end; ++k) {
             const Vec3 p = path_.end(motion(pass.ends[k]));
-            old.way.push_back(old.points.empty() ? 0 : old.way.back() + (p - old.points.back()).norm());
+            old.arc_length.push_back(old.points.empty() ? 0 : old.arc_length.back() + (p - old.points.back()).norm());
             old.points.push_back(p);
             old.motion.push_back(motion(pass.ends[k]));
         }
@@ -132,48 +132,48 @@ private:
 
     /// Ends begin … end of a pass, both of which stay.
     void add(const ProgrammedPass& pass, std::size_t begin, std::size_t end,
-             std::vector<ResampledStretch>& stretches) const {
-        if (end < begin + shortest_stretch) return;
-        const OldStretch old = old_stretch(pass, begin, end);
+             std::vector<ResampledSegment>& segments) const {
+        if (end < begin + shortest_segment) return;
+        const OldSegment old = old_segment(pass, begin, end);
         if (old.length() < lines_.spacing) return;
-        const std::vector<StationOfPass> stations =
-            stations_between(laid_, phases_, pass.ends[begin], pass.ends[end], old.length());
-        std::optional<TurningStretch> turning;
-        if (turns(old)) turning.emplace(old, *orientation_, stations, lines_);
-        ResampledStretch stretch{motion(pass.ends[begin + 1]), motion(pass.ends[end]), {}};
-        for (const NewPlace& place :
-             new_lines(old, smooth(old, stations, lines_), stations, lines_, turning ? &*turning : nullptr)) {
-            stretch.points.push_back(place.position);
+        const std::vector<AlignedPoint> aligned_points =
+            aligned_points_between(programmed_, phases_, pass.ends[begin], pass.ends[end], old.length());
+        std::optional<TurningSegment> turning;
+        if (turns(old)) turning.emplace(old, *orientation_, aligned_points, lines_);
+        ResampledSegment segment{motion(pass.ends[begin + 1]), motion(pass.ends[end]), {}};
+        for (const NewPlace& place : new_lines(old, smooth(old, aligned_points, lines_), aligned_points, lines_,
+                                               turning ? &*turning : nullptr)) {
+            segment.points.push_back(place.position);
             if (turning)
-                stretch.angles.push_back(turning->words(place));
+                segment.angles.push_back(turning->words(place));
             else if (!motions_.rotary.empty())
-                stretch.angles.push_back(standing(stretch.last));
+                segment.angles.push_back(standing(segment.last));
         }
-        if (!stays(old, stretch)) stretches.push_back(std::move(stretch));
+        if (!stays(old, segment)) segments.push_back(std::move(segment));
     }
 
-    [[nodiscard]] bool turns(const OldStretch& old) const {
+    [[nodiscard]] bool turns(const OldSegment& old) const {
         return orientation_ != nullptr && std::any_of(old.motion.begin() + 1, old.motion.end(),
                                                       [&](std::int64_t m) { return orientation_->turns(m); });
     }
 
-    /// The angles of a stretch without an axis that turns.
+    /// The angles of a section without an axis that turns.
     [[nodiscard]] LineAngles standing(std::int64_t m) const {
         return {motions_.rotary[static_cast<std::size_t>(m)].vec(), m};
     }
 
     /// The points are the old ones already.
-    [[nodiscard]] static bool stays(const OldStretch& old, const ResampledStretch& stretch) {
-        if (stretch.points.size() + 1 != old.points.size()) return false;
-        for (std::size_t k = 0; k < stretch.points.size(); ++k) {
-            if ((stretch.points[k] - old.points[k + 1]).norm() > 1e-3) return false;
+    [[nodiscard]] static bool stays(const OldSegment& old, const ResampledSegment& segment) {
+        if (segment.points.size() + 1 != old.points.size()) return false;
+        for (std::size_t k = 0; k < segment.points.size(); ++k) {
+            if ((segment.points[k] - old.points[k + 1]).norm() > 1e-3) return false;
         }
         return true;
     }
 
     const Motions& motions_;
     Toolpath path_;
-    const ProgrammedSurface& laid_;
+    const ProgrammedSurface& programmed_;
     const LineEditor& editor_;
     double corner_angle_;  ///< [rad]
     LineRules lines_;
@@ -182,15 +182,15 @@ private:
     Phases phases_;
 };
 
-Spacings spacings_of(const Program& program, const ProgrammedSurface& laid) {
+Spacings spacings_of(const Program& program, const ProgrammedSurface& programmed) {
     const Toolpath path(program.motions, Vec3::Zero());
     std::vector<double> lengths, bends;
-    for (const ProgrammedPass& pass : cut_passes(laid)) {
+    for (const ProgrammedPass& pass : cut_passes(programmed)) {
         for (std::size_t k = 1; k < pass.ends.size(); ++k) {
-            const std::uint32_t m = laid.motion_of(pass.ends[k]);
+            const std::uint32_t m = programmed.motion_of(pass.ends[k]);
             lengths.push_back(path.length(m));
             if (k + 1 == pass.ends.size() || k < 2) continue;
-            const std::uint32_t after = laid.motion_of(pass.ends[k + 1]);
+            const std::uint32_t after = programmed.motion_of(pass.ends[k + 1]);
             // Rounded words make short lines look bent.
             if (path.length(m) > 0.05 && path.length(after) > 0.05)
                 bends.push_back(three_point_curvature(path.begin(m), path.end(m), path.end(after)));
@@ -206,18 +206,18 @@ double fitting(const Spacings& spacings, double chord_error) {
 
 }  // namespace
 
-double fitting_spacing(const Program& program, const ProgrammedSurface& laid, double chord_error) {
-    return fitting(spacings_of(program, laid), chord_error);
+double fitting_spacing(const Program& program, const ProgrammedSurface& programmed, double chord_error) {
+    return fitting(spacings_of(program, programmed), chord_error);
 }
 
-std::vector<ResampledStretch> resample(const Program& program, const ProgrammedSurface& laid, const LineEditor& editor,
-                                       const ResampleRules& wanted, std::span<const std::uint8_t> needed,
-                                       const Orientation* orientation) {
-    const Spacings spacings = spacings_of(program, laid);
+std::vector<ResampledSegment> resample(const Program& program, const ProgrammedSurface& programmed,
+                                       const LineEditor& editor, const ResampleRules& wanted,
+                                       std::span<const std::uint8_t> needed, const Orientation* orientation) {
+    const Spacings spacings = spacings_of(program, programmed);
     ResampleRules rules = wanted;
     if (rules.spacing <= 0) rules.spacing = fitting(spacings, rules.chord_error);
     if (rules.spacing <= 0 || rules.tolerance <= editor.rounding()) return {};
-    return Resampler(program, laid, editor, rules, spacings, needed, orientation).run();
+    return Resampler(program, programmed, editor, rules, spacings, needed, orientation).run();
 }
 
 }  // namespace clsurf

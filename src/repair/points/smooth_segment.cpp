@@ -13,84 +13,97 @@ constexpr double knot_share =
 constexpr double knot_distance = 0.5;  ///< of the spacing between knots of the curve, at least
 
 /// A place on spans whose knots lie at some ways, by linear shares of those.
-Vec3 at_way(const std::vector<CubicSpan>& spans, const std::vector<double>& ways, double way) {
+Vec3 at_arc_length(const std::vector<CubicSpan>& spans, const std::vector<double>& arc_lengths, double arc_length) {
     const auto span =
-        static_cast<std::size_t>(std::upper_bound(ways.begin() + 1, ways.end() - 1, way) - ways.begin()) - 1;
-    return spans[span].at(spans[span].chord * (way - ways[span]) / (ways[span + 1] - ways[span]));
+        static_cast<std::size_t>(std::upper_bound(arc_lengths.begin() + 1, arc_lengths.end() - 1, arc_length) -
+                                 arc_lengths.begin()) -
+        1;
+    return spans[span].at(spans[span].chord * (arc_length - arc_lengths[span]) /
+                          (arc_lengths[span + 1] - arc_lengths[span]));
 }
 
 /// Old points far enough apart to be knots, both ends among them.
-std::vector<std::size_t> knots_of(const OldStretch& old, double least) {
+std::vector<std::size_t> knots_of(const OldSegment& old, double least) {
     std::vector<std::size_t> knots{0};
     const std::size_t last = old.points.size() - 1;
     for (std::size_t k = 1; k < last; ++k) {
-        if (old.way[k] - old.way[knots.back()] >= least && old.way[last] - old.way[k] >= least) knots.push_back(k);
+        if (old.arc_length[k] - old.arc_length[knots.back()] >= least &&
+            old.arc_length[last] - old.arc_length[k] >= least)
+            knots.push_back(k);
     }
     knots.push_back(last);
     return knots;
 }
 
-/// Where knots are: the old points and the stations between them, both ends, none too near to the next.
-std::vector<double> ways_of_knots(const OldStretch& old, const std::vector<StationOfPass>& stations, double apart) {
-    std::vector<double> ways{0};
-    std::size_t next = 0;  // of the stations
-    const auto take_stations_before = [&](double limit) {
-        for (; next < stations.size() && stations[next].way < limit; ++next) {
-            if (stations[next].way > ways.back() + apart) ways.push_back(stations[next].way);
+/// Where knots are: the old points and the aligned points between them, both ends, none too near to the next.
+std::vector<double> arc_lengths_of_knots(const OldSegment& old, const std::vector<AlignedPoint>& aligned_points,
+                                         double apart) {
+    std::vector<double> arc_lengths{0};
+    std::size_t next = 0;  // of the aligned points
+    const auto take_aligned_points_before = [&](double limit) {
+        for (; next < aligned_points.size() && aligned_points[next].arc_length < limit; ++next) {
+            if (aligned_points[next].arc_length > arc_lengths.back() + apart)
+                arc_lengths.push_back(aligned_points[next].arc_length);
         }
     };
     for (std::size_t k = 1; k + 1 < old.points.size(); ++k) {
-        if (old.way[k] < ways.back() + apart || old.way[k] > old.length() - apart) continue;
-        take_stations_before(old.way[k] - apart);
-        ways.push_back(old.way[k]);
+        if (old.arc_length[k] < arc_lengths.back() + apart || old.arc_length[k] > old.length() - apart) continue;
+        take_aligned_points_before(old.arc_length[k] - apart);
+        arc_lengths.push_back(old.arc_length[k]);
     }
-    take_stations_before(old.length() - apart);
-    ways.push_back(old.length());
-    return ways;
+    take_aligned_points_before(old.length() - apart);
+    arc_lengths.push_back(old.length());
+    return arc_lengths;
 }
 
-/// A point of the curve between its knots, no farther from the old lines about `way` than most of the tolerance.
-Vec3 held(const Vec3& p, const OldStretch& old, double way, double most) {
-    const Vec3 nearest = old.foot(p, way).position;
+/// A point of the curve between its knots, no farther from the old lines about `arc_length` than most of the tolerance.
+Vec3 held(const Vec3& p, const OldSegment& old, double arc_length, double most) {
+    const Vec3 nearest = old.projection(p, arc_length).position;
     const double off = (p - nearest).norm();
     return off > most ? Vec3(nearest + (p - nearest) * (most / off)) : p;
 }
 
 }  // namespace
 
-SmoothCurve::SmoothCurve(const OldStretch& old, const std::vector<StationOfPass>& stations, const LineRules& rules)
-    : old_(old), most_(rules.most), way_(ways_of_knots(old, stations, knot_distance * rules.spacing)) {
+SmoothCurve::SmoothCurve(const OldSegment& old, const std::vector<AlignedPoint>& aligned_points, const LineRules& rules)
+    : old_(old),
+      most_(rules.most),
+      arc_length_(arc_lengths_of_knots(old, aligned_points, knot_distance * rules.spacing)) {
     std::vector<Vec3> through;
-    std::vector<double> ways;
+    std::vector<double> arc_lengths;
     for (const std::size_t k : knots_of(old, knot_share * rules.usual)) {
         through.push_back(old.points[k]);
-        ways.push_back(old.way[k]);
+        arc_lengths.push_back(old.arc_length[k]);
     }
     const std::vector<CubicSpan> through_old = akima_spans(through);
     std::vector<Vec3> places, start;
-    for (const double way : way_) {
-        places.push_back(old.at(way));
-        start.push_back(way < old.length() ? at_way(through_old, ways, way) : old.points.back());
+    for (const double arc_length : arc_length_) {
+        places.push_back(old.at(arc_length));
+        start.push_back(arc_length < old.length() ? at_arc_length(through_old, arc_lengths, arc_length)
+                                                  : old.points.back());
     }
-    std::vector<double> radii(way_.size(), rules.radius);
+    std::vector<double> radii(arc_length_.size(), rules.radius);
     // The ends keep their direction, too.
-    for (const std::size_t k : {std::size_t{0}, std::size_t{1}, way_.size() - 2, way_.size() - 1}) radii[k] = 0;
-    spans_ = akima_spans(smoothest_in_tube(places, way_, radii, start));
+    for (const std::size_t k : {std::size_t{0}, std::size_t{1}, arc_length_.size() - 2, arc_length_.size() - 1})
+        radii[k] = 0;
+    spans_ = akima_spans(smoothest_in_tube(places, arc_length_, radii, start));
 }
 
-Vec3 SmoothCurve::at(double way) const {
-    return way > 0 && way < old_.length() ? held(at_way(spans_, way_, way), old_, way, most_) : old_.at(way);
+Vec3 SmoothCurve::at(double arc_length) const {
+    return arc_length > 0 && arc_length < old_.length()
+               ? held(at_arc_length(spans_, arc_length_, arc_length), old_, arc_length, most_)
+               : old_.at(arc_length);
 }
 
-SmoothStretch smooth(const OldStretch& old, const std::vector<StationOfPass>& stations, const LineRules& rules) {
-    SmoothStretch result;
-    result.way.push_back(0);
-    for (const StationOfPass& s : stations) result.way.push_back(s.way);
-    result.way.push_back(old.length());
-    const SmoothCurve curve(old, stations, rules);
-    for (const double way : result.way) {
-        result.places.push_back(old.at(way));
-        result.points.push_back(curve.at(way));
+SmoothSegment smooth(const OldSegment& old, const std::vector<AlignedPoint>& aligned_points, const LineRules& rules) {
+    SmoothSegment result;
+    result.arc_length.push_back(0);
+    for (const AlignedPoint& s : aligned_points) result.arc_length.push_back(s.arc_length);
+    result.arc_length.push_back(old.length());
+    const SmoothCurve curve(old, aligned_points, rules);
+    for (const double arc_length : result.arc_length) {
+        result.places.push_back(old.at(arc_length));
+        result.points.push_back(curve.at(arc_length));
     }
     return result;
 }

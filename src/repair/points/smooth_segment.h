@@ -1,5 +1,5 @@
 #pragma once
-// SmoothStretch: the smoothest curve along a section of a pass, at its stations.
+// SmoothSegment: the smoothest curve along a section of a pass, at its aligned points.
 
 #include <vector>
 
@@ -10,31 +10,31 @@
 
 namespace clsurf {
 
-/// The curve at all stations of a section, with its ends as first and last point.
-struct SmoothStretch {
-    std::vector<double> way;   ///< [mm] along the old lines
-    std::vector<Vec3> places;  ///< [mm] there on the old lines
-    std::vector<Vec3> points;  ///< [mm] on the curve; the ends are the old ones
+/// The curve at all aligned points of a section, with its ends as first and last point.
+struct SmoothSegment {
+    std::vector<double> arc_length;  ///< [mm] along the old lines
+    std::vector<Vec3> places;        ///< [mm] there on the old lines
+    std::vector<Vec3> points;        ///< [mm] on the curve; the ends are the old ones
 };
 
-/// Akima's curve through the smoothest path in the tube around the old lines. Its knots are the stations and the old
+/// Akima's curve through the smoothest path in the tube around the old lines. Its knots are the aligned points and the old
 /// points, where the tube is narrowest. Between them it stays inside most of the tolerance.
 class SmoothCurve {
 public:
     /// `old` must outlive it. O(points).
-    SmoothCurve(const OldStretch& old, const std::vector<StationOfPass>& stations, const LineRules& rules);
+    SmoothCurve(const OldSegment& old, const std::vector<AlignedPoint>& aligned_points, const LineRules& rules);
     /// At an arc length along the old lines [mm].
-    [[nodiscard]] Vec3 at(double way) const;
+    [[nodiscard]] Vec3 at(double arc_length) const;
 
 private:
-    const OldStretch& old_;
-    double most_;              ///< [mm] off the old lines
-    std::vector<double> way_;  ///< of its knots
+    const OldSegment& old_;
+    double most_;                     ///< [mm] off the old lines
+    std::vector<double> arc_length_;  ///< of its knots
     std::vector<CubicSpan> spans_;
 };
 
-/// Such a curve at all stations. O(points).
-[[nodiscard]] SmoothStretch smooth(const OldStretch& old, const std::vector<StationOfPass>& stations,
+/// Such a curve at all aligned points. O(points).
+[[nodiscard]] SmoothSegment smooth(const OldSegment& old, const std::vector<AlignedPoint>& aligned_points,
                                    const LineRules& rules);
 
 }  // namespace clsurf

@@ -1,5 +1,5 @@
 #pragma once
-// TurningStretch: the tool axis along the old lines of a section, the tool axis for new lines, and the angle
+// TurningSegment: the tool axis along the old lines of a section, the tool axis for new lines, and the angle
 // between both.
 
 #include "repair/line_edit.h"
@@ -10,7 +10,7 @@ namespace clsurf {
 
 /// A place of a new line.
 struct NewPlace {
-    double way = 0;                ///< [mm] along the old lines
+    double arc_length = 0;         ///< [mm] along the old lines
     Vec3 position = Vec3::Zero();  ///< [mm]
 };
 
@@ -20,13 +20,13 @@ struct AxisError {
     std::size_t point = 0;  ///< the old point between its ends where it is greatest; 0: there is none
 };
 
-class TurningStretch {
+class TurningSegment {
 public:
-    /// Old lines and orientation must outlive it. The lines of the stretch may be divided. O(points).
-    TurningStretch(const OldStretch& old, const Orientation& orientation, const std::vector<StationOfPass>& stations,
-                   const LineRules& rules);
-    TurningStretch(const TurningStretch&) = delete;
-    TurningStretch& operator=(const TurningStretch&) = delete;
+    /// Old lines and orientation must outlive it. The lines of the section may be divided. O(points).
+    TurningSegment(const OldSegment& old, const Orientation& orientation,
+                   const std::vector<AlignedPoint>& aligned_points, const LineRules& rules);
+    TurningSegment(const TurningSegment&) = delete;
+    TurningSegment& operator=(const TurningSegment&) = delete;
 
     /// Angles of a new line at one of its ends: the smoothest path of the angles in a tube, at the projection onto the
     /// old lines; at an old point, its own angles.
@@ -38,14 +38,14 @@ public:
     [[nodiscard]] AxisError error_of(const NewPlace& from, const NewPlace& to) const;
 
 private:
-    [[nodiscard]] RotaryAngles at(double way) const;
+    [[nodiscard]] RotaryAngles at(double arc_length) const;
     /// The old point at a place; 0: none.
     [[nodiscard]] std::size_t old_point(const NewPlace& place) const;
 
-    const OldStretch& old_;
+    const OldSegment& old_;
     const Orientation& orientation_;
     double turn_lever_;   ///< [mm/rad] that rotations are drawn with
-    OldStretch drawn_;    ///< the angles as lines in space: tilt, rotation, way [mm]
+    OldSegment drawn_;    ///< the angles as lines in space: tilt, rotation, arc length [mm]
     SmoothCurve smooth_;  ///< through them
 };
 

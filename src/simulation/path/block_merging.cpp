@@ -21,7 +21,7 @@ bool BlockMerging::joins(const PathElement& element, double& deviation) const {
         return false;
     const Vec3 chord = element.end - merged_.begin;
     const double square = chord.squaredNorm();
-    if (!(square > no_way * no_way)) return false;
+    if (!(square > no_arc_length * no_arc_length)) return false;
     deviation = 0;
     for (const Vec3& point : passed_) {
         const Vec3 offset = point - merged_.begin;

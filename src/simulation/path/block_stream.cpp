@@ -73,7 +73,7 @@ bool BlockStream::turns(const Motions& motions, std::size_t motion) {
     return moved(before.x, rotary_.x) || moved(before.y, rotary_.y) || moved(before.z, rotary_.z);
 }
 
-/// The next motion with a way; dwells on the way to it are added up.
+/// The next motion with a length; dwells on the way to it are added up.
 bool BlockStream::read(PathElement& element) {
     const Motions& motions = source_->program().motions;
     const auto fail = [&](std::int64_t m, const std::string& what, const std::string& hint = {}) {
@@ -140,7 +140,7 @@ bool BlockStream::begin_section() {
     }
     waiting_ = true;
     if (pending_dwell_ > 0) {
-        // A wait before the first motion: a section without a way.
+        // A wait before the first motion: a section without length.
         section_end_ = waiting_element_.begin;
         take_dwell();
     }

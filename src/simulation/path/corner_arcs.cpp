@@ -13,8 +13,8 @@ void CornerArcs::add_corner(const PathElement& after) {
     TransitionArc arc;
     if (tolerance > 0) arc = transition_arc(held_, after, tolerance);
     const bool rounded = arc.kind == CornerKind::arc;
-    const double end = held_.length - (rounded ? arc.way_before : 0);
-    if (end - used_ >= no_way) ready_.push_back(used_ > 0 || rounded ? held_.part(used_, end) : held_);
+    const double end = held_.length - (rounded ? arc.arc_length_before : 0);
+    if (end - used_ >= no_arc_length) ready_.push_back(used_ > 0 || rounded ? held_.part(used_, end) : held_);
     used_ = 0;
     if (!rounded) return;
     const PathElement whole = arc.element();
@@ -27,7 +27,7 @@ void CornerArcs::add_corner(const PathElement& after) {
     };
     add_half(held_, 0, 0.5 * whole.length);
     add_half(after, 0.5 * whole.length, whole.length);
-    used_ = arc.way_after;
+    used_ = arc.arc_length_after;
 }
 
 bool CornerArcs::next(PathElement& element) {

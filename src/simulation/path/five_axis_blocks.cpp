@@ -12,7 +12,7 @@
 namespace clsurf {
 namespace {
 
-constexpr double easing = 0.97;            ///< of the speed that would just hold
+constexpr double derating = 0.97;          ///< of the speed that would just hold
 constexpr double least_turn_angle = 1e-9;  ///< [rad] a block that turns less does not turn
 constexpr int places_of_block = 4;         ///< of a block, for a first guess of its speed
 std::array<AxisLimits, 5> limits_of(const Machine& machine) {
@@ -38,7 +38,7 @@ FiveAxisBlocks::FiveAxisBlocks(const Program& program, const Machine& machine, c
     Motions& motions = planned_.motions;
     const std::size_t n = motions.kind.size();
     elements_.resize(n);
-    ways_.resize(n);
+    axis_paths_.resize(n);
     caps_.assign(n, infinite);
     Vec3 at = start;
     for (int k = 0; k < 3; ++k) {
@@ -62,8 +62,8 @@ FiveAxisBlocks::FiveAxisBlocks(const Program& program, const Machine& machine, c
         const double feed = kind == MotionKind::rapid || kind == MotionKind::dwell
                                 ? machine.path.max_speed
                                 : static_cast<double>(motions.feed[i]);
-        ways_[i] = make_way(i, angles, to, feed);
-        angles = ways_[i].at(1);
+        axis_paths_[i] = make_axis_path(i, angles, to, feed);
+        angles = axis_paths_[i].at(1);
         // A block that only turns is a wait for the tip.
         if (kind != MotionKind::dwell && !(elements_[i].length > 0) && turn_of(i) > least_turn_angle) {
             kind = MotionKind::dwell;
@@ -85,44 +85,44 @@ FiveAxisBlocks::FiveAxisBlocks(const Program& program, const Machine& machine, c
     apply_caps();
 }
 
-bool FiveAxisBlocks::ease(const std::vector<BlockExcess>& excesses) {
-    bool eased = false;
+bool FiveAxisBlocks::derate(const std::vector<BlockExcess>& excesses) {
+    bool derated = false;
     for (std::size_t i = 0; i < excesses.size(); ++i) {
         if (!(excesses[i].scale < 1)) continue;
-        eased = true;
-        const double scale = easing * excesses[i].scale;
+        derated = true;
+        const double scale = derating * excesses[i].scale;
         if (kinds_[i] == MotionKind::dwell)
             feeds_[i] = static_cast<float>(feeds_[i] / scale);
         else
             caps_[i] = std::min(caps_[i], std::max<double>(excesses[i].peak, 1e-3) * scale);
     }
     apply_caps();
-    return eased;
+    return derated;
 }
 
 double FiveAxisBlocks::part_at(std::size_t block, const Vec3& p, double from) const {
     const PathElement& e = elements_[block];
     if (!(e.length > 0)) return 1;
-    double way = 0;
+    double axis_path = 0;
     if (e.arc) {
         const Vec3 off = p - e.centre;
         const double full = 2 * std::numbers::pi / e.rate;
-        way = std::atan2(off.dot(e.second), off.dot(e.first)) / e.rate;
-        way += full * std::round((from * e.length - way) / full);
+        axis_path = std::atan2(off.dot(e.second), off.dot(e.first)) / e.rate;
+        axis_path += full * std::round((from * e.length - axis_path) / full);
     } else {
-        way = (p - e.begin).dot(e.direction);
+        axis_path = (p - e.begin).dot(e.direction);
     }
-    return std::clamp(way / e.length, from, 1.0);
+    return std::clamp(axis_path / e.length, from, 1.0);
 }
 
 double FiveAxisBlocks::turn_of(std::size_t i) const {
-    const RotaryAngles a = ways_[i].at(0);
-    const RotaryAngles b = ways_[i].at(1);
+    const RotaryAngles a = axis_paths_[i].at(0);
+    const RotaryAngles b = axis_paths_[i].at(1);
     return std::max(std::abs(b.tilt - a.tilt), std::abs(b.rotation - a.rotation));
 }
 
-ToolAxisPath FiveAxisBlocks::make_way(std::size_t i, const RotaryAngles& from, const RotaryAngles& to,
-                                      double feed) const {
+ToolAxisPath FiveAxisBlocks::make_axis_path(std::size_t i, const RotaryAngles& from, const RotaryAngles& to,
+                                            double feed) const {
     const Kinematics& k = machine_->kinematics;
     const double angle = angle_between(k.axis_of(from), k.axis_of(to));
     const double time = elements_[i].length / std::max(feed, 1e-3);
@@ -132,8 +132,8 @@ ToolAxisPath FiveAxisBlocks::make_way(std::size_t i, const RotaryAngles& from, c
 
 /// The time of a turn from rest to rest that both axes can run together.
 double FiveAxisBlocks::turning_time(std::size_t i) const {
-    const RotaryAngles a = ways_[i].at(0);
-    const RotaryAngles b = ways_[i].at(1);
+    const RotaryAngles a = axis_paths_[i].at(0);
+    const RotaryAngles b = axis_paths_[i].at(1);
     const std::array<double, 2> turns{std::abs(b.tilt - a.tilt), std::abs(b.rotation - a.rotation)};
     double time = 0;
     for (std::size_t k = 0; k < 2; ++k) {
@@ -151,7 +151,7 @@ void FiveAxisBlocks::guess_cap(std::size_t i) {
     const PathElement& e = elements_[i];
     const Kinematics& k = machine_->kinematics;
     const auto axes_at = [&](double part) {
-        const RotaryAngles angles = ways_[i].at(part);
+        const RotaryAngles angles = axis_paths_[i].at(part);
         const Vec3 linear = k.to_axes(e.at(part * e.length) + zero_, angles);
         return std::array<double, 5>{linear.x(), linear.y(), linear.z(), angles.tilt, angles.rotation};
     };
@@ -163,7 +163,7 @@ void FiveAxisBlocks::guess_cap(std::size_t i) {
             const double slope = std::abs(now[axis] - before[axis]) / step;
             // An axis that goes no farther than the tip is as fast as the planner lets it be.
             if (axis < 3 ? slope <= 1 + 1e-9 : slope * e.length <= least_turn_angle) continue;
-            caps_[i] = std::min(caps_[i], easing * limits_[axis].speed / slope);
+            caps_[i] = std::min(caps_[i], derating * limits_[axis].speed / slope);
         }
         before = now;
     }

@@ -31,13 +31,13 @@ public:
     FiveAxisBlocks(const Program& program, const Machine& machine, const Vec3& zero, const Vec3& start);
 
     /// Slows down the blocks that exceed a limit. False: none did.
-    bool ease(const std::vector<BlockExcess>& excesses);
+    bool derate(const std::vector<BlockExcess>& excesses);
 
     /// The way of the tip for the planner; the line of a motion is its block's number, from 1.
     [[nodiscard]] const Program& planned() const { return planned_; }
-    [[nodiscard]] std::size_t count() const { return ways_.size(); }
+    [[nodiscard]] std::size_t count() const { return axis_paths_.size(); }
     [[nodiscard]] const Vec3& zero() const { return zero_; }
-    [[nodiscard]] const ToolAxisPath& way(std::size_t block) const { return ways_[block]; }
+    [[nodiscard]] const ToolAxisPath& axis_path(std::size_t block) const { return axis_paths_[block]; }
     [[nodiscard]] LineNumber line(std::size_t block) const { return lines_[block]; }
     [[nodiscard]] bool waits(std::size_t block) const { return kinds_[block] == MotionKind::dwell; }
     [[nodiscard]] bool cuts(std::size_t block) const { return !waits(block) && kinds_[block] != MotionKind::rapid; }
@@ -48,13 +48,13 @@ public:
         return caps_[block] < std::numeric_limits<double>::infinity();
     }
     [[nodiscard]] const std::array<AxisLimits, 5>& limits() const { return limits_; }
-    /// Which part of a block's way lies behind a point, not before `from`.
+    /// Which part of a block's arc length lies behind a point, not before `from`.
     [[nodiscard]] double part_at(std::size_t block, const Vec3& p, double from) const;
 
 private:
     [[nodiscard]] double turn_of(std::size_t i) const;
-    [[nodiscard]] ToolAxisPath make_way(std::size_t i, const RotaryAngles& from, const RotaryAngles& to,
-                                        double feed) const;
+    [[nodiscard]] ToolAxisPath make_axis_path(std::size_t i, const RotaryAngles& from, const RotaryAngles& to,
+                                              double feed) const;
     [[nodiscard]] double turning_time(std::size_t i) const;
     void guess_cap(std::size_t i);
     void apply_caps();
@@ -64,7 +64,7 @@ private:
     std::array<AxisLimits, 5> limits_;
     Program planned_;
     std::vector<PathElement> elements_;  ///< length 0: the tip stands
-    std::vector<ToolAxisPath> ways_;
+    std::vector<ToolAxisPath> axis_paths_;
     std::vector<double> caps_;  ///< [mm/s]
     Column<float> feeds_;       ///< as programmed; of turns their time [s]
     Column<MotionKind> kinds_;

@@ -13,7 +13,7 @@ constexpr double two_pi = 2 * std::numbers::pi;
 constexpr double same_angle = 1e-9;  ///< a difference of rounding size is a full circle, not none
 constexpr int turning_places = 8;    ///< at which the direction of a cubic is looked at
 
-/// Derivatives by the way of a curve that is known by u, from those by u.
+/// Derivatives by the arc length of a curve that is known by u, from those by u.
 PathDerivatives by_the_way(const Vec3& r1, const Vec3& r2, const Vec3& r3) {
     const double f = r1.squaredNorm();
     const double q = r1.dot(r2);
@@ -25,43 +25,43 @@ PathDerivatives by_the_way(const Vec3& r1, const Vec3& r2, const Vec3& r3) {
 
 }  // namespace
 
-Vec3 PathElement::at(double way) const {
-    if (straight()) return begin + way * direction;
-    if (cubic) return curve.at(curve.at_way(curve_from + way, curve_length));
-    const double angle = rate * way;
+Vec3 PathElement::at(double arc_length) const {
+    if (straight()) return begin + arc_length * direction;
+    if (cubic) return curve.at(curve.at_arc_length(curve_from + arc_length, curve_length));
+    const double angle = rate * arc_length;
     return centre + (radius + growth * angle) * (first * std::cos(angle) + second * std::sin(angle)) + rise * angle;
 }
 
-Vec3 PathElement::at(double way, Vec3& tangent) const {
+Vec3 PathElement::at(double arc_length, Vec3& tangent) const {
     if (straight()) {
         tangent = direction;
-        return begin + way * direction;
+        return begin + arc_length * direction;
     }
     if (cubic) {
-        const double u = curve.at_way(curve_from + way, curve_length);
+        const double u = curve.at_arc_length(curve_from + arc_length, curve_length);
         tangent = curve.derivative(u).normalized();
         return curve.at(u);
     }
-    const double angle = rate * way;
+    const double angle = rate * arc_length;
     const Vec3 outward = first * std::cos(angle) + second * std::sin(angle);
     const Vec3 along = second * std::cos(angle) - first * std::sin(angle);
     tangent = rate * (growth * outward + (radius + growth * angle) * along + rise);
     return centre + (radius + growth * angle) * outward + rise * angle;
 }
 
-Vec3 PathElement::tangent(double way) const {
+Vec3 PathElement::tangent(double arc_length) const {
     Vec3 tangent;
-    (void)at(way, tangent);
+    (void)at(arc_length, tangent);
     return tangent;
 }
 
-PathDerivatives PathElement::derivatives(double way) const {
+PathDerivatives PathElement::derivatives(double arc_length) const {
     if (straight()) return {direction, Vec3::Zero(), Vec3::Zero()};
     if (cubic) {
-        const double u = curve.at_way(curve_from + way, curve_length);
+        const double u = curve.at_arc_length(curve_from + arc_length, curve_length);
         return by_the_way(curve.derivative(u), curve.second_derivative(u), 6 * curve.coefficients[3]);
     }
-    const double angle = rate * way;
+    const double angle = rate * arc_length;
     const Vec3 outward = first * std::cos(angle) + second * std::sin(angle);
     const Vec3 along = second * std::cos(angle) - first * std::sin(angle);
     const double distance = radius + growth * angle;
@@ -117,7 +117,7 @@ PathElement element_of(const CubicSpan& curve) {
     e.curve.choose_pieces();
     e.begin = curve.at(0);
     e.end = curve.at(curve.chord);
-    e.length = e.curve_length = e.curve.way_to(curve.chord);
+    e.length = e.curve_length = e.curve.arc_length_to(curve.chord);
     return e;
 }
 
@@ -126,11 +126,11 @@ PathElement element_of(MotionKind kind, const Arc* arc, const Vec3& begin, const
     e.begin = begin;
     e.end = end;
     if (arc == nullptr) {
-        const Vec3 way = end - begin;
-        const double length = way.norm();
-        if (length < no_way) return e;
+        const Vec3 chord = end - begin;
+        const double length = chord.norm();
+        if (length < no_arc_length) return e;
         e.length = length;
-        e.direction = way / length;
+        e.direction = chord / length;
         return e;
     }
     const int w = arc->axis;
@@ -143,7 +143,7 @@ PathElement element_of(MotionKind kind, const Arc* arc, const Vec3& begin, const
     const Vec2 from(begin[u] - e.centre[u], begin[v] - e.centre[v]);
     const Vec2 to(end[u] - e.centre[u], end[v] - e.centre[v]);
     e.radius = from.norm();
-    if (e.radius < no_way) return e;
+    if (e.radius < no_arc_length) return e;
     double sweep = turn * (angle_of(to) - angle_of(from));
     while (sweep <= same_angle) sweep += two_pi;
     while (sweep > two_pi + same_angle) sweep -= two_pi;

@@ -12,9 +12,9 @@ namespace clsurf {
 
 inline constexpr double straight_on = 1e-9;      ///< [rad] turning below this moves no axis
 inline constexpr double least_bend_jump = 1e-9;  ///< [1/mm] a smaller jump of curvature is none
-inline constexpr double no_way = 1e-9;           ///< [mm] below it two points are one
+inline constexpr double no_arc_length = 1e-9;    ///< [mm] below it two points are one
 
-/// Derivatives of a position by the way: none, 1/mm, 1/mm².
+/// Derivatives of a position by the arc length: none, 1/mm, 1/mm².
 struct PathDerivatives {
     Vec3 first, second, third;
 };
@@ -23,7 +23,7 @@ struct PathElement {
     bool arc = false, cubic = false;
     Vec3 begin = Vec3::Zero(), end = Vec3::Zero();  ///< [mm]
     Vec3 direction = Vec3::Zero();                  ///< of a line, unit
-    // p(θ) = centre + (radius + growth θ)(first cos θ + second sin θ) + rise θ, θ = rate · way
+    // p(θ) = centre + (radius + growth θ)(first cos θ + second sin θ) + rise θ, θ = rate · arc length
     Vec3 centre = Vec3::Zero(), first = Vec3::Zero(), second = Vec3::Zero(), rise = Vec3::Zero();
     double radius = 0, growth = 0, rate = 0;
     CubicSpan curve;
@@ -36,19 +36,19 @@ struct PathElement {
     double merging_tolerance = 0;  ///< of lines that become one before [mm]
     bool stops = false;            ///< comes to rest at its end (exact stop)
     LineNumber line = 0;
-    std::int64_t block = 0;                                           ///< number of the block, of those with a way
+    std::int64_t block = 0;                                           ///< number of the block, of those with a length
     double block_length = 0;                                          ///< [mm]
     double deviation = 0;                                             ///< of the element from the block, at most [mm]
     double greatest_speed = std::numeric_limits<double>::infinity();  ///< that its shape is good for [mm/s]
 
     [[nodiscard]] bool straight() const { return !arc && !cubic; }
-    [[nodiscard]] Vec3 at(double way) const;
-    /// The position, and the first derivative by the way: a unit vector but for the growth of a radius
+    [[nodiscard]] Vec3 at(double arc_length) const;
+    /// The position, and the first derivative by the arc length: a unit vector but for the growth of a radius
     /// (radii of start and end may differ within the reader's play).
-    [[nodiscard]] Vec3 at(double way, Vec3& tangent) const;
-    [[nodiscard]] Vec3 tangent(double way) const;
-    [[nodiscard]] Vec3 second_derivative(double way) const { return derivatives(way).second; }
-    [[nodiscard]] PathDerivatives derivatives(double way) const;
+    [[nodiscard]] Vec3 at(double arc_length, Vec3& tangent) const;
+    [[nodiscard]] Vec3 tangent(double arc_length) const;
+    [[nodiscard]] Vec3 second_derivative(double arc_length) const { return derivatives(arc_length).second; }
+    [[nodiscard]] PathDerivatives derivatives(double arc_length) const;
     /// How far the direction turns on the whole, summed up [rad].
     [[nodiscard]] double turning() const;
 
@@ -58,7 +58,7 @@ struct PathElement {
     void take_block(const PathElement& other);
 };
 
-/// The curve of a motion between two points; length 0 where there is no way.
+/// The curve of a motion between two points; length 0 where it has none.
 [[nodiscard]] PathElement element_of(MotionKind kind, const Arc* arc, const Vec3& begin, const Vec3& end);
 /// A cubic from one end to the other.
 [[nodiscard]] PathElement element_of(const CubicSpan& curve);

@@ -12,11 +12,11 @@ constexpr double share_of_bends = 0.25;  ///< of the tolerance, for jumps of cur
 
 }  // namespace
 
-std::string_view name_of(Ruling ruling) {
+std::string_view name_of(LimitingFactor limiting) {
     constexpr std::array<std::string_view, 10> names{
         "at rest",          "feed",        "axis speed",     "axis acceleration", "jerk",
         "corner tolerance", "chord error", "look-ahead end", "override",          "block time"};
-    return names[static_cast<std::size_t>(ruling)];
+    return names[static_cast<std::size_t>(limiting)];
 }
 
 Vec3 Span::at(double tau, double& deviation, double& pace) const {

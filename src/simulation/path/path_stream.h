@@ -2,7 +2,7 @@
 // PathStream: a program's path as the controller runs it, in spans with bounds on its derivatives.
 //
 // Between exact stops, corners are rounded inside the tolerance by adding to the programmed path
-// p(u), u its way, for each joint at u_i with a jump Δt of the tangent and Δk of the curvature,
+// p(u), u its arc length, for each joint at u_i with a jump Δt of the tangent and Δk of the curvature,
 //
 //     Δt · (w − |d|)³ / (6 w²)      +      Δk · d (v − |d|)³ / (12 v²),      d = u − u_i,
 //
@@ -31,8 +31,8 @@
 
 namespace clsurf {
 
-/// What ruled the speed of a point: the values of the channel `limit`.
-enum class Ruling : std::uint8_t {
+/// What limited the speed of a point: the values of the channel `limit`.
+enum class LimitingFactor : std::uint8_t {
     none = 0,               ///< at rest
     feed = 1,               ///< programmed feed
     axis_speed = 2,         ///< speed of an axis, or of the path
@@ -46,31 +46,31 @@ enum class Ruling : std::uint8_t {
 };
 
 /// "feed", "axis speed", …
-[[nodiscard]] std::string_view name_of(Ruling ruling);
+[[nodiscard]] std::string_view name_of(LimitingFactor limiting);
 
 /// Where the position on a span comes from, and how fast it may be passed.
 struct Span {
     PathElement base;
-    double from = 0;                 ///< way on the element where the span begins [mm]
+    double from = 0;                 ///< arc length on the element where the span begins [mm]
     double length = 0;               ///< [mm]
     std::array<Vec3, 5> rounding{};  ///< Σ rounding[k] τᵏ, τ from the span's begin
     bool rounded = false;
 
-    // Greatest values on the span: of the first to third derivative of the position by the way, an axis each.
+    // Greatest values on the span: of the first to third derivative of the position by the arc length, an axis each.
     Vec3 slope = Vec3::Zero(), bend = Vec3::Zero(), twist = Vec3::Zero();
     double greatest_slope = 0, greatest_bend = 0;  ///< of the vectors
     double fourth = 0;                             ///< of the length of the fourth derivative [1/mm³]
     // Speed allowed by what does not depend on bends: feed, speed of path and axes; and why.
     double free_cap = 0;
-    Ruling free_ruling = Ruling::none;
+    LimitingFactor free_limiting = LimitingFactor::none;
     // Speed allowed with no tangential acceleration, and why.
     double cap = 0;
-    Ruling ruling = Ruling::none;
+    LimitingFactor limiting = LimitingFactor::none;
     // Tangential limits of a straight path with these slopes.
     double acceleration = 0, jerk = 0;
 
     /// Position τ after the span's begin; `deviation`: how far the rounding moves it [mm]; `pace`: the
-    /// length of its first derivative, path speed over speed along the programmed way.
+    /// length of its first derivative, path speed over speed along the programmed arc length.
     [[nodiscard]] Vec3 at(double tau, double& deviation, double& pace) const;
     [[nodiscard]] PathDerivatives derivatives(double tau) const;
     [[nodiscard]] bool straight() const { return !rounded && base.straight(); }
@@ -95,7 +95,7 @@ public:
 
 private:
     struct Joint {
-        double at = 0;                                  ///< way from the section's begin [mm]
+        double at = 0;                                  ///< arc length from the section's begin [mm]
         Vec3 turn = Vec3::Zero(), bend = Vec3::Zero();  ///< Δt; Δk [1/mm]
         double turning = 0;                             ///< |Δt|
         double tolerance = 0;
@@ -133,7 +133,7 @@ private:
 
     // The section: elements from first_element_ on; joint i lies between elements i and i + 1.
     Queue<PathElement> elements_;
-    Queue<double> ends_;  ///< way to each element's end [mm]
+    Queue<double> ends_;  ///< arc length to each element's end [mm]
     Queue<Joint> joints_;
     std::int64_t first_element_ = 0, first_joint_ = 0;
     std::int64_t element_count_ = 0;

@@ -203,20 +203,22 @@ void PathStream::set_limits(Span& span) const {
     const double override_factor = machine_->controller.feed_override;
     const bool rapid = !std::isfinite(span.base.feed);
     span.cap = path.max_speed / span.greatest_slope;
-    span.ruling = Ruling::axis_speed;
-    const auto limit = [&](double speed, Ruling why) {
-        if (speed < span.cap) span.cap = speed, span.ruling = why;
+    span.limiting = LimitingFactor::axis_speed;
+    const auto limit = [&](double speed, LimitingFactor why) {
+        if (speed < span.cap) span.cap = speed, span.limiting = why;
     };
-    if (!rapid) limit(span.base.feed * override_factor, override_factor == 1 ? Ruling::feed : Ruling::feed_override);
+    if (!rapid)
+        limit(span.base.feed * override_factor,
+              override_factor == 1 ? LimitingFactor::feed : LimitingFactor::feed_override);
     if (machine_->controller.block_time > 0)
-        limit(span.base.block_length / machine_->controller.block_time, Ruling::block_time);
+        limit(span.base.block_length / machine_->controller.block_time, LimitingFactor::block_time);
     for (int i = 0; i < 3; ++i) {
         if (span.slope[i] > 0)
-            limit(machine_->axes[static_cast<std::size_t>(i)].max_speed / span.slope[i], Ruling::axis_speed);
+            limit(machine_->axes[static_cast<std::size_t>(i)].max_speed / span.slope[i], LimitingFactor::axis_speed);
     }
-    limit(span.base.greatest_speed, Ruling::corner_tolerance);
+    limit(span.base.greatest_speed, LimitingFactor::corner_tolerance);
     span.free_cap = span.cap;
-    span.free_ruling = span.ruling;
+    span.free_limiting = span.limiting;
     span.acceleration = path.max_acceleration;
     span.jerk = path.max_jerk;
     const bool corner = span.rounded && span.base.straight();
@@ -228,15 +230,17 @@ void PathStream::set_limits(Span& span) const {
         }
         // Roots only of what may be broken.
         if (span.bend[i] * span.cap * span.cap > nearly * axis.max_acceleration)
-            limit(std::sqrt(axis.max_acceleration / span.bend[i]), Ruling::axis_acceleration);
+            limit(std::sqrt(axis.max_acceleration / span.bend[i]), LimitingFactor::axis_acceleration);
         const bool jerks = axis.max_jerk > 0 && span.twist[i] * span.cap * span.cap * span.cap > nearly * axis.max_jerk;
-        if (jerks) limit(std::cbrt(axis.max_jerk / span.twist[i]), corner ? Ruling::corner_tolerance : Ruling::jerk);
+        if (jerks)
+            limit(std::cbrt(axis.max_jerk / span.twist[i]),
+                  corner ? LimitingFactor::corner_tolerance : LimitingFactor::jerk);
     }
     if (span.greatest_bend > 0) {
         const double radius = 1 / span.greatest_bend;
-        limit(arc_speed(radius, path.max_normal_acceleration), Ruling::axis_acceleration);
+        limit(arc_speed(radius, path.max_normal_acceleration), LimitingFactor::axis_acceleration);
         limit(chord_speed(radius, machine_->controller.chord_tolerance, machine_->controller.period),
-              Ruling::chord_error);
+              LimitingFactor::chord_error);
     }
 }
 

@@ -61,7 +61,7 @@ ToolAxisPath::ToolAxisPath(const Kinematics& kinematics, const RotaryAngles& fro
     if (kinematics.interpolation == ToolAxisInterpolation::linear || !turns) return;
     // From the pole every great circle begins with a rotation of its own: that is turned on the way.
     if (std::abs(from.tilt) <= least_angle) return;
-    way_ = Way::great_circle;
+    mode_ = Mode::great_circle;
     branch_ = sign_of(from.tilt);
     if (kinematics.interpolation != ToolAxisInterpolation::safe) return;
     // Windows are for axes that cross at right angles, the tool along the rotation where tilt is 0.
@@ -82,7 +82,7 @@ ToolAxisPath::ToolAxisPath(const Kinematics& kinematics, const RotaryAngles& fro
         if (sign_of(other.tilt) == branch_ || !tilt.contains(other.tilt)) continue;
         other.rotation += 2 * std::numbers::pi * std::round((from.rotation - other.rotation) / (2 * std::numbers::pi));
         ToolAxisPath over = *this;
-        over.way_ = Way::linear;
+        over.mode_ = Mode::linear;
         over.to_ = other;
         if (over.greatest_error(judged_places) > tolerance) continue;
         *this = over;
@@ -91,7 +91,7 @@ ToolAxisPath::ToolAxisPath(const Kinematics& kinematics, const RotaryAngles& fro
     if (!(least > 0)) return;
     window_ = pole_window(least, ratio);
     if (!(window_.half > 0)) return;
-    way_ = Way::window;
+    mode_ = Mode::window;
     turning_ = sign_of(normal.dot(pole));
     centre_ = on_great_circle(great_circle(begin_, end_, nearest_ / angle_)).rotation;
 }
@@ -107,12 +107,12 @@ RotaryAngles ToolAxisPath::on_great_circle(const Vec3& axis) const {
 }
 
 RotaryAngles ToolAxisPath::at(double part) const {
-    if (way_ == Way::linear)
+    if (mode_ == Mode::linear)
         return {from_.tilt + part * (to_.tilt - from_.tilt), from_.rotation + part * (to_.rotation - from_.rotation)};
     if (part <= 0) return from_;
     RotaryAngles angles = on_great_circle(great_circle(begin_, end_, part));
     const double s = part * angle_ - nearest_;
-    if (way_ == Way::window && std::abs(s) < window_.half)
+    if (mode_ == Mode::window && std::abs(s) < window_.half)
         angles.rotation = centre_ + turning_ * (window_.slope * s + window_.cubic * s * s * s);
     return angles;
 }

@@ -44,11 +44,11 @@ public:
     [[nodiscard]] double greatest_error(int samples) const;
 
 private:
-    enum class Way : unsigned char { linear, great_circle, window };
+    enum class Mode : unsigned char { linear, great_circle, window };
     [[nodiscard]] RotaryAngles on_great_circle(const Vec3& axis) const;
 
     const Kinematics* kinematics_ = nullptr;
-    Way way_ = Way::linear;
+    Mode mode_ = Mode::linear;
     RotaryAngles from_, to_;
     Vec3 begin_ = Vec3::UnitZ(), end_ = Vec3::UnitZ();
     double angle_ = 0;    ///< between the two axes [rad]

@@ -12,13 +12,13 @@ namespace {
 
 constexpr double collinear = 0.01 * std::numbers::pi / 180;
 constexpr double reversal = 179.0 * std::numbers::pi / 180;
-constexpr double least_way = 1e-7;        ///< [mm] a shorter tangent is rounding
-constexpr double plane_tolerance = 1e-9;  ///< of the chord: how far it may leave the plane of its tangents
-constexpr double most_of_turn = 0.9;      ///< of what a block may turn until the arc would be a half circle
+constexpr double least_arc_length = 1e-7;  ///< [mm] a shorter tangent is rounding
+constexpr double plane_tolerance = 1e-9;   ///< of the chord: how far it may leave the plane of its tangents
+constexpr double most_of_turn = 0.9;       ///< of what a block may turn until the arc would be a half circle
 
 /// Of a way between 0, where f is negative, and `high`, where it is not.
 template <typename F>
-double way_to_root(double high, const F& f) {
+double arc_length_to_root(double high, const F& f) {
     return root_between(0, f(0), high, f(high), 1e-14, 0, f);
 }
 
@@ -26,10 +26,12 @@ double way_to_root(double high, const F& f) {
 class Arm {
 public:
     Arm(const PathElement& element, bool before) : element_(&element), before_(before) {}
-    [[nodiscard]] Vec3 point(double way) const { return element_->at(before_ ? element_->length - way : way); }
+    [[nodiscard]] Vec3 point(double arc_length) const {
+        return element_->at(before_ ? element_->length - arc_length : arc_length);
+    }
     /// In the direction of travel, unit.
-    [[nodiscard]] Vec3 tangent(double way) const {
-        return element_->tangent(before_ ? element_->length - way : way).normalized();
+    [[nodiscard]] Vec3 tangent(double arc_length) const {
+        return element_->tangent(before_ ? element_->length - arc_length : arc_length).normalized();
     }
     /// Half the block, and no more than a half circle leaves of its bend.
     [[nodiscard]] double share(double deflection) const {
@@ -54,26 +56,28 @@ public:
           share_after_(after_.share(deflection)) {}
 
     /// How much too far on `after` the way is for a circle through both places: half the turning between the tangents less that of the chord.
-    [[nodiscard]] double imbalance(double way_before, double way_after) const {
-        const Vec3 t0 = before_.tangent(way_before);
-        const Vec3 chord = after_.point(way_after) - before_.point(way_before);
-        return angle(t0, chord) - 0.5 * angle(t0, after_.tangent(way_after));
+    [[nodiscard]] double imbalance(double arc_length_before, double arc_length_after) const {
+        const Vec3 t0 = before_.tangent(arc_length_before);
+        const Vec3 chord = after_.point(arc_length_after) - before_.point(arc_length_before);
+        return angle(t0, chord) - 0.5 * angle(t0, after_.tangent(arc_length_after));
     }
-    [[nodiscard]] double way_after(double way_before) const {
-        return way_to_root(share_after_, [&](double way) { return imbalance(way_before, way); });
+    [[nodiscard]] double arc_length_after(double arc_length_before) const {
+        return arc_length_to_root(share_after_,
+                                  [&](double arc_length) { return imbalance(arc_length_before, arc_length); });
     }
-    [[nodiscard]] double way_before(double way_after) const {
-        return way_to_root(share_before_, [&](double way) { return -imbalance(way, way_after); });
+    [[nodiscard]] double arc_length_before(double arc_length_after) const {
+        return arc_length_to_root(share_before_,
+                                  [&](double arc_length) { return -imbalance(arc_length, arc_length_after); });
     }
     /// The circle through a place on each block.
-    [[nodiscard]] TransitionArc circle(double way_before, double way_after) const {
+    [[nodiscard]] TransitionArc circle(double arc_length_before, double arc_length_after) const {
         TransitionArc arc;
-        arc.way_before = way_before;
-        arc.way_after = way_after;
-        arc.begin = before_.point(way_before);
-        arc.end = after_.point(way_after);
-        arc.tangent = before_.tangent(way_before);
-        const Vec3 leaving = after_.tangent(way_after);
+        arc.arc_length_before = arc_length_before;
+        arc.arc_length_after = arc_length_after;
+        arc.begin = before_.point(arc_length_before);
+        arc.end = after_.point(arc_length_after);
+        arc.tangent = before_.tangent(arc_length_before);
+        const Vec3 leaving = after_.tangent(arc_length_after);
         const Vec3 chord = arc.end - arc.begin;
         arc.sweep = angle(arc.tangent, leaving);
         arc.radius = 0.5 * chord.norm() / std::sin(0.5 * arc.sweep);
@@ -89,8 +93,8 @@ public:
     }
     /// The greatest that the shares allow; `none` where there is none.
     [[nodiscard]] TransitionArc longest() const {
-        if (imbalance(share_before_, share_after_) >= 0) return circle(share_before_, way_after(share_before_));
-        return circle(way_before(share_after_), share_after_);
+        if (imbalance(share_before_, share_after_) >= 0) return circle(share_before_, arc_length_after(share_before_));
+        return circle(arc_length_before(share_after_), share_after_);
     }
 
 private:
@@ -130,13 +134,16 @@ TransitionArc transition_arc(const PathElement& before, const PathElement& after
     } else {
         arc = corner.longest();
         if (arc.kind == CornerKind::arc && arc.error > error) {
-            const auto excess = [&](double way) { return corner.circle(way, corner.way_after(way)).error - error; };
-            const double way = way_to_root(arc.way_before, excess);
-            arc = corner.circle(way, corner.way_after(way));
+            const auto excess = [&](double arc_length) {
+                return corner.circle(arc_length, corner.arc_length_after(arc_length)).error - error;
+            };
+            const double arc_length = arc_length_to_root(arc.arc_length_before, excess);
+            arc = corner.circle(arc_length, corner.arc_length_after(arc_length));
             limited = ArcLimit::error;
         }
     }
-    if (arc.kind != CornerKind::arc || std::min(arc.way_before, arc.way_after) < least_way) return none;
+    if (arc.kind != CornerKind::arc || std::min(arc.arc_length_before, arc.arc_length_after) < least_arc_length)
+        return none;
     arc.deflection = none.deflection;
     arc.limited = limited;
     return arc;

@@ -29,9 +29,10 @@ struct TransitionArc {
     CornerKind kind = CornerKind::degenerate;
     double deflection = 0;  ///< at the corner [rad]
     ArcLimit limited = ArcLimit::error;
-    double way_before = 0, way_after = 0;  ///< of the blocks that it takes the place of, from the corner [mm]
-    double radius = 0, error = 0;          ///< r; distance of the corner from the arc [mm]
-    double sweep = 0;                      ///< angle between its tangents [rad]
+    double arc_length_before = 0,
+           arc_length_after = 0;   ///< of the blocks that it takes the place of, from the corner [mm]
+    double radius = 0, error = 0;  ///< r; distance of the corner from the arc [mm]
+    double sweep = 0;              ///< angle between its tangents [rad]
     Vec3 begin = Vec3::Zero(), middle = Vec3::Zero(), end = Vec3::Zero(), centre = Vec3::Zero();
     Vec3 tangent = Vec3::Zero();  ///< at its begin, unit
 

@@ -100,10 +100,11 @@ Vec3 centre_of(const Side& in, const Side& out, const Vec3& corner, const Vec3& 
         const double along = (r1 * r1 - r2 * r2 + apart * apart) / (2 * apart);
         const double aside = std::sqrt(r1 * r1 - along * along);  // NaN where they do not meet
         const Vec3 unit = between / apart;
-        const Vec3 foot = in.centre + along * unit;
+        const Vec3 projection = in.centre + along * unit;
         const Vec3 offset = aside * binormal.cross(unit).normalized();
-        return (foot + offset - corner).norm() < (foot - offset - corner).norm() ? Vec3(foot + offset)
-                                                                                 : Vec3(foot - offset);
+        return (projection + offset - corner).norm() < (projection - offset - corner).norm()
+                   ? Vec3(projection + offset)
+                   : Vec3(projection - offset);
     }
     // A line beside which the centre lies at the radius, and a circle about the centre of the arc.
     const bool line_first = !in.segment->curved();

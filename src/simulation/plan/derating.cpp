@@ -11,12 +11,12 @@ constexpr double share_of_bend = 0.5;  ///< of the jerk that a twist leaves: for
 struct LeastLeft {
     double acceleration, jerk;
 };
-constexpr std::array<LeastLeft, easings> least_left{{{0.5, 0.5}, {0.2, 0.3}, {0.1, 0.15}}};
+constexpr std::array<LeastLeft, deratings> least_left{{{0.5, 0.5}, {0.2, 0.3}, {0.1, 0.15}}};
 
 /// What a speed leaves of the tangential limits. In a bend an acceleration costs jerk too, 3 y″ v a,
 /// as much at once as the tangential jerk itself: what the twist leaves is shared between them.
-Easing left_at(double speed, const Span& span, const Machine& machine) {
-    Easing left{speed, span.acceleration, span.jerk};
+Derating left_at(double speed, const Span& span, const Machine& machine) {
+    Derating left{speed, span.acceleration, span.jerk};
     for (int i = 0; i < 3; ++i) {
         const MachineAxis& axis = machine.axes[static_cast<std::size_t>(i)];
         if (span.slope[i] > 0)
@@ -38,12 +38,12 @@ Easing left_at(double speed, const Span& span, const Machine& machine) {
 
 }  // namespace
 
-Easing ease(const Span& span, const Machine& machine, std::size_t which) {
+Derating derate(const Span& span, const Machine& machine, std::size_t which) {
     const LeastLeft& least = least_left[which];
-    const auto enough = [&](const Easing& left) {
+    const auto enough = [&](const Derating& left) {
         return left.acceleration >= least.acceleration * span.acceleration && left.jerk >= least.jerk * span.jerk;
     };
-    const Easing at_cap = left_at(span.cap, span, machine);
+    const Derating at_cap = left_at(span.cap, span, machine);
     if (enough(at_cap)) return at_cap;
     double low = 0;
     double high = span.cap;

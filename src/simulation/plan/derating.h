@@ -1,20 +1,20 @@
 #pragma once
-// Easing: a lower speed on a span, which leaves part of the tangential limits to ramps through its bend.
+// Derating: a lower speed on a span, which leaves part of the tangential limits to ramps through its bend.
 
 #include "machine/machine.h"
 #include "simulation/path/path_stream.h"
 
 namespace clsurf {
 
-struct Easing {
+struct Derating {
     double cap = 0;                     ///< [mm/s]
     double acceleration = 0, jerk = 0;  ///< tangential, that it leaves [mm/s², mm/s³]
 };
 
-/// Ways of easing, from that which leaves most to ramps.
-inline constexpr std::size_t easings = 3;
+/// Ways of derating, from that which leaves most to ramps.
+inline constexpr std::size_t deratings = 3;
 
-/// The greatest speed that leaves what easing `which` asks for.
-[[nodiscard]] Easing ease(const Span& span, const Machine& machine, std::size_t which);
+/// The greatest speed that leaves what derating `which` asks for.
+[[nodiscard]] Derating derate(const Span& span, const Machine& machine, std::size_t which);
 
 }  // namespace clsurf

@@ -49,10 +49,10 @@ bool scan_speeds(std::span<const ScanSegment> segments, std::span<double> speeds
     return true;
 }
 
-const Easing& WindowPlanner::eased(std::span<const Span> spans, std::size_t span) {
-    Easing& easing = eased_[span];
-    if (easing.cap < 0) easing = ease(spans[span], *machine_, easing_);
-    return easing;
+const Derating& WindowPlanner::derated(std::span<const Span> spans, std::size_t span) {
+    Derating& derating = derated_[span];
+    if (derating.cap < 0) derating = derate(spans[span], *machine_, derating_);
+    return derating;
 }
 
 void WindowPlanner::set_limits(SpeedRun& run, std::span<const Span> spans) {
@@ -61,7 +61,7 @@ void WindowPlanner::set_limits(SpeedRun& run, std::span<const Span> spans) {
     run.acceleration = run.jerk = std::numeric_limits<double>::infinity();
     for (std::size_t i = run.first; i < run.last; ++i) {
         const Span& s = spans[i];
-        const Easing limits = run.eased ? eased(spans, i) : Easing{s.cap, s.acceleration, s.jerk};
+        const Derating limits = run.derated ? derated(spans, i) : Derating{s.cap, s.acceleration, s.jerk};
         run.length += s.length;
         run.speed = std::max(run.speed, limits.cap);
         run.acceleration = std::min(run.acceleration, limits.acceleration);
@@ -98,7 +98,7 @@ WindowPlanner::Verdict WindowPlanner::judge(const SpeedRun& run, std::span<const
         const double begin = end;
         end += s.length;
         const double at_peak = profile.peak_speed() / s.cap;
-        if (begin >= profile.start_of(3).way && end <= profile.start_of(4).way) {
+        if (begin >= profile.start_of(3).arc_length && end <= profile.start_of(4).arc_length) {
             if (at_peak > verdict.worst) verdict = {at_peak, true, i};
             known = false;
             continue;
@@ -141,18 +141,18 @@ void WindowPlanner::divide(const SpeedRun& run, const Verdict& verdict, std::vec
 }
 
 bool WindowPlanner::plan(std::span<const Span> spans, double start_speed, std::span<const std::size_t> nodes) {
-    if (refined_ && plan_with(easings - 1, spans, start_speed, nodes)) {
+    if (refined_ && plan_with(deratings - 1, spans, start_speed, nodes)) {
         best_.swap(runs_);
         return true;
     }
     double shortest = std::numeric_limits<double>::infinity();
-    for (std::size_t easing = 0; easing < easings; ++easing) {
-        if (!plan_with(easing, spans, start_speed, nodes)) continue;
+    for (std::size_t derating = 0; derating < deratings; ++derating) {
+        if (!plan_with(derating, spans, start_speed, nodes)) continue;
         double time = 0;
         bool bent = false;
         for (const SpeedRun& run : runs_) {
             time += run.profile.duration();
-            bent = bent || run.eased;
+            bent = bent || run.derated;
         }
         if (time < shortest) {
             shortest = time;
@@ -178,13 +178,13 @@ void WindowPlanner::cut(std::span<const Span> spans, std::span<const std::size_t
     }
 }
 
-bool WindowPlanner::plan_with(std::size_t easing, std::span<const Span> spans, double start_speed,
+bool WindowPlanner::plan_with(std::size_t derating, std::span<const Span> spans, double start_speed,
                               std::span<const std::size_t> nodes) {
-    easing_ = easing;
-    eased_.assign(spans.size(), Easing{-1, 0, 0});
+    derating_ = derating;
+    derated_.assign(spans.size(), Derating{-1, 0, 0});
     cut(spans, nodes);
     const auto end_cap = [&](const SpeedRun& run, std::size_t span) {
-        return run.eased ? eased(spans, span).cap : spans[span].cap;
+        return run.derated ? derated(spans, span).cap : spans[span].cap;
     };
     while (true) {
         segments_.clear();
@@ -215,14 +215,14 @@ bool WindowPlanner::plan_with(std::size_t easing, std::span<const Span> spans, d
                 run.checked = verdict.worst <= holds;
                 if (!run.checked) {
                     changed = true;
-                    if (run.last - run.first > 1 && (verdict.at_cap || run.eased)) {
+                    if (run.last - run.first > 1 && (verdict.at_cap || run.derated)) {
                         const std::size_t before = next_.size();
                         divide(run, verdict, next_);
                         for (std::size_t k = before; k < next_.size(); ++k) set_limits(next_[k], spans);
                         continue;
                     }
-                    if (run.eased) return false;  // the start speed is above what this span allows while braking
-                    run.eased = true;
+                    if (run.derated) return false;  // the start speed is above what this span allows while braking
+                    run.derated = true;
                     set_limits(run, spans);
                 }
             }

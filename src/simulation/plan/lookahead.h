@@ -32,7 +32,7 @@ struct ScanSegment {
 /// Spans [first, last) of a window run as one profile.
 struct SpeedRun {
     std::size_t first = 0, last = 0;
-    bool eased = false;  ///< with the tangential limits that its most bent span leaves
+    bool derated = false;  ///< with the tangential limits that its most bent span leaves
     double length = 0, acceleration = 0, jerk = 0, speed = 0;
     double start_speed = 0, end_speed = 0;
     bool checked = false;  ///< profile belongs to these speeds and holds
@@ -56,9 +56,9 @@ private:
         bool at_cap = false;   ///< it is the speed itself, with no acceleration
         std::size_t span = 0;  ///< where
     };
-    [[nodiscard]] bool plan_with(std::size_t easing, std::span<const Span> spans, double start_speed,
+    [[nodiscard]] bool plan_with(std::size_t derating, std::span<const Span> spans, double start_speed,
                                  std::span<const std::size_t> nodes);
-    [[nodiscard]] const Easing& eased(std::span<const Span> spans, std::size_t span);
+    [[nodiscard]] const Derating& derated(std::span<const Span> spans, std::size_t span);
     /// The runs between the nodes, to begin with.
     void cut(std::span<const Span> spans, std::span<const std::size_t> nodes);
     void set_limits(SpeedRun& run, std::span<const Span> spans);
@@ -68,8 +68,9 @@ private:
 
     const Machine* machine_;
     bool refined_;
-    std::size_t easing_ = 0;     ///< in force in plan_with()
-    std::vector<Easing> eased_;  ///< of the spans by that, as far as it was asked for; otherwise its cap is less than 0
+    std::size_t derating_ = 0;  ///< in force in plan_with()
+    std::vector<Derating>
+        derated_;  ///< of the spans by that, as far as it was asked for; otherwise its cap is less than 0
     std::vector<SpeedRun> runs_, next_, best_;
     std::vector<ScanSegment> segments_;
     std::vector<double> speeds_;

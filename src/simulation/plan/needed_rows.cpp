@@ -10,7 +10,7 @@ namespace {
 
 // Where a limit is broken, standing still mends it too, as J/√b grows: b may not fall to that.
 constexpr double least_coefficient = 0.2;  ///< of a coefficient, of what it began with
-// The spline holds the limits at stations; a little is left for what lies between them.
+// The spline holds the limits at samples; a little is left for what lies between them.
 constexpr double acceleration_share = 0.9995, jerk_share = 0.997;
 constexpr double lowering = 0.998;  ///< of a limit that is broken between its rows, besides
 // In from the beginning is what comes near its limit with the speeds to begin with, or could with some more speed and acceleration.
@@ -32,7 +32,7 @@ constexpr std::uint8_t jerk_bit(int axis) { return static_cast<std::uint8_t>(8U 
 
 }  // namespace
 
-/// Whether an axis may be above a part of a limit at a station of a cell where v², acceleration and jerk along the path are at most these.
+/// Whether an axis may be above a part of a limit at a sample of a cell where v², acceleration and jerk along the path are at most these.
 bool SpeedProblem::may_break(const Cell& cell, double part, double acceleration, double square, double jerk) const {
     const double speed = std::sqrt(square);
     for (int x = 0; x < 3; ++x) {
@@ -69,18 +69,18 @@ void SpeedProblem::need_likely_rows() {
         const double speed = std::min(faster * std::sqrt(b), cell.limits.cap);
         const double steep = std::max(acceleration, steeper * cell.limits.acceleration);
         if (!may_break(cell, 1, steep, speed * speed, cell.limits.jerk)) continue;
-        for (std::uint32_t s = cell.first_station; s < cell.end_station; ++s) {
-            HeldStation& held_station = stations_[s];
-            const PathSample& station = held_station.station;
+        for (std::uint32_t s = cell.first_sample; s < cell.end_sample; ++s) {
+            HeldSample& held_sample = samples_[s];
+            const PathSample& sample = held_sample.sample;
             for (int x = 0; x < 3; ++x) {
                 const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(x)];
-                const double slope = std::abs(station.slope[x]), bend = std::abs(station.bend[x]),
-                             twist = std::abs(station.twist[x]);
+                const double slope = std::abs(sample.slope[x]), bend = std::abs(sample.bend[x]),
+                             twist = std::abs(sample.twist[x]);
                 if (slope * steep + bend * speed * speed > axis.max_acceleration)
-                    held_station.needed |= acceleration_bit(x);
+                    held_sample.needed |= acceleration_bit(x);
                 if (axis.max_jerk <= 0) continue;
                 if (slope * cell.limits.jerk + speed * (3 * bend * steep + twist * speed * speed) > axis.max_jerk)
-                    held_station.needed |= jerk_bit(x);
+                    held_sample.needed |= jerk_bit(x);
             }
         }
     }
@@ -113,25 +113,25 @@ bool SpeedProblem::need_broken_rows(double part) {
         }
         if (!may_break(cell, part, 0.5 * std::max(std::abs(slope), std::abs(last_slope)), greatest, along_path))
             continue;
-        for (std::uint32_t s = cell.first_station; s < cell.end_station; ++s) {
-            HeldStation& held_station = stations_[s];
-            const PathSample& station = held_station.station;
-            const double b_here = b + station.at * (slope + 0.5 * station.at * curve);
-            const double slope_here = slope + station.at * curve;
+        for (std::uint32_t s = cell.first_sample; s < cell.end_sample; ++s) {
+            HeldSample& held_sample = samples_[s];
+            const PathSample& sample = held_sample.sample;
+            const double b_here = b + sample.at * (slope + 0.5 * sample.at * curve);
+            const double slope_here = slope + sample.at * curve;
             const double root = std::sqrt(b_here);
             std::uint8_t broken = 0;
             for (int x = 0; x < 3; ++x) {
                 const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(x)];
-                const double acceleration = std::abs(0.5 * station.slope[x] * slope_here + station.bend[x] * b_here);
+                const double acceleration = std::abs(0.5 * sample.slope[x] * slope_here + sample.bend[x] * b_here);
                 if (acceleration > part * axis.max_acceleration) broken |= acceleration_bit(x);
                 if (axis.max_jerk <= 0) continue;
-                const double jerk = std::abs(0.5 * station.slope[x] * curve + 1.5 * station.bend[x] * slope_here +
-                                             station.twist[x] * b_here) *
+                const double jerk = std::abs(0.5 * sample.slope[x] * curve + 1.5 * sample.bend[x] * slope_here +
+                                             sample.twist[x] * b_here) *
                                     root;
                 if (jerk > part * axis.max_jerk) broken |= jerk_bit(x);
             }
-            any = any || (broken & ~held_station.needed) != 0;
-            held_station.needed |= broken;
+            any = any || (broken & ~held_sample.needed) != 0;
+            held_sample.needed |= broken;
         }
     }
     return any;
@@ -177,25 +177,24 @@ void SpeedProblem::make_rows() {
             if (cell.jerk[k])
                 add_jerk(3 + k, Row::tangential_jerk, i, sum(0.5, along[k].curve, 0, along[k].curve), along[k].b, jerk);
         }
-        for (std::uint32_t s = cell.first_station; s < cell.end_station; ++s) {
-            if (stations_[s].needed == 0) continue;
-            const PathSample& station = stations_[s].station;
-            const Weights w = weights_at(i, station.at);
+        for (std::uint32_t s = cell.first_sample; s < cell.end_sample; ++s) {
+            if (samples_[s].needed == 0) continue;
+            const PathSample& sample = samples_[s].sample;
+            const Weights w = weights_at(i, sample.at);
             for (int x = 0; x < 3; ++x) {
                 const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(x)];
-                const std::uint32_t number = 6 + 6 * (s - cell.first_station) + 2 * static_cast<std::uint32_t>(x);
-                if ((stations_[s].needed & acceleration_bit(x)) != 0) {
-                    add_row(number, Row::axis_acceleration, i,
-                            sum(0.5 * station.slope[x], w.slope, station.bend[x], w.b),
+                const std::uint32_t number = 6 + 6 * (s - cell.first_sample) + 2 * static_cast<std::uint32_t>(x);
+                if ((samples_[s].needed & acceleration_bit(x)) != 0) {
+                    add_row(number, Row::axis_acceleration, i, sum(0.5 * sample.slope[x], w.slope, sample.bend[x], w.b),
                             acceleration_share * axis.max_acceleration);
                 }
-                if ((stations_[s].needed & jerk_bit(x)) != 0) {
+                if ((samples_[s].needed & jerk_bit(x)) != 0) {
                     const double limit = jerk_share * axis.max_jerk;
                     const double steady =
-                        std::abs(station.twist[x]) * cell.limits.cap * cell.limits.cap * cell.limits.cap;
-                    const Three moving = sum(1.5 * station.bend[x], w.slope, station.twist[x], w.b);
+                        std::abs(sample.twist[x]) * cell.limits.cap * cell.limits.cap * cell.limits.cap;
+                    const Three moving = sum(1.5 * sample.bend[x], w.slope, sample.twist[x], w.b);
                     add_jerk(number + 1, steady > 0.5 * limit ? Row::corner_jerk : Row::axis_jerk, i,
-                             sum(0.5 * station.slope[x], w.curve, 1, moving), w.b, limit);
+                             sum(0.5 * sample.slope[x], w.curve, 1, moving), w.b, limit);
                 }
             }
         }

@@ -15,7 +15,7 @@ constexpr double rest_share = 0.25;  ///< of the jerk phase next to a rest: run 
 constexpr double growth = 0.15;      ///< of the time from or to a rest: longest cell
 constexpr double cells_a_ramp = 5;   ///< over the time in which the jerk reaches the greatest acceleration
 constexpr double most_change = 0.05;  ///< of the speed in a cell, by the jerk
-// Spans share a cell until it lasts as long as that, and their stations hold the limits of each: a part of the
+// Spans share a cell until it lasts as long as that, and their samples hold the limits of each: a part of the
 // same time, as in less of it a speed hardly changes.
 constexpr double least_cells_a_ramp = 13, least_periods = 0.4, most_periods = 3;
 // The places where a part of a span is held, by the periods that it lasts: two, three, five, nine.
@@ -26,13 +26,13 @@ constexpr int most_shortenings = 2;
 constexpr std::size_t fewest_cells = 8;
 constexpr double long_cruise = 20, cruise_left = 4;  ///< cells
 
-Ruling ruling_of(Row row, Ruling at_cap) {
+LimitingFactor limiting_of(Row row, LimitingFactor at_cap) {
     switch (row) {
         case Row::cap: return at_cap;
         case Row::tangential_acceleration:
-        case Row::axis_acceleration: return Ruling::axis_acceleration;
-        case Row::corner_jerk: return Ruling::corner_tolerance;
-        default: return Ruling::jerk;
+        case Row::axis_acceleration: return LimitingFactor::axis_acceleration;
+        case Row::corner_jerk: return LimitingFactor::corner_tolerance;
+        default: return LimitingFactor::jerk;
     }
 }
 
@@ -58,7 +58,8 @@ bool Refiner::cruises_at_the_cap(const KeptRun& run) const {
     if (profile.durations()[3] < long_cruise * knot_time_) return false;
     double begin = 0;
     for (const Span& span : run.spans) {
-        const bool cruised = begin < profile.start_of(4).way && begin + span.length > profile.start_of(3).way;
+        const bool cruised =
+            begin < profile.start_of(4).arc_length && begin + span.length > profile.start_of(3).arc_length;
         if (cruised && span.free_cap > profile.peak_speed() * (1 + 1e-9)) return false;
         begin += span.length;
     }
@@ -67,7 +68,7 @@ bool Refiner::cruises_at_the_cap(const KeptRun& run) const {
 
 void Refiner::push(const SpeedRun& run, std::span<const Span> spans) {
     runs_.push_back(
-        {run.profile, {spans.begin(), spans.end()}, run.eased, true, run.start_speed == 0, run.end_speed == 0});
+        {run.profile, {spans.begin(), spans.end()}, run.derated, true, run.start_speed == 0, run.end_speed == 0});
     KeptRun& kept_run = runs_.back();
     for (const Span& span : spans) kept_run.plain = kept_run.plain && span.straight();
     const std::int64_t number = first_run_ + static_cast<std::int64_t>(runs_.size()) - 1;
@@ -89,15 +90,15 @@ void Refiner::push(const SpeedRun& run, std::span<const Span> spans) {
     forget_runs();
 }
 
-void Refiner::run_as_planned(const Stretch& stretch) {
-    const KeptRun& run = kept(stretch.run);
-    interpolator_->run(ProfileStretch{&run.profile, stretch.from, stretch.to, run.spans, run.to_rest, run.eased});
+void Refiner::run_as_planned(const Section& section) {
+    const KeptRun& run = kept(section.run);
+    interpolator_->run(ProfileSegment{&run.profile, section.from, section.to, run.spans, run.to_rest, run.derated});
 }
 
-void Refiner::add(const Stretch& stretch) {
-    if (!(stretch.to > stretch.from)) return;
-    waiting_.push_back(stretch);
-    ends_at_rest_ = kept(stretch.run).to_rest && stretch.to == kept(stretch.run).profile.duration();
+void Refiner::add(const Section& section) {
+    if (!(section.to > section.from)) return;
+    waiting_.push_back(section);
+    ends_at_rest_ = kept(section.run).to_rest && section.to == kept(section.run).profile.duration();
     if (waiting_.size() == 1 && cells_.empty()) {  // it may stand alone
         divided_ = false;
         return;
@@ -106,43 +107,43 @@ void Refiner::add(const Stretch& stretch) {
     divided_ = true;
     divide(waiting_.back());
     const bool full = cells_.size() >= most_cells_of_window ||
-                      (!cells_.empty() && kept(stretch.run).spans.back().base.block - cells_.front().block >= blocks_);
+                      (!cells_.empty() && kept(section.run).spans.back().base.block - cells_.front().block >= blocks_);
     if (full && !ends_at_rest_) solve(false);
 }
 
 /// Into cells; what lies next to a rest is run as planned.
-void Refiner::divide(Stretch& stretch) {
-    const KeptRun& run = kept(stretch.run);
+void Refiner::divide(Section& section) {
+    const KeptRun& run = kept(section.run);
     const SCurve& profile = run.profile;
-    if (run.from_rest && stretch.from == 0) {
-        Stretch first = stretch;
-        first.to = std::min(rest_share * profile.durations()[0], stretch.to);
+    if (run.from_rest && section.from == 0) {
+        Section first = section;
+        first.to = std::min(rest_share * profile.durations()[0], section.to);
         run_as_planned(first);
-        stretch.from = first.to;
+        section.from = first.to;
     }
-    if (run.to_rest && stretch.to == profile.duration()) {
-        tail_ = stretch;
-        tail_.from = std::max(profile.duration() - rest_share * profile.durations()[6], stretch.from);
-        stretch.to = tail_.from;
+    if (run.to_rest && section.to == profile.duration()) {
+        tail_ = section;
+        tail_.from = std::max(profile.duration() - rest_share * profile.durations()[6], section.from);
+        section.to = tail_.from;
     }
-    if (cells_.empty() && open_.length == 0) start_ = end_ = state_at(profile, stretch.from);
-    add_cells(stretch);
+    if (cells_.empty() && open_.length == 0) start_ = end_ = state_at(profile, section.from);
+    add_cells(section);
 }
 
-void Refiner::add_cells(const Stretch& stretch) {
-    const KeptRun& run = kept(stretch.run);
+void Refiner::add_cells(const Section& section) {
+    const KeptRun& run = kept(section.run);
     const SCurve& profile = run.profile;
-    const double way_from = profile.at(stretch.from).way;
-    const double way_to = profile.at(stretch.to).way;
+    const double arc_length_from = profile.at(section.from).arc_length;
+    const double arc_length_to = profile.at(section.to).arc_length;
     double begin = 0;
-    double time = stretch.from;
-    for (std::size_t k = 0; k < run.spans.size() && begin < way_to; ++k) {
+    double time = section.from;
+    for (std::size_t k = 0; k < run.spans.size() && begin < arc_length_to; ++k) {
         const Span& span = run.spans[k];
         const double end = k + 1 < run.spans.size() ? begin + span.length : profile.length();
-        double way = std::max(begin, way_from);
-        const double last = std::min(end, way_to);
-        const double last_time = last == way_to ? stretch.to : profile.time_at(last);
-        while (way < last) {
+        double arc_length = std::max(begin, arc_length_from);
+        const double last = std::min(end, arc_length_to);
+        const double last_time = last == arc_length_to ? section.to : profile.time_at(last);
+        while (arc_length < last) {
             const double speed = std::max(profile.at(time).speed, 0.0);
             double step = std::clamp(std::sqrt(2 * most_change * speed / machine_->path.max_jerk),
                                      machine_->controller.period, knot_time_);
@@ -151,20 +152,20 @@ void Refiner::add_cells(const Stretch& stretch) {
             const bool ends = last_time - time < 1.5 * step;
             const double next_time = ends ? last_time : time + step;
             const MotionState next = profile.at(next_time);
-            const double next_way = ends ? last : std::min(next.way, last);
+            const double next_arc_length = ends ? last : std::min(next.arc_length, last);
             if (open_.length == 0) {
                 open_.parts = 0;
-                open_.run = stretch.run;
+                open_.run = section.run;
                 open_.block = span.base.block;
             }
-            parts_.push_back({&span, way - begin, next_way - way});
+            parts_.push_back({&span, arc_length - begin, next_arc_length - arc_length});
             ++open_.parts;
-            open_.length += next_way - way;
+            open_.length += next_arc_length - arc_length;
             open_.end = {next.speed, next.acceleration};
-            open_.end_run = stretch.run;
+            open_.end_run = section.run;
             open_.end_time = next_time;
             if (open_.length >= least_time_ * std::max(next.speed, end_.speed)) close_cell();
-            way = next_way;
+            arc_length = next_arc_length;
             time = next_time;
         }
         begin = end;
@@ -173,10 +174,10 @@ void Refiner::add_cells(const Stretch& stretch) {
 
 void Refiner::close_cell() {
     if (open_.length == 0) return;
-    open_.at_cap = Ruling::none;
+    open_.at_cap = LimitingFactor::none;
     CellLimits limits{std::numeric_limits<double>::infinity(), machine_->path.max_acceleration,
                       machine_->path.max_jerk};
-    stations_.clear();
+    samples_.clear();
     double begin = 0;
     for (std::size_t k = parts_.size() - open_.parts; k < parts_.size(); ++k) {
         const CellPart& part = parts_[k];
@@ -184,19 +185,19 @@ void Refiner::close_cell() {
         begin += part.length;
     }
     problem_.add_cell(open_.length, SpeedProblem::value_between(open_.length, end_, open_.end), limits);
-    for (const PathSample& station : stations_) problem_.add_station(station);
+    for (const PathSample& sample : samples_) problem_.add_sample(sample);
     cells_.push_back(open_);
     end_ = open_.end;
     open_ = {};
 }
 
-/// What a part of the open cell, `begin` after its begin, leaves of the limits; where it is bent, its stations.
+/// What a part of the open cell, `begin` after its begin, leaves of the limits; where it is bent, its samples.
 void Refiner::add_part(const CellPart& part, double begin, CellLimits& limits) {
     const Span& span = *part.span;
-    const auto cap = [&](double speed, Ruling why) {
+    const auto cap = [&](double speed, LimitingFactor why) {
         if (speed < limits.cap) limits.cap = speed, open_.at_cap = why;
     };
-    cap(span.free_cap, span.free_ruling);
+    cap(span.free_cap, span.free_limiting);
     if (span.straight()) {
         limits.acceleration = std::min(limits.acceleration, span.acceleration);
         limits.jerk = std::min(limits.jerk, span.jerk);
@@ -204,23 +205,23 @@ void Refiner::add_part(const CellPart& part, double begin, CellLimits& limits) {
     }
     const double periods = part.length / (machine_->controller.period * std::max(end_.speed, open_.end.speed));
     const int pieces = periods < briefest ? 1 : periods < brief ? 2 : periods < middling ? 4 : 8;
-    PathSample station;
+    PathSample sample;
     double curvature = 0;
     for (int k = 0; k <= pieces; ++k) {
-        const double way = part.length * k / pieces;
-        const PathDerivatives d = span.derivatives(part.from + way);
-        station.at = begin + way;
-        station.slope = d.first;
-        station.bend = d.second;
-        station.twist = d.third;
+        const double arc_length = part.length * k / pieces;
+        const PathDerivatives d = span.derivatives(part.from + arc_length);
+        sample.at = begin + arc_length;
+        sample.slope = d.first;
+        sample.bend = d.second;
+        sample.twist = d.third;
         curvature = std::max(curvature, d.second.squaredNorm());
-        stations_.push_back(station);
+        samples_.push_back(sample);
     }
     if (curvature > 0) {
         const double radius = 1 / std::sqrt(curvature);
-        cap(arc_speed(radius, machine_->path.max_normal_acceleration), Ruling::axis_acceleration);
+        cap(arc_speed(radius, machine_->path.max_normal_acceleration), LimitingFactor::axis_acceleration);
         cap(chord_speed(radius, machine_->controller.chord_tolerance, machine_->controller.period),
-            Ruling::chord_error);
+            LimitingFactor::chord_error);
     }
 }
 
@@ -251,7 +252,7 @@ void Refiner::solve(bool to_the_end) {
     cells_.resize(solved_);
     if (solved_ > 0) end_ = state_at(kept(waiting_.front().run).profile, waiting_.front().from);
     run_cells(solved_, false);
-    for (const Stretch& stretch : waiting_) run_as_planned(stretch);
+    for (const Section& section : waiting_) run_as_planned(section);
     waiting_.clear();
     parts_.clear();
     problem_.clear();
@@ -280,11 +281,11 @@ bool Refiner::solve_in_part() {
     return false;
 }
 
-/// The waiting stretches behind a cell are divided anew.
+/// The waiting sections behind a cell are divided anew.
 void Refiner::wait_from(const Cell& cell) {
     while (waiting_.front().run != cell.end_run) waiting_.erase(waiting_.begin());
     waiting_.front().from = cell.end_time;
-    for (const Stretch& stretch : waiting_) add_cells(stretch);
+    for (const Section& section : waiting_) add_cells(section);
 }
 
 void Refiner::run_cells(std::size_t count, bool to_rest) {
@@ -308,8 +309,9 @@ void Refiner::run_cells(std::size_t count, bool to_rest) {
     while (to_rest && braking > 0 && motions[braking - 1].acceleration < 0) --braking;
     std::size_t part = 0;
     for (std::size_t i = 0; i < count; ++i) {
-        const Ruling ruling = i >= braking ? Ruling::lookahead_end : ruling_of(problem_.ruling(i), cells_[i].at_cap);
-        interpolator_->run(motions[i], std::span(parts_).subspan(part, cells_[i].parts), ruling);
+        const LimitingFactor limiting =
+            i >= braking ? LimitingFactor::lookahead_end : limiting_of(problem_.limiting(i), cells_[i].at_cap);
+        interpolator_->run(motions[i], std::span(parts_).subspan(part, cells_[i].parts), limiting);
         part += cells_[i].parts;
     }
     cells_.erase(cells_.begin(), cells_.begin() + static_cast<std::ptrdiff_t>(count));
@@ -320,7 +322,7 @@ void Refiner::run_cells(std::size_t count, bool to_rest) {
 
 void Refiner::close() {
     const bool alone = !divided_ && waiting_.size() == 1 && cells_.empty();
-    if (alone && kept(waiting_.front().run).plain && !kept(waiting_.front().run).eased) {
+    if (alone && kept(waiting_.front().run).plain && !kept(waiting_.front().run).derated) {
         run_as_planned(waiting_.front());
         waiting_.clear();
         return;

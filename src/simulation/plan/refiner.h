@@ -29,11 +29,11 @@ private:
     struct KeptRun {
         SCurve profile;
         std::vector<Span> spans;
-        bool eased = false, plain = true;
+        bool derated = false, plain = true;
         bool from_rest = false, to_rest = false;
     };
     /// A part of a run, by time on its profile [s].
-    struct Stretch {
+    struct Section {
         std::int64_t run = 0;
         double from = 0, to = 0;
     };
@@ -42,7 +42,7 @@ private:
         std::size_t parts = 0;  ///< how many
         std::int64_t run = 0;   ///< that it begins on
         std::int64_t block = 0;
-        Ruling at_cap = Ruling::feed;
+        LimitingFactor at_cap = LimitingFactor::feed;
         // Where it ends in the plan.
         KnotState end;
         std::int64_t end_run = 0;
@@ -53,10 +53,10 @@ private:
         return runs_[static_cast<std::size_t>(run - first_run_)];
     }
     [[nodiscard]] bool cruises_at_the_cap(const KeptRun& run) const;
-    void run_as_planned(const Stretch& stretch);
-    void add(const Stretch& stretch);
-    void divide(Stretch& stretch);
-    void add_cells(const Stretch& stretch);
+    void run_as_planned(const Section& section);
+    void add(const Section& section);
+    void divide(Section& section);
+    void add_cells(const Section& section);
     void close_cell();
     void add_part(const CellPart& part, double begin, CellLimits& limits);
     void solve(bool to_the_end);
@@ -73,18 +73,18 @@ private:
 
     std::deque<KeptRun> runs_;
     std::int64_t first_run_ = 0;
-    std::vector<Stretch> waiting_;  ///< since the window was last solved
-    bool divided_ = false;          ///< the waiting stretches are in cells
+    std::vector<Section> waiting_;  ///< since the window was last solved
+    bool divided_ = false;          ///< the waiting sections are in cells
     bool ends_at_rest_ = false;
-    Stretch tail_;  ///< the last way to rest
+    Section tail_;  ///< the last way to rest
 
     std::vector<Cell> cells_;
     std::vector<CellPart> parts_;  ///< of the cells in turn, then of the one being made
     std::size_t solved_ = 0;       ///< first cells, whose values hold the limits
     SpeedProblem problem_;
-    KnotState start_, end_;             ///< of the cells
-    Cell open_;                         ///< the cell being made
-    std::vector<PathSample> stations_;  ///< of the cell being made
+    KnotState start_, end_;            ///< of the cells
+    Cell open_;                        ///< the cell being made
+    std::vector<PathSample> samples_;  ///< of the cell being made
 };
 
 }  // namespace clsurf

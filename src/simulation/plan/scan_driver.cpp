@@ -54,7 +54,7 @@ bool ScanDriver::gentle(const Span& span) const {
 void ScanDriver::divide(const Span& span) {
     if (gentle(span)) {
         scan_.add_cell(span.length, span.free_cap, span.acceleration);
-        cells_.push_back({&span, 0, span.free_ruling});
+        cells_.push_back({&span, 0, span.free_limiting});
         return;
     }
     // From rest to rest there is no way in a single cell.
@@ -81,7 +81,7 @@ void ScanDriver::divide(const Span& span) {
         places_[0] = places_[parts];
         for (std::size_t p = 1; p <= parts; ++p)
             places_[p] = span.derivatives(length * k + part * static_cast<double>(p));
-        add_cell({&span, length * k, span.free_ruling}, length, limits);
+        add_cell({&span, length * k, span.free_limiting}, length, limits);
     }
 }
 
@@ -89,16 +89,16 @@ void ScanDriver::divide(const Span& span) {
 void ScanDriver::add_cell(Cell cell, double length, const Vec3& accelerations) {
     const PathLimits& path = machine_->path;
     double cap = cell.span->free_cap;
-    const auto limit = [&](double speed, Ruling why) {
+    const auto limit = [&](double speed, LimitingFactor why) {
         if (speed < cap) cap = speed, cell.at_cap = why;
     };
     double bend = 0;
     for (const PathDerivatives& place : places_) bend = std::max(bend, place.second.squaredNorm());
     if (bend > 0) {
         const double radius = 1 / std::sqrt(bend);
-        limit(arc_speed(radius, path.max_normal_acceleration), Ruling::axis_acceleration);
+        limit(arc_speed(radius, path.max_normal_acceleration), LimitingFactor::axis_acceleration);
         limit(chord_speed(radius, machine_->controller.chord_tolerance, machine_->controller.period),
-              Ruling::chord_error);
+              LimitingFactor::chord_error);
     }
     cells_.push_back(cell);
     scan_.add_cell(length, cap, path.max_acceleration);
@@ -143,12 +143,13 @@ void ScanDriver::run(std::size_t count) {
         scan_.motions(i, motions_);
         double from = cell.from;
         for (const CellMotion& motion : motions_) {
-            const bool last_way = i >= braking || (i + 1 == braking && motion.acceleration < 0);
-            const Ruling ruling = scan_.at_cap(i, motion)               ? cell.at_cap
-                                  : last_way && motion.acceleration < 0 ? Ruling::lookahead_end
-                                                                        : Ruling::axis_acceleration;
+            const bool last_arc_length = i >= braking || (i + 1 == braking && motion.acceleration < 0);
+            const LimitingFactor limiting = scan_.at_cap(i, motion) ? cell.at_cap
+                                            : last_arc_length && motion.acceleration < 0
+                                                ? LimitingFactor::lookahead_end
+                                                : LimitingFactor::axis_acceleration;
             const CellPart part{cell.span, from, motion.length};
-            interpolator_->run(motion, {&part, 1}, ruling);
+            interpolator_->run(motion, {&part, 1}, limiting);
             from += motion.length;
         }
     }

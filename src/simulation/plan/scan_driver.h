@@ -32,7 +32,7 @@ private:
     struct Cell {
         const Span* span = nullptr;
         double from = 0;  ///< on the span [mm]
-        Ruling at_cap = Ruling::none;
+        LimitingFactor at_cap = LimitingFactor::none;
     };
 
     [[nodiscard]] bool take_span();

@@ -14,7 +14,7 @@ namespace {
 // carry rounding relative to the way.
 constexpr double relative_play = 1e-9;
 constexpr double absolute_play = 1e-12;  ///< [mm]
-constexpr double speed_play = 4 * std::numeric_limits<double>::epsilon();
+constexpr double speed_tolerance = 4 * std::numeric_limits<double>::epsilon();
 
 constexpr std::array<double, 7> jerk_signs{1, 0, -1, 0, -1, 0, 1};
 
@@ -28,24 +28,25 @@ Ramp ramp_of(double difference, double acceleration, double jerk) {
 }
 
 MotionState advance(const MotionState& from, double t, double jerk) {
-    return {from.way + t * (from.speed + t * (0.5 * from.acceleration + t * jerk / 6)),
+    return {from.arc_length + t * (from.speed + t * (0.5 * from.acceleration + t * jerk / 6)),
             from.speed + t * (from.acceleration + 0.5 * t * jerk), from.acceleration + t * jerk};
 }
 
-/// The peak speed v ≥ both ends for which the two ramps take the whole way: rises strictly there.
-double peak_speed(double way, double vs, double ve, const RampLimits& limits) {
+/// The peak speed v ≥ both ends for which the two ramps take the whole arc length: rises strictly there.
+double peak_speed(double arc_length, double vs, double ve, const RampLimits& limits) {
     const auto excess = [&](double v) {
         return ramp_distance(vs, v, limits.acceleration, limits.jerk) +
-               ramp_distance(v, ve, limits.deceleration, limits.jerk) - way;
+               ramp_distance(v, ve, limits.deceleration, limits.jerk) - arc_length;
     };
     double low = std::max(vs, ve);
     double high = limits.speed;
-    if (!std::isfinite(high)) high = reach(low, way, std::max(limits.acceleration, limits.deceleration), limits.jerk);
+    if (!std::isfinite(high))
+        high = reach(low, arc_length, std::max(limits.acceleration, limits.deceleration), limits.jerk);
     const double at_low = excess(low);
     const double at_high = excess(high);
     if (at_low >= 0) return low;
     if (at_high <= 0) return high;
-    return root_between(low, at_low, high, at_high, 1e-15, 1e-15 * way, excess);
+    return root_between(low, at_low, high, at_high, 1e-15, 1e-15 * arc_length, excess);
 }
 
 }  // namespace
@@ -59,10 +60,10 @@ double ramp_distance(double v0, double v1, double acceleration, double jerk) {
     return 0.5 * (v0 + v1) * ramp_time(std::abs(v1 - v0), acceleration, jerk);
 }
 
-double reach(double v0, double way, double acceleration, double jerk) {
-    if (way <= 0) return v0;
+double reach(double v0, double arc_length, double acceleration, double jerk) {
+    if (arc_length <= 0) return v0;
     const double p = 2 * v0 / jerk;
-    const double q = way / jerk;
+    const double q = arc_length / jerk;
     double t = 0;
     // Below this p³ is lost beside q²: the cubic is then t³ = q.
     if (p * p * p < 1e-30 * q * q) {
@@ -73,7 +74,7 @@ double reach(double v0, double way, double acceleration, double jerk) {
     }
     if (jerk * t <= acceleration) return v0 + jerk * t * t;
     const double h = acceleration * acceleration / (2 * jerk);
-    return -h + std::sqrt((h - v0) * (h - v0) + 2 * acceleration * way);
+    return -h + std::sqrt((h - v0) * (h - v0) + 2 * acceleration * arc_length);
 }
 
 SCurve::SCurve(double start_speed, double jerk, const std::array<double, 7>& durations)
@@ -87,7 +88,7 @@ SCurve::SCurve(double start_speed, double jerk, const std::array<double, 7>& dur
         time += durations[i];
         ends_[i] = time;
     }
-    length_ = state.way;
+    length_ = state.arc_length;
     end_speed_ = state.speed;
 }
 
@@ -108,16 +109,16 @@ MotionState SCurve::at(double t) const {
     return in_phase(phase, std::max(t, 0.0));
 }
 
-double SCurve::time_at(double way) const {
-    if (way <= 0) return 0;
-    if (way >= length_) return duration();
+double SCurve::time_at(double arc_length) const {
+    if (arc_length <= 0) return 0;
+    if (arc_length >= length_) return duration();
     std::size_t phase = 0;
-    while (phase < 6 && way >= starts_[phase + 1].way) ++phase;
+    while (phase < 6 && arc_length >= starts_[phase + 1].arc_length) ++phase;
     const MotionState& start = starts_[phase];
     const double begin = ends_[phase] - durations_[phase];
     const double jerk = jerk_signs[phase] * jerk_;
     // With the acceleration that the phase begins with: exact where there is no jerk.
-    const double left = way - start.way;
+    const double left = arc_length - start.arc_length;
     double t =
         2 * left / (start.speed + std::sqrt(std::max(0.0, start.speed * start.speed + 2 * start.acceleration * left)));
     if (jerk == 0) return begin + std::min(t, durations_[phase]);
@@ -126,7 +127,7 @@ double SCurve::time_at(double way) const {
     if (!(t < high)) t = 0.5 * high;
     for (int i = 0; i < 100 && high - low > 1e-15 * ends_[6]; ++i) {
         const MotionState s = advance(start, t, jerk);
-        const double excess = s.way - way;
+        const double excess = s.arc_length - arc_length;
         if (std::abs(excess) <= 1e-14 * length_) break;
         (excess < 0 ? low : high) = t;
         const double next =
@@ -136,41 +137,41 @@ double SCurve::time_at(double way) const {
     return begin + t;
 }
 
-PlannedProfile plan_scurve(double way, double start_speed, double end_speed, const RampLimits& limits) {
+PlannedProfile plan_scurve(double arc_length, double start_speed, double end_speed, const RampLimits& limits) {
     PlannedProfile plan;
     const double vs = start_speed;
     double ve = end_speed;
     const double towards = ve > vs ? limits.acceleration : limits.deceleration;
-    plan.needed_way = ramp_distance(vs, ve, towards, limits.jerk);
+    plan.needed_arc_length = ramp_distance(vs, ve, towards, limits.jerk);
     // A difference of speeds carries their rounding: on a way so short that it is no more than that, the ramp fits.
-    const double rounding = speed_play * std::max(vs, ve);
-    const double least_way =
+    const double rounding = speed_tolerance * std::max(vs, ve);
+    const double least_arc_length =
         0.5 * (vs + ve) * ramp_time(std::max(0.0, std::abs(ve - vs) - rounding), towards, limits.jerk);
-    if (least_way > way * (1 + relative_play) + absolute_play) {
+    if (least_arc_length > arc_length * (1 + relative_play) + absolute_play) {
         if (ve < vs) {
             plan.status = ProfileStatus::infeasible_decel;
-            plan.allowed_start = reach(ve, way, limits.deceleration, limits.jerk);
+            plan.allowed_start = reach(ve, arc_length, limits.deceleration, limits.jerk);
             return plan;
         }
         plan.status = ProfileStatus::end_speed_lowered;
-        ve = std::min(reach(vs, way, limits.acceleration, limits.jerk), limits.speed);
+        ve = std::min(reach(vs, arc_length, limits.acceleration, limits.jerk), limits.speed);
     }
     const double at_limit = std::isfinite(limits.speed)
                                 ? ramp_distance(vs, limits.speed, limits.acceleration, limits.jerk) +
                                       ramp_distance(limits.speed, ve, limits.deceleration, limits.jerk)
-                                : way + 1;
+                                : arc_length + 1;
     double peak = limits.speed;
     double cruise = 0;
-    if (at_limit <= way)
-        cruise = way > at_limit ? (way - at_limit) / limits.speed : 0.0;
+    if (at_limit <= arc_length)
+        cruise = arc_length > at_limit ? (arc_length - at_limit) / limits.speed : 0.0;
     else
-        peak = peak_speed(way, vs, ve, limits);
+        peak = peak_speed(arc_length, vs, ve, limits);
     const Ramp up = ramp_of(peak - vs, limits.acceleration, limits.jerk);
     const Ramp down = ramp_of(peak - ve, limits.deceleration, limits.jerk);
     plan.profile = SCurve(
         vs, limits.jerk,
         {up.jerk_part, up.constant_part, up.jerk_part, cruise, down.jerk_part, down.constant_part, down.jerk_part});
-    plan.profile.pin_end(way, ve);
+    plan.profile.pin_end(arc_length, ve);
     return plan;
 }
 
@@ -188,7 +189,7 @@ RunningRamp ramp_from_state(double v0, double a0, double v1, double acceleration
     ramp.jerks = {sign * jerk, 0.0, -sign * jerk};
     MotionState state{0, v0, a0};
     for (std::size_t i = 0; i < 3; ++i) state = advance(state, ramp.durations[i], ramp.jerks[i]);
-    ramp.way = state.way;
+    ramp.arc_length = state.arc_length;
     return ramp;
 }
 

@@ -9,12 +9,12 @@ namespace clsurf {
 
 /// Duration of a ramp over a speed difference |v1 − v0| [s].
 [[nodiscard]] double ramp_time(double difference, double acceleration, double jerk);
-/// Way of a ramp from v0 to v1 [mm]: point-symmetric, therefore mean speed times duration.
+/// Arc length of a ramp from v0 to v1 [mm]: point-symmetric, therefore mean speed times duration.
 [[nodiscard]] double ramp_distance(double v0, double v1, double acceleration, double jerk);
 /// The greatest speed that a ramp from v0 reaches over a way; by time reversal also the greatest
 /// from which v0 is reached by braking. Closed form: T³ + (2 v0/j) T = L/j by the hyperbolic sine,
 /// which does not cancel for large v0 as Cardano's form does.
-[[nodiscard]] double reach(double v0, double way, double acceleration, double jerk);
+[[nodiscard]] double reach(double v0, double arc_length, double acceleration, double jerk);
 
 /// What holds along a profile.
 struct RampLimits {
@@ -25,7 +25,7 @@ struct RampLimits {
 };
 
 struct MotionState {
-    double way = 0, speed = 0, acceleration = 0;
+    double arc_length = 0, speed = 0, acceleration = 0;
 };
 
 enum class ProfileStatus : unsigned char {
@@ -56,7 +56,7 @@ public:
     /// State at t; from the end on exactly (length, end speed, 0).
     [[nodiscard]] MotionState at(double t) const;
     /// When a way is reached [s]; way in 0 … length. Closed without jerk, otherwise by Halley's method, kept in a bracket.
-    [[nodiscard]] double time_at(double way) const;
+    [[nodiscard]] double time_at(double arc_length) const;
 
     /// Sets length and end speed to what they are meant to be, free of the phases' rounding.
     void pin_end(double length, double end_speed);
@@ -69,19 +69,20 @@ private:
 
 struct PlannedProfile {
     ProfileStatus status = ProfileStatus::ok;
-    SCurve profile;            ///< empty when infeasible
-    double needed_way = 0;     ///< of the ramp between the end speeds [mm]
-    double allowed_start = 0;  ///< infeasible_decel: the greatest start speed that works [mm/s]
+    SCurve profile;                ///< empty when infeasible
+    double needed_arc_length = 0;  ///< of the ramp between the end speeds [mm]
+    double allowed_start = 0;      ///< infeasible_decel: the greatest start speed that works [mm/s]
 };
 
-/// The fastest profile over `way` from start to end speed, both at most limits.speed.
-[[nodiscard]] PlannedProfile plan_scurve(double way, double start_speed, double end_speed, const RampLimits& limits);
+/// The fastest profile over `arc_length` from start to end speed, both at most limits.speed.
+[[nodiscard]] PlannedProfile plan_scurve(double arc_length, double start_speed, double end_speed,
+                                         const RampLimits& limits);
 
 /// Shortest ramp from a running state (v0, a0) to (v1, 0): three phases of jerk.
 struct RunningRamp {
     std::array<double, 3> durations{}, jerks{};
     [[nodiscard]] double time() const { return durations[0] + durations[1] + durations[2]; }
-    double way = 0;  ///< [mm]
+    double arc_length = 0;  ///< [mm]
 };
 [[nodiscard]] RunningRamp ramp_from_state(double v0, double a0, double v1, double acceleration, double jerk);
 

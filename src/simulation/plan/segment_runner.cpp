@@ -138,19 +138,21 @@ void SegmentRunner::run_whole(BlendSegment& segment, BlendSegment* next) {
     overlap_speed_ = next->speed;
 }
 
-Ruling SegmentRunner::ruling_of(const BlendSegment& segment) const {
-    if (segment.speed < no_speed) return Ruling::none;
+LimitingFactor SegmentRunner::limiting_of(const BlendSegment& segment) const {
+    if (segment.speed < no_speed) return LimitingFactor::none;
     constexpr double same = 1 - 1e-6;
     const double target = queue_->target_speed(segment);
     if (segment.speed < target * same) {
         const bool to_rest = segment.braking && !(segment.end == SegmentEnd::tangent);
-        return to_rest ? Ruling::lookahead_end : Ruling::axis_acceleration;
+        return to_rest ? LimitingFactor::lookahead_end : LimitingFactor::axis_acceleration;
     }
     const double factor = segment.rapid ? 1 : machine_->controller.feed_override;
     if (target >= segment.feed * std::min(factor, 1.0) * same)
-        return segment.rapid ? Ruling::axis_speed : factor != 1 ? Ruling::feed_override : Ruling::feed;
-    if (target * period_ * 1.05 >= segment.length) return Ruling::block_time;
-    return segment.curved() ? Ruling::axis_acceleration : Ruling::axis_speed;
+        return segment.rapid ? LimitingFactor::axis_speed
+               : factor != 1 ? LimitingFactor::feed_override
+                             : LimitingFactor::feed;
+    if (target * period_ * 1.05 >= segment.length) return LimitingFactor::block_time;
+    return segment.curved() ? LimitingFactor::axis_acceleration : LimitingFactor::axis_speed;
 }
 
 /// How far a point of an arc between blocks is from the nearer one of them.
@@ -188,7 +190,7 @@ bool SegmentRunner::run(PlannedPoint& point) {
     point.speed = last.speed + (ends ? 0 : overlap_speed_);
     const BlendSegment& shown = reported(segment, next, ends);
     point.line = shown.path.line;
-    point.ruling = ruling_of(shown);
+    point.limiting = limiting_of(shown);
     point.deviation = deviation_of(shown);
     if (segment.done) queue_->pop_front();
     return true;

@@ -13,7 +13,7 @@ struct PlannedPoint {
     double speed = 0;              ///< [mm/s]
     double deviation = 0;          ///< from the programmed path [mm]
     LineNumber line = 0;
-    Ruling ruling = Ruling::none;
+    LimitingFactor limiting = LimitingFactor::none;
 };
 
 class SegmentRunner {
@@ -41,7 +41,7 @@ private:
     void finish(BlendSegment& segment, BlendSegment* next);
     void run_whole(BlendSegment& segment, BlendSegment* next);
     [[nodiscard]] const BlendSegment& reported(const BlendSegment& segment, const BlendSegment* next, bool ended) const;
-    [[nodiscard]] Ruling ruling_of(const BlendSegment& segment) const;
+    [[nodiscard]] LimitingFactor limiting_of(const BlendSegment& segment) const;
     [[nodiscard]] double deviation_of(const BlendSegment& segment) const;
 
     SegmentQueue* queue_;

@@ -32,47 +32,48 @@ double SpeedProblem::value_between(double length, const KnotState& begin, const 
 
 void SpeedProblem::clear() {
     cells_.clear();
-    stations_.clear();
-    ruling_.clear();
+    samples_.clear();
+    limiting_.clear();
     value_.assign(1, 0.0);
 }
 
 void SpeedProblem::add_cell(double length, double value, const CellLimits& limits) {
-    const auto at = static_cast<std::uint32_t>(stations_.size());
+    const auto at = static_cast<std::uint32_t>(samples_.size());
     value_.resize(cells_.size() + 1);  // without the one beyond the end
     Cell cell;
     cell.length = length;
     cell.limits = limits;
-    cell.first_station = cell.end_station = at;
+    cell.first_sample = cell.end_sample = at;
     cells_.push_back(cell);
     value_.push_back(value);
 }
 
-void SpeedProblem::add_station(const PathSample& station) {
-    stations_.push_back({station});
+void SpeedProblem::add_sample(const PathSample& sample) {
+    samples_.push_back({sample});
     Cell& cell = cells_.back();
-    cell.end_station = static_cast<std::uint32_t>(stations_.size());
-    cell.slope = cell.slope.cwiseMax(station.slope.cwiseAbs());
-    cell.bend = cell.bend.cwiseMax(station.bend.cwiseAbs());
-    cell.twist = cell.twist.cwiseMax(station.twist.cwiseAbs());
+    cell.end_sample = static_cast<std::uint32_t>(samples_.size());
+    cell.slope = cell.slope.cwiseMax(sample.slope.cwiseAbs());
+    cell.bend = cell.bend.cwiseMax(sample.bend.cwiseAbs());
+    cell.twist = cell.twist.cwiseMax(sample.twist.cwiseAbs());
 }
 
 void SpeedProblem::drop_back(std::size_t left) {
     if (left == cells_.size()) return;
-    stations_.erase(stations_.begin() + static_cast<std::ptrdiff_t>(cells_[left].first_station), stations_.end());
+    samples_.erase(samples_.begin() + static_cast<std::ptrdiff_t>(cells_[left].first_sample), samples_.end());
     cells_.resize(left);
     value_.resize(left + 1);
-    ruling_.resize(std::min(left, ruling_.size()));
+    limiting_.resize(std::min(left, limiting_.size()));
 }
 
 void SpeedProblem::drop_front(std::size_t count) {
     if (count == 0) return;
-    const std::uint32_t stations = cells_[count - 1].end_station;
+    const std::uint32_t samples = cells_[count - 1].end_sample;
     cells_.erase(cells_.begin(), cells_.begin() + static_cast<std::ptrdiff_t>(count));
-    stations_.erase(stations_.begin(), stations_.begin() + static_cast<std::ptrdiff_t>(stations));
+    samples_.erase(samples_.begin(), samples_.begin() + static_cast<std::ptrdiff_t>(samples));
     value_.erase(value_.begin(), value_.begin() + static_cast<std::ptrdiff_t>(count));
-    ruling_.erase(ruling_.begin(), ruling_.begin() + static_cast<std::ptrdiff_t>(std::min(count, ruling_.size())));
-    for (Cell& cell : cells_) cell.first_station -= stations, cell.end_station -= stations;
+    limiting_.erase(limiting_.begin(),
+                    limiting_.begin() + static_cast<std::ptrdiff_t>(std::min(count, limiting_.size())));
+    for (Cell& cell : cells_) cell.first_sample -= samples, cell.end_sample -= samples;
 }
 
 /// The states at the ends set the first and last cell, and one beyond, as long, that gives b there.
@@ -209,8 +210,8 @@ bool SpeedProblem::optimise(const KnotState& start, const KnotState& end) {
         rows_.begin(value_.data(), first_gap * time() / rows_.sides(), first_slack);
         if (!iterate() || time() > planned) return false;
         if (!need_broken_rows(held)) {
-            ruling_.assign(cells_.size(), Row::cap);
-            rows_.judge(value_.data(), ruling_);
+            limiting_.assign(cells_.size(), Row::cap);
+            rows_.judge(value_.data(), limiting_);
             return true;
         }
     }

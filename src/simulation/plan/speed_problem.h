@@ -34,7 +34,7 @@ struct CellLimits {
 
 /// The derivatives of a bent path at a place of a cell.
 struct PathSample {
-    double at = 0;                                                         ///< way after the cell's begin [mm]
+    double at = 0;                                                         ///< arc length after the cell's begin [mm]
     Vec3 slope = Vec3::Zero(), bend = Vec3::Zero(), twist = Vec3::Zero();  ///< x′, x″ [1/mm], x‴ [1/mm²]
 };
 
@@ -46,7 +46,7 @@ public:
     /// A cell after the last one; `value`: its coefficient to begin with [mm²/s²], greater than 0.
     void add_cell(double length, double value, const CellLimits& limits);
     /// A place of the last cell where the limits of the axes are held.
-    void add_station(const PathSample& station);
+    void add_sample(const PathSample& sample);
 
     /// The fastest speeds from one state to another. False: none was found that holds every limit, or none much
     /// faster; the values are then what they were. At least four cells.
@@ -59,7 +59,7 @@ public:
     /// Coefficient of a cell [mm²/s²].
     [[nodiscard]] double value(std::size_t cell) const { return value_[cell + 1]; }
     /// The limit that a cell is nearest to.
-    [[nodiscard]] Row ruling(std::size_t cell) const { return ruling_[cell]; }
+    [[nodiscard]] Row limiting(std::size_t cell) const { return limiting_[cell]; }
 
     /// Coefficient of a cell from a profile's states at its two knots.
     [[nodiscard]] static double value_between(double length, const KnotState& begin, const KnotState& end);
@@ -68,16 +68,16 @@ private:
     struct Cell {
         double length = 0;
         CellLimits limits;
-        std::uint32_t first_station = 0, end_station = 0;
-        // Greatest of its stations.
+        std::uint32_t first_sample = 0, end_sample = 0;
+        // Greatest of its samples.
         Vec3 slope = Vec3::Zero(), bend = Vec3::Zero(), twist = Vec3::Zero();
         // Rows found to be needed: of the acceleration at the end; of the jerk at begin, middle and end.
         bool acceleration = false;
         std::array<bool, 3> jerk{};
         double jerk_share = 1;  ///< of the jerk along the path, lowered where it is broken between rows
     };
-    struct HeldStation {
-        PathSample station;
+    struct HeldSample {
+        PathSample sample;
         std::uint8_t needed = 0;  ///< a bit for the acceleration of each axis, then one for the jerk of each
     };
     /// Weights of a cell's three coefficients for b, b′ and b″ at a place.
@@ -113,10 +113,10 @@ private:
 
     const Machine* machine_;
     std::vector<Cell> cells_;
-    std::vector<HeldStation> stations_;
+    std::vector<HeldSample> samples_;
     std::vector<Weights> begins_;  ///< weights at the begin of each cell
     std::vector<double> value_;    ///< of the cells, with one beyond each end
-    std::vector<Row> ruling_;      ///< of the cells
+    std::vector<Row> limiting_;    ///< of the cells
     LimitRows rows_, rows_before_;
     NewtonSystem newton_;
     std::vector<double> step_;

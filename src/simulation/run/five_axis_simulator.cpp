@@ -42,7 +42,7 @@ public:
         if (!waiting_.empty()) {
             Sample last = waiting_.back();
             last.point.speed = 0;
-            last.point.limit = Ruling::none;
+            last.point.limit = LimitingFactor::none;
             for (int k = carry_left_ + 2 * half_width; k > 0; --k) {
                 if (carry_left_ > 0) --carry_left_;
                 last.angles = {of_block_.tilt + carried().tilt, of_block_.rotation + carried().rotation};
@@ -86,8 +86,9 @@ private:
             part_ = blocks_->waits(block) ? 0 : blocks_->part_at(block, point.commanded, part_);
         }
         if (begun_) {
-            const auto [way, part] = blocks_->waits(block_) ? turn_now() : std::pair(&blocks_->way(block_), part_);
-            of_block_ = way->at(part);
+            const auto [axis_path, part] =
+                blocks_->waits(block_) ? turn_now() : std::pair(&blocks_->axis_path(block_), part_);
+            of_block_ = axis_path->at(part);
             sample.angles = of_block_;
             if (changed && waiting_.size() > 1) {
                 // From where the angles would be had they gone on.
@@ -99,8 +100,8 @@ private:
             }
             sample.angles = {sample.angles.tilt + carried().tilt, sample.angles.rotation + carried().rotation};
             if (carry_left_ > 0) --carry_left_;
-            sample.ideal =
-                great_circle(machine_->kinematics.axis_of(way->at(0)), machine_->kinematics.axis_of(way->at(1)), part);
+            sample.ideal = great_circle(machine_->kinematics.axis_of(axis_path->at(0)),
+                                        machine_->kinematics.axis_of(axis_path->at(1)), part);
         }
         float& peak = excesses_[sample.block].peak;
         peak = std::max(peak, static_cast<float>(point.speed));
@@ -125,7 +126,7 @@ private:
         }
         const double time = blocks_->waiting(waiting_block_);
         const double u = time > 0 ? std::min(1.0, elapsed_ / time) : 1.0;
-        return {&blocks_->way(waiting_block_), u * u * u * (10 + u * (6 * u - 15))};
+        return {&blocks_->axis_path(waiting_block_), u * u * u * (10 + u * (6 * u - 15))};
     }
 
     void put(const Sample& sample) {
@@ -153,7 +154,8 @@ private:
         point.speed = sample.point.speed;
         point.line = begun_ ? blocks_->line(sample.block) : 0;
         point.limit = sample.point.limit;
-        if (point.limit == Ruling::feed && blocks_->capped(sample.block)) point.limit = Ruling::axis_speed;
+        if (point.limit == LimitingFactor::feed && blocks_->capped(sample.block))
+            point.limit = LimitingFactor::axis_speed;
         if (servos_.empty()) {
             last_.fill(point.commanded);
             for (std::size_t k = 0; k < 5; ++k) {
@@ -166,7 +168,7 @@ private:
             summary_.orientation_error =
                 std::max(summary_.orientation_error, angle_between(kinematics.axis_of(angles), sample.ideal));
         }
-        ++summary_.run.ruled[static_cast<std::size_t>(point.limit)];
+        ++summary_.run.limited_by[static_cast<std::size_t>(point.limit)];
         measure(point);
         ++points_;
         block_of_points_.push_back(point);
@@ -204,14 +206,14 @@ private:
     /// Where a derivative of an axis (its order: 1 … 3) exceeds its limit, blocks are to be slower: a run as a whole
     /// at half the speed has an eighth of the jerk.
     void hold(std::size_t axis, double value, double limit, int order) {
-        if (!(value > limit * limit_play)) return;
+        if (!(value > limit * limit_tolerance)) return;
         held_ = false;
         const double share = limit / value;
         share_ = std::min(share_, share);
         const double scale = order == 1 ? share : order == 2 ? std::sqrt(share) : std::cbrt(share);
         if (axis < 3 || order == 1) {
             // Whatever takes part in the smoothing may be what is too fast.
-            for (const Sample& sample : waiting_) ease(sample.block, scale);
+            for (const Sample& sample : waiting_) derate(sample.block, scale);
             return;
         }
         // Where blocks meet, the rate of an angle jumps by Δ, and the smoothing turns that into an acceleration and a
@@ -231,10 +233,10 @@ private:
         const double greatest = std::max(std::abs(low), std::abs(high));
         const double jump = std::max(share, 1 - (1 - share) * (high - low) / greatest);
         for (std::size_t j = 1; j < waiting_.size(); ++j) {
-            if (std::abs(rate(j)) >= nearly_greatest * greatest) ease(waiting_[j].block, std::min(scale, jump));
+            if (std::abs(rate(j)) >= nearly_greatest * greatest) derate(waiting_[j].block, std::min(scale, jump));
         }
     }
-    void ease(std::size_t block, double scale) {
+    void derate(std::size_t block, double scale) {
         excesses_[block].scale = std::min(excesses_[block].scale, static_cast<float>(scale));
     }
 
@@ -286,7 +288,7 @@ private:
     FiveAxisSummary summary_;
 };
 
-/// The machine that the tip's way is planned for: its axes may lie anyhow to those of the workpiece.
+/// The machine that the tip's arc length is planned for: its axes may lie anyhow to those of the workpiece.
 Machine machine_of_tip(const Machine& machine) {
     Machine tip = machine;
     MachineAxis least = machine.axes[0];
@@ -324,7 +326,7 @@ FiveAxisSummary simulate_five_axis(const Program& program, const Machine& machin
     int rounds = 0;
     for (bool slower = true; slower && rounds < most_slower_rounds; ++rounds) {
         const FiveAxisSummary tried = run({}, &excesses);
-        slower = !tried.run.limits_ok && blocks.ease(excesses);
+        slower = !tried.run.limits_ok && blocks.derate(excesses);
         // Between blocks of different speed the tip takes as much jerk as it may, however slow they are.
         if (slower && rounds >= patient_rounds) tip.path.max_jerk *= std::max(most_lowering, share);
     }

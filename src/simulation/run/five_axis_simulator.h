@@ -23,7 +23,7 @@ struct FiveAxisPoint {
     std::array<double, 5> commanded{}, feedback{};
     double speed = 0;  ///< of the tip [mm/s]
     LineNumber line = 0;
-    Ruling limit = Ruling::none;
+    LimitingFactor limit = LimitingFactor::none;
 };
 
 struct FiveAxisSummary {

@@ -9,10 +9,10 @@ namespace {
 constexpr double same_instant = 1e-6;  ///< of a period: a stop this near after a sample falls on it
 constexpr double hardly = 1e-6;        ///< below it an angle's series is exact
 
-Ruling ruling_of(const ProfileStretch& stretch, const Span& span, int phase) {
-    if (phase == 3) return span.ruling;
-    if (stretch.to_rest && phase > 3) return Ruling::lookahead_end;
-    return (phase == 1 || phase == 5) && !stretch.eased ? Ruling::axis_acceleration : Ruling::jerk;
+LimitingFactor limiting_of(const ProfileSegment& section, const Span& span, int phase) {
+    if (phase == 3) return span.limiting;
+    if (section.to_rest && phase > 3) return LimitingFactor::lookahead_end;
+    return (phase == 1 || phase == 5) && !section.derated ? LimitingFactor::axis_acceleration : LimitingFactor::jerk;
 }
 
 }  // namespace
@@ -28,7 +28,7 @@ double CellMotion::duration() const {
     return 2 / omega * (curve > 0 ? std::atanh(x) : std::atan(x));
 }
 
-double CellMotion::way_at(double time, double& v) const {
+double CellMotion::arc_length_at(double time, double& v) const {
     if (curve == 0) {  // as ways without a jerk limit are
         v = speed + time * acceleration;
         return speed * time + acceleration * (0.5 * time * time);
@@ -40,9 +40,9 @@ double CellMotion::way_at(double time, double& v) const {
         const double q = curve * time * time;
         const double s = time * (1 + q / 6 * (1 + q / 20 * (1 + q / 42)));
         const double c = 0.5 * time * time * (1 + q / 12 * (1 + q / 30 * (1 + q / 56)));
-        const double way = speed * s + acceleration * c;
+        const double arc_length = speed * s + acceleration * c;
         v = speed + s * acceleration + curve * c * speed;
-        return way;
+        return arc_length;
     }
     const double s = curve > 0 ? std::sinh(x) : std::sin(x);
     const double half = curve > 0 ? std::sinh(0.5 * x) : std::sin(0.5 * x);
@@ -51,10 +51,10 @@ double CellMotion::way_at(double time, double& v) const {
     return speed * s / omega + acceleration * c;
 }
 
-void Interpolator::run(const ProfileStretch& stretch) {
-    const SCurve& profile = *stretch.profile;
-    const double begin = time_ - stretch.from;  // when the profile would have begun
-    const double end = begin + stretch.to;
+void Interpolator::run(const ProfileSegment& section) {
+    const SCurve& profile = *section.profile;
+    const double begin = time_ - section.from;  // when the profile would have begun
+    const double end = begin + section.to;
     std::size_t at = 0;
     double before = 0;
     int phase = 0;
@@ -62,34 +62,34 @@ void Interpolator::run(const ProfileStretch& stretch) {
         const double on_profile = t - begin;
         while (phase < 6 && on_profile >= profile.end_of(phase)) ++phase;
         const MotionState state = profile.in_phase(phase, on_profile);
-        while (at + 1 < stretch.spans.size() && state.way - before > stretch.spans[at].length)
-            before += stretch.spans[at++].length;
-        const Span& span = stretch.spans[at];
-        const double tau = std::clamp(state.way - before, 0.0, span.length);
+        while (at + 1 < section.spans.size() && state.arc_length - before > section.spans[at].length)
+            before += section.spans[at++].length;
+        const Span& span = section.spans[at];
+        const double tau = std::clamp(state.arc_length - before, 0.0, span.length);
         double deviation = 0;
         double pace = 1;
         const Vec3 position = span.at(tau, deviation, pace);
-        recorder_->add(position, state.speed * pace, span.base.line, ruling_of(stretch, span, phase), deviation);
+        recorder_->add(position, state.speed * pace, span.base.line, limiting_of(section, span, phase), deviation);
     }
     time_ = end;
-    line_ = stretch.spans.back().base.line;
+    line_ = section.spans.back().base.line;
 }
 
-void Interpolator::run(const CellMotion& motion, std::span<const CellPart> parts, Ruling ruling) {
+void Interpolator::run(const CellMotion& motion, std::span<const CellPart> parts, LimitingFactor limiting) {
     const double begin = time_;
     const double end = begin + motion.duration();
     std::size_t at = 0;
     double before = 0;
     for (double t = next_sample(); t < end; t = next_sample()) {
         double speed = 0;
-        const double way = motion.way_at(t - begin, speed);
-        while (at + 1 < parts.size() && way - before > parts[at].length) before += parts[at++].length;
+        const double arc_length = motion.arc_length_at(t - begin, speed);
+        while (at + 1 < parts.size() && arc_length - before > parts[at].length) before += parts[at++].length;
         const CellPart& part = parts[at];
-        const double tau = part.from + std::clamp(way - before, 0.0, part.length);
+        const double tau = part.from + std::clamp(arc_length - before, 0.0, part.length);
         double deviation = 0;
         double pace = 1;
         const Vec3 position = part.span->at(tau, deviation, pace);
-        recorder_->add(position, speed * pace, part.span->base.line, ruling, deviation);
+        recorder_->add(position, speed * pace, part.span->base.line, limiting, deviation);
     }
     time_ = end;
     line_ = parts.back().span->base.line;
@@ -99,7 +99,7 @@ void Interpolator::rest(const Vec3& position, double wait, LineNumber line) {
     const auto stop = static_cast<PointIndex>(std::ceil(time_ / period_ - same_instant));
     const auto waiting = static_cast<PointIndex>(std::ceil(wait / period_ - same_instant));
     const PointIndex last = stop + std::max<PointIndex>(0, waiting);
-    while (recorder_->points() < last) recorder_->add(position, 0, line > 0 ? line : line_, Ruling::none, 0);
+    while (recorder_->points() < last) recorder_->add(position, 0, line > 0 ? line : line_, LimitingFactor::none, 0);
     time_ = static_cast<double>(last) * period_;
 }
 

@@ -11,20 +11,20 @@
 namespace clsurf {
 
 /// A part of a jerk-limited profile over spans that follow each other.
-struct ProfileStretch {
+struct ProfileSegment {
     const SCurve* profile = nullptr;
     double from = 0, to = 0;      ///< time on the profile [s]
     std::span<const Span> spans;  ///< from that on which the profile begins
     bool to_rest = false;         ///< the profile brakes to a stop
-    bool eased = false;           ///< ramps are kept low for the jerk that they cost in bends
+    bool derated = false;         ///< ramps are kept low for the jerk that they cost in bends
 };
 
 /// Constant change of v² over the way: v² = speed² + 2 acceleration u + curve u².
 struct CellMotion {
     double length = 0, speed = 0, acceleration = 0, curve = 0;
     [[nodiscard]] double duration() const;
-    /// Way after a time [mm]; `speed` there.
-    [[nodiscard]] double way_at(double time, double& speed) const;
+    /// Arc length after a time [mm]; `speed` there.
+    [[nodiscard]] double arc_length_at(double time, double& speed) const;
 };
 
 /// What a cell runs over: parts of spans.
@@ -37,9 +37,9 @@ class Interpolator {
 public:
     Interpolator(double period, Recorder& recorder) : recorder_(&recorder), period_(period) {}
 
-    /// All samples that fall into a stretch, from its start on, its end not included.
-    void run(const ProfileStretch& stretch);
-    void run(const CellMotion& motion, std::span<const CellPart> parts, Ruling ruling);
+    /// All samples that fall into a section, from its start on, its end not included.
+    void run(const ProfileSegment& section);
+    void run(const CellMotion& motion, std::span<const CellPart> parts, LimitingFactor limiting);
     /// At rest until `wait` seconds after the next sample.
     void rest(const Vec3& position, double wait, LineNumber line);
     /// Line of the last motion.

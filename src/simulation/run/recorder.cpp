@@ -31,7 +31,7 @@ void Recorder::follow() {
     std::array<ServoLoop, 3> servos = servos_;  // in registers
     for (SimulatedPoint& point : block_) {
         for (int i = 0; i < 3; ++i) point.feedback[i] = servos[static_cast<std::size_t>(i)].follow(point.commanded[i]);
-        ++summary_.ruled[static_cast<std::size_t>(point.limit)];
+        ++summary_.limited_by[static_cast<std::size_t>(point.limit)];
     }
     servos_ = servos;
 }
@@ -92,12 +92,12 @@ SimulationSummary Recorder::finish() {
     s.max_axis_speed = step_ * rate_;
     s.max_acceleration = bend_ * (rate_ * rate_);
     s.max_jerk = twist_ * (rate_ * rate_ * rate_);
-    s.limits_ok = s.max_speed <= machine_->path.max_speed * limit_play;
+    s.limits_ok = s.max_speed <= machine_->path.max_speed * limit_tolerance;
     for (int i = 0; i < 3; ++i) {
         const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(i)];
-        s.limits_ok = s.limits_ok && s.max_axis_speed[i] <= axis.max_speed * limit_play;
-        s.limits_ok = s.limits_ok && s.max_acceleration[i] <= axis.max_acceleration * limit_play;
-        s.limits_ok = s.limits_ok && (axis.max_jerk <= 0 || s.max_jerk[i] <= axis.max_jerk * limit_play);
+        s.limits_ok = s.limits_ok && s.max_axis_speed[i] <= axis.max_speed * limit_tolerance;
+        s.limits_ok = s.limits_ok && s.max_acceleration[i] <= axis.max_acceleration * limit_tolerance;
+        s.limits_ok = s.limits_ok && (axis.max_jerk <= 0 || s.max_jerk[i] <= axis.max_jerk * limit_tolerance);
     }
     return std::move(s);
 }

@@ -17,8 +17,8 @@ public:
     Recorder(const Program& program, const Machine& machine, const Vec3& start, const PointSink& sink);
 
     /// The position at the end of the next period [mm], its path speed [mm/s], how far rounding took it from the path [mm].
-    void add(const Vec3& position, double speed, LineNumber line, Ruling ruling, double deviation) {
-        block_.push_back({position, Vec3::Zero(), speed, line, ruling});
+    void add(const Vec3& position, double speed, LineNumber line, LimitingFactor limiting, double deviation) {
+        block_.push_back({position, Vec3::Zero(), speed, line, limiting});
         summary_.path_deviation = std::max(summary_.path_deviation, deviation);
         ++summary_.points;
         if (block_.size() == points_at_once) flush();

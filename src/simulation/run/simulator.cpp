@@ -116,7 +116,7 @@ SimulationSummary simulate(MotionSource& source, const Machine& machine, const V
         at = stream.blocks().section_end();
         interpolator.rest(at, stream.blocks().dwell(), stream.blocks().dwell_line());
     }
-    recorder.add(at, 0, interpolator.line(), Ruling::none, 0);
+    recorder.add(at, 0, interpolator.line(), LimitingFactor::none, 0);
     return recorder.finish();
 }
 

@@ -43,7 +43,7 @@ private:
         write(point, (before_.position + 4 * last_.position + next.position) / 6);
     }
     void write(const PlannedPoint& point, const Vec3& position) {
-        recorder_->add(position, point.speed, point.line, point.ruling, point.deviation);
+        recorder_->add(position, point.speed, point.line, point.limiting, point.deviation);
     }
 
     Recorder* recorder_;
@@ -84,7 +84,7 @@ SimulationSummary simulate_trapezoids(MotionSource& source, const Machine& machi
         point.position = blocks.section_end();
         runner.stand_at(point.position);
         point.speed = point.deviation = 0;
-        point.ruling = Ruling::none;
+        point.limiting = LimitingFactor::none;
         if (blocks.dwell_line() > 0) point.line = blocks.dwell_line();
         const auto waiting = static_cast<PointIndex>(std::ceil(blocks.dwell() / machine.controller.period - 1e-6));
         for (PointIndex i = 0; i < waiting; ++i) points.add(point);
