@@ -47,7 +47,7 @@ struct AsMachinedReport {
     double ra = 0, rz = 0;     ///< [mm] mean over the patches' profiles across the feed
     std::size_t roughest = 0;  ///< patch whose profile has the greatest Rz
     double sa = 0, sq = 0;     ///< [mm] mean over the patches, form taken off
-    double sz = 0;             ///< [mm] of the roughest patch; cells see the tip of a cusp to a tenth of it
+    double sz = 0;             ///< [mm] of the roughest patch
     double cutoff = 0;         ///< [mm] of the profiles' filter
     double scallop = 0;        ///< [mm] usual_scallop(); 0: not known
     double unknown = 0;  ///< share of the patches' cut cells where the form is not known: nothing is measured there

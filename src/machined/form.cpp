@@ -9,8 +9,8 @@
 #include "core/grouping.h"
 #include "core/not_finite.h"
 #include "core/parallel.h"
-#include "machined/local_quadratic.h"
 #include "machined/ungouged_contacts.h"
+#include "predictor/fold.h"
 
 namespace clsurf {
 namespace {
@@ -20,6 +20,10 @@ constexpr double least_spread = 0.0003;  ///< [mm] what rounding to a micrometre
 constexpr double least_scatter = 0.001;  ///< [mm] beside which contact points of a smooth form do not lie …
 constexpr double knots_differ = 2;       ///< most_scatter_ between fits of neighbouring knots at one place
 constexpr double scallop_share = 0.5;    ///< … or this share of a scallop
+constexpr double most_off = 1.0 / 3;     ///< share of the contact points' weight that may lie off a smooth form
+constexpr double crease_off = 0.06;      ///< share off a smooth form from which on a crease is looked for …
+constexpr double fold_off = 0.2;         ///< … and that may lie off its two sheets
+constexpr double fold_gain = 0.5;        ///< of the share off the smooth form: two sheets that leave more are no better
 
 constexpr double covered = 1.1;    ///< step-overs from the nearest contact point in space; beyond, no pass has made
                                    ///< the surface: half a step-over is usual, one stands where a pass is missing
@@ -74,10 +78,23 @@ private:
     }
 };
 
-Form::Form(const AsMachinedSurface& as_machined, const Box2& region) {
+/// A sheet over a place [mm], its slopes per pitch.
+struct Form::Height {
+    double z = 0, zx = 0, zy = 0;
+    bool reached = true;  ///< by the tool
+};
+
+struct Form::Workspace {
+    LocalQuadratic quadratic;
+    std::vector<WeighedPlace> places;
+};
+
+Form::Form(const AsMachinedSurface& as_machined, const Box2& region, double tolerance) {
     pitch_ = as_machined.surface().step_over > 0 ? as_machined.surface().step_over : 10 * as_machined.usual_cell();
     // Of the flat formula, with the tool's radius: a measure of size.
-    most_scatter_ = std::max(least_scatter, scallop_share * pitch_ * pitch_ / (8 * as_machined.tool().radius));
+    most_scatter_ =
+        std::max({least_scatter, tolerance, scallop_share * pitch_ * pitch_ / (8 * as_machined.tool().radius)});
+    reach_ = as_machined.tool().radius;
     if (region.isEmpty()) return;
     corner_ = region.min() - Vec2::Constant(pitch_);
     columns_ = static_cast<std::int64_t>(std::ceil(region.sizes().x() / pitch_)) + 3;
@@ -108,8 +125,8 @@ Form::Form(const AsMachinedSurface& as_machined, const Box2& region) {
     for (const std::uint32_t k : by_square.order) samples.points.push_back(found[k]);
     found = {};
     parallel_for(columns_ * rows_, 64, [&](std::int64_t first, std::int64_t last) {
-        LocalQuadratic quadratic;
-        for (std::int64_t k = first; k < last; ++k) fit(k % columns_, k / columns_, samples, quadratic);
+        Workspace workspace;
+        for (std::int64_t k = first; k < last; ++k) fit(k % columns_, k / columns_, samples, workspace);
     });
     const std::int64_t fine_columns = finer * columns_;
     inside_.resize(static_cast<std::size_t>(fine_columns * finer * rows_));
@@ -152,9 +169,8 @@ bool Form::is_inside(const Vec2& place, const Samples& samples) const {
     return false;
 }
 
-void Form::fit(std::int64_t column, std::int64_t row, const Samples& samples, LocalQuadratic& quadratic) {
+void Form::fit(std::int64_t column, std::int64_t row, const Samples& samples, Workspace& workspace) {
     Knot& knot = knots_[static_cast<std::size_t>(row * columns_ + column)];
-    knot.fill(missing<float>);
     const Vec2 here = corner_ + pitch_ * Vec2(static_cast<double>(column), static_cast<double>(row));
     constexpr std::int64_t squares =
         static_cast<std::int64_t>(fit_reach) + 1;  // a knot stands at the corner of four of them
@@ -167,6 +183,9 @@ void Form::fit(std::int64_t column, std::int64_t row, const Samples& samples, Lo
         base = p.z();
     });
     if (!(nearest <= 4 * pitch_ * pitch_)) return;
+    std::vector<WeighedPlace>& places = workspace.places;
+    LocalQuadratic& quadratic = workspace.quadratic;
+    places.clear();
     quadratic.clear();
     samples.for_each_near(column, row, squares, [&](const Vec3& p) {
         const Vec2 off = (p.head<2>() - here) / pitch_;
@@ -174,18 +193,57 @@ void Form::fit(std::int64_t column, std::int64_t row, const Samples& samples, Lo
         const double d = std::sqrt(off.squaredNorm() + rise * rise) / fit_reach;
         if (d >= 1) return;
         const double tricube = 1 - d * d * d;
-        quadratic.add(off.x(), off.y(), p.z() - base, tricube * tricube * tricube);
+        places.push_back({off.x(), off.y(), p.z() - base, tricube * tricube * tricube});
+        quadratic.add(off.x(), off.y(), p.z() - base, places.back().weight);
     });
-    if (quadratic.size() < 6) return;
-    const LocalQuadratic::Terms solution = quadratic.fit(least_spread);
-    if (!solution.allFinite()) return;
-    const double slope = solution.segment<2>(1).norm() / pitch_;
-    if (quadratic.scatter(solution) > most_scatter_ * std::sqrt(1 + slope * slope)) {
-        knot[1] = 0;  // a[0] NaN, a[1] not: there are points, but they have no form
-        return;
-    }
-    for (std::size_t k = 0; k < 6; ++k) knot[k] = static_cast<float>(solution[static_cast<Eigen::Index>(k)]);
-    knot[0] += static_cast<float>(base - samples.level);
+    if (places.size() < 6) return;
+    const LocalQuadratic::Terms smooth = quadratic.fit(least_spread);
+    if (!smooth.allFinite()) return;
+    const double most = most_scatter_ * std::sqrt(1 + smooth.segment<2>(1).squaredNorm() / (pitch_ * pitch_));
+    const double off = share_off(places, most, [&](double x, double y) { return value_of(smooth, x, y); });
+    const auto keep = [&](Sheet& sheet, const LocalQuadratic::Terms& terms) {
+        for (std::size_t k = 0; k < 6; ++k) sheet[k] = static_cast<float>(terms[static_cast<Eigen::Index>(k)]);
+        sheet[0] += static_cast<float>(base - samples.level);
+    };
+    knot.kind = off > most_off ? Kind::unknown : Kind::smooth;
+    keep(knot.one, smooth);
+    if (off <= crease_off) return;
+    const std::optional<Fold> fold = fit_fold(places, smooth, most, least_spread, quadratic);
+    if (!fold) return;
+    const double off_fold = share_off(places, most, [&](double x, double y) { return fold->at(x, y); });
+    if (off_fold > std::min(fold_off, fold_gain * off)) return;
+    knot.kind = fold->ridge ? Kind::ridge : Kind::valley;
+    keep(knot.one, fold->one);
+    keep(knot.two, fold->two);
+}
+
+bool Form::is_below_tool(const Height& one, const Height& two) const {
+    // The sheets as planes: a ball that rests on both touches them where these meet the planes' normals through its centre.
+    const Vec2 slope_one = Vec2(one.zx, one.zy) / pitch_;
+    const Vec2 slope_two = Vec2(two.zx, two.zy) / pitch_;
+    const double bend = (slope_one - slope_two).norm();
+    if (bend < 1e-6) return false;
+    const Vec2 across = (slope_one - slope_two) / bend;
+    const double long_one = std::sqrt(1 + slope_one.squaredNorm());
+    const double long_two = std::sqrt(1 + slope_two.squaredNorm());
+    const double from_centre = (one.z - two.z + reach_ * (long_one - long_two)) / bend;
+    const auto [first, last] =
+        std::minmax({reach_ * across.dot(slope_one) / long_one, reach_ * across.dot(slope_two) / long_two});
+    return from_centre > first && from_centre < last;
+}
+
+Form::Height Form::height_at(const Knot& knot, double x, double y) const {
+    const auto of = [&](const Sheet& a) {
+        return Height{a[0] + a[1] * x + a[2] * y + a[3] * x * x + a[4] * x * y + a[5] * y * y,
+                      a[1] + 2 * a[3] * x + a[4] * y, a[2] + a[4] * x + 2 * a[5] * y};
+    };
+    const Height one = of(knot.one);
+    if (knot.kind == Kind::smooth) return one;
+    const Height two = of(knot.two);
+    const bool ridge = knot.kind == Kind::ridge;
+    Height height = (one.z <= two.z) == ridge ? one : two;
+    height.reached = ridge || !is_below_tool(one, two);
+    return height;
 }
 
 Form::Facet Form::at(const Vec2& place) const {
@@ -203,21 +261,22 @@ Form::Facet Form::at(const Vec2& place) const {
         for (int k = 0; k < 4; ++k) {
             const std::int64_t kc = c + k % 2;
             const std::int64_t kr = r + k / 2;
-            const Knot& a = knots_[static_cast<std::size_t>(kr * columns_ + kc)];
-            if (!(a[0] == a[0])) {
-                sum.unknown = sum.unknown || a[1] == a[1];
+            const Knot& knot = knots_[static_cast<std::size_t>(kr * columns_ + kc)];
+            if (knot.kind == Kind::none || knot.kind == Kind::unknown) {
+                sum.unknown = sum.unknown || knot.kind == Kind::unknown;
                 continue;
             }
             const double x = u - static_cast<double>(kc);
             const double y = v - static_cast<double>(kr);
             const double w = (1 - std::abs(x)) * (1 - std::abs(y));
+            const Height height = height_at(knot, x, y);
+            sum.unknown = sum.unknown || !height.reached;
             weights += w;
-            const double z = a[0] + a[1] * x + a[2] * y + a[3] * x * x + a[4] * x * y + a[5] * y * y;
-            sum.z += w * z;
-            lowest = std::min(lowest, z);
-            highest = std::max(highest, z);
-            sum.zx += w * (a[1] + 2 * a[3] * x + a[4] * y);
-            sum.zy += w * (a[2] + a[4] * x + 2 * a[5] * y);
+            sum.z += w * height.z;
+            lowest = std::min(lowest, height.z);
+            highest = std::max(highest, height.z);
+            sum.zx += w * height.zx;
+            sum.zy += w * height.zy;
         }
     }
     sum.z /= weights;

@@ -7,9 +7,10 @@
 // step-overs (tricube weights by distance; two repetitions with bisquare weights, so that one pass that is
 // programmed elsewhere does not bend it). Between knots the quadratics blend into each other. Three
 // step-overs: a form of 0.1 mm⁻³ (fourth derivative) then gives less than 0.3 µm of error at 0.3 mm, and ten
-// would give 30 µm. The form is unknown where more than a third of the contact points' weight lies farther
-// from the fit than half a scallop (1 µm at least), or where the fits of adjacent knots differ by more than
-// twice that, as at creases; and farther than 1.1 step-overs from any contact point. Nothing is measured there.
+// would give 30 µm. Where a share of the contact points lies off the quadratic, two sheets that meet at a crease are
+// fitted (fold.h). The form is unknown where more than a third of the contact points' weight lies farther
+// from the fit than the tolerance, or where the fits of adjacent knots differ by more than twice that; in a valley
+// that is tighter than the tool; and farther than 1.1 step-overs from any contact point. Nothing is measured there.
 
 #include <array>
 #include <vector>
@@ -18,12 +19,11 @@
 
 namespace clsurf {
 
-class LocalQuadratic;
-
 class Form {
 public:
-    /// For places inside `region`. O(contact points near it + knots), parallel.
-    Form(const AsMachinedSurface& as_machined, const Box2& region);
+    /// For places inside `region`. `tolerance` [mm], normal to the form: how far contact points lie from it where it is
+    /// known; half a scallop at least. O(contact points near it + knots), parallel.
+    Form(const AsMachinedSurface& as_machined, const Box2& region, double tolerance = 0);
 
     /// Turns heights of AsMachinedSurface::map() into deviations [mm] along the form's normal, + outside
     /// of it; NaN stays, and becomes what has no form: beyond the outermost contact points, and where the form
@@ -38,11 +38,27 @@ public:
     [[nodiscard]] Facet at(const Vec2& place) const;
 
 private:
-    /// a0 + a1 x + a2 y + a3 x² + a4 xy + a5 y², x and y in pitches from the knot; a0 NaN: no fit.
-    using Knot = std::array<float, 6>;
+    enum class Kind : std::uint8_t {
+        none,     ///< no contact points
+        unknown,  ///< there are some, but they have no form
+        smooth,
+        ridge,
+        valley,
+    };
+    /// a0 + a1 x + a2 y + a3 x² + a4 xy + a5 y², x and y in pitches from the knot.
+    using Sheet = std::array<float, 6>;
+    struct Knot {
+        Sheet one{}, two{};  ///< two: at a crease
+        Kind kind = Kind::none;
+    };
+    struct Height;
+    struct Workspace;
 
     struct Samples;
-    void fit(std::int64_t column, std::int64_t row, const Samples& samples, LocalQuadratic& quadratic);
+    [[nodiscard]] Height height_at(const Knot& knot, double x, double y) const;
+    void fit(std::int64_t column, std::int64_t row, const Samples& samples, Workspace& workspace);
+    /// Whether a place lies where the tool cannot reach the bottom of a valley.
+    [[nodiscard]] bool is_below_tool(const Height& one, const Height& two) const;
     /// Whether contact points lie on all sides of a place: beyond the outermost pass stands the tool's flank.
     [[nodiscard]] bool is_inside(const Vec2& place, const Samples& samples) const;
 
@@ -51,6 +67,7 @@ private:
     std::int64_t columns_ = 0, rows_ = 0;
     std::vector<Knot> knots_;
     double most_scatter_ = 0;           ///< [mm] along the normal, of contact points about a form
+    double reach_ = 0;                  ///< [mm] radius of the tool where it touches, at most
     std::vector<std::uint8_t> inside_;  ///< on a grid four times as fine
 };
 

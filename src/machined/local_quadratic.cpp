@@ -76,27 +76,6 @@ LocalQuadratic::Terms LocalQuadratic::fit(double least_spread) {
     return fitted;
 }
 
-double LocalQuadratic::scatter(const Terms& a) {
-    constexpr double share = 2.0 / 3;
-    by_left_.clear();
-    double sum = 0;
-    for (std::size_t k = 0; k < size(); ++k) {
-        if (!(weight_[k] > 0)) continue;
-        const double x = x_[k];
-        const double y = y_[k];
-        by_left_.emplace_back(
-            std::abs(z_[k] - (a[0] + a[1] * x + a[2] * y + a[3] * x * x + a[4] * x * y + a[5] * y * y)), weight_[k]);
-        sum += weight_[k];
-    }
-    std::sort(by_left_.begin(), by_left_.end());
-    double below = 0;
-    for (const auto& [left, weight] : by_left_) {
-        below += weight;
-        if (below >= share * sum) return left;
-    }
-    return 0;
-}
-
 LocalQuadratic::Terms LocalQuadratic::solve() {
     Moments sums;
     add_up(x_.data(), y_.data(), z_.data(), weight_.data(), robust_.data(), size(), sums);

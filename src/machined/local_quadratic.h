@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -25,15 +24,11 @@ public:
     /// across, if they lie on one line) is near zero. At least six places. O(places).
     [[nodiscard]] Terms fit(double least_spread);
 
-    /// How far [units of z] the fit lies from the places: what two thirds of their weight do not exceed. After fit(). O(places log places).
-    [[nodiscard]] double scatter(const Terms& fitted);
-
 private:
     [[nodiscard]] Terms solve();
     void weigh(const Terms& fitted, double least_spread);
 
     /// Columns, for loops over four places at a time.
-    std::vector<std::pair<double, double>> by_left_;  ///< what the fit left over, and the weight
     std::vector<double> x_, y_, z_, weight_, robust_, left_, sorted_;
 };
 

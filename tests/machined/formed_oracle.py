@@ -1,0 +1,118 @@
+#!/usr/bin/python3
+"""Makes formed_oracle.txt: sections of surfaces that tools leave, from a z-buffer that shares nothing with the product.
+
+    python3 formed_oracle.py > formed_oracle.txt        (numpy; about a minute)
+
+A tool is placed every 10 µm along zigzag passes, and over each place of a section the lowest outline counts. The parts are
+planes, ridges and waves whose design is a formula, so that the true form is known: Ra and Rz (ISO 4287, Gaussian filter of
+ISO 16610-21) are those of the distance to the design, not to a fit.
+Lengths in mm, Ra and Rz in µm, heights of the section in mm. A case is a line
+    case NAME KIND RADIUS CORNER PART A B X0 Y0 X1 Y1 RA RZ COUNT
+with a line of COUNT heights after it; RA and RZ are 0 where the design is not known.
+"""
+import math
+
+import numpy as np
+
+STEP_OVER, PASSES, LENGTH, SPACING = 0.3, 25, 12.0, 0.01
+
+
+def outline(tool, rho):
+    _, radius, corner = tool
+    out = np.maximum(rho - (radius - corner), 0)
+    return np.where(rho <= radius, corner - np.sqrt(np.maximum(corner**2 - out**2, 0)), np.inf)
+
+
+def tan(degrees):
+    return math.tan(math.radians(degrees))
+
+
+def plane(tool, across, along):
+    """Design and tip of a plane: the tip stands over it by as much as the tool's rim does."""
+    _, radius, corner = tool
+    slope = math.hypot(tan(across), tan(along))
+    rise = (radius - corner) * slope + corner * (math.hypot(1, slope) - 1)
+    design = lambda x, y: tan(along) * x + tan(across) * y
+    return design, lambda x, y: design(x, y) + rise
+
+
+def ridge(tool, direction, slope):
+    """A roof whose edge runs through (6, 3.6), `direction` degrees from the passes; a ball rolls round the edge."""
+    radius = tool[1]
+    normal = -math.sin(math.radians(direction)), math.cos(math.radians(direction))
+    aside = lambda x, y: abs((x - 6.0) * normal[0] + (y - 3.6) * normal[1])
+    design = lambda x, y: -tan(slope) * aside(x, y)
+
+    def tip(x, y):
+        d = aside(x, y)
+        rolls = np.sqrt(np.maximum(radius**2 - d**2, 0))
+        beside = radius / math.cos(math.radians(slope)) - tan(slope) * d
+        return np.where(d <= radius * math.sin(math.radians(slope)), rolls, beside) - radius
+
+    return design, tip
+
+
+def wave(_, height, length):
+    return None, lambda x, y: height * np.sin(x / length) + 0.5 * height * np.cos(y / length)
+
+
+def cut(tool, tip, x, y):
+    """The section's heights."""
+    radius = tool[1]
+    along = np.arange(0, LENGTH + SPACING / 2, SPACING)
+    low = np.full(len(x), np.inf)
+    for number in range(PASSES):
+        row = number * STEP_OVER
+        z = tip(along, np.full_like(along, row))
+        for k in np.flatnonzero(abs(y - row) < radius):
+            near = abs(along - x[k]) < radius
+            low[k] = min(low[k], np.min(z[near] + outline(tool, np.hypot(along[near] - x[k], row - y[k]))))
+    return low
+
+
+def roughness(deviation, step, cutoff=0.8):
+    a = math.sqrt(math.log(2) / math.pi)
+    reach = int(cutoff / step)
+    weights = np.exp(-math.pi * (np.arange(-reach, reach + 1) * step / (a * cutoff)) ** 2)
+    rough = deviation - np.convolve(deviation, weights, "same") / np.convolve(np.ones_like(deviation), weights, "same")
+    lengths = min(5, int(len(rough) * step / cutoff - 1 + 1e-9))
+    each = round(cutoff / step)
+    first = (len(rough) - lengths * each) // 2
+    rough = rough[first:first + lengths * each]
+    return np.mean(abs(rough)), np.mean([np.ptp(part) for part in rough.reshape(lengths, each)])
+
+
+BALL, BULL, FLAT = ("ball", 3.0, 3.0), ("bull", 3.0, 1.5), ("flat", 3.0, 0.0)
+# Sections lie where all of the surface is cut: beyond a slope's first contacts stands the tool's flank.
+CASES = [
+    ("level", BALL, plane, 0, 0, (6.0, 1.2, 6.0, 6.0)),
+    ("across", BALL, plane, 30, 0, (6.0, 2.1, 6.0, 6.9)),
+    ("across", BULL, plane, 30, 0, (6.0, 2.7, 6.0, 7.5)),
+    ("along", BULL, plane, 0, 30, (8.0, 1.2, 8.0, 6.0)),
+    ("oblique", BULL, plane, 20, 20, (8.0, 2.9, 8.0, 7.7)),
+    ("across", FLAT, plane, 20, 0, (6.0, 3.5, 6.0, 8.3)),
+    ("ridge across the passes", BALL, ridge, 90, 20, (6.3, 1.2, 5.7, 6.0)),
+    ("ridge oblique", BALL, ridge, 35, 20, (6.0, 1.2, 6.0, 6.0)),
+    ("ridge along the passes", BALL, ridge, 0, 20, (6.0, 1.2, 6.0, 6.0)),
+    ("steep ridge oblique", BALL, ridge, 60, 30, (6.0, 1.2, 6.0, 6.0)),
+    ("oblique", BALL, plane, 20, -25, (6.0, 2.4, 6.5, 7.2)),
+    ("wave", BALL, wave, 0.8, 2, (5.0, 1.2, 6.5, 6.0)),
+    ("wave", BULL, wave, 0.8, 2, (5.0, 1.2, 6.5, 6.0)),
+]
+
+for name, tool, part, a, b, (x0, y0, x1, y1) in CASES:
+    design, tip = part(tool, a, b)
+    length = math.hypot(x1 - x0, y1 - y0)
+    u = np.linspace(0, 1, round(length / 0.0015) + 1)
+    x, y = x0 + u * (x1 - x0), y0 + u * (y1 - y0)
+    z = cut(tool, tip, x, y)
+    ra = rz = 0.0
+    if design:
+        e = 1e-5
+        slope_x = (design(x + e, y) - design(x - e, y)) / (2 * e)
+        slope_y = (design(x, y + e) - design(x, y - e)) / (2 * e)
+        ra, rz = roughness((z - design(x, y)) / np.sqrt(1 + slope_x**2 + slope_y**2), length / (len(u) - 1))
+    few = z[::16]
+    print("case", name.replace(" ", "_"), *tool, part.__name__, a, b, x0, y0, x1, y1,
+          f"{1e3 * ra:.4f} {1e3 * rz:.4f} {len(few)}")
+    print(" ".join(f"{value:.6f}" for value in few))
