@@ -48,10 +48,10 @@ ExitCode run_identify(const po::variables_map& values) {
         parts.push_back(load_part(options, clock));
         diagnostics.append(parts.back().diagnostics);
     }
-    std::vector<const Log*> logs;
-    for (const Part& part : parts) logs.push_back(&part.log);
+    std::vector<IdentifyRun> runs;
+    for (const Part& part : parts) runs.push_back({&part.log, part.lines.get()});
     clock.begin("identify");
-    const Identification result = identify(logs, known);
+    const Identification result = identify(runs, known);
     clock.end();
     file.write(io::identified_machine_text(result));
     file.commit();
@@ -71,12 +71,13 @@ Subcommand identify_subcommand() {
     return {
         .name = "identify",
         .arguments = "PROGRAM LOG [PROGRAM LOG]… -o machine.toml",
-        .summary = "a machine file from recorded runs: servo loops with standard errors",
+        .summary = "a machine file from recorded runs: servo loops and limits, with the evidence",
         .description =
             "Fits the servo loop of each axis to the commanded and the fed-back positions of one or more runs: position gain, velocity\n"
             "feed-forward, time constant of the velocity loop, dead time, friction, backlash and resolution. The loop is that of simulate.\n"
             "Each value has a standard error. Friction, backlash and dead time are in the file only if an information criterion (BIC) falls\n"
-            "with them. What the runs do not determine is listed with the reason, and keeps its default or the value of --machine.\n"
+            "with them. The limits of speed, acceleration and jerk come from the commanded positions: a limit is reached where the motion\n"
+            "stays at it in several places; otherwise the value is a lower bound, and the file keeps a greater one. What the runs do not determine is listed with the reason, and keeps its default or the value of --machine.\n"
             "Exit code 3 says that nothing could be identified.\n\n"
             "  clsurf identify part.nc run.biip -o mill.toml\n"
             "  clsurf identify a.nc a.biip b.nc b.biip --machine five_axis.toml -o mill.toml --json",

@@ -19,10 +19,22 @@ clsurf_cli_test(NAME identify_five_axes
   SETUP "$CLSURF simulate @DATA@/programs/dome_five_axis.nc --machine @DATA@/machines/five_axis_trunnion.toml -o r.biip"
   ARGS identify @DATA@/programs/dome_five_axis.nc r.biip --machine @DATA@/machines/five_axis_trunnion.toml -o m.toml
   STDOUT "position_gain +a +(100|99[.]9|100[.]0)[0-9]* 1/s" "velocity_feedforward +c +0[.]9(8|79|80)")
+# Limits: LinuxCNC's are 2000, 2000 and 1500 mm/s² and no jerk; speeds of the axes x and y stay below theirs.
+clsurf_cli_test(NAME identify_limits_of_a_kernel ARGS identify ${bottle} ${dome} -o m.toml
+  STDOUT "max_acceleration +x +(2000|1999[.]9[0-9]*) mm/s² .*reached; held in" "max_acceleration +z +(1500|1499[.]9[0-9]*) mm/s² .*reached"
+  "max_jerk +x +0 mm/s³ +no limit seen" "max_speed +x +4[0-9.]+ mm/min +lower bound" "max_speed +z +(9000|8999[0-9.]*) mm/min .*reached")
+clsurf_cli_test(NAME identify_limits_of_a_simulation
+  SETUP "$CLSURF simulate @DATA@/programs/dome_loops.nc --machine @DATA@/machines/three_axis_mill.toml -o r.biip"
+  ARGS identify @DATA@/programs/dome_loops.nc r.biip -o m.toml
+  STDOUT "max_acceleration +z +(199[89]|2000)[0-9.]* mm/s² .*reached" "max_jerk +path +(49[789]|500)[0-9.]+ mm/s³ .*reached" "max_acceleration +x +[0-9.]+ mm/s² +lower bound")
 # Without fed-back positions nothing is known of the loops.
 clsurf_cli_test(NAME identify_without_feedback
   SETUP "$CLSURF export @DATA@/programs/bottle_uneven.nc @LOGS@/bottle_uneven.biip --columns time,cmd.x,cmd.y,cmd.z -o r.biip"
-  ARGS identify @DATA@/programs/bottle_uneven.nc r.biip -o m.toml EXIT 3 NO_FILE m.toml STDERR "nothing can be identified: axis x: no log has fed-back positions")
+  ARGS identify @DATA@/programs/bottle_uneven.nc r.biip -o m.toml FILE m.toml STDOUT "max_acceleration +z" "x: no log has fed-back positions of it .position_gain"
+  NO_STDOUT "position_gain +x")
+clsurf_cli_test(NAME identify_without_commanded
+  SETUP "$CLSURF export @DATA@/programs/bottle_uneven.nc @LOGS@/bottle_uneven.biip --columns time,fb.x,fb.y,fb.z -o r.biip"
+  ARGS identify @DATA@/programs/bottle_uneven.nc r.biip -o m.toml EXIT 3 NO_FILE m.toml STDERR "nothing can be identified: axis x: no log has commanded positions")
 clsurf_cli_test(NAME identify_another_program ARGS identify @DATA@/programs/dome_loops.nc @LOGS@/bottle_uneven.biip -o m.toml EXIT 3 NO_FILE m.toml STDERR "another program|does not belong")
 clsurf_cli_test(NAME identify_without_a_log ARGS identify ${bottle} @DATA@/programs/dome_loops.nc -o m.toml EXIT 2 STDERR "dome_loops.nc' has no log")
 clsurf_cli_test(NAME identify_without_output ARGS identify ${bottle} EXIT 2 STDERR "output")

@@ -1,0 +1,324 @@
+#include "identify/limit_parameters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "identify/axis_record.h"
+#include "identify/plateaus.h"
+#include "log/quantum.h"
+
+namespace clsurf {
+namespace {
+
+constexpr PointIndex most_records = 4'000'000;
+constexpr std::size_t least_places = 3;
+constexpr double parallel = 0.98;  ///< share of the path's value that an axis-parallel path gives its axis
+
+/// Commanded positions of a piece of a run, by axis, and which records are rapids.
+struct MotionPiece {
+    std::vector<std::vector<double>> positions;
+    std::vector<char> rapid;
+};
+
+struct Motion {
+    std::string letters;  ///< of the axes; linear ones first
+    double period = 0;
+    double rounding = 0;  ///< step of the commanded positions [mm or deg]
+    std::vector<MotionPiece> pieces;
+
+    [[nodiscard]] std::size_t linear() const {
+        return static_cast<std::size_t>(std::count_if(letters.begin(), letters.end(), [](char c) { return c >= 'x'; }));
+    }
+};
+
+/// The step that positions were rounded to when they were written: the channel's own, or a power of ten.
+double rounding_of(const ChannelView& channel, std::span<const PointRange> sections) {
+    if (const double step = quantum_of(channel); step > 0) return step;
+    for (const double step : {1e-5, 1e-6, 1e-7}) {
+        PointIndex on_grid = 0, looked_at = 0;
+        for (const PointRange& section : sections) {
+            for (PointIndex i = section.first; i <= section.last && looked_at < 4000; ++i, ++looked_at) {
+                const double ratio = channel.at(i) / step;
+                on_grid += std::abs(ratio - std::round(ratio)) < 1e-3 ? 1 : 0;
+            }
+        }
+        if (on_grid > looked_at * 99 / 100) return step;
+    }
+    return 1e-12;
+}
+
+Motion gather_motion(std::span<const IdentifyRun> runs) {
+    Motion motion;
+    motion.period = runs.front().log->period;
+    for (const char letter : {'x', 'y', 'z', 'a', 'b', 'c'}) {
+        const std::string name = std::string("cmd.") + letter;
+        const bool all = std::all_of(runs.begin(), runs.end(),
+                                     [&](const IdentifyRun& run) { return run.log->find(name) != nullptr; });
+        if (all) motion.letters += letter;
+    }
+    for (const IdentifyRun& run : runs) {
+        std::vector<ChannelView> channels;
+        for (const char letter : motion.letters)
+            channels.push_back(run.log->find(std::string("cmd.") + letter)->values);
+        if (channels.empty()) break;
+        const std::vector<PointRange> sections = find_sections(*run.log, channels);
+        for (const ChannelView& channel : channels)
+            motion.rounding = std::max(motion.rounding, rounding_of(channel, sections));
+        for (const PointRange& range : sample_pieces(sections, most_records / static_cast<PointIndex>(runs.size()))) {
+            const auto n = static_cast<std::size_t>(range.size());
+            MotionPiece piece;
+            for (const ChannelView& channel : channels)
+                copy_block(channel, range.first, piece.positions.emplace_back(n));
+            std::vector<PointKind> kinds(n, PointKind::idle);
+            if (run.lines != nullptr) run.lines->read_kinds(range.first, kinds);
+            for (const PointKind kind : kinds) piece.rapid.push_back(kind == PointKind::rapid ? 1 : 0);
+            motion.pieces.push_back(std::move(piece));
+        }
+    }
+    return motion;
+}
+
+/// Differences of an order, over `stride` records each.
+std::vector<double> differences(std::vector<double> values, int order, std::size_t stride, double period) {
+    const double per_time = 1 / (static_cast<double>(stride) * period);
+    for (int k = 0; k < order; ++k) {
+        if (values.size() <= stride) return {};
+        for (std::size_t i = 0; i + stride < values.size(); ++i)
+            values[i] = (values[i + stride] - values[i]) * per_time;
+        values.resize(values.size() - stride);
+    }
+    return values;
+}
+
+/// Sets the values of the path to 0 where it bends within the records of a difference: there a change of speed along
+/// chords is not one along the path.
+void drop_bends(const std::vector<std::vector<double>>& velocities, std::span<const double> speeds, std::size_t reach,
+                std::size_t linear, std::vector<double>& values) {
+    constexpr double straight = 1e-6;  // 1 − cos of the angle
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const std::size_t k = i + reach;
+        double dot = 0;
+        for (std::size_t axis = 0; axis < linear; ++axis) dot += velocities[axis][i] * velocities[axis][k];
+        if (speeds[i] * speeds[k] - dot > straight * speeds[i] * speeds[k]) values[i] = 0;
+    }
+}
+
+/// All quantities of an order: one an axis, then that of the path: its speed, or the change of it.
+struct Quantities {
+    std::vector<std::vector<double>> values;
+    std::vector<double> speeds;
+    std::vector<char> rapid;
+};
+
+Quantities quantities_of(const MotionPiece& piece, const Motion& motion, int order, std::size_t stride) {
+    Quantities made;
+    std::vector<std::vector<double>> velocities;
+    for (const std::vector<double>& positions : piece.positions) {
+        made.values.push_back(differences(positions, order, stride, motion.period));
+        velocities.push_back(differences(positions, 1, stride, motion.period));
+    }
+    made.speeds.resize(velocities.front().size());
+    for (std::size_t i = 0; i < made.speeds.size(); ++i) {
+        double square = 0;
+        for (std::size_t axis = 0; axis < motion.linear(); ++axis) square += velocities[axis][i] * velocities[axis][i];
+        made.speeds[i] = std::sqrt(square);
+    }
+    made.values.push_back(differences(made.speeds, order - 1, stride, motion.period));
+    drop_bends(velocities, made.speeds, static_cast<std::size_t>(order - 1) * stride, motion.linear(),
+               made.values.back());
+    made.rapid.assign(piece.rapid.begin(),
+                      piece.rapid.begin() + static_cast<std::ptrdiff_t>(made.values.front().size()));
+    return made;
+}
+
+/// What an order of differences is called and where it belongs.
+struct LimitKind {
+    const char* name;
+    int order;
+    PointIndex least;  ///< records of a plateau
+    const char* unit;  ///< after mm or deg
+    double factor;     ///< of the reported unit
+    double margin;     ///< least standard error, share of the value
+    double MachineAxis::*of_axis;
+    double PathLimits::*of_path;
+};
+constexpr std::array limit_kinds{
+    LimitKind{"max_speed", 1, 10, "/min", seconds_per_minute, 1e-4, &MachineAxis::max_speed, &PathLimits::max_speed},
+    LimitKind{"max_acceleration", 2, 5, "/s²", 1, 5e-4, &MachineAxis::max_acceleration, &PathLimits::max_acceleration},
+    LimitKind{"max_jerk", 3, 5, "/s³", 1, 5e-3, &MachineAxis::max_jerk, &PathLimits::max_jerk},
+};
+
+MachineAxis* axis_of(Machine& machine, char letter) {
+    if (letter >= 'x') return &machine.axes[static_cast<std::size_t>(letter - 'x')];
+    const Kinematics& k = machine.kinematics;
+    if (!k.has_rotary()) return nullptr;
+    if (k.tilt.letter == letter) return &machine.rotary[0];
+    return k.rotation.letter == letter ? &machine.rotary[1] : nullptr;
+}
+
+/// The greatest absolute value of each quantity.
+std::vector<double> greatest_of(const Motion& motion, int order, std::size_t stride) {
+    std::vector<double> greatest(motion.letters.size() + 1, 0.0);
+    for (const MotionPiece& piece : motion.pieces) {
+        if (piece.rapid.size() <= static_cast<std::size_t>(order) * stride) continue;
+        const Quantities quantities = quantities_of(piece, motion, order, stride);
+        for (std::size_t q = 0; q < greatest.size(); ++q) {
+            for (const double value : quantities.values[q]) greatest[q] = std::max(greatest[q], std::abs(value));
+        }
+    }
+    return greatest;
+}
+
+/// What rounding makes of a difference at most: 2^order halves of a step.
+double error_of(const Motion& motion, int order, std::size_t stride) {
+    const double time = static_cast<double>(stride) * motion.period;
+    return std::pow(2.0, order - 1) * motion.rounding / std::pow(time, order);
+}
+
+/// The shortest differences that rounding leaves exact to a percent.
+std::size_t stride_of(const Motion& motion, int order) {
+    constexpr double exact = 0.01;
+    std::size_t stride = 1;
+    while (stride < 12 && error_of(motion, order, stride) > exact * greatest_of(motion, order, stride).back()) ++stride;
+    return stride;
+}
+
+/// The highest levels of all quantities of one order.
+class LimitSearch {
+public:
+    LimitSearch(const Motion& motion, const LimitKind& kind) : motion_(motion), kind_(kind) {
+        const std::size_t stride = stride_of(motion, kind.order);
+        time_ = static_cast<double>(stride) * motion.period;
+        greatest_ = greatest_of(motion, kind.order, stride);
+        std::vector<PlateauFinder> finders;
+        for (const double greatest : greatest_)
+            finders.emplace_back(error_of(motion, kind.order, stride), kind.least, greatest);
+        for (const MotionPiece& piece : motion.pieces) {
+            if (piece.rapid.size() <= static_cast<std::size_t>(kind.order) * stride) continue;
+            const Quantities quantities = quantities_of(piece, motion, kind.order, stride);
+            const std::span<const char> allowed =
+                kind.order == 1 ? std::span<const char>(quantities.rapid) : std::span<const char>();
+            for (std::size_t q = 0; q < finders.size(); ++q)
+                finders[q].add(quantities.values, q, quantities.speeds, allowed);
+        }
+        for (const PlateauFinder& finder : finders) {
+            levels_.push_back(finder.highest(least_places, kind.order > 1));
+            bounds_.push_back(finder.nearly_greatest());
+        }
+    }
+
+    void report(Identification& result) const {
+        bool any_axis = false;
+        for (std::size_t q = 0; q < motion_.letters.size(); ++q) any_axis |= holds_alone(q);
+        for (std::size_t q = 0; q < motion_.letters.size(); ++q) report_axis(q, result);
+        if (motion_.linear() < motion_.letters.size()) {
+            result.unidentified.push_back(
+                {kind_.name, "path", "with rotary axes the path of the linear axes is not that of the tool"});
+            return;
+        }
+        const bool path = levels_.back() && (holds_alone(path_number()) || !any_axis);
+        put("path", "mm", path_number(), path, result.machine.path.*kind_.of_path, 1, result);
+    }
+
+private:
+    [[nodiscard]] std::size_t path_number() const { return motion_.letters.size(); }
+    /// Whether a quantity is as great in a plateau as it gets.
+    [[nodiscard]] bool at_limit(const Plateau& plateau, std::size_t q) const {
+        constexpr double alike = 0.005;
+        return plateau.beside[q] > (1 - alike) * (levels_[q] ? levels_[q]->value : greatest_[q]) &&
+               plateau.beside[q] > 0;
+    }
+
+    /// Whether the quantity is at its level where no other limit explains it. On an axis-parallel path those of axis and path
+    /// cannot be told apart: it is then taken as the axis'.
+    [[nodiscard]] bool holds_alone(std::size_t q) const {
+        if (!levels_[q]) return false;
+        std::size_t alone = 0;
+        double least_share = INFINITY, greatest_share = 0;
+        for (const Plateau& plateau : levels_[q]->plateaus) {
+            bool explained = false;
+            for (std::size_t other = 0; other < greatest_.size(); ++other) {
+                if (other == q || !at_limit(plateau, other)) continue;
+                explained |= other != path_number() || plateau.level < parallel * plateau.beside[other];
+            }
+            if (explained) continue;
+            ++alone;
+            const double path = plateau.beside[path_number()];
+            const double share = path > 0 ? plateau.level / path : 1;
+            least_share = std::min(least_share, share);
+            greatest_share = std::max(greatest_share, share);
+        }
+        // All in one direction that is not the axis' own: a limit of the path may be the reason.
+        constexpr double same_direction = 0.02;
+        return alone >= 2 && (greatest_share >= parallel || greatest_share - least_share > same_direction);
+    }
+
+    void report_axis(std::size_t q, Identification& result) const {
+        MachineAxis none;
+        MachineAxis* axis = axis_of(result.machine, motion_.letters[q]);
+        const bool rotary = motion_.letters[q] < 'x';
+        MachineAxis& target = axis != nullptr ? *axis : none;
+        put({motion_.letters[q]}, rotary ? "deg" : "mm", q, holds_alone(q), target.*kind_.of_axis,
+            rotary ? rad_per_deg : 1, result);
+    }
+
+    void put(const std::string& of, const std::string& unit, std::size_t q, bool reached, double& target,
+             double to_machine, Identification& result) const {
+        IdentifiedParameter p{kind_.name, of, 0, unit + kind_.unit, std::nullopt, reached, ""};
+        if (reached) {
+            // A planner fits ramps to whole periods and stays a little below its limits.
+            const double margin = kind_.margin * levels_[q]->value;
+            const double error = std::max(levels_[q]->standard_error, margin) * kind_.factor;
+            p.value = rounded_to(levels_[q]->value * kind_.factor, error);
+            p.standard_error = error;
+            p.note = fmt::format("held in {} places", levels_[q]->plateaus.size());
+            target = p.value / kind_.factor * to_machine;
+        } else if (kind_.order == 3 && reverses_at_once(of, q, result)) {
+            // A path's jerk must be a number; this one limits nothing.
+            target = q == path_number() ? 1e8 : 0;
+            p.value = target;
+            p.reached.reset();
+            p.note = "no limit seen: the acceleration changes between its limits from one record to the next";
+        } else if (greatest_[q] * motion_.period < 1e-9) {
+            result.unidentified.push_back({kind_.name, of, "no such motion"});
+            return;
+        } else {
+            p.value = rounded_to(bounds_[q] * kind_.factor, 1e-3 * bounds_[q] * kind_.factor);
+            const double bound = bounds_[q] * to_machine;
+            const bool unlimited = target == 0;
+            if (!unlimited && target < bound) target = p.value / kind_.factor * to_machine;
+            p.note = fmt::format("hardly exceeded; the file has {:.6g}", target * kind_.factor / to_machine);
+        }
+        result.parameters.push_back(std::move(p));
+    }
+
+    /// Whether the acceleration goes to its limit within the time of a difference.
+    [[nodiscard]] bool reverses_at_once(const std::string& of, std::size_t q, const Identification& result) const {
+        constexpr double most_of_it = 0.6;
+        const IdentifiedParameter* acceleration = result.find("max_acceleration", of);
+        return acceleration != nullptr && greatest_[q] * time_ > most_of_it * acceleration->value;
+    }
+
+    const Motion& motion_;
+    const LimitKind& kind_;
+    double time_ = 0;  ///< of a difference [s]
+    std::vector<double> greatest_, bounds_;
+    std::vector<std::optional<PlateauFinder::Level>> levels_;
+};
+
+}  // namespace
+
+void identify_limits(std::span<const IdentifyRun> runs, Identification& result) {
+    const Motion motion = gather_motion(runs);
+    if (motion.letters.empty() || motion.linear() == 0 || motion.pieces.empty()) {
+        result.unidentified.push_back({"max_speed, max_acceleration, max_jerk", "path", "no commanded positions"});
+        return;
+    }
+    for (const LimitKind& kind : limit_kinds) LimitSearch(motion, kind).report(result);
+}
+
+}  // namespace clsurf

@@ -1,0 +1,17 @@
+#pragma once
+// Limits of speed, acceleration and jerk, from the commanded motion of the runs.
+
+#include <span>
+
+#include "identify/identification.h"
+#include "identify/identify.h"
+
+namespace clsurf {
+
+/// Finds the limits of every commanded axis and of the path. A limit is reached where the motion stays at it over
+/// consecutive records in at least three places and hardly ever exceeds it; all others are lower bounds. Limits of speed are
+/// looked for in rapids alone: elsewhere the programmed feed is held. Differences are not smoothed; where positions are
+/// rounded they are taken over as many records as the rounding asks for. O(records), at most 4·10^6 of them.
+void identify_limits(std::span<const IdentifyRun> runs, Identification& result);
+
+}  // namespace clsurf
