@@ -41,7 +41,7 @@ ExitCode run_info(const po::variables_map& values) {
         // A layout and a mapping say how a log is read; with them every file could be one.
         const bool is_log = io::recognise_log(source, log_options) != nullptr &&
                             !(io::forces_log(log_options) && io::looks_like_program(source));
-        if (!is_log && report_table(source, values, objects)) {
+        if (!is_log && describe_table(source, values, objects)) {
             unusable = true;
             continue;
         }

@@ -40,7 +40,7 @@ bool suggest_mapping_asked(const po::variables_map& values) {
     return true;
 }
 
-bool report_table(const io::Source& source, const po::variables_map& values, std::vector<std::string>& objects) {
+bool describe_table(const io::Source& source, const po::variables_map& values, std::vector<std::string>& objects) {
     const std::optional<io::ForeignTable> table = io::recognise_table(source);
     if (!table) return false;
     if (read_json(values)) {

@@ -17,7 +17,7 @@ void declare_suggestion(po::options_description& options);
 [[nodiscard]] bool suggest_mapping_asked(const po::variables_map& values);
 
 /// Says what a table holds, or appends it to the JSON `objects`. false: the file is no table.
-[[nodiscard]] bool report_table(const io::Source& source, const po::variables_map& values,
+[[nodiscard]] bool describe_table(const io::Source& source, const po::variables_map& values,
                                 std::vector<std::string>& objects);
 
 }  // namespace clsurf::cli
