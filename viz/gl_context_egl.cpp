@@ -2,6 +2,7 @@
 #include <EGL/eglext.h>
 
 #include "core/error.h"
+#include "viz/gl_context.h"
 #include "viz/gl_context_makers.h"
 
 namespace clsurf::viz {

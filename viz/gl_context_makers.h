@@ -1,9 +1,11 @@
 #pragma once
 // The makers of gl_context.cpp, one file each.
 
-#include "viz/gl_context.h"
+#include <memory>
 
 namespace clsurf::viz {
+
+class GlContext;
 
 [[nodiscard]] std::unique_ptr<GlContext> make_osmesa_context(int width, int height);
 [[nodiscard]] std::unique_ptr<GlContext> make_egl_context();

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "viz/gl_context.h"
 #include "viz/gl_context_makers.h"
 
 namespace clsurf::viz {

@@ -1,7 +1,7 @@
 #pragma once
 // MapLayout: the sizes of the items on the sheet of a map, from the size of the picture, and its inks.
 
-#include "viz/scene.h"
+#include "viz/map_panel.h"
 
 namespace clsurf::viz {
 

@@ -79,10 +79,6 @@ Column<std::uint32_t> take_bare(Column<std::uint32_t>& cells, std::size_t size, 
 
 }  // namespace
 
-bool shows(const Camera& camera, const Look& look, const Vec3& p) {
-    return p.allFinite() && camera.shows(p) && (look.box.isEmpty() || look.box.contains(p));
-}
-
 Box3 extent_of(const ClSurface& surface, const ViewAxes& axes) {
     const Positions& p = surface.positions;
     const Eigen::Matrix3f turned = axes.cast<float>();

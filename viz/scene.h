@@ -2,66 +2,11 @@
 // Scene: a quality map on a sheet: panels, what stands round them (map_margin.h), what is marked on
 // them (map_marks.h). To draw another thing, add a function that puts it on the sheet.
 
-#include <functional>
-#include <string>
 #include <vector>
 
-#include "field/field.h"
-#include "surface/cl_surface.h"
-#include "viz/canvas.h"
-#include "viz/detail.h"
-#include "viz/relief.h"
-#include "viz/view.h"
+#include "viz/map_panel.h"
 
 namespace clsurf::viz {
-
-/// How the picture is to look: the options of `render`.
-struct Look {
-    int width = 1600, height = 1200;
-    View view;
-    Zoom zoom;
-    Box3 box;  ///< empty: everything
-    Style style = Style::surface;
-    Rgb background{255, 255, 255};
-    bool legend = true;
-    std::string gl = "osmesa";
-    int supersample = 2;
-};
-
-/// A point to be ringed, or the points of a line to be drawn bold.
-struct PointMark {
-    PointIndex point = 0;
-    std::string label;
-};
-struct LineMark {
-    std::vector<PointRange> points;
-    std::string label;
-};
-
-/// Lines on the surface under one label, the worst first: where labels would lie on each other,
-/// the first stays.
-struct OutlineMark {
-    std::vector<std::vector<Vec3>> lines;  ///< corners [mm]
-    std::string label;
-};
-
-/// One map: what one log shows.
-struct MapPanel {
-    const ClSurface* surface = nullptr;
-    const Field* field = nullptr;
-    std::string caption;  ///< "before", "after"; empty where there is one panel
-    std::vector<PointMark> points;
-    std::vector<LineMark> lines;
-    std::vector<OutlineMark> outlines;
-    const Relief* relief = nullptr;  ///< drawn in place of the surface; the field is then one of its vertices
-    std::function<Vec3(PointIndex)> place_of = {};  ///< where points and lines are marked [mm]; empty: on the surface
-};
-
-struct MapTexts {
-    std::string title;               ///< "Path speed, commanded surface"
-    std::string subtitle;            ///< program · log · counts
-    std::vector<std::string> notes;  ///< window, range: one line where they fit, else one each
-};
 
 /// Extent along the axes of a view of the points that do not belong to rapids [mm]. O(points), parallel.
 [[nodiscard]] Box3 extent_of(const ClSurface& surface, const ViewAxes& axes);
@@ -69,9 +14,6 @@ struct MapTexts {
 /// What the map panels show: a camera of the panels' size. What the part fills of the box,
 /// where there is one, else all that is drawn.
 [[nodiscard]] Camera map_camera(const std::vector<MapPanel>& panels, const Look& look);
-
-/// Whether a position lies in the picture and, where there is one, in the box.
-[[nodiscard]] bool shows(const Camera& camera, const Look& look, const Vec3& p);
 
 /// The sheet of one map, or of two side by side on one scale; `camera` is map_camera's.
 [[nodiscard]] Sheet map_sheet(const std::vector<MapPanel>& panels, const Camera& camera, const ColourScale& scale,

@@ -7,7 +7,7 @@
 
 #include "io/files/json_value.h"
 #include "io/page/page_pack.h"
-#include "io/page/report_page.h"
+#include "io/page/page_content.h"
 
 namespace clsurf::io {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "io/page/report_page.h"
+#include "io/page/page_content.h"
 
 namespace clsurf::io {
 

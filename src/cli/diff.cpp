@@ -9,6 +9,7 @@
 #include "cli/stage_clock.h"
 #include "io/reports/run_report.h"
 #include "pipeline/contacts.h"
+#include "surface/stitch.h"
 
 namespace clsurf::cli {
 namespace {

@@ -6,6 +6,7 @@
 #include "io/files/atomic_file.h"
 #include "io/reports/export_table.h"
 #include "viz/export_vtk.h"
+#include "mapping/line_agreement.h"
 
 namespace clsurf::cli {
 namespace {

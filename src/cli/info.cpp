@@ -11,6 +11,8 @@
 #include "log/health.h"
 #include "pipeline/log_match.h"
 #include "toolpath/toolpath_summary.h"
+#include "mapping/map_lines.h"
+#include "mapping/line_agreement.h"
 
 namespace clsurf::cli {
 namespace {

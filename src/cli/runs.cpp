@@ -9,6 +9,7 @@
 #include "pipeline/placement.h"
 #include "pipeline/roles.h"
 #include "pipeline/simulated_log.h"
+#include "mapping/map_lines.h"
 
 namespace clsurf::cli {
 namespace {

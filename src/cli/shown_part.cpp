@@ -8,6 +8,7 @@
 #include "pipeline/judge.h"
 #include "pipeline/part_fields.h"
 #include "predictor/outline.h"
+#include "surface/stitch.h"
 
 namespace clsurf::cli {
 namespace {

@@ -1,4 +1,5 @@
-// How well lines and geometry fit: check_lines() and what goes with it (mapping/line_map.h).
+#include "mapping/line_agreement.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,7 +8,6 @@
 
 #include "core/statistics.h"
 #include "mapping/allowed_motions.h"
-#include "mapping/line_map.h"
 #include "toolpath/toolpath.h"
 
 namespace clsurf {

@@ -11,6 +11,7 @@
 #include "mapping/line_map.h"
 #include "program/program.h"
 #include "toolpath/trajectory.h"
+#include "mapping/line_agreement.h"
 
 namespace clsurf {
 

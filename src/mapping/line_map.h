@@ -89,34 +89,4 @@ private:
     Column<std::uint32_t> by_line_;        ///< motions sorted by line
 };
 
-/// How well the lines of a map and the geometry of the program fit.
-struct LineAgreement {
-    PointIndex checked = 0;      ///< moving points with a line
-    PointIndex disagreeing = 0;  ///< farther than `tolerance` from what their line allows
-    double median_distance = 0;  ///< [mm] over the checked points
-    double p95_distance = 0;     ///< [mm]
-    double tolerance = 0;        ///< [mm]
-    PointIndex worst = -1;
-    double worst_distance = 0;  ///< [mm]
-};
-
-/// Checks a map against the geometry on about 10^5 points in evenly spaced sections. A point may
-/// lie on the motions from its previous distinct line to its line, one more on each side: a kernel
-/// changes the number where a blend begins, and reports the last line of those that it merged.
-[[nodiscard]] LineAgreement check_lines(const Trajectory& path, const Program& program, const LineMap& map);
-
-/// How sure the lines of points [begin, begin + out.size()) are, 0 … 1: as confidence_at() has it, and less where a
-/// point is off what its line allows by more than a finishing tolerance. O(points).
-void read_confidences(const Trajectory& path, const Program& program, const LineMap& map, PointIndex begin,
-                      std::span<double> out);
-
-/// The lines of a log: its channel where it has one (and `use_channel`), an alignment otherwise. Where
-/// the log names several programs, lines of the others are not taken for this one's. Where the program was edited
-/// after the run (`identity`, or lines that lie beside their motions all along), the log's lines are moved to where
-/// they stand now (mapping/line_edits.h). match() of the result says whether the log belongs to the program.
-/// Adds diagnostics `map.…` about disagreement; where most points are off by the same translation,
-/// `map.work-offset` with the offset that brings them onto the path.
-[[nodiscard]] LineMap map_lines(const Trajectory& path, const Log& log, const Program& program, bool use_channel,
-                                Diagnostics& diagnostics, ProgramIdentity identity = ProgramIdentity::unknown);
-
 }  // namespace clsurf

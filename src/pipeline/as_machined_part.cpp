@@ -1,6 +1,7 @@
 #include "pipeline/as_machined_part.h"
 
 #include "core/error.h"
+#include "surface/stitch.h"
 
 namespace clsurf {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/parallel.h"
+#include "surface/stitch.h"
 
 namespace clsurf {
 namespace {

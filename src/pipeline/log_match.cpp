@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "mapping/line_agreement.h"
 #include "mapping/line_map.h"
+#include "mapping/map_lines.h"
 #include "pipeline/placement.h"
 #include "pipeline/roles.h"
 #include "toolpath/tip_motions.h"

@@ -7,6 +7,8 @@
 #include "pipeline/placement.h"
 #include "pipeline/roles.h"
 #include "surface/smoothing_segments.h"
+#include "mapping/map_lines.h"
+#include "surface/stitch.h"
 
 namespace clsurf {
 namespace {

@@ -1,4 +1,5 @@
 #include "pipeline/point_query.h"
+#include "mapping/line_agreement.h"
 
 #include <array>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 // Axis delay: how far each axis trails its command, and which axes differ enough to make a systematic lag.
 
-#include "predictor/defects.h"
+#include "predictor/defect.h"
 #include "toolpath/trajectory.h"
 
 namespace clsurf {

@@ -5,8 +5,9 @@
 #include <span>
 
 #include "predictor/candidates.h"
-#include "predictor/defects.h"
+#include "predictor/defect.h"
 #include "toolpath/toolpath.h"
+#include "mapping/line_map.h"
 
 namespace clsurf {
 

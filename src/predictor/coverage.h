@@ -1,7 +1,7 @@
 #pragma once
 // Coverage: whether enough of a part could be compared for a verdict.
 
-#include "predictor/defects.h"
+#include "predictor/defect.h"
 
 namespace clsurf {
 

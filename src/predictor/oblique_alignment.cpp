@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/not_finite.h"
+#include "predictor/compared.h"
 #include "predictor/median_of.h"
-#include "predictor/mismatch.h"
 
 namespace clsurf {
 namespace {

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "predictor/defects.h"
+#include "predictor/defect.h"
 
 namespace clsurf {
 

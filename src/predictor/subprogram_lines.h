@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "mapping/line_map.h"
-#include "predictor/defects.h"
+#include "predictor/defect.h"
 #include "program/program.h"
 
 namespace clsurf {

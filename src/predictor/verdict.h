@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "predictor/budget.h"
-#include "predictor/defects.h"
+#include "predictor/defect.h"
 
 namespace clsurf {
 

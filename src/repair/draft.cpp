@@ -2,7 +2,6 @@
 
 #include "repair/line_edit.h"
 #include "repair/points/resample.h"
-#include "repair/proposal.h"
 
 namespace clsurf {
 

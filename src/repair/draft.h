@@ -7,12 +7,11 @@
 #include <vector>
 
 #include "program/program.h"
+#include "repair/optimize_rules.h"
 #include "repair/points/orientation.h"
 #include "surface/programmed_surface.h"
 
 namespace clsurf {
-
-struct OptimizeRules;
 
 /// Reads a text in the dialect of the program, with the same options.
 using ReadProgram = std::function<Program(const std::string& text)>;

@@ -10,6 +10,8 @@
 #include "pipeline/roles.h"
 #include "pipeline/signals_of.h"
 #include "predictor/quality_fields.h"
+#include "mapping/map_lines.h"
+#include "surface/stitch.h"
 
 namespace clsurf {
 

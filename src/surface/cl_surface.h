@@ -49,7 +49,4 @@ private:
     std::size_t next_ = 0;
 };
 
-/// Stitches the runs of a trajectory into a surface; what is no finishing pass is left out. `step_over` [mm], 0: estimated. O(points).
-[[nodiscard]] ClSurface stitch(Positions positions, const LineMap& lines, double step_over = 0);
-
 }  // namespace clsurf

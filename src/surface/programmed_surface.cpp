@@ -5,6 +5,7 @@
 
 #include "core/statistics.h"
 #include "toolpath/toolpath.h"
+#include "surface/stitch.h"
 
 namespace clsurf {
 namespace {

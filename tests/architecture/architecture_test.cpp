@@ -57,27 +57,6 @@ std::string room_of(const std::string& path) {
     return part->string();
 }
 
-struct Include {
-    std::string header;
-    bool own = false;  // "…", not <…>
-};
-
-std::vector<Include> includes_of(const SourceFile& file) {
-    std::vector<Include> includes;
-    for (const std::string& line : lines_of(file.text)) {
-        const std::size_t hash = line.find_first_not_of(" \t");
-        if (hash == std::string::npos || line[hash] != '#') continue;
-        const std::size_t word = line.find("include", hash);
-        if (word == std::string::npos) continue;
-        const std::size_t open = line.find_first_of("<\"", word);
-        if (open == std::string::npos) continue;
-        const bool own = line[open] == '"';
-        const std::size_t close = line.find(own ? '"' : '>', open + 1);
-        includes.push_back({line.substr(open + 1, close - open - 1), own});
-    }
-    return includes;
-}
-
 Complaints check_rooms(const SourceFile& file, const Arrows& arrows) {
     Complaints complaints;
     const std::string room = room_of(file.path);

@@ -95,6 +95,27 @@ inline std::vector<SourceFile> sources_in(const std::vector<std::string>& folder
     return files;
 }
 
+struct Include {
+    std::string header;
+    bool own = false;  // "…", not <…>
+};
+
+inline std::vector<Include> includes_of(const SourceFile& file) {
+    std::vector<Include> includes;
+    for (const std::string& line : lines_of(file.text)) {
+        const std::size_t hash = line.find_first_not_of(" \t");
+        if (hash == std::string::npos || line[hash] != '#') continue;
+        const std::size_t word = line.find("include", hash);
+        if (word == std::string::npos) continue;
+        const std::size_t open = line.find_first_of("<\"", word);
+        if (open == std::string::npos) continue;
+        const bool own = line[open] == '"';
+        const std::size_t close = line.find(own ? '"' : '>', open + 1);
+        includes.push_back({line.substr(open + 1, close - open - 1), own});
+    }
+    return includes;
+}
+
 inline void expect_none(const Complaints& complaints) {
     for (const std::string& complaint : complaints) ADD_FAILURE() << complaint;
 }

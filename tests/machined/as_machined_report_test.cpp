@@ -9,6 +9,8 @@
 #include "machined/scallop.h"
 #include "planted_score.h"
 #include "surface/smoothing_segments.h"
+#include "mapping/map_lines.h"
+#include "surface/stitch.h"
 
 namespace clsurf {
 namespace {

@@ -13,6 +13,7 @@
 #include "io/readers/program_file.h"
 #include "mapping/line_map.h"
 #include "program/motion_rows.h"
+#include "mapping/map_lines.h"
 
 namespace clsurf {
 namespace {

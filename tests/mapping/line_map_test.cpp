@@ -12,6 +12,7 @@
 #include "io/readers/program_file.h"
 #include "mapping/alignment.h"
 #include "program/interpreter.h"
+#include "mapping/map_lines.h"
 
 namespace clsurf {
 namespace {

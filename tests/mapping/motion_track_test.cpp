@@ -12,6 +12,7 @@
 #include "mapping/line_map.h"
 #include "program/interpreter.h"
 #include "toolpath/toolpath.h"
+#include "mapping/map_lines.h"
 
 namespace clsurf {
 namespace {

@@ -4,6 +4,7 @@
 
 #include "mapping/line_map.h"
 #include "program/interpreter.h"
+#include "mapping/map_lines.h"
 
 namespace clsurf {
 namespace {

@@ -13,6 +13,8 @@
 #include "predictor/axis_delay.h"
 #include "predictor/verdict.h"
 #include "surface/smoothing_segments.h"
+#include "mapping/map_lines.h"
+#include "surface/stitch.h"
 
 namespace clsurf {
 namespace {

@@ -19,6 +19,8 @@
 #include "support/temporary_folder.h"
 #include "surface/smoothing_segments.h"
 #include "toolpath/tip_motions.h"
+#include "mapping/map_lines.h"
+#include "surface/stitch.h"
 
 namespace clsurf {
 namespace {

@@ -14,6 +14,7 @@
 #include "mapping/line_map.h"
 #include "support/made_five_axis.h"
 #include "toolpath/tip_motions.h"
+#include "mapping/map_lines.h"
 
 namespace clsurf {
 namespace {

@@ -149,6 +149,11 @@ struct DialectRules {
     void (*about_pole)(Interpreter&, const Block&, Vec3& end) = nullptr;
     /// The name of work systems after G59, from 7 on; nullptr: G54.1 P1 …
     std::string (*work_system_name)(int number) = nullptr;
+
+    /// What the controls of the dialect accept. `unit_mm`: of the program's lengths.
+    [[nodiscard]] const ArcTolerance& arc_tolerance_in(double unit_mm) const {
+        return unit_mm != 1 && arc_tolerance_inch ? *arc_tolerance_inch : arc_tolerance;
+    }
 };
 
 }  // namespace clsurf

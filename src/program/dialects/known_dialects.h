@@ -1,5 +1,5 @@
 #pragma once
-// The rules of the dialects that clsurf reads, each in its own file. Listed in dialect.cpp.
+// The rules of the dialects that clsurf reads, each in its own file. Listed in dialect_table.cpp.
 
 #include <limits>
 #include <span>

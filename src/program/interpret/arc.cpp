@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "program/dialects/dialect_rules.h"
 
 namespace clsurf {
 namespace {
@@ -31,10 +30,6 @@ Vec2 centre_on_bisector(const Vec2& from, const Vec2& to, const Vec2& programmed
 }
 
 }  // namespace
-
-ArcTolerance arc_tolerance(const DialectRules& rules, double unit_mm) {
-    return unit_mm != 1 && rules.arc_tolerance_inch ? *rules.arc_tolerance_inch : rules.arc_tolerance;
-}
 
 Arc resolve_arc(const ArcWords& words, const ArcTolerance& tolerance, std::string& error) {
     const int u = (words.axis + 1) % 3;

@@ -7,12 +7,9 @@
 #include <vector>
 
 #include "core/geometry.h"
-#include "program/dialects/dialect.h"
 #include "program/motion.h"
 
 namespace clsurf {
-
-struct DialectRules;
 
 struct ArcWords {
     Vec3 begin, end;  ///< [mm]; the components along `axis` make it a helix
@@ -34,9 +31,6 @@ struct ArcTolerance {
     double relative_reach = 0;  ///< the same, of R; the greater of both counts
     bool moves_centre = false;  ///< the centre is moved so that one circle runs through both ends; else a spiral
 };
-
-/// What the controls of a dialect accept. `unit_mm`: of the program's lengths.
-[[nodiscard]] ArcTolerance arc_tolerance(const DialectRules& rules, double unit_mm);
 
 /// The arc, without its motion's number; or, in `error`, why there is none (both radii named).
 [[nodiscard]] Arc resolve_arc(const ArcWords& words, const ArcTolerance& tolerance, std::string& error);

@@ -244,7 +244,7 @@ void Interpreter::arc(const Block& block, bool clockwise) {
     }
     refuse_turns(block);
     std::string error;
-    Arc arc = resolve_arc(words, arc_tolerance(*rules_, state_.unit_mm), error);
+    Arc arc = resolve_arc(words, rules_->arc_tolerance_in(state_.unit_mm), error);
     if (!error.empty()) fail(error, block.words.g_count > 0 ? block.words.g_column[0] : 1);
     const std::optional<ProgramFrame::Circle> circle = state_.frame.circle(arc.axis);
     if (!circle) {

@@ -194,7 +194,7 @@ private:
             c_.at += id.size();
             const double given = value();
             const double argument = std::isnan(given) ? 0 : given;
-            const double result = call_function(*row, argument, rules_, least_increment_);
+            const double result = call_function(*row, argument, rules_.rounds_to_increment, least_increment_);
             if (std::isnan(result) && !std::isnan(argument)) {
                 throw ReadError{
                     std::string(row->name) + " of " + std::to_string(argument) + " is not defined", column, {}};

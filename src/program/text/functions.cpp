@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "core/units.h"
-#include "program/text/text_rules.h"
 
 namespace clsurf {
 namespace {
@@ -50,8 +49,8 @@ const FunctionRow* find_function(std::string_view name, std::span<const Function
     return found != nullptr ? found : in(own);
 }
 
-double call_function(const FunctionRow& function, double argument, const TextRules& rules, double least_increment) {
-    if (rules.rounds_to_increment) {
+double call_function(const FunctionRow& function, double argument, bool rounds_to_increment, double least_increment) {
+    if (rounds_to_increment) {
         if (function.name == "FIX" || function.name == "FUP")
             return std::copysign(function.value(std::abs(argument)), argument);
         if (function.name == "ROUND") return function.value(argument / least_increment) * least_increment;

@@ -8,8 +8,6 @@
 
 namespace clsurf {
 
-struct TextRules;
-
 struct FunctionRow {
     std::string_view name;
     double (*value)(double);  ///< NaN where it is not defined
@@ -25,8 +23,8 @@ struct ArgumentsRow {
 /// Of all dialects, or of `own`; nullptr: none of that name (upper case).
 [[nodiscard]] const FunctionRow* find_function(std::string_view name, std::span<const FunctionRow> own);
 
-/// As the dialect counts: FIX and FUP of Fanuc by magnitude, its ROUND in multiples of `least_increment`.
-[[nodiscard]] double call_function(const FunctionRow& function, double argument, const TextRules& rules,
+/// `rounds_to_increment`: as Fanuc counts, FIX and FUP by magnitude, ROUND in multiples of `least_increment`.
+[[nodiscard]] double call_function(const FunctionRow& function, double argument, bool rounds_to_increment,
                                    double least_increment);
 
 }  // namespace clsurf

@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "simulation/run/servo.h"
-#include "simulation/run/simulator.h"
+#include "machine/machine.h"
+#include "simulation/run/simulated_point.h"
 
 namespace clsurf {
 

@@ -6,7 +6,9 @@
 // decides how each block passes into the next and scans back over the look-ahead; blend_corner() makes the arcs;
 // SegmentRunner moves, a period at a time; BlockMerging joins blocks before (G64 Q).
 
-#include "simulation/run/simulator.h"
+#include "core/progress.h"
+#include "machine/machine.h"
+#include "simulation/run/simulated_point.h"
 
 namespace clsurf {
 

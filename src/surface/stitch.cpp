@@ -1,4 +1,4 @@
-#include "surface/cl_surface.h"
+#include "surface/stitch.h"
 
 #include <utility>
 

@@ -1,0 +1,88 @@
+#pragma once
+// ReportPage: what the page of `clsurf report` shows.
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "field/field.h"
+#include "field/range.h"
+#include "io/page/kept_points.h"
+#include "io/reports/quality_report.h"
+#include "log/log.h"
+#include "mapping/line_map.h"
+#include "surface/cl_surface.h"
+#include "toolpath/trajectory.h"
+
+namespace clsurf::io {
+
+/// What one log shows. All that is pointed at must outlive the page.
+struct PageSurface {
+    const Log* log = nullptr;
+    const LineMap* lines = nullptr;
+    const ClSurface* surface = nullptr;
+    const Trajectory* path = nullptr;     ///< of the role that the surface is of
+    std::vector<Trajectory> other_roles;  ///< positions that can be shown in its place
+    const KeptPoints* kept = nullptr;
+    std::span<const Field> fields;             ///< one value per point of the log
+    std::span<const std::uint8_t> joined;      ///< per kept point: goes on from the one before
+    std::span<const std::uint32_t> triangles;  ///< numbers of kept points
+    std::span<const std::uint32_t> segments;
+};
+
+struct PagePicture {
+    std::string title, text;
+    std::string png;
+};
+
+struct PageDefect {
+    std::vector<std::vector<Vec3>> outlines;  ///< lines [mm] on the surface of the tool tips
+    std::optional<PagePicture> picture;
+    std::vector<std::vector<Vec3>> contact_outlines = {};  ///< the same on the part; empty: no tool is known
+};
+
+struct PageColourMap {
+    std::string name, summary;
+    bool centred = false;
+    std::string rgb;  ///< evenly spaced colours, three bytes each
+};
+
+/// A height map of what the tool leaves standing.
+struct PageRelief {
+    Vec3 origin = Vec3::Zero();  ///< [mm]
+    double pitch = 0;            ///< [mm]
+    std::int64_t columns = 0, rows = 0;
+    std::span<const float> z;          ///< [mm] over the origin, row by row; NaN: none
+    std::span<const float> deviation;  ///< [mm] over the form
+    ShownRange range;                  ///< of the deviation [µm]
+    std::string note;
+};
+
+/// How a field is distributed over the cutting points, in shown units.
+struct PagePercentiles {
+    std::string field;
+    std::vector<double> of_magnitude;  ///< 50th, 90th, 99th, 100th of |value|; NaN: not known
+};
+
+struct ReportPage {
+    std::string program, log, before;              ///< as they stand on the command line; `before` empty: none
+    std::vector<std::string> reading_options;      ///< that `render` needs too, to read the same
+    std::vector<std::string> as_machined_options;  ///< … and to draw the formed surface
+    std::vector<PageSurface> surfaces;             ///< of `log`, then of `before`
+    std::vector<ShownRange> ranges;                ///< per field, of all logs
+    std::string first_field;                       ///< shown at first
+    ReportedQuality quality;
+    std::vector<PageDefect> defects;  ///< one per defect of the report
+    std::vector<PagePercentiles> percentiles;
+    Diagnostics health;  ///< findings on program and log
+    std::vector<PagePicture> pictures;
+    std::vector<PageColourMap> colour_maps;
+    std::optional<PageRelief> relief;
+    std::uint64_t most_bytes = 0;  ///< the limit that the points were chosen for
+};
+
+/// Percentiles of PagePercentiles.
+inline constexpr double page_percentiles[] = {50, 90, 99, 100};
+
+}  // namespace clsurf::io

@@ -1,0 +1,199 @@
+#include "mapping/map_lines.h"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/block.h"
+#include "mapping/alignment.h"
+#include "mapping/allowed_motions.h"
+#include "mapping/feed_edits.h"
+#include "mapping/line_agreement.h"
+#include "mapping/line_edits.h"
+#include "mapping/motion_track.h"
+#include "mapping/program_course.h"
+#include "mapping/program_lines.h"
+#include "mapping/work_offset.h"
+
+namespace clsurf {
+namespace {
+
+/// More disagreement than this among the checked points is worth a warning.
+constexpr double disagreeing_share = 0.005;
+/// Where most points are off, a work offset is looked for.
+constexpr double offset_share = 0.5;
+constexpr PointIndex least_checked = 10;  ///< points that can tell a foreign log
+/// A log of another program, as its hash says, may differ from this one by this much.
+constexpr double other_share = 0.05;
+/// Runs of points whose middle lies off its line: an edit may have moved the lines behind it.
+constexpr double displaced = 0.02;
+/// So many that the lines mean nothing where no edit explains them.
+constexpr double all_displaced = 0.3;
+/// A path that fits although its line numbers do not has no more points off than this.
+constexpr double fitting_share = 0.1;
+constexpr double sure_confidence = 0.9;  ///< of an aligned point
+
+/// Part of the aligned points that are farther off than a finishing tolerance.
+double off_share(const LineMap& map) {
+    constexpr PointIndex looked_at = 10'000;
+    const PointIndex stride = std::max<PointIndex>(1, map.count() / looked_at);
+    PointIndex off = 0;
+    PointIndex all = 0;
+    for (PointIndex i = 0; i < map.count(); i += stride, ++all) off += map.confidence_at(i) < sure_confidence ? 1 : 0;
+    return all > 0 ? static_cast<double>(off) / static_cast<double>(all) : 0.0;
+}
+
+ChannelView view_of(const Column<LineNumber>& lines) {
+    return {reinterpret_cast<const std::byte*>(lines.data()),
+            sizeof(LineNumber),
+            static_cast<PointIndex>(lines.size()),
+            ScalarType::u32,
+            false,
+            1.0,
+            0.0};
+}
+
+/// Puts the lines of a log and a program together.
+class LineMapper {
+public:
+    LineMapper(const Trajectory& path, const Log& log, const Program& program, ProgramIdentity identity,
+               Diagnostics& diagnostics)
+        : path_(path), log_(log), program_(program), identity_(identity), diagnostics_(diagnostics) {
+        match_.edited = identity == ProgramIdentity::edited || identity == ProgramIdentity::other;
+    }
+
+    LineMap by_geometry() {
+        LineMap map = align_lines(path_, program_, diagnostics_);
+        const double off = off_share(map);
+        const bool explained = off > offset_share && note_pose(path_, program_, nullptr, diagnostics_);
+        const double foreign_at = identity_ == ProgramIdentity::other ? other_share : offset_share;
+        if (identity_ != ProgramIdentity::same && !explained && off > foreign_at)
+            match_.foreign = fmt::format("{:.0f} % of its points lie off the programmed path", 100 * off);
+        if (off <= offset_share) match_.missing = note_course(path_, log_, program_, map, diagnostics_);
+        return finish(std::move(map));
+    }
+
+    LineMap by_channel(const Channel& channel, const ProgramLines& own) {
+        LineMap map = own.lines ? reported(channel.values, view_of(*own.lines), own.lines)
+                                : reported(channel.values, channel.values, log_.keep_alive);
+        const double off_line = identity_ == ProgramIdentity::same ? 0.0 : displaced_share(path_, program_, map);
+        if (match_.edited || off_line > displaced) {
+            if (std::optional<LineMap> moved = look_for_edits(channel, own)) {
+                map = std::move(*moved);
+            } else if (off_line > all_displaced) {
+                if (std::optional<LineMap> found = fitting_geometry()) return finish(std::move(*found));
+            }
+        }
+        const LineAgreement agreement = check_lines(path_, program_, map);
+        if (share_of(agreement) > disagreeing_share) note_disagreement(agreement);
+        const bool explained = share_of(agreement) > offset_share && note_pose(path_, program_, &map, diagnostics_);
+        const double foreign_at = identity_ == ProgramIdentity::other ? other_share : offset_share;
+        if (identity_ != ProgramIdentity::same && !explained && agreement.checked >= least_checked &&
+            share_of(agreement) > foreign_at) {
+            match_.foreign = fmt::format("{:.0f} % of {} checked points lie farther than {} mm from their lines",
+                                         100 * share_of(agreement), agreement.checked, agreement.tolerance);
+        }
+        if (share_of(agreement) <= offset_share) match_.missing = note_course(path_, log_, program_, map, diagnostics_);
+        return finish(std::move(map));
+    }
+
+private:
+    static double share_of(const LineAgreement& a) {
+        return a.checked > 0 ? static_cast<double>(a.disagreeing) / static_cast<double>(a.checked) : 0.0;
+    }
+
+    LineMap finish(LineMap map) {
+        if (match_.edited && match_.foreign.empty())
+            note_changed_feeds(path_, log_.period, program_, map, diagnostics_);
+        map.set_match(std::move(match_));
+        return map;
+    }
+
+    /// `numbers`: of the file that runs; `lines`: of the main program.
+    LineMap reported(const ChannelView& numbers, const ChannelView& lines, std::shared_ptr<const void> keep_alive) {
+        Column<std::uint32_t> motions;
+        if (lines_are_ambiguous(program_.motions))
+            motions = track_motions(path_, log_, program_, numbers, corner_tolerance(program_));
+        return {lines, program_, std::move(keep_alive), std::move(motions)};
+    }
+
+    /// The log's lines where they stand in the text that was edited after the run.
+    std::optional<LineMap> look_for_edits(const Channel& channel, const ProgramLines& own) {
+        Diagnostics of_alignment;
+        const LineMap aligned = align_lines(path_, program_, of_alignment);
+        if (off_share(aligned) > offset_share) return std::nullopt;
+        const ChannelView lines = own.lines ? view_of(*own.lines) : channel.values;
+        std::optional<LineEdits> edits = find_line_edits(path_, program_, lines, aligned);
+        if (!edits) return std::nullopt;
+        if (edits->shifts.empty()) {
+            if (match_.edited)
+                diagnostics_.add({Severity::note,
+                                  "map.edited",
+                                  Place::of_file(program_.main().name()),
+                                  "no line moved by the edit: the log's line numbers hold",
+                                  {}});
+            return std::nullopt;
+        }
+        match_.edited = true;
+        diagnostics_.add({Severity::warning,
+                          "map.edited",
+                          Place::of_file(program_.main().name()),
+                          fmt::format("{} since the run; the log's line numbers were moved accordingly", edits->text()),
+                          {}});
+        auto moved = std::make_shared<const Column<LineNumber>>(std::move(edits->lines));
+        if (!own.lines) return reported(view_of(*moved), view_of(*moved), moved);
+        // Numbers of the main program are moved, those of other files stay.
+        Column<LineNumber> numbers(moved->size());
+        copy_block(channel.values, 0, {numbers.data(), numbers.size()}, 0);
+        for (std::size_t i = 0; i < numbers.size(); ++i) {
+            if (numbers[i] == (*own.lines)[i]) numbers[i] = (*moved)[i];
+        }
+        return reported(view_of(numbers), view_of(*moved), moved);
+    }
+
+    /// Where the log's numbers mean nothing in this program (block numbers, other lines), but its path fits.
+    std::optional<LineMap> fitting_geometry() {
+        Diagnostics of_alignment;
+        LineMap map = align_lines(path_, program_, of_alignment);
+        if (off_share(map) > fitting_share) return std::nullopt;
+        diagnostics_.add({Severity::warning,
+                          "map.line-numbers",
+                          Place::of_file(log_.name),
+                          "the log's line numbers do not fit the program, its path does: lines are found by geometry",
+                          {}});
+        match_.edited = true;
+        match_.missing = note_course(path_, log_, program_, map, diagnostics_);
+        return map;
+    }
+
+    void note_disagreement(const LineAgreement& agreement) {
+        diagnostics_.add({Severity::warning, "map.disagreement", Place::of_point(log_.name, agreement.worst),
+                          fmt::format("{} of {} checked points are farther than {} mm from the line that the log "
+                                      "gives them: median {:.4f} mm, worst {:.3f} mm",
+                                      agreement.disagreeing, agreement.checked, agreement.tolerance,
+                                      agreement.median_distance, agreement.worst_distance),
+                          "another program, another version of it, or another work offset?"});
+    }
+
+    const Trajectory& path_;
+    const Log& log_;
+    const Program& program_;
+    ProgramIdentity identity_;
+    Diagnostics& diagnostics_;
+    ProgramMatch match_;
+};
+
+}  // namespace
+
+LineMap map_lines(const Trajectory& path, const Log& log, const Program& program, bool use_channel,
+                  Diagnostics& diagnostics, ProgramIdentity identity) {
+    LineMapper mapper(path, log, program, identity, diagnostics);
+    const Channel* channel = use_channel ? log.find("line") : nullptr;
+    if (channel == nullptr) return mapper.by_geometry();
+    const ProgramLines own = lines_of_program(log, program, diagnostics);
+    return own.known ? mapper.by_channel(*channel, own) : mapper.by_geometry();
+}
+
+}  // namespace clsurf

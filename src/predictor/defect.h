@@ -1,0 +1,99 @@
+#pragma once
+// Defect: a place where a pass differs from its neighbours enough to leave a mark; and the report of all of a part.
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/cutter_place.h"
+#include "predictor/judgement.h"
+#include "predictor/mismatch.h"
+#include "predictor/severity.h"
+
+namespace clsurf {
+
+enum class Cause : std::uint8_t {
+    feed_drop,      ///< slower (or faster) than its neighbours over a section
+    oscillation,    ///< the speed swings about that of the neighbours
+    lag_step,       ///< the axes leave the commanded path otherwise than beside it
+    point_spacing,  ///< the program's own points lie otherwise than beside it
+    corner,         ///< the programmed path turns there
+    reversal,       ///< an axis turns back there
+    pass_end,       ///< the pass begins or ends there
+};
+[[nodiscard]] std::string_view name_of(Cause cause);         ///< "feed_drop"
+[[nodiscard]] std::string_view description_of(Cause cause);  ///< "slower than its neighbours"
+
+/// A section of one pass.
+struct DefectRun {
+    std::int64_t pass = 0;  ///< number of the cut pass, from 1
+    PointRange points;
+    LineNumber first_line = 0, last_line = 0;  ///< of these points, in the main program; 0: no line
+    /// Where a subprogram in a file of its own runs: the file and its lines. first_line and last_line call it.
+    std::string file = {};
+    LineNumber file_first_line = 0, file_last_line = 0;
+};
+
+/// How far the measured position of an axis trails the commanded one.
+struct AxisDelay {
+    char axis = 'x';
+    double delay = 0;  ///< [s] following error over speed
+};
+
+struct Defect {
+    int severity = 1;  ///< 1 to 4 (severity.h)
+    Cause cause = Cause::feed_drop;
+    Quantity quantity = Quantity::speed;  ///< that shows it best
+    float score = 0;                      ///< peak over threshold: how far it stands out of what the part is like
+    bool systematic = false;              ///< lag that alternates with the direction of travel (systematic_lag.h)
+    double share = 0;                     ///< of a systematic one: of the path of all cut passes, 0 … 1
+    std::vector<AxisDelay> delays;      ///< of a systematic one: the axes that differ, slowest first; empty: not known
+    CutterPlace place;                  ///< where it is strongest; the contact where the tool is known
+    PointIndex point = 0;               ///< there
+    Box3 bounds;                        ///< [mm] of tips
+    Box3 contact_bounds;                ///< [mm] of contact points; empty: not known
+    double area = 0;                    ///< [mm²]
+    double length = 0;                  ///< [mm] along the feed, of the longest run
+    double depth = 0;                   ///< [mm] ≥ 0, predicted step against the neighbours along the normal
+    bool pit = false;                   ///< below its neighbours; else a bulge, which they cut down again
+    double speed = 0;                   ///< [mm/s] where it is strongest
+    double speed_beside = 0;            ///< [mm/s] of the passes beside it, there
+    double speed_jump = 0;              ///< [mm/s] signed, against the neighbours
+    double speed_mismatch = 0;          ///< the same relative to the neighbours' speed, ≥ −1
+    double acceleration_jump = 0;       ///< [mm/s²] ≥ 0
+    std::vector<DefectRun> runs;        ///< of the passes at fault, in the order of their points
+    std::vector<DefectRun> neighbours;  ///< the clean passes beside them
+};
+
+struct QualityRules {
+    ThresholdRule thresholds;
+    std::optional<Thresholds> fixed;  ///< those that another run was judged by, instead of the run's own
+    SeverityRule severity;
+    bool group_systematic = true;  ///< systematic lag is one defect; else each of its places is
+};
+
+struct QualityReport {
+    std::vector<Defect> defects;   ///< in falling order of score
+    std::vector<Defect> expected;  ///< at outermost passes: what a part's border always shows
+    Thresholds thresholds;
+    PointIndex points = 0;         ///< of cut passes
+    PointIndex compared = 0;       ///< of them, with a neighbour on both sides and away from the ends
+    PointIndex not_finishing = 0;  ///< cutting points of pockets, drilling, single contours: left out
+    std::int64_t passes = 0;       ///< cut passes
+    double step_over = 0;          ///< [mm]
+    bool has_lag = false;          ///< measured positions were there
+    Judgement judgement;           ///< whether the data allow a verdict
+    std::string note;              ///< the windows
+
+    [[nodiscard]] double coverage() const {
+        return points > 0 ? static_cast<double>(compared) / static_cast<double>(points) : 0;
+    }  ///< 0 … 1
+    /// Of all cutting points, those that belong to no finishing pass, 0 … 1.
+    [[nodiscard]] double not_finishing_share() const {
+        return not_finishing > 0 ? static_cast<double>(not_finishing) / static_cast<double>(points + not_finishing) : 0;
+    }
+    [[nodiscard]] int worst_severity() const;  ///< 0: no defects
+};
+
+}  // namespace clsurf

@@ -1,0 +1,33 @@
+#pragma once
+// OptimizeRules: what a repaired program may differ in.
+
+#include <string>
+
+#include "core/geometry.h"
+#include "core/units.h"
+#include "predictor/defect.h"
+
+namespace clsurf {
+
+/// Largest angle between the new and the programmed tool axis: a hundredth of a degree moves the centre of a ball of 6
+/// mm radius by 1 µm.
+inline constexpr double most_turned = 0.01 * rad_per_deg;
+
+/// Each place of a systematic lag counts, because each may be equalised.
+[[nodiscard]] inline QualityRules judged_place_by_place() {
+    QualityRules rules;
+    rules.group_systematic = false;
+    return rules;
+}
+
+struct OptimizeRules {
+    double tolerance = 0.005;   ///< [mm] from the programmed path
+    double more_time = 0;       ///< a share: how much longer the new program may take
+    int least_decimals = 0;     ///< of new coordinates; 0: as many as the program has
+    Vec3 start = Vec3::Zero();  ///< [mm] where the axes stand before the program
+    Vec3 zero = Vec3::Zero();   ///< [mm] machine position of its zero, on five axes
+    QualityRules quality = judged_place_by_place();
+    std::string header;  ///< text of the comment that says where the program comes from
+};
+
+}  // namespace clsurf

@@ -1,0 +1,37 @@
+#pragma once
+// SimulatedPoint: what a controller simulation gives for each period, and the summary of all of them.
+
+#include <array>
+#include <functional>
+#include <span>
+
+#include "core/diagnostic.h"
+#include "simulation/path/path_stream.h"
+
+namespace clsurf {
+
+/// A record of the log: the positions at the end of a period.
+struct SimulatedPoint {
+    Vec3 commanded = Vec3::Zero(), feedback = Vec3::Zero();  ///< [mm]
+    double speed = 0;                                        ///< of the commanded path [mm/s]
+    LineNumber line = 0;
+    LimitingFactor limit = LimitingFactor::none;
+};
+
+inline constexpr double limit_tolerance = 1.001;  ///< a limit counts as held within this factor: values are differences
+
+/// What a run was like, measured on the points themselves by differences.
+struct SimulationSummary {
+    PointIndex points = 0;
+    double duration = 0;   ///< [s]
+    double max_speed = 0;  ///< of the path [mm/s]
+    Vec3 max_axis_speed = Vec3::Zero(), max_acceleration = Vec3::Zero(), max_jerk = Vec3::Zero();
+    double path_deviation = 0;  ///< greatest distance that rounding took a point from the path [mm]
+    bool limits_ok = true;      ///< no limit of an axis or the path's speed exceeded by more than limit_tolerance
+    std::array<PointIndex, 10> limited_by{};  ///< points by LimitingFactor
+    Diagnostics diagnostics;
+};
+
+using PointSink = std::function<void(std::span<const SimulatedPoint>)>;
+
+}  // namespace clsurf

@@ -1,0 +1,12 @@
+#pragma once
+// stitch(): the CL surface of a trajectory: its passes, their neighbours, the step-over.
+
+#include "mapping/line_map.h"
+#include "surface/cl_surface.h"
+
+namespace clsurf {
+
+/// Stitches the runs of a trajectory into a surface; what is no finishing pass is left out. `step_over` [mm], 0: estimated. O(points).
+[[nodiscard]] ClSurface stitch(Positions positions, const LineMap& lines, double step_over = 0);
+
+}  // namespace clsurf

@@ -1,0 +1,85 @@
+// A component is a header with the source of its name. Components include each other without cycles, so that each can
+// be read, and tested, after those that it needs.
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <map>
+#include <set>
+
+#include "architecture/sources.h"
+
+namespace clsurf::test {
+namespace {
+
+// Components that still include each other. Only ever fewer.
+const std::set<std::string> known_cycles{"src/cli/command_line",   "src/cli/config",         "src/cli/help",
+                                         "src/cli/options",        "src/lint/lint",          "src/lint/lint_rule",
+                                         "src/toolpath/tool_axes", "src/toolpath/trajectory"};
+
+using Graph = std::map<std::string, std::set<std::string>>;  // component → components that it includes
+
+std::string component_of(const std::string& path) { return path.substr(0, path.rfind('.')); }
+
+Graph graph_of(const std::vector<SourceFile>& files) {
+    std::set<std::string> paths;
+    for (const SourceFile& file : files) paths.insert(file.path);
+    Graph graph;
+    for (const SourceFile& file : files) {
+        std::set<std::string>& included = graph[component_of(file.path)];
+        for (const Include& include : includes_of(file)) {
+            for (const std::string& path : {"src/" + include.header, include.header}) {
+                if (paths.contains(path) && component_of(path) != component_of(file.path))
+                    included.insert(component_of(path));
+            }
+        }
+    }
+    return graph;
+}
+
+/// Depth first; an arrow to a component that is not finished closes a cycle.
+Complaints check_cycles(const Graph& graph, const std::set<std::string>& known) {
+    Complaints complaints;
+    std::map<std::string, bool> finished;
+    std::vector<std::string> path;
+    const std::function<void(const std::string&)> visit = [&](const std::string& component) {
+        finished[component] = false;
+        path.push_back(component);
+        for (const std::string& next : graph.at(component)) {
+            const auto seen = finished.find(next);
+            if (seen == finished.end()) {
+                visit(next);
+            } else if (!seen->second) {
+                const auto first = std::find(path.begin(), path.end(), next);
+                if (std::all_of(first, path.end(), [&](const std::string& c) { return known.contains(c); })) continue;
+                std::string cycle;
+                for (auto at = first; at != path.end(); ++at) cycle += *at + " includes ";
+                complaints.push_back(cycle + next);
+            }
+        }
+        path.pop_back();
+        finished[component] = true;
+    };
+    for (const auto& [component, included] : graph) {
+        if (!finished.contains(component)) visit(component);
+    }
+    return complaints;
+}
+
+TEST(Components, ACycleIsFound) {
+    const std::vector<SourceFile> files{{"src/a/x.h", "#pragma once\n"},
+                                        {"src/a/x.cpp", "#include \"a/x.h\"\n#include \"a/y.h\"\n"},
+                                        {"src/a/y.h", "#include \"a/z.h\"\n"},
+                                        {"src/a/z.h", "#include \"a/x.h\"\n"}};
+    const Graph graph = graph_of(files);
+    EXPECT_EQ(check_cycles(graph, {}), Complaints{"src/a/x includes src/a/y includes src/a/z includes src/a/x"});
+    EXPECT_TRUE(check_cycles(graph, {"src/a/x", "src/a/y", "src/a/z"}).empty());
+    EXPECT_EQ(check_cycles(graph, {"src/a/x", "src/a/y"}).size(), 1U);
+}
+
+TEST(Components, IncludeEachOtherWithoutCycles) {
+    expect_none(check_cycles(graph_of(sources_in({"src", "io", "viz"})), known_cycles));
+}
+
+}  // namespace
+}  // namespace clsurf::test
