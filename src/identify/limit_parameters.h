@@ -4,7 +4,7 @@
 #include <span>
 
 #include "identify/identification.h"
-#include "identify/identify.h"
+#include "identify/identify_run.h"
 
 namespace clsurf {
 

@@ -8,7 +8,7 @@
 namespace clsurf {
 namespace {
 
-constexpr PointIndex most_records = 1'000'000;
+constexpr PointIndex most_fit_records = 1'000'000;
 /// Groups whose sums of scores give the covariance: residuals of a model that is not exact are alike over a while.
 constexpr PointIndex group_size = 512;
 
@@ -133,7 +133,7 @@ ServoProblem::ServoProblem(std::span<const AxisRecord> records, double period, P
         PointIndex own = 0;
         for (const PointRange& section : record.sections) own += section.size();
         const double share = static_cast<double>(own) / static_cast<double>(std::max<PointIndex>(total, 1));
-        const auto most = static_cast<PointIndex>(share * static_cast<double>(most_records));
+        const auto most = static_cast<PointIndex>(share * static_cast<double>(most_fit_records));
         for (const PointRange& range : sample_pieces(record.sections, most)) pieces_.push_back({&record, range});
     }
     set_settling(settling);

@@ -10,7 +10,7 @@
 #include "core/not_finite.h"
 #include "core/parallel.h"
 #include "machined/ungouged_contacts.h"
-#include "predictor/fold.h"
+#include "machined/fold.h"
 
 namespace clsurf {
 namespace {

@@ -30,7 +30,7 @@ struct OracleCase {
 };
 
 std::vector<OracleCase> read_cases() {
-    std::ifstream file(TEST_SOURCES "/quality/formed_oracle.txt");
+    std::ifstream file(TEST_SOURCES "/machined/formed_oracle.txt");
     std::vector<OracleCase> cases;
     std::string word;
     while (file >> word) {

@@ -100,7 +100,7 @@ TEST(Draft, KeepsWhatIsGivenBackByteForByte) {
     const ReadProgram read = read_text;
     OptimizeRules rules;
     const Draft draft = Drafter(program, read, rules, 0, true).draft(0.001, needed);
-    ASSERT_GT(draft.sections, 0U);
+    ASSERT_GT(draft.segments, 0U);
     std::istringstream now(draft.text);
     std::size_t next = 0;
     for (std::string line; std::getline(now, line) && next < kept.size();) next += line == kept[next] ? 1 : 0;

@@ -1,4 +1,4 @@
-#include "predictor/fold.h"
+#include "machined/fold.h"
 
 #include <array>
 #include <cmath>
