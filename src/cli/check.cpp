@@ -105,16 +105,17 @@ Subcommand check_subcommand() {
     return {
         .name = "check",
         .arguments = "PROGRAM LOG…",
-        .summary = "adjacent-path discontinuities and predicted marks, with lines, causes and micrometres",
+        .summary = "finds differences between adjacent passes and predicts the marks: lines, causes, depths",
         .description =
-            "Compares every pass with its neighbours: speed, acceleration, and where the axes run off the commanded\n"
-            "path. Begins with a verdict, and lists what differs enough to leave a mark, what stands out most first,\n"
-            "with the lines at fault and the predicted depth. Severity: 1 trace (in the data, hardly on the part),\n"
-            "2 visible (on a polished or glossy surface), 3 distinct (on any finished surface), 4 reject (too deep to\n"
-            "polish out). A speed below that of the neighbours is negative; depths have no sign but a shape, pit or\n"
-            "bulge. Exits with 1 if a limit of --budget, --fail-on or --max-depth is exceeded, and with 5 if the data do not\n"
-            "allow a verdict: less than half of the cutting points could be compared, for example. Several logs of the\n"
-            "program are checked one after the other; the exit code is the highest.\n\n"
+            "Compares every pass with its neighbours: speed, acceleration, and the deviation of the axes from\n"
+            "the commanded path. The output begins with a verdict and lists the differences that are large\n"
+            "enough to leave a mark, most conspicuous first, with the responsible lines and the predicted\n"
+            "depth.\n"
+            "Severity: 1 trace (in the data, hardly on the part), 2 visible (on a polished or glossy\n"
+            "surface), 3 distinct (on any finished surface), 4 reject (too deep to polish out). A speed below\n"
+            "that of the neighbours is negative. Depths have no sign but a shape, pit or bulge.\n"
+            "The exit code is 1 if a limit of --budget, --fail-on or --max-depth is exceeded, and 5 if the\n"
+            "data do not allow a verdict: less than half of the cutting points could be compared.\n\n"
             "  clsurf check part.nc run.biip --tool ball:6\n"
             "  clsurf check part.nc monday.biip friday.biip --fail-on distinct --max-depth 5um -q\n"
             "  clsurf check part.nc run.biip --tool ball:6 --budget part.toml --format sarif -o part.sarif",
@@ -123,9 +124,9 @@ Subcommand check_subcommand() {
                 declare_tool(options);
                 // clang-format off
                 options.add_options()
-                    ("budget", po::value<std::string>()->value_name("FILE"), "limits as TOML; exit code 1 where one is exceeded")
-                    ("fail-on", po::value<std::string>()->value_name(severity_words), "exit code 1 where a defect has this severity or a higher one")
-                    ("max-depth", po::value<std::string>()->value_name("LENGTH"), "exit code 1 where a defect is deeper: 5um, 0.005mm");
+                    ("budget", po::value<std::string>()->value_name("FILE"), "limits (TOML); exit code 1 if one is exceeded")
+                    ("fail-on", po::value<std::string>()->value_name(severity_words), "exit code 1 if a defect has at least this severity")
+                    ("max-depth", po::value<std::string>()->value_name("LENGTH"), "exit code 1 if a defect is deeper, for example 5um or 0.005mm");
                 // clang-format on
                 declare_report_output(options, check_formats);
                 declare_part(options);

@@ -75,7 +75,7 @@ Subcommand compare_subcommand() {
     return {
         .name = "compare",
         .arguments = "A.png B.png",
-        .summary = "two pictures compared, for snapshots in CI",
+        .summary = "compares two pictures, for snapshot tests",
         .description =
             "A is the new picture, B the reference. They differ when more than 0.02 % of the values are\n"
             "off by more than the threshold, or any by more than three times that: exit code 1.\n\n"
@@ -84,9 +84,9 @@ Subcommand compare_subcommand() {
             [](po::options_description& options) {
                 // clang-format off
                 options.add_options()
-                    ("threshold", po::value<double>()->value_name("T"), "largest difference that counts as none, 0 … 1 (default: 1/255)")
+                    ("threshold", po::value<double>()->value_name("T"), "largest difference that is ignored, 0 … 1 (default: 1/255)")
                     ("diff", po::value<std::string>()->value_name("OUT.png"), "a picture of the differences")
-                    ("update", "make A the reference where they differ, or where B is missing")
+                    ("update", "replace the reference by A if they differ or B is missing")
                     ("json", "one JSON object");
                 // clang-format on
             },

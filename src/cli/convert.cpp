@@ -1,4 +1,4 @@
-// clsurf convert: any readable log into BIIP.
+// clsurf convert: converts any readable log into BIIP.
 
 #include "cli/options.h"
 #include "cli/output_format.h"
@@ -32,10 +32,11 @@ Subcommand convert_subcommand() {
     return {
         .name = "convert",
         .arguments = "LOG -o out.biip",
-        .summary = "any readable log into BIIP",
+        .summary = "converts any readable log into BIIP",
         .description =
-            "Keeps the stored types and scales of binary logs; text becomes 64-bit floating point.\n"
-            "With --program the log knows its program: other subcommands then warn of an edited or another one.\n\n"
+            "Keeps the stored types and scales of binary logs; text becomes 64-bit floating point. With\n"
+            "--program the log records its program, and other subcommands then warn if the program was edited\n"
+            "or is another one.\n\n"
             "  clsurf convert run.raw --layout run.layout.toml -o run.biip\n"
             "  clsurf convert run.csv --program part.nc -o run.biip",
         .declare =

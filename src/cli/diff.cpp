@@ -107,12 +107,13 @@ Subcommand diff_subcommand() {
     return {
         .name = "diff",
         .arguments = "A B…",
-        .summary = "runs of a part against each other, by path: where speed, acceleration, lag and height differ",
+        .summary = "compares runs of a part by path: speed, acceleration, lag and height",
         .description =
-            "Lays runs onto the first one by path, not by time, so that feed override, pauses, other sampling periods and logs that begin in\n"
-            "the middle do no harm, and says where speed, acceleration, lag along the feed and height differ: B minus A. Each is a log, or a\n"
-            "program, which is simulated. With a budget, exit code 1 says that it was not held. Of three runs and more the one that departs\n"
-            "from the others is named. The map shows the first B.\n\n"
+            "Aligns runs with the first one by path, not by time. Feed override, pauses, other sampling\n"
+            "periods and logs that begin in the middle therefore do no harm. Lists where speed, acceleration,\n"
+            "lag along the feed and height differ: B minus A. Each argument is a log, or a program, which is\n"
+            "simulated. With a budget, exit code 1 means that a limit is exceeded. With three or more runs,\n"
+            "the one that deviates from the others is named. The map shows the first B.\n\n"
             "  clsurf diff monday.biip friday.biip --program part.nc\n"
             "  clsurf diff monday.biip friday.biip --budget runs.toml -o difference.png --color height\n"
             "  clsurf diff part.nc part_smoothed.nc --machine mill.toml",

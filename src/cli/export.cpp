@@ -5,8 +5,8 @@
 #include "cli/part.h"
 #include "io/files/atomic_file.h"
 #include "io/reports/export_table.h"
-#include "viz/export_vtk.h"
 #include "mapping/line_agreement.h"
+#include "viz/export_vtk.h"
 
 namespace clsurf::cli {
 namespace {
@@ -63,16 +63,17 @@ Subcommand export_subcommand() {
         .arguments = "[PROGRAM] LOG -o FILE",
         .summary = "per-point columns as .csv, .biip, .vtp, .vtkhdf",
         .description =
-            "The file's ending chooses the form. Columns: point, time, line, pass, confidence, x, y, z and every\n"
-            "field of `clsurf help fields`. VTK files hold the passes as polylines and the stitched surface;\n"
-            ".hdf is .vtkhdf by the ending that ParaView 5.11 knows. Without a program, lines are those of the log.\n\n"
+            "The file's ending chooses the format. Columns: point, time, line, pass, confidence, x, y, z and\n"
+            "every field of `clsurf help fields`. VTK files hold the passes as polylines and the stitched\n"
+            "surface; .hdf is .vtkhdf with the ending that ParaView 5.11 recognises. Without a program, lines\n"
+            "are those of the log.\n\n"
             "  clsurf export part.nc run.biip -o points.csv --columns line,x,y,z,speed,acceleration",
         .declare =
             [](po::options_description& options) {
                 // clang-format off
                 options.add_options()
                     ("output,o", po::value<std::string>()->value_name("FILE"), "the file: .csv, .biip, .vtp, .vtkhdf or .hdf")
-                    ("columns", po::value<std::string>()->value_name("A,B,…"), "what is written (default: point,time,line,x,y,z,speed)");
+                    ("columns", po::value<std::string>()->value_name("A,B,…"), "columns to write (default: point,time,line,x,y,z,speed)");
                 // clang-format on
                 declare_part(options);
                 declare_derivative(options);

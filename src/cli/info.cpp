@@ -9,10 +9,10 @@
 #include "io/readers/program_file.h"
 #include "io/reports/json_text.h"
 #include "log/health.h"
+#include "mapping/line_agreement.h"
+#include "mapping/map_lines.h"
 #include "pipeline/log_match.h"
 #include "toolpath/toolpath_summary.h"
-#include "mapping/map_lines.h"
-#include "mapping/line_agreement.h"
 
 namespace clsurf::cli {
 namespace {
@@ -88,19 +88,18 @@ Subcommand info_subcommand() {
     return {
         .name = "info",
         .arguments = "FILE…",
-        .summary = "what a program or log holds, and whether it can be trusted",
+        .summary = "contents and health of programs and logs",
         .description =
-            "Programs and logs are told apart by content. A log that follows its program is judged\n"
-            "against it: wrong program, lines that do not exist, a work offset that is missing. Exit code 3\n"
-            "says that a log has errors or does not belong to the program.\n"
-            "A table whose columns are not known is listed, with a mapping file to start from, and exit code 3.\n\n"
+            "The content decides whether a file is a program or a log. A log that follows its program is\n"
+            "checked against it: wrong program, lines that do not exist, a missing work offset. Exit code 3\n"
+            "means that a log has errors or does not belong to the program.\n"
+            "A table with unknown columns is listed, with a mapping file to start from, and exit code 3.\n\n"
             "  clsurf info part.nc run.biip\n"
             "  clsurf info --suggest-mapping own.csv -o mapping.toml",
         .declare =
             [](po::options_description& options) {
                 options.add_options()(
-                    "json",
-                    "one JSON object: {\"files\": […]}, and the keys of the file besides where it is the only one");
+                    "json", "one JSON object: {\"files\": […]}, and for a single file its keys at the top level, too");
                 declare_suggestion(options);
                 declare_program_options(options);
                 declare_log_options(options);

@@ -11,7 +11,7 @@ namespace clsurf::cli {
 namespace {
 
 void print_diagnostics(const Diagnostics& diagnostics) {
-    if (diagnostics.empty()) std::puts("  nothing to remark");
+    if (diagnostics.empty()) std::puts("  no findings");
     for (const Diagnostic& d : diagnostics.summary()) {
         const std::string where = d.where.text();
         fmt::print("  {}: {}{}{}\n", name_of(d.severity), where, where.empty() ? "" : ": ", d.text);

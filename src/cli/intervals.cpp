@@ -51,18 +51,19 @@ Subcommand intervals_subcommand() {
         .arguments = "PROGRAM",
         .summary = "constant-speed intervals of the passes, and the speed planned for each",
         .description =
-            "Cuts each pass where the distance of its points or its curvature changes, after Wu et al. (Machines 10 (2022) 558),\n"
-            "and plans the speed of each piece from its curvature, the machine and the pieces beside it on the neighbour passes.\n"
-            "`own` is what feed, curvature and machine allow, `planned` what the neighbours hold as well.\n\n"
+            "Divides each pass where the spacing of its points or its curvature changes, after Wu et al.\n"
+            "(Machines 10 (2022) 558). The speed of each interval follows from its curvature, the machine and\n"
+            "the adjacent intervals of the neighbouring passes. `own` is the speed that feed, curvature and\n"
+            "machine allow; `planned` is the speed that the neighbours can keep, too.\n\n"
             "  clsurf intervals part.nc --machine mill.toml\n"
             "  clsurf render part.nc run.biip --color interval -o intervals.png",
         .declare =
             [](po::options_description& options) {
                 // clang-format off
                 options.add_options()
-                    ("error", po::value<double>()->value_name("MM"), "how far characteristic points may leave a pass (default: 0.01)")
-                    ("length-ratio", po::value<double>()->value_name("RATIO"), "of neighbouring lines, from which a point bounds an interval (default: 5)")
-                    ("curvature-ratio", po::value<double>()->value_name("RATIO"), "of the curvatures before and behind a point, likewise; twice this much inside an interval cuts it, too (default: 2)")
+                    ("error", po::value<double>()->value_name("MM"), "largest distance of characteristic points from the pass (default: 0.01)")
+                    ("length-ratio", po::value<double>()->value_name("RATIO"), "ratio of the lengths of consecutive lines that bounds an interval (default: 5)")
+                    ("curvature-ratio", po::value<double>()->value_name("RATIO"), "ratio of the curvatures before and after a point that bounds an interval; an interval with twice this ratio is divided, too (default: 2)")
                     ("machine", po::value<std::string>()->value_name("FILE"), "machine file (default: that of clsurf machine --defaults)");
                 // clang-format on
                 declare_report_output(options, interval_formats);

@@ -9,7 +9,7 @@ namespace clsurf::cli {
 void declare_tool(po::options_description& options) {
     // clang-format off
     options.add_options()
-        ("tool", po::value<std::string>()->value_name("ball:D|bull:D,R|flat:D|none"), "the tool, diameter and corner radius in mm; places are then contact points on the part, without it the tool tip (default: what the log's metadata or --tools tell)");
+        ("tool", po::value<std::string>()->value_name("ball:D|bull:D,R|flat:D|none"), "the tool, diameter and corner radius in mm; places are then contact points on the part, otherwise tool tips (default: from the log's metadata or --tools)");
     // clang-format on
 }
 

@@ -1,4 +1,4 @@
-// clsurf lint: what hurts in the program itself.
+// clsurf lint: problems in the program itself.
 
 #include <cmath>
 #include <map>
@@ -77,19 +77,20 @@ Subcommand lint_subcommand() {
     return {
         .name = "lint",
         .arguments = "PROGRAM",
-        .summary = "what hurts in the program itself: uneven points, chords, reversals, feeds, starts",
+        .summary = "problems in the program itself: uneven points, chord errors, reversals, feeds, pass ends",
         .description =
-            "Puts the programmed passes side by side, without a log, and lists the lines that a controller will run\n"
-            "otherwise than their neighbours: points closer or farther apart than on both neighbour passes, chord errors\n"
-            "against the controller's tolerance (good is a tolerance of 110 to 200 % of the chord error), short lines that run back,\n"
-            "feeds that differ, ends of passes that are out of line. Exit code 1 says that there are warnings.\n\n"
+            "Compares adjacent programmed passes, without a log, and lists the lines that a controller will\n"
+            "run differently from their neighbours: points closer or farther apart than on both adjacent\n"
+            "passes, chord errors against the controller's tolerance (a good tolerance is 110 to 200 % of the\n"
+            "chord error), short lines that run backward, different feeds, pass ends that are out of line.\n"
+            "Exit code 1 means that there are warnings.\n\n"
             "  clsurf lint part.nc\n"
             "  clsurf lint part.nc --tolerance 0.01 --format sarif -o part.sarif",
         .declare =
             [](po::options_description& options) {
                 // clang-format off
                 options.add_options()
-                    ("tolerance", po::value<double>()->value_name("MM"), "of the controller's path (default: what the program sets with G64 P or CYCLE832)");
+                    ("tolerance", po::value<double>()->value_name("MM"), "path tolerance of the controller (default: from G64 P or CYCLE832 in the program)");
                 // clang-format on
                 declare_tool(options);
                 declare_report_output(options, lint_formats);

@@ -68,16 +68,16 @@ void declare_look(po::options_description& options) {
     // clang-format off
     options.add_options()
         ("style", po::value<std::string>()->value_name("surface|lines|points"), "how the map is drawn (default: surface)")
-        ("view", po::value<std::string>()->value_name("iso|top|front|left|right|back|bottom|AZ,EL"), "from where; AZ,EL in degrees (default: iso)")
+        ("view", po::value<std::string>()->value_name("iso|top|front|left|right|back|bottom|AZ,EL"), "view direction; AZ,EL in degrees (default: iso)")
         ("zoom", po::value<std::string>()->value_name("X0,Y0,X1,Y1"), "part of the map, as fractions from its upper left corner")
         ("box", po::value<std::string>()->value_name("X0,Y0,Z0,X1,Y1,Z1"), "part of the workpiece [mm]; the rest is left out")
         ("range", po::value<std::string>()->value_name("auto|MIN,MAX|pLOW,pHIGH"), "values at the ends of the colours, or percentiles of the cutting points shown (default: auto, p1,p99)")
         ("colormap", po::value<std::string>()->value_name("COLORMAP|RGB,RGB,…"), "a named map (`clsurf help colormaps`) or own stops, #RRGGBB,#RRGGBB,… (default: isurface; signed fields coolwarm)")
         ("bins", po::value<int>()->value_name("N"), "colours in N steps")
         ("size", po::value<std::string>()->value_name("WxH|hd|4k"), "size in pixels (default: 1600x1200)")
-        ("background", po::value<std::string>()->value_name("white|black|#RRGGBB"), "behind the map (default: white)")
-        ("no-legend", "the map alone: no title, legend, axes, scale bar")
-        ("gl", po::value<std::string>()->value_name("osmesa|egl"), "what draws: the processor, or a graphics card (default: osmesa)");
+        ("background", po::value<std::string>()->value_name("white|black|#RRGGBB"), "background colour (default: white)")
+        ("no-legend", "only the map: no title, legend, axes or scale bar")
+        ("gl", po::value<std::string>()->value_name("osmesa|egl"), "renderer: osmesa uses the processor, egl a graphics card (default: osmesa)");
     // clang-format on
 }
 

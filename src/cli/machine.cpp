@@ -1,4 +1,4 @@
-// clsurf machine: machine files: one with every key, and whether one can be used.
+// clsurf machine: prints a machine file with every key, or validates one.
 
 #include <fmt/format.h>
 
@@ -29,10 +29,10 @@ Subcommand machine_subcommand() {
     return {
         .name = "machine",
         .arguments = "--defaults | FILE",
-        .summary = "machine files: one with every key, and whether one can be used",
+        .summary = "prints a machine file with every key, or validates one",
         .description =
-            "A machine file holds the limits, the controller's settings and the servo loops of a machine,\n"
-            "for simulate. FILE is validated: exit code 3 and the line where it cannot be used.\n\n"
+            "A machine file holds the limits, the controller's settings and the servo loops of a machine, for\n"
+            "simulate. FILE is validated: exit code 3 and the line if it cannot be used.\n\n"
             "  clsurf machine --defaults > mill.toml\n"
             "  clsurf machine mill.toml",
         .declare =

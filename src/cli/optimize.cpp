@@ -1,4 +1,4 @@
-// clsurf optimize: a smoother program inside a tolerance, with proof.
+// clsurf optimize: a smoother program within a tolerance, verified by simulation.
 
 #include <memory>
 
@@ -91,14 +91,16 @@ Subcommand optimize_subcommand() {
     return {
         .name = "optimize",
         .arguments = "PROGRAM -o better.nc",
-        .summary = "a smoother program inside a tolerance, with proof",
+        .summary = "a smoother program within a tolerance, verified by simulation",
         .description =
-            "Runs the program on the machine, puts the points of its finishing passes in step with those of the passes beside\n"
-            "them, on the smoothest curve that is never farther from the programmed path than the tolerance, and\n"
-            "runs it again. Written is only what is better: speeds of neighbour passes differ less, no more defects, not longer (or by --more-time at most), inside\n"
-            "the tolerance. Otherwise exit code 1, with the reason. Lines with anything but line number, G1, X, Y, Z, A, B, C stay byte for byte.\n\n"
-            "Programs that move rotary axes need a machine file that has them: passes are then those of the tool's tip, and the\n"
-            "tool axis stays within a hundredth of a degree of the programmed one.\n\n"
+            "Simulates the program, aligns the points of its finishing passes with those of adjacent passes\n"
+            "on the smoothest curve within the tolerance, and simulates it again. The new program is written\n"
+            "only if it is better: speeds of adjacent passes differ less, there are no more defects, it does\n"
+            "not take longer (or at most by --more-time), and it stays within the tolerance. Otherwise the\n"
+            "exit code is 1, with the reason. Lines that contain anything but line number, G1, X, Y, Z, A, B,\n"
+            "C are kept byte for byte.\n"
+            "Programs that move rotary axes need a machine file that has them. Passes are then those of the\n"
+            "tool tip, and the tool axis stays within a hundredth of a degree of the programmed one.\n\n"
             "  clsurf optimize part.nc --machine mill.toml --tolerance 0.005 -o better.nc --picture better.png",
         .declare = declare_optimize,
         .positional = {"PROGRAM"},

@@ -16,14 +16,14 @@ void declare_optimize(po::options_description& options) {
     // clang-format off
     options.add_options()
         ("output,o", po::value<std::string>()->value_name("FILE"), "the new program")
-        ("picture", po::value<std::string>()->value_name("FILE"), "speeds before and after on one scale (.png, .jpg, .tif or .webp), also where the new program is refused")
-        ("tolerance", po::value<double>()->value_name("MM"), "how far the new path may leave the programmed one (default: 0.005)")
-        ("more-time", po::value<double>()->value_name("PERCENT"), "how much longer the new program may take, for fewer defects (default: 0)")
-        ("decimals", po::value<int>()->value_name("N"), "new coordinates have at least so many, if the controller reads them (default: as many as the program's)");
+        ("picture", po::value<std::string>()->value_name("FILE"), "picture of the speeds before and after on one scale (.png, .jpg, .tif or .webp), also if the new program is rejected")
+        ("tolerance", po::value<double>()->value_name("MM"), "largest distance of the new path from the programmed path (default: 0.005)")
+        ("more-time", po::value<double>()->value_name("PERCENT"), "additional machining time that is allowed for fewer defects (default: 0)")
+        ("decimals", po::value<int>()->value_name("N"), "smallest number of decimals of new coordinates, if the controller reads them (default: as in the program)");
     // clang-format on
     options.add_options()(
         "log", po::value<std::string>()->value_name("LOG"),
-        "a recorded run of the program: only what differs there from the passes beside it is repaired; the proof is by simulation all the same");
+        "a recorded run of the program: only places that differ from adjacent passes there are repaired; the result is still verified by simulation");
     declare_log_options(options);
     declare_work_offset(options);
     declare_simulation(options);

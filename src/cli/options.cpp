@@ -22,11 +22,11 @@ void declare_common(po::options_description& options) {
     // clang-format off
     options.add_options()
         ("help,h", "show this help")
-        ("quiet,q", "print errors only; files and what --json or --format asks for are written all the same")
-        ("verbose,v", "print notes and what was done")
+        ("quiet,q", "print errors only; files and --json or --format output are still written")
+        ("verbose,v", "print notes and every step")
         ("threads", po::value<int>()->value_name("N"), "threads to use (default: all cores)")
         ("no-config", "do not read .clsurf.toml")
-        ("progress", po::value<std::string>()->value_name("auto|always|never"), "show how far long stages are (default: auto, on a terminal)");
+        ("progress", po::value<std::string>()->value_name("auto|always|never"), "show the progress of long stages (default: auto, on a terminal)");
     // clang-format on
 }
 
@@ -65,7 +65,7 @@ void declare_log_options(po::options_description& options) {
     options.add_options()
         ("layout", po::value<std::string>()->value_name("FILE"), "layout of a foreign fixed-record log (TOML)")
         ("mapping", po::value<std::string>()->value_name("FILE"), "names, units and roles of the columns of a text log (TOML)")
-        ("period", po::value<double>()->value_name("S"), "sampling period of a log that does not tell [s]");
+        ("period", po::value<double>()->value_name("S"), "sampling period, if the log does not state it [s]");
     // clang-format on
 }
 
@@ -81,13 +81,12 @@ io::LogOptions read_log_options(const po::variables_map& values) {
 }
 
 void declare_force(po::options_description& options) {
-    options.add_options()("force", "go on where the log does not belong to the program; nothing is judged then");
+    options.add_options()("force", "continue although the log does not belong to the program; nothing is judged");
 }
 
 void declare_kinematics(po::options_description& options) {
-    options.add_options()(
-        "machine", po::value<std::string>()->value_name("FILE"),
-        "machine file: by its kinematics positions of five axes become those of the tool's tip in the workpiece");
+    options.add_options()("machine", po::value<std::string>()->value_name("FILE"),
+                          "machine file; its kinematics convert five-axis positions into tool tips in the workpiece");
 }
 
 std::shared_ptr<const Kinematics> load_kinematics(const std::string& path) {
@@ -100,7 +99,7 @@ void declare_simulation(po::options_description& options) {
     // clang-format off
     options.add_options()
         ("machine", po::value<std::string>()->value_name("FILE"), "machine file (default: that of clsurf machine --defaults)")
-        ("start", po::value<std::string>()->value_name("X,Y,Z"), "where the axes stand before the program, mm (default: 0,0,0)");
+        ("start", po::value<std::string>()->value_name("X,Y,Z"), "position of the axes before the program, mm (default: 0,0,0)");
     // clang-format on
 }
 

@@ -25,8 +25,8 @@ void declare_part(po::options_description& options, bool can_form) {
     // clang-format off
     options.add_options()
         ("surface", po::value<std::string>()->value_name(can_form ? "commanded|feedback|actual|formed" : "commanded|feedback|actual"),
-            can_form ? "which positions (default: commanded, else what the log has), or what the tool leaves standing; that needs --tool" : "which positions (default: commanded, else what the log has)")
-        ("ignore-lines", "find the lines by geometry even where the log has a line channel");
+            can_form ? "positions to use (default: commanded, else what the log has), or the as-machined surface, which needs --tool" : "positions to use (default: commanded, else what the log has)")
+        ("ignore-lines", "find lines by geometry even if the log has a line channel");
     declare_force(options);
     // clang-format on
 }
@@ -39,7 +39,7 @@ CuttingTool required_tool(const Part& part, const std::string& what, const std::
 void declare_derivative(po::options_description& options) {
     // clang-format off
     options.add_options()
-        ("derivative", po::value<std::string>()->value_name("savgol|kalman"), "how speed, acceleration and jerk come about: least squares over a window, or a Kalman smoother over all that the log measures, with its uncertainty (default: savgol)");
+        ("derivative", po::value<std::string>()->value_name("savgol|kalman"), "how derivatives are estimated: least squares in a window, or a Kalman smoother over all measured channels, with uncertainty (default: savgol)");
     // clang-format on
 }
 

@@ -1,4 +1,4 @@
-// clsurf plot: signal curves over time or path length.
+// clsurf plot: curves of signals over time or path length.
 
 #include <algorithm>
 #include <cmath>
@@ -105,10 +105,10 @@ Subcommand plot_subcommand() {
     return {
         .name = "plot",
         .arguments = "[PROGRAM] LOG -o curve.png",
-        .summary = "signal curves over time or path length",
+        .summary = "curves of signals over time or path length",
         .description =
-            "One chart a field, stacked, every extreme kept however long the log is. A log can be plotted without its\n"
-            "program, but for --profile. --profile prints Ra and Rz, too.\n\n"
+            "One chart for each field, stacked. Every extreme is kept, however long the log is. A log can be\n"
+            "plotted without its program, except with --profile. --profile also prints Ra and Rz.\n\n"
             "  clsurf plot part.nc run.biip -o curve.png --fields speed,acceleration --line 1204\n"
             "  clsurf plot part.nc run.biip -o cut.png --profile 10,0,10,5 --tool ball:6",
         .declare = declare_plot,

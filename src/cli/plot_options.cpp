@@ -9,14 +9,14 @@ void declare_plot(po::options_description& options) {
     // clang-format off
     options.add_options()
         ("output,o", po::value<std::string>()->value_name("FILE"), "the picture: .png, .jpg, .tif or .webp")
-        ("fields", po::value<std::string>()->value_name("FIELD,…"), "what is drawn (default: speed; `clsurf help fields`)")
-        ("over", po::value<std::string>()->value_name("time|length"), "what x is (default: time)")
+        ("fields", po::value<std::string>()->value_name("FIELD,…"), "fields to draw (default: speed; `clsurf help fields`)")
+        ("over", po::value<std::string>()->value_name("time|length"), "quantity on the x axis (default: time)")
         ("from", po::value<double>()->value_name("X"), "first x to show [s or mm]")
         ("to", po::value<double>()->value_name("X"), "last x to show [s or mm]")
-        ("line", po::value<long long>()->value_name("N"), "show the points of a line and some round them; a cursor at its first point")
+        ("line", po::value<long long>()->value_name("N"), "show the points of a line and some before and after; a cursor at its first point")
         ("mark-point", po::value<std::vector<long long>>()->value_name("N"), "a cursor at a point; may be repeated")
         ("size", po::value<std::string>()->value_name("WxH|hd|4k"), "size in pixels (default: 1600x900)")
-        ("gl", po::value<std::string>()->value_name("osmesa|egl"), "what draws: the processor, or a graphics card (default: osmesa)");
+        ("gl", po::value<std::string>()->value_name("osmesa|egl"), "renderer: osmesa uses the processor, egl a graphics card (default: osmesa)");
     // clang-format on
     declare_profile(options);
     declare_json(options);

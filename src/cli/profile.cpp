@@ -15,7 +15,7 @@ namespace clsurf::cli {
 void declare_profile(po::options_description& options) {
     // clang-format off
     options.add_options()
-        ("profile", po::value<std::string>()->value_name("X0,Y0,X1,Y1"), "instead of curves, a cut across the formed surface from one place to another [mm], with Ra and Rz; needs --tool");
+        ("profile", po::value<std::string>()->value_name("X0,Y0,X1,Y1"), "instead of curves, a section through the as-machined surface between two places [mm], with Ra and Rz; needs --tool");
     // clang-format on
     declare_tool(options);
 }

@@ -1,4 +1,4 @@
-// clsurf query: which line, which point, what happened there.
+// clsurf query: the line and the point at a place, number or time, with the values there.
 
 #include <cstdio>
 
@@ -63,10 +63,11 @@ Subcommand query_subcommand() {
     return {
         .name = "query",
         .arguments = "PROGRAM LOG",
-        .summary = "which line, which point, what happened there",
+        .summary = "the line and the point at a place, number or time, with the values there",
         .description =
-            "Finds points by number, place, line or time and says which line of the program made them;\n"
-            "exits with 1 if there are none. Of points in a subprogram it also names the subprogram's line and the calls.\n\n"
+            "Finds points by number, place, line or time and names the program line that made them. The exit\n"
+            "code is 1 if there are none. For points in a subprogram it also names the subprogram's line and\n"
+            "the calls.\n\n"
             "  clsurf query part.nc run.biip --at 12.5,-3.0,1.2 --tool ball:6\n"
             "  clsurf query part.nc run.biip --line 1204 --json",
         .declare = declare_query,

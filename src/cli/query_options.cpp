@@ -103,11 +103,11 @@ PlaceInFile read_line(const std::string& text, const Program& program) {
 void declare_query(po::options_description& options) {
     // clang-format off
     options.add_options()
-        ("point", po::value<long long>()->value_name("N"), "the point of that number, from 0")
-        ("at", po::value<std::string>()->value_name("X,Y[,Z]"), "the point nearest to a place on the part [mm]: among contact points where the tool is known, else among tool tips; X,Y: what lies topmost there")
-        ("nearest", po::value<int>()->value_name("K"), "with --at: the nearest point of each of the K nearest passes (of lines, where there is one pass)")
-        ("line", po::value<std::string>()->value_name("N|FILE:N"), "every run of points of that line, of the program or of a file that it calls; the first point of each")
-        ("time", po::value<double>()->value_name("T"), "the point nearest to that time [s]")
+        ("point", po::value<long long>()->value_name("N"), "the point with this number, from 0")
+        ("at", po::value<std::string>()->value_name("X,Y[,Z]"), "the point nearest to a place on the part [mm], among contact points if the tool is known, else among tool tips; X,Y: the highest point there")
+        ("nearest", po::value<int>()->value_name("K"), "with --at: the nearest point of each of the K nearest passes (of lines, if there is one pass)")
+        ("line", po::value<std::string>()->value_name("N|FILE:N"), "every execution of this line, in the program or in a file that it calls; the first point of each")
+        ("time", po::value<double>()->value_name("T"), "the point nearest to this time [s]")
         ("json", "one JSON object");
     // clang-format on
     declare_part(options);

@@ -116,8 +116,8 @@ Subcommand render_subcommand() {
         .arguments = "PROGRAM LOG -o map.png",
         .summary = "the quality map: the CL surface coloured by speed, acceleration and more",
         .description =
-            "Maps each logged point to its line, puts the cutter-location surface back together from\n"
-            "neighbouring passes, colours it by a field and draws it without a display.\n\n"
+            "Maps each logged point to its line, rebuilds the cutter-location surface from adjacent passes,\n"
+            "colours it by a field and draws it without a display.\n\n"
             "  clsurf render part.nc run.biip -o map.png\n"
             "  clsurf render part.nc run.biip -o map.png --color acceleration --view top --range 0,800\n"
             "  clsurf render part.nc run.biip -o map.png --surface formed --tool ball:6",

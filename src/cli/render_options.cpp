@@ -26,13 +26,13 @@ void declare_render(po::options_description& options) {
     declare_tool(options);
     // clang-format off
     options.add_options()
-        ("swept", po::value<std::string>()->value_name("commanded|feedback|actual"), "positions that the formed surface's tool runs along (default: actual, else feedback, else commanded)")
+        ("swept", po::value<std::string>()->value_name("commanded|feedback|actual"), "positions along which the tool moves for the as-machined surface (default: actual, else feedback, else commanded)")
         ("output,o", po::value<std::string>()->value_name("FILE"), "the picture: .png, .jpg, .tif or .webp")
-        ("color", po::value<std::string>()->value_name("FIELD"), "what is coloured (default: speed; `clsurf help fields`)")
-        ("mark-point", po::value<std::vector<long long>>()->value_name("N"), "ring a point; may be repeated")
+        ("color", po::value<std::string>()->value_name("FIELD"), "field that colours the surface (default: speed; `clsurf help fields`)")
+        ("mark-point", po::value<std::vector<long long>>()->value_name("N"), "mark a point with a ring; may be repeated")
         ("mark-line", po::value<std::vector<long long>>()->value_name("N"), "draw the points of a line bold; may be repeated")
         ("defects", "outline and number what `clsurf check` finds")
-        ("before", po::value<std::string>()->value_name("LOG"), "another log of the program, drawn beside it on the same scale");
+        ("before", po::value<std::string>()->value_name("LOG"), "another log of the program, drawn next to it on the same scale");
     // clang-format on
     declare_look(options);
 }

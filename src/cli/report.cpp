@@ -68,9 +68,10 @@ Subcommand report_subcommand() {
         .arguments = "PROGRAM LOG -o report.html",
         .summary = "the linked page: surface, program, curves and defects in one HTML file",
         .description =
-            "Writes one file that any browser opens offline: the surface to turn, each place linked with its\n"
-            "line and its point on the curves, the defects with pictures, the health of the log. Nothing in it\n"
-            "asks a server for anything. Pictures, tables and summary can be read without JavaScript.\n\n"
+            "Writes one file that any browser opens offline: the surface, which can be turned, each place\n"
+            "linked with its line and its point on the curves, the defects with pictures, the health of the\n"
+            "log. The file loads nothing from a server. Pictures, tables and the summary can be read without\n"
+            "JavaScript.\n\n"
             "  clsurf report part.nc run.biip -o report.html\n"
             "  clsurf report part.nc run.biip -o report.html --tool ball:6 --before old.biip",
         .declare = declare_report,

@@ -19,10 +19,10 @@ void declare_report(po::options_description& options) {
     options.add_options()
         ("output,o", po::value<std::string>()->value_name("FILE"), "the page (HTML)")
         ("before", po::value<std::string>()->value_name("LOG"), "another log of the program, shown on the same scale")
-        ("fields", po::value<std::string>()->value_name("FIELD,…"), "what can be coloured and plotted (default: motion, errors, differences to the passes beside, the log's own channels)")
-        ("color", po::value<std::string>()->value_name("FIELD"), "what is coloured at first (default: the first of the fields)")
-        ("max-size", po::value<double>()->value_name("MB"), "most that the file may have; points are left out where it needs more (default: 30)")
-        ("gl", po::value<std::string>()->value_name("osmesa|egl"), "what draws the pictures: the processor, or a graphics card (default: osmesa)");
+        ("fields", po::value<std::string>()->value_name("FIELD,…"), "fields for colouring and plotting (default: motion, errors, differences to adjacent passes, the log's own channels)")
+        ("color", po::value<std::string>()->value_name("FIELD"), "field that is shown first (default: the first of the fields)")
+        ("max-size", po::value<double>()->value_name("MB"), "largest size of the file; points are left out if necessary (default: 30)")
+        ("gl", po::value<std::string>()->value_name("osmesa|egl"), "renderer of the pictures: osmesa uses the processor, egl a graphics card (default: osmesa)");
     // clang-format on
     declare_tool(options);
     declare_part(options);

@@ -25,9 +25,9 @@ std::string asked_format(const po::variables_map& values) {
 void declare_report_output(po::options_description& options, const char* words) {
     // clang-format off
     options.add_options()
-        ("format", po::value<std::string>()->value_name(words), "form of the report (default: what the file ending says, else text)")
+        ("format", po::value<std::string>()->value_name(words), "format of the report (default: from the file ending, else text)")
         ("json", "the same as --format json")
-        ("output,o", po::value<std::string>()->value_name("FILE"), "the report's file (default: standard output); its ending chooses the form");
+        ("output,o", po::value<std::string>()->value_name("FILE"), "output file (default: standard output); its ending chooses the format");
     // clang-format on
 }
 

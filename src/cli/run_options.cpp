@@ -8,10 +8,10 @@ namespace clsurf::cli {
 void declare_runs(po::options_description& options) {
     // clang-format off
     options.add_options()
-        ("program", po::value<std::string>()->value_name("FILE"), "the program that the logs are of: tells lines and rapids")
-        ("machine", po::value<std::string>()->value_name("FILE"), "machine file for programs, which are simulated (default: that of clsurf machine --defaults); by its kinematics positions of five axes become those of the tool's tip")
-        ("start", po::value<std::string>()->value_name("X,Y,Z"), "where the axes stand before a simulated program, mm (default: 0,0,0)")
-        ("surface", po::value<std::string>()->value_name("commanded|feedback|actual"), "positions that runs are laid onto each other by (default: commanded, else what all have)");
+        ("program", po::value<std::string>()->value_name("FILE"), "the program of the logs; gives lines and rapids")
+        ("machine", po::value<std::string>()->value_name("FILE"), "machine file for programs, which are simulated (default: that of clsurf machine --defaults); its kinematics convert five-axis positions into tool tips")
+        ("start", po::value<std::string>()->value_name("X,Y,Z"), "position of the axes before a simulated program, mm (default: 0,0,0)")
+        ("surface", po::value<std::string>()->value_name("commanded|feedback|actual"), "positions by which runs are aligned (default: commanded, else what all have)");
     // clang-format on
     declare_program_options(options);
     declare_log_options(options);

@@ -6,10 +6,10 @@
 #include "io/files/compressed.h"
 #include "io/formats/program_identity.h"
 #include "io/readers/program_file.h"
+#include "mapping/map_lines.h"
 #include "pipeline/placement.h"
 #include "pipeline/roles.h"
 #include "pipeline/simulated_log.h"
-#include "mapping/map_lines.h"
 
 namespace clsurf::cli {
 namespace {

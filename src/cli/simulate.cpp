@@ -1,4 +1,4 @@
-// clsurf simulate: the controller stood in for.
+// clsurf simulate: simulates the controller.
 
 #include <cmath>
 
@@ -97,15 +97,17 @@ Subcommand simulate_subcommand() {
     return {
         .name = "simulate",
         .arguments = "PROGRAM -o run.biip",
-        .summary = "the controller stood in for: the log that a machine would write",
+        .summary = "simulates the controller: the log that a machine would write",
         .description =
-            "Plans and interpolates a program as a controller does, with limits of speed, acceleration and jerk, corners rounded inside the tolerance\n"
-            "and a look-ahead, follows it with a servo loop an axis, and writes commanded and feedback positions, line, speed,\n"
-            "and in the channel limit what ruled each point: 0 at rest, 1 feed, 2 axis or path speed, 3 acceleration, 4 jerk,\n"
-            "5 corner tolerance, 6 chord error, 7 the end of the look-ahead, 8 feed override, 9 block time.\n\n"
-            "Positions are those of the machine: work offsets that the program sets count, others are zero.\n"
-            "With a machine file that has rotary axes the positions are those of all five, --work-offset is where the program's zero lies\n"
-            "with both angles zero, and blocks that an axis cannot follow are run slower.\n\n"
+            "Plans and interpolates a program as a controller does: limits of speed, acceleration and jerk,\n"
+            "corners rounded within the tolerance, a look-ahead, and a servo loop for each axis. Writes\n"
+            "commanded and feedback positions, line and speed, and in the channel limit the limiting factor\n"
+            "of each point: 0 at rest, 1 feed, 2 axis or path speed, 3 acceleration, 4 jerk, 5 corner\n"
+            "tolerance, 6 chord error, 7 the end of the look-ahead, 8 feed override, 9 block time.\n"
+            "Positions are in machine coordinates: work offsets that the program sets are used, all others\n"
+            "are zero. With a machine file that has rotary axes, the log has all five axes, --work-offset is\n"
+            "the position of the program's zero with both angles at zero, and blocks that an axis cannot\n"
+            "follow run slower.\n\n"
             "  clsurf simulate part.nc --machine mill.toml -o run.biip\n"
             "  clsurf render part.nc run.biip --color limit -o why_slow.png",
         .declare =

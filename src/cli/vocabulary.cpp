@@ -74,9 +74,9 @@ std::vector<std::string_view> alternatives_of(std::string_view value_name) {
 
 std::span<const Vocabulary> vocabularies() {
     static constexpr std::array table{
-        Vocabulary{"fields", "FIELD", "what can be coloured, plotted and exported; every channel of a log besides",
-                   field_rows},
-        Vocabulary{"channels", "CHANNEL", "names of a log's channels that have a meaning; any other is kept too",
+        Vocabulary{"fields", "FIELD",
+                   "fields for colouring, plotting and export; every channel of a log is a field, too", field_rows},
+        Vocabulary{"channels", "CHANNEL", "channel names that have a meaning; all other channels are kept, too",
                    channel_rows},
         Vocabulary{"formats", "FORMAT", "log formats that are recognised", format_rows},
         Vocabulary{"dialects", "DIALECT", "languages of NC programs", dialect_rows},

@@ -33,9 +33,9 @@ Eigen::Isometry3d pose_from(const std::string& text) {
 }  // namespace
 
 void declare_work_offset(po::options_description& options) {
-    options.add_options()("work-offset", po::value<std::vector<std::string>>()->composing()->value_name("X,Y,Z[,R]"),
-                          "machine position of the program's zero [mm], and its rotation about Z [deg] (default: what "
-                          "the log tells, else the program); G55:X,Y,Z,R is of one work system, given once for each");
+    options.add_options()(
+        "work-offset", po::value<std::vector<std::string>>()->composing()->value_name("X,Y,Z[,R]"),
+        "machine position of the program's zero [mm], and its rotation about Z [deg] (default: from the log, else from the program); G55:X,Y,Z,R sets one work offset; repeat the option for others");
 }
 
 FramePoses read_work_offset(const po::variables_map& values) {

@@ -36,7 +36,7 @@ struct RunQuantityInfo {
 /// A run as it is compared.
 struct ComparedRun {
     const Log* log = nullptr;
-    Trajectory path;                                ///< runs are laid onto each other by it
+    Trajectory path;                                ///< runs are aligned by it
     std::optional<Trajectory> commanded, measured;  ///< both: lags are compared
     std::optional<Trajectory> truest;               ///< heights are compared along it; none: along `path`
 };

@@ -13,7 +13,7 @@ constexpr double least_seconds = 0.005;            ///< of a section …
 constexpr PointIndex least_points = 3;             ///< … and its points
 constexpr double sampled_by_arc_length = 200'000;  ///< by arc length, of percentiles
 constexpr std::size_t most_kept = 1000;            ///< sections of a quantity
-constexpr double end_share = 0.1;                  ///< of the path, that a drift is told from
+constexpr double end_share = 0.1;                  ///< of the path, from which a drift is estimated
 
 /// The middle value of some.
 double middle(std::vector<float> values) { return median(values); }

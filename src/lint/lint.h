@@ -1,6 +1,6 @@
 #pragma once
-// Lint: what hurts in a program itself, found without a log: places where a pass is programmed otherwise
-// than the passes beside it, so that a controller will run it otherwise, and places that no controller
+// Lint: problems in a program itself, found without a log: places where a pass is programmed differently
+// from the adjacent passes, so that a controller runs it differently, and places that no controller
 // runs well. To add a rule: one row in lint_rules.cpp.
 
 #include <span>

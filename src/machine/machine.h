@@ -60,7 +60,7 @@ enum class PlannerKind : unsigned char {
 /// Of the trapezoidal planner; the defaults are those of LinuxCNC 2.9.
 struct TrapezoidSettings {
     bool arc_blends = true;           ///< corners become arcs where that is faster (ARC_BLEND_ENABLE)
-    double gap_periods = 4;           ///< what is left of a line before an arc joins the arc below this time [periods]
+    double gap_periods = 4;           ///< a shorter rest of a line before an arc joins the arc [periods]
     double ramp_frequency = 100;      ///< blocks shorter than its period run at one acceleration [Hz]
     double kink_ratio = 0.1;          ///< of the acceleration, that a step of direction between blocks may take
     double max_feed_override = 1;     ///< that corners are planned for

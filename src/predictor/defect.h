@@ -16,8 +16,8 @@ namespace clsurf {
 enum class Cause : std::uint8_t {
     feed_drop,      ///< slower (or faster) than its neighbours over a section
     oscillation,    ///< the speed swings about that of the neighbours
-    lag_step,       ///< the axes leave the commanded path otherwise than beside it
-    point_spacing,  ///< the program's own points lie otherwise than beside it
+    lag_step,       ///< the axes deviate from the commanded path differently from adjacent passes
+    point_spacing,  ///< the program's own points differ from those of adjacent passes
     corner,         ///< the programmed path turns there
     reversal,       ///< an axis turns back there
     pass_end,       ///< the pass begins or ends there

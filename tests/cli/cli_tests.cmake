@@ -128,8 +128,8 @@ clsurf_cli_test(NAME render_of_made_one_way SETUP "${make_sample} one-way 200000
   ARGS render a.nc a.biip -o map.png --size 160x120 -v FILE map.png)
 add_test(NAME make_sample_usage COMMAND clsurf_make_sample spiral 100 a.nc a.biip)
 set_tests_properties(make_sample_usage PROPERTIES PASS_REGULAR_EXPRESSION "usage: clsurf_make_sample zigzag")
-clsurf_cli_test(NAME info_of_good_csv ARGS info @LOGS@/mixed.csv --period 0.001 STDOUT "nothing to remark")
-clsurf_cli_test(NAME info_of_good_raw ARGS info @LOGS@/petal_spiral.raw --layout @DATA@/logs/petal_spiral.layout.toml STDOUT "nothing to remark")
+clsurf_cli_test(NAME info_of_good_csv ARGS info @LOGS@/mixed.csv --period 0.001 STDOUT "no findings")
+clsurf_cli_test(NAME info_of_good_raw ARGS info @LOGS@/petal_spiral.raw --layout @DATA@/logs/petal_spiral.layout.toml STDOUT "no findings")
 # One run in the forms of several controls: lines and positions fit the program in each.
 foreach(form halscope.csv twincat.csv trace.xml)
   clsurf_cli_test(NAME info_of_${form} ARGS info @DATA@/programs/dome_loops.nc @LOGS@/dome_loops.${form}
@@ -332,7 +332,7 @@ clsurf_cli_test(NAME kalman_renders ARGS render ${part} ${run} --derivative kalm
 clsurf_cli_test(NAME uncertainty_needs_kalman ARGS export ${part} ${run} -o out.csv --columns speed_uncertainty EXIT 2 STDERR "--derivative kalman")
 clsurf_cli_test(NAME derivative_unknown ARGS query ${part} ${run} --point 1 --derivative kalmann EXIT 2 STDERR "not one of savgol, kalman")
 
-# ---- the controller stood in for ----
+# ---- controller simulation ----
 set(simulated @DATA@/programs/bottle_uneven.nc)
 clsurf_cli_test(NAME simulate_text ARGS simulate ${simulated} -o run.biip STDOUT "greatest jerk" "off the path +0.00[45]" FILE run.biip)
 clsurf_cli_test(NAME simulate_json ARGS simulate ${simulated} --machine @DATA@/machines/linuxcnc_logs.toml -o run.biip --json
@@ -403,7 +403,7 @@ foreach(mode kill full inputs)
   set_tests_properties(hostile.${mode} PROPERTIES TIMEOUT 300)
 endforeach()
 
-# ---- what hurts in a program, and its repair ----
+# ---- problems in a program, and its repair ----
 set(uneven @DATA@/programs/bottle_uneven.nc)
 clsurf_cli_test(NAME lint_finds_crowded_points ARGS lint @DATA@/programs/petal_zigzag_irregular.ngc EXIT 1 STDOUT "points 0.040 mm apart on pass 7, 0.990 mm" "point-spacing" "4[0-9][0-9] findings|findings on 121 passes")
 clsurf_cli_test(NAME lint_json ARGS lint ${uneven} --json EXIT 1 STDOUT "\"by_rule\"" "\"step_over_mm\": 0.4" "\"tolerance_um\": 5")
