@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "io/files/json_value.h"
-#include "io/page/page_pack.h"
 #include "io/page/page_content.h"
+#include "io/page/page_pack.h"
 
 namespace clsurf::io {
 

@@ -96,9 +96,9 @@ std::string lines_of(const RunDifferenceSection& d) {
 
 std::string run_text(const ReportedRun& run, const std::string& reference) {
     const RunReport& r = run.report;
-    std::string text = fmt::format(
-        "{} against {}: {:.1f} % of {:.1f} mm aligned, {:.3f} s and {:.3f} s ({:+.3f} s)\n", run.name,
-        reference, percent(r.aligned, r.arc_length), r.arc_length, r.time_of_b, r.time, r.time_of_b - r.time);
+    std::string text = fmt::format("{} against {}: {:.1f} % of {:.1f} mm aligned, {:.3f} s and {:.3f} s ({:+.3f} s)\n",
+                                   run.name, reference, percent(r.aligned, r.arc_length), r.arc_length, r.time_of_b,
+                                   r.time, r.time_of_b - r.time);
     text += fmt::format("{:<21} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>8} {:>7}\n", "difference", "mean", "95 %",
                         "lowest", "highest", "begin", "end", "over %", "places");
     for (const RunQuantitySummary& s : r.quantities) {

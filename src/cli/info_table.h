@@ -18,6 +18,6 @@ void declare_suggestion(po::options_description& options);
 
 /// Says what a table holds, or appends it to the JSON `objects`. false: the file is no table.
 [[nodiscard]] bool describe_table(const io::Source& source, const po::variables_map& values,
-                                std::vector<std::string>& objects);
+                                  std::vector<std::string>& objects);
 
 }  // namespace clsurf::cli

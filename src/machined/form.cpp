@@ -9,8 +9,8 @@
 #include "core/grouping.h"
 #include "core/not_finite.h"
 #include "core/parallel.h"
-#include "machined/ungouged_contacts.h"
 #include "machined/fold.h"
+#include "machined/ungouged_contacts.h"
 
 namespace clsurf {
 namespace {

@@ -8,10 +8,10 @@
 
 #include "core/channel_view.h"
 #include "core/column.h"
+#include "mapping/line_agreement.h"
 #include "mapping/line_map.h"
 #include "program/program.h"
 #include "toolpath/trajectory.h"
-#include "mapping/line_agreement.h"
 
 namespace clsurf {
 

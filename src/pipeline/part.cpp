@@ -4,10 +4,10 @@
 #include <utility>
 
 #include "core/error.h"
+#include "mapping/map_lines.h"
 #include "pipeline/placement.h"
 #include "pipeline/roles.h"
 #include "surface/smoothing_segments.h"
-#include "mapping/map_lines.h"
 #include "surface/stitch.h"
 
 namespace clsurf {

@@ -4,10 +4,10 @@
 
 #include <span>
 
+#include "mapping/line_map.h"
 #include "predictor/candidates.h"
 #include "predictor/defect.h"
 #include "toolpath/toolpath.h"
-#include "mapping/line_map.h"
 
 namespace clsurf {
 

@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "core/statistics.h"
+#include "mapping/map_lines.h"
 #include "pipeline/placement.h"
 #include "pipeline/roles.h"
 #include "pipeline/signals_of.h"
 #include "predictor/quality_fields.h"
-#include "mapping/map_lines.h"
 #include "surface/stitch.h"
 
 namespace clsurf {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/statistics.h"
-#include "toolpath/toolpath.h"
 #include "surface/stitch.h"
+#include "toolpath/toolpath.h"
 
 namespace clsurf {
 namespace {

@@ -7,9 +7,9 @@
 #include <limits>
 
 #include "machined/scallop.h"
+#include "mapping/map_lines.h"
 #include "planted_score.h"
 #include "surface/smoothing_segments.h"
-#include "mapping/map_lines.h"
 #include "surface/stitch.h"
 
 namespace clsurf {

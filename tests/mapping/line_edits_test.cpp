@@ -12,8 +12,8 @@
 #include "io/formats/log_format.h"
 #include "io/readers/program_file.h"
 #include "mapping/line_map.h"
-#include "program/motion_rows.h"
 #include "mapping/map_lines.h"
+#include "program/motion_rows.h"
 
 namespace clsurf {
 namespace {

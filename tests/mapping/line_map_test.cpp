@@ -11,8 +11,8 @@
 #include "io/formats/log_format.h"
 #include "io/readers/program_file.h"
 #include "mapping/alignment.h"
-#include "program/interpreter.h"
 #include "mapping/map_lines.h"
+#include "program/interpreter.h"
 
 namespace clsurf {
 namespace {

@@ -10,9 +10,9 @@
 #include "log/log.h"
 #include "mapping/call_chain.h"
 #include "mapping/line_map.h"
+#include "mapping/map_lines.h"
 #include "program/interpreter.h"
 #include "toolpath/toolpath.h"
-#include "mapping/map_lines.h"
 
 namespace clsurf {
 namespace {

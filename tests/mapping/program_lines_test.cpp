@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "mapping/line_map.h"
-#include "program/interpreter.h"
 #include "mapping/map_lines.h"
+#include "program/interpreter.h"
 
 namespace clsurf {
 namespace {

@@ -9,11 +9,11 @@
 #include "core/parallel.h"
 #include "io/formats/log_format.h"
 #include "io/readers/program_file.h"
+#include "mapping/map_lines.h"
 #include "planted_score.h"
 #include "predictor/axis_delay.h"
 #include "predictor/verdict.h"
 #include "surface/smoothing_segments.h"
-#include "mapping/map_lines.h"
 #include "surface/stitch.h"
 
 namespace clsurf {

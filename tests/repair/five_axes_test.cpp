@@ -12,15 +12,15 @@
 #include "io/formats/log_format.h"
 #include "io/readers/machine_file.h"
 #include "io/reports/simulated_log.h"
+#include "mapping/map_lines.h"
 #include "numeric/polyline.h"
 #include "repair/optimizer.h"
 #include "repair/parts.h"
 #include "repair/points/resample.h"
 #include "support/temporary_folder.h"
 #include "surface/smoothing_segments.h"
-#include "toolpath/tip_motions.h"
-#include "mapping/map_lines.h"
 #include "surface/stitch.h"
+#include "toolpath/tip_motions.h"
 
 namespace clsurf {
 namespace {

@@ -12,9 +12,9 @@
 
 #include "core/error.h"
 #include "mapping/line_map.h"
+#include "mapping/map_lines.h"
 #include "support/made_five_axis.h"
 #include "toolpath/tip_motions.h"
-#include "mapping/map_lines.h"
 
 namespace clsurf {
 namespace {

@@ -6,8 +6,8 @@
 #include <array>
 #include <vector>
 
-#include "simulation/run/servo.h"
 #include "machine/machine.h"
+#include "simulation/run/servo.h"
 #include "simulation/run/simulated_point.h"
 
 namespace clsurf {
