@@ -8,6 +8,8 @@
 #include <limits>
 #include <numbers>
 
+#include <fmt/format.h>
+
 #include "core/not_finite.h"
 #include "program/dialects/known_dialects.h"
 #include "program/interpret/interpreter_state.h"
