@@ -58,6 +58,10 @@ std::string query_json(const std::vector<QueryMatch>& matches, const Diagnostics
                        {"line_points", Json::array({m.line_points.first, m.line_points.last})}});
         add_place(all.back(), m.place);
         if (m.pass) all.back()["pass"] = *m.pass;
+        if (m.why.programmed_feed > 0) {
+            all.back()["feed_mm_min"] = number(m.why.programmed_feed * seconds_per_minute, 2);
+            all.back()["slow_because"] = m.why.reasons;
+        }
         if (m.speed_uncertainty)
             all.back()["speed_uncertainty_mm_min"] = number(*m.speed_uncertainty * seconds_per_minute);
         if (m.acceleration_uncertainty)

@@ -98,7 +98,7 @@ std::string lint_sarif(const ReportedLint& l) {
                     {"locations", Json::array({sarif_location(uri, f.first_line, f.last_line, "")})}};
         add_place(result["properties"], f.place);
         if (f.beside_first > 0) {
-            Json beside = sarif_location(uri, f.beside_first, f.beside_last, "the pass beside it");
+            Json beside = sarif_location(uri, f.beside_first, f.beside_last, "the adjacent pass");
             beside["id"] = 1;
             result["relatedLocations"] = Json::array({std::move(beside)});
         }

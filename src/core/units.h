@@ -27,6 +27,7 @@ inline constexpr Unit um{"µm", um_per_mm};
 inline constexpr Unit s{"s", 1};
 inline constexpr Unit deg{"deg", deg_per_rad};
 inline constexpr Unit per_mm{"1/mm", 1};
+inline constexpr Unit percent{"%", 100};
 inline constexpr Unit mm_min{"mm/min", seconds_per_minute};
 inline constexpr Unit mm_s2{"mm/s²", 1};
 inline constexpr Unit mm_s3{"mm/s³", 1};

@@ -9,7 +9,11 @@
 namespace clsurf {
 
 FieldInfo interval_field_info() {
-    return {"interval", "Planned speed of the constant-speed interval", unit::mm_min, FieldScale::sequential, {}};
+    FieldInfo info{
+        "interval", "Planned speed of the constant-speed interval", unit::mm_min, FieldScale::sequential, {}};
+    info.preference = FieldPreference::higher;
+    info.class_word = "interval";
+    return info;
 }
 
 std::vector<Field> IntervalFields::compute(std::span<const std::string_view> names, PointRange points) const {

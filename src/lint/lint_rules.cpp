@@ -18,7 +18,7 @@ using Findings = std::vector<LintFinding>;
 constexpr std::size_t fewest_uneven = 3;   ///< ends: a point or two that a collinear line saves are no harm
 constexpr double reversing_cosine = -0.5;  ///< a line runs back that turns by more than 120°
 constexpr double scatter_of_starts = 6;    ///< times the median absolute residual: more is out of line
-constexpr double start_reach = 6;  ///< step-overs that the ends of neighbour passes may lie apart across the feed
+constexpr double start_reach = 6;  ///< step-overs that the ends of adjacent passes may lie apart across the feed
 
 void check_spacing(const LintContext& context, const LintRule& rule, Findings& findings) {
     find_runs(
@@ -152,16 +152,16 @@ void check_starts(const LintContext& context, const LintRule& rule, std::vector<
 // ---- what is said of a finding ----
 
 std::string spacing_message(const LintFinding& f, const std::string& found, const std::string& expected) {
-    return fmt::format("points {} apart on pass {}, {} on the passes beside it", found, f.pass, expected);
+    return fmt::format("points {} apart on pass {}, {} on the adjacent passes", found, f.pass, expected);
 }
 
 std::string chord_message(const LintFinding& f, const std::string& found, const std::string& expected) {
     if (f.severity == Severity::note)
         return fmt::format(
-            "chord error of {} (95th percentile) on lines {} to {}: the controller's tolerance blurs more than the points say above {}",
+            "chord error of {} (95th percentile) on lines {} to {}: a controller tolerance above {} hides detail of the points",
             found, f.first_line, f.last_line, expected);
-    return fmt::format("lines leave the curve by {} on pass {}; the controller's tolerance hides {}", found, f.pass,
-                       expected);
+    return fmt::format("lines deviate from the curve by {} on pass {}; the controller's tolerance hides {}", found,
+                       f.pass, expected);
 }
 
 std::string reversal_message(const LintFinding& f, const std::string& found, const std::string& expected) {
@@ -169,23 +169,23 @@ std::string reversal_message(const LintFinding& f, const std::string& found, con
 }
 
 std::string feed_message(const LintFinding& f, const std::string& found, const std::string& expected) {
-    return fmt::format("feed {} on pass {}, {} on the passes beside it", found, f.pass, expected);
+    return fmt::format("feed {} on pass {}, {} on the adjacent passes", found, f.pass, expected);
 }
 
 std::string start_message(const LintFinding& f, const std::string& found, const std::string& expected) {
-    return fmt::format("pass {} ends {} out of line with the passes beside it, more than {}", f.pass, found, expected);
+    return fmt::format("pass {} ends {} out of line with the adjacent passes, more than {}", f.pass, found, expected);
 }
 
 constexpr LintUnit in_mm{"mm", 1, 3}, in_um{"µm", um_per_mm, 2}, in_mm_min{"mm/min", seconds_per_minute, 0};
 
 constexpr auto lint_rule_table = std::to_array<LintRule>({
-    {"point-spacing", "Points lie closer or farther apart than on the neighbour passes", in_mm, spacing_message,
+    {"point-spacing", "Points are closer together or farther apart than on the adjacent passes", in_mm, spacing_message,
      check_spacing},
-    {"chord-error", "Lines leave the curve by more than the controller's tolerance can hide", in_um, chord_message,
-     check_chords},
+    {"chord-error", "Lines deviate from the curve by more than the controller's tolerance can hide", in_um,
+     chord_message, check_chords},
     {"reversed-segment", "A short line runs back against the lines around it", in_mm, reversal_message,
      check_reversals},
-    {"feed-difference", "Another feed than on the neighbour passes", in_mm_min, feed_message, check_feeds},
+    {"feed-difference", "The feed differs from that of the adjacent passes", in_mm_min, feed_message, check_feeds},
     {"start-point", "The pass begins or ends out of line with its neighbours", in_mm, start_message, check_starts},
 });
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -31,12 +32,10 @@ Eigen::Isometry3d without_rounding(Eigen::Isometry3d pose) {
     return pose;
 }
 
-bool cuts(MotionKind kind) { return kind != MotionKind::rapid && kind != MotionKind::dwell; }
-
 /// The frame of the first motion that cuts; of the last motion where none does.
 std::size_t first_frame(const Motions& motions) {
     if (motions.frame.empty()) return 0;
-    const auto found = std::find_if(motions.kind.begin(), motions.kind.end(), cuts);
+    const auto found = std::find_if(motions.kind.begin(), motions.kind.end(), is_cut);
     const auto at = static_cast<std::size_t>(found - motions.kind.begin());
     return motions.frame[std::min(at, motions.kind.size() - 1)];
 }
@@ -185,7 +184,7 @@ void FramePlacer::begin(Motions& motions) {
         }
         for (std::size_t i = 0; i < motions.kind.size(); ++i) {
             const WorkFrame& frame = motions.frame_of(static_cast<std::int64_t>(i));
-            if (!cuts(motions.kind[i]) || frame.system != system) continue;
+            if (!is_cut(motions.kind[i]) || frame.system != system) continue;
             offsets_[system] = solve(frame, given->second);
             if (system == first.system && !poses_.zero) pose = given->second;
             break;
@@ -286,6 +285,9 @@ std::int64_t FramePlacer::place(Motions& motions, std::vector<ProgramEvent>& eve
 }
 
 Eigen::Isometry3d place_motions(Program& program, const FramePoses& poses, Coordinates coordinates) {
+    const std::vector<WorkFrame>& frames = program.motions.frames;
+    if (std::any_of(frames.begin(), frames.end(), [](const WorkFrame& frame) { return !is_identity(frame.placed); }))
+        throw std::logic_error("place_motions: the motions have already been placed");
     FramePlacer placer(poses, coordinates);
     (void)placer.place(program.motions, program.events, program.motions.size());
     return placer.reference();
@@ -295,7 +297,7 @@ std::vector<int> unknown_systems(const Motions& motions) {
     std::vector<int> systems;
     std::vector<bool> seen(motions.frames.size(), false);
     for (std::size_t i = 0; i < motions.kind.size(); ++i) {
-        if (!cuts(motions.kind[i])) continue;
+        if (!is_cut(motions.kind[i])) continue;
         const std::size_t frame = motions.frame.empty() ? 0 : motions.frame[i];
         if (!seen[frame]) {
             seen[frame] = true;

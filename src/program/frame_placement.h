@@ -69,6 +69,7 @@ private:
 
 /// A whole program at once. Returns the pose that leads from the coordinates to the machine's. Domain: each motion is in
 /// its own work system, as parsing leaves it, and as io::read_program() does with ProgramOptions::coordinates nullopt.
+/// Throws std::logic_error for motions that it has already moved.
 Eigen::Isometry3d place_motions(Program& program, const FramePoses& poses = {},
                                 Coordinates coordinates = Coordinates::workpiece);
 

@@ -21,6 +21,9 @@ enum class MotionKind : std::uint8_t { rapid, feed, cw, ccw, dwell, spline };
 
 [[nodiscard]] constexpr bool is_arc(MotionKind kind) { return kind == MotionKind::cw || kind == MotionKind::ccw; }
 
+/// Whether the tool moves at feed.
+[[nodiscard]] constexpr bool is_cut(MotionKind kind) { return kind != MotionKind::rapid && kind != MotionKind::dwell; }
+
 /// A circle or helix: the centre, and the plane that it turns in.
 struct Arc {
     std::int64_t motion = 0;  ///< index of its motion

@@ -19,7 +19,7 @@ namespace clsurf {
 enum class Side : std::uint8_t { left, right };
 
 /// Neighbours as differences of point numbers, so that 32 bits last for any log that fits a disk
-/// where neighbour passes are less than 2^31 points apart.
+/// where adjacent passes are less than 2^31 points apart.
 struct Adjacency {
     static constexpr std::int32_t none = std::numeric_limits<std::int32_t>::min();
 

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double most_laid_points = 20e6;
 constexpr double spacing_of_step_over = 0.5;  ///< how far points lie apart at most, in step-overs
+constexpr int most_closer_looks = 4;
 
 struct Sampled {
     Positions positions;
@@ -28,15 +29,13 @@ struct Sampled {
     }
 };
 
-bool cuts(MotionKind kind) { return kind != MotionKind::rapid && kind != MotionKind::dwell; }
-
 /// Where the first motions know no axis yet, a NaN start would hide the whole path.
 Toolpath toolpath_of(const Program& program) { return {program.motions, Vec3::Zero()}; }
 
 double cutting_length(const Toolpath& path) {
     double sum = 0;
     for (std::int64_t i = 0; i < path.size(); ++i) {
-        if (cuts(path.motions().kind[static_cast<std::size_t>(i)])) sum += path.length(i);
+        if (is_cut(path.motions().kind[static_cast<std::size_t>(i)])) sum += path.length(i);
     }
     return sum;
 }
@@ -47,7 +46,7 @@ Sampled sample(const Toolpath& path, double spacing) {
     if (motions.size() > 0) sampled.positions.origin = path.end(0);
     for (std::int64_t i = 0; i < motions.size(); ++i) {
         const MotionKind kind = motions.kind[static_cast<std::size_t>(i)];
-        if (cuts(kind)) {
+        if (is_cut(kind)) {
             // A line that hardly passes the spacing is not worth a point in its middle.
             const auto pieces =
                 static_cast<int>(std::clamp(std::floor(path.length(i) / spacing + 0.5), 1.0, most_laid_points));
@@ -63,20 +62,20 @@ Sampled sample(const Toolpath& path, double spacing) {
 double usual_length(const Toolpath& path) {
     std::vector<double> lengths;
     for (std::int64_t i = 0; i < path.size(); ++i) {
-        if (!cuts(path.motions().kind[static_cast<std::size_t>(i)])) continue;
+        if (!is_cut(path.motions().kind[static_cast<std::size_t>(i)])) continue;
         if (const double length = path.length(i); length > 0) lengths.push_back(length);
     }
     return lengths.empty() ? 0 : median(lengths);
 }
 
-ProgrammedSurface stitch_sampled(Sampled sampled, const Program& program, double step_over) {
+ProgrammedSurface stitch_sampled(Sampled sampled, const Program& program) {
     ProgrammedSurface programmed;
     programmed.motion = std::move(sampled.motion);
     programmed.is_end = std::move(sampled.is_end);
     Column<std::uint32_t> motion(programmed.motion.size());
     std::copy(programmed.motion.begin(), programmed.motion.end(), motion.begin());
     const LineMap lines(std::move(motion), Column<std::uint8_t>(programmed.motion.size(), 255), program);
-    programmed.surface = stitch(std::move(sampled.positions), lines, step_over);
+    programmed.surface = stitch(std::move(sampled.positions), lines);
     return programmed;
 }
 
@@ -86,11 +85,14 @@ ProgrammedSurface build_programmed_surface(const Program& program) {
     const Toolpath path = toolpath_of(program);
     const double coarsest = std::max(cutting_length(path) / most_laid_points, 1e-4);
     double spacing = std::max(coarsest, usual_length(path));
-    ProgrammedSurface programmed = stitch_sampled(sample(path, spacing), program, 0);
-    // Passes and neighbours need points closer than passes lie; the first look only tells how close.
-    const double wanted = std::max(coarsest, spacing_of_step_over * programmed.surface.step_over);
-    if (programmed.surface.step_over > 0 && wanted < 0.9 * spacing) {
-        programmed = stitch_sampled(sample(path, wanted), program, programmed.surface.step_over);
+    ProgrammedSurface programmed = stitch_sampled(sample(path, spacing), program);
+    // Passes and neighbours need points closer than passes lie. Points of long motions lie so far apart that the
+    // first estimate of the step-over can be too large, so each look estimates it again.
+    for (int look = 0; look < most_closer_looks && programmed.surface.step_over > 0; ++look) {
+        const double wanted = std::max(coarsest, spacing_of_step_over * programmed.surface.step_over);
+        if (wanted >= 0.9 * spacing) break;
+        spacing = wanted;
+        programmed = stitch_sampled(sample(path, spacing), program);
     }
     return programmed;
 }

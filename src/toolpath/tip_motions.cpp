@@ -184,7 +184,7 @@ void note_missing_axes(Program& program, const Kinematics& kinematics) {
         const auto at = static_cast<std::size_t>(turned - motions.rotary.begin());
         const std::string& file = program.files[motions.file.empty() ? 0 : motions.file[at]].name();
         program.diagnostics.add({Severity::warning, "program.axis", Place::of_line(file, motions.line[at]),
-                                 fmt::format("axis {} turns, which the machine does not have: it is read as 0",
+                                 fmt::format("axis {} turns, but the machine does not have it: it is read as 0",
                                              static_cast<char>(letter - 'a' + 'A')),
                                  "[kinematics] rotary names the machine's two"});
     }

@@ -318,7 +318,7 @@ void note_rotary(const Log& log, Role role, Diagnostics& diagnostics) {
          fmt::format(
              "axis {} moves by {:.2f} deg: positions are those of the linear axes, not of the tool on the workpiece",
              motion->letter, motion->range * deg_per_rad),
-         "--machine FILE says the kinematics"});
+         "give the kinematics with --machine FILE"});
 }
 
 }  // namespace clsurf

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "lint/lint_rule.h"
 #include "numeric/polyline.h"
 #include "repair/parts.h"
@@ -79,6 +81,18 @@ TEST(Lint, FindsAFeedThatOnlyOnePassHas) {
     ASSERT_EQ(report.count("feed-difference"), 1U);
     EXPECT_EQ(report.findings.back().pass, 4);
     EXPECT_NEAR(report.findings.back().found, 2000.0 / 60, 1e-3);
+}
+
+TEST(Lint, KnowsTheStepOverOfLinesAHundredTimesAsLong) {
+    std::string text = "G21 G90\nG0 X0 Y0 Z0\nG1 F3000\n";
+    for (int pass = 0; pass < 12; ++pass)
+        text += fmt::format("G1 Y{:.1f} F3000\nX{} F{}\n", 0.3 * pass, pass % 2 == 0 ? 30 : 0, pass == 5 ? 2400 : 3000);
+    const LintReport report = lint_text(text);
+    EXPECT_TRUE(report.judged());
+    EXPECT_EQ(report.passes, 12);
+    EXPECT_NEAR(report.step_over, 0.3, 0.01);
+    ASSERT_EQ(report.count("feed-difference"), 1U);
+    EXPECT_EQ(report.findings.back().pass, 6);
 }
 
 TEST(Lint, SinglePassHasNothingBesideIt) {

@@ -54,7 +54,7 @@ TEST(DialectGuess, TheEndingCountsLessThanAStrongWord) {
     EXPECT_EQ(guess("G0 X0\n", "PART.MPF"), "siemens");
     EXPECT_EQ(guess("G05.1 Q1\nG0 X0\n", "part.ngc"), "fanuc");
     EXPECT_EQ(guess_dialect("G0 X0\n\n#<a>=1\n", "part.ngc").reason, "'#<' in line 3, the ending .ngc");
-    EXPECT_EQ(guess_dialect("G0 X0\n", "part.nc").reason, "nothing in the text tells another one");
+    EXPECT_EQ(guess_dialect("G0 X0\n", "part.nc").reason, "nothing in the text suggests another one");
 }
 
 TEST(DialectGuess, AnErrorNamesTheGuessAndTheOption) {
@@ -68,9 +68,9 @@ TEST(DialectGuess, AnErrorNamesTheGuessAndTheOption) {
         return "";
     };
     const std::string text = "O1000\nG0 X0 Y0\nG2 X10 Y0 I4\n";
-    EXPECT_NE(
-        error_of_guess(text, nullptr).find("hint: read as fanuc, a guess ('O1000' in line 1); --dialect names another"),
-        std::string::npos)
+    EXPECT_NE(error_of_guess(text, nullptr)
+                  .find("hint: read as fanuc, a guess ('O1000' in line 1); choose another with --dialect"),
+              std::string::npos)
         << error_of_guess(text, nullptr);
     EXPECT_EQ(error_of_guess(text, find_dialect("fanuc")).find("--dialect"), std::string::npos);
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <stdexcept>
 
 #include "core/units.h"
 #include "program/frame_placement.h"
@@ -54,6 +55,12 @@ TEST(WorkFrames, ASystemIsTurnedAboutItsZero) {
     ASSERT_EQ(program.motions.arcs.size(), 1u);
     EXPECT_NEAR(program.motions.arcs[0].centre.x, 10, 1e-12);
     EXPECT_NEAR(program.motions.arcs[0].centre.y, 7.5, 1e-12);
+}
+
+TEST(WorkFrames, MotionsAreNotPlacedTwice) {
+    Program program = parse("G21 G90\nG10 L2 P2 X100\nG55 G0 X0 Y0 Z5\nG1 X20 F3000\nM2\n", "linuxcnc");
+    place_motions(program, {}, Coordinates::machine);
+    EXPECT_THROW(place_motions(program, {}, Coordinates::machine), std::logic_error);
 }
 
 TEST(WorkFrames, SystemsShiftsAndRotationsTogether) {

@@ -129,10 +129,10 @@ TEST(Interpreter, ReportsUnknownWordsWithTheirPlace) {
 }
 
 TEST(Interpreter, StopsEndlessLoopsAndRecursion) {
-    EXPECT_NE(error_of("o1 while [1]\no1 endwhile\n", "linuxcnc").find("a loop without end?"), std::string::npos);
+    EXPECT_NE(error_of("o1 while [1]\no1 endwhile\n", "linuxcnc").find("an endless loop?"), std::string::npos);
     EXPECT_NE(error_of("o1 sub\no1 call\no1 endsub\no1 call\n", "linuxcnc").find("a subprogram that calls itself?"),
               std::string::npos);
-    EXPECT_NE(error_of("M98 P77\n", "fanuc").find("subprogram '77' is neither in the program nor beside it"),
+    EXPECT_NE(error_of("M98 P77\n", "fanuc").find("subprogram '77' is neither in the program nor in its folder"),
               std::string::npos);
 }
 

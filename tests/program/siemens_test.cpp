@@ -59,7 +59,7 @@ TEST(SiemensSwivel, NamesWhatItCannotDo) {
         EXPECT_EQ(motions(p), (Rows{"rapid 0 0 0", "rapid 1 0 0"}));
     }
     EXPECT_NE(
-        error_of("CYCLE800(0,\"TC\",0,9,0,0,0,10,20,30,0,0,0,1)\n", "siemens").find("names no axis for the angle 30"),
+        error_of("CYCLE800(0,\"TC\",0,9,0,0,0,10,20,30,0,0,0,1)\n", "siemens").find("has no axis for the angle 30"),
         std::string::npos);
 }
 

@@ -82,7 +82,7 @@ public:
         std::vector<int> score(dialects().size());
         for (const Sign& sign : signs_) score[sign.dialect] += sign.weight * std::min(sign.count, counted);
         const auto most = std::max_element(score.begin(), score.end());
-        if (*most <= 0) return {&dialects().front(), "nothing in the text tells another one"};
+        if (*most <= 0) return {&dialects().front(), "nothing in the text suggests another one"};
         const auto best = static_cast<std::size_t>(most - score.begin());
         const Dialect& dialect = dialects()[best];
         std::stable_sort(signs_.begin(), signs_.end(),

@@ -116,12 +116,12 @@ bool has_rotary_word(const Block& block) {
 
 // Codes.
 bool refuse_curves(Interpreter& in, const CodeWord& w) {
-    in.refuse_motion(code_text(w.code), w.block, w.column, "involutes and exponential curves are not read");
+    in.refuse_motion(code_text(w.code), w.block, w.column, "involutes and exponential curves are not supported");
 }
 bool refuse_rotary_interpolation(Interpreter& in, const CodeWord& w) {
     in.refuse_motion(
         code_text(w.code), w.block, w.column,
-        "cylindrical and polar coordinate interpolation are not read: X, Y and C mean something else there");
+        "cylindrical and polar coordinate interpolation are not supported: X, Y and C mean something else there");
 }
 bool interpolate_on_cylinder(Interpreter& in, const CodeWord& w) {
     if (has_rotary_word(w.block)) return refuse_rotary_interpolation(in, w);
@@ -348,7 +348,7 @@ constexpr auto m_codes = std::to_array<MRule>({
      }},
 });
 
-constexpr const char* spirals = "spirals of several turns are not read";
+constexpr const char* spirals = "spirals of several turns are not supported";
 constexpr auto refused_at_arcs = std::to_array<RefusedLetter>(
     {{'P', "turns are P in linuxcnc: --dialect linuxcnc"}, {'L', spirals}, {'Q', spirals}});
 

@@ -146,7 +146,7 @@ void cut_corner(Line& line) {
     if (!(size > 0)) in.fail("RND and CHF need a length above 0", column);
     const bool after_line = !in.program_.motions.kind.empty() && in.program_.motions.kind.back() == MotionKind::feed;
     if (!after_line || in.corner_.pending) in.fail("RND and CHF are read between straight lines with feed", column);
-    if (in.compensation_.path.on()) in.fail("RND and CHF under RL or RR with a tool radius are not read", column);
+    if (in.compensation_.path.on()) in.fail("RND and CHF under RL or RR with a tool radius are not supported", column);
     in.corner_ = {.pending = true,
                   .rounded = rounded,
                   .size = size,
@@ -156,7 +156,7 @@ void cut_corner(Line& line) {
 
 [[noreturn]] void refuse(Line& line) {
     const std::string_view word = line.c.text.substr(line.start, line.c.at - line.start);
-    line.in.fail(fmt::format("{} is not read in klartext, and moves axes", word), line.start + 1,
+    line.in.fail(fmt::format("{} is not supported in klartext, and moves axes", word), line.start + 1,
                  "let the CAM system write L, C and CR blocks");
 }
 

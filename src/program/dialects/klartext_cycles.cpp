@@ -39,7 +39,7 @@ void expect_end(Line& line) {
 void shift_datum(Line& line) {
     Interpreter& in = line.in;
     if (line.c.peek() == '#') {
-        in.note(Severity::warning, "program.frame", "a datum table is not read: positions are read as programmed",
+        in.note(Severity::warning, "program.frame", "a datum table is not supported: positions are read as programmed",
                 line.c.column());
         return;
     }
@@ -147,7 +147,7 @@ void refuse_working_plane(Line& line) {
         turned = line.value() != 0 || turned;
     }
     if (turned)
-        line.in.fail("CYCL DEF 19 (working plane) is not read", line.start + 1,
+        line.in.fail("CYCL DEF 19 (working plane) is not supported", line.start + 1,
                      "let the CAM system write PLANE SPATIAL");
 }
 
@@ -252,7 +252,7 @@ void tilt_plane(Line& line) {
     } else if (form == "VECTOR") {
         frame = plane_of_vectors(line);
     } else {
-        in.fail("PLANE " + form + " is not read", line.start + 1, "SPATIAL, VECTOR, EULER and RESET are");
+        in.fail("PLANE " + form + " is not supported", line.start + 1, "SPATIAL, VECTOR, EULER and RESET are");
     }
     const std::string text(line.c.text.substr(line.start));
     in.set_heidenhain_frame(Part::tilt, frame);
@@ -274,7 +274,7 @@ void shift_datum_by_axis(Line& line) {
     if (line.c.take_word("AXIS")) return shift_datum(line);
     Interpreter& in = line.in;
     if (!line.c.take_word("RESET")) {
-        in.note(Severity::warning, "program.frame", "a datum table is not read: positions are read as programmed",
+        in.note(Severity::warning, "program.frame", "a datum table is not supported: positions are read as programmed",
                 line.c.column());
         return;
     }

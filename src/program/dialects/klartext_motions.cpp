@@ -55,7 +55,7 @@ void finish_corner(Line& line, const KlartextWords& words, const Block& block) {
     const Corner corner = in.corner_;
     const std::optional<ProgramFrame::Circle> circle = in.state_.frame.circle(in.state_.plane_axis);
     if (!circle || circle->axis != in.state_.plane_axis)
-        in.fail("RND and CHF in a tilted or unevenly scaled frame are not read");
+        in.fail("RND and CHF in a tilted or unevenly scaled frame are not supported");
     if (words.feed == KlartextFeed::rapid) in.fail("a line with feed must follow RND and CHF", line.start + 1);
     const Vec3 after = in.target(block, false);
     const CutCorner shape = cut(in, in.arcs_.begin_of_last, in.state_.position, after);
@@ -149,7 +149,7 @@ void straight(Line& line, const KlartextWords& words) {
 
 void arc(Line& line, const KlartextWords& words, ArcKind kind) {
     Interpreter& in = line.in;
-    if (words.feed == KlartextFeed::rapid) in.fail("FMAX of an arc is not read", line.start + 1);
+    if (words.feed == KlartextFeed::rapid) in.fail("FMAX of an arc is not supported", line.start + 1);
     if (kind == ArcKind::by_radius && words.find("R") == nullptr) in.fail("CR needs its radius (R)", line.start + 1);
     in.arcs_.kind = kind;
     const bool clockwise = words.clockwise.value_or(in.arcs_.last_clockwise);

@@ -88,7 +88,7 @@ private:
         if (!follows("F")) return false;
         const std::size_t column = c_.column();
         if (is_letter(at(1)) && at(1) != 'Q')
-            throw ReadError{"a feed per tooth, per revolution or by time (FZ, FU, FT) is not read", column,
+            throw ReadError{"a feed per tooth, per revolution or by time (FZ, FU, FT) is not supported", column,
                             "let the CAM system write F in mm/min"};
         ++c_.at;
         if (take("MAX")) {
@@ -195,7 +195,8 @@ private:
             c_.at += 2;
             return true;
         }
-        if (next == '+' || next == '-') throw ReadError{"compensation along one axis (R+, R-) is not read", column, {}};
+        if (next == '+' || next == '-')
+            throw ReadError{"compensation along one axis (R+, R-) is not supported", column, {}};
         return false;
     }
 

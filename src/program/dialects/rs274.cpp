@@ -156,9 +156,8 @@ int code_of(MotionMode mode, int cycle) {
     return 800;
 }
 
-/// Names of LinuxCNC, "Predefined Named Parameters"; those of what a program cannot know are missing.
-double named_parameter(Interpreter& in, const std::string& name) {
-    if (name.size() < 2) return missing<double>;
+/// `_x`, `_abs_a`: where an axis is, in the units of the program.
+double axis_parameter(const Interpreter& in, const std::string& name) {
     const double unit = in.state_.unit_mm;
     const Vec3 at = in.tool_position();
     const Vec3 machine = in.state_.to_machine(at);
@@ -171,6 +170,13 @@ double named_parameter(Interpreter& in, const std::string& name) {
         if (name == "_abs_" + turning) return in.state_.rotary[k] + in.state_.rotary_offset()[k];
         if (name == "_" + std::string(1, "uvw"[k])) return 0;  // axes that are not carried on
     }
+    return missing<double>;
+}
+
+/// Names of LinuxCNC, "Predefined Named Parameters"; those of what a program cannot know are missing.
+double named_parameter(Interpreter& in, const std::string& name) {
+    if (const double axis = axis_parameter(in, name); !std::isnan(axis)) return axis;
+    const double unit = in.state_.unit_mm;
     const int system = in.state_.work_system;
     constexpr int numbered_systems = 6;
     const std::pair<const char*, double> modes[] = {

@@ -209,7 +209,7 @@ bool Interpreter::run_modal_call() {
         return true;
     }
     if (!call_siemens(called.name, Keyword{called.name, {}, false, called.column}, 1)) {
-        fail(fmt::format("subprogram '{}' is neither in the program nor beside it", called.name));
+        fail(fmt::format("subprogram '{}' is neither in the program nor in its folder", called.name));
     }
     return true;
 }

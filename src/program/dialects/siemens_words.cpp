@@ -202,7 +202,7 @@ void Interpreter::call_by_path(const Keyword& keyword) {
         if (called.ends_with(ending)) called.resize(called.size() - ending.size());
     }
     if (called.empty() || !call_siemens(called, Keyword{keyword.name, {}, false, keyword.column}, 1))
-        fail(fmt::format("subprogram '{}' is neither in the program nor beside it", called), keyword.column);
+        fail(fmt::format("subprogram '{}' is neither in the program nor in its folder", called), keyword.column);
 }
 
 /// Words that set a mode. True: the keyword was one.
@@ -239,7 +239,7 @@ void Interpreter::apply_keyword(const Keyword& keyword, Block& block) {
     if (name == "EXTCALL" || name == "CALL" || name == "PCALL") return call_by_path(keyword);
     if (contains(curve_words, name)) {
         refuse_motion(name, block, keyword.column,
-                      "splines and polynomials are not read: let the CAM system write lines");
+                      "splines and polynomials are not supported: let the CAM system write lines");
     }
     if (contains(noted_words, name) || name.starts_with("COMP") || name.ends_with("=")) {
         event("mode", text_of(keyword));
@@ -343,8 +343,7 @@ void Interpreter::high_speed_settings(const Keyword& keyword) {
         values = arguments_of(keyword);
     } catch (const ReadError& error) {
         // A variable that the control alone knows: no axis moves by it.
-        note(Severity::warning, "program.variable", error.what + ": the machine's own tolerance is taken",
-             error.column);
+        note(Severity::warning, "program.variable", error.what + ": the machine's own tolerance is used", error.column);
     }
     const double tolerance = values.empty() ? 0 : values[0].value_or(0) * state_.unit_mm;
     const double kind = values.size() > 1 ? values[1].value_or(1) : 1;

@@ -36,7 +36,7 @@ bool is_numbered_axis(std::string_view word) {
 std::string hint_of_code(int code) {
     if (code >= 5_g && code <= 5.3_g)
         return fmt::format("{} is a spline of linuxcnc: --dialect linuxcnc", code_text(code));
-    if (code >= 6.1_g && code <= 6.3_g) return "NURBS are not read: let the CAM system write lines and arcs";
+    if (code >= 6.1_g && code <= 6.3_g) return "NURBS are not supported: let the CAM system write lines and arcs";
     return {};
 }
 
@@ -420,7 +420,7 @@ void Interpreter::report_idle(const Block& block) {
     for (const char letter : rules_->motion.idle_letters) {
         if (!is(block, letter)) continue;
         note(Severity::warning, "program.unused-word",
-             fmt::format("word {} has no meaning beside a straight motion: it is left out", letter),
+             fmt::format("word {} has no meaning for a straight motion and is ignored", letter),
              block.words.column[static_cast<std::size_t>(letter - 'A')]);
     }
 }

@@ -19,12 +19,12 @@ double Interpreter::value_at(std::string_view text, std::size_t at) const {
 /// The statement of the line that runs, as the index has matched it.
 const Control& Interpreter::own_control() {
     const int at = index(place_.file).at_line(place_.line);
-    if (at < 0) fail("this control statement cannot stand here");
+    if (at < 0) fail("this control statement is not allowed here");
     return index(place_.file).all()[static_cast<std::size_t>(at)];
 }
 
 const Control& Interpreter::partner_of(const Control& control, const char* what) {
-    if (control.partner < 0) fail(fmt::format("{} has no other end", what));
+    if (control.partner < 0) fail(fmt::format("{} has no matching statement", what));
     return index(place_.file).all()[static_cast<std::size_t>(control.partner)];
 }
 

@@ -32,6 +32,16 @@ Stroke stroke_of(int code, bool rs274) {
     }
 }
 
+/// How many holes a block drills: L, of some dialects K.
+int cycle_repeats(const Block& block, bool by_k) {
+    int repeats = 1;
+    for (const char letter : {'L', 'K'}) {
+        if (letter == 'K' && !by_k) continue;
+        if (block.words.given(letter)) repeats = static_cast<int>(std::clamp(block.words.of(letter), 0.0, 1e6));
+    }
+    return repeats;
+}
+
 }  // namespace
 
 /// R, depth, Q, P and I J K, which stay from hole to hole.
@@ -48,6 +58,16 @@ void Interpreter::read_cycle_words(const Block& block, const Stroke& stroke) {
     const int code = state_.cycle / 10;
     if (rules_->cycles.rs274) fail(fmt::format("G{} needs Q greater than 0", code));
     note(Severity::warning, "program.cycle", fmt::format("G{} without Q: read as one stroke", code));
+}
+
+/// Where the pecks of Q end above the bottom [mm].
+std::vector<double> Interpreter::peck_depths(double r, double bottom) const {
+    std::vector<double> depths;
+    const double peck = cycle_.q * state_.unit_mm;
+    if (!(peck > 0)) return depths;
+    if ((r - bottom) / peck > most_pecks) fail("too many pecks: Q is too small");
+    for (double depth = r - peck; depth > bottom; depth -= peck) depths.push_back(depth);
+    return depths;
 }
 
 void Interpreter::cycle(const Block& block) {
@@ -73,21 +93,12 @@ void Interpreter::cycle(const Block& block) {
     const double bottom = cycle_.z * unit + (state_.incremental ? r : 0.0);
     if (r < bottom && (rs274 || !from_below))
         fail(fmt::format("the cycle's R ({:g}) is below its bottom ({:g})", r, bottom));
-    int repeats = 1;
-    for (const char letter : {'L', 'K'}) {
-        if (letter == 'K' && (!rules_->cycles.repeats_by_k || from_below)) continue;
-        if (block.words.given(letter)) repeats = static_cast<int>(std::clamp(block.words.of(letter), 0.0, 1e6));
-    }
+    const int repeats = cycle_repeats(block, rules_->cycles.repeats_by_k && !from_below);
     const Vec3 rotary = rotary_target(block);
     // Up to R at once where the cycles began below it, even if the tool has come up since.
     if (rs274 && cycle_.initial < r) go_to_level(MotionKind::rapid, r, rotary);
     const double clear = state_.retract_to_r && !(from_below && !rs274) ? r : std::max(r, cycle_.initial);
-    std::vector<double> depths;
-    if (stroke.pecks && cycle_.q > 0) {
-        const double peck = cycle_.q * unit;
-        if ((r - bottom) / peck > most_pecks) fail("too many pecks: Q is too small");
-        for (double depth = r - peck; depth > bottom; depth -= peck) depths.push_back(depth);
-    }
+    const std::vector<double> depths = stroke.pecks ? peck_depths(r, bottom) : std::vector<double>();
     for (int k = 0; k < repeats; ++k) {
         Vec3 hole =
             this_block_.machine_coordinates ? state_.frame.to_programmed(target(block, true)) : read_axes(block, false);
@@ -162,7 +173,7 @@ void Interpreter::tap_turned(double bottom, double clear, const Vec3& rotary) {
         return zx ? Vec3(height, hole.z(), hole.x()) : Vec3(hole.z(), height, hole.y());
     };
     note(Severity::warning, "program.cycle",
-         fmt::format("G{} in {}: LinuxCNC takes the axes in a wrong order, and its motions are read as it makes them",
+         fmt::format("G{} in {}: LinuxCNC uses the axes in a wrong order; the motions are read as LinuxCNC makes them",
                      state_.cycle / 10, zx ? "G18" : "G19"));
     straight(MotionKind::feed, at(bottom), rotary);
     straight(MotionKind::feed, at(clear), rotary);

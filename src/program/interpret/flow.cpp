@@ -25,7 +25,7 @@ const ControlIndex& Interpreter::index(std::size_t file) {
 
 void Interpreter::count_jump() {
     if (++calls_.jumps > options_.most_jumps) {
-        fail(fmt::format("more than {} jumps and calls: a loop without end?", options_.most_jumps));
+        fail(fmt::format("more than {} jumps and calls: an endless loop?", options_.most_jumps));
     }
 }
 
@@ -198,7 +198,7 @@ void Interpreter::call(const std::string& name, int repeats, bool locals, const 
     if (at >= 0) {
         line = texts_.indexes[file].all()[static_cast<std::size_t>(at)].line;
     } else {
-        if (!load(name)) fail(fmt::format("subprogram '{}' is neither in the program nor beside it", name));
+        if (!load(name)) fail(fmt::format("subprogram '{}' is neither in the program nor in its folder", name));
         file = texts_.loaded.at(name);
         const int begin = begin_in(file);
         if (begin >= 0) line = texts_.indexes[file].all()[static_cast<std::size_t>(begin)].line;
@@ -216,7 +216,7 @@ void Interpreter::call_file(const std::string& name) {
     if (calls_.frames.size() >= deepest_call) {
         fail(fmt::format("calls are nested more than {} deep: a subprogram that calls itself?", deepest_call));
     }
-    if (!load(name)) fail(fmt::format("subprogram '{}' is neither in the program nor beside it", name));
+    if (!load(name)) fail(fmt::format("subprogram '{}' is neither in the program nor in its folder", name));
     enter(texts_.loaded.at(name), 1, 1, false);
 }
 

@@ -227,7 +227,7 @@ void Interpreter::fail(const std::string& what, std::size_t column, const std::s
     place.source = std::string(place_.text.substr(0, shown_line_bytes));
     std::string advice = hint;
     if (!program_.dialect_guessed_from.empty()) {
-        advice += fmt::format("{}read as {}, a guess ({}); --dialect names another", advice.empty() ? "" : "; ",
+        advice += fmt::format("{}read as {}, a guess ({}); choose another with --dialect", advice.empty() ? "" : "; ",
                               program_.dialect->name, program_.dialect_guessed_from);
     }
     throw InputError(std::move(place), printable(what.substr(0, shown_text_bytes)), printable(advice));

@@ -42,6 +42,11 @@ struct KlartextState {
     KlartextSide side = KlartextSide::none;
 };
 
+// lathe_cycles.cpp
+struct LatheCycle;
+struct LatheFrame;
+struct RoughingStart;
+
 class Interpreter {
 public:
     /// Throws InputError (UTF-16).
@@ -217,11 +222,16 @@ public:
     [[nodiscard]] float feed_for(double length);
     void cycle(const Block& block);
     void read_cycle_words(const Block& block, const Stroke& stroke);
+    [[nodiscard]] std::vector<double> peck_depths(double r, double bottom) const;
     void thread_cycle(const Block& block);                               ///< G76
     void tap(const Vec3& end, const Vec3& rotary);                       ///< G33.1
     void lathe_cycle(int code, const Block& words, std::size_t column);  ///< G70 … G72
     [[nodiscard]] Vec2 record_profile(const std::string& name, std::vector<CompensatedMove>& profile);
     void follow(const std::vector<CompensatedMove>& moves);  ///< with feed, in the XZ plane
+    [[nodiscard]] LatheCycle lathe_words(const Block& words, int code, std::size_t column) const;
+    void go_in_zx(const Vec2& to, MotionKind kind = MotionKind::rapid);
+    void rough(const LatheCycle& cycle, const LatheFrame& frame, const RoughingStart& at,
+               std::vector<CompensatedMove>& moves, std::size_t column);
     void go_to_level(MotionKind kind, double height, const Vec3& rotary);
     void drill(const Stroke& stroke, double r, double bottom, double clear, const std::vector<double>& depths,
                const Vec3& rotary);

@@ -10,6 +10,26 @@
 #include "program/interpret/interpreter_state.h"
 
 namespace clsurf {
+
+/// A roughing cut's frame: along `feed` (0 z, 1 x) the tool cuts, along `depth` it goes in.
+struct LatheFrame {
+    int feed = 0, depth = 1;
+    double onwards = 1;   ///< sign along feed
+    double outwards = 1;  ///< sign along depth, from the profile to the start
+};
+
+/// The words of a lathe cycle; lengths in mm.
+struct LatheCycle {
+    int code = 0;  ///< 700: G70
+    double distance = 0, step = 0, retract = 0;
+    int passes = 1;
+};
+
+/// Where a roughing cycle starts, where its cuts start, where the contour begins (z, x) [mm].
+struct RoughingStart {
+    Vec2 start, front, first;
+};
+
 namespace {
 
 constexpr double coincident = 1e-9;  ///< [mm]
@@ -48,15 +68,8 @@ std::vector<CompensatedMove> beside(const Vec2& begin, const std::vector<Compens
     return moves;
 }
 
-/// A roughing cut's frame: along `feed` (0 z, 1 x) the tool cuts, along `depth` it goes in.
-struct Frame2 {
-    int feed = 0, depth = 1;
-    double onwards = 1;   ///< sign along feed
-    double outwards = 1;  ///< sign along depth, from the profile to the start
-};
-
 /// Where the profile first reaches a depth, seen along the cut.
-std::optional<double> reach(const Vec2& first, const std::vector<CompensatedMove>& moves, const Frame2& frame,
+std::optional<double> reach(const Vec2& first, const std::vector<CompensatedMove>& moves, const LatheFrame& frame,
                             double depth) {
     Vec2 from = first;
     for (const CompensatedMove& move : moves) {
@@ -84,7 +97,7 @@ std::optional<double> reach(const Vec2& first, const std::vector<CompensatedMove
 }
 
 /// Whether it goes onwards and outwards all the way: no pockets.
-bool rises(const Vec2& first, const std::vector<CompensatedMove>& moves, const Frame2& frame) {
+bool rises(const Vec2& first, const std::vector<CompensatedMove>& moves, const LatheFrame& frame) {
     Vec2 from = first;
     for (const CompensatedMove& move : moves) {
         const Vec2 displacement = move.end - from;
@@ -150,7 +163,7 @@ Vec2 Interpreter::record_profile(const std::string& name, std::vector<Compensate
     block_ = block;
     this_block_.machine_coordinates = false;
     this_block_.motion_suppressed = true;  // the axis words of the cycle are its own, not those of a motion
-    if (profile.empty()) fail("the profile has no way");
+    if (profile.empty()) fail("the profile has no length");
     return begin;
 }
 
@@ -171,21 +184,12 @@ void Interpreter::follow(const std::vector<CompensatedMove>& moves) {
 void Interpreter::lathe_cycle(int code, const Block& words, std::size_t column) {
     if (state_.plane_axis != 1) fail(code_text(code) + " needs the XZ plane (G18)", column);
     if (!words.words.given('Q')) fail(code_text(code) + " needs its profile's subprogram (Q)", column);
-    const auto word = [&](char letter, double otherwise) {
-        return words.words.given(letter) ? words.words.of(letter) : otherwise;
-    };
-    const double distance = word('D', 0) * state_.unit_mm;
-    const double step = word('I', 1) * state_.unit_mm;
-    const double retract = word('R', 0.5) * state_.unit_mm;
-    const int passes = static_cast<int>(std::clamp(word('P', 1), 1.0, 1e4));
-    const bool finishes = code == 700;
-    if (!(distance >= 0)) fail("D of a lathe cycle must not be negative", column);
-    if (!finishes && !(step > 0)) fail("I of a roughing cycle must be greater than 0", column);
+    const LatheCycle cycle = lathe_words(words, code, column);
     const Vec3 called_from = target(words, false);
     std::vector<CompensatedMove> profile;
     const Vec2 begin = record_profile(fmt::format("{}", std::lround(words.words.of('Q'))), profile);
 
-    Frame2 frame;
+    LatheFrame frame;
     if (code >= 720) std::swap(frame.feed, frame.depth);
     const Vec2 start = zx(called_from);
     double onwards = profile.back().end[frame.feed] - begin[frame.feed];
@@ -193,9 +197,6 @@ void Interpreter::lathe_cycle(int code, const Block& words, std::size_t column) 
     frame.onwards = onwards < 0 ? -1 : 1;
     frame.outwards = start[frame.depth] < begin[frame.depth] ? -1 : 1;
     const bool left = (frame.feed == 0) == (frame.onwards * frame.outwards > 0);
-    const auto go = [&](const Vec2& to, MotionKind kind = MotionKind::rapid) {
-        straight(kind, Vec3(to.y(), called_from.y(), to.x()), state_.rotary);
-    };
     // A start beyond the profile's begin cuts from there.
     Vec2 front = start;
     if ((begin[frame.feed] - start[frame.feed]) * frame.onwards < 0) front[frame.feed] = begin[frame.feed];
@@ -206,20 +207,45 @@ void Interpreter::lathe_cycle(int code, const Block& words, std::size_t column) 
         return moves;
     };
     Vec2 first;
-    if (finishes) {
-        go(start);
-        for (int pass = passes - 1; pass >= 0; --pass) {
-            const std::vector<CompensatedMove> moves = contour(distance * pass / passes, first);
-            go(front);
-            go(first);
-            follow(moves);
-        }
+    if (code != 700) {
+        std::vector<CompensatedMove> moves = contour(cycle.distance, first);
+        rough(cycle, frame, {start, front, first}, moves, column);
         return;
     }
-    std::vector<CompensatedMove> moves = contour(distance, first);
+    go_in_zx(start);
+    for (int pass = cycle.passes - 1; pass >= 0; --pass) {
+        const std::vector<CompensatedMove> moves = contour(cycle.distance * pass / cycle.passes, first);
+        go_in_zx(front);
+        go_in_zx(first);
+        follow(moves);
+    }
+}
+
+LatheCycle Interpreter::lathe_words(const Block& words, int code, std::size_t column) const {
+    const auto word = [&](char letter, double otherwise) {
+        return words.words.given(letter) ? words.words.of(letter) : otherwise;
+    };
+    const LatheCycle cycle{.code = code,
+                           .distance = word('D', 0) * state_.unit_mm,
+                           .step = word('I', 1) * state_.unit_mm,
+                           .retract = word('R', 0.5) * state_.unit_mm,
+                           .passes = static_cast<int>(std::clamp(word('P', 1), 1.0, 1e4))};
+    if (!(cycle.distance >= 0)) fail("D of a lathe cycle must not be negative", column);
+    if (code != 700 && !(cycle.step > 0)) fail("I of a roughing cycle must be greater than 0", column);
+    return cycle;
+}
+
+void Interpreter::go_in_zx(const Vec2& to, MotionKind kind) {
+    straight(kind, Vec3(to.y(), state_.position.y(), to.x()), state_.rotary);
+}
+
+/// Cuts along the feed, one below the other, then one along the contour `moves`.
+void Interpreter::rough(const LatheCycle& cycle, const LatheFrame& frame, const RoughingStart& at,
+                        std::vector<CompensatedMove>& moves, std::size_t column) {
+    const auto& [start, front, first] = at;
     if (!rises(first, moves, frame)) {
         note(Severity::warning, "program.cycle",
-             code_text(code) + ": the profile has pockets, roughing it is not carried out", column);
+             code_text(cycle.code) + ": the profile has pockets, roughing it is not carried out", column);
         return;
     }
     // Out again to the height of the start.
@@ -229,27 +255,27 @@ void Interpreter::lathe_cycle(int code, const Block& words, std::size_t column) 
         moves.push_back({out});
     }
     const double whole = start[frame.depth] - first[frame.depth];
-    if (std::abs(whole) / step > most_cuts) fail("too many cuts: I is too small", column);
-    go(start);
-    go(front);
-    for (int cut = 0; cut * step < std::abs(whole) - coincident; ++cut) {
-        const double part = cut * step / std::abs(whole);
+    if (std::abs(whole) / cycle.step > most_cuts) fail("too many cuts: I is too small", column);
+    go_in_zx(start);
+    go_in_zx(front);
+    for (int cut = 0; cut * cycle.step < std::abs(whole) - coincident; ++cut) {
+        const double part = cut * cycle.step / std::abs(whole);
         const Vec2 entry = front + part * (first - front);
         const std::optional<double> end = reach(first, moves, frame, entry[frame.depth]);
         if (!end) continue;
-        go(entry);
-        Vec2 at = entry;
-        at[frame.feed] = *end;
-        go(at, MotionKind::feed);
-        const double off = std::min(retract, 0.5 * std::abs(*end - entry[frame.feed]));
-        at[frame.feed] -= frame.onwards * off;
-        at[frame.depth] += frame.outwards * off;
-        go(at);
-        at[frame.feed] = entry[frame.feed] + frame.onwards * off;
-        go(at);
-        go(entry);
+        go_in_zx(entry);
+        Vec2 to = entry;
+        to[frame.feed] = *end;
+        go_in_zx(to, MotionKind::feed);
+        const double off = std::min(cycle.retract, 0.5 * std::abs(*end - entry[frame.feed]));
+        to[frame.feed] -= frame.onwards * off;
+        to[frame.depth] += frame.outwards * off;
+        go_in_zx(to);
+        to[frame.feed] = entry[frame.feed] + frame.onwards * off;
+        go_in_zx(to);
+        go_in_zx(entry);
     }
-    go(first);
+    go_in_zx(first);
     follow(moves);
 }
 

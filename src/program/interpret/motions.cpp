@@ -99,7 +99,7 @@ void Interpreter::put_about_pole(std::optional<double> radius, std::optional<dou
 
 /// LinuxCNC's polar words: @ radius, ^ angle about the work origin.
 void Interpreter::put_polar(const Block& block, Vec3& end) const {
-    if (block.words.given('X') || block.words.given('Y')) fail("polar words (@, ^) cannot stand beside X or Y");
+    if (block.words.given('X') || block.words.given('Y')) fail("polar words (@, ^) cannot be combined with X or Y");
     if (state_.plane_axis != 2) fail("polar words (@, ^) need the XY plane (G17)");
     const Vec2 from(end.x(), end.y());
     const double radius_now = from.norm();
@@ -313,14 +313,14 @@ void Interpreter::probe(const Vec3& end, const Vec3& rotary) {
 void Interpreter::push(MotionKind kind, const Vec3& end, const Vec3& rotary, float feed) {
     Motions& m = program_.motions;
     if (forgotten_ + m.kind.size() >= most_motions_)
-        fail(fmt::format("more than {} motions from {} lines: loops or repeats without end?", most_motions_,
+        fail(fmt::format("more than {} motions from {} lines: an endless loop?", most_motions_,
                          program_.main().line_count()));
     if (end.array().isInf().any()) fail("a position is not finite");
     if (feed == 0 && kind != MotionKind::dwell && !feed_missed_) {
         feed_missed_ = true;
         note(Severity::warning, "program.no-feed",
-             state_.feed == 0 ? "a cutting motion without feed (F); said once"
-                              : "a cutting motion with a feed of 0 (is the spindle speed missing?); said once");
+             state_.feed == 0 ? "a cutting motion without feed (F); reported once"
+                              : "a cutting motion with a feed of 0 (is the spindle speed missing?); reported once");
     }
     m.kind.push_back(kind);
     m.end.push_back(Xyz(end));
@@ -411,7 +411,7 @@ void Interpreter::nurbs_point(const Block& block) {
     if (state_.plane_axis != 2) fail("G5.2 needs the XY plane (G17)");
     if (w.given('X') != w.given('Y')) fail("a point of G5.2 needs both X and Y");
     constexpr std::uint32_t others = Words::bit('Z') | Words::bit('A') | Words::bit('B') | Words::bit('C');
-    if ((w.has & others) != 0) fail("a spline (G5.2) moves X and Y alone");
+    if ((w.has & others) != 0) fail("a spline (G5.2) moves only X and Y");
     const bool is_point = w.given('X');
     const double weight = w.given('P') ? w.of('P') : 1.0;
     if (!(weight > 0)) fail("a weight (P) must be greater than 0");
@@ -419,7 +419,7 @@ void Interpreter::nurbs_point(const Block& block) {
         curves_.nurbs_order = least_nurbs_order;
         curves_.nurbs.emplace_back(state_.position.x(), state_.position.y(), is_point ? 1.0 : weight);
     } else if (!is_point && w.given('P')) {
-        fail("P without X and Y is the weight of the first point alone", w.column['P' - 'A']);
+        fail("P without X and Y is the weight of the first point only", w.column['P' - 'A']);
     }
     if (w.given('L')) curves_.nurbs_order = static_cast<int>(std::clamp(w.of('L'), double(least_nurbs_order), 1e6));
     if (curves_.nurbs_order > most_nurbs_order)

@@ -79,8 +79,7 @@ void Interpreter::swivel(const Keyword& keyword) {
     for (std::size_t k = 0; k < 3; ++k) {
         const int axis = (mode >> (2 * k)) & 3;
         if (axis == 0 && value(7 + k) != 0)
-            fail(fmt::format("CYCLE800: its mode {} names no axis for the angle {:g}", mode, value(7 + k)),
-                 keyword.column);
+            fail(fmt::format("CYCLE800: mode {} has no axis for the angle {:g}", mode, value(7 + k)), keyword.column);
         if (axis != 0) frame = frame.around(turned_about(axis - 1, value(7 + k)));
     }
     frame = frame.around(ProgramFrame::moved(state_.unit_mm * vector(10)));
@@ -125,7 +124,7 @@ void Interpreter::tilt_plane(const Block& block, std::size_t column) {
             if (axis >= 0 && axis < 3) named[static_cast<std::size_t>(axis)] = true;
         }
         if (!(named[0] && named[1] && named[2]))
-            fail(fmt::format("G68.2 P1: Q{} is no order of 1, 2 and 3", order), column);
+            fail(fmt::format("G68.2 P1: Q{} is not a permutation of 1, 2 and 3", order), column);
         for (const int axis : axes) turn = turned_about(axis, angles[axis]).around(turn);
     }
     frames_.fanuc.rotation = ProgramFrame::moved(state_.unit_mm * words("XYZ")).around(turn);

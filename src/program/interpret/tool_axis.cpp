@@ -43,7 +43,7 @@ bool Interpreter::take_tool_axis(const Block& block) {
         if ((block.words.has & angles) != 0) state_.tool_axis.setConstant(std::numeric_limits<double>::quiet_NaN());
         return false;
     }
-    if (!(axis.norm() > 0)) fail("the tool axis is a vector of no length");
+    if (!(axis.norm() > 0)) fail("the tool axis is a vector of length zero");
     state_.tool_axis = state_.frame.direction_to_work(axis.normalized());
     return true;
 }

@@ -419,29 +419,28 @@ private:
             return;
         }
         if (id.size() == 1 && id != "R" && is_letter(id[0])) {
-            const char letter = id[0];
-            for (const auto& [name, mask] : {std::pair{std::string_view("AC"), &block_.absolute},
-                                             std::pair{std::string_view("IC"), &block_.incremental}}) {
-                Cursor inside = c_;
-                if (!inside.take_word(name) || inside.peek() != '(') continue;
-                c_ = inside;
-                put(letter, read_value(c_, variables_, rules_), column);
-                *mask |= Words::bit(letter);
-                return;
-            }
-            for (const std::string_view name : {"DC", "ACP", "ACN"}) {  // rotary axes, absolute
-                Cursor inside = c_;
-                if (!inside.take_word(name) || inside.peek() != '(') continue;
-                c_ = inside;
-                put(letter, read_value(c_, variables_, rules_), column);
-                block_.absolute |= Words::bit(letter);
-                return;
-            }
-            put(letter, evaluate(c_, variables_, rules_), column);
+            assign_letter(id[0], column);
             return;
         }
         if (id.starts_with("PO["))
-            throw ReadError{"polynomials (PO) are not read", column, "let the CAM system write lines"};
+            throw ReadError{"polynomials (PO) are not supported", column, "let the CAM system write lines"};
+        assign_named(id, column);
+    }
+
+    /// `X=AC(5)`, `X=IC(5)`; of rotary axes DC, ACP, ACN, which are absolute.
+    void assign_letter(char letter, std::size_t column) {
+        for (const std::string_view name : {"AC", "IC", "DC", "ACP", "ACN"}) {
+            Cursor inside = c_;
+            if (!inside.take_word(name) || inside.peek() != '(') continue;
+            c_ = inside;
+            put(letter, read_value(c_, variables_, rules_), column);
+            (name == "IC" ? block_.incremental : block_.absolute) |= Words::bit(letter);
+            return;
+        }
+        put(letter, evaluate(c_, variables_, rules_), column);
+    }
+
+    void assign_named(const std::string& id, std::size_t column) {
         std::optional<bool> increment;
         if (id == "RP") {
             block_.polar_radius = coordinate(increment);

@@ -33,6 +33,96 @@ Control parse_control(std::string_view statement, const TextRules& rules) {
     return rules.control == nullptr ? Control{} : rules.control(statement);
 }
 
+namespace {
+
+/// Finds the partner of each statement: the end of a loop or of a subprogram, the branches of an IF.
+class PartnerSearch {
+public:
+    explicit PartnerSearch(std::vector<Control>& controls) : controls_(controls), branches_(controls.size()) {}
+
+    void run() {
+        for (int i = 0; i < static_cast<int>(controls_.size()); ++i) visit(i);
+    }
+
+private:
+    struct Closing {
+        ControlKind end, begin;
+    };
+    static constexpr std::array<Closing, 5> closings{{{ControlKind::end_sub, ControlKind::sub},
+                                                      {ControlKind::while_end, ControlKind::while_begin},
+                                                      {ControlKind::do_while, ControlKind::do_begin},
+                                                      {ControlKind::repeat_end, ControlKind::repeat_begin},
+                                                      {ControlKind::for_end, ControlKind::for_begin}}};
+
+    Control& at(int i) { return controls_[static_cast<std::size_t>(i)]; }
+
+    void visit(int i) {
+        switch (at(i).kind) {
+            case ControlKind::sub:
+            case ControlKind::do_begin:
+            case ControlKind::if_begin:
+            case ControlKind::repeat_begin:
+            case ControlKind::for_begin: open_.push_back(i); return;
+            case ControlKind::while_begin: begin_while(i); return;
+            case ControlKind::else_if:
+            case ControlKind::else_branch:
+            case ControlKind::if_end: branch(i); return;
+            default: break;
+        }
+        for (const Closing& closing : closings) {
+            if (closing.end == at(i).kind) join(i, close(closing.begin, at(i).label));
+        }
+    }
+
+    /// The innermost open statement of this kind and label, closed with everything inside it; −1: none.
+    int close(ControlKind kind, const std::string& label) {
+        const auto found = std::find_if(open_.rbegin(), open_.rend(),
+                                        [&](int k) { return at(k).kind == kind && at(k).label == label; });
+        if (found == open_.rend()) return -1;
+        const int begin = *found;
+        open_.erase(std::next(found).base(), open_.end());
+        return begin;
+    }
+
+    void join(int i, int partner) {
+        if (partner < 0) return;
+        at(i).partner = partner;
+        at(partner).partner = i;
+    }
+
+    /// `o1 while` closes an open `o1 do`; any other begins a loop.
+    void begin_while(int i) {
+        const int begin = close(ControlKind::do_begin, at(i).label);
+        if (begin >= 0 && !at(i).label.empty()) {
+            at(i).kind = ControlKind::do_while;
+            join(i, begin);
+            return;
+        }
+        if (begin >= 0) open_.push_back(begin);
+        open_.push_back(i);
+    }
+
+    void branch(int i) {
+        const int begin = close(ControlKind::if_begin, at(i).label);
+        if (begin < 0) return;
+        std::vector<int>& chain = branches_[static_cast<std::size_t>(begin)];
+        at(chain.empty() ? begin : chain.back()).next_branch = i;
+        chain.push_back(i);
+        if (at(i).kind != ControlKind::if_end) {
+            open_.push_back(begin);
+            return;
+        }
+        at(begin).partner = i;
+        for (const int k : chain) at(k).partner = i;
+    }
+
+    std::vector<Control>& controls_;
+    std::vector<int> open_;                   ///< statements without their end, the innermost last
+    std::vector<std::vector<int>> branches_;  ///< of each IF
+};
+
+}  // namespace
+
 ControlIndex::ControlIndex(const SourceText& text, const TextRules& rules) {
     Statement statement;
     std::string_view rest = text.text();
@@ -54,72 +144,7 @@ ControlIndex::ControlIndex(const SourceText& text, const TextRules& rules) {
             named_[control.label].push_back(static_cast<int>(controls_.size()));
         controls_.push_back(std::move(control));
     }
-    match();
-}
-
-void ControlIndex::match() {
-    std::vector<int> open;
-    const auto pop = [&](std::initializer_list<ControlKind> kinds, const std::string& label) {
-        for (int k = static_cast<int>(open.size()) - 1; k >= 0; --k) {
-            const Control& candidate = controls_[static_cast<std::size_t>(open[static_cast<std::size_t>(k)])];
-            if (std::find(kinds.begin(), kinds.end(), candidate.kind) == kinds.end() || candidate.label != label)
-                continue;
-            const int found = open[static_cast<std::size_t>(k)];
-            open.resize(static_cast<std::size_t>(k));
-            return found;
-        }
-        return -1;
-    };
-    std::vector<std::vector<int>> branches(controls_.size());
-    for (int i = 0; i < static_cast<int>(controls_.size()); ++i) {
-        Control& control = controls_[static_cast<std::size_t>(i)];
-        int partner = -1;
-        switch (control.kind) {
-            case ControlKind::sub:
-            case ControlKind::do_begin:
-            case ControlKind::if_begin:
-            case ControlKind::repeat_begin:
-            case ControlKind::for_begin: open.push_back(i); break;
-            case ControlKind::while_begin:
-                // `o1 while` closes an open `o1 do`.
-                partner = pop({ControlKind::do_begin}, control.label);
-                if (partner >= 0 && !control.label.empty()) {
-                    control.kind = ControlKind::do_while;
-                } else {
-                    if (partner >= 0) open.push_back(partner);
-                    partner = -1;
-                    open.push_back(i);
-                }
-                break;
-            case ControlKind::end_sub: partner = pop({ControlKind::sub}, control.label); break;
-            case ControlKind::while_end: partner = pop({ControlKind::while_begin}, control.label); break;
-            case ControlKind::do_while: partner = pop({ControlKind::do_begin}, control.label); break;
-            case ControlKind::repeat_end: partner = pop({ControlKind::repeat_begin}, control.label); break;
-            case ControlKind::for_end: partner = pop({ControlKind::for_begin}, control.label); break;
-            case ControlKind::else_if:
-            case ControlKind::else_branch:
-            case ControlKind::if_end: {
-                const int begin = pop({ControlKind::if_begin}, control.label);
-                if (begin < 0) break;
-                std::vector<int>& chain = branches[static_cast<std::size_t>(begin)];
-                const int last = chain.empty() ? begin : chain.back();
-                controls_[static_cast<std::size_t>(last)].next_branch = i;
-                chain.push_back(i);
-                if (control.kind == ControlKind::if_end) {
-                    controls_[static_cast<std::size_t>(begin)].partner = i;
-                    for (const int k : chain) controls_[static_cast<std::size_t>(k)].partner = i;
-                } else {
-                    open.push_back(begin);
-                }
-                break;
-            }
-            default: break;
-        }
-        if (partner >= 0) {
-            control.partner = partner;
-            controls_[static_cast<std::size_t>(partner)].partner = i;
-        }
-    }
+    PartnerSearch(controls_).run();
 }
 
 int ControlIndex::at_line(LineNumber line) const {

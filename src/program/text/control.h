@@ -82,8 +82,6 @@ public:
     [[nodiscard]] int loop_around(LineNumber line, const std::string& label) const;
 
 private:
-    void match();
-
     std::vector<Control> controls_;
     std::unordered_map<std::string, std::vector<int>> named_;  ///< subs and labels, in order
 };

@@ -10,7 +10,7 @@ clsurf_cli_test(NAME dialect_given_is_no_guess SETUP "printf 'G21\\nG0 X1\\nM2\\
 clsurf_cli_test(NAME dialect_guess_in_json SETUP "printf 'G21\\nG0 X1\\nM2\\n' > part.ngc" ARGS info part.ngc --json
   STDOUT "\"dialect\": \"linuxcnc\"" "\"dialect_guessed_from\": \"the ending .ngc\"")
 clsurf_cli_test(NAME dialect_guess_in_an_error SETUP "printf 'O1000\\nG0 X0 Y0\\nG2 X10 Y0 I4 F60\\n' > part.nc" ARGS moves part.nc
-  EXIT 3 STDERR "part.nc:3:1: error: arc radius differs" "hint: read as fanuc, a guess .'O1000' in line 1.. --dialect names another")
+  EXIT 3 STDERR "part.nc:3:1: error: arc radius differs" "hint: read as fanuc, a guess .'O1000' in line 1.. choose another with --dialect")
 
 # ---- words that move axes and are not understood ----
 clsurf_cli_test(NAME spline_of_another_dialect
@@ -21,7 +21,7 @@ clsurf_cli_test(NAME nurbs_of_fanuc SETUP "printf 'G21 G90\\nG0 X0 Y0 Z0\\nG6.2 
   ARGS simulate part.nc -o run.biip EXIT 3 STDERR "part.nc:3:1: error: G6.2 is not known in fanuc" NO_FILE run.biip)
 clsurf_cli_test(NAME polynomials_of_siemens
   SETUP "printf 'G71 G90\\nG0 X0 Y0 Z0\\nG1 F1000\\nPOLY PO[X]=(5,1) PO[Y]=(3,2)\\nM30\\n' > part.mpf"
-  ARGS simulate part.mpf -o run.biip EXIT 3 STDERR "part.mpf:4:6: error: polynomials .PO. are not read" NO_FILE run.biip)
+  ARGS simulate part.mpf -o run.biip EXIT 3 STDERR "part.mpf:4:6: error: polynomials .PO. are not supported" NO_FILE run.biip)
 clsurf_cli_test(NAME exact_stop_is_no_g61_of_siemens SETUP "printf 'G71 G90 G61\\nG0 X0\\nM30\\n' > part.mpf" ARGS moves part.mpf
   EXIT 3 STDERR "part.mpf:1:9: error: G61 is not a word of siemens" "exact stop of siemens is G60")
 
@@ -39,6 +39,6 @@ clsurf_cli_test(NAME klartext_corner_and_circle ARGS moves @DATA@/programs/wave.
   STDOUT "1592,ccw,29,-2,-4,,,,26,-2,-4,1,17,1200" "1597,ccw,0,-5,-4.5,,,,0,5,-4.5,1,17,1200")
 clsurf_cli_test(NAME klartext_lint ARGS lint @DATA@/programs/wave.H EXIT 1 STDOUT "wave.H:183-257: warning: points 0.021 mm apart")
 clsurf_cli_test(NAME klartext_approach SETUP "printf '0 BEGIN PGM A MM\\n1 L X+0 Y+0 Z+0 FMAX\\n2 APPR LT X+20 Y+20 LEN15 F100\\n3 END PGM A MM\\n' > part.h"
-  ARGS moves part.h EXIT 3 STDERR "part.h:3:3: error: APPR is not read in klartext, and moves axes")
+  ARGS moves part.h EXIT 3 STDERR "part.h:3:3: error: APPR is not supported in klartext, and moves axes")
 clsurf_cli_test(NAME klartext_simulated SETUP "printf '0 BEGIN PGM A MM\\n1 CYCL DEF 32.1 T0.02\\n2 L X+0 Y+0 Z+0 FMAX\\n3 L X+20 F3000\\n4 L Y+20\\n5 END PGM A MM\\n' > part.h"
   ARGS simulate part.h -o run.biip STDOUT "greatest path speed +(2[89]..|3000) mm/min")

@@ -23,14 +23,14 @@ clsurf_cli_test(NAME info_mapping_is_of_the_log
 set(wavy "(printf 'G21 G90 G61\\n(offset)\\nG54 G0 Z10\\nG0 X0 Y0\\nG1 Z0 F600\\n' && awk 'BEGIN{for(k=0;k<8;++k)for(i=0;i<=60;++i){x=k%2?30-i/2:i/2;y=0.4*k;printf \"G1 X%.3f Y%.3f Z%.4f F2400\\n\",x,y,-1+0.8*sin(x/4)+0.02*y}}' && printf 'G0 Z10\\nM2\\n') > part.ngc")
 set(turned_run "${wavy} && sed 's/^.offset.$/G10 L2 P1 X35.5 Y-22.25 Z-14 R17.5/' part.ngc > turned.ngc && $CLSURF simulate turned.ngc --dialect linuxcnc -o run.biip > /dev/null")
 clsurf_cli_test(NAME pose_of_a_turned_log SETUP "${turned_run}" ARGS info part.ngc run.biip --dialect linuxcnc
-  STDOUT "turned by 17[.]5 deg about Z, and displaced by X 35[.]5 Y -22[.]25 Z -14 mm" "--work-offset 35[.]5,-22[.]25,-14,17[.]5 brings them onto it")
+  STDOUT "turned by 17[.]5 deg about Z, and displaced by X 35[.]5 Y -22[.]25 Z -14 mm" "--work-offset 35[.]5,-22[.]25,-14,17[.]5 aligns them")
 clsurf_cli_test(NAME work_offset_with_a_rotation SETUP "${turned_run}" ARGS info part.ngc run.biip --dialect linuxcnc --work-offset 35.5,-22.25,-14,17.5
   STDOUT "positions lie 0.0000 mm .median. and 0.000" NO_STDOUT "displaced" "map.disagreement")
 clsurf_cli_test(NAME report_with_a_work_offset
   SETUP "${turned_run} && $CLSURF report part.ngc run.biip --dialect linuxcnc --work-offset 35.5,-22.25,-14,17.5 -o page.html 2> said.txt && ! grep -E 'displaced|does not belong|farther' said.txt"
   ARGS report part.ngc run.biip --dialect linuxcnc --work-offset G54:35.5,-22.25,-14,17.5 -o again.html FILE again.html)
 clsurf_cli_test(NAME report_without_its_work_offset_is_told_it SETUP "${turned_run}" ARGS report part.ngc run.biip --dialect linuxcnc -o page.html
-  STDERR "--work-offset 35[.]5,-22[.]25,-14,17[.]5 brings them onto it")
+  STDERR "--work-offset 35[.]5,-22[.]25,-14,17[.]5 aligns them")
 clsurf_cli_test(NAME work_offset_of_the_program_itself SETUP "${turned_run}" ARGS info turned.ngc run.biip --dialect linuxcnc
   STDOUT "positions lie 0.0000 mm .median. and 0.000" NO_STDOUT "displaced" "map.disagreement")
 # The same log as a control writes it that records the work system.
@@ -42,7 +42,7 @@ set(two_systems "${wavy} && (sed 's/^M2$/G55/' part.ngc && sed -n '4,$p' part.ng
 clsurf_cli_test(NAME poses_of_two_systems
   SETUP "${two_systems}"
   ARGS info two.ngc run.biip --dialect linuxcnc
-  STDOUT "cuts in G54 and G55, and sets none of them" "--work-offset 35[.]5,-22[.]25,-14 --work-offset G55:135,7,-3,90 brings them onto it")
+  STDOUT "cuts in G54 and G55, and sets none of them" "--work-offset 35[.]5,-22[.]25,-14 --work-offset G55:135,7,-3,90 aligns them")
 clsurf_cli_test(NAME work_offset_of_two_systems
   SETUP "${two_systems}"
   ARGS info two.ngc run.biip --dialect linuxcnc --work-offset 35.5,-22.25,-14 --work-offset G55:135,7,-3,90
