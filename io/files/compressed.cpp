@@ -36,7 +36,7 @@ public:
                     Place::of_file(packed_.name),
                     fmt::format("unpacks to more than {} MiB from {} bytes: this looks like a decompression bomb",
                                 most_ >> 20, packed_.bytes.size()),
-                    "where it is none, unpack it and pass the result");
+                    "if it is not, unpack it and pass the result");
             }
             bytes_->resize(std::min(most_, std::max(first_bytes, 2 * used_)));
         }

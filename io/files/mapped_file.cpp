@@ -91,10 +91,21 @@ void leave(MappedRegion* mapping) {
 
 constexpr const char* shorter = "became shorter while it was read";
 
-void print(const char* text) {
+/// Writes "FILE: error: became shorter …" at once: threads that write at the same time must not mix their words.
+void print_shorter(const char* name) {
+    std::array<char, 512> text{};
+    std::size_t length = 0;
+    for (const char* part : {name, ": error: ", shorter, "\n"}) {
+        const std::size_t size = std::min(std::strlen(part), text.size() - length);
+        std::memcpy(text.data() + length, part, size);
+        length += size;
+    }
     // Nothing can be done about a message that cannot be written.
-    if (::write(STDERR_FILENO, text, std::strlen(text)) < 0) return;
+    if (::write(STDERR_FILENO, text.data(), length) < 0) return;
 }
+
+/// One thread reports the error; the others wait for the end of the program.
+std::atomic_flag reported = ATOMIC_FLAG_INIT;
 
 /// Only what may be called in a handler is.
 void on_bus_error(int number, siginfo_t* info, void*) {
@@ -102,10 +113,10 @@ void on_bus_error(int number, siginfo_t* info, void*) {
     for (const MappedRegion& mapping : mappings) {
         const std::byte* begin = mapping.begin;
         if (begin == nullptr || address < begin || address >= begin + mapping.size) continue;
-        print(mapping.name.data());
-        print(": error: ");
-        print(shorter);
-        print("\n");
+        if (reported.test_and_set()) {
+            while (true) ::pause();
+        }
+        print_shorter(mapping.name.data());
         ::_exit(static_cast<int>(ExitCode::bad_input));
     }
     ::signal(number, SIG_DFL);  // none of ours: it comes again, and ends the program as it would have

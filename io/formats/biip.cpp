@@ -186,7 +186,7 @@ int probe_biip(std::span<const std::byte> head, const LogOptions&) {
 
 Log open_biip(const Source& source, const LogOptions&) {
     if (source.bytes.size() >= 8 && std::memcmp(source.bytes.data(), magic.data(), magic.size()) != 0) {
-        throw InputError(Place::of_byte(source.name, 5), "the BIIP mark is damaged, as a copy in text mode does",
+        throw InputError(Place::of_byte(source.name, 5), "the BIIP signature is damaged, as after a copy in text mode",
                          "copy the log in binary mode");
     }
     const Header header(source);
@@ -206,7 +206,7 @@ Log open_biip(const Source& source, const LogOptions&) {
              "log.unclosed",
              Place::of_byte(source.name, 24),
              fmt::format(
-                 "the log was not closed: its header counts {} records, {} whole ones are there, {} bytes are left over",
+                 "the log was not closed: its header gives {} records, the file has {} complete ones and {} more bytes",
                  said, there, header.bytes_left()),
              {}});
     }
@@ -214,7 +214,7 @@ Log open_biip(const Source& source, const LogOptions&) {
         log.diagnostics.add({Severity::note,
                              "log.minor-version",
                              Place::of_byte(source.name, 10),
-                             fmt::format("BIIP 1.{}: what is newer than 1.0 is passed over", header.minor()),
+                             fmt::format("BIIP 1.{}: features newer than 1.0 are ignored", header.minor()),
                              {}});
     }
     for (std::uint32_t i = 0; i < header.channel_count(); ++i) {
@@ -223,7 +223,7 @@ Log open_biip(const Source& source, const LogOptions&) {
             log.diagnostics.add({Severity::warning,
                                  "log.duplicate-channel",
                                  Place::of_byte(source.name, fixed_bytes + i * entry_bytes),
-                                 fmt::format("channel '{}' is there twice; the first one counts", channel.name),
+                                 fmt::format("channel '{}' appears twice; the first one is used", channel.name),
                                  {}});
             continue;
         }
@@ -337,7 +337,7 @@ Diagnostics fit_biip(Log& log) {
         notes.add({Severity::note,
                    "log.name",
                    Place::of_file(log.name),
-                   fmt::format("the name '{}' is too long for a BIIP log: '{}' there", channel.name, name),
+                   fmt::format("the name '{}' is too long for a BIIP log and becomes '{}'", channel.name, name),
                    {}});
         channel.name = name;
     }

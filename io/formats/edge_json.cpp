@@ -183,7 +183,7 @@ Log open_edge(const Source& source, const LogOptions& options) {
         columns.push_back(column_of(recording.signals[i]));
     }
     if (cycle_column == recording.signals.size())
-        throw InputError(Place::of_file(source.name), "no signal 'CYCLE' counts the records",
+        throw InputError(Place::of_file(source.name), "there is no signal 'CYCLE', which counts the records",
                          "expected it in Header.SignalListHFData");
     const std::vector<double> cycles = recording.columns[cycle_column];
     const std::vector<ColumnPlan> plans = plan_columns(columns, map, Place::of_file(source.name));

@@ -66,7 +66,7 @@ public:
             in_signal_ = true;
             if (!recording.columns.empty())
                 throw InputError(Place::of_file(source_.name),
-                                 "SignalListHFData goes on behind the first row of HFData");
+                                 "SignalListHFData continues after the first row of HFData");
             recording.signals.emplace_back();
         } else if (below("HFBlockEvent") || below("HFCallEvent")) {
             event_depth_ = keys_.size() + 1;
@@ -117,7 +117,8 @@ public:
                 {Severity::warning,
                  "log.unclosed",
                  place_of(source_, at),
-                 fmt::format("the recording ends here, in the middle; {} whole records are read", recording.rows),
+                 fmt::format("the recording is incomplete and ends here; {} complete records were read",
+                             recording.rows),
                  {}});
             return false;
         }
@@ -174,7 +175,7 @@ private:
 
     void add_row() {
         if (recording.signals.empty())
-            throw InputError(Place::of_file(source_.name), "HFData stand before the header's SignalListHFData");
+            throw InputError(Place::of_file(source_.name), "HFData come before the header's SignalListHFData");
         recording.columns.resize(recording.signals.size());
         ++rows_seen_;
         if (row_.size() != recording.signals.size()) {

@@ -71,12 +71,12 @@ void require_program_text(const Source& source) {
                          "convert it first, as with iconv -f UTF-16 -t UTF-8");
     if (is_binary(head))
         throw InputError(place, "is binary data, not an NC program",
-                         "a log of foreign fixed records is read with --layout FILE");
+                         "to read a binary log of fixed records, use --layout FILE");
     if (const std::optional<ForeignTable> table = recognise_table(source))
         throw InputError(
             place, fmt::format("is a table of {}, not an NC program", describe(*table)),
-            fmt::format("as a log it needs --mapping FILE; clsurf info --suggest-mapping {} -o mapping.toml "
-                        "writes one to start from",
+            fmt::format("to read it as a log, use --mapping FILE; clsurf info --suggest-mapping {} -o mapping.toml "
+                        "writes a first version",
                         source.name));
 }
 

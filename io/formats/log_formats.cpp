@@ -20,7 +20,7 @@ namespace {
 /// One line a format. Later lines win only with a better score.
 constexpr auto known_formats = std::to_array<LogFormat>({
     {"biip", "BIIP v1: self-describing fixed records (docs/formats/biip.md)", probe_biip, open_biip},
-    {"layout", "foreign fixed records, described by --layout FILE", probe_layout, open_layout},
+    {"layout", "fixed binary records, described by --layout FILE", probe_layout, open_layout},
     {"halsampler", "LinuxCNC halsampler text, columns named by --mapping FILE", probe_halsampler, open_halsampler},
     {"halscope", "LinuxCNC halscope's saved log", probe_halscope, open_halscope},
     {"twincat", "TwinCAT Scope's text export", probe_twincat, open_twincat},
@@ -39,7 +39,7 @@ void note_still_axes(Log& log) {
             log.diagnostics.add({Severity::warning,
                                  "log.axis-missing",
                                  Place::of_file(log.name),
-                                 "no channel '" + name + "': that axis is taken to stand at 0",
+                                 "no channel '" + name + "': this axis is assumed to stay at 0",
                                  {}});
         }
     }
@@ -80,14 +80,14 @@ Log open_log(const Source& source, const LogOptions& options) {
         }
         if (const std::optional<ForeignTable> table = recognise_table(source))
             throw InputError(Place::of_file(source.name),
-                             "is a table of " + describe(*table) + "; no name is that of a position",
-                             "it needs --mapping FILE; clsurf info --suggest-mapping " + source.name +
-                                 " -o mapping.toml writes one to start from");
+                             "is a table of " + describe(*table) + "; no column is named like a position",
+                             "use --mapping FILE; clsurf info --suggest-mapping " + source.name +
+                                 " -o mapping.toml writes a first version");
         std::string names;
         for (const std::span<const LogFormat> formats : {log_formats(), options.more_formats})
             for (const LogFormat& f : formats) names += (names.empty() ? "" : ", ") + std::string(f.name);
-        throw InputError(Place::of_file(source.name), "is no log of a known format (" + names + ")",
-                         "a foreign binary needs --layout FILE, a text without channel names --mapping FILE");
+        throw InputError(Place::of_file(source.name), "is not a log in a known format (" + names + ")",
+                         "binary records need --layout FILE, a text without channel names needs --mapping FILE");
     }
     Log log = format->open(source, options);
     settle_names(log);
@@ -95,7 +95,8 @@ Log open_log(const Source& source, const LogOptions& options) {
     note_still_axes(log);
     if (!(log.period > 0)) log.period = log.measured_period();
     if (!(log.period > 0)) {
-        throw InputError(Place::of_file(source.name), "the sampling period is not known: no rising channel 'time'",
+        throw InputError(Place::of_file(source.name),
+                         "the sampling period is not known: there is no increasing channel 'time'",
                          "give it with --period S, or as period_s in a mapping");
     }
     return log;

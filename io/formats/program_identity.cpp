@@ -87,12 +87,11 @@ ProgramIdentity check_identity(const Source& program, const Log& log, Diagnostic
     });
     const bool edited = namesake != hashed.end();
     const ProgramReference& ran = edited ? **namesake : *hashed.front();
-    diagnostics.add(
-        {Severity::warning, "log.program", Place::of_file(log.name),
-         fmt::format("{} {}: the log was recorded with {} ({}SHA-256 {}), this file has {}SHA-256 {}", program.name,
-                     edited ? "was edited after the run" : "is another program than the one that ran", ran.name,
-                     size_text(ran), short_hash(ran), size_text(given), short_hash(given)),
-         "lines and points belong together only as far as the two agree: take the file that ran"});
+    diagnostics.add({Severity::warning, "log.program", Place::of_file(log.name),
+                     fmt::format("{} {}: the log was recorded with {} ({}SHA-256 {}), this file has {}SHA-256 {}",
+                                 program.name, edited ? "was edited after the run" : "is not the program that ran",
+                                 ran.name, size_text(ran), short_hash(ran), size_text(given), short_hash(given)),
+                     "points are mapped to lines only where the two agree; use the file that ran"});
     return edited ? ProgramIdentity::edited : ProgramIdentity::other;
 }
 

@@ -80,7 +80,7 @@ Log open_layout(const Source& source, const LogOptions& options) {
         log.diagnostics.add(
             {Severity::warning, "log.unclosed", Place::of_byte(source.name, source.bytes.size() - left),
              fmt::format("{} bytes are left over after {} whole records of {} bytes", left, log.records, *record_bytes),
-             "is record_bytes of the layout right?"});
+             "check record_bytes of the layout"});
     }
     const toml::array* channels = file.tables(file.root(), "channel");
     if (channels == nullptr) file.fail("no [[channel]]");

@@ -92,7 +92,8 @@ public:
         // A trace declares no entities; one that does wants to blow up.
         XML_SetEntityDeclHandler(parser_.get(), [](void* self, const XML_Char*, int, const XML_Char*, int,
                                                    const XML_Char*, const XML_Char*, const XML_Char*, const XML_Char*) {
-            static_cast<Reader*>(self)->guard([](Reader& r) { r.fail("declares an entity, which no trace does"); });
+            static_cast<Reader*>(self)->guard(
+                [](Reader& r) { r.fail("declares an XML entity, which a trace never does"); });
         });
     }
 
@@ -113,7 +114,7 @@ public:
                     {Severity::warning,
                      "log.unclosed",
                      place(),
-                     fmt::format("the trace ends here, in the middle; {} whole records are read", time.size()),
+                     fmt::format("the trace is incomplete and ends here; {} complete records were read", time.size()),
                      {}});
                 closed = false;
                 return;
@@ -197,11 +198,11 @@ private:
         if (!is_new) {
             // A further frame repeats its signals.
             if (frames < 2 || signals[found->second].column.name != name)
-                fail(fmt::format("signal '{}' is there twice", id));
+                fail(fmt::format("signal '{}' appears twice", id));
             return;
         }
         if (signals.size() == most_signals) fail(fmt::format("more than {} signals", most_signals));
-        if (!time.empty()) fail(fmt::format("signal '{}' stands behind the first record", id));
+        if (!time.empty()) fail(fmt::format("signal '{}' is declared after the first record", id));
         signals.push_back({{name, description, known_variable(name)}, missing<double>, {}});
     }
 
@@ -232,7 +233,7 @@ private:
             diagnostics.add({Severity::warning,
                              "log.bad-number",
                              place(),
-                             fmt::format("'{}' of '{}' is no number; taken as missing",
+                             fmt::format("'{}' of '{}' is not a number and counts as missing",
                                          std::string_view(text).substr(0, 40), key.substr(0, 40)),
                              {}});
         }
@@ -307,7 +308,8 @@ Log open_sinumerik_xml(const Source& source, const LogOptions& options) {
     }
     if (axes_taken) {
         log.diagnostics.add({Severity::note, "log.axes", Place::of_file(source.name),
-                             "machine axes 1, 2 and 3 are taken as X, Y and Z", "name others with --mapping FILE"});
+                             "machine axes 1, 2 and 3 are assumed to be X, Y and Z",
+                             "name others with --mapping FILE"});
     }
     if (log.find("time") == nullptr) owned.add("time", "s", std::move(reader.time));
     add_event_lines(log, map);

@@ -201,7 +201,7 @@ void add_event_lines(Log& log, const Mapping* mapping, std::optional<std::int64_
     if (mapping == nullptr || !mapping->events) return;
     const EventFile& file = *mapping->events;
     if (log.find("line") != nullptr)
-        throw InputError(Place::of_file(log.name), "the mapping names events, and a column 'line' besides");
+        throw InputError(Place::of_file(log.name), "the mapping has both events and a column 'line'");
     Mapping columns;
     columns.separator = file.separator;
     columns.entries = {{file.at, {.name = "at", .unit = {}, .scale = file.scale, .bias = file.bias}},

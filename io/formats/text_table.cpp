@@ -111,7 +111,7 @@ void read_chunk(const Source& source, const TextPlan& plan, Chunk& chunk) {
                                            "log.bad-number",
                                            Place::of_line(source.name, number,
                                                           static_cast<std::uint32_t>(field.data() - line.data() + 1)),
-                                           fmt::format("'{}' of channel '{}' is no {}; taken as missing",
+                                           fmt::format("'{}' of channel '{}' is not a {} and counts as missing",
                                                        field.substr(0, 40), c.name, c.clock ? "time of day" : "number"),
                                            {}});
                 }
@@ -276,7 +276,7 @@ Log read_table(const Source& source, const TextPlan& plan, const char* format) {
             {Severity::note,
              "log.words",
              Place::of_line(source.name, plan.first_data_line),
-             fmt::format("column '{}'{} begins with a word and is passed over", plan.words.front().substr(0, 40), more),
+             fmt::format("column '{}'{} begins with a word and is ignored", plan.words.front().substr(0, 40), more),
              {}});
     }
     OwnedColumns owned(log);

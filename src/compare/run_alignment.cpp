@@ -33,6 +33,13 @@ struct Trial {
     bool alive = true;
 };
 
+/// The distance from the point before, 0 from none. `before` becomes `p`.
+float chord_to(const Eigen::Vector3f& p, Eigen::Vector3f& before) {
+    const float distance = (p - before).norm();
+    before = p;
+    return std::isnan(distance) ? 0.0F : distance;
+}
+
 class Aligner {
 public:
     Aligner(const Positions& a, const Positions& b)
@@ -66,9 +73,7 @@ private:
         for (PointIndex i = 0; i < a_.size(); ++i) {
             const Eigen::Vector3f p = a_[i];
             if (!p.allFinite()) continue;
-            const float gone = (p - before).norm();
-            const float chord = gone == gone ? gone : 0.0F;
-            before = p;
+            const float chord = chord_to(p, before);
             if (last_point < 0) {
                 to_search -= chord;
                 if (to_search > 0) continue;
@@ -218,9 +223,7 @@ private:
         for (PointIndex i = 0; i < a_.size(); ++i) {
             const Eigen::Vector3f p = a_[i];
             if (!p.allFinite()) continue;
-            const float gone = (p - before).norm();
-            const float chord = gone == gone ? gone : 0.0F;
-            before = p;
+            const float chord = chord_to(p, before);
             result.arc_length += chord;
             const bool begins = begin != begins_.end() && *begin == i;
             if (begins) ++begin;

@@ -108,8 +108,8 @@ void settle_unit(Log& log, Channel& channel) {
             {Severity::warning,
              "log.unit",
              Place::of_file(log.name),
-             fmt::format("channel '{}' has the unit '{}', which is not understood: its values are taken as {}",
-                         channel.name, channel.unit, wanted),
+             fmt::format("channel '{}' has the unit '{}', which is not known: its values are read as {}", channel.name,
+                         channel.unit, wanted),
              {}});
         return;
     }
@@ -178,9 +178,10 @@ void settle_names(Log& log) {
         found->name = "cmd." + std::string(axis);
     }
     if (taken.empty()) return;
-    log.diagnostics.add({Severity::note, "log.roles", Place::of_file(log.name),
-                         fmt::format("whose positions {} are is not said: they are taken as the commanded ones", taken),
-                         "`--mapping` names them: cmd.x, fb.x, act.x"});
+    log.diagnostics.add(
+        {Severity::note, "log.roles", Place::of_file(log.name),
+         fmt::format("the log does not say whether {} are commanded or measured: they are read as commanded", taken),
+         "`--mapping` names them: cmd.x, fb.x, act.x"});
 }
 
 void settle_units(Log& log) {

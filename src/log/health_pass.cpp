@@ -367,10 +367,11 @@ private:
         found_.diagnostics.add(
             {Severity::warning, "log.line-range", Place::of_point(log_.name, bad_lines_.first),
              std::isfinite(limits_.last_line)
-                 ? fmt::format("{} points have a line that is none of the program's {:.0f}: {}; the first is here",
-                               bad_lines_.count, limits_.last_line, numbers)
-                 : fmt::format("{} points have a line that is no line number: {}; the first is here", bad_lines_.count,
-                               numbers),
+                 ? fmt::format(
+                       "{} points have a line number that the program of {:.0f} lines does not have: {}; the first is here",
+                       bad_lines_.count, limits_.last_line, numbers)
+                 : fmt::format("{} points have a value that is not a line number: {}; the first is here",
+                               bad_lines_.count, numbers),
              "another program, or another version of it?"});
     }
 

@@ -112,7 +112,7 @@ void check_placeholders(const Log& log, Diagnostics& found) {
         found.add(
             {Severity::warning, "log.placeholder", Place::of_point(log.name, placeholder->first),
              fmt::format(
-                 "the {} position jumps to X{:g} Y{:g} Z{:g} and back {} times, here for the first time, over up to {:.1f} mm: a placeholder, speeds and marks are not to be trusted",
+                 "the {} position jumps to X{:g} Y{:g} Z{:g} and back {} times, here for the first time, over up to {:.1f} mm: a placeholder; speeds and marks are not reliable",
                  name_of(role), x, y, z, placeholder->times, placeholder->farthest),
              "leave these records out"});
     }

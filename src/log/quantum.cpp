@@ -1,7 +1,11 @@
 #include "log/quantum.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <vector>
 
 namespace clsurf {
@@ -35,6 +39,87 @@ double quantum_of(const ChannelView& channel) {
     }
     const bool grid = candidate < 50 * smallest && on_grid > steps.size() * 98 / 100 && smallest > least_quantum;
     return grid ? smallest : 0;
+}
+
+namespace {
+
+/// Whether nearly all values are whole multiples of a step, within `slack`.
+bool on_grid(const std::vector<double>& values, double step, double slack) {
+    const auto on = std::count_if(values.begin(), values.end(), [&](double value) {
+        return std::abs(value - std::round(value / step) * step) <= slack;
+    });
+    return static_cast<double>(on) > 0.99 * static_cast<double>(values.size());
+}
+
+/// The shortest decimal number that is this number of 32 bits.
+double shortest_decimal(float value) {
+    std::array<char, 32> text{};
+    const char* const end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+    double read = 0;
+    std::from_chars(text.data(), end, read);
+    return read;
+}
+
+/// Whether nearly all values were numbers of 32 bits before they were written as doubles or as text: as many digits as
+/// they need, or rounded to `step`.
+bool were_floats(const std::vector<double>& values, double step) {
+    const auto floats = std::count_if(values.begin(), values.end(), [&](double value) {
+        const auto narrow = static_cast<float>(value);
+        const double place = std::numeric_limits<float>::epsilon() * std::abs(value);
+        const double slack = place > 2 * step ? 0.55 * step : 0;
+        return std::abs(value - static_cast<double>(narrow)) <= std::max(slack, 1e-3 * place) ||
+               std::abs(value - shortest_decimal(narrow)) <= 1e-3 * place;
+    });
+    return static_cast<double>(floats) > 0.99 * static_cast<double>(values.size());
+}
+
+/// The smallest difference of numbers of this size in a type.
+double last_place(ScalarType type, double size) {
+    if (type < ScalarType::f32) return 1;
+    return size * (type == ScalarType::f32 ? double{std::numeric_limits<float>::epsilon()}
+                                           : std::numeric_limits<double>::epsilon());
+}
+
+}  // namespace
+
+double resolution_of(const ChannelView& channel) {
+    constexpr PointIndex stretches = 64, stretch = 256;
+    constexpr double exact = 1e-3;        // share of a step
+    std::vector<double> stored, changes;  // as they are stored, where the axis moves
+    double low = 0, high = 0;
+    std::vector<double> values(static_cast<std::size_t>(std::min(channel.count, stretch)));
+    for (PointIndex s = 0; s < stretches && !values.empty(); ++s) {
+        const PointIndex room = channel.count - static_cast<PointIndex>(values.size());
+        copy_block(channel, room * s / (stretches - 1), values);
+        for (std::size_t i = 1; i < values.size(); ++i) {
+            const double value = (values[i] - channel.bias) / channel.scale;
+            const double change = (values[i] - values[i - 1]) / channel.scale;
+            if (!std::isfinite(value) || !std::isfinite(change) || change == 0) continue;
+            low = stored.empty() ? value : std::min(low, value);
+            high = stored.empty() ? value : std::max(high, value);
+            stored.push_back(value);
+            changes.push_back(change);
+        }
+    }
+    // Numbers of a few digits are the coarser the greater they are.
+    const double size = std::max(std::abs(low), std::abs(high));
+    std::vector<double> great;
+    std::copy_if(stored.begin(), stored.end(), std::back_inserter(great),
+                 [&](double value) { return std::abs(value) >= 0.5 * size; });
+    const double place = last_place(channel.type, size);
+    double step = place;
+    // Coarser than a tenth of the travel, a grid would be no grid.
+    for (double decimal = 1e4; decimal > place; decimal /= 10) {
+        if (decimal > 0.1 * (high - low) || !on_grid(great, decimal, exact * decimal + 2 * place)) continue;
+        step = decimal;
+        break;
+    }
+    if (channel.type == ScalarType::f64 && were_floats(great, step))
+        step = std::max(step, last_place(ScalarType::f32, size));
+    // An encoder's steps are no decimals.
+    const double quantum = quantum_of(channel) / std::abs(channel.scale);
+    if (quantum > step && on_grid(changes, quantum, 0.02 * quantum + 2 * place)) step = quantum;
+    return step * std::abs(channel.scale);
 }
 
 }  // namespace clsurf

@@ -12,12 +12,12 @@ double scallop_height(double ball, double step_over, double rho) {
     if (std::isinf(rho)) return ball - std::sqrt(ball * ball - 0.25 * step_over * step_over);
     const double radius = std::abs(rho);
     if (!(radius > 0) || step_over >= 2 * radius)
-        throw std::domain_error("the step-over is wider than the surface is round");
+        throw std::domain_error("the step-over is too large for the curvature of the surface");
     const double sine = step_over / (2 * radius);
     const double cosine = std::sqrt(1 - sine * sine);
     if (rho > 0) {
         const double centre = radius + ball;
-        if (centre * sine >= ball) throw std::domain_error("the passes do not meet on a surface as round as this");
+        if (centre * sine >= ball) throw std::domain_error("the passes do not meet on a surface of this curvature");
         return centre * cosine - std::sqrt(ball * ball - centre * centre * sine * sine) - radius;
     }
     if (ball >= radius) throw std::domain_error("the ball is larger than the hollow: it gouges");

@@ -69,7 +69,7 @@ public:
                 diagnostics_.add({Severity::note,
                                   "map.resumed",
                                   Place::of_point(log_.name, found->point),
-                                  fmt::format("the log goes on at line {}, not after line {}",
+                                  fmt::format("the log continues at line {}, not after line {}",
                                               line_of(found->state.motion), line_of(state.motion)),
                                   {}});
                 state = found->state;

@@ -49,7 +49,7 @@ public:
         const Motions& motions = program.motions;
         feed_.resize(motions.kind.size(), 0);
         for (std::size_t m = 0; m < feed_.size(); ++m) {
-            const bool cuts = motions.kind[m] != MotionKind::rapid && motions.kind[m] != MotionKind::dwell;
+            const bool cuts = is_cut(motions.kind[m]);
             if (per_minute.on(static_cast<std::int64_t>(m)) && cuts) feed_[m] = motions.feed[m];
         }
     }

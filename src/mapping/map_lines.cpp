@@ -29,6 +29,8 @@ constexpr PointIndex least_checked = 10;  ///< points that can tell a foreign lo
 constexpr double other_share = 0.05;
 /// Runs of points whose middle lies off its line: an edit may have moved the lines behind it.
 constexpr double displaced = 0.02;
+/// Edits that explain the displaced runs leave no more than this share of them.
+constexpr double unexplained_share = 0.5;
 /// So many that the lines mean nothing where no edit explains them.
 constexpr double all_displaced = 0.3;
 /// A path that fits although its line numbers do not has no more points off than this.
@@ -80,7 +82,7 @@ public:
                                 : reported(channel.values, channel.values, log_.keep_alive);
         const double off_line = identity_ == ProgramIdentity::same ? 0.0 : displaced_share(path_, program_, map);
         if (match_.edited || off_line > displaced) {
-            if (std::optional<LineMap> moved = look_for_edits(channel, own)) {
+            if (std::optional<LineMap> moved = look_for_edits(channel, own, off_line)) {
                 map = std::move(*moved);
             } else if (off_line > all_displaced) {
                 if (std::optional<LineMap> found = fitting_geometry()) return finish(std::move(*found));
@@ -119,8 +121,9 @@ private:
         return {lines, program_, std::move(keep_alive), std::move(motions)};
     }
 
-    /// The log's lines where they stand in the text that was edited after the run.
-    std::optional<LineMap> look_for_edits(const Channel& channel, const ProgramLines& own) {
+    /// The log's lines where they stand in the text that was edited after the run. `off_line`: displaced_share() of the
+    /// lines as they are, which edits must explain where no hash says that there are any.
+    std::optional<LineMap> look_for_edits(const Channel& channel, const ProgramLines& own, double off_line) {
         Diagnostics of_alignment;
         const LineMap aligned = align_lines(path_, program_, of_alignment);
         if (off_share(aligned) > offset_share) return std::nullopt;
@@ -132,19 +135,27 @@ private:
                 diagnostics_.add({Severity::note,
                                   "map.edited",
                                   Place::of_file(program_.main().name()),
-                                  "no line moved by the edit: the log's line numbers hold",
+                                  "the edit moved no line: the log's line numbers are valid",
                                   {}});
             return std::nullopt;
         }
+        const std::string text = edits->text();
+        LineMap map = moved_lines(channel, own, std::move(edits->lines));
+        // Short lines next to each other may look moved without any edit.
+        if (!match_.edited && displaced_share(path_, program_, map) > unexplained_share * off_line) return std::nullopt;
         match_.edited = true;
         diagnostics_.add({Severity::warning,
                           "map.edited",
                           Place::of_file(program_.main().name()),
-                          fmt::format("{} since the run; the log's line numbers were moved accordingly", edits->text()),
+                          fmt::format("{} since the run; the log's line numbers were adjusted", text),
                           {}});
-        auto moved = std::make_shared<const Column<LineNumber>>(std::move(edits->lines));
+        return map;
+    }
+
+    /// The map of lines that were moved. Numbers of the main program are moved, those of other files stay.
+    LineMap moved_lines(const Channel& channel, const ProgramLines& own, Column<LineNumber> lines) {
+        auto moved = std::make_shared<const Column<LineNumber>>(std::move(lines));
         if (!own.lines) return reported(view_of(*moved), view_of(*moved), moved);
-        // Numbers of the main program are moved, those of other files stay.
         Column<LineNumber> numbers(moved->size());
         copy_block(channel.values, 0, {numbers.data(), numbers.size()}, 0);
         for (std::size_t i = 0; i < numbers.size(); ++i) {

@@ -37,7 +37,7 @@ public:
             ++runs_;
             add_note("map.runs", point,
                      fmt::format("the program begins again at line {}: run {} in this log", line, runs_),
-                     "passes of several runs lie on each other in a map");
+                     "passes of several runs overlap in a map");
         }
         last_ = place;
         last_line_ = line;

@@ -47,7 +47,7 @@ ProgramLines lines_of_program(const Log& log, const Program& program, Diagnostic
         is_wanted[i] = plain_program_name(log.programs[i].name) == wanted ? 1 : 0;
     if (std::find(is_wanted.begin(), is_wanted.end(), 1) == is_wanted.end()) {
         diagnostics.add({Severity::warning, "map.program", Place::of_file(log.name),
-                         fmt::format("the log ran {}; none of them is called {}, so its lines are found by geometry",
+                         fmt::format("the log names {}; none of them is {}, so its lines are found by geometry",
                                      list_names(log), program.main().name()),
                          "give the program the name that it has on the control"});
         return {nullptr, false};

@@ -437,8 +437,8 @@ bool note_systems(const Trajectory& path, const Program& program, const LineMap&
     }
     diagnostics.add(
         {Severity::warning, "map.work-offset", Place::of_file(path.name),
-         fmt::format("the positions lie parallel to the programmed path, those of {} each displaced by itself", names),
-         options + " brings them onto it"});
+         fmt::format("the positions are parallel to the programmed path; those of {} have different offsets", names),
+         options + " aligns them"});
     return true;
 }
 
@@ -453,9 +453,9 @@ void note_alike(const Trajectory& path, const std::vector<Eigen::Isometry3d>& po
         options += (k == 0 ? "" : " or ") + pose_numbers(path.pose() * poses[k].inverse());
     diagnostics.add(
         {Severity::warning, "map.work-offset", Place::of_file(path.name),
-         fmt::format("the work offset is ambiguous: the positions fit the programmed path alike at {} places",
+         fmt::format("the work offset is ambiguous: the positions fit the programmed path equally well at {} places",
                      poses.size()),
-         fmt::format("--work-offset {}: the machine's zero tells which", options)});
+         fmt::format("--work-offset {}: choose it by the machine's zero", options)});
 }
 
 }  // namespace
@@ -482,12 +482,13 @@ bool note_pose(const Trajectory& path, const Program& program, const LineMap* ma
     // Rounded corners lie inside of the programmed ones: a best fit is off by some of it.
     const double play = corner_tolerance(program);
     const std::string known_to =
-        play > near ? fmt::format("; its corners may be rounded by {} mm, and the shift is no surer", decimals(play, 3))
+        play > near ? fmt::format("; its corners may be rounded by {} mm, which limits the accuracy of the shift",
+                                  decimals(play, 3))
                     : "";
     diagnostics.add({Severity::warning, "map.work-offset", Place::of_file(path.name),
-                     fmt::format("the positions lie parallel to the programmed path, {} by X {} Y {} Z {} mm{}", how,
+                     fmt::format("the positions are parallel to the programmed path, {} by X {} Y {} Z {} mm{}", how,
                                  decimals(by.x(), 3), decimals(by.y(), 3), decimals(by.z(), 3), known_to),
-                     fmt::format("--work-offset {} brings them onto it", pose_numbers(pose))});
+                     fmt::format("--work-offset {} aligns them", pose_numbers(pose))});
     return true;
 }
 

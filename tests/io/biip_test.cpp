@@ -81,7 +81,7 @@ TEST(Biip, TakesEveryWholeRecordOfAFileThatWasNotClosed) {
     EXPECT_FALSE(log.closed);
     EXPECT_EQ(log.records, 2);
     ASSERT_EQ(log.diagnostics.count("log.unclosed"), 1u);
-    EXPECT_NE(log.diagnostics.kept()[0].text.find("5 bytes are left over"), std::string::npos);
+    EXPECT_NE(log.diagnostics.kept()[0].text.find("5 more bytes"), std::string::npos);
 }
 
 TEST(Biip, RefusesADamagedHeaderByItsChecksum) {

@@ -72,9 +72,9 @@ TEST(SinumerikXml, NamesThePlaceOfWhatIsWrong) {
         const char* what;
     };
     for (const Case& c : {Case{"<traceSession>\n<rec time=\"1\" f9=\"1\"/>", 2, "which no dataSignal names"},
-                          Case{"<traceSession>\n<dataSignal id=\"f1\"/>\n<dataSignal id=\"f1\"/>", 3, "is there twice"},
+                          Case{"<traceSession>\n<dataSignal id=\"f1\"/>\n<dataSignal id=\"f1\"/>", 3, "appears twice"},
                           Case{"<traceSession>\n<a></b>\n", 2, "mismatched tag"},
-                          Case{"<!DOCTYPE x [\n<!ENTITY a \"b\">]><traceSession/>", 2, "declares an entity"},
+                          Case{"<!DOCTYPE x [\n<!ENTITY a \"b\">]><traceSession/>", 2, "declares an XML entity"},
                           Case{"<other><traceSession/></other>", 1, "expected 'traceSession'"}}) {
         try {
             (void)open(c.text);

@@ -234,7 +234,8 @@ TEST(Health, FindsLinesThatTheProgramDoesNotHave) {
     const Diagnostics found = made.check();
     const Diagnostic d = only(found, "log.line-range");
     EXPECT_EQ(d.where.number, 3000u);
-    expect_says(d, "2 points have a line that is none of the program's 80: -1 … 81; the first is here");
+    expect_says(d,
+                "2 points have a line number that the program of 80 lines does not have: -1 … 81; the first is here");
 }
 
 TEST(Health, FindsALineThatFlickersForOneRecord) {

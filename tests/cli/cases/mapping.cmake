@@ -53,7 +53,7 @@ endforeach()
 clsurf_cli_test(NAME truncated_log_is_not_judged SETUP "head -c 300000 @LOGS@/bottle_uneven.biip > run.biip" ARGS check ${uneven} run.biip EXIT 5
   STDOUT "NOT JUDGED: The log lacks 88 % of the program's motions")
 clsurf_cli_test(NAME lines_of_another_program_are_one_finding ARGS info ${uneven} @LOGS@/bottle_zigzag.biip EXIT 3
-  STDOUT "points have a line that is none of the program's 3716: 3718 … 3938")
+  STDOUT "points have a line number that the program of 3716 lines does not have: 3718 … 3938")
 
 # ---- subprograms in files of their own ----
 set(rib "printf 'G21 G90 G17\\nG0 X0 Y0 Z5\\nG1 Z0 F600\\no<rib> call [1]\\nG1 X0 Y2\\no<rib> call [3]\\nM2\\n' > part.ngc"
@@ -93,6 +93,9 @@ clsurf_cli_test(NAME pocket_is_no_finishing_pass SETUP "${with_pocket}" ARGS che
 clsurf_cli_test(NAME lint_of_a_pocket_judges_nothing
   SETUP "(printf 'G21 G90 G17\\nG0 X0 Y0 Z5\\nF3000\\n' && seq 1 3 | awk '{printf \"G0 Z5\\nG0 X60 Y0\\nG1 Z-%d\\nX75 F2000\\nY15\\nG3 X60 I-7.5 F3000\\nG1 Y0\\n\", $1}' && echo M30) > part.nc"
   ARGS lint part.nc STDOUT "no finishing passes to judge: 100 % of the cutting" NO_STDOUT "warning")
+# Levels of a pocket 0.8 mm apart, whose lines are so long that a coarse look takes passes 2.27 mm apart for adjacent.
+clsurf_cli_test(NAME lint_of_long_lines_in_a_pocket_judges_nothing
+  ARGS lint @DATA@/programs/mixed.ngc STDOUT "no finishing passes to judge: 99 % of the cutting" NO_STDOUT "warning")
 # Eight turns of a helix of 20 mm, 1 mm deep each, lead into the material.
 set(helix "(printf 'G21 G90 G17\\nG0 X0 Y0 Z5\\nG0 X10 Y0\\nG1 Z0 F1000\\n' && seq 1 8 | awk '{printf \"G3 X10 Y0 Z-%d I-10 J0\\n\", $1}' && printf 'G3 X10 Y0 I-10 J0\\nG1 X0\\nG0 Z5\\nM30\\n') > part.nc"
   "$CLSURF simulate part.nc --dialect linuxcnc -o run.biip > /dev/null")
