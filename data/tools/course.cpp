@@ -146,7 +146,6 @@ public:
         switch (r_.layout) {
             case Layout::waterline:
             case Layout::staggered:
-            case Layout::drawn_out:
             case Layout::helix: {
                 const double around = p.x() / (0.5 * r_.length);
                 const double radius = 0.5 * r_.length * (1 + 0.05 * std::cos(3 * around)) - p.y() * std::sin(r_.draft);
@@ -289,9 +288,8 @@ std::vector<PlanePass> round_a_tower(const CourseRecipe& r) {
     const bool helix = r.layout == Layout::helix;
     for (int k = 0; k < r.passes; ++k) {
         const double v = -k * r.step_over;
-        if (r.layout == Layout::staggered || r.layout == Layout::drawn_out) {
-            const double slope = r.layout == Layout::staggered ? 2.5 : 5;  // links at 22° or 11° to the loops
-            const double start = slope * k * r.step_over;
+        if (r.layout == Layout::staggered) {
+            const double start = 2.5 * k * r.step_over;  // links at 22° to the loops
             passes.push_back({{{start, v}, {start + around, v}}, Joint::link});
             continue;
         }
@@ -340,7 +338,6 @@ std::vector<PlanePass> lay_on_plane(const CourseRecipe& r) {
         case Layout::spiral: return winding(r);
         case Layout::waterline:
         case Layout::staggered:
-        case Layout::drawn_out:
         case Layout::helix: return round_a_tower(r);
         case Layout::triangles: return triangles(r);
         default: return to_and_fro(r);
@@ -357,9 +354,9 @@ void move_to(std::vector<CoursePoint>& course, const Vec3& to, Motion motion, do
 }  // namespace
 
 std::string_view name_of(Layout layout) {
-    constexpr std::array<std::string_view, layouts> names{"zigzag",    "one-way", "oblique", "arcs",      "interrupted",
-                                                          "contours",  "islands", "spiral",  "waterline", "staggered",
-                                                          "drawn-out", "helix",   "wall",    "triangles"};
+    constexpr std::array<std::string_view, layouts> names{"zigzag",   "one-way", "oblique",  "arcs",      "interrupted",
+                                                          "contours", "islands", "spiral",   "waterline", "staggered",
+                                                          "helix",    "wall",    "triangles"};
     return names[static_cast<std::size_t>(layout)];
 }
 

@@ -119,8 +119,7 @@ private:
         const double base = slow ? 14 : fast ? 60 : kind_.layout == Layout::interrupted ? 44 : 26;
         shape_.length = base * uniform(g, 1, 1.3);
         const bool round = kind_.layout == Layout::spiral || kind_.layout == Layout::waterline ||
-                           kind_.layout == Layout::staggered || kind_.layout == Layout::drawn_out ||
-                           kind_.layout == Layout::helix;
+                           kind_.layout == Layout::staggered || kind_.layout == Layout::helix;
         if (round) shape_.length = std::max(0.6 * shape_.length, 2.2 * shape_.passes * shape_.step_over);
         shape_.angle = uniform(g, 0.35, 1.2);
         shape_.waviness = uniform(g, 0.2, slow ? 0.6 : 1.5);

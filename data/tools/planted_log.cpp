@@ -66,7 +66,7 @@ Facet facet_at(const Recipe& r, double x, double y) {
 struct Curve {
     std::vector<Vec3> at;
     std::vector<double> arc_length;  ///< [mm] from its beginning
-    std::vector<double> coordinate;  ///< [mm] along, the same for neighbouring passes
+    std::vector<double> coordinate;  ///< [mm] along, the same for adjacent passes
     std::vector<int> pass;           ///< by point: a spiral has many on one curve
 };
 

@@ -7,11 +7,13 @@
 namespace clsurf::io {
 namespace {
 
-template <typename Limits, typename Rows>
-Limits read_limits(const std::string& path, const Rows& rows) {
+/// `others`: keys of the same file that somebody else reads.
+template <typename Limits, typename Rows, typename Others>
+Limits read_limits(const std::string& path, const Rows& rows, const Others& others) {
     const TomlFile file(path);
     std::vector<std::string_view> names;
     for (const auto& row : rows) names.push_back(row.name);
+    for (const auto& row : others) names.push_back(row.name);
     file.allow(file.root(), names);
     Limits limits;
     for (const auto& row : rows) {
@@ -24,8 +26,16 @@ Limits read_limits(const std::string& path, const Rows& rows) {
 
 }  // namespace
 
-QualityBudget read_budget(const std::string& path) { return read_limits<QualityBudget>(path, budget_limits()); }
+QualityBudget read_budget(const std::string& path) {
+    return read_limits<QualityBudget>(path, budget_limits(), limit_budget_limits());
+}
 
-RunBudget read_run_budget(const std::string& path) { return read_limits<RunBudget>(path, run_budget_limits()); }
+LimitBudget read_limit_budget(const std::string& path) {
+    return read_limits<LimitBudget>(path, limit_budget_limits(), budget_limits());
+}
+
+RunBudget read_run_budget(const std::string& path) {
+    return read_limits<RunBudget>(path, run_budget_limits(), std::span<const QualityLimit>());
+}
 
 }  // namespace clsurf::io

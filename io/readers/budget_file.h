@@ -5,12 +5,15 @@
 #include <string>
 
 #include "compare/run_budget.h"
+#include "limits/limit_budget.h"
 #include "predictor/verdict.h"
 
 namespace clsurf::io {
 
 /// Throws InputError: unreadable, an unknown key, a value that is not a number ≥ 0.
 [[nodiscard]] QualityBudget read_budget(const std::string& path);
+/// What the same file says of the limits of the machine.
+[[nodiscard]] LimitBudget read_limit_budget(const std::string& path);
 [[nodiscard]] RunBudget read_run_budget(const std::string& path);
 
 }  // namespace clsurf::io

@@ -5,16 +5,15 @@
 
 #include <fmt/format.h>
 
+#include "cli/defect_colours.h"
 #include "cli/part.h"
 #include "cli/quality_limits.h"
 #include "cli/report_output.h"
 #include "cli/stage_clock.h"
 #include "cli/terminal.h"
-#include "field/field_set.h"
-#include "field/range.h"
 #include "io/reports/quality_report.h"
 #include "pipeline/judge.h"
-#include "viz/colour_difference.h"
+#include "pipeline/limits_of.h"
 
 namespace clsurf::cli {
 namespace {
@@ -29,26 +28,13 @@ QualityWriter writer_of(const std::string& format) {
     return writers.at(format);
 }
 
-/// How different a defect and the passes beside it look in the map that `render` draws by default.
-std::vector<double> colour_differences(const QualityReport& report, const Part& part, const ClSurface& surface) {
-    std::vector<double> differences;
-    if (report.defects.empty()) return differences;
-    const Field speed = FieldSet(part.log, part.path, surface.passes).get("speed");
-    const ShownRange range = find_range(speed, surface.passes, {}, {});
-    const viz::ColourScale scale{viz::make_colour_map("isurface"), range.low, range.high, 0};
-    const auto look = [&](double mm_s) { return viz::lab_of(scale.colour(mm_s * speed.info.unit.per_inside)); };
-    for (const Defect& defect : report.defects)
-        differences.push_back(viz::delta_e00(look(defect.speed), look(defect.speed_beside)));
-    return differences;
-}
-
 /// One log's report, and what it comes to.
 struct Checked {
     std::string text;
     ExitCode code = ExitCode::done;
 };
 
-Checked check_log(const PartOptions& options, std::optional<Role> measured, const QualityBudget& budget,
+Checked check_log(const PartOptions& options, std::optional<Role> measured, const CheckBudget& budget,
                   const std::string& format, const po::variables_map& values) {
     StageClock clock(read_common(values), 8);
     Part part = load_part(options, clock);
@@ -56,6 +42,12 @@ Checked check_log(const PartOptions& options, std::optional<Role> measured, cons
     const ClSurface surface = stitch(part);
     const Quality quality = judge(part, surface, measured, {}, clock.stages());
     part.diagnostics.append(quality.diagnostics);
+    LimitReport limits;
+    if (const std::vector<StatedLimit> stated = stated_limits(part.limits, budget); !stated.empty()) {
+        clock.begin("compare with the limits");
+        limits = judge_limits(part, stated);
+        part.diagnostics.append(limits.diagnostics);
+    }
 
     io::ReportedQuality reported;
     reported.report = &quality.report;
@@ -63,24 +55,24 @@ Checked check_log(const PartOptions& options, std::optional<Role> measured, cons
     reported.log = part.log.name;
     reported.tool = part.tool;
     reported.scallop = quality.scallop;
-    if (format == "json") reported.colour_differences = colour_differences(quality.report, part, surface);
+    if (format == "json") reported.colour_differences = colour_differences(quality.report, part);
     reported.as_machined = quality.as_machined ? &*quality.as_machined : nullptr;
-    reported.budget = hold(quality.report, budget);
+    if (!options.machine.empty() || budget.limits.max_following_error_um) reported.limits = &limits;
+    reported.budget = hold(quality.report, budget.quality);
+    const std::vector<BudgetLine> held = hold(limits, budget.limits);
+    reported.budget.insert(reported.budget.end(), held.begin(), held.end());
     reported.diagnostics = &part.diagnostics;
     if (values.count("output") == 0) reported.columns = table_columns();
     clock.end();
     if (format != "json") print(part.diagnostics, values);
-    // No verdict comes before a failed one: numbers that mean nothing meet no budget and miss none.
-    const ExitCode code = !quality.report.judgement.judged() ? ExitCode::not_judged
-                          : all_held(reported.budget)        ? ExitCode::done
-                                                             : ExitCode::check_failed;
+    const ExitCode code = code_of(quality.report.judgement.judged(), reported.budget, held, budget);
     return {writer_of(format)(reported), code};
 }
 
 ExitCode run_check(const po::variables_map& values) {
     PartOptions options = read_part_options(values);
     const std::optional<Role> measured = take_measured_role(options);
-    const QualityBudget budget = read_limits(values);
+    const CheckBudget budget = read_limits(values);
     const std::vector<std::string> logs = values["LOG"].as<std::vector<std::string>>();
     if (logs.size() > 1 && options.program == "-")
         throw UsageError("the program of several logs cannot come from standard input");
@@ -114,9 +106,12 @@ Subcommand check_subcommand() {
             "Severity: 1 trace (in the data, hardly on the part), 2 visible (on a polished or glossy\n"
             "surface), 3 distinct (on any finished surface), 4 reject (too deep to polish out). A speed below\n"
             "that of the neighbours is negative. Depths have no sign but a shape, pit or bulge.\n"
+            "With --machine every record of the commanded motion is compared with the limits that the machine\n"
+            "file states, and with the path tolerance of the program: axis, factor, line, time (docs/limits.md).\n"
             "The exit code is 1 if a limit of --budget, --fail-on or --max-depth is exceeded, and 5 if the\n"
             "data do not allow a verdict: less than half of the cutting points could be compared.\n\n"
             "  clsurf check part.nc run.biip --tool ball:6\n"
+            "  clsurf check part.nc run.biip --machine mill.toml --budget limits.toml\n"
             "  clsurf check part.nc monday.biip friday.biip --fail-on distinct --max-depth 5um -q\n"
             "  clsurf check part.nc run.biip --tool ball:6 --budget part.toml --format sarif -o part.sarif",
         .declare =

@@ -1,0 +1,103 @@
+#include "limits/clock.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/geometry.h"
+
+namespace clsurf {
+namespace {
+
+constexpr double lost_share = 0.5;   ///< of a period, that a clock's step is longer or shorter
+constexpr double impossible = 1e5;   ///< [mm/s²] as log.jump has it
+constexpr double beyond_limit = 20;  ///< times the limit of acceleration
+constexpr double slack = 0.02;       ///< share of a limit that motion at the limit may be over it
+constexpr double long_step = 1.6;    ///< times the steps beside it
+constexpr double short_step = 0.45;  ///< times the steps beside it
+
+void read_clock(const Log& log, const ClockRules& rules, PointIndex begin, StepClock& steps) {
+    const Channel* time = log.find("time");
+    if (time == nullptr) return;
+    const std::size_t n = steps.broken.size();
+    std::vector<double> times(n);
+    copy_block(time->values, begin, times);
+    std::vector<double> jitter(n, 0.0);
+    double most = 0;
+    for (std::size_t i = 1; i < n; ++i) {
+        const double off = std::abs(times[i] - times[i - 1] - log.period);
+        if (!(off <= lost_share * log.period)) steps.broken[i] = 1;
+        // Rounding of the clock is not the machine's.
+        jitter[i] = std::max(0.0, off - 2 * rules.time_resolution);
+        if (steps.broken[i] == 0) most = std::max(most, jitter[i]);
+    }
+    if (most > 1e-6 * log.period) steps.jitter = std::move(jitter);
+}
+
+/// What lost and repeated records look like: one step is too long or too short, and the one after it is not.
+bool looks_lost(const Vec3& before, const Vec3& step, const Vec3& after, double allowed) {
+    const Vec3 in = step - before, out = after - step;
+    if (!(in.squaredNorm() > allowed * allowed) || !(out.squaredNorm() > allowed * allowed)) return false;
+    if (in.dot(out) >= 0) return false;
+    const double length = step.norm();
+    const double shorter = std::min(before.norm(), after.norm()), longer = std::max(before.norm(), after.norm());
+    return length > long_step * longer || length < short_step * shorter;
+}
+
+/// A whole number of the step before at once: several records are lost in a row.
+bool is_multiple(const Vec3& before, const Vec3& step, double allowed) {
+    const double shorter = std::min(before.norm(), step.norm()), longer = std::max(before.norm(), step.norm());
+    if (!(shorter > 2 * allowed)) return false;
+    const double times = std::round(longer / shorter);
+    if (times < 2) return false;
+    const Vec3 off = before.norm() < step.norm() ? Vec3(step - times * before) : Vec3(before - times * step);
+    return off.norm() < 0.5 * times * allowed;
+}
+
+/// A step that is what two or three steps make which a limit allows, between steps that keep it: `steps` are five in a
+/// row, the middle one is looked at. Near standstill nothing else tells a lost record from a short violation.
+bool fits_more_periods(const std::array<Vec3, 5>& steps, double allowed) {
+    const auto change = [&](std::size_t i) { return (steps[i] - steps[i - 1]).norm(); };
+    if (change(1) > allowed || change(4) > allowed) return false;
+    for (const double periods : {2.0, 3.0}) {
+        const Vec3 sum = 0.5 * periods * (steps[1] + steps[3]);  // of steps that change evenly
+        const double bulge = periods == 2 ? 1.5 : 3.0;
+        if ((steps[2] - sum).norm() <= bulge * allowed && (steps[3] - steps[1]).norm() <= (periods + 1) * allowed)
+            return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+StepClock judge_steps(const Log& log, const ClockRules& rules, PointIndex begin, std::span<const double> x,
+                      std::span<const double> y, std::span<const double> z) {
+    const std::size_t n = x.size();
+    StepClock steps{std::vector<char>(n, 0), {}};
+    read_clock(log, rules, begin, steps);
+    const double square_of_period = log.period * log.period;
+    const double kept = (1 + slack) * rules.acceleration * square_of_period + 4 * rules.resolution;
+    const double allowed = 2 * rules.acceleration * square_of_period + 4 * rules.resolution;
+    const double jump = std::max(impossible, beyond_limit * rules.acceleration) * square_of_period;
+    const auto step = [&](std::size_t i) { return Vec3(x[i] - x[i - 1], y[i] - y[i - 1], z[i] - z[i - 1]); };
+    for (std::size_t i = 2; i < n; ++i) {
+        // Most records are clean, and this is the cheapest proof of it.
+        const double bend_x = x[i] - 2 * x[i - 1] + x[i - 2], bend_y = y[i] - 2 * y[i - 1] + y[i - 2],
+                     bend_z = z[i] - 2 * z[i - 1] + z[i - 2];
+        const double bend = bend_x * bend_x + bend_y * bend_y + bend_z * bend_z;
+        if (!(bend > kept * kept)) continue;
+        if (i >= 3 && i + 2 < n &&
+            fits_more_periods({step(i - 2), step(i - 1), step(i), step(i + 1), step(i + 2)}, kept))
+            steps.broken[i] = 1;
+        if (i >= 4 && i + 1 < n &&
+            fits_more_periods({step(i - 3), step(i - 2), step(i - 1), step(i), step(i + 1)}, kept))
+            steps.broken[i - 1] = 1;
+        if (!(bend > allowed * allowed)) continue;
+        const Vec3 before = step(i - 1), here = step(i);
+        if (bend > jump * jump || is_multiple(before, here, allowed)) steps.broken[i - 1] = steps.broken[i] = 1;
+        if (i + 1 < n && looks_lost(before, here, step(i + 1), allowed)) steps.broken[i] = 1;
+    }
+    return steps;
+}
+
+}  // namespace clsurf

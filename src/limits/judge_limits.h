@@ -1,0 +1,27 @@
+#pragma once
+// The comparison of every record of a log with the limits that a machine file or a budget states.
+
+#include <span>
+
+#include "limits/limit_report.h"
+#include "limits/motion_window.h"
+#include "log/log.h"
+#include "mapping/line_map.h"
+#include "program/program.h"
+#include "toolpath/trajectory.h"
+
+namespace clsurf {
+
+/// What is compared: `path` has the commanded positions, in the coordinates of the program's motions.
+struct LimitedRun {
+    const Log& log;
+    const Trajectory& path;
+    const Program& program;  ///< may have no motions
+    const LineMap& lines;
+};
+
+/// Every limit is judged for which the log has the positions; others are named in the diagnostics. O(records · limits),
+/// parallel.
+[[nodiscard]] LimitReport judge_limits(const LimitedRun& run, std::span<const StatedLimit> limits);
+
+}  // namespace clsurf

@@ -1,0 +1,40 @@
+#include "limits/line_lead.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "toolpath/toolpath.h"
+
+namespace clsurf {
+namespace {
+
+constexpr PointIndex sections = 64, section = 1600;
+constexpr double most_off = 0.5;  ///< [mm] more is another matter than a lead
+
+}  // namespace
+
+PointIndex find_line_lead(const Trajectory& path, const Program& program, const LineMap& lines) {
+    if (!lines.from_log() || path.count <= longest_line_lead || program.motions.size() == 0) return 0;
+    const Toolpath toolpath(program.motions, path.at(0));
+    std::array<double, longest_line_lead + 1> off{};
+    const PointIndex step = std::max<PointIndex>(section, path.count / sections);
+    for (PointIndex first = longest_line_lead; first < path.count; first += step) {
+        const PointIndex end = std::min(path.count, first + section);
+        for (PointIndex point = first; point < end; ++point) {
+            // Only where the line changes do leads differ.
+            const std::int64_t now = lines.motion_at(point);
+            const std::int64_t then = lines.motion_at(point - longest_line_lead);
+            if (now == then || now < 0 || then < 0) continue;
+            const Vec3 position = path.at(point);
+            for (PointIndex lead = 0; lead <= longest_line_lead; ++lead) {
+                const std::int64_t motion = lines.motion_at(point - lead);
+                const double distance = motion < 0 ? most_off : toolpath.projection(motion, position).distance;
+                off[static_cast<std::size_t>(lead)] += std::min(most_off, distance);
+            }
+        }
+    }
+    return std::min_element(off.begin(), off.end()) - off.begin();
+}
+
+}  // namespace clsurf

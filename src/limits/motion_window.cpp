@@ -1,0 +1,195 @@
+#include "limits/motion_window.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/not_finite.h"
+#include "log/quantum.h"
+
+namespace clsurf {
+namespace {
+
+constexpr std::array<std::size_t, 8> stride_steps{1, 2, 3, 4, 6, 8, 12, 16};
+constexpr double small_share = 0.01;  ///< of a limit
+/// How many of the resolution a difference of each order is off at most.
+constexpr std::array<double, 4> roundings{1, 1, 2, 4};
+/// Of the greatest coordinate: what arithmetic in doubles adds.
+constexpr double last_places = 4 * std::numeric_limits<double>::epsilon();
+
+/// 1 − cos of the angle between two steps; 1 where one of them has no direction.
+double bend(const Vec3& a, const Vec3& b) {
+    const double lengths = a.norm() * b.norm();
+    return lengths > 0 ? std::max(0.0, 1 - a.dot(b) / lengths) : 1;
+}
+
+}  // namespace
+
+CommandedMotion::CommandedMotion(const Log& log, const Trajectory& path, std::span<const StatedLimit> limits)
+    : log_(&log), path_(&path) {
+    for (const char letter : {'x', 'y', 'z', 'a', 'b', 'c'}) {
+        const Channel* channel = log.find(std::string("cmd.") + letter);
+        if (channel == nullptr) continue;
+        CommandedAxis axis{letter, channel->values, letter < 'x' ? rad_per_deg : 1.0, 0};
+        axis.resolution = resolution_of(channel->values) * axis.to_inside;
+        if (letter >= 'x') rules_.resolution = std::max(rules_.resolution, axis.resolution);
+        axes_.push_back(axis);
+    }
+    for (const StatedLimit& limit : limits) {
+        if (row_of(limit.quantity).order == 2 && (limit.axis == 0 || limit.axis >= 'x'))
+            rules_.acceleration = std::max(rules_.acceleration, limit.value);
+    }
+    if (const Channel* time = log.find("time")) rules_.time_resolution = resolution_of(time->values);
+}
+
+const CommandedAxis* CommandedMotion::find(char letter) const {
+    const auto found =
+        std::find_if(axes_.begin(), axes_.end(), [&](const auto& axis) { return axis.letter == letter; });
+    return found == axes_.end() ? nullptr : &*found;
+}
+
+std::vector<Stride> strides_for(const StatedLimit& limit, const CommandedMotion& motion) {
+    const int order = row_of(limit.quantity).order;
+    const CommandedAxis* axis = motion.find(limit.axis);
+    // Three axes are off at once.
+    const double resolution = axis != nullptr ? axis->resolution : std::sqrt(3.0) * motion.resolution();
+    std::vector<Stride> strides;
+    for (const std::size_t records : stride_steps) {
+        const double time = static_cast<double>(records) * motion.log().period;
+        const double rounding = roundings[static_cast<std::size_t>(order)] * resolution / std::pow(time, order);
+        strides.push_back({records, rounding});
+        if (rounding < small_share * limit.value) break;
+    }
+    return strides;
+}
+
+MotionWindow::MotionWindow(const CommandedMotion& motion, PointRange records) : motion_(&motion), records_(records) {
+    begin_ = std::max<PointIndex>(0, records.first - margin);
+    const PointIndex end = std::min(motion.log().records, records.last + margin + 1);
+    count_ = static_cast<std::size_t>(end - begin_);
+    for (std::vector<double>& column : linear_) column.assign(count_, 0.0);
+    for (const CommandedAxis& axis : motion.axes()) {
+        std::vector<double>& column = axes_.emplace_back(count_);
+        copy_block(axis.positions, begin_, column);
+        if (axis.to_inside != 1)
+            for (double& value : column) value *= axis.to_inside;
+        if (axis.letter >= 'x') linear_[static_cast<std::size_t>(axis.letter - 'x')] = column;
+    }
+    if (motion.has_tip()) {
+        for (std::vector<double>& column : tip_) column.resize(count_);
+        motion.path().read(begin_, tip_[0], tip_[1], tip_[2]);
+    }
+    steps_ = judge_steps(motion.log(), motion.clock(), begin_, linear_[0], linear_[1], linear_[2]);
+    breaks_.resize(count_);
+    for (std::size_t i = 1; i < count_; ++i) breaks_[i] = breaks_[i - 1] + static_cast<std::uint32_t>(steps_.broken[i]);
+}
+
+std::vector<PointIndex> MotionWindow::broken() const {
+    std::vector<PointIndex> found;
+    for (PointIndex point = records_.first; point <= records_.last; ++point) {
+        if (steps_.broken[static_cast<std::size_t>(point - begin_)] != 0) found.push_back(point);
+    }
+    return found;
+}
+
+double MotionWindow::worst_jitter(std::size_t first, std::size_t last) const {
+    if (steps_.jitter.empty()) return 0;
+    double worst = 0;
+    for (std::size_t i = first + 1; i <= last; ++i) worst = std::max(worst, steps_.jitter[i]);
+    return worst;
+}
+
+MotionWindow::Value MotionWindow::of_axis(std::span<const double> x, std::size_t i, std::size_t stride,
+                                          int order) const {
+    const double rate = 1 / (static_cast<double>(stride) * motion_->log().period);
+    const double speed = std::abs(x[i] - x[i - stride]) * rate;
+    const double fastest = order == 1 ? speed : std::max(speed, std::abs(x[i + stride] - x[i]) * rate);
+    const double places = last_places * std::abs(x[i]);
+    // A step whose time is off by a share of it is off by this share of its length.
+    const auto clock = [&](std::size_t first, std::size_t last) {
+        const double share = rate * worst_jitter(first, last);
+        return fastest * share / (1 - std::min(0.5, share));
+    };
+    if (order == 1) return {speed, clock(i - stride, i) + places * rate};
+    if (order == 2) {
+        return {std::abs(x[i + stride] - 2 * x[i] + x[i - stride]) * rate * rate,
+                (2 * clock(i - stride, i + stride) + 2 * places * rate) * rate};
+    }
+    return {std::abs(x[i + stride] - 3 * x[i] + 3 * x[i - stride] - x[i - 2 * stride]) * rate * rate * rate,
+            (4 * clock(i - 2 * stride, i + stride) + 4 * places * rate) * rate * rate};
+}
+
+MotionWindow::Value MotionWindow::of_path(std::size_t i, std::size_t stride, LimitedQuantity quantity,
+                                          double rounding) const {
+    const double rate = 1 / (static_cast<double>(stride) * motion_->log().period);
+    const Vec3 here = place(i);
+    const Vec3 in = here - place(i - stride);
+    const double places = last_places * here.cwiseAbs().maxCoeff();
+    if (quantity == LimitedQuantity::path_speed)
+        return {in.norm() * rate, (in.norm() * rate * worst_jitter(i - stride, i) + places) * rate};
+    const Vec3 out = place(i + stride) - here;
+    const Vec3 chord = in + out;
+    const double length = chord.norm();
+    const double clock =
+        2 * in.norm() * rate * rate * rate * worst_jitter(i - stride, i + stride) + 2 * places * rate * rate;
+    const Vec3 acceleration = (out - in) * (rate * rate);
+    if (!(length > 0)) return {0, acceleration.norm()};  // a turn on the spot has no direction
+    const double along = acceleration.dot(chord) / length;
+    const double across = (acceleration - along / length * chord).norm();
+    // The direction turns within the difference, and rounding turns it: each part takes a share of the other.
+    const double lengths = in.norm() * out.norm();
+    const double turn = lengths > 0 ? std::min(1.0, in.cross(out).norm() / lengths) : 1;
+    const double slack = 0.5 * turn + std::min(1.0, rounding / (rate * rate) / length);
+    if (quantity == LimitedQuantity::tangential_acceleration) return {std::abs(along), across * slack + clock};
+    return {across, std::abs(along) * slack + clock};
+}
+
+/// The second difference of chords: along a bend they are shorter than the path, which changes no speed.
+MotionWindow::Value MotionWindow::path_jerk(std::size_t i, std::size_t stride) const {
+    if (i < 3 * stride || i + 2 * stride >= count_) return {missing<double>, 0};
+    const double rate = 1 / (static_cast<double>(stride) * motion_->log().period);
+    std::array<Vec3, 5> chords;
+    for (std::size_t c = 0; c < chords.size(); ++c)
+        chords[c] = place(i + c * stride - 2 * stride) - place(i + c * stride - 3 * stride);
+    double shortening = 0, longest = 0;
+    for (std::size_t c = 1; c < 4; ++c) {
+        const double weight = c == 2 ? 2 : 1;
+        const double turned = 0.5 * (bend(chords[c - 1], chords[c]) + bend(chords[c], chords[c + 1]));
+        shortening += weight * turned * chords[c].norm();
+        longest = std::max(longest, chords[c].norm());
+    }
+    const double value = std::abs(chords[3].norm() - 2 * chords[2].norm() + chords[1].norm()) * rate * rate * rate;
+    const double clock = 4 * longest * rate * worst_jitter(i - 2 * stride, i + stride);
+    const double places = 4 * last_places * place(i).cwiseAbs().maxCoeff();
+    return {value, (shortening + clock + places) * rate * rate * rate};
+}
+
+MeasuredMotion MotionWindow::measure(const StatedLimit& limit, std::span<const Stride> strides) const {
+    const auto n = static_cast<std::size_t>(records_.size());
+    MeasuredMotion measured{std::vector<double>(n, missing<double>), std::vector<double>(n, missing<double>)};
+    const int order = row_of(limit.quantity).order;
+    const CommandedAxis* axis = motion_->find(limit.axis);
+    const std::vector<double>* column =
+        axis != nullptr ? &axes_[static_cast<std::size_t>(axis - motion_->axes().data())] : nullptr;
+    const auto offset = static_cast<std::size_t>(records_.first - begin_);
+    for (const Stride& stride : strides) {
+        const std::size_t s = stride.records;
+        const std::size_t before = order == 3 ? 2 * s : s, after = order == 1 ? 0 : s;
+        for (std::size_t k = 0; k < n; ++k) {
+            const std::size_t i = offset + k;
+            if (i < before || i + after >= count_ || !clean(i - before, i + after)) continue;
+            Value value = column != nullptr ? of_axis(*column, i, s, order)
+                          : limit.quantity == LimitedQuantity::path_jerk
+                              ? path_jerk(i, s)
+                              : of_path(i, s, limit.quantity, stride.rounding);
+            value.error += stride.rounding;
+            const double proved = measured.value[k] - measured.uncertainty[k];
+            if (proved >= value.value - value.error || !std::isfinite(value.value)) continue;
+            measured.value[k] = value.value;
+            measured.uncertainty[k] = value.error;
+        }
+    }
+    return measured;
+}
+
+}  // namespace clsurf

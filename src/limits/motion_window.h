@@ -1,0 +1,99 @@
+#pragma once
+// CommandedMotion: the commanded motion of a log as limits see it. MotionWindow: some records of it, and how near each
+// is to a limit. Nothing is smoothed.
+//
+// A difference quotient over n periods is the mean of the derivative over them. So it is never greater than the
+// derivative's greatest value: what exceeds a limit here exceeds it in the machine. Rounding to a grid of q adds at most
+// 2^(order − 1) q / (stride · period)^order. Where that is much for steps of one record, longer steps are taken as well.
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "limits/clock.h"
+#include "log/log.h"
+#include "machine/limit_table.h"
+#include "toolpath/trajectory.h"
+
+namespace clsurf {
+
+struct CommandedAxis {
+    char letter = 'x';
+    ChannelView positions;
+    double to_inside = 1;   ///< rad per deg of rotary axes
+    double resolution = 0;  ///< [mm or rad]
+};
+
+class CommandedMotion {
+public:
+    /// Shares the columns of both. Empty axes: nothing is commanded.
+    CommandedMotion(const Log& log, const Trajectory& path, std::span<const StatedLimit> limits);
+
+    [[nodiscard]] const Log& log() const { return *log_; }
+    [[nodiscard]] const Trajectory& path() const { return *path_; }
+    [[nodiscard]] std::span<const CommandedAxis> axes() const { return axes_; }
+    [[nodiscard]] const CommandedAxis* find(char letter) const;
+    /// Of the path: the coarsest of the linear axes [mm].
+    [[nodiscard]] double resolution() const { return rules_.resolution; }
+    [[nodiscard]] const ClockRules& clock() const { return rules_; }
+    /// Whether the path's positions are not simply those of the linear axes.
+    [[nodiscard]] bool has_tip() const { return path_->kinematics != nullptr; }
+
+private:
+    const Log* log_;
+    const Trajectory* path_;
+    std::vector<CommandedAxis> axes_;
+    ClockRules rules_;
+};
+
+/// Steps in records that one limit is looked at with, and what rounding adds to a value.
+struct Stride {
+    std::size_t records = 1;
+    double rounding = 0;
+};
+/// From one record on, until rounding is less than a percent of the limit. At most 16 records.
+[[nodiscard]] std::vector<Stride> strides_for(const StatedLimit& limit, const CommandedMotion& motion);
+
+/// By record: value and its uncertainty, of the stride that proves most; NaN: not known there.
+struct MeasuredMotion {
+    std::vector<double> value, uncertainty;
+};
+
+class MotionWindow {
+public:
+    /// Records that a window reads on each side.
+    static constexpr PointIndex margin = 3 * 16 + 2;
+
+    /// Records [first, last] of the motion. Reads them and the margin. O(records).
+    MotionWindow(const CommandedMotion& motion, PointRange records);
+
+    /// Speed, acceleration or jerk of an axis or of the path. O(records · strides).
+    [[nodiscard]] MeasuredMotion measure(const StatedLimit& limit, std::span<const Stride> strides) const;
+    /// Steps between records that are not judged.
+    [[nodiscard]] std::vector<PointIndex> broken() const;
+
+private:
+    using Path = std::array<std::vector<double>, 3>;
+    struct Value {
+        double value, error;
+    };
+
+    [[nodiscard]] bool clean(std::size_t first, std::size_t last) const { return breaks_[last] == breaks_[first]; }
+    [[nodiscard]] double worst_jitter(std::size_t first, std::size_t last) const;
+    [[nodiscard]] Value of_axis(std::span<const double> x, std::size_t i, std::size_t stride, int order) const;
+    [[nodiscard]] Value of_path(std::size_t i, std::size_t stride, LimitedQuantity quantity, double rounding) const;
+    [[nodiscard]] Value path_jerk(std::size_t i, std::size_t stride) const;
+    [[nodiscard]] Vec3 place(std::size_t i) const { return {path()[0][i], path()[1][i], path()[2][i]}; }
+    [[nodiscard]] const Path& path() const { return tip_[0].empty() ? linear_ : tip_; }
+
+    const CommandedMotion* motion_;
+    PointRange records_;
+    PointIndex begin_ = 0;  ///< record of the columns' first value
+    std::size_t count_ = 0;
+    std::vector<std::vector<double>> axes_;
+    Path linear_, tip_;  ///< tip_: empty where it is the same
+    StepClock steps_;
+    std::vector<std::uint32_t> breaks_;  ///< broken steps up to each record
+};
+
+}  // namespace clsurf

@@ -1,0 +1,264 @@
+#include "limits/judge_limits.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "limits/limit_budget.h"
+#include "log/quantum.h"
+#include "program/interpreter.h"
+
+namespace clsurf {
+namespace {
+
+constexpr double period = 0.001;
+constexpr double micrometre_step = 1e-6;  // [mm] of positions as a kernel writes them
+using Positions = std::vector<Vec3>;
+
+/// A log of commanded positions, rounded to `step`; with the clock where there is one.
+Log log_of(const Positions& positions, double step = micrometre_step, const std::vector<double>& times = {}) {
+    auto columns = std::make_shared<std::vector<std::vector<double>>>(4);
+    Log log;
+    log.name = "made";
+    log.period = period;
+    log.records = static_cast<PointIndex>(positions.size());
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (const Vec3& p : positions) {
+            const double value = p[static_cast<Eigen::Index>(axis)];
+            (*columns)[axis].push_back(step > 0 ? std::round(value / step) * step : value);
+        }
+    }
+    (*columns)[3] = times;
+    const std::array<std::string, 4> names{"cmd.x", "cmd.y", "cmd.z", "time"};
+    for (std::size_t c = 0; c < (times.empty() ? 3U : 4U); ++c) {
+        ChannelView view;
+        view.first = reinterpret_cast<const std::byte*>((*columns)[c].data());
+        view.stride = sizeof(double);
+        view.count = log.records;
+        log.channels.push_back({names[c], c < 3 ? "mm" : "s", view});
+    }
+    log.keep_alive = columns;
+    return log;
+}
+
+Program empty_program() {
+    auto text = std::make_shared<std::string>("M30\n");
+    return parse_program(SourceText("part.nc", *text, text), {});
+}
+
+LimitReport judged(const Log& log, const std::vector<StatedLimit>& limits) {
+    const Program program = empty_program();
+    const Trajectory path = reconstruct(log, Role::commanded, Vec3(Vec3::Zero()));
+    const auto n = static_cast<std::size_t>(log.records);
+    const LineMap lines(Column<std::uint32_t>(n, LineMap::no_motion), Column<std::uint8_t>(n, std::uint8_t{0}),
+                        program);
+    return judge_limits(LimitedRun{log, path, program, lines}, limits);
+}
+
+constexpr double slow = 1.23456789;  // [mm/s] so that no motion is a grid of its own
+
+/// Along x: these accelerations [mm/s²] for so many records each, starting at `speed` [mm/s].
+Positions driven(const std::vector<std::pair<double, int>>& accelerations, double speed = slow,
+                 const Vec3& along = Vec3::UnitX()) {
+    Positions positions;
+    double s = 0;
+    // A second difference of the positions is the acceleration, exactly.
+    for (const auto& [acceleration, records] : accelerations) {
+        for (int i = 0; i < records; ++i) {
+            positions.push_back(s * along);
+            speed += acceleration * period;
+            s += speed * period;
+        }
+    }
+    return positions;
+}
+
+const StatedLimit acceleration_of_x{LimitedQuantity::acceleration, 'x', 2000};
+
+TEST(JudgeLimits, APlateauAtTheLimitIsNoFinding) {
+    const Log log = log_of(driven({{0, 200}, {2000, 100}, {0, 200}, {-2000, 100}, {0, 200}}));
+    const LimitReport report = judged(log, {acceleration_of_x, {LimitedQuantity::speed, 'x', 200 + slow}});
+    EXPECT_TRUE(report.findings.empty());
+    ASSERT_EQ(report.judged.size(), 2u);
+    EXPECT_NEAR(report.judged[0].factor, 1, 0.0011);
+    // Three roundings of half a micrometre's thousandth: 2e-6 mm / (1 ms)² of 2000 mm/s².
+    EXPECT_NEAR(report.judged[0].uncertainty, 0.001, 1e-6);
+    EXPECT_NEAR(report.judged[1].factor, 1, 1e-5);
+    EXPECT_LE(report.greatest_factor(), 1);
+}
+
+TEST(JudgeLimits, ABurstOfThreeRecordsIsFoundWithItsFactorAndDuration) {
+    const Log log = log_of(driven({{0, 500}, {1000, 40}, {2500, 3}, {1000, 40}, {0, 500}}));
+    const LimitReport report = judged(log, {acceleration_of_x});
+    ASSERT_EQ(report.findings.size(), 1u);
+    const LimitFinding& found = report.findings.front();
+    EXPECT_NEAR(found.factor, 1.25, 0.0011);
+    EXPECT_EQ(found.points.size(), 3);
+    EXPECT_NEAR(found.duration, 0.003, 1e-12);
+    // The step from record i to i + 1 is the first one with the new speed: the difference is that of record i.
+    EXPECT_EQ(found.points.first, 540);
+    EXPECT_NEAR(found.time, 0.001 * static_cast<double>(found.point), 1e-12);
+    EXPECT_DOUBLE_EQ(report.greatest_factor(), found.factor);
+}
+
+TEST(JudgeLimits, SpeedAndJerkAreDifferencesToo) {
+    // The acceleration rises by 100 mm/s² in each period: a jerk of 100,000 mm/s³, for 10 records. The speed grows by
+    // 100·0.001·(1 + … + 10) + 1000·0.001·20 + 100·0.001·(9 + … + 1) = 30 mm/s.
+    std::vector<std::pair<double, int>> ramp{{0, 300}};
+    for (int i = 1; i <= 10; ++i) ramp.emplace_back(100.0 * i, 1);
+    ramp.insert(ramp.end(), {{1000, 20}, {0, 0}});
+    for (int i = 9; i >= 0; --i) ramp.emplace_back(100.0 * i, i == 0 ? 300 : 1);
+    const Log log = log_of(driven(ramp));
+    const LimitReport report =
+        judged(log, {{LimitedQuantity::jerk, 'x', 80000}, {LimitedQuantity::speed, 'x', 25}, acceleration_of_x});
+    ASSERT_EQ(report.findings.size(), 3u) << "the rise, the fall, the speed";
+    EXPECT_EQ(report.findings[0].limit.quantity, LimitedQuantity::jerk);
+    EXPECT_NEAR(report.findings[0].factor, 1.25, 0.01);
+    EXPECT_EQ(report.findings[0].points.size(), 10);
+    EXPECT_EQ(report.findings[2].limit.quantity, LimitedQuantity::speed);
+    EXPECT_NEAR(report.findings[2].value, 30 + slow, 1e-3);
+}
+
+TEST(JudgeLimits, APathTakesWhatEachAxisMay) {
+    // Diagonal: 1500 in each axis is 2121 along the path.
+    const Log log = log_of(driven({{0, 100}, {1500 * std::sqrt(2.0), 50}, {0, 100}}, slow, Vec3(1, 1, 0).normalized()));
+    const LimitReport report = judged(log, {acceleration_of_x, {LimitedQuantity::tangential_acceleration, 0, 2000}});
+    ASSERT_EQ(report.findings.size(), 1u);
+    EXPECT_EQ(axis_name(report.findings[0].limit), "path");
+    EXPECT_NEAR(report.findings[0].factor, 1.5 / std::sqrt(2.0), 0.003);
+}
+
+TEST(JudgeLimits, ACircleHasNormalAccelerationOnly) {
+    // 50 mm/s on 1 mm: v²/r = 2500 mm/s². A second difference shows sinc²(ωT/2) of it, 0.02 % less.
+    Positions positions;
+    for (int i = 0; i < 1000; ++i) positions.emplace_back(std::cos(0.05 * i), std::sin(0.05 * i), 0);
+    const LimitReport report = judged(log_of(positions), {{LimitedQuantity::normal_acceleration, 0, 2000},
+                                                          {LimitedQuantity::tangential_acceleration, 0, 2000},
+                                                          {LimitedQuantity::path_jerk, 0, 50000}});
+    ASSERT_EQ(report.findings.size(), 1u) << "one run";
+    EXPECT_EQ(report.findings[0].limit.quantity, LimitedQuantity::normal_acceleration);
+    EXPECT_NEAR(report.findings[0].factor, 1.25, 0.002);
+    EXPECT_EQ(report.findings[0].points.size(), 998);
+}
+
+TEST(JudgeLimits, ACornerAtSpeedChangesNoSpeedAlongThePath) {
+    // A corner of 90° at 20 mm/s inside a period: the chord over it is 29 % shorter.
+    Positions positions;
+    for (int i = 0; i < 100; ++i) positions.emplace_back(0.02 * i - 1.99, 0, 0);
+    for (int i = 0; i < 100; ++i) positions.emplace_back(0, 0.01 + 0.02 * i, 0);
+    const LimitReport report = judged(
+        log_of(positions), {{LimitedQuantity::tangential_acceleration, 0, 2000}, {LimitedQuantity::path_jerk, 0, 1e6}});
+    EXPECT_TRUE(report.findings.empty());
+}
+
+TEST(JudgeLimits, CoarsePositionsAreLookedAtOverMoreRecords) {
+    // Steps of 0.1 µm and 1 ms: 200 mm/s² of rounding, a tenth of the limit. 20 records at 1.2 times the limit show.
+    const Log log = log_of(driven({{0, 300}, {2000, 100}, {2400, 20}, {2000, 100}, {0, 300}}), 1e-4);
+    const LimitReport report = judged(log, {acceleration_of_x});
+    ASSERT_FALSE(report.findings.empty());
+    EXPECT_NEAR(report.findings.front().factor, 1.2, 0.02);
+    for (const LimitFinding& found : report.findings) {
+        EXPECT_GE(found.point, 400 - 8);
+        EXPECT_LE(found.point, 420 + 8);
+    }
+    const Log clean = log_of(driven({{0, 300}, {2000, 120}, {0, 300}, {-1999, 120}, {0, 300}}), 1e-4);
+    EXPECT_TRUE(judged(clean, {acceleration_of_x, {LimitedQuantity::jerk, 'x', 2.1e6}}).findings.empty());
+}
+
+Positions even(int records) {
+    Positions positions;
+    for (int i = 0; i < records; ++i) positions.emplace_back(0.0512345678 * i, 0.02345678 * i, 0);
+    return positions;
+}
+const std::vector<StatedLimit> all_limits{acceleration_of_x,
+                                          {LimitedQuantity::speed, 'x', 60},
+                                          {LimitedQuantity::jerk, 'x', 50000},
+                                          {LimitedQuantity::tangential_acceleration, 0, 2000},
+                                          {LimitedQuantity::path_jerk, 0, 50000}};
+
+TEST(JudgeLimits, LostRecordsAreNoFindings) {
+    Positions positions = even(1000);
+    positions.erase(positions.begin() + 700, positions.begin() + 740);
+    positions.erase(positions.begin() + 400);
+    positions.erase(positions.begin() + 398);
+    positions.erase(positions.begin() + 200);
+    const LimitReport report = judged(log_of(positions), all_limits);
+    EXPECT_TRUE(report.findings.empty());
+    EXPECT_GE(report.broken_steps, 4);
+    EXPECT_EQ(report.diagnostics.count("limits.lost-records"), 1u);
+}
+
+TEST(JudgeLimits, RepeatedRecordsAreNoFindings) {
+    Positions positions = even(1000);
+    positions[300] = positions[299];                            // a stale sample
+    positions.insert(positions.begin() + 600, positions[599]);  // one that came twice
+    EXPECT_TRUE(judged(log_of(positions), all_limits).findings.empty());
+}
+
+TEST(JudgeLimits, ALostRecordNearStandstillIsNoFinding) {
+    // Each of the records around a start, a stop and a turn on the spot.
+    const Positions whole = driven({{0, 50}, {2000, 20}, {-2000, 40}, {2000, 20}, {0, 50}}, 1e-4);
+    ASSERT_TRUE(judged(log_of(whole), {acceleration_of_x}).findings.empty());
+    for (std::ptrdiff_t lost = 45; lost < 135; ++lost) {
+        Positions positions = whole;
+        positions.erase(positions.begin() + lost);
+        const LimitReport report = judged(log_of(positions), {acceleration_of_x});
+        EXPECT_TRUE(report.findings.empty()) << lost << ": " << report.greatest_factor();
+    }
+}
+
+TEST(JudgeLimits, GapsOfTheClockAreNoFindings) {
+    Positions positions = driven({{0, 100}, {1000, 100}, {-1000, 90}, {0, 100}});
+    std::vector<double> times;
+    for (std::size_t i = 0; i < positions.size(); ++i) times.push_back(period * static_cast<double>(i));
+    positions.erase(positions.begin() + 103);
+    times.erase(times.begin() + 103);
+    EXPECT_TRUE(judged(log_of(positions, micrometre_step, times), {acceleration_of_x}).findings.empty());
+}
+
+TEST(JudgeLimits, AnUnsteadyClockMakesUncertain) {
+    // Even motion that is sampled up to 10 % of a period off: accelerations of 5,000 mm/s² that are none.
+    Positions positions;
+    std::vector<double> times;
+    for (int i = 0; i < 1000; ++i) {
+        const double time = period * (i + 0.05 * std::sin(2.0 * i));
+        times.push_back(time);
+        positions.emplace_back(50 * time, 0, 0);
+    }
+    const LimitReport report = judged(log_of(positions, micrometre_step, times), {acceleration_of_x});
+    ASSERT_EQ(report.judged.size(), 1u);
+    EXPECT_GT(report.judged[0].factor, 1);
+    EXPECT_TRUE(report.findings.empty());
+}
+
+TEST(JudgeLimits, WhatTheLogDoesNotHaveIsSaidAndNotJudged) {
+    const LimitReport report =
+        judged(log_of(even(100)), {{LimitedQuantity::speed, 'a', 1}, {LimitedQuantity::following_error, 'x', 0.01}});
+    EXPECT_TRUE(report.judged.empty());
+    EXPECT_EQ(report.diagnostics.count("limits.not-judged"), 2u);
+    LimitBudget budget;
+    budget.max_limit_factor = 1;
+    EXPECT_FALSE(hold(report, budget).front().held) << "what is not known holds nothing";
+}
+
+TEST(Resolution, IsTheStepThatPositionsWereRoundedTo) {
+    for (const double step : {1e-3, 1e-4, 1e-6}) {
+        const Log log = log_of(driven({{0, 2000}, {777, 3000}}), step);
+        EXPECT_NEAR(resolution_of(log.find("cmd.x")->values), step, 1e-3 * step);
+    }
+    // As text of a number of 32 bits near 1,000 mm: its last place is 2^-14 mm.
+    Positions floats = driven({{0, 2000}, {777, 3000}});
+    for (Vec3& p : floats) p.x() = static_cast<double>(static_cast<float>(p.x() + 1000));
+    EXPECT_GE(resolution_of(log_of(floats, 0).find("cmd.x")->values), std::ldexp(1.0, -14));
+    // The same with six decimals, as text.
+    EXPECT_GE(resolution_of(log_of(floats, 1e-6).find("cmd.x")->values), std::ldexp(1.0, -14));
+    EXPECT_LT(resolution_of(log_of(driven({{777, 3000}}), 0).find("cmd.x")->values), 1e-9);
+}
+
+}  // namespace
+}  // namespace clsurf
