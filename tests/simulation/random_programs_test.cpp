@@ -30,6 +30,12 @@ public:
         machine.controller.tolerance = spread(0.001, 0.2);
         machine.controller.lookahead_blocks = static_cast<int>(spread(2, 300));
         if (chance(0.3)) machine.controller.feed_override = spread(0.01, 5);
+        if (corner == CornerMode::junction) {
+            machine.controller.junction = {spread(1e-4, 0.1), chance(0.5) ? spread(0.1, 50) : 0};
+            machine.controller.replan_blocks = chance(0.5) ? 1 : 0;
+            machine.controller.lookahead_distance = chance(0.5) ? spread(0.01, 10) : 0;
+            machine.controller.whole_periods = chance(0.3);
+        }
         machine.path = {spread(20, 500), spread(200, 5000), spread(200, 5000), spread(5000, 200000)};
         const bool any_jerk = !jerk || corner == CornerMode::arc || chance(0.1);
         if (!jerk) machine.path.max_jerk = 1e9;
@@ -104,8 +110,9 @@ private:
 };
 
 std::string parts_of_limits(const SimulationSummary& s, const Machine& machine) {
-    std::string parts =
-        fmt::format("T {} speed {:.4f}", machine.controller.period, s.max_speed / machine.path.max_speed);
+    std::string parts = fmt::format("T {} speed {:.4f}, tangential {:.4f}", machine.controller.period,
+                                    s.max_speed / machine.path.max_speed,
+                                    s.max_tangential_acceleration / machine.path.max_acceleration);
     for (int x = 0; x < 3; ++x) {
         const MachineAxis& axis = machine.axes[static_cast<std::size_t>(x)];
         parts += fmt::format(", {} {:.4f} {:.4f} {:.4f}", axis_names[static_cast<std::size_t>(x)],
@@ -135,7 +142,7 @@ class RandomPrograms : public testing::TestWithParam<Modes> {};
 
 /// Random programs in a mode: CLSURF_RANDOM_PROGRAMS of them in all modes together, else what the suite has time for.
 int rounds_of_a_mode() {
-    constexpr int modes = 10, usual = 10000;
+    constexpr int modes = 12, usual = 12000;
     const char* wanted = std::getenv("CLSURF_RANDOM_PROGRAMS");
     return (wanted != nullptr ? std::atoi(wanted) : usual) / modes;
 }
@@ -179,8 +186,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Modes{CornerMode::stop, CurveMode::none}, Modes{CornerMode::spline, CurveMode::akima},
                     Modes{CornerMode::spline, CurveMode::least_squares}, Modes{CornerMode::arc, CurveMode::akima},
                     Modes{CornerMode::spline, CurveMode::none, false}, Modes{CornerMode::arc, CurveMode::none, false},
-                    Modes{CornerMode::stop, CurveMode::none, false},
-                    Modes{CornerMode::spline, CurveMode::akima, false}),
+                    Modes{CornerMode::stop, CurveMode::none, false}, Modes{CornerMode::spline, CurveMode::akima, false},
+                    Modes{CornerMode::junction, CurveMode::none}, Modes{CornerMode::junction, CurveMode::none, false}),
     [](const auto& modes) {
         std::string name = fmt::format("{}_{}{}", name_of(modes.param.corner), name_of(modes.param.curve),
                                        modes.param.jerk ? "" : "_without_jerk_limit");

@@ -12,6 +12,7 @@
 #include "io/readers/machine_file.h"
 #include "io/readers/program_file.h"
 #include "simulation/plan/scurve.h"
+#include "simulation/run/recorder.h"
 #include "support/made_motion.h"
 
 namespace clsurf {
@@ -37,6 +38,56 @@ TEST(Simulator, ALineFromRestTakesTheTimeOnPaper) {
     EXPECT_NEAR(r.summary.max_speed, 50, 1e-9);
     EXPECT_NEAR(r.summary.max_jerk.x(), 50000, 50);
     EXPECT_TRUE(r.summary.limits_ok);
+}
+
+/// A zigzag of 30 corners of 100 degrees, each rounded within 0.1 mm.
+std::string zigzag() {
+    std::string text = "G21 G90 G64 P0.1\nF600\n";
+    for (int k = 1; k <= 30; ++k) text += fmt::format("G1 X{:.4f} Y{:.4f}\n", 0.8 * k, k % 2 == 1 ? 0.95 : 0.0);
+    return text + "M2\n";
+}
+
+/// Only the path limits this machine: 100 mm/s² along it and normal to it.
+Machine limited_by_the_path(double jerk) {
+    Machine machine = ideal();
+    machine.controller.period = 0.0005;
+    machine.controller.corner = CornerMode::spline;
+    machine.controller.chord_tolerance = 0.1;
+    machine.path = {.max_speed = 10, .max_acceleration = 100, .max_normal_acceleration = 100, .max_jerk = jerk};
+    for (MachineAxis& axis : machine.axes) axis.max_acceleration = 1e6, axis.max_jerk = 0;
+    return machine;
+}
+
+TEST(Simulator, TheTangentialAccelerationKeepsToThePathsLimitInRoundedCorners) {
+    for (const double jerk : {1e4, 1e6}) {  // the second is no limit
+        const Machine machine = limited_by_the_path(jerk);
+        const Recorded r = run(zigzag(), machine);
+        // From the set points alone: the change of the distance that is passed in a period.
+        double greatest = 0;
+        for (std::size_t k = 2; k < r.points.size(); ++k) {
+            const double before = (r.points[k - 1].commanded - r.points[k - 2].commanded).norm();
+            const double after = (r.points[k].commanded - r.points[k - 1].commanded).norm();
+            greatest = std::max(greatest, std::abs(after - before) / std::pow(machine.controller.period, 2));
+        }
+        EXPECT_LE(greatest, 100 * 1.001) << jerk;
+        EXPECT_GT(greatest, 90) << jerk;
+        EXPECT_NEAR(r.summary.max_tangential_acceleration, greatest, 1) << jerk;
+        EXPECT_TRUE(r.summary.limits_ok) << jerk;
+    }
+}
+
+TEST(Simulator, ATangentialAccelerationAboveThePathsLimitIsNoted) {
+    const Program program = program_of("G21 G90 G1 X1\nM2\n");
+    const Machine machine = limited_by_the_path(1e6);
+    const PointSink sink = [](std::span<const SimulatedPoint>) {};
+    for (const double acceleration : {99.0, 110.0}) {
+        Recorder recorder(program, machine, Vec3::Zero(), sink);
+        for (int k = 0; k < 50; ++k) {
+            const double time = k * machine.controller.period;
+            recorder.add({0.5 * acceleration * time * time, 0, 0}, acceleration * time, 1, LimitingFactor::none, 0);
+        }
+        EXPECT_EQ(recorder.finish().limits_ok, acceleration < 100) << acceleration;
+    }
 }
 
 TEST(Simulator, LagOnALineIsSpeedTimesWhatFeedForwardLeavesOverGain) {

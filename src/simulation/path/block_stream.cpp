@@ -14,14 +14,6 @@ namespace clsurf {
 namespace {
 
 constexpr double reversal_angle = 179.0 * std::numbers::pi / 180;
-bool stops_between(const PathElement& before, const PathElement& after) {
-    const double turning = deflection(before.tangent(before.length).normalized(), after.tangent(0).normalized());
-    if (before.stops || turning > reversal_angle) return true;
-    if (before.tolerance > 0 && after.tolerance > 0) return false;
-    // On an exact path only what is straight on, with no jump of curvature, is passed without a stop.
-    const double bend = (after.second_derivative(0) - before.second_derivative(before.length)).norm();
-    return turning > straight_on || bend > least_bend_jump;
-}
 
 }  // namespace
 
@@ -35,9 +27,20 @@ BlockStream::BlockStream(MotionSource& source, const Machine& machine, const Vec
     if (known.z == known.z) at_.z() = known.z;
 }
 
+bool BlockStream::stops_between(const PathElement& before, const PathElement& after) const {
+    const double turning = deflection(before.tangent(before.length).normalized(), after.tangent(0).normalized());
+    if (before.stops || turning > reversal_angle) return true;
+    if (before.tolerance > 0 && after.tolerance > 0) return false;
+    if (machine_->controller.corner == CornerMode::junction) return false;
+    // On an exact path only what is straight on, with no jump of curvature, is passed without a stop.
+    const double bend = (after.second_derivative(0) - before.second_derivative(before.length)).norm();
+    return turning > straight_on || bend > least_bend_jump;
+}
+
 void BlockStream::take(const PathMode& mode) {
     const ControllerSettings& controller = machine_->controller;
-    const bool rounded = mode.block_end == BlockEnd::rounded && controller.corner != CornerMode::stop;
+    const bool rounds = controller.corner == CornerMode::spline || controller.corner == CornerMode::arc;
+    const bool rounded = mode.block_end == BlockEnd::rounded && rounds;
     tolerance_ = !rounded ? 0 : std::isfinite(mode.tolerance) ? mode.tolerance : controller.tolerance;
     // The planner that ends blocks itself knows a path without a tolerance.
     if (rounded && section_ends_ == Stops::programmed && std::isinf(mode.tolerance)) tolerance_ = mode.tolerance;

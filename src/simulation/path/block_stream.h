@@ -53,6 +53,7 @@ private:
     [[nodiscard]] bool read(PathElement& element);
     [[nodiscard]] bool at_a_motion();
     [[nodiscard]] bool turns(const Motions& motions, std::size_t motion);
+    [[nodiscard]] bool stops_between(const PathElement& before, const PathElement& after) const;
     void follow_events(std::int64_t motion);
     void take(const PathMode& mode);
     void take_dwell();

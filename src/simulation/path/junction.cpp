@@ -1,6 +1,8 @@
 #include "simulation/path/junction.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace clsurf {
 
@@ -15,6 +17,28 @@ double arc_speed(double radius, double normal_acceleration) { return std::sqrt(n
 
 double period_speed(double radius, double turning, double period) {
     return 2 * radius * std::sin(0.5 * turning) / period;
+}
+
+double junction_speed(const Vec3& turn, const Machine& machine) {
+    const JunctionSettings& rules = machine.controller.junction;
+    double speed = std::numeric_limits<double>::infinity();
+    const double length = turn.norm();
+    if (!(length > 0)) return speed;
+    const double greatest = turn.cwiseAbs().maxCoeff();
+    if (rules.speed_step > 0) speed = rules.speed_step / greatest;
+    if (rules.deviation > 0) {
+        const double sine = std::min(1.0, 0.5 * length), cosine = std::sqrt(1 - sine * sine);  // of half the deflection
+        // 1 − cos = sin²/(1 + cos), without cancellation.
+        const double radius = rules.deviation * cosine * (1 + cosine) / (sine * sine);
+        double acceleration = machine.path.max_normal_acceleration;
+        for (int i = 0; i < 3; ++i) {
+            if (turn[i] != 0)
+                acceleration = std::min(acceleration, machine.axes[static_cast<std::size_t>(i)].max_acceleration *
+                                                          length / std::abs(turn[i]));
+        }
+        speed = std::min(speed, arc_speed(radius, acceleration));
+    }
+    return speed;
 }
 
 }  // namespace clsurf

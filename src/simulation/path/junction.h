@@ -2,6 +2,7 @@
 // Joints between two blocks: the change of direction, and the highest speed at a given curvature.
 
 #include "core/geometry.h"
+#include "machine/machine.h"
 
 namespace clsurf {
 
@@ -19,5 +20,14 @@ namespace clsurf {
 /// The speed at which one period is as long as the chord of an arc of radius r that turns by `turning`,
 /// 2 r sin(α/2)/T [mm/s]: at least one point lies on it (Li et al. 2025, Eq. 7).
 [[nodiscard]] double period_speed(double radius, double turning, double period);
+
+/// The speed at which a corner is passed without rounding [mm/s]; `turn`: the direction after it less the one before,
+/// unit vectors. The lowest of the machine's rules:
+/// - junction deviation: √(a r) of the arc that is tangent to both directions and leaves the corner by δ,
+///   r = δ cos(α/2)/(1 − cos(α/2)) with the deflection α; a: the normal acceleration of the path, or the largest
+///   along `turn` that every axis has.
+/// - speed step: no axis speed changes by more.
+/// Infinite where the path goes straight on.
+[[nodiscard]] double junction_speed(const Vec3& turn, const Machine& machine);
 
 }  // namespace clsurf

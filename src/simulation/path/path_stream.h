@@ -18,6 +18,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string_view>
 #include <vector>
@@ -48,6 +49,13 @@ enum class LimitingFactor : std::uint8_t {
 /// "feed", "axis speed", …
 [[nodiscard]] std::string_view name_of(LimitingFactor limiting);
 
+/// Path speed over speed along the programmed arc length u, and its derivative by u: |p′| and |p′|′ [1/mm]. A rounded
+/// path is shorter than the programmed one, so that the tangential acceleration is |p′| u″ + |p′|′ u′².
+struct Pace {
+    double value = 1, slope = 0;
+};
+[[nodiscard]] Pace pace_of(const PathDerivatives& derivatives);
+
 /// Where the position on a span comes from, and how fast it may be passed.
 struct Span {
     PathElement base;
@@ -63,6 +71,7 @@ struct Span {
     // Speed allowed by what does not depend on bends: feed, speed of path and axes; and why.
     double free_cap = 0;
     LimitingFactor free_limiting = LimitingFactor::none;
+    double begin_cap = std::numeric_limits<double>::infinity();  ///< at its begin: a corner that is not rounded
     // Speed allowed with no tangential acceleration, and why.
     double cap = 0;
     LimitingFactor limiting = LimitingFactor::none;
@@ -74,6 +83,8 @@ struct Span {
     [[nodiscard]] Vec3 at(double tau, double& deviation, double& pace) const;
     [[nodiscard]] PathDerivatives derivatives(double tau) const;
     [[nodiscard]] bool straight() const { return !rounded && base.straight(); }
+    /// A bound of |p′|′ [1/mm].
+    [[nodiscard]] double greatest_pace_slope() const { return rounded ? greatest_bend : 0; }
 };
 
 class PathStream {

@@ -103,6 +103,13 @@ void bound_curve(Span& span) {
 
 }  // namespace
 
+Pace pace_of(const PathDerivatives& derivatives) {
+    const double value = derivatives.first.norm();
+    // The path reverses where p′ is 0: on both sides the direction is that of p″.
+    if (!(value > 0)) return {0, derivatives.second.norm()};
+    return {value, derivatives.first.dot(derivatives.second) / value};
+}
+
 PathDerivatives Span::derivatives(double tau) const {
     const std::array<Vec3, 5>& c = rounding;
     PathDerivatives d = base.derivatives(from + tau);
@@ -162,6 +169,8 @@ void PathStream::make_spans(std::int64_t element) {
         span.length = cuts_[k] - from;
         add_roundings(span, begin + from);
         set_limits(span);
+        if (from == 0 && element > 0 && machine_->controller.corner == CornerMode::junction)
+            span.begin_cap = junction_speed(joint(element - 1).turn, *machine_);
         from = cuts_[k];
     }
 }
@@ -212,6 +221,11 @@ void PathStream::set_limits(Span& span) const {
               override_factor == 1 ? LimitingFactor::feed : LimitingFactor::feed_override);
     if (machine_->controller.block_time > 0)
         limit(span.base.block_length / machine_->controller.block_time, LimitingFactor::block_time);
+    if (machine_->controller.whole_periods && !rapid) {
+        const double period = machine_->controller.period;
+        const double periods = std::ceil(span.base.block_length / (span.cap * period) * nearly);
+        limit(span.base.block_length / (std::max(1.0, periods) * period), LimitingFactor::block_time);
+    }
     for (int i = 0; i < 3; ++i) {
         if (span.slope[i] > 0)
             limit(machine_->axes[static_cast<std::size_t>(i)].max_speed / span.slope[i], LimitingFactor::axis_speed);
@@ -236,6 +250,8 @@ void PathStream::set_limits(Span& span) const {
             limit(std::cbrt(axis.max_jerk / span.twist[i]),
                   corner ? LimitingFactor::corner_tolerance : LimitingFactor::jerk);
     }
+    if (span.greatest_pace_slope() * span.cap * span.cap > nearly * path.max_acceleration)
+        limit(std::sqrt(path.max_acceleration / span.greatest_pace_slope()), LimitingFactor::axis_acceleration);
     if (span.greatest_bend > 0) {
         const double radius = 1 / span.greatest_bend;
         limit(arc_speed(radius, path.max_normal_acceleration), LimitingFactor::axis_acceleration);

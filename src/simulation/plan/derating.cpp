@@ -26,6 +26,10 @@ Derating left_at(double speed, const Span& span, const Machine& machine) {
         const double room = axis.max_jerk - span.twist[i] * speed * speed * speed;
         left.acceleration = std::min(left.acceleration, share_of_bend * room / (3 * span.bend[i] * speed));
     }
+    if (span.rounded)
+        left.acceleration =
+            std::min(left.acceleration, (machine.path.max_acceleration - span.greatest_pace_slope() * speed * speed) /
+                                            span.greatest_slope);
     left.acceleration = std::max(left.acceleration, 0.0);
     for (int i = 0; i < 3; ++i) {
         const MachineAxis& axis = machine.axes[static_cast<std::size_t>(i)];

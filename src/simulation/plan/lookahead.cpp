@@ -70,9 +70,12 @@ void WindowPlanner::set_limits(SpeedRun& run, std::span<const Span> spans) {
     run.checked = false;
 }
 
-/// The greatest part of a limit of an axis at a speed and an acceleration anywhere on a span.
-double WindowPlanner::part_of_axes(const Span& span, double speed, double acceleration, double jerk) const {
+/// The greatest part of a limit of an axis, or of the path's acceleration, at a speed and an acceleration anywhere on a span.
+double WindowPlanner::part_of_limits(const Span& span, double speed, double acceleration, double jerk) const {
     double worst = 0;
+    if (span.rounded)
+        worst = (span.greatest_slope * acceleration + span.greatest_pace_slope() * speed * speed) /
+                machine_->path.max_acceleration;
     for (int k = 0; k < 3; ++k) {
         const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(k)];
         worst = std::max(worst, (span.slope[k] * acceleration + span.bend[k] * speed * speed) / axis.max_acceleration);
@@ -104,7 +107,7 @@ WindowPlanner::Verdict WindowPlanner::judge(const SpeedRun& run, std::span<const
             continue;
         }
         // A span that holds whatever the run does anywhere is not the worst of one that does not hold.
-        if (at_peak <= 1 && part_of_axes(s, profile.peak_speed(), steepest, profile.jerk()) <= 1) {
+        if (at_peak <= 1 && part_of_limits(s, profile.peak_speed(), steepest, profile.jerk()) <= 1) {
             known = false;
             continue;
         }
@@ -116,9 +119,9 @@ WindowPlanner::Verdict WindowPlanner::judge(const SpeedRun& run, std::span<const
         const MotionState at_to = profile.at(to);
         const Extremes e = extremes(profile, from, at_from, to, at_to);
         const double of_cap = e.speed / s.cap;
-        const double of_axes = e.ramping ? part_of_axes(s, e.speed, e.acceleration, profile.jerk()) : 0.0;
-        const double worst = std::max(of_cap, of_axes);
-        if (worst > verdict.worst) verdict = {worst, of_axes <= of_cap, i};
+        const double of_limits = e.ramping ? part_of_limits(s, e.speed, e.acceleration, profile.jerk()) : 0.0;
+        const double worst = std::max(of_cap, of_limits);
+        if (worst > verdict.worst) verdict = {worst, of_limits <= of_cap, i};
         from = to;
         at_from = at_to;
         known = true;
@@ -167,14 +170,18 @@ void WindowPlanner::cut(std::span<const Span> spans, std::span<const std::size_t
     runs_.clear();
     std::size_t begin = 0;
     for (std::size_t n = 0; n <= nodes.size(); ++n) {
-        const std::size_t end = n < nodes.size() ? nodes[n] : spans.size();
-        if (end <= begin) continue;
-        SpeedRun run;
-        run.first = begin;
-        run.last = end;
-        set_limits(run, spans);
-        runs_.push_back(run);
-        begin = end;
+        const std::size_t last = n < nodes.size() ? nodes[n] : spans.size();
+        while (begin < last) {
+            // A corner that is not rounded is a node, too.
+            std::size_t end = begin + 1;
+            while (end < last && spans[end].begin_cap >= std::min(spans[end - 1].cap, spans[end].cap)) ++end;
+            SpeedRun run;
+            run.first = begin;
+            run.last = end;
+            set_limits(run, spans);
+            runs_.push_back(run);
+            begin = end;
+        }
     }
 }
 
@@ -191,9 +198,9 @@ bool WindowPlanner::plan_with(std::size_t derating, std::span<const Span> spans,
         speeds_.clear();
         for (const SpeedRun& run : runs_) {
             segments_.push_back({run.length, run.acceleration, run.jerk});
-            const double before =
-                speeds_.empty() ? start_speed
-                                : std::min(end_cap(runs_[speeds_.size() - 1], run.first - 1), end_cap(run, run.first));
+            const double before = speeds_.empty() ? start_speed
+                                                  : std::min({end_cap(runs_[speeds_.size() - 1], run.first - 1),
+                                                              end_cap(run, run.first), spans[run.first].begin_cap});
             speeds_.push_back(before);
         }
         speeds_.push_back(0);

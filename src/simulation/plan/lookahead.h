@@ -62,7 +62,7 @@ private:
     /// The runs between the nodes, to begin with.
     void cut(std::span<const Span> spans, std::span<const std::size_t> nodes);
     void set_limits(SpeedRun& run, std::span<const Span> spans);
-    [[nodiscard]] double part_of_axes(const Span& span, double speed, double acceleration, double jerk) const;
+    [[nodiscard]] double part_of_limits(const Span& span, double speed, double acceleration, double jerk) const;
     [[nodiscard]] Verdict judge(const SpeedRun& run, std::span<const Span> spans) const;
     void divide(const SpeedRun& run, const Verdict& verdict, std::vector<SpeedRun>& into) const;
 

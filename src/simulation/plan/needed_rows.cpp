@@ -29,11 +29,15 @@ constexpr std::uint8_t acceleration_bit(int axis) {
     return static_cast<std::uint8_t>(1U << static_cast<unsigned>(axis));
 }
 constexpr std::uint8_t jerk_bit(int axis) { return static_cast<std::uint8_t>(8U << static_cast<unsigned>(axis)); }
+constexpr std::uint8_t path_bit = 64U;
+constexpr std::uint32_t rows_of_sample = 7;
 
 }  // namespace
 
-/// Whether an axis may be above a part of a limit at a sample of a cell where v², acceleration and jerk along the path are at most these.
+/// Whether an axis or the path may be above a part of a limit at a sample of a cell where v², acceleration and jerk along the path are at most these.
 bool SpeedProblem::may_break(const Cell& cell, double part, double acceleration, double square, double jerk) const {
+    const double limit = part * machine_->path.max_acceleration;
+    if (cell.pace.value * acceleration + cell.pace.slope * square > limit) return true;
     const double speed = std::sqrt(square);
     for (int x = 0; x < 3; ++x) {
         const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(x)];
@@ -72,6 +76,9 @@ void SpeedProblem::need_likely_rows() {
         for (std::uint32_t s = cell.first_sample; s < cell.end_sample; ++s) {
             HeldSample& held_sample = samples_[s];
             const PathSample& sample = held_sample.sample;
+            if (sample.pace.value * steep + std::abs(sample.pace.slope) * speed * speed >
+                machine_->path.max_acceleration)
+                held_sample.needed |= path_bit;
             for (int x = 0; x < 3; ++x) {
                 const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(x)];
                 const double slope = std::abs(sample.slope[x]), bend = std::abs(sample.bend[x]),
@@ -120,6 +127,9 @@ bool SpeedProblem::need_broken_rows(double part) {
             const double slope_here = slope + sample.at * curve;
             const double root = std::sqrt(b_here);
             std::uint8_t broken = 0;
+            if (std::abs(0.5 * sample.pace.value * slope_here + sample.pace.slope * b_here) >
+                part * machine_->path.max_acceleration)
+                broken |= path_bit;
             for (int x = 0; x < 3; ++x) {
                 const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(x)];
                 const double acceleration = std::abs(0.5 * sample.slope[x] * slope_here + sample.bend[x] * b_here);
@@ -181,9 +191,10 @@ void SpeedProblem::make_rows() {
             if (samples_[s].needed == 0) continue;
             const PathSample& sample = samples_[s].sample;
             const Weights w = weights_at(i, sample.at);
+            const std::uint32_t first = 6 + rows_of_sample * (s - cell.first_sample);
             for (int x = 0; x < 3; ++x) {
                 const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(x)];
-                const std::uint32_t number = 6 + 6 * (s - cell.first_sample) + 2 * static_cast<std::uint32_t>(x);
+                const std::uint32_t number = first + 2 * static_cast<std::uint32_t>(x);
                 if ((samples_[s].needed & acceleration_bit(x)) != 0) {
                     add_row(number, Row::axis_acceleration, i, sum(0.5 * sample.slope[x], w.slope, sample.bend[x], w.b),
                             acceleration_share * axis.max_acceleration);
@@ -197,6 +208,10 @@ void SpeedProblem::make_rows() {
                              sum(0.5 * sample.slope[x], w.curve, 1, moving), w.b, limit);
                 }
             }
+            if ((samples_[s].needed & path_bit) != 0)
+                add_row(first + 6, Row::tangential_acceleration, i,
+                        sum(0.5 * sample.pace.value, w.slope, sample.pace.slope, w.b),
+                        acceleration_share * machine_->path.max_acceleration);
         }
     }
 }

@@ -214,6 +214,7 @@ void Refiner::add_part(const CellPart& part, double begin, CellLimits& limits) {
         sample.slope = d.first;
         sample.bend = d.second;
         sample.twist = d.third;
+        sample.pace = pace_of(d);
         curvature = std::max(curvature, d.second.squaredNorm());
         samples_.push_back(sample);
     }

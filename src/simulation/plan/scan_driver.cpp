@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "simulation/path/junction.h"
+#include "simulation/plan/lookahead_window.h"
 
 namespace clsurf {
 namespace {
@@ -14,6 +15,7 @@ constexpr int most_cells_of_span = 16;
 // second derivative, 5 x‴ a + x⁗ v². So much is left at the places, and they are that near to each other:
 constexpr double left_over = 0.005;         ///< of an acceleration
 constexpr double least_acceleration = 0.5;  ///< of an acceleration, whatever is left of it
+constexpr double most_turn = 0.1;           ///< [rad] of the path between two places
 constexpr int most_parts = 8;               ///< of a cell, between its places
 
 }  // namespace
@@ -39,7 +41,7 @@ Vec3 ScanDriver::curving(const Span& span) const {
     return (5 * machine_->path.max_acceleration * span.twist).array() + fastest * fastest * span.fourth;
 }
 
-/// No axis comes to its limit on a span, as long as the acceleration along the path keeps to that of a straight one.
+/// Neither an axis nor the path comes to its limit on a span, as long as the acceleration along the path keeps to that of a straight one.
 bool ScanDriver::gentle(const Span& span) const {
     if (span.straight()) return true;
     if (span.cap < span.free_cap) return false;
@@ -48,17 +50,22 @@ bool ScanDriver::gentle(const Span& span) const {
         if (span.slope[x] * span.acceleration + bending > machine_->axes[static_cast<std::size_t>(x)].max_acceleration)
             return false;
     }
-    return true;
+    return span.greatest_slope * span.acceleration + span.greatest_pace_slope() * span.cap * span.cap <=
+           machine_->path.max_acceleration;
 }
 
 void ScanDriver::divide(const Span& span) {
+    const auto limit_begin = [&] {
+        if (std::isfinite(span.begin_cap)) scan_.limit_begin(span.begin_cap);
+    };
     if (gentle(span)) {
         scan_.add_cell(span.length, span.free_cap, span.acceleration);
+        limit_begin();
         cells_.push_back({&span, 0, span.free_limiting});
         return;
     }
     // From rest to rest there is no way in a single cell.
-    const double fewest = cells_.empty() ? 2 : 1;
+    const double fewest = cells_.empty() || std::isfinite(span.begin_cap) ? 2 : 1;
     const int count =
         static_cast<int>(std::clamp(std::ceil(span.length / (span.cap * machine_->controller.period * periods_a_cell)),
                                     fewest, double{most_cells_of_span}));
@@ -67,6 +74,7 @@ void ScanDriver::divide(const Span& span) {
     double steepest = 0;
     for (int x = 0; x < 3; ++x)
         steepest = std::max(steepest, curving[x] / machine_->axes[static_cast<std::size_t>(x)].max_acceleration);
+    if (span.rounded) steepest = std::max(steepest, curving.norm() / machine_->path.max_acceleration);
     const auto parts = static_cast<std::size_t>(
         std::clamp(std::ceil(length * std::sqrt(steepest / (8 * left_over))), 1.0, double{most_parts}));
     const double part = length / static_cast<double>(parts);
@@ -82,6 +90,7 @@ void ScanDriver::divide(const Span& span) {
         for (std::size_t p = 1; p <= parts; ++p)
             places_[p] = span.derivatives(length * k + part * static_cast<double>(p));
         add_cell({&span, length * k, span.free_limiting}, length, limits);
+        if (k == 0) limit_begin();
     }
 }
 
@@ -107,24 +116,46 @@ void ScanDriver::add_cell(Cell cell, double length, const Vec3& accelerations) {
         for (int x = 0; x < 3; ++x)
             scan_.add_limit(part * static_cast<double>(p), places_[p].first[x], places_[p].second[x], accelerations[x]);
     }
+    if (cell.span->rounded) limit_path(*cell.span, part);
+}
+
+/// The tangential acceleration of the last cell, at places_ that are `part` apart.
+void ScanDriver::limit_path(const Span& span, double part) {
+    const double greatest = machine_->path.max_acceleration;
+    const double held = std::max(greatest - part * part / 8 * curving(span).norm(), least_acceleration * greatest);
+    for (std::size_t p = 0; p < places_.size(); ++p) {
+        const double at = part * static_cast<double>(p);
+        const Pace pace = pace_of(places_[p]);
+        const double bend = places_[p].second.norm();
+        if (bend * part <= most_turn * pace.value) {
+            scan_.add_limit(at, pace.value, pace.slope, held);
+            continue;
+        }
+        // Where the path nearly reverses, |p′|′ changes its sign between two places: its bound counts.
+        scan_.add_limit(at, pace.value, bend, held);
+        scan_.add_limit(at, pace.value, -bend, held);
+    }
 }
 
 void ScanDriver::run_section(const std::function<void()>& report) {
     spans_.clear();
     cells_.clear();
     scan_.clear();
-    const std::int64_t blocks = machine_->controller.lookahead_blocks;
+    LookaheadWindow window(machine_->controller, machine_->controller.lookahead_blocks);
     double speed = 0;
     bool ended = false;
     while (!ended || !cells_.empty()) {
-        while (!ended && (spans_.empty() || spans_.back().base.block - spans_.front().base.block < blocks))
+        window.begin(spans_);
+        while (!ended && (spans_.empty() || window.takes_more(spans_.front(), spans_.back()))) {
             ended = !take_span();
+            if (!ended) window.count(spans_.front(), spans_.back());
+        }
         if (cells_.empty()) return;
         std::size_t count = cells_.size();
         if (!ended) {
-            const std::int64_t middle = cells_.front().span->base.block + std::max<std::int64_t>(1, blocks / 2);
+            const std::int64_t kept = window.first_kept(spans_.front(), spans_.back());
             count = 1;
-            while (count + 1 < cells_.size() && cells_[count].span->base.block < middle) ++count;
+            while (count + 1 < cells_.size() && cells_[count].span->base.block < kept) ++count;
         }
         scan_.plan(speed);
         speed = scan_.speed(count);

@@ -40,6 +40,7 @@ private:
     [[nodiscard]] Vec3 curving(const Span& span) const;
     void divide(const Span& span);
     void add_cell(Cell cell, double length, const Vec3& accelerations);
+    void limit_path(const Span& span, double part);
     void run(std::size_t count);
 
     const Machine* machine_;

@@ -55,6 +55,7 @@ void SpeedProblem::add_sample(const PathSample& sample) {
     cell.slope = cell.slope.cwiseMax(sample.slope.cwiseAbs());
     cell.bend = cell.bend.cwiseMax(sample.bend.cwiseAbs());
     cell.twist = cell.twist.cwiseMax(sample.twist.cwiseAbs());
+    cell.pace = {std::max(cell.pace.value, sample.pace.value), std::max(cell.pace.slope, std::abs(sample.pace.slope))};
 }
 
 void SpeedProblem::drop_back(std::size_t left) {

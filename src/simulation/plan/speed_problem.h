@@ -6,6 +6,7 @@
 //
 //     |x′ b′/2 + x″ b| ≤ A,      |x′ b″/2 + 3/2 x″ b′ + x‴ b| ≤ J/√b.
 //
+// The acceleration along the rounded path has the same form as that of an axis, with |p′| and its derivative.
 // The first limit is linear. The second has a right side that is convex in b: its tangent lies below it, so
 // every step that keeps the linearised limits keeps the limits themselves. The time ∫ du/√b is convex. A
 // primal-dual interior-point method solves the problem. Each c is coupled to two neighbours on either side, so
@@ -18,6 +19,7 @@
 
 #include "core/geometry.h"
 #include "machine/machine.h"
+#include "simulation/path/path_stream.h"
 #include "simulation/plan/limit_rows.h"
 
 namespace clsurf {
@@ -36,6 +38,7 @@ struct CellLimits {
 struct PathSample {
     double at = 0;                                                         ///< arc length after the cell's begin [mm]
     Vec3 slope = Vec3::Zero(), bend = Vec3::Zero(), twist = Vec3::Zero();  ///< x′, x″ [1/mm], x‴ [1/mm²]
+    Pace pace{0, 0};  ///< 0: the cell's own limit of the acceleration is enough
 };
 
 class SpeedProblem {
@@ -71,6 +74,7 @@ private:
         std::uint32_t first_sample = 0, end_sample = 0;
         // Greatest of its samples.
         Vec3 slope = Vec3::Zero(), bend = Vec3::Zero(), twist = Vec3::Zero();
+        Pace pace{0, 0};
         // Rows found to be needed: of the acceleration at the end; of the jerk at begin, middle and end.
         bool acceleration = false;
         std::array<bool, 3> jerk{};
@@ -78,7 +82,9 @@ private:
     };
     struct HeldSample {
         PathSample sample;
-        std::uint8_t needed = 0;  ///< a bit for the acceleration of each axis, then one for the jerk of each
+        std::uint8_t needed =
+            0;  ///< a bit for the acceleration of each axis, then one for the jerk of each, then one for
+                ///< the acceleration of the path
     };
     /// Weights of a cell's three coefficients for b, b′ and b″ at a place.
     struct Weights {

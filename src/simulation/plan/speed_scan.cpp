@@ -21,6 +21,8 @@ void SpeedScan::add_cell(double length, double cap, double acceleration) {
     cells_.push_back({length, cap * cap, acceleration, rows_.size()});
 }
 
+void SpeedScan::limit_begin(double speed) { cells_.back().begin_cap = speed * speed; }
+
 void SpeedScan::add_limit(double at, double slope, double bend, double acceleration) {
     Cell& cell = cells_.back();
     // At its place b is what it is at the begin, and 2 a at.
@@ -55,7 +57,7 @@ SpeedScan::Bounds SpeedScan::bounds(std::size_t cell, double b, double next) con
 /// The lowest a is convex over b, the greatest one concave, and at b = 0 there is room between them: from the
 /// right, Newton's steps on the lines end where they cross.
 double SpeedScan::greatest_before(std::size_t cell, double next) const {
-    double b = cells_[cell].cap;
+    double b = std::min(cells_[cell].cap, cells_[cell].begin_cap);
     if (cell > 0) b = std::min(b, cells_[cell - 1].cap);
     while (true) {
         const Bounds here = bounds(cell, b, next);

@@ -7,6 +7,7 @@
 // feasible: a linear program in two unknowns. In the forward pass each cell uses the largest a that stays
 // below. Time and memory are linear in the cells (Pham and Pham 2018, reachability analysis).
 
+#include <limits>
 #include <vector>
 
 #include "simulation/run/interpolator.h"
@@ -18,6 +19,8 @@ public:
     void clear();
     /// A cell after the last one: its length [mm], greatest speed [mm/s] and acceleration along the path [mm/s²].
     void add_cell(double length, double cap, double acceleration);
+    /// The greatest speed at the begin of the last cell [mm/s].
+    void limit_begin(double speed);
     /// At a place of the last cell, `at` after its begin [mm]: |slope a + bend v²| ≤ acceleration, of one axis;
     /// slope none, bend 1/mm.
     void add_limit(double at, double slope, double bend, double acceleration);
@@ -41,6 +44,7 @@ private:
     struct Cell {
         double length = 0, cap = 0, acceleration = 0;  ///< cap of b [mm²/s²]
         std::size_t end_row = 0;
+        double begin_cap = std::numeric_limits<double>::infinity();  ///< of b at its begin
     };
     /// |a + tilt b| ≤ width, b at the cell's begin.
     struct Row {

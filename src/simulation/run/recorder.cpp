@@ -1,9 +1,12 @@
 #include "simulation/run/recorder.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
+
+#include "machine/limit_table.h"
 
 namespace clsurf {
 
@@ -39,6 +42,7 @@ void Recorder::follow() {
 /// Before the first point the axes stand at the start.
 void Recorder::measure() {
     Vec3 last = last_, last_step = last_step_, last_bend = last_bend_;
+    double last_speed = last_speed_, greatest_change = speed_change_;
     Vec3 greatest = step_, greatest_bend = bend_, greatest_twist = twist_, low = last_, high = last_;
     for (const SimulatedPoint& point : block_) {
         const Vec3 step = point.commanded - last;
@@ -50,6 +54,8 @@ void Recorder::measure() {
         greatest_twist = greatest_twist.cwiseMax(twist.cwiseAbs());
         low = low.cwiseMin(point.commanded);
         high = high.cwiseMax(point.commanded);
+        greatest_change = std::max(greatest_change, std::abs(point.speed - last_speed));
+        last_speed = point.speed;
         last = point.commanded;
         last_step = step;
         last_bend = bend;
@@ -57,6 +63,8 @@ void Recorder::measure() {
     last_ = last;
     last_step_ = last_step;
     last_bend_ = last_bend;
+    last_speed_ = last_speed;
+    speed_change_ = greatest_change;
     step_ = greatest;
     bend_ = greatest_bend;
     twist_ = greatest_twist;
@@ -92,12 +100,19 @@ SimulationSummary Recorder::finish() {
     s.max_axis_speed = step_ * rate_;
     s.max_acceleration = bend_ * (rate_ * rate_);
     s.max_jerk = twist_ * (rate_ * rate_ * rate_);
-    s.limits_ok = s.max_speed <= machine_->path.max_speed * limit_tolerance;
-    for (int i = 0; i < 3; ++i) {
-        const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(i)];
-        s.limits_ok = s.limits_ok && s.max_axis_speed[i] <= axis.max_speed * limit_tolerance;
-        s.limits_ok = s.limits_ok && s.max_acceleration[i] <= axis.max_acceleration * limit_tolerance;
-        s.limits_ok = s.limits_ok && (axis.max_jerk <= 0 || s.max_jerk[i] <= axis.max_jerk * limit_tolerance);
+    s.max_tangential_acceleration = speed_change_ * rate_;
+    s.limits_ok = s.max_speed <= machine_->path.max_speed * limit_tolerance &&
+                  s.max_tangential_acceleration <= machine_->path.max_acceleration * limit_tolerance;
+    const std::array<const Vec3*, 4> greatest{nullptr, &s.max_axis_speed, &s.max_acceleration, &s.max_jerk};
+    // At a corner that is not rounded the speeds of the axes step, which is no excess.
+    const int highest_order = machine_->controller.corner == CornerMode::junction ? 1 : 3;
+    for (const LimitTableRow& row : limit_table) {
+        if (row.of_axis == nullptr || row.order > highest_order) continue;
+        for (std::size_t i = 0; i < machine_->axes.size(); ++i) {
+            const double limit = machine_->axes[i].*row.of_axis;  // 0: none
+            const double value = (*greatest[static_cast<std::size_t>(row.order)])[static_cast<Eigen::Index>(i)];
+            s.limits_ok = s.limits_ok && (limit <= 0 || value <= limit * limit_tolerance);
+        }
     }
     return std::move(s);
 }

@@ -23,11 +23,14 @@ inline constexpr double limit_tolerance = 1.001;  ///< a limit counts as held wi
 /// What a run was like, measured on the points themselves by differences.
 struct SimulationSummary {
     PointIndex points = 0;
-    double duration = 0;   ///< [s]
-    double max_speed = 0;  ///< of the path [mm/s]
+    double duration = 0;                     ///< [s]
+    double max_speed = 0;                    ///< of the path [mm/s]
+    double max_tangential_acceleration = 0;  ///< change of the path speed in a period [mm/s²]
     Vec3 max_axis_speed = Vec3::Zero(), max_acceleration = Vec3::Zero(), max_jerk = Vec3::Zero();
     double path_deviation = 0;  ///< greatest distance that rounding took a point from the path [mm]
-    bool limits_ok = true;      ///< no limit of an axis or the path's speed exceeded by more than limit_tolerance
+    /// No limit of an axis, or of the path's speed or tangential acceleration, is exceeded by more than limit_tolerance.
+    /// Where corners are not rounded (CornerMode::junction), accelerations and jerks of axes do not count.
+    bool limits_ok = true;
     std::array<PointIndex, 10> limited_by{};  ///< points by LimitingFactor
     Diagnostics diagnostics;
 };

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "simulation/plan/lookahead.h"
+#include "simulation/plan/lookahead_window.h"
 #include "simulation/plan/refiner.h"
 #include "simulation/plan/scan_driver.h"
 #include "simulation/run/interpolator.h"
@@ -22,8 +23,8 @@ class Controller {
 public:
     // The blocks that are known ahead are shared between the plan and its refinement.
     Controller(const Machine& machine, PathStream& stream, Interpolator& interpolator, Planning planning)
-        : blocks_(planning == Planning::by_nodes ? machine.controller.lookahead_blocks
-                                                 : (machine.controller.lookahead_blocks + 1) / 2),
+        : known_(machine.controller, planning == Planning::by_nodes ? machine.controller.lookahead_blocks
+                                                                    : (machine.controller.lookahead_blocks + 1) / 2),
           stream_(&stream),
           planner_(machine, planning == Planning::nearly_optimal),
           refiner_(machine, interpolator,
@@ -36,20 +37,23 @@ public:
         double speed = 0;
         bool ended = false;
         while (true) {
-            while (!ended && (window_.empty() || window_.back().base.block - window_.front().base.block < blocks_)) {
-                if (const Span* span = stream_->next())
+            known_.begin(window_.items());
+            while (!ended && (window_.empty() || known_.takes_more(window_.front(), window_.back()))) {
+                if (const Span* span = stream_->next()) {
                     window_.push_back(*span);
-                else
+                    known_.count(window_.front(), *span);
+                } else {
                     ended = true;
+                }
             }
             if (window_.empty()) return;
-            // Half of the window is run, the other half is what it looks ahead.
+            // A part of the window is run, the rest is what it looks ahead.
             std::size_t half = window_.size();
             std::vector<std::size_t> nodes;
             if (!ended) {
-                const std::int64_t middle = window_.front().base.block + std::max(1, blocks_ / 2);
+                const std::int64_t kept = known_.first_kept(window_.front(), window_.back());
                 half = 1;
-                while (half + 1 < window_.size() && window_[half].base.block < middle) ++half;
+                while (half + 1 < window_.size() && window_[half].base.block < kept) ++half;
                 nodes.push_back(half);
             }
             std::size_t ran = 0, done = 0;  // runs, spans
@@ -57,7 +61,7 @@ public:
                 pending_ = planner_.runs();
                 while (ran < pending_.size() && pending_[ran].last <= half) run(pending_[ran++], speed, done);
             } else if (pending_.empty()) {
-                throw std::logic_error(fmt::format("no plan leads from {} mm/s on in the block of line {}", speed,
+                throw std::logic_error(fmt::format("no plan exists from {} mm/s in the block of line {}", speed,
                                                    window_.front().base.line));
             } else {
                 // The plan before goes on: it ends at rest, whatever comes after.
@@ -77,7 +81,7 @@ private:
         done = next.last;
     }
 
-    int blocks_;
+    LookaheadWindow known_;
     PathStream* stream_;
     WindowPlanner planner_;
     Refiner refiner_;
@@ -97,13 +101,15 @@ SimulationSummary simulate(MotionSource& source, const Machine& machine, const V
                            const Progress& progress, Planning planning) {
     if (machine.controller.planner == PlannerKind::trapezoidal)
         return simulate_trapezoids(source, machine, start, sink, progress);
+    const bool scans = planning == Planning::nearly_optimal && jerks_freely(machine);
+    // Where axis speeds step at corners, no acceleration can be carried through them.
+    if (machine.controller.corner == CornerMode::junction) planning = Planning::by_nodes;
     PathStream stream(source, machine, start);
     const Vec3 from = stream.blocks().position();
     Recorder recorder(source.program(), machine, from, sink);
     Interpolator interpolator(machine.controller.period, recorder);
     Controller controller(machine, stream, interpolator, planning);
     ScanDriver scan(machine, stream, interpolator);
-    const bool scans = planning == Planning::nearly_optimal && jerks_freely(machine);
     const auto report = [&] {
         if (progress) progress("plan and interpolate", stream.blocks().done());
     };
