@@ -120,7 +120,7 @@ void read_offsets(const TomlFile& file, const toml::table& table, Kinematics& ki
         const toml::node* node = offsets->get(key);
         if (node == nullptr) continue;
         if (!offset.of_type[static_cast<std::size_t>(kinematics.type)]) {
-            file.fail(*node, fmt::format("'{}' is no offset of a {} machine", key, name_of(kinematics.type)));
+            file.fail(*node, fmt::format("'{}' is not an offset of a {} machine", key, name_of(kinematics.type)));
         }
         kinematics.*offset.vector = vector_of(file, *node, key);
     }

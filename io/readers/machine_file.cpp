@@ -14,7 +14,9 @@
 #include "core/spelling.h"
 #include "core/units.h"
 #include "io/files/toml_table.h"
+#include "io/readers/fidelity_section.h"
 #include "io/readers/kinematics_section.h"
+#include "io/readers/uncertainty_section.h"
 
 namespace clsurf::io {
 namespace {
@@ -74,6 +76,15 @@ void read_trapezoid(const TomlFile& file, const toml::table& table, TrapezoidSet
     take(file, table, "max_feed_override", t.max_feed_override, Low::above_zero, percent, 1000);
 }
 
+/// Rules for corners that are not rounded.
+void read_junction(const TomlFile& file, const toml::table& table, JunctionSettings& junction) {
+    take(file, table, "junction_deviation", junction.deviation, Low::zero);
+    take(file, table, "junction_speed_step", junction.speed_step, Low::zero, 1 / seconds_per_minute);
+    if (junction.deviation == 0 && junction.speed_step == 0)
+        file.fail(*table.get("junction_deviation"),
+                  "corners have no rule: give junction_deviation or junction_speed_step");
+}
+
 void read_controller(const TomlFile& file, const toml::table& table, ControllerSettings& c) {
     take_mode<2>(file, table, "planner", c.planner);
     // A key of the other planner would be without effect.
@@ -83,17 +94,29 @@ void read_controller(const TomlFile& file, const toml::table& table, ControllerS
                     "ramp_frequency", "kink_ratio", "max_feed_override", "blocks_per_period", "cubic_interpolation"});
         read_trapezoid(file, table, c.trapezoid);
     } else {
-        file.allow(table, {"planner", "period", "lookahead_blocks", "corner", "curve", "tolerance", "chord_tolerance",
-                           "block_time", "feed_override"});
+        take_mode<4>(file, table, "corner", c.corner);
+        std::vector<std::string_view> keys{"planner",       "period",         "lookahead_blocks", "lookahead_distance",
+                                           "replan_blocks", "corner",         "block_time",       "whole_periods",
+                                           "feed_override", "chord_tolerance"};
+        if (c.corner == CornerMode::junction) {
+            keys.insert(keys.end(), {"junction_deviation", "junction_speed_step"});
+        } else {
+            keys.insert(keys.end(), {"curve", "tolerance"});
+        }
+        file.allow(table, keys);
+        read_junction(file, table, c.junction);
     }
     take(file, table, "period", c.period, Low::above_zero, 1.0, 1.0);
     if (const auto blocks = file.integer(table, "lookahead_blocks", 2, 100000))
         c.lookahead_blocks = static_cast<int>(*blocks);
-    take_mode<3>(file, table, "corner", c.corner);
     take_mode<3>(file, table, "curve", c.curve);
     take(file, table, "tolerance", c.tolerance, Low::above_zero);
     take(file, table, "chord_tolerance", c.chord_tolerance, Low::above_zero);
     take(file, table, "block_time", c.block_time, Low::zero, 1.0, 1.0);
+    take(file, table, "lookahead_distance", c.lookahead_distance, Low::zero);
+    if (const auto blocks = file.integer(table, "replan_blocks", 0, 100000))
+        c.replan_blocks = static_cast<int>(*blocks);
+    if (const auto whole = file.boolean(table, "whole_periods")) c.whole_periods = *whole;
     constexpr double percent = 0.01;
     take(file, table, "feed_override", c.feed_override, Low::above_zero, percent, 1000);
 }
@@ -156,7 +179,7 @@ void read_axis(const TomlFile& file, const toml::table& table, std::vector<std::
     const std::string_view name = take_word(file, table, "name", names);
     if (name.empty()) file.fail(table, "axis without 'name'");
     if (std::find(seen.begin(), seen.end(), name) != seen.end())
-        file.fail(*table.get("name"), fmt::format("axis '{}' is there twice", name));
+        file.fail(*table.get("name"), fmt::format("axis '{}' is given twice", name));
     seen.push_back(name);
     const auto index = static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
     const bool rotary = index >= axis_names.size();
@@ -213,14 +236,28 @@ std::string controller_text(const ControllerSettings& c) {
         return text + fmt::format("cubic_interpolation = {} # set points on a cubic B-spline\n", t.cubic_interpolation);
     }
     text += fmt::format(
-        "corner = \"{}\"                # rounded inside the tolerance: by arcs, with a jerk limit by a spline; spline: always; stop: exact stop\n",
+        "corner = \"{}\"                # rounded inside the tolerance: by arcs, with a jerk limit by a spline; spline: always; stop: exact stop; junction: passed without rounding\n",
         name_of(c.corner));
-    text += fmt::format("curve = \"{}\"                   # through short lines: akima, least-squares or none\n",
-                        name_of(c.curve));
-    text += tolerance;
+    if (c.corner == CornerMode::junction) {
+        text += fmt::format("junction_deviation = {}      # of the arc whose speed a corner has; 0: no rule\n",
+                            c.junction.deviation);
+        text += fmt::format("junction_speed_step = {}     # of an axis in a corner; 0: no rule\n",
+                            settled_number(c.junction.speed_step * seconds_per_minute));
+    } else {
+        text += fmt::format("curve = \"{}\"                   # through short lines: akima, least-squares or none\n",
+                            name_of(c.curve));
+        text += tolerance;
+    }
     text += fmt::format("chord_tolerance = {}       # of the steps of a period against arcs\n", c.chord_tolerance);
+    text += fmt::format("block_time = {}                # s, a block takes no less; 0: not limited\n", c.block_time);
+    text += fmt::format("whole_periods = {}         # a block at its feed takes a whole number of periods\n",
+                        c.whole_periods);
+    text += fmt::format("lookahead_distance = {}        # known after the block that runs; 0: not limited\n",
+                        c.lookahead_distance);
     return text +
-           fmt::format("block_time = {}                # s, a block takes no less; 0: not limited\n", c.block_time);
+           fmt::format(
+               "replan_blocks = {}             # that run before speeds are planned again; 0: half of those known\n",
+               c.replan_blocks);
 }
 
 /// A text as TOML writes it: in quotes, with what may not stand there escaped.
@@ -236,7 +273,7 @@ std::string quoted(const std::string& text) {
 Machine read_machine(const std::string& path) {
     const TomlFile file(path);
     const toml::table& root = file.root();
-    file.allow(root, {"name", "controller", "path", "axis", "kinematics"});
+    file.allow(root, {"name", "controller", "path", "axis", "kinematics", "fidelity", "uncertainty"});
     Machine machine;
     machine.name = file.text(root, "name").value_or(machine.name);
     if (const toml::table* table = file.section(root, "controller")) read_controller(file, *table, machine.controller);
@@ -250,12 +287,47 @@ Machine read_machine(const std::string& path) {
         machine.kinematics = read_kinematics(file, *table);
         if (trapezoidal && machine.kinematics.has_rotary())
             file.fail(*table, "the trapezoidal planner is for three axes", "planner = \"time-optimal\" runs five");
+        if (machine.controller.corner == CornerMode::junction && machine.kinematics.has_rotary())
+            file.fail(*table, "corner = \"junction\" is for three axes", "corner = \"spline\" runs five");
     }
     if (const toml::array* axes = file.tables(root, "axis")) {
         std::vector<std::string_view> seen;
         for (const toml::node& node : *axes) read_axis(file, *node.as_table(), seen, machine);
     }
+    if (const toml::table* table = file.section(root, "fidelity")) machine.fidelity = read_fidelity(file, *table);
+    if (const toml::array* rows = file.tables(root, "uncertainty")) machine.uncertainty = read_uncertainty(file, *rows);
     return machine;
+}
+
+std::vector<StatedLimit> read_stated_limits(const std::string& path) {
+    const Machine machine = read_machine(path);
+    const TomlFile file(path);
+    std::vector<StatedLimit> limits;
+    const auto add_axis = [&](const toml::table& table, char letter, const MachineAxis& axis) {
+        for (const LimitTableRow& row : limit_table) {
+            if (row.of_axis != nullptr && table.contains(row.key) && axis.*row.of_axis > 0)
+                limits.push_back({row.quantity, letter, axis.*row.of_axis});
+        }
+    };
+    if (const toml::array* axes = file.tables(file.root(), "axis")) {
+        for (const toml::node& node : *axes) {
+            const toml::table& table = *node.as_table();
+            const char letter = file.text(table, "name").value_or(" ").front();
+            if (letter >= 'x') add_axis(table, letter, machine.axes[static_cast<std::size_t>(letter - 'x')]);
+            if (letter == machine.kinematics.tilt.letter) add_axis(table, letter, machine.rotary[0]);
+            if (letter == machine.kinematics.rotation.letter) add_axis(table, letter, machine.rotary[1]);
+        }
+    }
+    if (const toml::table* table = file.section(file.root(), "path")) {
+        for (const LimitTableRow& row : limit_table) {
+            if (row.of_path != nullptr && table->contains(row.key))
+                limits.push_back({row.quantity, 0, machine.path.*row.of_path});
+        }
+    }
+    const toml::table* controller = file.section(file.root(), "controller");
+    if (controller != nullptr && controller->contains("tolerance"))
+        limits.push_back({LimitedQuantity::tolerance, 0, machine.controller.tolerance});
+    return limits;
 }
 
 std::string machine_text(const Machine& machine) {
@@ -277,7 +349,9 @@ std::string machine_text(const Machine& machine) {
         text += axis_text({&k.tilt.letter, 1}, machine.rotary[0], rad_per_deg, jerk);
         text += axis_text({&k.rotation.letter, 1}, machine.rotary[1], rad_per_deg, jerk);
     }
-    return text + kinematics_text(k);
+    text += kinematics_text(k);
+    if (machine.fidelity) text += fidelity_text(*machine.fidelity);
+    return text + uncertainty_text(machine.uncertainty);
 }
 
 }  // namespace clsurf::io

@@ -2,7 +2,9 @@
 // Machine files (docs/formats/machine.md).
 
 #include <string>
+#include <vector>
 
+#include "machine/limit_table.h"
 #include "machine/machine.h"
 
 namespace clsurf::io {
@@ -10,6 +12,10 @@ namespace clsurf::io {
 /// Reads and judges a machine file; keys that are not given keep their default. Throws InputError
 /// with the line: unknown key or axis, wrong type, a limit that is not greater than 0, travel reversed.
 [[nodiscard]] Machine read_machine(const std::string& path);
+
+/// The limits that the file itself states: a key that is not given limits nothing, and neither does a jerk of 0. Those of
+/// axes x, y, z, then of rotary ones, of the path, and the tolerance. Throws as read_machine().
+[[nodiscard]] std::vector<StatedLimit> read_stated_limits(const std::string& path);
 
 /// A machine file with every key.
 [[nodiscard]] std::string machine_text(const Machine& machine);

@@ -6,9 +6,11 @@
 
 #include <fmt/format.h>
 
+#include "core/units.h"
 #include "io/files/json_value.h"
 #include "io/files/toml_table.h"
 #include "io/readers/machine_file.h"
+#include "io/reports/fidelity_report.h"
 
 namespace clsurf::io {
 namespace {
@@ -39,6 +41,75 @@ Json parameter_json(const IdentifiedParameter& p) {
                 {"standard_error", p.standard_error ? number(*p.standard_error) : Json(nullptr)},
                 {"reached", p.reached ? Json(*p.reached) : Json(nullptr)},
                 {"note", p.note}};
+}
+
+Json run_json(const RunFidelity& run) {
+    Json json = fidelity_json(summary_of({&run, 1}, FidelityBasis::test));
+    json.erase("basis");
+    json["runs"] = Json::array({run.log});
+    json["duration_s"] = number(run.duration, 3);
+    json["simulated_duration_s"] = number(run.simulated_duration, 3);
+    json["compared_share"] = number(run.compared, 4);
+    json["defects"] = run.defects_logged;
+    json["simulated_defects"] = run.defects_simulated;
+    return json;
+}
+
+Json runs_json(std::span<const RunFidelity> runs) {
+    Json list = Json::array();
+    for (const RunFidelity& run : runs) list.push_back(run_json(run));
+    return list;
+}
+
+Json fit_json(const Identification& result) {
+    Json fit{{"runs", result.runs}};
+    if (const Json summary = fidelity_json(summary_of(result.fit, FidelityBasis::fit)); !summary.is_null()) {
+        for (const auto& [key, value] : summary.items())
+            if (key != "runs" && key != "basis") fit[key] = value;
+    }
+    fit["each"] = runs_json(result.fit);
+    fit["cross_validation"] = runs_json(result.cross_validation);
+    return fit;
+}
+
+Json rules_json(const Identification& result) {
+    Json list = Json::array();
+    for (const RuleCandidate& c : result.rules)
+        list.push_back(Json{{"rule", c.rule},
+                            {"value", c.value},
+                            {"score", number(c.score, 1)},
+                            {"speed_error_mm_min", number(c.speed_error * seconds_per_minute, 2)},
+                            {"chosen", c.chosen}});
+    return list;
+}
+
+std::string rules_text(const Identification& result) {
+    if (result.rules.empty()) return {};
+    std::string text = fmt::format("\n{:<24} {:<32} {:>12} {:>18}\n", "rule", "value", "score", "speed, mm/min");
+    for (const RuleCandidate& c : result.rules)
+        text += fmt::format("{:<24} {:<32} {:>12.1f} {:>18.2f}{}\n", c.rule, c.value, c.score,
+                            c.speed_error * seconds_per_minute, c.chosen ? "  chosen" : "");
+    return text;
+}
+
+std::string runs_text(const char* title, std::span<const RunFidelity> runs) {
+    if (runs.empty()) return {};
+    std::string text = fmt::format("\n{}\n", title);
+    const auto share = [](const std::optional<double>& value) { return value ? fmt::format("{:.2f}", *value) : "-"; };
+    for (const RunFidelity& run : runs) {
+        text += fmt::format(
+            "  {}: time {:.3f} s, simulated {:.3f} s ({:+.2f} %); speed |difference| 50 % {:.1f}, 95 % {:.1f} of {:.0f} mm/min",
+            run.log, run.duration, run.simulated_duration, run.time_error * 100,
+            run.speed_error_p50 * seconds_per_minute, run.speed_error_p95 * seconds_per_minute,
+            run.usual_speed * seconds_per_minute);
+        if (run.following_error_p95)
+            text += fmt::format("; following error 95 % {:.2f} of {:.1f} µm", *run.following_error_p95 * 1000,
+                                run.following_error.value_or(0) * 1000);
+        text += fmt::format(
+            "; defects {} in the log, {} simulated, recall {}, precision {}; {:.1f} % of the path compared\n",
+            run.defects_logged, run.defects_simulated, share(run.recall()), share(run.precision()), run.compared * 100);
+    }
+    return text;
 }
 
 /// Follows the sections of a machine file's text.
@@ -88,6 +159,10 @@ std::string identification_text(const Identification& result) {
         text.erase(text.find_last_not_of(" \n") + 1);
         text += '\n';
     }
+    text += rules_text(result);
+    text += runs_text("fitted runs", result.fit);
+    text += runs_text("cross-validation: each run left out of the fit", result.cross_validation);
+    text += runs_text("test runs, not used for the fit", result.tests);
     if (result.unidentified.empty()) return text;
     text += "\nnot identified\n";
     // One line a reason and axis.
@@ -108,7 +183,9 @@ std::string identification_json(const Identification& result, const Diagnostics&
         missing.push_back(Json{{"name", u.name}, {"axis", u.axis}, {"reason", u.reason}});
     return dump(Json{{"machine", machine_json(result.machine)},
                      {"parameters", std::move(parameters)},
-                     {"fit", Json{{"runs", result.runs}}},
+                     {"rules", rules_json(result)},
+                     {"fit", fit_json(result)},
+                     {"tests", runs_json(result.tests)},
                      {"unidentified", std::move(missing)},
                      {"diagnostics", list(diagnostics)}});
 }
@@ -116,8 +193,7 @@ std::string identification_json(const Identification& result, const Diagnostics&
 std::string identified_machine_text(const Identification& result) {
     std::string text = "# Identified by clsurf from:\n";
     for (const std::string& run : result.runs) text += "#   " + run + "\n";
-    text +=
-        "# Behind a value: its standard error and the evidence. Values without one are defaults, or as they were given.\n";
+    text += "# After a value: its standard error and the evidence. Values without them are defaults or were given.\n";
     SectionReader sections;
     std::istringstream lines(machine_text(result.machine));
     for (std::string line; std::getline(lines, line);) text += annotated(line, sections.after(line), result) + "\n";

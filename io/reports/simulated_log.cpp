@@ -4,6 +4,7 @@
 
 #include "core/units.h"
 #include "io/files/json_value.h"
+#include "io/reports/fidelity_report.h"
 
 namespace clsurf::io {
 namespace {
@@ -97,14 +98,16 @@ Json json_of(const SimulationSummary& summary) {
 
 }  // namespace
 
-std::string simulation_json(const SimulationSummary& summary, const Diagnostics& diagnostics) {
+std::string simulation_json(const SimulationSummary& summary, const Diagnostics& diagnostics,
+                            const std::optional<Fidelity>& fidelity) {
     Json json = json_of(summary);
+    json["fidelity"] = fidelity_json(fidelity);
     json["diagnostics"] = list(diagnostics);
     return dump(json);
 }
 
 std::string simulation_json(const FiveAxisSummary& summary, const Kinematics& kinematics,
-                            const Diagnostics& diagnostics) {
+                            const Diagnostics& diagnostics, const std::optional<Fidelity>& fidelity) {
     Json json = json_of(summary.run);
     const std::array<std::string, 2> letters{std::string(1, kinematics.tilt.letter),
                                              std::string(1, kinematics.rotation.letter)};
@@ -115,6 +118,7 @@ std::string simulation_json(const FiveAxisSummary& summary, const Kinematics& ki
     }
     json["orientation_error_deg"] = number(summary.orientation_error * deg_per_rad);
     json["rounds"] = summary.rounds;
+    json["fidelity"] = fidelity_json(fidelity);
     json["diagnostics"] = list(diagnostics);
     return dump(json);
 }

@@ -1,10 +1,12 @@
 #pragma once
 // What the simulator makes, as a BIIP log and as a JSON report.
 
+#include <optional>
 #include <span>
 #include <string>
 
 #include "io/formats/biip.h"
+#include "machine/fidelity.h"
 #include "simulation/run/five_axis_simulator.h"
 #include "simulation/run/simulator.h"
 
@@ -29,9 +31,10 @@ private:
 
 /// With rotary axes: theirs beside x, y, z in deg, and orientation_error_deg, rounds.
 [[nodiscard]] std::string simulation_json(const FiveAxisSummary& summary, const Kinematics& kinematics,
-                                          const Diagnostics& diagnostics);
+                                          const Diagnostics& diagnostics, const std::optional<Fidelity>& fidelity = {});
 
-/// The keys: duration_s, points, max, path_deviation_mm, limits_ok, points_ruled_by, diagnostics.
-[[nodiscard]] std::string simulation_json(const SimulationSummary& summary, const Diagnostics& diagnostics);
+/// The keys: duration_s, points, max, path_deviation_mm, limits_ok, points_ruled_by, fidelity, diagnostics.
+[[nodiscard]] std::string simulation_json(const SimulationSummary& summary, const Diagnostics& diagnostics,
+                                          const std::optional<Fidelity>& fidelity = {});
 
 }  // namespace clsurf::io

@@ -32,26 +32,48 @@ std::vector<RunFiles> read_runs(const po::variables_map& values) {
     return runs;
 }
 
-ExitCode run_identify(const po::variables_map& values) {
-    const std::vector<RunFiles> files = read_runs(values);
-    const std::string output = required(values, "output");
-    const bool json = read_json_beside_output(values);
-    PartOptions options = read_part_options(values);
-    const Machine known = options.machine.empty() ? Machine{} : io::read_machine(options.machine);
-    io::AtomicFile file(output);
-    StageClock clock(read_common(values), 4 * static_cast<int>(files.size()) + 1);
+/// --test PROGRAM LOG, as often as wanted.
+std::vector<RunFiles> read_tests(const po::variables_map& values) {
+    std::vector<RunFiles> runs;
+    if (values.count("test") == 0) return runs;
+    const auto& words = values["test"].as<std::vector<std::string>>();
+    if (words.size() % 2 != 0)
+        throw UsageError(fmt::format("--test '{}' has no log", words.back()),
+                         "--test is followed by a program and its log: --test c.nc c.biip");
+    for (std::size_t k = 0; k < words.size(); k += 2) runs.push_back({words[k], words[k + 1]});
+    return runs;
+}
+
+std::vector<Part> load_parts(const std::vector<RunFiles>& files, PartOptions options, StageClock& clock,
+                             Diagnostics& diagnostics) {
     std::vector<Part> parts;
-    Diagnostics diagnostics;
     for (const RunFiles& run : files) {
         options.program = run.program;
         options.log = run.log;
         parts.push_back(load_part(options, clock));
         diagnostics.append(parts.back().diagnostics);
     }
-    std::vector<IdentifyRun> runs;
-    for (const Part& part : parts) runs.push_back({&part.log, part.lines.get()});
+    return parts;
+}
+
+ExitCode run_identify(const po::variables_map& values) {
+    const std::vector<RunFiles> files = read_runs(values);
+    const std::string output = required(values, "output");
+    const bool json = read_json_beside_output(values);
+    const std::vector<RunFiles> test_files = read_tests(values);
+    const PartOptions options = read_part_options(values);
+    const Machine known = options.machine.empty() ? Machine{} : io::read_machine(options.machine);
+    io::AtomicFile file(output);
+    StageClock clock(read_common(values), 4 * static_cast<int>(files.size() + test_files.size()) + 3);
+    Diagnostics diagnostics;
+    std::vector<Part> parts = load_parts(files, options, clock, diagnostics);
+    const std::vector<Part> tests = load_parts(test_files, options, clock, diagnostics);
     clock.begin("identify");
-    const Identification result = identify(runs, known);
+    Identification result = identify_parts(parts, known);
+    clock.begin("cross-validate");
+    cross_validate(parts, known, result);
+    clock.begin("test");
+    test_runs(tests, result);
     clock.end();
     file.write(io::identified_machine_text(result));
     file.commit();
@@ -71,21 +93,24 @@ Subcommand identify_subcommand() {
     return {
         .name = "identify",
         .arguments = "PROGRAM LOG [PROGRAM LOG]… -o machine.toml",
-        .summary = "a machine file from recorded runs: servo loops and limits, with the evidence",
+        .summary = "a machine file from recorded runs: servo loops, limits and planner rules, with the evidence",
         .description =
             "Fits the servo loop of each axis to the commanded and the fed-back positions of one or more runs: position gain, velocity\n"
             "feed-forward, time constant of the velocity loop, dead time, friction, backlash and resolution. The loop is that of simulate.\n"
             "Each value has a standard error. Friction, backlash and dead time are in the file only if an information criterion (BIC) falls\n"
             "with them. The limits of speed, acceleration and jerk come from the commanded positions: a limit is reached where the motion\n"
             "stays at it in several places; otherwise the value is a lower bound, and the file keeps a greater one. What the runs do not determine is listed with the reason, and keeps its default or the value of --machine.\n"
+            "The rules of the planner are selected by simulation: each value is scored by the speed along the path. The fidelity of the result\n"
+            "is measured on the runs of --test, else by leaving out one run after the other, else on the fitted run, and is kept in the file.\n"
             "Exit code 3 says that nothing could be identified.\n\n"
             "  clsurf identify part.nc run.biip -o mill.toml\n"
-            "  clsurf identify a.nc a.biip b.nc b.biip --machine five_axis.toml -o mill.toml --json",
+            "  clsurf identify a.nc a.biip b.nc b.biip --machine five_axis.toml -o mill.toml --test c.nc c.biip --json",
         .declare =
             [](po::options_description& options) {
                 // clang-format off
                 options.add_options()
-                    ("output,o", po::value<std::string>()->value_name("FILE"), "the machine file");
+                    ("output,o", po::value<std::string>()->value_name("FILE"), "the machine file")
+                    ("test", po::value<std::vector<std::string>>()->multitoken()->value_name("PROGRAM LOG"), "a run that is not used for the fit but compared with its simulation; repeatable");
                 // clang-format on
                 declare_part(options);
                 declare_json(options);

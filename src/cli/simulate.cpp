@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/controller_runs.h"
 #include "cli/options.h"
 #include "cli/output_format.h"
 #include "cli/progress_bar.h"
@@ -14,6 +15,7 @@
 #include "io/formats/program_identity.h"
 #include "io/readers/machine_file.h"
 #include "io/readers/program_file.h"
+#include "io/reports/fidelity_report.h"
 #include "io/reports/simulated_log.h"
 #include "pipeline/simulated_log.h"
 
@@ -32,10 +34,12 @@ ExitCode run_five_axis(const Program& program, const Machine& machine, const Vec
     Diagnostics diagnostics = program.diagnostics;
     diagnostics.append(summary.run.diagnostics);
     if (read_json(values)) {
-        write_to_stdout(io::simulation_json(summary, machine.kinematics, diagnostics));
+        write_to_stdout(io::simulation_json(summary, machine.kinematics, diagnostics, machine.fidelity));
     } else {
         print(diagnostics, values);
-        write_answer(summary_text(summary.run) + rotary_text(summary, machine.kinematics), values);
+        write_answer(
+            summary_text(summary.run) + rotary_text(summary, machine.kinematics) + io::fidelity_line(machine.fidelity),
+            values);
     }
     return ExitCode::done;
 }
@@ -44,6 +48,8 @@ ExitCode run_simulate(const po::variables_map& values) {
     const std::string output = required(values, "output");
     (void)output_format(output, log_formats());
     (void)read_json_beside_output(values);
+    if (const std::optional<ControllerCommand> command = read_controller(values))
+        return record_on_controller(*command, required(values, "PROGRAM"), output, values);
     const Machine machine =
         values.count("machine") > 0 ? io::read_machine(values["machine"].as<std::string>()) : Machine{};
     const Vec3 start = read_start(values);
@@ -83,10 +89,10 @@ ExitCode run_simulate(const po::variables_map& values) {
     Diagnostics diagnostics = program->program().diagnostics;
     diagnostics.append(summary.diagnostics);
     if (read_json(values)) {
-        write_to_stdout(io::simulation_json(summary, diagnostics));
+        write_to_stdout(io::simulation_json(summary, diagnostics, machine.fidelity));
     } else {
         print(diagnostics, values);
-        write_answer(summary_text(summary), values);
+        write_answer(summary_text(summary) + io::fidelity_line(machine.fidelity), values);
     }
     return ExitCode::done;
 }
@@ -107,8 +113,10 @@ Subcommand simulate_subcommand() {
             "Positions are in machine coordinates: work offsets that the program sets are used, all others\n"
             "are zero. With a machine file that has rotary axes, the log has all five axes, --work-offset is\n"
             "the position of the program's zero with both angles at zero, and blocks that an axis cannot\n"
-            "follow run slower.\n\n"
+            "follow run slower. With --controller, your own controller runs the program instead, and its log is\n"
+            "kept.\n\n"
             "  clsurf simulate part.nc --machine mill.toml -o run.biip\n"
+            "  clsurf simulate part.nc --controller 'run_on_kernel.sh {program} {log}' -o run.biip\n"
             "  clsurf render part.nc run.biip --color limit -o why_slow.png",
         .declare =
             [](po::options_description& options) {
@@ -117,6 +125,7 @@ Subcommand simulate_subcommand() {
                     ("output,o", po::value<std::string>()->value_name("FILE"), "the BIIP log");
                 // clang-format on
                 declare_simulation(options);
+                declare_controller(options);
                 declare_work_offset(options);
                 declare_json(options);
                 declare_program_options(options);

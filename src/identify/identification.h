@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/diagnostic.h"
+#include "identify/run_fidelity.h"
 #include "machine/machine.h"
 
 namespace clsurf {
@@ -28,11 +29,26 @@ struct UnidentifiedParameter {
     std::string reason;
 };
 
+/// A value that a rule of the planner may have, simulated and compared with the runs.
+struct RuleCandidate {
+    std::string rule;        ///< "planner", "arc_blends", "lookahead_blocks" …
+    std::string value;       ///< as a machine file has it
+    double score = 0;        ///< information criterion of the speed along the path; the lowest explains the runs best
+    double speed_error = 0;  ///< [mm/s] mean |difference| of the speed
+    bool chosen = false;
+    bool equal = false;  ///< explains the runs about as well as the best one
+    std::string axis{};  ///< "controller", "path"
+};
+
 struct Identification {
     Machine machine;  ///< what was known before, with the identified values in it
     std::vector<IdentifiedParameter> parameters;
     std::vector<UnidentifiedParameter> unidentified;
-    std::vector<std::string> runs;  ///< the logs, as the user named them
+    std::vector<RuleCandidate> rules;
+    std::vector<RunFidelity> fit;               ///< of the runs, each simulated with the machine
+    std::vector<RunFidelity> tests;             ///< of runs that were not used
+    std::vector<RunFidelity> cross_validation;  ///< of the runs, each simulated with what the others gave
+    std::vector<std::string> runs;              ///< the logs, as the user named them
     Diagnostics diagnostics;
 
     [[nodiscard]] const IdentifiedParameter* find(std::string_view name, std::string_view axis) const;

@@ -1,17 +1,18 @@
 #include "identify/identify.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "core/error.h"
 #include "identify/limit_parameters.h"
+#include "identify/parameter_uncertainty.h"
+#include "identify/planner_rules.h"
 #include "identify/servo_parameters.h"
 
 namespace clsurf {
 namespace {
-
-constexpr const char* rules_are_given = "rules of the planner are not fitted";
 
 /// Puts the period of the runs into the machine.
 void identify_period(std::span<const IdentifyRun> runs, Identification& result) {
@@ -49,10 +50,53 @@ Identification identify(std::span<const IdentifyRun> runs, const Machine& known)
         throw InputError(Place::of_file(runs.front().log->name), "nothing can be identified: " + reason,
                          "needed are commanded and fed-back positions (cmd.x, fb.x) of a run with changes of speed");
     }
-    for (const char* key : {"lookahead_blocks", "corner", "curve", "tolerance", "chord_tolerance", "block_time"})
-        result.unidentified.push_back({key, "controller", rules_are_given});
-    result.unidentified.push_back({"max_normal_acceleration", "path", rules_are_given});
+    result.machine.uncertainty = uncertainty_of(result);
     return result;
+}
+
+Identification identify_parts(std::span<const Part> parts, const Machine& known) {
+    std::vector<IdentifyRun> runs;
+    for (const Part& part : parts) runs.push_back({&part.log, part.lines.get()});
+    Identification result = identify(runs, known);
+    if (const std::string reason = why_not_simulated(parts, known); !reason.empty()) {
+        for (const char* key : {"planner", "lookahead_blocks", "corner", "curve", "tolerance", "block_time"})
+            result.unidentified.push_back({key, "controller", reason});
+        return result;
+    }
+    std::vector<RecordedRun> recorded;
+    for (const Part& part : parts) recorded.emplace_back(part);
+    identify_rules(recorded, result);
+    for (const RecordedRun& run : recorded) result.fit.push_back(run.fidelity(result.machine));
+    result.machine.fidelity = summary_of(result.fit, FidelityBasis::fit);
+    result.machine.uncertainty = uncertainty_of(result);
+    return result;
+}
+
+std::string why_not_simulated(std::span<const Part> parts, const Machine& known) {
+    if (known.kinematics.has_rotary()) return "runs of five axes are not compared with simulations";
+    for (const Part& part : parts) {
+        if (!part.log.has(Role::commanded)) return part.log.name + " has no commanded positions";
+        if (part.program.motions.size() == 0) return part.log.name + " has no program";
+    }
+    return {};
+}
+
+void cross_validate(std::vector<Part>& parts, const Machine& known, Identification& result) {
+    if (parts.size() < 2 || !why_not_simulated(parts, known).empty()) return;
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+        std::rotate(parts.begin(), parts.begin() + 1, parts.end());  // the last one is left out
+        const Identification others = identify_parts(std::span(parts).first(parts.size() - 1), known);
+        result.cross_validation.push_back(RecordedRun(parts.back()).fidelity(others.machine));
+    }
+    result.machine.fidelity = summary_of(result.cross_validation, FidelityBasis::cross_validation);
+}
+
+void test_runs(std::span<const Part> parts, Identification& result) {
+    if (parts.empty()) return;
+    if (const std::string reason = why_not_simulated(parts, result.machine); !reason.empty())
+        throw InputError(Place::of_file(parts.front().log.name), "cannot be a test: " + reason);
+    for (const Part& part : parts) result.tests.push_back(RecordedRun(part).fidelity(result.machine));
+    result.machine.fidelity = summary_of(result.tests, FidelityBasis::test);
 }
 
 }  // namespace clsurf

@@ -10,6 +10,7 @@
 #include "identify/axis_record.h"
 #include "identify/plateaus.h"
 #include "log/quantum.h"
+#include "machine/limit_table.h"
 
 namespace clsurf {
 namespace {
@@ -146,10 +147,18 @@ struct LimitKind {
     double MachineAxis::*of_axis;
     double PathLimits::*of_path;
 };
+
+constexpr LimitKind kind_of(LimitedQuantity of_axis, LimitedQuantity of_path, PointIndex least, const char* unit,
+                            double margin) {
+    const LimitTableRow& axis = row_of(of_axis);
+    return {axis.key.data(),      axis.order, least,        unit,
+            axis.unit.per_inside, margin,     axis.of_axis, row_of(of_path).of_path};
+}
+
 constexpr std::array limit_kinds{
-    LimitKind{"max_speed", 1, 10, "/min", seconds_per_minute, 1e-4, &MachineAxis::max_speed, &PathLimits::max_speed},
-    LimitKind{"max_acceleration", 2, 5, "/s²", 1, 5e-4, &MachineAxis::max_acceleration, &PathLimits::max_acceleration},
-    LimitKind{"max_jerk", 3, 5, "/s³", 1, 5e-3, &MachineAxis::max_jerk, &PathLimits::max_jerk},
+    kind_of(LimitedQuantity::speed, LimitedQuantity::path_speed, 10, "/min", 1e-4),
+    kind_of(LimitedQuantity::acceleration, LimitedQuantity::tangential_acceleration, 5, "/s²", 5e-4),
+    kind_of(LimitedQuantity::jerk, LimitedQuantity::path_jerk, 5, "/s³", 5e-3),
 };
 
 MachineAxis* axis_of(Machine& machine, char letter) {
@@ -234,7 +243,7 @@ private:
     }
 
     /// Whether the quantity is at its level where no other limit explains it. On an axis-parallel path those of axis and path
-    /// cannot be told apart: it is then taken as the axis'.
+    /// cannot be distinguished: the limit is then assigned to the axis.
     [[nodiscard]] bool holds_alone(std::size_t q) const {
         if (!levels_[q]) return false;
         std::size_t alone = 0;

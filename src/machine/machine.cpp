@@ -3,7 +3,7 @@
 namespace clsurf {
 
 std::string_view name_of(CornerMode mode) {
-    constexpr std::array<std::string_view, 3> names{"spline", "arc", "stop"};
+    constexpr std::array<std::string_view, 4> names{"spline", "arc", "stop", "junction"};
     return names[static_cast<std::size_t>(mode)];
 }
 

@@ -3,11 +3,15 @@
 // defaults of `clsurf machine --defaults`; io/readers/machine_file.h reads it from TOML.
 
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/units.h"
+#include "machine/fidelity.h"
 #include "machine/kinematics.h"
+#include "machine/uncertainty.h"
 
 namespace clsurf {
 
@@ -33,9 +37,10 @@ struct MachineAxis {
 };
 
 enum class CornerMode : unsigned char {
-    spline,  ///< rounded inside the tolerance by a curve of continuous curvature
-    arc,     ///< rounded inside the tolerance by circular arcs; as `spline` where an axis has a jerk limit
-    stop,    ///< exact stop at every corner
+    spline,    ///< rounded inside the tolerance by a curve of continuous curvature
+    arc,       ///< rounded inside the tolerance by circular arcs; as `spline` where an axis has a jerk limit
+    stop,      ///< exact stop at every corner
+    junction,  ///< not rounded: passed at the speed of JunctionSettings, so that axis speeds step
 };
 
 /// What takes the place of short lines.
@@ -68,16 +73,26 @@ struct TrapezoidSettings {
     bool cubic_interpolation = true;  ///< set points are the joints of a cubic B-spline through three periods
 };
 
+/// Rules for the speed at a corner that is passed without rounding; the lowest counts.
+struct JunctionSettings {
+    double deviation = 0.01;  ///< of the corner from the arc whose normal acceleration counts [mm]; 0: no rule
+    double speed_step = 0;    ///< greatest step of an axis' speed [mm/s]; 0: no rule
+};
+
 struct ControllerSettings {
     PlannerKind planner = PlannerKind::time_optimal;
     TrapezoidSettings trapezoid;
     double period = 0.001;  ///< interpolation period [s]
     int lookahead_blocks = 500;
+    double lookahead_distance = 0;  ///< known after the block that runs [mm]; 0: not limited
+    int replan_blocks = 0;          ///< that run before speeds are planned again; 0: half of those known
     CornerMode corner = CornerMode::arc;
+    JunctionSettings junction;
     CurveMode curve = CurveMode::none;
     double tolerance = 0.01;         ///< of corners and path [mm]; G64 P replaces it
     double chord_tolerance = 0.002;  ///< of the steps of a period against arcs [mm]
     double block_time = 0;           ///< a block takes no less [s]: what the controller needs to prepare one
+    bool whole_periods = false;      ///< feeds are lowered so that a block at its feed takes a whole number of periods
     double feed_override = 1;        ///< of programmed feeds, not of rapids
 };
 
@@ -110,6 +125,8 @@ struct Machine {
     std::array<MachineAxis, 3> axes;  ///< x, y, z
     Kinematics kinematics;
     std::array<MachineAxis, 2> rotary{default_rotary(120), default_rotary(36000)};  ///< tilt, rotation
+    std::optional<Fidelity> fidelity;                                               ///< measured on recorded runs
+    std::vector<ParameterUncertainty> uncertainty;                                  ///< empty: the file says nothing
 };
 
 }  // namespace clsurf

@@ -40,3 +40,19 @@ clsurf_cli_test(NAME identify_without_a_log ARGS identify ${bottle} @DATA@/progr
 clsurf_cli_test(NAME identify_without_output ARGS identify ${bottle} EXIT 2 STDERR "output")
 clsurf_cli_test(NAME identify_does_not_replace_its_log SETUP "cp @LOGS@/bottle_uneven.biip r.biip" ARGS identify @DATA@/programs/bottle_uneven.nc r.biip -o r.biip EXIT 2 STDERR "is an input|input")
 clsurf_cli_test(NAME machine_dead_time_too_long SETUP "printf '[[axis]]\\nname = \"x\"\\n[axis.servo]\\ndead_time = 0.2\\n' > m.toml" ARGS machine m.toml EXIT 3 STDERR "'dead_time' is 0.2, expected 0 or more, at most 0.1")
+
+# The planner's rules: a kernel's log, and what the machine is worth on a run that the fit has not seen.
+clsurf_cli_test(NAME identify_selects_the_rules_of_a_kernel ARGS identify ${bottle} -o m.toml
+  STDOUT "planner +trapezoidal, arc blends .*chosen" "fitted runs" "the runs do not tell apart .*lookahead_blocks")
+clsurf_cli_test(NAME identify_tests_another_run ARGS identify ${bottle} -o m.toml --test ${dome}
+  STDOUT "test runs, not used for the fit" "dome_loops.biip: time 18.206 s, simulated 18.20[0-9]+ s" "recall 1.00, precision 1.00")
+clsurf_cli_test(NAME identify_leaves_out_each_run ARGS identify ${bottle} ${dome} -o m.toml STDOUT "cross-validation: each run left out of the fit")
+clsurf_cli_test(NAME identify_json_of_rules_and_tests ARGS identify ${bottle} -o m.toml --test ${dome} --json
+  STDOUT "\"rules\"" "\"chosen\": true" "\"fit\"" "\"time_error_percent\"" "\"speed_error_p95_mm_min\"" "\"following_error_p95_um\"" "\"defects_recall\"" "\"tests\"")
+clsurf_cli_test(NAME identify_selects_the_rules_of_a_simulation
+  SETUP "$CLSURF simulate @DATA@/programs/dome_loops.nc --machine @DATA@/machines/three_axis_mill.toml -o r.biip"
+  ARGS identify @DATA@/programs/dome_loops.nc r.biip -o m.toml STDOUT "planner +time-optimal, corner (arc|spline) .*chosen")
+clsurf_cli_test(NAME identify_test_without_a_log ARGS identify ${bottle} -o m.toml --test @DATA@/programs/dome_loops.nc EXIT 2 STDERR "--test .*dome_loops.nc' has no log")
+clsurf_cli_test(NAME simulate_quotes_the_fidelity
+  SETUP "$CLSURF identify @DATA@/programs/bottle_uneven.nc @LOGS@/bottle_uneven.biip -o m.toml --test @DATA@/programs/dome_loops.nc @LOGS@/dome_loops.biip -q"
+  ARGS simulate @DATA@/programs/bottle_uneven.nc --machine m.toml -o r.biip STDOUT "Fidelity of this machine file .runs not used for the fit: 1.")
