@@ -19,7 +19,7 @@ struct SectionVertices {
 };
 
 /// The passes with the steps sideways between closed loops as links of their own: bands end there, so that how
-/// fast such a step was made is not drawn into the passes beside it.
+/// fast such a step was made is not drawn into the adjacent passes.
 [[nodiscard]] Passes sections_of_path(const ClSurface& surface);
 
 /// The vertices of points, rising: one each; those of rapids are joined to nothing. Domain: the ends of

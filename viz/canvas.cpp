@@ -34,8 +34,10 @@
 namespace clsurf::viz {
 namespace {
 
-constexpr int flat_layers = 4;  ///< quads, lines under others, lines, texts
-constexpr int dpi = 72;         // one point of text is one pixel
+constexpr std::array levels{Level::area, Level::mark, Level::inlay,   Level::edge,
+                            Level::line, Level::dot,  Level::dot_fill};
+constexpr int flat_layers = 2 + static_cast<int>(levels.size());  ///< quads, lines by level, texts
+constexpr int dpi = 72;                                           // one point of text is one pixel
 
 /// Our 32-bit vertex numbers as VTK cells of `size` vertices, without a copy. The column must outlive it.
 vtkNew<vtkCellArray> cells(const Column<std::uint32_t>& vertices, int size) {
@@ -51,20 +53,77 @@ vtkNew<vtkCellArray> cells(const Column<std::uint32_t>& vertices, int size) {
     return array;
 }
 
-/// A ramp as a texture of one row. VTK multiplies it with the vertex colours.
-vtkSmartPointer<vtkTexture> texture_of(const std::vector<Rgb>& ramp, bool stepped) {
+/// How far a lighter tone is from the colour to the lightest one of the ramp.
+constexpr double paleness = 0.6;
+constexpr double hatch_period = 8;  ///< [px] from one line of a hatching to the next, across and up
+constexpr int hatch_texels = 8;     ///< of which one is the line
+
+/// Rows of colours as a texture. VTK multiplies it with the vertex colours.
+vtkSmartPointer<vtkTexture> texture_of(const std::vector<std::vector<Rgb>>& rows, bool stepped, bool repeated) {
     vtkNew<vtkImageData> image;
-    image->SetDimensions(static_cast<int>(ramp.size()), 1, 1);
+    image->SetDimensions(static_cast<int>(rows.front().size()), static_cast<int>(rows.size()), 1);
     image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
     auto* out = static_cast<unsigned char*>(image->GetScalarPointer());
-    for (const Rgb& rgb : ramp) out = std::copy(rgb.begin(), rgb.end(), out);
+    for (const std::vector<Rgb>& row : rows) {
+        for (const Rgb& rgb : row) out = std::copy(rgb.begin(), rgb.end(), out);
+    }
     auto texture = vtkSmartPointer<vtkTexture>::New();
     texture->SetInputData(image);
     texture->SetColorModeToDirectScalars();
-    texture->SetWrap(vtkTexture::ClampToEdge);
+    texture->SetWrap(repeated ? vtkTexture::Repeat : vtkTexture::ClampToEdge);
     texture->MipmapOff();
     texture->SetInterpolate(stepped ? 0 : 1);
     return texture;
+}
+
+/// A ramp, and above it the same in a lighter tone.
+vtkSmartPointer<vtkTexture> texture_of_ramp(const MeshPanel& panel) {
+    const auto lightness = [](const Rgb& c) { return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2]; };
+    const Rgb lightest = *std::max_element(panel.ramp.begin(), panel.ramp.end(),
+                                           [&](const Rgb& a, const Rgb& b) { return lightness(a) < lightness(b); });
+    std::vector<Rgb> pale = panel.ramp;
+    for (Rgb& rgb : pale) {
+        for (std::size_t k = 0; k < 3; ++k)
+            rgb[k] = static_cast<std::uint8_t>(std::lround(rgb[k] + paleness * (lightest[k] - rgb[k])));
+    }
+    return texture_of({panel.ramp, pale}, panel.stepped, false);
+}
+
+vtkSmartPointer<vtkTexture> texture_of_hatch(const MeshPanel& panel) {
+    std::vector<Rgb> texels(hatch_texels, panel.bare_ground);
+    texels.front() = panel.bare_colour;
+    return texture_of({texels}, false, true);
+}
+
+vtkSmartPointer<vtkFloatArray> texture_places(vtkIdType vertices) {
+    auto places = vtkSmartPointer<vtkFloatArray>::New();
+    places->SetNumberOfComponents(2);
+    places->SetNumberOfTuples(vertices);
+    return places;
+}
+
+/// Along the ramp, and up from it to the lighter tone.
+vtkSmartPointer<vtkFloatArray> places_on_ramp(const MeshPanel& panel, vtkIdType vertices) {
+    auto places = texture_places(vertices);
+    float* out = places->GetPointer(0);
+    for (std::size_t v = 0; v < static_cast<std::size_t>(vertices); ++v) {
+        *out++ = panel.along[v];
+        *out++ = 0.25F + (panel.pale.empty() ? 0 : 0.5F * panel.pale[v]);  // texels' centres
+    }
+    return places;
+}
+
+/// Across lines that rise to the left in the picture.
+vtkSmartPointer<vtkFloatArray> places_on_hatch(const MeshPanel& panel, vtkIdType vertices) {
+    auto places = texture_places(vertices);
+    float* out = places->GetPointer(0);
+    const float* xyz = panel.geometry.xyz.data();
+    for (vtkIdType v = 0; v < vertices; ++v, xyz += 3) {
+        const Vec2 at = panel.camera.pixel(panel.geometry.origin + Vec3(xyz[0], xyz[1], xyz[2]));
+        *out++ = static_cast<float>((at.x() + at.y()) / hatch_period);
+        *out++ = 0.5F;
+    }
+    return places;
 }
 
 struct Cells {
@@ -111,18 +170,23 @@ void add_mesh(vtkRenderer* renderer, const MeshPanel& panel, int supersample) {
     vtkNew<vtkPolyData> attributes;
     attributes->GetPointData()->SetScalars(colours);
     vtkSmartPointer<vtkTexture> texture;
-    vtkSmartPointer<vtkTexture> bare;
     if (!panel.ramp.empty()) {
-        vtkNew<vtkFloatArray> along;
-        along->SetArray(const_cast<float*>(panel.along.data()), vertices, 1);
-        attributes->GetPointData()->SetTCoords(along);
-        texture = texture_of(panel.ramp, panel.stepped);
-        bare = texture_of({panel.bare_colour}, true);
+        attributes->GetPointData()->SetTCoords(places_on_ramp(panel, vertices));
+        texture = texture_of_ramp(panel);
     }
     add_cells(renderer, panel, {g.triangles, g.segments, g.points}, points, attributes->GetPointData(), texture,
               supersample);
-    add_cells(renderer, panel, {panel.bare_triangles, panel.bare_segments, panel.bare_points}, points,
-              attributes->GetPointData(), bare, supersample);
+    const Column<std::uint32_t> none;
+    if (!panel.bare_triangles.empty()) {
+        attributes->GetPointData()->SetTCoords(places_on_hatch(panel, vertices));
+        add_cells(renderer, panel, {panel.bare_triangles, none, none}, points, attributes->GetPointData(),
+                  texture_of_hatch(panel), supersample);
+    }
+    if (!panel.bare_segments.empty() || !panel.bare_points.empty()) {
+        attributes->GetPointData()->SetTCoords(texture_places(vertices));
+        add_cells(renderer, panel, {none, panel.bare_segments, panel.bare_points}, points, attributes->GetPointData(),
+                  texture_of({{panel.bare_colour}}, true, false), supersample);
+    }
 }
 
 void place_camera(vtkRenderer* renderer, const MeshPanel& panel) {
@@ -178,13 +242,13 @@ void add_quads(vtkRenderer* renderer, const std::vector<FlatQuad>& quads, int su
 }
 
 /// Lines as quads along their steps: llvmpipe's wide lines have no joints.
-void add_lines(vtkRenderer* renderer, const std::vector<FlatLine>& lines, bool under, int supersample) {
+void add_lines(vtkRenderer* renderer, const std::vector<FlatLine>& lines, Level level, int supersample) {
     vtkNew<vtkPoints> points;
     vtkNew<vtkCellArray> polygons;
     vtkNew<vtkUnsignedCharArray> colours;
     colours->SetNumberOfComponents(3);
     for (const FlatLine& line : lines) {
-        if (line.under != under) continue;
+        if (line.level != level) continue;
         for (std::size_t i = 1; i < line.points.size(); ++i) {
             const Vec2 a = line.points[i - 1] * supersample;
             const Vec2 b = line.points[i] * supersample;
@@ -264,6 +328,22 @@ FlatText fitted(FlatText text, double width) {
     return text;
 }
 
+namespace {
+
+/// Where a text stands in the picture, with some room for its smoothed edges.
+PixelBox box_of(const FlatText& text, int height) {
+    const double width = text_width(text);
+    const double left = text.align == Align::left ? 0 : text.align == Align::right ? 1 : 0.5;
+    constexpr double room = 2;  // [px]
+    const double x = text.x - left * width - room;
+    const double top = height - text.y - 0.75 * text.size - room;
+    return {static_cast<int>(std::floor(x)), static_cast<int>(std::floor(top)),
+            static_cast<int>(std::ceil(width + 2 * room)) + 1,
+            static_cast<int>(std::ceil(1.5 * text.size + 2 * room)) + 1};
+}
+
+}  // namespace
+
 Image draw(const Sheet& sheet, const std::string& gl, int supersample) {
     const int width = sheet.width * supersample;
     const int height = sheet.height * supersample;
@@ -297,10 +377,11 @@ Image draw(const Sheet& sheet, const std::string& gl, int supersample) {
         window->AddRenderer(flat[static_cast<std::size_t>(k)]);
     }
     add_quads(flat[0], sheet.quads, supersample);
-    add_lines(flat[1], sheet.lines, true, supersample);
-    add_lines(flat[2], sheet.lines, false, supersample);
-    add_texts(flat[3], sheet.texts, supersample);
-    return gl_window.render(supersample);
+    for (std::size_t k = 0; k < levels.size(); ++k) add_lines(flat[1 + k], sheet.lines, levels[k], supersample);
+    add_texts(flat.back(), sheet.texts, supersample);
+    Image image = gl_window.render(supersample);
+    for (const FlatText& text : sheet.texts) image.texts.push_back(box_of(text, sheet.height));
+    return image;
 }
 
 }  // namespace clsurf::viz

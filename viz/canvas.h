@@ -35,11 +35,14 @@ struct FlatQuad {
     Rect rect;
     Rgb rgb{0, 0, 0};
 };
+/// What lies above what among lines; within a level they have no order.
+enum class Level : std::uint8_t { area, mark, inlay, edge, line, dot, dot_fill };
+
 struct FlatLine {
     std::vector<Vec2> points;
     double width = 1;
     Rgb rgb{0, 0, 0};
-    bool under = false;  ///< below the other lines: the light edge of a dark one
+    Level level = Level::line;
 };
 
 struct MeshPanel {
@@ -50,15 +53,17 @@ struct MeshPanel {
     /// not a mixture of two of its colours.
     std::vector<Rgb> ramp;  ///< empty: `rgb` alone
     Column<float> along;    ///< per vertex, 0 … 1; outside, the nearest end
+    Column<float> pale;     ///< per vertex, 0: the ramp's colour; 1: a lighter tone of it; empty: 0
     bool stepped = false;   ///< the ramp's colours are steps; otherwise they run into each other
-    /// Cells with a corner that has no value, drawn in one colour.
+    /// Cells with a corner that has no value: triangles hatched, the others in one colour.
     Column<std::uint32_t> bare_triangles, bare_segments, bare_points;
-    Rgb bare_colour{0, 0, 0};
+    Rgb bare_colour{0, 0, 0};        ///< of the hatching's lines, and of the other cells
+    Rgb bare_ground{255, 255, 255};  ///< between the lines
     double line_width = 1.5;
     double point_size = 2;
 };
 
-/// Everything of a picture. Quads are drawn first, then lines (those that are under others first), then texts.
+/// Everything of a picture. Quads are drawn first, then lines by their levels, then texts.
 struct Sheet {
     int width = 0, height = 0;
     Rgb background{255, 255, 255};

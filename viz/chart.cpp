@@ -5,27 +5,18 @@
 #include <limits>
 #include <string_view>
 
+#include "viz/chart_frame.h"
+
 namespace clsurf::viz {
 namespace {
 
 constexpr Rgb ink_colour{20, 20, 24};
-constexpr Rgb grid_colour{222, 222, 226};
 constexpr Rgb cursor_colour{200, 30, 30};
 // Readable by the colour-blind (Okabe, Ito 2008).
 constexpr Rgb curve_colours[] = {{0, 90, 178}, {213, 94, 0}, {0, 130, 95}, {160, 70, 130}, {110, 85, 0}};
 
-struct Frame {
-    Rect rect;
-    double x_low, x_high, y_low, y_high;
-    [[nodiscard]] Vec2 at(double x, double y) const {
-        const double u = x_high > x_low ? (x - x_low) / (x_high - x_low) : 0.5;
-        const double v = y_high > y_low ? (y - y_low) / (y_high - y_low) : 0.5;
-        return {rect.x + u * rect.width, rect.y + v * rect.height};
-    }
-};
-
 /// Range of a curve with a little room; a flat curve gets some anyway.
-void fit(Frame& frame, const Curve& curve) {
+void fit(ChartFrame& frame, const Curve& curve) {
     double low = std::numeric_limits<double>::infinity();
     double high = -low;
     for (const double v : curve.values) {
@@ -59,39 +50,6 @@ std::vector<std::string> lines_of(const std::string& note, double ems) {
     return lines;
 }
 
-void add_grid(Sheet& sheet, const Frame& f, double text, bool x_labels) {
-    // One tick alone, such as 0, tells no scale.
-    std::vector<double> ys;
-    for (int wanted = std::max(2, static_cast<int>(f.rect.height / (3 * text))); ys.size() < 2 && wanted < 10; ++wanted)
-        ys = nice_ticks(f.y_low, f.y_high, wanted);
-    const double y_step = ys.size() > 1 ? ys[1] - ys[0] : 1;
-    double labelled = -std::numeric_limits<double>::infinity();
-    for (const double y : ys) {
-        const Vec2 p = f.at(f.x_low, y);
-        sheet.lines.push_back({{p, {f.rect.x + f.rect.width, p.y()}}, 1, grid_colour, true});
-        if (p.y() - labelled < 1.05 * text) continue;  // numbers one over the other cannot be read
-        labelled = p.y();
-        sheet.texts.push_back(
-            {f.rect.x - 0.5 * text, p.y(), tick_text(y, y_step), text, Align::right, false, ink_colour});
-    }
-    const std::vector<double> xs =
-        nice_ticks(f.x_low, f.x_high, std::max(2, static_cast<int>(f.rect.width / (7 * text))));
-    const double x_step = xs.size() > 1 ? xs[1] - xs[0] : 1;
-    for (const double x : xs) {
-        const Vec2 p = f.at(x, f.y_low);
-        sheet.lines.push_back({{p, {p.x(), f.rect.y + f.rect.height}}, 1, grid_colour, true});
-        if (x_labels)
-            sheet.texts.push_back(
-                {p.x(), f.rect.y - 0.9 * text, tick_text(x, x_step), text, Align::centre, false, ink_colour});
-    }
-    const Rect& r = f.rect;
-    sheet.lines.push_back(
-        {{{r.x, r.y}, {r.x + r.width, r.y}, {r.x + r.width, r.y + r.height}, {r.x, r.y + r.height}, {r.x, r.y}},
-         1,
-         {120, 120, 126},
-         true});
-}
-
 }  // namespace
 
 std::vector<Vec2> thin_curve(std::span<const double> x, std::span<const double> y, double x_low, double x_high,
@@ -119,7 +77,7 @@ std::vector<Vec2> thin_curve(std::span<const double> x, std::span<const double> 
 }
 
 /// A cursor in the frame, with its value above it, where no curve runs, beside the curve's name.
-void add_cursor(Sheet& sheet, const Frame& f, const ChartCursor& cursor, const FlatText& name, std::size_t k) {
+void add_cursor(Sheet& sheet, const ChartFrame& f, const ChartCursor& cursor, const FlatText& name, std::size_t k) {
     const double text = name.size;
     const Vec2 p = f.at(cursor.x, f.y_low);
     if (p.x() < f.rect.x || p.x() > f.rect.x + f.rect.width) return;
@@ -161,7 +119,7 @@ Image draw_chart(std::span<const double> x, const std::vector<Curve>& curves, co
     const auto count = static_cast<double>(curves.size());
     const double each = (look.height - top - bottom - gap * count) / count;
     for (std::size_t k = 0; k < curves.size(); ++k) {
-        Frame f{};
+        ChartFrame f;
         f.rect = {left, bottom + (count - 1 - static_cast<double>(k)) * (each + gap), look.width - left - right,
                   std::max(1.0, each)};
         f.x_low = x.empty() ? 0 : x.front();

@@ -13,6 +13,7 @@ namespace clsurf::viz {
 namespace {
 
 constexpr auto infos = std::to_array<ColourMapInfo>({
+    {"magma", "black, purple, orange, cream: even in lightness, readable by the colour-blind; for speeds"},
     {"isurface", "blue, cyan, green, yellow, red: the gradient of Wu et al. 2022"},
     {"gray", "black to white"},
     {"viridis", "even in lightness, readable by the colour-blind"},
@@ -21,8 +22,11 @@ constexpr auto infos = std::to_array<ColourMapInfo>({
     {"coolwarm", "blue, white, red: signed values, white at 0"},
 });
 
-// Samples of the published maps (viridis: Smith, van der Walt 2015; cividis: Nuñez, Anderton, Renslow
+// Samples of the published maps (magma, viridis: Smith, van der Walt 2015; cividis: Nuñez, Anderton, Renslow
 // 2018; turbo: Mikhailov 2019; coolwarm: Moreland 2009), evenly spaced.
+constexpr auto magma = std::to_array<std::uint32_t>(
+    {0x000004, 0x07061b, 0x150e37, 0x261256, 0x3b0f70, 0x50127c, 0x641a80, 0x782281, 0x8c2981, 0xa1307e, 0xb63779,
+     0xca3e72, 0xde4968, 0xed5a5f, 0xf66f5c, 0xfb8761, 0xfe9f6d, 0xfeb77e, 0xfece91, 0xfde6a7, 0xfcfdbf});
 constexpr auto viridis = std::to_array<std::uint32_t>(
     {0x440154, 0x481467, 0x482576, 0x453781, 0x404688, 0x39558c, 0x33638d, 0x2d718e, 0x287d8e, 0x238a8d,
      0x1f968b, 0x20a386, 0x29af7f, 0x3dbc74, 0x56c667, 0x75d054, 0x95d840, 0xbade28, 0xdde318, 0xfde725});
@@ -48,12 +52,64 @@ ColourMap from_table(std::string name, std::span<const std::uint32_t> colours, b
     return {std::move(name), std::move(stops), centred};
 }
 
+/// Colours of values outside the range: none of them is near a colour of the map. The map of the paper keeps its ends.
+struct NamedColours {
+    std::string_view name;
+    std::span<const std::uint32_t> colours;
+    Rgb below{}, above{};
+    bool ends_beyond = false;  ///< values outside the range have the colours of the ends
+    bool centred = false;
+};
+
+constexpr Rgb sky{64, 176, 230};
+constexpr Rgb yellow{255, 214, 10};
+constexpr Rgb cyan{0, 200, 220};
+constexpr Rgb pink{255, 150, 220};
+constexpr Rgb magenta{225, 0, 190};
+
+constexpr auto tables = std::to_array<NamedColours>({
+    {"magma", magma, sky, sky},
+    {"isurface", isurface, {}, {}, true},
+    {"gray", gray, sky, magenta},
+    {"viridis", viridis, pink, magenta},
+    {"cividis", cividis, pink, magenta},
+    {"turbo", turbo, pink, magenta},
+    {"coolwarm", coolwarm, cyan, yellow, false, true},
+});
+
 constexpr int ramp_colours = 1024;  ///< finer than 8 bits of any map
 
 }  // namespace
 
 ColourMap::ColourMap(std::string name, std::vector<ColourStop> stops, bool centred)
-    : name_(std::move(name)), stops_(std::move(stops)), centred_(centred) {}
+    : name_(std::move(name)),
+      stops_(std::move(stops)),
+      centred_(centred),
+      below_(stops_.front().rgb),
+      above_(stops_.back().rgb) {}
+
+void ColourMap::set_beyond(Rgb below, Rgb above) {
+    below_ = below;
+    above_ = above;
+}
+
+ColourMap ColourMap::part(double from, double to) const {
+    ColourMap result = *this;
+    result.stops_ = {{0, at(from)}};
+    for (const ColourStop& stop : stops_) {
+        if (stop.at > from && stop.at < to) result.stops_.push_back({(stop.at - from) / (to - from), stop.rgb});
+    }
+    result.stops_.push_back({1, at(to)});
+    return result;
+}
+
+ColourMap ColourMap::reversed() const {
+    ColourMap other = *this;
+    other.name_ += "_r";
+    std::reverse(other.stops_.begin(), other.stops_.end());
+    for (ColourStop& stop : other.stops_) stop.at = 1 - stop.at;
+    return other;
+}
 
 Rgb ColourMap::at(double x) const {
     if (!(x > 0)) return stops_.front().rgb;
@@ -78,19 +134,22 @@ Rgb parse_colour(const std::string& text, const std::string& option) {
     std::uint32_t value = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value, 16);
     if (digits.size() != 6 || error != std::errc() || end != digits.data() + digits.size()) {
-        throw UsageError(option + ": '" + text + "' is no colour", "write it as #rrggbb");
+        throw UsageError(option + ": '" + text + "' is not a colour", "write it as #rrggbb");
     }
     return {static_cast<std::uint8_t>(value >> 16), static_cast<std::uint8_t>(value >> 8),
             static_cast<std::uint8_t>(value)};
 }
 
 ColourMap make_colour_map(const std::string& text) {
-    if (text == "isurface") return from_table(text, isurface);
-    if (text == "gray") return from_table(text, gray);
-    if (text == "viridis") return from_table(text, viridis);
-    if (text == "cividis") return from_table(text, cividis);
-    if (text == "turbo") return from_table(text, turbo);
-    if (text == "coolwarm") return from_table(text, coolwarm, true);
+    constexpr std::string_view from_the_other_end = "_r";
+    if (text.ends_with(from_the_other_end) && text.find(',') == std::string::npos)
+        return make_colour_map(text.substr(0, text.size() - from_the_other_end.size())).reversed();
+    for (const NamedColours& table : tables) {
+        if (text != table.name) continue;
+        ColourMap map = from_table(text, table.colours, table.centred);
+        if (!table.ends_beyond) map.set_beyond(table.below, table.above);
+        return map;
+    }
     if (text.find(',') == std::string::npos) {
         std::vector<std::string_view> names;
         for (const ColourMapInfo& info : infos) names.push_back(info.name);
@@ -114,6 +173,8 @@ ColourMap make_colour_map(const std::string& text) {
 Rgb ColourScale::colour(double value) const {
     if (!(value == value)) return missing_colour;
     if (!(high > low)) return map.at(0.5);
+    if (is_below(value)) return map.below();
+    if (is_above(value)) return map.above();
     double x = std::clamp((value - low) / (high - low), 0.0, 1.0);
     if (bins > 0) x = (std::min(std::floor(x * bins), bins - 1.0) + 0.5) / bins;
     if (map.centred() && low < 0 && high > 0) x = 0.5 + 0.5 * (low + x * (high - low)) / std::max(-low, high);
@@ -122,12 +183,13 @@ Rgb ColourScale::colour(double value) const {
 
 std::vector<Rgb> ColourScale::ramp() const {
     const int count = bins > 0 ? bins : ramp_colours;
-    std::vector<Rgb> colours;
+    std::vector<Rgb> colours{map.below()};
     for (int k = 0; k < count; ++k) {
         // Steps have their own place in the middle, running colours begin and end at the ends.
         const double x = bins > 0 ? (k + 0.5) / count : static_cast<double>(k) / (count - 1);
         colours.push_back(colour(low + x * (high - low)));
     }
+    colours.push_back(map.above());
     return colours;
 }
 
@@ -135,8 +197,15 @@ double ColourScale::along(double value) const {
     if (!(high > low)) return 0.5;
     // Not cut at the ends: between a vertex inside and one outside the range the value runs on evenly.
     constexpr double far = 1e6;
-    const double x = std::clamp((value - low) / (high - low), -far, far);
-    return bins > 0 ? x : (0.5 + x * (ramp_colours - 1)) / ramp_colours;
+    double x = std::clamp((value - low) / (high - low), -far, far);
+    if (!is_below(value) && !is_above(value)) x = std::clamp(x, 0.0, 1.0);
+    if (bins > 0) {
+        // The upper end of the range belongs to its last step.
+        constexpr double inside = 1 - 1e-6;
+        if (x >= inside && !is_above(value)) x = inside;
+        return (1 + x * bins) / (bins + 2);
+    }
+    return (1.5 + x * (ramp_colours - 1)) / (ramp_colours + 2);
 }
 
 std::vector<double> nice_ticks(double low, double high, int wanted) {

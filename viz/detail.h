@@ -1,7 +1,7 @@
 #pragma once
 // Detail: a CL surface, a projection and a picture's size → the triangles, lines and dots that pixels
 // can show. Points of a pass that fall on the same part of a pixel become one vertex, whose value is
-// their mean, which is what drawing all of them would have shown; between neighbour passes the
+// their mean, which is what drawing all of them would have shown; between adjacent passes the
 // vertices are joined by a band of triangles that leaves no vertex out, so that no cracks open. Seams
 // close what bands leave: turns, pass ends, corners, where a loop begins. A missing pass stays open.
 

@@ -26,7 +26,7 @@ struct CellColumns {
     Column<std::int64_t> triangles;                  ///< 3 points each
 };
 
-/// Every point of every pass, and the bands between neighbour passes as they are drawn, over all points.
+/// Every point of every pass, and the bands between adjacent passes as they are drawn, over all points.
 CellColumns cells_of(const ClSurface& surface) {
     CellColumns cells;
     cells.line_offsets.push_back(0);

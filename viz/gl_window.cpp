@@ -84,7 +84,7 @@ Image GlWindow::render(int factor) {
     window_->GetPixelData(0, 0, width - 1, height - 1, 0, pixels, 0);
     const std::string& errors = static_cast<const Complaints*>(complaints_.Get())->errors();
     if (!errors.empty()) throw SystemError("VTK cannot draw: " + errors);
-    if (pixels->GetNumberOfValues() != vtkIdType{3} * width * height) throw SystemError("VTK gave no picture");
+    if (pixels->GetNumberOfValues() != vtkIdType{3} * width * height) throw SystemError("VTK returned no picture");
     return shrink_from_below(pixels->GetPointer(0), width, height, factor);
 }
 

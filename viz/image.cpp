@@ -1,8 +1,12 @@
 #include "viz/image.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <utility>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "core/error.h"
 #include "core/parallel.h"
@@ -18,6 +22,32 @@ struct Reading {
     std::string error;
 };
 
+/// "x,y,width,height;x,y,width,height"
+std::string boxes_text(const std::vector<PixelBox>& boxes) {
+    std::string text;
+    for (const PixelBox& box : boxes)
+        text += fmt::format("{}{},{},{},{}", text.empty() ? "" : ";", box.x, box.y, box.width, box.height);
+    return text;
+}
+
+/// What is no such list gives no boxes.
+std::vector<PixelBox> parse_boxes(std::string_view text) {
+    std::vector<PixelBox> boxes;
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    while (at < end) {
+        std::array<int, 4> n{};
+        for (std::size_t k = 0; k < n.size(); ++k) {
+            const auto [next, error] = std::from_chars(at, end, n[k]);
+            const char wanted = k + 1 < n.size() ? ',' : ';';
+            if (error != std::errc() || (next < end && *next != wanted)) return {};
+            at = next < end ? next + 1 : next;
+        }
+        boxes.push_back({n[0], n[1], n[2], n[3]});
+    }
+    return boxes;
+}
+
 }  // namespace
 
 Image read_image(const std::string& path) {
@@ -31,7 +61,10 @@ Image read_image(const std::string& path) {
         return image.rgb.data();
     };
     const auto report = [](void* context, const char* text) { static_cast<Reading*>(context)->error = text; };
-    if (!image_library().read(path.c_str(), &reading, take, report)) {
+    const auto texts = [](void* context, const char* boxes) {
+        static_cast<Reading*>(context)->image.texts = parse_boxes(boxes);
+    };
+    if (!image_library().read(path.c_str(), &reading, take, texts, report)) {
         throw InputError(Place::of_file(path), "cannot be read as an image: " + reading.error);
     }
     return std::move(reading.image);
@@ -43,7 +76,7 @@ std::string encode_image(const Image& image, const std::string& description, std
         static_cast<std::string*>(context)->assign(static_cast<const char*>(data), size);
     };
     if (!image_library().encode(std::string(format).c_str(), image.rgb.data(), image.width, image.height,
-                                description.c_str(), &bytes, sink)) {
+                                description.c_str(), boxes_text(image.texts).c_str(), &bytes, sink)) {
         throw SystemError("the picture cannot be encoded: " + bytes);
     }
     return bytes;

@@ -4,15 +4,22 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/column.h"
 
 namespace clsurf::viz {
 
+/// A rectangle of pixels, from the picture's upper left corner.
+struct PixelBox {
+    int x = 0, y = 0, width = 0, height = 0;
+};
+
 struct Image {
     int width = 0;
     int height = 0;
-    Column<std::uint8_t> rgb;  ///< 3 · width · height
+    Column<std::uint8_t> rgb;     ///< 3 · width · height
+    std::vector<PixelBox> texts;  ///< where words and numbers stand; empty: not known. PNG files keep it
 
     [[nodiscard]] const std::uint8_t* pixel(int x, int y) const {
         return rgb.data() +

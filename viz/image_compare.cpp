@@ -3,8 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include <fmt/format.h>
+
+#include "viz/canvas.h"
 #include "viz/colour_difference.h"
+#include "viz/colour_map.h"
 #include "viz/image_library.h"
 
 namespace clsurf::viz {
@@ -22,6 +29,38 @@ Lab mean_lab(const Image& image, int x, int y) {
     }
     for (double& s : sum) s /= 255.0 * count;
     return lab_of(sum);
+}
+
+/// `worst`: the largest difference of its values, 1 … 255.
+Rgb colour_of_difference(int worst) { return {255, static_cast<std::uint8_t>(220 - std::min(220, worst * 4)), 0}; }
+
+/// A strip that says what the colours of a difference picture mean.
+Image difference_legend(int width) {
+    const double text = std::clamp(width / 60.0, 9.0, 20.0);
+    Sheet sheet;
+    sheet.width = width;
+    sheet.height = static_cast<int>(2.4 * text);
+    const double y = 0.5 * sheet.height;
+    const double box = 1.1 * text;
+    double x = text;
+    const auto name = [&](const Rgb& rgb, const std::string& words) {
+        sheet.quads.push_back({{x, y - 0.5 * box, box, box}, rgb});
+        FlatText label{x + 1.4 * box, y, words, text, Align::left, false, {20, 20, 24}};
+        x += 1.4 * box + text_width(label) + 1.6 * text;
+        if (x <= width) sheet.texts.push_back(std::move(label));
+    };
+    name({230, 230, 230}, "equal");
+    for (const int step : {1, 20, 55}) {
+        name(colour_of_difference(step),
+             step == 55 ? fmt::format("{} or more of 255", step) : fmt::format("{} of 255", step));
+    }
+    return draw(sheet, "osmesa", 2);
+}
+
+/// Puts a picture of the same width below another.
+void append_below(Image& image, const Image& strip) {
+    append(image.rgb, strip.rgb);
+    image.height += strip.height;
 }
 
 }  // namespace
@@ -55,6 +94,22 @@ Comparison compare(const Image& a, const Image& b, const CompareRule& rule) {
     return comparison;
 }
 
+void blank_texts(Image& a, Image& b) {
+    const std::vector<PixelBox>& of_a = a.texts;
+    const std::vector<PixelBox>& of_b = b.texts;
+    for (const std::vector<PixelBox>* boxes : {&of_a, &of_b}) {
+        for (const PixelBox& box : *boxes) {
+            const int right = std::min(a.width, box.x + box.width);
+            for (int y = std::max(0, box.y); y < std::min(a.height, box.y + box.height); ++y) {
+                for (int x = std::max(0, box.x); x < right; ++x) {
+                    const std::uint8_t* from = a.pixel(x, y);
+                    std::copy(from, from + 3, b.rgb.data() + (from - a.rgb.data()));
+                }
+            }
+        }
+    }
+}
+
 Image difference_picture(const Image& a, const Image& b) {
     Image out;
     out.width = a.width;
@@ -71,12 +126,12 @@ Image difference_picture(const Image& a, const Image& b) {
                 const int grey = 200 + (p[0] + p[1] + p[2]) / 3 / 5;
                 std::fill(to, to + 3, static_cast<std::uint8_t>(grey));
             } else {
-                to[0] = 255;
-                to[1] = static_cast<std::uint8_t>(220 - std::min(220, worst * 4));
-                to[2] = 0;
+                const Rgb rgb = colour_of_difference(worst);
+                std::copy(rgb.begin(), rgb.end(), to);
             }
         }
     }
+    append_below(out, difference_legend(a.width));
     return out;
 }
 

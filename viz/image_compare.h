@@ -26,7 +26,11 @@ struct Comparison {
 /// Domain: pictures of one size.
 [[nodiscard]] Comparison compare(const Image& a, const Image& b, const CompareRule& rule);
 
-/// Where they differ: the first picture in pale grey, differences from yellow (small) to red.
+/// Gives both pictures the same pixels wherever one of them has words or numbers. Domain: pictures of one size.
+void blank_texts(Image& a, Image& b);
+
+/// Where they differ: the first picture in pale grey, differences from yellow (small) to red, and in a strip below what these
+/// colours mean. Throws SystemError.
 [[nodiscard]] Image difference_picture(const Image& a, const Image& b);
 
 }  // namespace clsurf::viz

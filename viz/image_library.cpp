@@ -30,7 +30,8 @@ const std::shared_future<const ImageLibrary*>& loading() {
 
 const ImageLibrary& image_library() {
     const ImageLibrary* library = loading().get();
-    if (library == nullptr) throw SystemError(std::string(file_name) + " cannot be loaded: is clsurf installed whole?");
+    if (library == nullptr)
+        throw SystemError(std::string(file_name) + " cannot be loaded: the installation of clsurf is incomplete");
     return *library;
 }
 

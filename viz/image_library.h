@@ -10,13 +10,13 @@ namespace clsurf::viz {
 
 struct ImageLibrary {
     /// Bytes of a new picture into `sink(context, bytes, size)`; false: `sink` got the error's text. `format`:
-    /// "png", "jpeg", "tiff", "webp".
+    /// "png", "jpeg", "tiff", "webp". `texts` is kept by PNG.
     bool (*encode)(const char* format, const std::uint8_t* rgb, int width, int height, const char* description,
-                   void* context, void (*sink)(void* context, const void* bytes, std::size_t size));
+                   const char* texts, void* context, void (*sink)(void* context, const void* bytes, std::size_t size));
     /// Asks for room with `take(context, width, height)`, which may refuse with nullptr, and fills it
-    /// with RGB; false: `report` got the error's text.
+    /// with RGB; false: `report` got the error's text. `texts` gets what encode() was given.
     bool (*read)(const char* path, void* context, std::uint8_t* (*take)(void* context, int width, int height),
-                 void (*report)(void* context, const char* text));
+                 void (*texts)(void* context, const char* boxes), void (*report)(void* context, const char* text));
     struct Errors {
         double max, mean, psnr;
     };

@@ -45,6 +45,8 @@ private:
     int descriptor_;
 };
 
+constexpr const char* texts_attribute = "clsurf:texts";
+
 OIIO::ImageSpec spec_of(int width, int height, const char* description) {
     OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
     spec.attribute("oiio:ColorSpace", "sRGB");
@@ -66,12 +68,13 @@ void set_compression(const std::string& format, OIIO::ImageSpec& spec) {
     }
 }
 
-bool encode(const char* format, const std::uint8_t* rgb, int width, int height, const char* description, void* context,
-            void (*sink)(void*, const void*, std::size_t)) {
+bool encode(const char* format, const std::uint8_t* rgb, int width, int height, const char* description,
+            const char* texts, void* context, void (*sink)(void*, const void*, std::size_t)) {
     std::vector<unsigned char> bytes;
     OIIO::Filesystem::IOVecOutput buffer(bytes);
     OIIO::ImageSpec spec = spec_of(width, height, description);
     set_compression(format, spec);
+    if (*texts != '\0' && std::string_view(format) == "png") spec.attribute(texts_attribute, texts);
     const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
     const bool in_memory = output && std::string_view(format) != "tiff" && output->supports("ioproxy") != 0;
     const std::unique_ptr<MemoryFile> file = in_memory ? nullptr : std::make_unique<MemoryFile>();
@@ -88,13 +91,16 @@ bool encode(const char* format, const std::uint8_t* rgb, int width, int height, 
     return true;
 }
 
-bool read(const char* path, void* context, std::uint8_t* (*take)(void*, int, int), void (*report)(void*, const char*)) {
+bool read(const char* path, void* context, std::uint8_t* (*take)(void*, int, int), void (*texts)(void*, const char*),
+          void (*report)(void*, const char*)) {
     const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path);
     if (!input) {
         report(context, OIIO::geterror().c_str());
         return false;
     }
     const OIIO::ImageSpec& spec = input->spec();
+    const std::string boxes(spec.get_string_attribute(texts_attribute));
+    texts(context, boxes.c_str());
     std::uint8_t* const rgb = take(context, spec.width, spec.height);
     if (rgb == nullptr) {
         report(context, "image of an impossible size");

@@ -7,9 +7,9 @@
 namespace clsurf::viz {
 namespace {
 
-constexpr double cell = 3;    ///< [px]
-constexpr double reach = 12;  ///< heights of a label from where it is wanted
-constexpr double ring = 0.5;  ///< heights between two rings of tries
+constexpr double cell = 3;             ///< [px]
+constexpr double reach = 12;           ///< heights of a label from where it is wanted
+constexpr double ring_distance = 0.5;  ///< heights between two rings of tries
 constexpr int tries_a_ring = 16;
 
 }  // namespace
@@ -54,7 +54,7 @@ Rect LabelPlacer::inside(const Vec2& centre, const Vec2& size) const {
 
 std::optional<Rect> LabelPlacer::place(const Vec2& centre, const Vec2& size) {
     const auto is_free = [&](const Rect& rect) { return every_cell(rect, [](bool flag) { return !flag; }); };
-    for (double radius = 0; radius <= reach; radius += ring) {
+    for (double radius = 0; radius <= reach; radius += ring_distance) {
         for (int k = 0; k < (radius > 0 ? tries_a_ring : 1); ++k) {
             const double angle = 0.5 * std::numbers::pi + 2 * std::numbers::pi * k / tries_a_ring;
             const Vec2 aside = radius * size.y() * Vec2(std::cos(angle), std::sin(angle));

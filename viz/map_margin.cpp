@@ -16,10 +16,10 @@ void add_text(Sheet& sheet, double x, double y, std::string text, double size, A
     sheet.texts.push_back({x, y, std::move(text), size, align, bold, rgb});
 }
 
-/// Beyond an end of the bar there are values: a point of the end's colour.
+/// Beyond an end of the bar there are values: a point of the colour that they have.
 void add_beyond(Sheet& sheet, const ColourScale& scale, bool above, double x, double width, double y, double height,
                 Rgb frame) {
-    const Rgb rgb = scale.colour(above ? scale.high : scale.low);
+    const Rgb rgb = above ? scale.map.above() : scale.map.below();
     const double sign = above ? 1 : -1;
     constexpr int slices = 24;
     for (int k = 0; k < slices; ++k) {
@@ -28,6 +28,28 @@ void add_beyond(Sheet& sheet, const ColourScale& scale, bool above, double x, do
         sheet.quads.push_back({{x + 0.5 * width * (1 - part), low, width * part, height / slices + 0.3}, rgb});
     }
     sheet.lines.push_back({{{x, y}, {x + 0.5 * width, y + sign * height}, {x + width, y}}, 1.0, frame});
+}
+
+/// A small field with the hatching of places without a value.
+void add_hatched(Sheet& sheet, const Rect& rect, Rgb frame) {
+    const Vec2 corner(rect.x, rect.y);
+    const Vec2 across(rect.width, 0);
+    const Vec2 up(0, rect.height);
+    const double step = 0.5 * rect.height;
+    for (double at = step; at < rect.width + rect.height; at += step) {
+        // From the lower edge, or the right one, up to the left edge, or the upper one.
+        const Vec2 from = at < rect.width ? Vec2(at, 0) : Vec2(rect.width, at - rect.width);
+        const Vec2 to = at < rect.height ? Vec2(0, at) : Vec2(at - rect.height, rect.height);
+        sheet.lines.push_back({{corner + from, corner + to}, 1.0, missing_colour});
+    }
+    sheet.lines.push_back({{corner, corner + across, corner + across + up, corner + up, corner}, 1.0, frame});
+}
+
+/// "41 %", "0.3 %", "< 0.1 %".
+std::string share_text(double share) {
+    const double percent = 100 * share;
+    if (percent < 0.1) return "< 0.1 %";
+    return percent < 10 ? fmt::format("{:.1f} %", percent) : fmt::format("{:.0f} %", percent);
 }
 
 /// Round values; where the colours are steps, their edges, as many as have room.
@@ -78,13 +100,47 @@ void add_title(Sheet& sheet, const MapTexts& texts, const Look& look, const MapL
     }
 }
 
+namespace {
+
+/// Name and unit of a field in as many lines as they need, from `top` down. Returns where they end [px].
+double add_field_name(Sheet& sheet, const FieldInfo& field, double x, double top, double room, const MapLayout& layout,
+                      Rgb ink) {
+    std::string words = field.label;
+    if (!field.unit.name.empty()) words += fmt::format(" [{}]", field.unit.name);
+    FlatText line{x, top - 0.7 * layout.small_text, "", layout.small_text, Align::left, true, ink};
+    const auto finish = [&] {
+        sheet.texts.push_back(fitted(line, room));
+        line.y -= 1.25 * layout.small_text;
+    };
+    for (std::size_t at = 0; at < words.size();) {
+        const std::size_t end = std::min(words.find(' ', at), words.size());
+        FlatText longer = line;
+        longer.text += (line.text.empty() ? "" : " ") + words.substr(at, end - at);
+        if (!line.text.empty() && text_width(longer) > room) {
+            finish();
+            line.text = words.substr(at, end - at);
+        } else {
+            line.text = longer.text;
+        }
+        at = end + 1;
+    }
+    finish();
+    return line.y;
+}
+
+}  // namespace
+
 void add_legend(Sheet& sheet, const ColourScale& scale, const FieldInfo& field, const Beyond& beyond, const Look& look,
                 const MapLayout& layout, Rgb ink) {
     const double x = look.width - layout.legend_width + 0.6 * layout.text;
     const double bar_width = 1.3 * layout.text;
-    const double bottom = layout.note_height + 7.2 * layout.text;
-    const double top = look.height - layout.title_height - 2.6 * layout.text;
-    const double height = top - bottom;
+    const double room = look.width - 0.3 * layout.text - x;
+    const double above_name = look.height - layout.title_height + 0.3 * layout.text;
+    const double top = add_field_name(sheet, field, x, above_name, room, layout, ink) - 1.5 * layout.text;
+    const double lowest = layout.note_height + 7.2 * layout.text;
+    const double half = 0.5 * (look.height - layout.title_height - layout.note_height);
+    const double height = std::min(top - lowest, half);
+    const double bottom = top - height;
     if (height < 3 * layout.text) return;
     const int cells = scale.bins > 0 ? scale.bins : static_cast<int>(std::clamp(height, 16.0, 512.0));
     for (int k = 0; k < cells; ++k) {
@@ -116,12 +172,40 @@ void add_legend(Sheet& sheet, const ColourScale& scale, const FieldInfo& field, 
     const double point = 0.9 * layout.text;
     if (beyond.above) add_beyond(sheet, scale, true, x, bar_width, top, point, frame);
     if (beyond.below) add_beyond(sheet, scale, false, x, bar_width, bottom, point, frame);
-    const std::string unit = field.unit.name.empty() ? std::string() : fmt::format("[{}]", field.unit.name);
-    add_text(sheet, x, top + 2.1 * layout.text, unit, layout.text, Align::left, ink, true);
     if (beyond.missing) {
         const double y = bottom - 2.0 * layout.text;
-        sheet.quads.push_back({{x, y - 0.4 * layout.text, bar_width, 0.8 * layout.text}, missing_colour});
+        add_hatched(sheet, {x, y - 0.4 * layout.text, bar_width, 0.8 * layout.text}, frame);
         add_text(sheet, x + bar_width + 0.5 * layout.text, y, "no value", layout.small_text, Align::left, ink);
+    }
+}
+
+void add_class_legend(Sheet& sheet, const std::vector<ShownClass>& classes, bool missing, const Look& look,
+                      const MapLayout& layout, Rgb ink) {
+    const double t = layout.text;
+    const double x = look.width - layout.legend_width + 0.6 * t;
+    const double box = 0.9 * t;
+    const Rgb frame = faint(ink, look.background);
+    double y = look.height - layout.title_height - 1.2 * t;
+    const double room = look.width - 0.4 * t - (x + 2.0 * t);
+    const auto row = [&](const std::string& words) {
+        sheet.texts.push_back(fitted({x + 2.0 * t, y, words, layout.small_text, Align::left, false, ink}, room));
+        y -= 1.5 * t;
+    };
+    for (const ShownClass& shown : classes) {
+        const Rect rect{x, y - 0.5 * box, 1.4 * t, box};
+        sheet.quads.push_back({rect, shown.rgb});
+        sheet.lines.push_back({{{rect.x, rect.y},
+                                {rect.x + rect.width, rect.y},
+                                {rect.x + rect.width, rect.y + rect.height},
+                                {rect.x, rect.y + rect.height},
+                                {rect.x, rect.y}},
+                               1.0,
+                               frame});
+        row(fmt::format("{}  {}", shown.name, share_text(shown.share)));
+    }
+    if (missing) {
+        add_hatched(sheet, {x, y - 0.5 * box, 1.4 * t, box}, frame);
+        row("no value");
     }
 }
 
@@ -143,9 +227,10 @@ void add_scale_bar(Sheet& sheet, const MeshPanel& panel, const MapLayout& layout
              Align::centre, ink);
 }
 
-void add_axes(Sheet& sheet, const MeshPanel& panel, const MapLayout& layout, Rgb ink) {
-    // Below the legend, where no map can be under it.
-    const Vec2 origin(panel.rect.x + panel.rect.width + 0.42 * layout.legend_width, 3.4 * layout.text);
+void add_axes(Sheet& sheet, const MeshPanel& panel, const Look& look, const MapLayout& layout, Rgb ink) {
+    // Below the legend, where no map can be under it; right of the key where there are names.
+    const double across = look.names ? layout.legend_width - 3.0 * layout.text : 0.42 * layout.legend_width;
+    const Vec2 origin(panel.rect.x + panel.rect.width + across, 3.4 * layout.text);
     const double length = 2.0 * layout.text;
     for (int axis = 0; axis < 3; ++axis) {
         const Vec3 direction = Vec3::Unit(axis);

@@ -18,10 +18,14 @@ void add_title(Sheet& sheet, const MapTexts& texts, const Look& look, const MapL
 void add_legend(Sheet& sheet, const ColourScale& scale, const FieldInfo& field, const Beyond& beyond, const Look& look,
                 const MapLayout& layout, Rgb ink);
 
+/// Classes with their colours and shares, the largest first. `missing`: there are places without a class.
+void add_class_legend(Sheet& sheet, const std::vector<ShownClass>& classes, bool missing, const Look& look,
+                      const MapLayout& layout, Rgb ink);
+
 /// A bar of a round length, true in the whole picture since the projection is parallel.
 void add_scale_bar(Sheet& sheet, const MeshPanel& panel, const MapLayout& layout, Rgb ink);
 
 /// X, Y and Z as the camera sees them.
-void add_axes(Sheet& sheet, const MeshPanel& panel, const MapLayout& layout, Rgb ink);
+void add_axes(Sheet& sheet, const MeshPanel& panel, const Look& look, const MapLayout& layout, Rgb ink);
 
 }  // namespace clsurf::viz

@@ -13,8 +13,8 @@
 namespace clsurf::viz {
 namespace {
 
-void add_ring(Sheet& sheet, const Vec2& at, double radius, double width, Rgb rgb, bool under) {
-    FlatLine ring{{}, width, rgb, under};
+void add_ring(Sheet& sheet, const Vec2& at, double radius, double width, Rgb rgb, Level level) {
+    FlatLine ring{{}, width, rgb, level};
     constexpr int pieces = 48;
     for (int k = 0; k <= pieces; ++k) {
         const double a = 2 * std::numbers::pi * k / pieces;
@@ -98,8 +98,8 @@ private:
         const Vec2 nearest(std::clamp(anchor.x(), rect->x, rect->x + rect->width),
                            std::clamp(anchor.y(), rect->y, rect->y + rect->height));
         if ((Vec2(flat.x, flat.y) - middle).norm() > size.y()) {
-            sheet_.lines.push_back({{anchor, nearest}, 0.2 * layout_.text, white, true});
-            sheet_.lines.push_back({{anchor, nearest}, 0.06 * layout_.text, black, false});
+            sheet_.lines.push_back({{anchor, nearest}, 0.2 * layout_.text, white, Level::edge});
+            sheet_.lines.push_back({{anchor, nearest}, 0.06 * layout_.text, black, Level::line});
         }
         sheet_.quads.push_back({*rect, white});
         sheet_.texts.push_back(std::move(flat));
@@ -122,13 +122,13 @@ private:
                 if (stroke.size() == 1) stroke.push_back(stroke[0] + Vec2(0.5, 0));
                 if (!labelled) add_label_beside(stroke.front(), mark.label);
                 labelled = true;
-                sheet_.lines.push_back({stroke, 0.35 * layout_.text, white, true});
-                sheet_.lines.push_back({std::move(stroke), 0.17 * layout_.text, black, false});
+                sheet_.lines.push_back({stroke, 0.35 * layout_.text, white, Level::edge});
+                sheet_.lines.push_back({std::move(stroke), 0.17 * layout_.text, black, Level::line});
             }
             // The first point of a marked line is ringed: there the line begins.
             if (const Vec3 p = place_of(range.first); shows(panel_.camera, look_, p))
                 add_ring(sheet_, corner_ + panel_.camera.pixel(p), 0.45 * layout_.text, 0.15 * layout_.text, black,
-                         false);
+                         Level::line);
         }
     }
 
@@ -136,8 +136,8 @@ private:
         const Vec3 p = place_of(mark.point);
         if (!shows(panel_.camera, look_, p)) return;
         const Vec2 at = corner_ + panel_.camera.pixel(p);
-        add_ring(sheet_, at, ring_radius(), 0.36 * layout_.text, white, true);
-        add_ring(sheet_, at, ring_radius(), 0.18 * layout_.text, black, false);
+        add_ring(sheet_, at, ring_radius(), 0.36 * layout_.text, white, Level::edge);
+        add_ring(sheet_, at, ring_radius(), 0.18 * layout_.text, black, Level::line);
         add_label_beside(at, mark.label);
     }
 
@@ -152,8 +152,8 @@ private:
                 for (const Vec2& p : stroke) {
                     if (p.y() > top.y()) top = p;
                 }
-                sheet_.lines.push_back({stroke, 0.2 * layout_.text, white, true});
-                sheet_.lines.push_back({std::move(stroke), 0.08 * layout_.text, black, false});
+                sheet_.lines.push_back({stroke, 0.2 * layout_.text, white, Level::edge});
+                sheet_.lines.push_back({std::move(stroke), 0.08 * layout_.text, black, Level::line});
             }
         }
         if (top.y() >= 0 && !mark.label.empty()) add_label(top, top + Vec2(0, 0.75 * layout_.small_text), mark.label);

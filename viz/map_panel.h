@@ -8,7 +8,9 @@
 #include "field/field.h"
 #include "surface/cl_surface.h"
 #include "viz/canvas.h"
+#include "viz/defect_map.h"
 #include "viz/detail.h"
+#include "viz/field_classes.h"
 #include "viz/relief.h"
 #include "viz/view.h"
 
@@ -23,6 +25,8 @@ struct Look {
     Style style = Style::surface;
     Rgb background{255, 255, 255};
     bool legend = true;
+    bool scales = true;  ///< millimetres round the map; else a scale bar
+    bool names = false;  ///< room for names, of defects or classes, in place of the colour scale
     std::string gl = "osmesa";
     int supersample = 2;
 };
@@ -52,12 +56,16 @@ struct MapPanel {
     std::vector<PointMark> points;
     std::vector<LineMark> lines;
     std::vector<OutlineMark> outlines;
-    const Relief* relief = nullptr;  ///< drawn in place of the surface; the field is then one of its vertices
+    const DefectMap* defects = nullptr;     ///< the surface is then a grey relief below them, whatever the field
+    const FieldClasses* classes = nullptr;  ///< of a field whose values are names
+    const Relief* relief = nullptr;         ///< drawn in place of the surface; the field is then one of its vertices
+    std::vector<PointRange> pale = {};      ///< points in a lighter tone, rising: ramps that all passes have
     std::function<Vec3(PointIndex)> place_of = {};  ///< where points and lines are marked [mm]; empty: on the surface
 };
 
 struct MapTexts {
     std::string title;               ///< "Path speed, commanded surface"
+    std::string frame;               ///< of the coordinates: "G54"; may be empty
     std::string subtitle;            ///< program · log · counts
     std::vector<std::string> notes;  ///< window, range: one line where they fit, else one each
 };

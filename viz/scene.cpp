@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 
 #include "core/block.h"
+#include "viz/defect_marks.h"
+#include "viz/map_axes.h"
 #include "viz/map_margin.h"
 #include "viz/map_marks.h"
 
@@ -16,10 +18,12 @@ namespace {
 
 constexpr double caption_lines = 1.6;  ///< height of a panel's caption, in text sizes
 constexpr double shade_dark = 0.80;    ///< of a surface that the light only grazes
+constexpr double relief_dark = 0.62;   ///< of a grey relief, whose shade is all that it shows
+constexpr double relief_grey = 232;    ///< of a grey relief that faces the light
 const Vec3 light(-0.45, 0.55, 0.70);   ///< from the upper left, in the camera's frame
 
 /// Vertices get their places on the ramp, and the shade of light that grazes.
-Beyond paint(Detail& detail, const ColourScale& scale, double per_inside, MeshPanel& panel) {
+Beyond paint(Detail& detail, const ColourScale& scale, double per_inside, const Rgb& background, MeshPanel& panel) {
     Geometry& g = detail.geometry;
     const Camera& camera = panel.camera;
     const std::size_t count = detail.values.size();
@@ -28,9 +32,9 @@ Beyond paint(Detail& detail, const ColourScale& scale, double per_inside, MeshPa
     panel.ramp = scale.ramp();
     panel.stepped = scale.bins > 0;
     panel.bare_colour = missing_colour;
+    panel.bare_ground = background;
     const Vec3 direction = (light.x() * camera.right + light.y() * camera.up + light.z() * camera.towards).normalized();
     const bool lit = !g.normals.empty();
-    const double readable = 0.005 * (scale.high - scale.low);
     std::atomic<bool> below{false};
     std::atomic<bool> above{false};
     std::atomic<bool> missing{false};
@@ -42,8 +46,8 @@ Beyond paint(Detail& detail, const ColourScale& scale, double per_inside, MeshPa
             const bool known = value == value;
             panel.along[v] = known ? static_cast<float>(scale.along(value)) : 0.0F;
             here.missing = here.missing || !known;
-            here.below = here.below || value < scale.low - readable;
-            here.above = here.above || value > scale.high + readable;
+            here.below = here.below || scale.is_below(value);
+            here.above = here.above || scale.is_above(value);
             double shade = 1;
             if (lit) {
                 const Vec3 n(g.normals[3 * v], g.normals[3 * v + 1], g.normals[3 * v + 2]);
@@ -57,6 +61,18 @@ Beyond paint(Detail& detail, const ColourScale& scale, double per_inside, MeshPa
     });
     g.normals = {};
     return {below, above, missing};
+}
+
+/// 1 at vertices in one of the ranges, which rise.
+Column<float> paleness_of(const Column<PointIndex>& points, const std::vector<PointRange>& ranges) {
+    Column<float> pale(points.size());
+    for (std::size_t v = 0; v < points.size(); ++v) {
+        const auto after =
+            std::upper_bound(ranges.begin(), ranges.end(), points[v],
+                             [](PointIndex point, const PointRange& range) { return point < range.first; });
+        pale[v] = after != ranges.begin() && points[v] <= std::prev(after)->last ? 1.0F : 0.0F;
+    }
+    return pale;
 }
 
 /// Takes the cells of `size` corners out of which one has no value.
@@ -117,6 +133,42 @@ Box3 extent_of(const ClSurface& surface, const ViewAxes& axes) {
 
 namespace {
 
+/// A grey relief: its shade, and no values.
+void paint_relief(Detail& detail, MeshPanel& panel) {
+    Geometry& g = detail.geometry;
+    const Camera& camera = panel.camera;
+    const Vec3 direction = (light.x() * camera.right + light.y() * camera.up + light.z() * camera.towards).normalized();
+    g.rgb.resize(g.xyz.size());
+    for (unsigned char& c : g.rgb) c = static_cast<unsigned char>(relief_grey);
+    if (g.normals.empty()) return;
+    parallel_for(static_cast<std::int64_t>(g.xyz.size() / 3), block_points, [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t i = first; i < last; ++i) {
+            const auto v = 3 * static_cast<std::size_t>(i);
+            const Vec3 n(g.normals[v], g.normals[v + 1], g.normals[v + 2]);
+            const double shade = relief_dark + (1 - relief_dark) * std::abs(n.dot(direction));
+            for (std::size_t k = 0; k < 3; ++k) g.rgb[v + k] = static_cast<std::uint8_t>(relief_grey * shade);
+        }
+    });
+    g.normals = {};
+}
+
+/// What is shown of a part [mm].
+Box3 shown_box(const MapPanel& map, const Look& look) {
+    const ViewAxes axes = ViewAxes::Identity();
+    const Box3 all = map.relief != nullptr ? extent_of(*map.relief, axes) : extent_of(*map.surface, axes);
+    return look.box.isEmpty() ? all : all.intersection(look.box);
+}
+
+Beyond paint_panel(Detail& detail, const MapPanel& map, const ColourScale& scale, const Look& look, MeshPanel& panel) {
+    if (map.defects != nullptr) {
+        paint_relief(detail, panel);
+        return {};
+    }
+    if (map.classes == nullptr) return paint(detail, scale, map.field->info.unit.per_inside, look.background, panel);
+    divide_by_class(detail, map.field->values, *map.classes);
+    return paint(detail, scale, 1, look.background, panel);
+}
+
 Rect map_area(const Look& look, const MapLayout& layout) {
     Rect area{0, 0, look.width - layout.legend_width, static_cast<double>(look.height)};
     if (!look.legend) return area;
@@ -125,21 +177,49 @@ Rect map_area(const Look& look, const MapLayout& layout) {
     return area;
 }
 
-/// Panels side by side; a caption has its own line above.
+/// Panels side by side; a caption has its own line above, ticks have room at the left and below.
 Rect panel_rect(const std::vector<MapPanel>& panels, std::size_t k, const Look& look, const MapLayout& layout) {
     const Rect area = map_area(look, layout);
     const auto count = static_cast<double>(panels.size());
     const double caption = panels[k].caption.empty() ? 0 : caption_lines * layout.text;
-    return {std::round(area.x + area.width * static_cast<double>(k) / count), std::round(area.y),
-            std::max(1.0, std::floor(area.width / count)), std::max(1.0, std::floor(area.height) - std::ceil(caption))};
+    const AxesRoom room = has_frame(look) ? axes_room(look, layout) : AxesRoom{};
+    return {std::round(area.x + area.width * static_cast<double>(k) / count + room.left),
+            std::round(area.y + room.bottom), std::max(1.0, std::floor(area.width / count - room.left - room.right)),
+            std::max(1.0, std::floor(area.height - room.bottom - room.top) - std::ceil(caption))};
+}
+
+/// What pixels can show of a panel, and somewhat more: a triangle over its edge has corners outside.
+Detail detail_of(const MapPanel& map, const Camera& camera, const Look& look) {
+    const double room =
+        std::min(2.0 * map.surface->step_over / camera.mm_per_pixel + 8.0, static_cast<double>(camera.width));
+    DetailRequest request;
+    request.projection = camera.projection();
+    request.projection.col(3).array() += std::ceil(room);
+    request.width = camera.width + 2 * static_cast<int>(std::ceil(room));
+    request.height = camera.height + 2 * static_cast<int>(std::ceil(room));
+    request.style = look.style;
+    request.box = look.box;
+    return map.relief != nullptr ? relief_detail(*map.relief, map.field->values, request)
+                                 : visible_detail(*map.surface, map.field->values, request);
 }
 
 }  // namespace
 
 Camera map_camera(const std::vector<MapPanel>& panels, const Look& look) {
-    const Rect rect = panel_rect(panels, 0, look, MapLayout(look));
+    const MapLayout layout(look);
+    const Rect rect = panel_rect(panels, 0, look, layout);
     const auto width = static_cast<int>(rect.width);
     const auto height = static_cast<int>(rect.height);
+    const auto boxed = [&](const Box3& box) {
+        // The scales of a box stand inside the panel.
+        const AxesRoom room = axes_room(look, layout);
+        const int across = std::max(1, static_cast<int>(width - room.left - room.right));
+        const int up = std::max(1, static_cast<int>(height - room.bottom - room.top));
+        Camera camera = camera_for(look.view, box, across, up, look.zoom);
+        camera.width = width;
+        camera.height = height;
+        return camera;
+    };
     const auto extent = [&](const ViewAxes& axes) {
         Box3 all;
         for (const MapPanel& map : panels)
@@ -147,11 +227,13 @@ Camera map_camera(const std::vector<MapPanel>& panels, const Look& look) {
         return all;
     };
     if (look.box.isEmpty()) {
+        if (has_box(look)) return boxed(extent(ViewAxes::Identity()));
         const ViewAxes axes = axes_of(look.view);
         return camera_for(axes, extent(axes), width, height, look.zoom);
     }
     // Where the box is larger than the part, as one may give it along Z, the part is what counts.
     const Box3 filled = look.box.intersection(extent(ViewAxes::Identity()));
+    if (has_box(look)) return boxed(filled.isEmpty() ? look.box : filled);
     return camera_for(look.view, filled.isEmpty() ? look.box : filled, width, height, look.zoom);
 }
 
@@ -170,26 +252,17 @@ Sheet map_sheet(const std::vector<MapPanel>& panels, const Camera& camera, const
         MeshPanel panel;
         panel.rect = panel_rect(panels, k, look, layout);
         panel.camera = camera;  // each panel shows the same part at the same scale
-        DetailRequest request;
-        // Somewhat more than the panel: a triangle over its edge has corners outside.
-        const double room =
-            std::min(2.0 * map.surface->step_over / camera.mm_per_pixel + 8.0, static_cast<double>(camera.width));
-        request.projection = camera.projection();
-        request.projection.col(3).array() += std::ceil(room);
-        request.width = camera.width + 2 * static_cast<int>(std::ceil(room));
-        request.height = camera.height + 2 * static_cast<int>(std::ceil(room));
-        request.style = look.style;
-        request.box = look.box;
-        Detail detail = map.relief != nullptr ? relief_detail(*map.relief, map.field->values, request)
-                                              : visible_detail(*map.surface, map.field->values, request);
-        const Beyond here = paint(detail, scale, map.field->info.unit.per_inside, panel);
+        Detail detail = detail_of(map, camera, look);
+        const Beyond here = paint_panel(detail, map, scale, look, panel);
         beyond = {beyond.below || here.below, beyond.above || here.above, beyond.missing || here.missing};
+        if (!map.pale.empty()) panel.pale = paleness_of(detail.points, map.pale);
         panel.geometry = std::move(detail.geometry);
         if (here.missing) {
             panel.bare_triangles = take_bare(panel.geometry.triangles, 3, detail.values);
             panel.bare_segments = take_bare(panel.geometry.segments, 2, detail.values);
             panel.bare_points = take_bare(panel.geometry.points, 1, detail.values);
         }
+        if (map.defects != nullptr) add_defects(sheet, map, panel, look, layout);
         without_room += add_marks(sheet, map, panel, look, layout);
         if (!map.caption.empty()) {
             const double y = panel.rect.y + panel.rect.height + 0.5 * caption_lines * layout.text;
@@ -197,9 +270,10 @@ Sheet map_sheet(const std::vector<MapPanel>& panels, const Camera& camera, const
                 fitted({panel.rect.x + layout.margin, y, map.caption, layout.text, Align::left, true, ink},
                        panel.rect.width - 2 * layout.margin));
         }
+        if (look.legend) add_scales(sheet, panel, shown_box(map, look), texts.frame, look, layout);
         if (look.legend && k + 1 == panels.size()) {
-            add_axes(sheet, panel, layout, ink);
-            add_scale_bar(sheet, panel, layout, ink);
+            if (!has_frame(look)) add_axes(sheet, panel, look, layout, ink);
+            if (!has_frame(look) && !has_box(look)) add_scale_bar(sheet, panel, layout, ink);
         }
         sheet.panels.push_back(std::move(panel));
     }
@@ -207,7 +281,10 @@ Sheet map_sheet(const std::vector<MapPanel>& panels, const Camera& camera, const
         MapTexts all = texts;
         if (without_room > 0) all.notes.push_back(fmt::format("{} labels have no room in this picture", without_room));
         add_title(sheet, all, look, layout, ink);
-        add_legend(sheet, scale, panels.front().field->info, beyond, look, layout, ink);
+        if (panels.front().classes != nullptr)
+            add_class_legend(sheet, panels.back().classes->shown(), beyond.missing, look, layout, ink);
+        else if (panels.front().defects == nullptr)
+            add_legend(sheet, scale, panels.front().field->info, beyond, look, layout, ink);
     }
     return sheet;
 }

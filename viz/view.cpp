@@ -39,7 +39,7 @@ View parse_view(const std::string& text) {
     if (!comma || second.ec != std::errc() || second.ptr != end || std::abs(view.elevation) > 90 ||
         !std::isfinite(view.azimuth)) {
         const std::string nearest = did_you_mean(text, names);
-        throw UsageError("--view: '" + text + "' is no view",
+        throw UsageError("--view: '" + text + "' is not a view",
                          nearest.empty() ? "iso, top, front, left, right, back, bottom or AZ,EL in degrees" : nearest);
     }
     return view;

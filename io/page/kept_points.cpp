@@ -43,7 +43,7 @@ void mark_extremes(Marks& marks, const Column<float>& values, PointIndex first, 
     if (at.last >= 0) mark(marks, at.last);
 }
 
-/// take(range) for the points of a defect and of the passes beside it.
+/// take(range) for the points of a defect and of the adjacent passes.
 template <typename Take>
 void for_each_run(const Defect& defect, const Take& take) {
     for (const std::vector<DefectRun>* runs : {&defect.runs, &defect.neighbours}) {

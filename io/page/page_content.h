@@ -1,6 +1,8 @@
 #pragma once
 // ReportPage: what the page of `clsurf report` shows.
 
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -39,13 +41,15 @@ struct PagePicture {
 struct PageDefect {
     std::vector<std::vector<Vec3>> outlines;  ///< lines [mm] on the surface of the tool tips
     std::optional<PagePicture> picture;
+    Vec3 normal = Vec3::Zero();                            ///< of the surface, there; zero: not known
     std::vector<std::vector<Vec3>> contact_outlines = {};  ///< the same on the part; empty: no tool is known
 };
 
 struct PageColourMap {
     std::string name, summary;
     bool centred = false;
-    std::string rgb;  ///< evenly spaced colours, three bytes each
+    std::array<std::uint8_t, 3> below{}, above{};  ///< of values outside the range
+    std::string rgb;                               ///< evenly spaced colours, three bytes each
 };
 
 /// A height map of what the tool leaves standing.
@@ -78,6 +82,7 @@ struct ReportPage {
     Diagnostics health;  ///< findings on program and log
     std::vector<PagePicture> pictures;
     std::vector<PageColourMap> colour_maps;
+    std::vector<std::string> field_maps;  ///< per field, the name of the map that suits it
     std::optional<PageRelief> relief;
     std::uint64_t most_bytes = 0;  ///< the limit that the points were chosen for
 };

@@ -198,7 +198,9 @@ Json fields_json(const ReportPage& page) {
         all.push_back({{"name", info.name},
                        {"label", info.label},
                        {"unit", info.unit.name},
-                       {"diverging", info.scale == FieldScale::diverging},
+                       {"map", page.field_maps[k]},
+                       {"slack", number(info.slack * std::abs(info.unit.per_inside))},
+                       {"classes", has_classes(info)},
                        {"note", info.note},
                        {"low", number(range.low)},
                        {"high", number(range.high)},
@@ -239,6 +241,7 @@ Json defects_json(const ReportPage& page) {
         all.push_back({{"id", i + 1},
                        {"severity", d.severity},
                        {"cause", name_of(d.cause)},
+                       {"quantity", name_of(d.quantity)},
                        {"text", sentence_of(d)},
                        {"bounds_mm", box(d.contact_bounds.isEmpty() ? d.bounds : d.contact_bounds)},
                        {"depth_um", number(d.depth * um_per_mm, 2)},
@@ -248,6 +251,7 @@ Json defects_json(const ReportPage& page) {
                        {"neighbours", runs_json(d.neighbours)},
                        {"outlines", lines_json(page.defects[i].outlines)}});
         add_place(all.back(), d.place);
+        if (page.defects[i].normal != Vec3::Zero()) all.back()["normal"] = exact_vector(page.defects[i].normal);
         if (!page.defects[i].contact_outlines.empty())
             all.back()["contact_outlines"] = lines_json(page.defects[i].contact_outlines);
     }
@@ -300,8 +304,12 @@ PageData page_data(const ReportPage& page) {
          {"first_field", page.first_field}};
     m["colour_maps"] = Json::array();
     for (const PageColourMap& map : page.colour_maps)
-        m["colour_maps"].push_back(
-            {{"name", map.name}, {"summary", map.summary}, {"centred", map.centred}, {"rgb", to_base64(map.rgb)}});
+        m["colour_maps"].push_back({{"name", map.name},
+                                    {"summary", map.summary},
+                                    {"centred", map.centred},
+                                    {"below", map.below},
+                                    {"above", map.above},
+                                    {"rgb", to_base64(map.rgb)}});
     m["fields"] = fields_json(page);
     m["defects"] = defects_json(page);
     m["surfaces"] = Json::array();

@@ -1,5 +1,6 @@
 #include "io/reports/optimize_report.h"
 
+#include <algorithm>
 #include <array>
 
 #include <fmt/format.h>
@@ -7,6 +8,7 @@
 #include "core/units.h"
 #include "io/files/json_value.h"
 #include "io/reports/defect_json.h"
+#include "io/reports/fidelity_report.h"
 
 namespace clsurf::io {
 namespace {
@@ -16,6 +18,74 @@ std::array<std::size_t, quantities> by_quantity(const JudgedRun& run) {
     std::array<std::size_t, quantities> counts{};
     for (const Defect& defect : run.report.defects) ++counts[index_of(defect.quantity)];
     return counts;
+}
+
+std::string program_of(const ControllerRun& run) {
+    return run.candidate == 0 ? "the program" : fmt::format("candidate {}", run.candidate);
+}
+
+/// The measures of a run beside those that were promised.
+std::string controller_text(const std::vector<ControllerRun>& runs) {
+    std::string text;
+    const auto words = [](const RunMeasures& m) {
+        return fmt::format("{:.3f} s, speed mismatch {:.1f} mm/min, {:.0f} defects", m.duration,
+                           m.mismatch * seconds_per_minute, m.defects);
+    };
+    for (std::size_t k = 0; k < runs.size(); ++k) {
+        const ControllerRun& run = runs[k];
+        text += fmt::format("run {}, {}: ", k + 1, program_of(run));
+        text += run.measured ? words(*run.measured) : "failed: " + run.reason;
+        if (run.measured && run.promised) text += fmt::format("; promised {}", words(*run.promised));
+        if (run.measured && run.candidate > 0)
+            text += run.accepted ? "; accepted" : fmt::format("; refused: {}", run.reason);
+        text += "\n";
+    }
+    return text;
+}
+
+Json measures_json(const std::optional<RunMeasures>& m) {
+    if (!m) return nullptr;
+    return Json{{"time_s", number(m->duration, 6)},
+                {"mismatch", number(m->mismatch * seconds_per_minute, 2)},
+                {"defects", number(m->defects, 2)}};
+}
+
+Json controller_json(const std::vector<ControllerRun>& runs) {
+    Json list = Json::array();
+    for (const ControllerRun& run : runs)
+        list.push_back(Json{{"program", program_of(run)},
+                            {"measured", measures_json(run.measured)},
+                            {"promised", measures_json(run.promised)},
+                            {"accepted", run.accepted},
+                            {"reason", run.reason.empty() ? Json(nullptr) : Json(run.reason)}});
+    return list;
+}
+
+std::string ensemble_text(const EnsembleResult& ensemble) {
+    if (ensemble.runs.empty()) return {};
+    const auto words = [](const char* name, const EnsembleRun& run) {
+        return fmt::format(
+            "  {}: time {:.3f} to {:.3f} s, speed mismatch {:.1f} to {:.1f} mm/min, defects {:.3g} to {:.3g}, gain {:.1f} %\n",
+            name, run.before.duration, run.after.duration, run.before.mismatch * seconds_per_minute,
+            run.after.mismatch * seconds_per_minute, run.before.defects, run.after.defects, 100 * run.gain);
+    };
+    return fmt::format("on {} other machines that the machine file allows\n", ensemble.runs.size()) +
+           words("mean", ensemble.mean()) + words("worst", ensemble.worst());
+}
+
+Json ensemble_json(const EnsembleResult& ensemble) {
+    if (ensemble.runs.empty()) return nullptr;
+    const auto object = [](const EnsembleRun& run) {
+        return Json{{"time_before_s", number(run.before.duration, 6)},
+                    {"time_after_s", number(run.after.duration, 6)},
+                    {"mismatch_before", number(run.before.mismatch * seconds_per_minute, 2)},
+                    {"mismatch_after", number(run.after.mismatch * seconds_per_minute, 2)},
+                    {"defects_before", number(run.before.defects, 2)},
+                    {"defects_after", number(run.after.defects, 2)},
+                    {"gain_percent", number(100 * run.gain, 2)}};
+    };
+    return Json{
+        {"machines", ensemble.runs.size()}, {"worst", object(ensemble.worst())}, {"mean", object(ensemble.mean())}};
 }
 
 }  // namespace
@@ -29,11 +99,16 @@ std::string optimize_text(const Optimized& r) {
     };
     if (r.measured) {
         text += fmt::format(
-            "log: {:.3f} s, speed mismatch {:.1f} mm/min (p95), {} defects; {} motions are in need of repair, all others stay\n",
+            "log: {:.3f} s, speed mismatch {:.1f} mm/min (p95), {} defects; {} motions need repair, the others stay as they are\n",
             r.measured->duration, r.measured->mismatch * seconds_per_minute, r.measured->defects,
             r.measured->motions_in_need);
     }
-    text += fmt::format("{:<28} {:>12} {:>12} {:>10}\n", "simulated", "before", "after", "change");
+    text += "machine: " + r.machine + "\n";
+    const bool controller = std::any_of(r.controller_runs.begin(), r.controller_runs.end(),
+                                        [](const ControllerRun& run) { return run.candidate > 0 && run.measured; });
+    text += controller_text(r.controller_runs);
+    text += fmt::format("{:<28} {:>12} {:>12} {:>10}\n", controller ? "on the controller" : "simulated", "before",
+                        "after", "change");
     row("time", r.before.duration, r.after.duration, 3, "s");
     row("speed mismatch, p95", r.before.mismatch * seconds_per_minute, r.after.mismatch * seconds_per_minute, 1,
         "mm/min");
@@ -51,8 +126,9 @@ std::string optimize_text(const Optimized& r) {
     text += fmt::format("{} stretches, {} lines changed; off the programmed path by at most {:.4f} mm\n",
                         r.evaluation.intervals, r.evaluation.changed_lines, r.evaluation.deviation.greatest);
     if (r.five_axes)
-        text += fmt::format("tool axis off the programmed one by at most {:.4f} deg\n",
+        text += fmt::format("tool axis deviates from the programmed one by at most {:.4f} deg\n",
                             r.evaluation.deviation.turned * deg_per_rad);
+    text += ensemble_text(r.ensemble) + fidelity_line(r.fidelity);
     text += r.evaluation.accepted ? "accepted\n" : fmt::format("refused: {}\n", r.evaluation.reason);
     return text;
 }
@@ -84,7 +160,11 @@ std::string optimize_json(const Optimized& r, const Diagnostics& diagnostics) {
               {"lines_before", r.evaluation.lines_before},
               {"lines_after", r.evaluation.lines_after},
               {"lines_changed", r.evaluation.changed_lines},
-              {"proof", "simulation"},
+              {"ensemble", ensemble_json(r.ensemble)},
+              {"fidelity", fidelity_json(r.fidelity)},
+              {"machine", r.machine},
+              {"proof", r.controller_runs.empty() ? "simulation" : "controller"},
+              {"controller_runs", controller_json(r.controller_runs)},
               {"log", measured_json(r.measured)},
               {"diagnostics", list(diagnostics)}};
     const auto before = by_quantity(r.before), after = by_quantity(r.after);

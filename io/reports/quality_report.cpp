@@ -9,8 +9,10 @@
 #include "io/files/json_value.h"
 #include "io/reports/defect_json.h"
 #include "io/reports/joined_reports.h"
+#include "io/reports/limit_reports.h"
 #include "io/reports/line_ranges.h"
 #include "io/reports/quality_words.h"
+#include "limits/limit_budget.h"
 
 namespace clsurf::io {
 namespace {
@@ -61,6 +63,12 @@ Json patches_json(const AsMachinedReport& f) {
                        {"form_unknown_percent", number(100 * patch.unknown, 1)}});
     }
     return all;
+}
+
+/// Limits are judged whatever the passes are like.
+bool is_limit(const BudgetLine& line) {
+    const auto limits = limit_budget_limits();
+    return std::any_of(limits.begin(), limits.end(), [&](const auto& row) { return row.name == line.name; });
 }
 
 /// The verdict, and what stands out most.
@@ -190,6 +198,10 @@ std::string quality_json(const ReportedQuality& q) {
               {"expected", list_defects(q.report->expected, q.scallop)},
               {"summary", std::move(summary)}};
     if (q.as_machined != nullptr) json["roughness"] = patches_json(*q.as_machined);
+    if (q.limits != nullptr) {
+        json["limits"] = limits_json(*q.limits, *q.program);
+        json["limits_judged"] = judged_limits_json(*q.limits);
+    }
     json["diagnostics"] = list(*q.diagnostics);
     return dump(json);
 }
@@ -197,25 +209,28 @@ std::string quality_json(const ReportedQuality& q) {
 std::string quality_csv(const ReportedQuality& q) {
     std::string text =
         "id,severity,cause,pass,first_line,last_line,first_point,last_point,x [mm],y [mm],z [mm],depth [µm],shape,"
-        "speed jump [mm/min],acceleration jump [mm/s²],length [mm],area [mm²],score,speed jump [%],quantity,systematic,place,file,file_first_line,file_last_line\n";
+        "speed jump [mm/min],acceleration jump [mm/s²],length [mm],area [mm²],score,speed jump [%],quantity,systematic,place,file,file_first_line,file_last_line,";
+    text += fmt::format("{}\n", limit_column_titles());
     for (std::size_t i = 0; i < q.report->defects.size(); ++i) {
         const Defect& d = q.report->defects[i];
         const Vec3& at = d.place.position();
         for (const DefectRun& run : d.runs) {
             text += fmt::format(
-                "{},{},{},{},{},{},{},{},{:.4f},{:.4f},{:.4f},{:.3f},{},{:.1f},{:.1f},{:.3f},{:.4f},{:.2f},{:.1f},{},{},{},{}\n",
+                "{},{},{},{},{},{},{},{},{:.4f},{:.4f},{:.4f},{:.3f},{},{:.1f},{:.1f},{:.3f},{:.4f},{:.2f},{:.1f},{},{},{},{},,,,,,,,\n",
                 i + 1, d.severity, name_of(d.cause), run.pass, run.first_line, run.last_line, run.points.first,
                 run.points.last, at.x(), at.y(), at.z(), um(d.depth), shape_of(d), per_minute(d.speed_jump),
                 d.acceleration_jump, d.length, d.area, d.score, 100 * d.speed_mismatch, name_of(d.quantity),
                 d.systematic, place_word(d.place), subprogram_columns(run));
         }
     }
+    if (q.limits != nullptr) text += limits_csv(*q.limits, q.report->defects.size() + 1);
     return text;
 }
 
 std::string quality_text(const ReportedQuality& q) {
     const QualityReport& r = *q.report;
-    std::string text = verdict_text(r) + defects_table(q);
+    std::string text = q.limits != nullptr ? limits_text(*q.limits, *q.program) : std::string();
+    text += verdict_text(r) + defects_table(q);
     if (r.passes < 2 || r.step_over <= 0) {
         text += "no adjacent passes: nothing to compare\n";
     } else {
@@ -250,9 +265,9 @@ std::string quality_text(const ReportedQuality& q) {
     }
     for (const BudgetLine& line : q.budget) {
         text += fmt::format("budget {:<28} {:>10.4g} of {:<10.4g} {}\n", line.name, line.measured, line.limit,
-                            !r.judgement.judged() ? "NOT JUDGED"
-                            : line.held           ? "held"
-                                                  : "NOT HELD");
+                            line.held                                  ? "held"
+                            : !r.judgement.judged() && !is_limit(line) ? "NOT JUDGED"
+                                                                       : "NOT HELD");
     }
     return text;
 }

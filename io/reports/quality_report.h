@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/diagnostic.h"
+#include "limits/limit_report.h"
 #include "machined/as_machined_report.h"
 #include "machined/tool.h"
 #include "predictor/defects.h"
@@ -23,6 +24,7 @@ struct ReportedQuality {
     double scallop = 0;                      ///< [mm] between clean passes; 0: not known
     std::vector<double> colour_differences;  ///< ΔE00 of each defect's speed and that beside it, in the map of speeds
     const AsMachinedReport* as_machined = nullptr;  ///< nullptr: the tool is not known
+    const LimitReport* limits = nullptr;            ///< nullptr: no limits are stated
     std::vector<BudgetLine> budget;
     const Diagnostics* diagnostics = nullptr;
     std::size_t columns = 80;  ///< width of the table in the text

@@ -1,5 +1,5 @@
 // SARIF 2.1.0 (OASIS, Static Analysis Results Interchange Format): a defect is a result at the lines of
-// its first run; its other runs and the passes beside it are related locations. A run inside a subprogram is at the
+// its first run; its other runs and the adjacent passes are related locations. A run inside a subprogram is at the
 // subprogram's lines, and the line that calls it is a related location.
 
 #include <algorithm>
@@ -13,6 +13,7 @@
 #include "core/file_name.h"
 #include "core/units.h"
 #include "io/files/json_value.h"
+#include "io/reports/limit_reports.h"
 #include "io/reports/quality_report.h"
 #include "io/reports/quality_words.h"
 #include "io/reports/sarif.h"
@@ -124,6 +125,7 @@ std::string quality_sarif(const ReportedQuality& q) {
         if (!related.empty()) result["relatedLocations"] = std::move(related);
         results.push_back(std::move(result));
     }
+    if (q.limits != nullptr) add_limits_sarif(*q.limits, *q.program, q.log, rules, results);
     Json notifications = Json::array();
     if (!q.report->judgement.judged()) {
         rules.push_back(

@@ -72,9 +72,9 @@ std::string height_text(const Defect& d) {
 }
 
 std::string systematic_text(const Defect& d) {
-    std::string text = fmt::format(
-        "axes lag, forward against backward: neighbouring passes differ by up to ±{} on {:.0f} % of the part",
-        with_um(d.depth), 100 * d.share);
+    std::string text =
+        fmt::format("axes lag, forward against backward: adjacent passes differ by up to ±{} on {:.0f} % of the part",
+                    with_um(d.depth), 100 * d.share);
     if (d.delays.size() < 2) return text + "; servo gains or feed-forward of the axes differ, or an axis has backlash";
     std::string axes;
     for (std::size_t k = d.delays.size(); k-- > 0;) {
@@ -171,7 +171,8 @@ std::string_view sentence_of(MarkNote note) {
         case MarkNote::unknown_form: return "the form is not known here (a crease, a fillet or a border)";
         case MarkNote::uneven_passes: return "the adjacent passes differ from each other by as much as the mark";
         case MarkNote::cut_away: return "the adjacent passes cut the bulge down";
-        case MarkNote::other_passes: return "adjacent passes run off, too: the depth is that of all of them together";
+        case MarkNote::other_passes:
+            return "the adjacent passes deviate too: the depth is that of all of them together";
     }
     return "";
 }
@@ -211,22 +212,23 @@ const RuleText& rule_of(const Defect& defect) {
         RuleText{
             "feed_drop", "A pass runs at a different speed than its neighbours.",
             "Look for short blocks, a feed override or a block that the look-ahead cannot see past, on the lines at "
-            "fault; `clsurf optimize` evens the feeds of neighbouring passes."},
+            "fault; `clsurf optimize` evens the feeds of adjacent passes."},
         RuleText{
             "oscillation", "The speed of a pass oscillates about that of its neighbours.",
             "Short blocks of uneven length make the planner speed up and slow down: space the points evenly, widen "
             "the tolerance of the control (G64 P, CYCLE832), or run `clsurf optimize`."},
         RuleText{
-            "lag_step", "Axis lag on a pass differs from the neighbouring passes.",
+            "lag_step", "Axis lag on a pass differs from the adjacent passes.",
             "The axes follow the commanded path differently there: compare speed and acceleration of the passes, and "
             "the servo gains of the axes."},
-        RuleText{"point_spacing", "Programmed points of a pass are spaced differently from the neighbouring passes.",
+        RuleText{"point_spacing", "Programmed points of a pass are spaced differently from the adjacent passes.",
                  "Post the toolpath again with evenly spaced points, or run `clsurf optimize`."},
         RuleText{"corner", "A pass differs from its neighbours in a corner of the programmed path.",
                  "Round the corner in the toolpath, or widen the tolerance of the control there."},
-        RuleText{"reversal", "Axis lag on a pass differs from the neighbouring passes after an axis reverses.",
+        RuleText{"reversal", "Axis lag on a pass differs from the adjacent passes after an axis reverses.",
                  "Check the axis for backlash and its friction compensation."},
-        RuleText{"pass_end", "A pass begins or ends beside one that goes on.", "Expected at the border of a part."},
+        RuleText{"pass_end", "A pass begins or ends next to a pass that continues.",
+                 "Expected at the border of a part."},
     };
     return defect.systematic ? systematic_rule : rules.at(static_cast<std::size_t>(defect.cause));
 }

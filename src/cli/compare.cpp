@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -14,10 +15,27 @@
 namespace clsurf::cli {
 namespace {
 
+std::string verdict_of(const viz::Comparison& c, const viz::CompareRule& rule) {
+    return fmt::format(
+        "{}: {} pixels differ by more than {:.4f} of full brightness; largest difference {:.4f}, mean {:.6f}, "
+        "signal-to-noise ratio (PSNR) {:.1f} dB, largest colour difference {:.1f} ΔE (1 is just visible)",
+        c.equal ? "equal" : "different", c.pixels_over, rule.threshold, c.max_error, c.mean_error, c.psnr, c.delta_e);
+}
+
 void replace_reference(const std::string& path, std::string_view bytes) {
     io::AtomicFile file(path, io::Replaces::an_input);
     file.write(bytes);
     file.commit();
+}
+
+void ignore_texts(viz::Image& a, const std::string& made, viz::Image& b, const std::string& reference) {
+    for (const auto& [image, name] : {std::pair(&a, &made), std::pair(&b, &reference)}) {
+        if (image->texts.empty())
+            throw InputError(
+                Place::of_file(*name), "does not say where its texts stand, which --ignore-text needs",
+                "PNG pictures of clsurf with texts do; make it again, or compare pictures made with --no-legend");
+    }
+    viz::blank_texts(a, b);
 }
 
 ExitCode run_compare(const po::variables_map& values) {
@@ -32,7 +50,7 @@ ExitCode run_compare(const po::variables_map& values) {
     io::guard_input(reference);
     std::optional<PictureOutput> difference;
     if (values.count("diff") > 0) difference.emplace(values["diff"].as<std::string>(), "--diff");
-    const viz::Image a = viz::read_image(made);
+    viz::Image a = viz::read_image(made);
     const bool update = values.count("update") > 0;
     const bool missing = update && !std::filesystem::exists(reference);
     io::ComparisonReport report;
@@ -41,17 +59,15 @@ ExitCode run_compare(const po::variables_map& values) {
     if (missing) {
         verdict = "reference was missing";
     } else {
-        const viz::Image b = viz::read_image(reference);
+        viz::Image b = viz::read_image(reference);
         if (a.width != b.width || a.height != b.height) {
             verdict = fmt::format("sizes differ: {}x{} and {}x{}", a.width, a.height, b.width, b.height);
             report.max_error = report.mean_error = 1;
         } else {
+            if (values.count("ignore-text") > 0) ignore_texts(a, made, b, reference);
             const viz::Comparison c = viz::compare(a, b, rule);
             report = {c.equal, c.max_error, c.mean_error, c.psnr, c.delta_e, rule.threshold, c.pixels_over};
-            verdict =
-                fmt::format("{}: {} pixels over {:.4f}, largest error {:.4f}, mean {:.6f}, PSNR {:.1f} dB, ΔE {:.1f}",
-                            c.equal ? "equal" : "different", c.pixels_over, rule.threshold, c.max_error, c.mean_error,
-                            c.psnr, c.delta_e);
+            verdict = verdict_of(c, rule);
             if (difference)
                 difference->write(viz::difference_picture(a, b), "difference of " + made + " and " + reference);
         }
@@ -85,6 +101,7 @@ Subcommand compare_subcommand() {
                 // clang-format off
                 options.add_options()
                     ("threshold", po::value<double>()->value_name("T"), "largest difference that is ignored, 0 … 1 (default: 1/255)")
+                    ("ignore-text", "words and numbers are not compared, so that a renamed log is no difference; PNG pictures of clsurf only")
                     ("diff", po::value<std::string>()->value_name("OUT.png"), "a picture of the differences")
                     ("update", "replace the reference by A if they differ or B is missing")
                     ("json", "one JSON object");

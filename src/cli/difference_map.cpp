@@ -24,7 +24,7 @@ ShownRange range_of(const DrawnDifference& shown, const ClSurface& surface, cons
     RangeRule rule = options.range;
     const bool automatic = rule.kind == RangeRule::Kind::automatic;
     if (automatic) rule = {RangeRule::Kind::percentiles, 100 - shown_percentile, shown_percentile};
-    ShownRange range = find_range(shown.field, surface.passes, rule);
+    ShownRange range = find_range(shown.field, surface, rule);
     if (!automatic) return range;
     const double most =
         std::max({std::abs(range.low), std::abs(range.high), shown.threshold * shown.field.info.unit.per_inside});

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/block.h"
+#include "mapping/line_agreement.h"
 #include "pipeline/part_fields.h"
 
 namespace clsurf::cli {

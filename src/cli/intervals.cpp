@@ -53,7 +53,7 @@ Subcommand intervals_subcommand() {
         .description =
             "Divides each pass where the spacing of its points or its curvature changes, after Wu et al.\n"
             "(Machines 10 (2022) 558). The speed of each interval follows from its curvature, the machine and\n"
-            "the adjacent intervals of the neighbouring passes. `own` is the speed that feed, curvature and\n"
+            "the adjacent intervals of the adjacent passes. `own` is the speed that feed, curvature and\n"
             "machine allow; `planned` is the speed that the neighbours can keep, too.\n\n"
             "  clsurf intervals part.nc --machine mill.toml\n"
             "  clsurf render part.nc run.biip --color interval -o intervals.png",

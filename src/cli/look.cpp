@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/file_name.h"
+#include "viz/field_colours.h"
 
 namespace clsurf::cli {
 namespace {
@@ -57,6 +58,7 @@ viz::Look read_look(const po::variables_map& values) {
     }
     look.background = viz::parse_colour(text_of(values, "background", "white"), "--background");
     look.legend = values.count("no-legend") == 0;
+    look.scales = values.count("no-axes") == 0;
     look.gl = text_of(values, "gl", "osmesa");
     if (look.gl != "osmesa" && look.gl != "egl") throw UsageError("--gl: '" + look.gl + "' is not osmesa or egl");
     return look;
@@ -71,11 +73,12 @@ void declare_look(po::options_description& options) {
         ("view", po::value<std::string>()->value_name("iso|top|front|left|right|back|bottom|AZ,EL"), "view direction; AZ,EL in degrees (default: iso)")
         ("zoom", po::value<std::string>()->value_name("X0,Y0,X1,Y1"), "part of the map, as fractions from its upper left corner")
         ("box", po::value<std::string>()->value_name("X0,Y0,Z0,X1,Y1,Z1"), "part of the workpiece [mm]; the rest is left out")
-        ("range", po::value<std::string>()->value_name("auto|MIN,MAX|pLOW,pHIGH"), "values at the ends of the colours, or percentiles of the cutting points shown (default: auto, p1,p99)")
-        ("colormap", po::value<std::string>()->value_name("COLORMAP|RGB,RGB,…"), "a named map (`clsurf help colormaps`) or own stops, #RRGGBB,#RRGGBB,… (default: isurface; signed fields coolwarm)")
+        ("range", po::value<std::string>()->value_name("auto|MIN,MAX|pLOW,pHIGH"), "values at the ends of the colours, or percentiles of the cutting points shown (default: auto: the field's fixed range, as 0 to 100 % of the feed, else p1,p99 and all patches of 20 points)")
+        ("colormap", po::value<std::string>()->value_name("COLORMAP|RGB,RGB,…"), "a named map (`clsurf help colormaps`) or own stops, #RRGGBB,#RRGGBB,… ; NAME_r: from its other end (default: magma for speeds, magma_r for errors, coolwarm for signed values, viridis)")
         ("bins", po::value<int>()->value_name("N"), "colours in N steps")
         ("size", po::value<std::string>()->value_name("WxH|hd|4k"), "size in pixels (default: 1600x1200)")
         ("background", po::value<std::string>()->value_name("white|black|#RRGGBB"), "background colour (default: white)")
+        ("no-axes", "no scales in millimetres round the map; a scale bar instead")
         ("no-legend", "only the map: no title, legend, axes or scale bar")
         ("gl", po::value<std::string>()->value_name("osmesa|egl"), "renderer: osmesa uses the processor, egl a graphics card (default: osmesa)");
     // clang-format on
@@ -90,16 +93,28 @@ LookOptions read_look_options(const po::variables_map& values) {
         options.bins = values["bins"].as<int>();
         if (options.bins < 2 || options.bins > 256) throw UsageError("--bins must be 2 … 256");
     }
+    options.range.bins = options.bins;
     options.look = read_look(values);
     return options;
 }
 
 viz::ColourScale scale_of(const FieldInfo& field, const ShownRange& range, const LookOptions& options) {
-    const bool diverging = field.scale == FieldScale::diverging;
-    return {viz::make_colour_map(!options.colour_map.empty() ? options.colour_map
-                                 : diverging                 ? "coolwarm"
-                                                             : "isurface"),
-            range.low, range.high, options.bins};
+    if (options.colour_map.empty()) {
+        const bool thin = options.look.style != viz::Style::surface;
+        return viz::scale_of(field, range.low, range.high, options.bins,
+                             thin ? viz::colour_map_of_lines(field) : viz::usual_colour_map(field));
+    }
+    return viz::scale_of(field, range.low, range.high, options.bins, viz::make_colour_map(options.colour_map));
+}
+
+void refuse_scale_options(const FieldInfo& field, const LookOptions& options) {
+    const auto refuse = [&](const char* option) {
+        throw UsageError(
+            fmt::format("{} does not apply to '{}': its values are names, not numbers", option, field.name));
+    };
+    if (options.range.kind != RangeRule::Kind::automatic) refuse("--range");
+    if (!options.colour_map.empty()) refuse("--colormap");
+    if (options.bins > 0) refuse("--bins");
 }
 
 std::vector<std::string> notes_of(const ShownRange& range) {

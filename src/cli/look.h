@@ -23,6 +23,8 @@ void declare_look(po::options_description& options);
 
 /// The map's colours over a range: the wanted ones, or those that suit the field.
 [[nodiscard]] viz::ColourScale scale_of(const FieldInfo& field, const ShownRange& range, const LookOptions& options);
+/// Throws UsageError: --range, --colormap or --bins, and a field whose values are names.
+void refuse_scale_options(const FieldInfo& field, const LookOptions& options);
 /// What the footnote says of a range.
 [[nodiscard]] std::vector<std::string> notes_of(const ShownRange& range);
 

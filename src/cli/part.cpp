@@ -5,6 +5,7 @@
 #include "cli/work_frames.h"
 #include "core/error.h"
 #include "core/spelling.h"
+#include "io/readers/machine_file.h"
 #include "io/readers/part_file.h"
 
 namespace clsurf::cli {
@@ -86,6 +87,7 @@ Part load_part(const PartOptions& options, StageClock& clock) {
     rules.role = options.role;
     rules.poses = options.poses;
     rules.kinematics = load_kinematics(options.machine);
+    if (!options.machine.empty()) rules.limits = io::read_stated_limits(options.machine);
     rules.use_line_channel = options.use_line_channel;
     rules.accept_foreign = options.force;
     rules.derivative = options.derivative;

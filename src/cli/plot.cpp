@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/defect_card.h"
 #include "cli/picture_output.h"
 #include "cli/plot_options.h"
 #include "cli/profile.h"
@@ -53,6 +54,9 @@ PointRange shown_range(const PlotOptions& options, const Part& part, const std::
 ExitCode run_plot(const po::variables_map& values) {
     PlotOptions options = read_plot_options(values);
     if (asks_for_profile(values)) return plot_profile(values, options.part, options.look, options.output);
+    if (options.defect)
+        return plot_defect(values, options.part, *options.defect, options.output, options.look.width,
+                           options.look.height, options.look.gl);
     PictureOutput output(options.output);
     StageClock clock(read_common(values), 5);
     const Part part = load_part(options.part, clock);
@@ -110,6 +114,7 @@ Subcommand plot_subcommand() {
             "One chart for each field, stacked. Every extreme is kept, however long the log is. A log can be\n"
             "plotted without its program, except with --profile. --profile also prints Ra and Rz.\n\n"
             "  clsurf plot part.nc run.biip -o curve.png --fields speed,acceleration --line 1204\n"
+            "  clsurf plot part.nc run.biip -o card.png --defect 1\n"
             "  clsurf plot part.nc run.biip -o cut.png --profile 10,0,10,5 --tool ball:6",
         .declare = declare_plot,
         .positional = {"PROGRAM", "LOG"},

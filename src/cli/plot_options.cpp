@@ -1,5 +1,7 @@
 #include "cli/plot_options.h"
 
+#include <fmt/format.h>
+
 #include "cli/profile.h"
 #include "core/error.h"
 
@@ -15,7 +17,8 @@ void declare_plot(po::options_description& options) {
         ("to", po::value<double>()->value_name("X"), "last x to show [s or mm]")
         ("line", po::value<long long>()->value_name("N"), "show the points of a line and some before and after; a cursor at its first point")
         ("mark-point", po::value<std::vector<long long>>()->value_name("N"), "a cursor at a point; may be repeated")
-        ("size", po::value<std::string>()->value_name("WxH|hd|4k"), "size in pixels (default: 1600x900)")
+        ("defect", po::value<long long>()->value_name("N"), "instead of curves, the card of a defect of `clsurf check`: where it is, and speed and height of its pass next to the adjacent passes")
+        ("size", po::value<std::string>()->value_name("WxH|hd|4k"), "size in pixels (default: 1600x900; of a card 1600x760)")
         ("gl", po::value<std::string>()->value_name("osmesa|egl"), "renderer: osmesa uses the processor, egl a graphics card (default: osmesa)");
     // clang-format on
     declare_profile(options);
@@ -44,6 +47,13 @@ PlotOptions read_plot_options(const po::variables_map& values) {
     }
     if (values.count("mark-point") > 0) {
         for (const long long n : values["mark-point"].as<std::vector<long long>>()) options.points.push_back(n);
+    }
+    if (values.count("defect") > 0) {
+        options.defect = values["defect"].as<long long>();
+        for (const char* name : {"fields", "over", "from", "to", "line", "mark-point", "profile"}) {
+            if (given(values, name)) throw UsageError(fmt::format("--{} does not apply to --defect", name));
+        }
+        options.look.height = 760;
     }
     if (values.count("size") > 0) {
         const std::vector<double> size = read_size(values["size"].as<std::string>());

@@ -18,6 +18,7 @@ struct PlotOptions {
     std::optional<double> from, to;  ///< [s], or [mm] over length
     std::optional<LineNumber> line;
     std::vector<PointIndex> points;
+    std::optional<long long> defect;  ///< its card in place of curves
     viz::ChartLook look;
 };
 

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "cli/part.h"
 #include "cli/query_options.h"
@@ -37,6 +38,9 @@ void print_matches(const std::vector<QueryMatch>& matches) {
             "\n  speed {:.1f}{} mm/min, acceleration {:.1f}{} mm/s²; points {} … {} belong to the line (confidence {:.2f})\n",
             m.speed * seconds_per_minute, known(m.speed_uncertainty, seconds_per_minute), m.acceleration,
             known(m.acceleration_uncertainty, 1), m.line_points.first, m.line_points.last, m.confidence);
+        if (!m.why.reasons.empty())
+            fmt::print("  slow: {:.0f} of F{:.0f} mm/min: {}\n", m.speed * seconds_per_minute,
+                       m.why.programmed_feed * seconds_per_minute, fmt::join(m.why.reasons, "; "));
     }
 }
 

@@ -8,73 +8,63 @@
 #include <fmt/format.h>
 
 #include "cli/look.h"
+#include "cli/map_content.h"
 #include "cli/picture_output.h"
 #include "cli/render_options.h"
 #include "cli/shown_part.h"
 #include "cli/stage_clock.h"
 #include "core/file_name.h"
 #include "field/range.h"
+#include "io/reports/defect_names.h"
 #include "viz/scene.h"
 
 namespace clsurf::cli {
 namespace {
 
-viz::MapPanel panel_of(const Shown& shown, const RenderOptions& options, std::string caption) {
-    viz::MapPanel panel;
-    panel.surface = &shown.surface;
-    panel.field = &shown.field;
-    panel.caption = std::move(caption);
-    panel.outlines = shown.defects;
-    panel.place_of = [&shown](PointIndex i) { return shown.place_of(i); };
-    if (shown.relief) panel.relief = &*shown.relief;
-    for (const PointIndex point : options.points) {
-        if (point < 0 || point >= shown.part.log.records) {
-            throw UsageError(
-                fmt::format("--mark-point {}: the log has points 0 … {}", point, shown.part.log.records - 1));
-        }
-        panel.points.push_back({point, fmt::format("point {}, line {}", point, shown.part.lines->line_at(point))});
-    }
-    for (const LineNumber line : options.lines) {
-        std::vector<PointRange> ranges = shown.part.lines->points_of(line);
-        if (ranges.empty()) throw UsageError(fmt::format("--mark-line {}: the log has no point of that line", line));
-        panel.lines.push_back({std::move(ranges), fmt::format("line {}", line)});
-    }
-    return panel;
-}
+/// How values become colours, and what the picture says of it.
+struct MapScale {
+    viz::ColourScale colours;
+    std::vector<std::string> notes;
+    std::string words;  ///< " 0 to 100 %"
+};
 
-std::string counts_of(const Shown& shown) {
-    PointIndex passes = 0;
-    for (const Pass& pass : shown.surface.passes) passes += pass.kind == PassKind::cut ? 1 : 0;
-    return fmt::format("{} points, {} passes{}", shown.part.log.records, passes,
-                       shown.surface.step_over > 0 ? fmt::format(", {:.3g} mm apart", shown.surface.step_over) : "");
-}
-
-viz::MapTexts texts_of(const Shown& shown, const std::optional<Shown>& before, const RenderOptions& options,
-                       const std::vector<std::string>& range_notes) {
-    viz::MapTexts texts;
-    texts.title = fmt::format("{}, {} {}", shown.field.info.label, name_of(shown.part.path.role),
-                              options.shown.look.style == viz::Style::surface ? "surface" : "path");
-    if (shown.relief) texts.title = fmt::format("{}, {}", shown.field.info.label, to_text(*shown.part.tool));
-    const std::string program = file_name(options.part.program);
-    // The captions of two panels name the logs.
-    texts.subtitle = before ? fmt::format("{} · before: {} · after: {}", program, counts_of(*before), counts_of(shown))
-                            : fmt::format("{} · {} · {}", program, file_name(options.part.log), counts_of(shown));
-    if (!shown.field.info.note.empty()) texts.notes.push_back(shown.field.info.note);
-    if (options.defects)
-        texts.notes.push_back(shown.defects.empty() ? "no defects"
-                                                    : fmt::format("{} defects, 1 the worst", shown.defects.size()));
-    texts.notes.insert(texts.notes.end(), range_notes.begin(), range_notes.end());
-    return texts;
+MapScale scale_of_map(const Shown& after, const std::optional<Shown>& before, const RenderOptions& options,
+                      const viz::Camera& camera) {
+    if (has_classes(after.field.info)) return {after.classes.scale(), {"shares of the cutting points"}, ""};
+    ShownRange range = range_in_picture(after, options, camera);
+    if (before) {
+        const std::string note = range.note;
+        range = wider(range, range_in_picture(*before, options, camera));
+        if (options.shown.range.kind == RangeRule::Kind::fixed) range.note = note;
+    }
+    return {scale_of(after.field.info, range, options.shown), notes_of(range),
+            fmt::format(" {:g} to {:g} {}", range.low, range.high, after.field.info.unit.name)};
 }
 
 ExitCode run_render(const po::variables_map& values) {
-    const RenderOptions options = read_render_options(values);
+    RenderOptions options = read_render_options(values);
     PictureOutput output(options.output);
     const int stages_of_a_part = options.defects ? 7 : 5;
     StageClock clock(read_common(values), stages_of_a_part * (options.before.empty() ? 1 : 2) + 3);
     Shown after = load_shown(options.part, options.field, options.defects, clock);
     if (options.part.as_machined) show_as_machined(after, options, clock);
     print(after.part.diagnostics, values);
+    if (has_classes(after.field.info)) {
+        refuse_scale_options(after.field.info, options.shown);
+        if (!options.before.empty() && after.field.info.classes.empty())
+            throw UsageError("--before does not apply to '" + after.field.info.name + "': each log has other classes");
+        options.shown.look.names = true;
+    }
+    if (options.defect_map) {
+        warn_of_marks_outside(after, options, viz::map_camera({panel_of(after, options, "")}, options.shown.look),
+                              values);
+        clock.begin("draw");
+        const viz::Image image = draw_defect_map(after, options);
+        clock.begin("write the picture");
+        output.write(image, fmt::format("clsurf defects of {} from {}: {}", file_name(options.part.program),
+                                        file_name(options.part.log), io::headline_of(after.defects.report)));
+        return ExitCode::done;
+    }
     std::vector<viz::MapPanel> panels;
     std::optional<Shown> before;
     if (!options.before.empty()) {
@@ -90,21 +80,13 @@ ExitCode run_render(const po::variables_map& values) {
     clock.begin("choose the range");
     const viz::Camera camera = viz::map_camera(panels, options.shown.look);
     warn_of_marks_outside(after, options, camera, values);
-    ShownRange range = range_in_picture(after, options, camera);
-    if (before) {
-        const std::string note = range.note;
-        range = wider(range, range_in_picture(*before, options, camera));
-        if (options.shown.range.kind == RangeRule::Kind::fixed) range.note = note;
-    }
-    const std::vector<std::string> range_notes = notes_of(range);
-    const viz::ColourScale scale = scale_of(after.field.info, range, options.shown);
+    const MapScale shown = scale_of_map(after, before, options, camera);
     clock.begin("draw");
     const viz::Image image =
-        viz::draw_map(panels, camera, scale, texts_of(after, before, options, range_notes), options.shown.look);
+        viz::draw_map(panels, camera, shown.colours, texts_of(after, before, options, shown.notes), options.shown.look);
     clock.begin("write the picture");
-    output.write(image, fmt::format("clsurf map of {} from {}: {} {:g} to {:g} {}", file_name(options.part.program),
-                                    file_name(options.part.log), after.field.info.name, range.low, range.high,
-                                    after.field.info.unit.name));
+    output.write(image, fmt::format("clsurf map of {} from {}: {}{}", file_name(options.part.program),
+                                    file_name(options.part.log), after.field.info.name, shown.words));
     return ExitCode::done;
 }
 

@@ -28,10 +28,10 @@ void declare_render(po::options_description& options) {
     options.add_options()
         ("swept", po::value<std::string>()->value_name("commanded|feedback|actual"), "positions along which the tool moves for the as-machined surface (default: actual, else feedback, else commanded)")
         ("output,o", po::value<std::string>()->value_name("FILE"), "the picture: .png, .jpg, .tif or .webp")
-        ("color", po::value<std::string>()->value_name("FIELD"), "field that colours the surface (default: speed; `clsurf help fields`)")
+        ("color", po::value<std::string>()->value_name("FIELD"), "field that colours the surface (default: feed_share, the speed in percent of the programmed feed; speed if --range gives numbers or no feed is known; `clsurf help fields`)")
         ("mark-point", po::value<std::vector<long long>>()->value_name("N"), "mark a point with a ring; may be repeated")
         ("mark-line", po::value<std::vector<long long>>()->value_name("N"), "draw the points of a line bold; may be repeated")
-        ("defects", "outline and number what `clsurf check` finds")
+        ("defects", "draw what `clsurf check` finds on a grey relief and name the twelve strongest; with --color, --before or --surface formed: outlines with numbers")
         ("before", po::value<std::string>()->value_name("LOG"), "another log of the program, drawn next to it on the same scale");
     // clang-format on
     declare_look(options);
@@ -42,8 +42,10 @@ RenderOptions read_render_options(const po::variables_map& values) {
     options.part = read_part_options(values);
     options.output = required(values, "output");
     options.before = text_of(values, "before", "");
-    options.field = text_of(values, "color", "speed");
     options.shown = read_look_options(values);
+    // Numbers of --range are mm/min where no field is named.
+    const bool of_speeds = options.shown.range.kind == RangeRule::Kind::fixed;
+    options.field = text_of(values, "color", of_speeds ? "speed" : "");
     if (values.count("mark-point") > 0) {
         for (const long long n : values["mark-point"].as<std::vector<long long>>()) options.points.push_back(n);
     }
@@ -54,6 +56,9 @@ RenderOptions read_render_options(const po::variables_map& values) {
         }
     }
     options.defects = values.count("defects") > 0;
+    options.defect_map =
+        options.defects && !given(values, "color") && !options.part.as_machined && options.before.empty();
+    options.shown.look.names = options.defect_map;
     read_as_machined(values, options);
     return options;
 }

@@ -14,7 +14,8 @@ struct RenderOptions {
     PartOptions part;
     std::string before;  ///< log of the other panel; empty: one panel
     std::string output;
-    std::string field = "speed";
+    bool defect_map = false;  ///< of `defects`: sections and names on a grey relief, not outlines on a field
+    std::string field;        ///< empty: feed_share, or speed where no feed is known
     LookOptions shown;
     std::vector<PointIndex> points;
     std::vector<LineNumber> lines;

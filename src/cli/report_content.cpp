@@ -8,7 +8,9 @@
 #include "field/field_set.h"
 #include "log/health.h"
 #include "pipeline/contacts.h"
+#include "pipeline/signals_of.h"
 #include "predictor/outline.h"
+#include "viz/field_colours.h"
 
 namespace clsurf::cli {
 namespace {
@@ -19,9 +21,9 @@ constexpr int relief_pixels = 700;  ///< of the formed surface across the page
 std::vector<ShownRange> ranges_of(const std::vector<ReportLog>& logs) {
     std::vector<ShownRange> ranges;
     for (std::size_t k = 0; k < logs.front().fields.size(); ++k) {
-        ShownRange range = find_range(logs.front().fields[k], logs.front().surface.passes, {});
+        ShownRange range = find_range(logs.front().fields[k], logs.front().surface, {});
         for (std::size_t other = 1; other < logs.size(); ++other) {
-            range = wider(range, find_range(logs[other].fields[k], logs[other].surface.passes, {}));
+            range = wider(range, find_range(logs[other].fields[k], logs[other].surface, {}));
         }
         ranges.push_back(std::move(range));
     }
@@ -79,8 +81,14 @@ void add_report_pictures(io::ReportPage& page, const ReportLog& shown, const Rep
     if (as_machined)
         page.pictures.push_back(
             picture_of_relief(pictured, as_machined->map.relief, as_machined->map.field, as_machined->range));
+    if (page.defects.empty()) return;
+    const PartSignals read = signals_of(shown.part, shown.surface, options.measured);
+    for (std::size_t i = 0; i < page.defects.size(); ++i) {
+        const Eigen::Vector3f normal = read.signals.normal(shown.quality.report.defects[i].point);
+        if (normal.allFinite()) page.defects[i].normal = normal.cast<double>();
+    }
     for (std::size_t i = 0; i < std::min(pictured_defects, page.defects.size()); ++i)
-        page.defects[i].picture = picture_of_defect(pictured, i);
+        page.defects[i].picture = picture_of_defect(pictured, read.signals, i);
 }
 
 io::PageRelief page_relief_of(const ReportedForm& as_machined) {
@@ -119,6 +127,7 @@ io::ReportPage report_page_of(const ReportLog& shown, const std::vector<ReportLo
             {field.info.name, percentiles_of_size(field, shown.surface.passes, io::page_percentiles)});
     }
     page.colour_maps = page_colour_maps();
+    for (const Field& field : shown.fields) page.field_maps.push_back(viz::usual_colour_map_name(field.info));
     return page;
 }
 

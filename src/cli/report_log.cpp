@@ -106,16 +106,18 @@ std::string fit_page(io::ReportPage& page, std::vector<ReportLog>& logs) {
 
 std::vector<io::PageColourMap> page_colour_maps() {
     std::vector<io::PageColourMap> maps;
-    for (const viz::ColourMapInfo& info : viz::colour_maps()) {
-        const viz::ColourMap map = viz::make_colour_map(std::string(info.name));
-        io::PageColourMap page{std::string(info.name), std::string(info.summary), map.centred(), {}};
+    const auto add = [&](const std::string& name, const std::string& summary) {
+        const viz::ColourMap map = viz::make_colour_map(name);
+        io::PageColourMap page{name, summary, map.centred(), map.below(), map.above(), {}};
         constexpr int colours = 256;
         for (int i = 0; i < colours; ++i) {
             for (const std::uint8_t c : map.at(static_cast<double>(i) / (colours - 1)))
                 page.rgb += static_cast<char>(c);
         }
         maps.push_back(std::move(page));
-    }
+    };
+    for (const viz::ColourMapInfo& info : viz::colour_maps()) add(std::string(info.name), std::string(info.summary));
+    add("magma_r", "magma from its other end, for errors");
     return maps;
 }
 

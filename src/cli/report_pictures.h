@@ -25,14 +25,11 @@ struct PicturedPart {
 /// The whole part in a field, with what was found outlined.
 [[nodiscard]] io::PagePicture picture_of_part(const PicturedPart& shown, const std::string& field);
 
-/// A defect and what lies round it, from above, in the field that shows it best.
-[[nodiscard]] io::PagePicture picture_of_defect(const PicturedPart& shown, std::size_t defect);
+/// The card of a defect.
+[[nodiscard]] io::PagePicture picture_of_defect(const PicturedPart& shown, const Signals& signals, std::size_t defect);
 
 /// A height map as the whole picture.
 [[nodiscard]] io::PagePicture picture_of_relief(const PicturedPart& shown, const viz::Relief& relief,
                                                 const Field& field, const ShownRange& range);
-
-/// The colour map of a field where none is named.
-[[nodiscard]] viz::ColourMap default_colour_map(const FieldInfo& info);
 
 }  // namespace clsurf::cli

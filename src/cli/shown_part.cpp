@@ -13,33 +13,34 @@
 namespace clsurf::cli {
 namespace {
 
-/// What `check` finds, as outlines: passes are compared where they were commanded, heights measured
+/// What `check` finds, with outlines: passes are compared where they were commanded, heights measured
 /// from the positions that are shown. With `tool` they are drawn where it touches the part. Adds why nothing was judged
 /// to the part's diagnostics.
-std::vector<viz::OutlineMark> outline_defects(Part& part, const ClSurface& surface,
-                                              const std::optional<CuttingTool>& tool, StageClock& clock) {
-    std::vector<viz::OutlineMark> outlines;
+ShownDefects find_shown_defects(Part& part, const ClSurface& surface, const std::optional<CuttingTool>& tool,
+                                StageClock& clock) {
+    ShownDefects shown;
     const auto add = [&](const Trajectory& path, const ClSurface& judged, std::optional<Role> measured) {
         clock.begin("derive the signals");
         const PartSignals read = signals_along(part.log, path, judged, measured);
         clock.begin("find the defects");
-        const QualityReport report = find_defects(part, path, judged, read);
-        note_reasons(report, part, part.diagnostics);
+        shown.report = find_defects(part, path, judged, read);
+        note_reasons(shown.report, part, part.diagnostics);
         std::optional<PartContacts> contacts;
         if (tool) contacts.emplace(part.log, path, *part.lines, judged, *tool);
         const auto place_of = [&](PointIndex i) {
             return contacts ? contacts->place(i).position() : judged.positions.absolute(i);
         };
-        for (std::size_t i = 0; i < report.defects.size(); ++i)
-            outlines.push_back({outlines_of(report.defects[i], judged, place_of), fmt::format("{}", i + 1)});
+        for (std::size_t i = 0; i < shown.report.defects.size(); ++i)
+            shown.outlines.push_back(
+                {outlines_of(shown.report.defects[i], judged, place_of), fmt::format("{}", i + 1)});
     };
     if (part.path.role == Role::commanded || !part.log.has(Role::commanded)) {
         add(part.path, surface, std::nullopt);
-        return outlines;
+        return shown;
     }
     const Trajectory commanded = reconstruct_like(part.log, Role::commanded, part.path);
     add(commanded, stitch(gather(commanded), *part.lines), part.path.role);
-    return outlines;
+    return shown;
 }
 
 }  // namespace
@@ -50,10 +51,16 @@ Shown load_shown(const PartOptions& options, const std::string& field, bool defe
     clock.begin("stitch the surface");
     shown.surface = stitch(shown.part);
     clock.begin("compute the field");
-    if (!options.as_machined) shown.field = fields_of(shown.part, shown.surface).get(field);
+    if (!options.as_machined) {
+        const FieldSet fields = fields_of(shown.part, shown.surface);
+        const std::string usual = fields.can_compute("feed_share") ? "feed_share" : "speed";
+        shown.field = fields.get(field.empty() ? usual : field);
+        if (has_classes(shown.field.info))
+            shown.classes = viz::FieldClasses(shown.field.info, shown.field.values, shown.surface.passes);
+    }
     if (defects)
-        shown.defects = outline_defects(shown.part, shown.surface,
-                                        options.as_machined ? shown.part.tool : std::optional<CuttingTool>(), clock);
+        shown.defects = find_shown_defects(shown.part, shown.surface,
+                                           options.as_machined ? shown.part.tool : std::optional<CuttingTool>(), clock);
     clock.end();
     return shown;
 }
@@ -80,7 +87,7 @@ ShownRange range_in_picture(const Shown& shown, const RenderOptions& options, co
                           shown.relief ? shown.relief->at(i) : shown.surface.positions.absolute(i));
     };
     const ShownPoints points = whole ? ShownPoints() : ShownPoints(in_picture);
-    if (!shown.relief) return find_range(shown.field, shown.surface.passes, options.shown.range, points);
+    if (!shown.relief) return find_range(shown.field, shown.surface, options.shown.range, points);
     return find_range(shown.field, all_as_one_cut(static_cast<PointIndex>(shown.field.values.size())),
                       options.shown.range, points);
 }

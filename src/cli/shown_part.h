@@ -12,18 +12,26 @@
 #include "field/range.h"
 #include "pipeline/contacts.h"
 #include "pipeline/part.h"
+#include "predictor/defect.h"
 #include "viz/relief.h"
 #include "viz/scene.h"
 
 namespace clsurf::cli {
+
+/// What `check` finds, and its outlines on the surface.
+struct ShownDefects {
+    QualityReport report;
+    std::vector<viz::OutlineMark> outlines;  ///< of report.defects
+};
 
 /// A part with its surface and its field.
 struct Shown {
     Part part;
     ClSurface surface;
     Field field;
+    viz::FieldClasses classes;          ///< of the field, where its values are names
     std::optional<viz::Relief> relief;  ///< the formed surface, whose vertices have the field then
-    std::vector<viz::OutlineMark> defects;
+    ShownDefects defects;
     std::unique_ptr<const PartContacts> contacts;  ///< of the formed surface; `this` does not move any more
 
     /// Where a point is marked in the picture [mm].
@@ -32,7 +40,7 @@ struct Shown {
     }
 };
 
-/// Reads a part and computes its field; with `defects` their outlines. Throws InputError, UsageError.
+/// Reads a part and computes its field (empty: as RenderOptions::field); with `defects` also what `check` finds. Throws InputError, UsageError.
 [[nodiscard]] Shown load_shown(const PartOptions& options, const std::string& field, bool defects, StageClock& clock);
 
 /// The formed surface in place of the positions', as fine as the picture shows it.

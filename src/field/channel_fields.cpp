@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "core/block.h"
 #include "log/channel.h"
@@ -15,12 +16,6 @@ constexpr int after_all_rows = 1000;  ///< report_rank of channels
 bool in_reports(const std::string& name) {
     return !name.starts_with("cmd.") && !name.starts_with("fb.") && !name.starts_with("act.") && name != "time" &&
            name != "line" && name != "program";
-}
-
-FieldInfo info_of(const Channel& channel) {
-    FieldInfo info{channel.name, "Channel " + channel.name, FieldUnit(channel.unit), FieldScale::sequential, {}};
-    if (in_reports(channel.name)) info.report_rank = after_all_rows;
-    return info;
 }
 
 Column<float> values_of(const Channel& channel, PointRange points) {
@@ -39,7 +34,20 @@ Column<float> values_of(const Channel& channel, PointRange points) {
 
 }  // namespace
 
-ChannelFields::ChannelFields(const Log& log) : channels_(log.channels), keep_alive_(log.keep_alive) {}
+ChannelFields::ChannelFields(const Log& log, std::vector<ChannelClasses> classes)
+    : channels_(log.channels), classes_(std::move(classes)), keep_alive_(log.keep_alive) {}
+
+FieldInfo ChannelFields::info_of(const Channel& channel) const {
+    FieldInfo info{channel.name, "Channel " + channel.name, FieldUnit(channel.unit), FieldScale::sequential, {}};
+    if (in_reports(channel.name)) info.report_rank = after_all_rows;
+    const auto named = std::find_if(classes_.begin(), classes_.end(),
+                                    [&](const ChannelClasses& c) { return c.channel == channel.name; });
+    if (named == classes_.end()) return info;
+    info.label = named->label;
+    info.classes = named->classes;
+    info.class_word = named->class_word;
+    return info;
+}
 
 std::vector<FieldInfo> ChannelFields::fields() const {
     std::vector<FieldInfo> infos;

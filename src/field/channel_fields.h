@@ -6,10 +6,17 @@
 
 namespace clsurf {
 
+/// What the values of a channel mean.
+struct ChannelClasses {
+    std::string channel, label;
+    std::vector<FieldClass> classes;
+    std::string class_word = {};  ///< as in FieldInfo
+};
+
 class ChannelFields : public FieldProvider {
 public:
     /// Shares the columns of the log.
-    explicit ChannelFields(const Log& log);
+    explicit ChannelFields(const Log& log, std::vector<ChannelClasses> classes = {});
 
     [[nodiscard]] std::vector<FieldInfo> fields() const override;
     /// O(points), parallel.
@@ -17,7 +24,10 @@ public:
     [[nodiscard]] std::string_view prefix() const override { return "log."; }
 
 private:
+    [[nodiscard]] FieldInfo info_of(const Channel& channel) const;
+
     std::vector<Channel> channels_;
+    std::vector<ChannelClasses> classes_;
     std::shared_ptr<const void> keep_alive_;
 };
 

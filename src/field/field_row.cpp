@@ -51,6 +51,8 @@ FieldInfo info_of(const FieldRow& row) {
     }
     info.report_rank = row.report_rank;
     info.percentiles = row.percentiles;
+    info.preference = row.preference;
+    info.least_span_of_median = row.least_span_of_median;
     return info;
 }
 

@@ -74,6 +74,8 @@ struct FieldRow {
     std::array<std::string_view, 2> also{};
     int report_rank = 0;
     bool percentiles = false;
+    FieldPreference preference = FieldPreference::none;
+    double least_span_of_median = 0;
 };
 
 /// What a row says of its field.

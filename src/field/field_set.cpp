@@ -36,6 +36,11 @@ std::vector<FieldInfo> FieldSet::fields() const {
     return infos;
 }
 
+bool FieldSet::can_compute(std::string_view name) const {
+    const std::optional<Found> found = find(name);
+    return found && providers_[found->entry->provider]->can_compute(found->entry->own_name);
+}
+
 std::vector<std::string> FieldSet::report_names(std::size_t most) const {
     std::vector<const Entry*> ranked;
     for (const Entry& entry : entries_) {

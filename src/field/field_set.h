@@ -32,6 +32,8 @@ public:
     [[nodiscard]] std::vector<std::string> report_names(std::size_t most) const;
     /// By its name, by another word for it ("velocity"), or a channel as `log.NAME`.
     [[nodiscard]] bool has(std::string_view name) const { return find(name).has_value(); }
+    /// Whether a field is known and all is there that it needs.
+    [[nodiscard]] bool can_compute(std::string_view name) const;
     /// The name of what such a word means; itself where nothing is called that.
     [[nodiscard]] std::string usual_name(std::string_view word) const;
 

@@ -88,7 +88,7 @@ std::optional<UsageError> refusal(const FieldRow& row, const Log& log, const Tra
                           "--derivative kalman");
     if (row.subject == FieldSubject::tool_axis && path.kinematics == nullptr)
         return UsageError(fmt::format("field '{}' needs the kinematics of a machine with rotary axes", row.name),
-                          "--machine FILE says them");
+                          "give them with --machine FILE");
     if ((row.needs & needs::error) != 0) {
         for (const Role role : {Role::commanded, measured_role_of(path)}) {
             if (!log.has(role))

@@ -18,7 +18,7 @@ struct Derivation {
     /// Derivatives by a Kalman smoother, those of angles and tool axes apart; nullptr: all by least squares over a window.
     std::shared_ptr<const MotionEstimate> estimate;
     /// [s] of another log whose fields are to be compared; 0: none. Windows then reach over standstills: a pause has no
-    /// length, and only what they see of it shows at the places beside it.
+    /// length, and only their share of it appears at the adjacent places.
     double coarsest_period = 0;
 };
 

@@ -66,34 +66,109 @@ Values values_of_shown(const Field& field, const Passes& passes, const ShownPoin
     return values;
 }
 
-}  // namespace
+/// Widens a range to the least span of its field: about 0 or the middle, and from the end of the good values.
+void widen_to_least_span(ShownRange& range, const FieldInfo& info, double median) {
+    const double least =
+        std::max(info.least_span * std::abs(info.unit.per_inside), info.least_span_of_median * std::abs(median));
+    const double more = least - (range.high - range.low);
+    if (!(more > 0)) return;
+    switch (info.preference) {
+        case FieldPreference::higher: range.low -= more; break;
+        case FieldPreference::lower: range.high += more; break;
+        case FieldPreference::none:
+            range.low -= 0.5 * more;
+            range.high += 0.5 * more;
+            break;
+    }
+    range.note += "; at least that wide, since less does not matter";
+}
 
-ShownRange find_range(const Field& field, const Passes& passes, const RangeRule& rule, const ShownPoints& shown) {
-    Values values = shown ? values_of_shown(field, passes, shown) : values_of_all(field, passes);
-    const bool fixed = rule.kind == RangeRule::Kind::fixed;
+/// The least of 1, 1.2, 1.5 … times a power of ten that is not less.
+double round_up(double value) {
+    const double power = std::pow(10.0, std::floor(std::log10(value)));
+    for (const double factor : {1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0}) {
+        if (factor * power >= value * (1 - 1e-9)) return factor * power;
+    }
+    return 10 * power;
+}
+
+/// Ends at round numbers, so that a legend has few digits; of bins all edges.
+void round_outwards(ShownRange& range, int bins, bool even) {
+    const double span = range.high - range.low;
+    if (!(span > 0) || !std::isfinite(span)) return;
+    constexpr double fineness = 100;
+    double step = round_up(span / (bins > 0 ? bins : fineness));
+    if (bins > 0 && even) {
+        range.high = 0.5 * bins * step;
+        range.low = -range.high;
+        return;
+    }
+    const auto low = [&] { return std::floor(range.low / step + 1e-9) * step; };
+    while (bins > 0 && low() + bins * step < range.high * (1 - 1e-12)) step = round_up(step * 1.01);
+    const double lowest = low();
+    range.high = bins > 0 ? lowest + bins * step : std::ceil(range.high / step - 1e-9) * step;
+    range.low = lowest;
+}
+
+/// What all rules but the fixed ones do.
+ShownRange range_of_values(const Field& field, const Passes& passes, const Adjacency* neighbours, const RangeRule& rule,
+                           const ShownPoints& shown, Values& values) {
     const double unit = field.info.unit.per_inside;
-    ShownRange range{rule.low, rule.high, values.lowest * unit, values.highest * unit, "range as given"};
-    if (fixed) return range;
-    if (shown && values.cutting == 0)
-        throw UsageError("no cutting point lies in the part that is shown",
-                         "another --box or --zoom, or a fixed --range MIN,MAX");
-    if (values.sampled.empty())
-        throw InputError({}, "field '" + field.info.name + "' has no value on any cutting point",
-                         "too few points, or the program and the log do not belong together?");
+    ShownRange range{0, 0, values.lowest * unit, values.highest * unit, ""};
     const bool automatic = rule.kind == RangeRule::Kind::automatic;
     const double p_low = automatic ? automatic_low : rule.low;
     const double p_high = automatic ? automatic_high : rule.high;
-    range.low = nearest_quantile(values.sampled, p_low / 100) * unit;
-    range.high = nearest_quantile(values.sampled, p_high / 100) * unit;
-    const bool even = automatic && field.info.scale == FieldScale::diverging;
-    if (even) {
+    float low = nearest_quantile(values.sampled, p_low / 100);
+    float high = nearest_quantile(values.sampled, p_high / 100);
+    range.note = fmt::format("range: percentiles {:g} to {:g} of {} {}cutting points", p_low, p_high, values.cutting,
+                             shown ? "shown " : "");
+    if (automatic) {
+        const float low_end = end_without_patches(field, passes, neighbours, shown, low, false, least_patch);
+        const float high_end = end_without_patches(field, passes, neighbours, shown, high, true, least_patch);
+        if (low_end < low || high_end > high) range.note += fmt::format(", and all patches of {} points", least_patch);
+        low = low_end;
+        high = high_end;
+    }
+    range.low = low * unit;
+    range.high = high * unit;
+    if (!automatic) return range;
+    if (field.info.scale == FieldScale::diverging) {
         const double most = std::max(std::abs(range.low), std::abs(range.high));
         range.low = -most;
         range.high = most;
+        range.note += ", even about 0";
     }
-    range.note = fmt::format("range: percentiles {:g} to {:g} of {} {}cutting points{}", p_low, p_high, values.cutting,
-                             shown ? "shown " : "", even ? ", even about 0" : "");
+    widen_to_least_span(range, field.info, nearest_quantile(values.sampled, 0.5) * unit);
+    round_outwards(range, rule.bins, field.info.scale == FieldScale::diverging);
     return range;
+}
+
+ShownRange find_range_among(const Field& field, const Passes& passes, const Adjacency* neighbours,
+                            const RangeRule& rule, const ShownPoints& shown) {
+    Values values = shown ? values_of_shown(field, passes, shown) : values_of_all(field, passes);
+    const double unit = field.info.unit.per_inside;
+    if (rule.kind == RangeRule::Kind::fixed)
+        return {rule.low, rule.high, values.lowest * unit, values.highest * unit, "range as given"};
+    if (shown && values.cutting == 0)
+        throw UsageError("no cutting point lies in the part that is shown",
+                         "choose another --box or --zoom, or a fixed --range MIN,MAX");
+    if (values.sampled.empty())
+        throw InputError({}, "field '" + field.info.name + "' has no value on any cutting point",
+                         "too few points, or the program and the log do not belong together?");
+    if (rule.kind == RangeRule::Kind::automatic && field.info.usual_range)
+        return {field.info.usual_range->low * unit, field.info.usual_range->high * unit, values.lowest * unit,
+                values.highest * unit, "the same range in all pictures"};
+    return range_of_values(field, passes, neighbours, rule, shown, values);
+}
+
+}  // namespace
+
+ShownRange find_range(const Field& field, const ClSurface& surface, const RangeRule& rule, const ShownPoints& shown) {
+    return find_range_among(field, surface.passes, &surface.neighbours, rule, shown);
+}
+
+ShownRange find_range(const Field& field, const Passes& passes, const RangeRule& rule, const ShownPoints& shown) {
+    return find_range_among(field, passes, nullptr, rule, shown);
 }
 
 ShownRange wider(const ShownRange& a, const ShownRange& b) {

@@ -1,13 +1,13 @@
 #pragma once
 // The range of a map, by rule: outliers and non-cutting points must not flatten the colours.
 
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "field/field.h"
-#include "surface/passes.h"
+#include "field/patches.h"
+#include "surface/cl_surface.h"
 
 namespace clsurf {
 
@@ -15,6 +15,7 @@ struct RangeRule {
     enum class Kind : std::uint8_t { automatic, fixed, percentiles };
     Kind kind = Kind::automatic;
     double low = 0, high = 0;  ///< fixed: in shown units; percentiles: 0 … 100
+    int bins = 0;              ///< automatic: steps whose edges are to be round numbers; 0: the ends alone
 };
 
 struct ShownRange {
@@ -23,12 +24,16 @@ struct ShownRange {
     std::string note;                ///< what the rule did, for the picture's footnote
 };
 
-/// Which points the picture shows; empty: all.
-using ShownPoints = std::function<bool(PointIndex)>;
+/// Points of a patch that no automatic range cuts off.
+inline constexpr std::size_t least_patch = 20;
 
-/// `automatic`: 1st to 99th percentile of the cutting points that are shown; about 0 for diverging
-/// fields. Over some 10^6 evenly spaced points. Throws InputError where no point has a value,
+/// `automatic`: the field's usual range where it has one. Else the 1st to the 99th percentile of the cutting points that are
+/// shown, widened so that no connected patch of 20 points lies outside, to the least span of the field, and to round numbers;
+/// about 0 for diverging fields. Percentiles are those of some 10^6 evenly spaced points. Throws InputError where no point has a value,
 /// UsageError where none is shown. O(points).
+[[nodiscard]] ShownRange find_range(const Field& field, const ClSurface& surface, const RangeRule& rule,
+                                    const ShownPoints& shown = {});
+/// The same where adjacent passes are not known: patches are sections of a pass.
 [[nodiscard]] ShownRange find_range(const Field& field, const Passes& passes, const RangeRule& rule,
                                     const ShownPoints& shown = {});
 

@@ -14,7 +14,7 @@ std::unique_ptr<const UprightPart> upright_part(const Part& part, std::optional<
     if (tool.kind != ToolKind::ball) {
         throw UsageError(
             to_text(tool) +
-                " is tilted: where a tool that is no ball touches, its axis decides, and only tools along z are known",
+                " is tilted: the contact of a tool that is not a ball depends on its axis, and only tools along z are supported",
             "a ball-end tool may be tilted: --tool ball:D");
     }
     auto upright = std::make_unique<UprightPart>();

@@ -62,7 +62,8 @@ Quality judge(const Part& part, const ClSurface& surface, std::optional<Role> me
             {Severity::warning,
              "quality.tilted-tool",
              Place::of_file(part.log.name),
-             to_text(*part.tool) + " is tilted: the formed surface and its roughness are known of balls only",
+             to_text(*part.tool) +
+                 " is tilted: the formed surface and its roughness are available for ball-end tools only",
              {}});
         return quality;
     }

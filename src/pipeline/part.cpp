@@ -26,6 +26,7 @@ Part part_of(Log log, const PartRules& rules) {
     Part part;
     part.log = std::move(log);
     part.tool = rules.tool;
+    part.limits = rules.limits;
     part.derivative = rules.derivative;
     return part;
 }
@@ -49,7 +50,7 @@ void refuse_foreign(const ProgramMatch& match, const Program& program, const Log
     if (match.foreign.empty()) return;
     const Place place = Place::of_file(log.name);
     const std::string text = "does not belong to " + program.main().name() + ": " + match.foreign;
-    const std::string hint = "--force goes on all the same; --work-offset or --machine may be missing";
+    const std::string hint = "--force continues anyway; --work-offset or --machine may be missing";
     if (!accept) throw InputError(place, text, hint);
     diagnostics.add({Severity::warning, "map.foreign", place, text, {}});
 }

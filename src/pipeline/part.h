@@ -9,6 +9,7 @@
 #include "core/diagnostic.h"
 #include "log/log.h"
 #include "machine/kinematics.h"
+#include "machine/limit_table.h"
 #include "machined/tool.h"
 #include "mapping/line_map.h"
 #include "mapping/program_match.h"
@@ -29,6 +30,7 @@ struct PartRules {
     bool accept_foreign = false;                   ///< a log of another program is a warning, not an error
     ProgramIdentity identity = ProgramIdentity::unknown;  ///< what hashes say (io/formats/program_identity.h)
     std::optional<CuttingTool> tool;
+    std::vector<StatedLimit> limits;  ///< of the machine; empty: none are stated
     DerivativeMethod derivative = DerivativeMethod::savgol;
 };
 
@@ -40,7 +42,8 @@ struct Part {
     std::shared_ptr<const LineMap> lines;
     DerivativeMethod derivative = DerivativeMethod::savgol;  ///< of fields
     std::optional<CuttingTool> tool;
-    Diagnostics diagnostics;  ///< of program, log and lines together
+    std::vector<StatedLimit> limits;  ///< of the machine
+    Diagnostics diagnostics;          ///< of program, log and lines together
 };
 
 /// Puts a program and a log together. `program` has its motions as programmed, each in its own work system

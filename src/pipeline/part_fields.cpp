@@ -4,6 +4,10 @@
 
 #include "field/channel_fields.h"
 #include "intervals/interval_fields.h"
+#include "pipeline/cause_fields.h"
+#include "pipeline/channel_classes.h"
+#include "pipeline/feed_fields.h"
+#include "pipeline/limits_of.h"
 #include "pipeline/signals_of.h"
 #include "predictor/quality_fields.h"
 
@@ -19,12 +23,16 @@ Signals signals_alone(const Part& part, const ClSurface& surface) {
 FieldSet fields_of(const Part& part, const ClSurface& surface,
                    const std::vector<std::shared_ptr<const FieldProvider>>& more) {
     FieldSet fields(part.log.records);
-    fields.add(std::make_shared<const PositionFields>(part.log, part.path, surface.passes,
-                                                      Derivation{estimate_motion(part, surface.passes), 0}));
+    const auto positions = std::make_shared<const PositionFields>(part.log, part.path, surface.passes,
+                                                                  Derivation{estimate_motion(part, surface.passes), 0});
+    fields.add(positions);
+    fields.add(std::make_shared<const FeedFields>(part.program, part.lines, positions));
     fields.add(std::make_shared<const QualityFields>(surface, [&] { return signals_alone(part, surface); }));
+    fields.add(std::make_shared<const CauseFields>(part, surface));
     fields.add(std::make_shared<const IntervalFields>(part.program, part.lines));
+    fields.add(limit_fields(part));
     for (const auto& provider : more) fields.add(provider);
-    fields.add(std::make_shared<const ChannelFields>(part.log));
+    fields.add(std::make_shared<const ChannelFields>(part.log, channel_classes()));
     return fields;
 }
 

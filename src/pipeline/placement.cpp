@@ -27,7 +27,7 @@ Eigen::Isometry3d own_or_none(const Program& program, const Log& log, const Eige
             {Severity::note, "map.coordinates", Place::of_file(log.name),
              fmt::format("positions are read as those of the work system, without the offset {} that {} sets",
                          pose_numbers(own), program.main().name()),
-             fmt::format("--work-offset {} reads them as the machine's", pose_numbers(own))});
+             fmt::format("--work-offset {} reads them as machine coordinates", pose_numbers(own))});
         return none;
     }
     return own;
@@ -45,9 +45,9 @@ std::optional<Eigen::Isometry3d> zero_of(const FramePoses& given, const Log& log
     if (!given.zero || !recorded || !given.zero_is_default) return given.zero ? given.zero : recorded;
     if (!given.zero->isApprox(*recorded, 1e-9)) {
         diagnostics.add({Severity::note, "config.overruled", Place::of_file(log.name),
-                         fmt::format("the log says work-offset {}: the default {} is not used", pose_numbers(*recorded),
-                                     pose_numbers(*given.zero)),
-                         "--work-offset on the command line comes first"});
+                         fmt::format("the log states work-offset {}: the default {} is not used",
+                                     pose_numbers(*recorded), pose_numbers(*given.zero)),
+                         "--work-offset on the command line takes precedence"});
     }
     return recorded;
 }
@@ -68,9 +68,9 @@ Eigen::Isometry3d place_with(Program& program, const Log& log, FramePoses given,
         }
         if (missing) {
             diagnostics.add({Severity::note, "program.work-offset", Place::of_file(program.main().name()),
-                             fmt::format("cuts in {}, and sets none of them: they are taken to lie where {} lies",
-                                         names, name_of_work_system(unknown.front(), program.dialect)),
-                             "--work-offset G55:X,Y,Z says where one of them lies"});
+                             fmt::format("cuts in {}, and sets none of them: they are assumed to be equal to {}", names,
+                                         name_of_work_system(unknown.front(), program.dialect)),
+                             "give one of them with --work-offset G55:X,Y,Z"});
         }
     }
     const Eigen::Isometry3d pose = place_motions(program, given);

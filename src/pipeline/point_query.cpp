@@ -114,6 +114,7 @@ void PointQuery::add_motion(QueryMatch& match) const {
     const auto value = [&](std::size_t k) { return static_cast<double>(values[k].values[0]); };
     match.speed = value(0);
     match.acceleration = value(1);
+    match.why = speed_reasons(part_, match.point, match.speed);
     if (estimated_) {
         match.speed_uncertainty = value(2);
         match.acceleration_uncertainty = value(3);

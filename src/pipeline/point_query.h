@@ -9,6 +9,7 @@
 #include "field/position_fields.h"
 #include "mapping/call_chain.h"
 #include "pipeline/contacts.h"
+#include "pipeline/speed_reasons.h"
 
 namespace clsurf {
 
@@ -23,6 +24,7 @@ struct QueryMatch {
     double speed = 0;                  ///< [mm/s]
     double acceleration = 0;           ///< [mm/s²]
     std::optional<double> speed_uncertainty, acceleration_uncertainty;  ///< standard deviations, where known
+    SpeedReasons why;                                                   ///< the tool is slower than programmed
     double confidence = 0;                                              ///< 0 … 1
     double distance = 0;     ///< [mm] to the asked position; 0 where none was asked
     CallChain calls;         ///< of a point in a subprogram

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace clsurf {
 namespace {
@@ -10,18 +11,21 @@ namespace {
 constexpr float bend_cosine = 0.906F;  ///< cos 25°: the path bends where it turns more than that …
 constexpr float net_reach =
     2;  ///< … and still does so many step-overs away on both sides: no step-over move to and fro
-constexpr float slight_cosine = 0.996F;  ///< cos 5°: enough where the passes beside it do not …
+constexpr float slight_cosine = 0.996F;  ///< cos 5°: enough where the adjacent passes do not …
 constexpr float own_share = 0.7F;        ///< … turn by more than this share of its turn
 constexpr float beside_every = 0.5F;     ///< step-overs between the places that are looked at on them
 constexpr float turn_reach = 1;          ///< step-overs on either side, over which a turn is measured
 /// Step-overs on either side, within which a link leads to the next pass. A long slanting link shows over the longest; in a
 /// curve the runs turn against each other over that length, and a short link shows over a shorter one.
 constexpr std::array link_reaches{5.0F, 3.0F, 2.0F};
-constexpr float link_cosine = 0.94F;  ///< cos 20°: the runs that it joins are hardly turned against each other …
-constexpr float link_aside = 0.6F;    ///< … and lie so many step-overs apart
-constexpr float link_sine = 0.24F;    ///< sin 14°: of the link against these runs
-constexpr float beside_reach = 1.5F;  ///< step-overs along the feed within which a pass beside has its bend
-constexpr float look_every = 0.1F;    ///< step-overs
+constexpr float link_cosine = 0.94F;      ///< cos 20°: the runs that it joins are hardly turned against each other …
+constexpr float link_aside = 0.6F;        ///< … and lie so many step-overs apart
+constexpr float link_sine = 0.24F;        ///< sin 14°: of the link against these runs
+constexpr float closing_reach = 5;        ///< step-overs on either side, within which a loop closes …
+constexpr float closing_nearest = 0.5F;   ///< … where the distance to the pass beside it falls below this …
+constexpr float closing_farthest = 0.8F;  ///< … and is more than this before or after it [step-overs]
+constexpr float beside_reach = 1.5F;      ///< step-overs along the feed within which a pass beside has its bend
+constexpr float look_every = 0.1F;        ///< step-overs
 constexpr float accelerates = 0.35F;  ///< of the usual acceleration, at least: jerk limits and windows take the rest
 constexpr float link_accelerates = 0.15F;  ///< the same at a link: both of its corners share the turn
 constexpr float ramp_share = 0.2F;         ///< the same along the path, between the bend and its ramp's end
@@ -163,7 +167,33 @@ bool Bends::leads_aside(PointIndex point, float reach) const {
     return steepest > link_sine;
 }
 
+float Bends::distance_beside(PointIndex point) const {
+    float nearest = std::numeric_limits<float>::infinity();
+    const Eigen::Vector3f feed = signals_.feed(point);
+    for (const Side side : {Side::left, Side::right}) {
+        const PathLocation at = beside(surface_, {point, 0}, feed, side);
+        if (!at.exists()) continue;
+        nearest = std::min(nearest, (position_at(surface_.positions, at) - surface_.positions[point]).norm());
+    }
+    return nearest;
+}
+
+bool Bends::closes_loop(PointIndex point) const {
+    const float reach = closing_reach * step_over_;
+    const PointIndex first = at_distance(point, -1, reach), last = at_distance(point, +1, reach);
+    const PointIndex stride = stride_at(point);
+    float nearest = std::numeric_limits<float>::infinity(), farthest = 0;
+    for (PointIndex i = first; i <= last; i += stride) {
+        const float distance = distance_beside(i);
+        if (!(distance < closing_reach * step_over_)) continue;
+        nearest = std::min(nearest, distance);
+        farthest = std::max(farthest, distance);
+    }
+    return nearest < closing_nearest * step_over_ && farthest > closing_farthest * step_over_;
+}
+
 bool Bends::is_bend(PointIndex point) const {
+    if (closes_loop(point)) return true;
     const Turn turn = turn_at(point);
     const float usual = thresholds_.usual_acceleration;
     if (turn.acceleration >= link_accelerates * usual && is_link(point)) return true;

@@ -2,10 +2,10 @@
 // Bends: differences of speed that the layout of the passes explains.
 //
 // Where contour-parallel loops round two borders meet, their tips lie side by side with passes that run straight on. A tip turns
-// sharply, so the tool slows down for it, and the passes beside it have no reason to. The planner's look-ahead explains such a
+// sharply, so the tool slows down for it, and the adjacent passes have no reason to. The planner's look-ahead explains such a
 // difference: it is expected. It explains no more than that: the tool must take the bend about as fast as the machine's
 // acceleration lets it, brake for it and speed up after it at once, and no slower than a pass beside it takes a bend like it.
-// Both corners of a link that leads from a loop to the next one are bends, too, and so is a slight bend that the passes beside it
+// Both corners of a link that leads from a loop to the next one are bends, too, and so is a slight bend that the adjacent passes
 // do not have.
 
 #include <optional>
@@ -36,6 +36,11 @@ private:
     [[nodiscard]] bool is_link(PointIndex point) const;
     /// The same within `reach` [mm] on either side.
     [[nodiscard]] bool leads_aside(PointIndex point, float reach) const;
+    /// A closed loop ends there and a link leads to the next one: the path comes to where it has already run, and leaves again.
+    /// This holds in tight curves and for links that slant by a few degrees, where the path alone does not show the link.
+    [[nodiscard]] bool closes_loop(PointIndex point) const;
+    /// [mm] to the nearer one of the neighbours, straight across; infinite: there is none.
+    [[nodiscard]] float distance_beside(PointIndex point) const;
     [[nodiscard]] bool turns_alone(PointIndex bend, const Turn& turn) const;
     [[nodiscard]] bool taken_faster_beside(PointIndex bend, const Turn& turn) const;
     [[nodiscard]] std::optional<PointIndex> slowest_ahead(PointIndex point, int direction) const;

@@ -1,5 +1,5 @@
 #pragma once
-// Candidates: the sites of a surface that differ from their neighbour passes, and how they belong
+// Candidates: the sites of a surface that differ from their adjacent passes, and how they belong
 // together.
 
 #include <array>

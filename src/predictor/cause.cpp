@@ -63,10 +63,10 @@ std::string_view name_of(Cause cause) {
 
 std::string_view description_of(Cause cause) {
     switch (cause) {
-        case Cause::feed_drop: return "runs at a different speed than the neighbouring passes";
-        case Cause::oscillation: return "its speed oscillates about that of the neighbouring passes";
-        case Cause::lag_step: return "axis lag differs from the neighbouring passes";
-        case Cause::point_spacing: return "programmed points are spaced differently from the neighbouring passes";
+        case Cause::feed_drop: return "runs at a different speed than the adjacent passes";
+        case Cause::oscillation: return "its speed oscillates about that of the adjacent passes";
+        case Cause::lag_step: return "axis lag differs from the adjacent passes";
+        case Cause::point_spacing: return "programmed points are spaced differently from the adjacent passes";
         case Cause::corner: return "the programmed path turns here";
         case Cause::reversal: return "an axis reverses here";
         case Cause::pass_end: return "the pass begins or ends here";

@@ -22,7 +22,7 @@ struct Compared {
 };
 
 /// The signals at a location, linear between the points. Heights are counted along `normal`: normals of
-/// steep walls turn round with the feed.
+/// walls that lean by less than 0.75° turn round with the feed.
 [[nodiscard]] Compared compared_at(const Signals& signals, const PathLocation& at, const Eigen::Vector3f& normal);
 
 }  // namespace clsurf

@@ -18,7 +18,7 @@ void judge_passes(QualityReport& report) {
     if (report.points == 0) {
         report.judgement.refuse("The log has no cutting points.");
     } else if (report.step_over <= 0) {
-        report.judgement.refuse("No pass has another pass beside it, so nothing could be compared.");
+        report.judgement.refuse("No pass has an adjacent pass, so nothing could be compared.");
     } else if (report.coverage() < least_coverage) {
         const double percent = std::floor(1000 * report.coverage()) / 10;  // never rounded up to what is enough
         report.judgement.refuse(
@@ -32,7 +32,7 @@ void judge_passes(QualityReport& report) {
 void judge_records(double record, QualityReport& report) {
     if (report.step_over <= 0 || report.coverage() >= least_coverage || !(record > report.step_over)) return;
     report.judgement.refuse(fmt::format(
-        "Records are {:.2f} mm apart at the usual speed and passes {:.2f} mm: which pass lies beside a point cannot be told.",
+        "Records are {:.2f} mm apart at the usual speed and passes {:.2f} mm: which pass is adjacent to a point cannot be determined.",
         record, report.step_over));
 }
 

@@ -58,7 +58,7 @@ struct Defect {
     double depth = 0;                   ///< [mm] ≥ 0, predicted step against the neighbours along the normal
     bool pit = false;                   ///< below its neighbours; else a bulge, which they cut down again
     double speed = 0;                   ///< [mm/s] where it is strongest
-    double speed_beside = 0;            ///< [mm/s] of the passes beside it, there
+    double speed_beside = 0;            ///< [mm/s] of the adjacent passes, there
     double speed_jump = 0;              ///< [mm/s] signed, against the neighbours
     double speed_mismatch = 0;          ///< the same relative to the neighbours' speed, ≥ −1
     double acceleration_jump = 0;       ///< [mm/s²] ≥ 0

@@ -75,7 +75,7 @@ float change_of_two_periods(const Signals& signals, float Sample::*signal, Point
 }
 
 /// Whether a relief is the part's own. A pass that lies off lifts the chords of its neighbours, or lowers them, by
-/// as much as it stands out: with the pass beside it, or both, its relief adds up to nothing. That of an edge
+/// as much as it stands out: with the adjacent pass, or both, its relief adds up to nothing. That of an edge
 /// or a fillet of the part adds up to the angle by which the surface turns there, and beside one reliefs may add up
 /// to anything, but are smaller. Counted from the mean of all `places` around.
 bool is_shape(float relief, const Compared& left, const Compared& right, std::span<const Compared> places) {
@@ -92,6 +92,19 @@ bool is_shape(float relief, const Compared& left, const Compared& right, std::sp
         return true;
     return std::any_of(places.begin(), places.end(),
                        [&](const Compared& v) { return std::abs(own) < shape_beside * std::abs(v.relief - mean); });
+}
+
+/// How far a relief lies above the reliefs of the passes on its two sides, or below (−): by the distance from the interval between
+/// both medians. Where a flat face goes over into a fillet the curvature changes from one pass to the next. The relief is then that of one
+/// side or lies between both. A pass that lies off has its neighbours' reliefs on the other side of zero, and those beyond at zero.
+/// `places`: the passes of one side, then as many of the other one. Where a side has one pass only, from the median of all.
+float relief_beyond_sides(float relief, std::span<const Compared> places) {
+    const auto median = [](std::span<const Compared> some) {
+        return median_of(some, fewest_passes, [](const Compared& v) { return v.relief; });
+    };
+    const float one = median(places.first(places.size() / 2)), other = median(places.last(places.size() / 2));
+    if (!(one == one && other == other)) return relief - median(places);
+    return relief - std::clamp(relief, std::min(one, other), std::max(one, other));
 }
 
 float quantile(std::vector<float>& values, double share) {
@@ -125,7 +138,7 @@ struct PassesBeside {
     std::array<int, 2> count{0, 0};
 };
 
-/// Fills in residuals against the passes beside, and the jump of the speed. Returns the speed that differences of the
+/// Fills in residuals against the adjacent passes, and the jump of the speed. Returns the speed that differences of the
 /// speed are relative to [mm/s].
 float fill_residuals(const Compared& mine, const PassesBeside& others, float least_speed, Comparison& result) {
     const auto& [beside_it, count] = others;
@@ -151,9 +164,13 @@ float fill_residuals(const Compared& mine, const PassesBeside& others, float lea
     result.residual[index_of(Quantity::speed)] = result.speed_jump / reference;
     result.residual[index_of(Quantity::lag)] =
         mine.lag - median_of(places, fewest_passes, [](const Compared& v) { return v.lag; });
-    const float usual_relief = median_of(reliefs, fewest_passes, [](const Compared& v) { return v.relief; });
-    result.residual[index_of(Quantity::relief)] =
-        even > 0 && is_shape(mine.relief, beside_it[0][0], beside_it[1][0], reliefs) ? 0 : mine.relief - usual_relief;
+    float& relief = result.residual[index_of(Quantity::relief)];
+    if (even == 0)
+        relief = mine.relief - median_of(reliefs, fewest_passes, [](const Compared& v) { return v.relief; });
+    else if (is_shape(mine.relief, beside_it[0][0], beside_it[1][0], reliefs))
+        relief = 0;
+    else
+        relief = relief_beyond_sides(mine.relief, reliefs);
     Eigen::Vector3f consensus;
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
         consensus[axis] = median_of(places, fewest_passes, [axis](const Compared& v) { return v.acceleration[axis]; });

@@ -1,5 +1,5 @@
 #pragma once
-// Mismatch: how a place of a pass differs from the adjacent places on the neighbouring passes.
+// Mismatch: how a place of a pass differs from the adjacent places on the adjacent passes.
 //
 // Each quantity has two measures. The *step* is the largest difference to the two adjacent passes, minus the
 // trend that continues to the passes beyond them: it is what shows on the part. The *residual* is the
@@ -35,6 +35,8 @@ public:
     /// Both must outlive it. `least_speed` [mm/s]: speeds below it are not compared relative to themselves.
     Comparer(const ClSurface& surface, const Signals& signals, float least_speed)
         : surface_(surface), signals_(signals), least_speed_(least_speed) {}
+
+    [[nodiscard]] const ClSurface& surface() const { return surface_; }
 
     /// O(1): up to `aside` passes on each side. With one, the steps are the same, residuals mean little.
     [[nodiscard]] Comparison compare(const PathLocation& here, int aside = passes_aside) const;

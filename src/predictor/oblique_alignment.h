@@ -34,7 +34,7 @@ struct ObliqueComparison {
 /// Within 1.5 step-overs the path turns on the surface, about its normal, by more than 25°.
 [[nodiscard]] bool turns_on_surface(const ClSurface& surface, const Signals& signals, PointIndex point);
 
-/// The obliquity on which the passes beside a point agree best among themselves, whatever the point itself
+/// The obliquity on which the passes adjacent to a point agree best among themselves, whatever the point itself
 /// does. Nothing where they agree straight across the feed about as well, or are fewer than four, or three on one side alone. Where
 /// the path turns on the surface by more than 25° within 1.5 step-overs: of each pass what is nearest to the point's
 /// own motion within 1.5 step-overs per pass.

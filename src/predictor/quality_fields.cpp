@@ -13,40 +13,53 @@
 namespace clsurf {
 namespace {
 
-/// The differences to both neighbours, the larger one.
-template <typename Difference>
-float largest_beside(const ClSurface& surface, const Signals& signals, PointIndex i, Difference&& difference) {
+// What a pass does differently from the median of up to five passes on each side: of two adjacent passes that differ, the
+// one that causes it stands out.
+
+float speed_mismatch(const Comparer& comparer, const Signals&, PointIndex i) {
+    const Comparison comparison = comparer.compare({i, 0});
+    return comparison.left + comparison.right > 0 ? comparison.speed_jump : missing<float>;
+}
+
+float acceleration_mismatch(const Comparer& comparer, const Signals&, PointIndex i) {
+    return comparer.compare({i, 0}).residual[index_of(Quantity::acceleration)];
+}
+
+/// To the adjacent pass that differs most. Of two passes that differ, both have it.
+float speed_difference(const ClSurface& surface, const Signals& signals, PointIndex i) {
     float most = missing<float>;
     for (const Side side : {Side::left, Side::right}) {
         const PathLocation at = beside(surface, {i, 0}, signals.feed(i), side);
         if (!at.exists()) continue;
-        const float d = difference(at);
+        const float d = signals[i].speed - compared_at(signals, at, signals.normal(i)).speed;
         if (!(std::abs(most) >= std::abs(d))) most = d == d ? d : most;
     }
     return most;
 }
 
-float speed_mismatch(const ClSurface& surface, const Signals& signals, PointIndex i) {
-    const float own = signals[i].speed;
-    return largest_beside(surface, signals, i, [&](const PathLocation& at) {
-        return own - compared_at(signals, at, signals.normal(i)).speed;
-    });
+float speed_difference_of(const Comparer& comparer, const Signals& signals, PointIndex i) {
+    return speed_difference(comparer.surface(), signals, i);
 }
 
-float acceleration_mismatch(const ClSurface& surface, const Signals& signals, PointIndex i) {
-    const Eigen::Vector3f own = signals.acceleration(i);
-    return largest_beside(surface, signals, i, [&](const PathLocation& at) {
-        return (own - compared_at(signals, at, signals.normal(i)).acceleration).norm();
-    });
-}
-
-float height(const ClSurface&, const Signals& signals, PointIndex i) {
+float height(const Comparer&, const Signals& signals, PointIndex i) {
     return signals.measured ? signals[i].lag : signals[i].relief;
+}
+
+float speed_threshold(const Thresholds& thresholds, bool) {
+    return thresholds.of[index_of(Quantity::speed)] * thresholds.usual_speed;
+}
+
+float acceleration_threshold(const Thresholds& thresholds, bool) {
+    return thresholds.of[index_of(Quantity::acceleration)];
+}
+
+float height_threshold(const Thresholds& thresholds, bool measured) {
+    return thresholds.of[index_of(measured ? Quantity::lag : Quantity::relief)];
 }
 
 constexpr auto quality_rows = std::to_array<QualityFieldRow>({
     {"speed_mismatch",
-     "Speed against the passes beside it",
+     "Speed difference to the adjacent passes",
      {},
      unit::mm_min,
      FieldScale::diverging,
@@ -54,9 +67,10 @@ constexpr auto quality_rows = std::to_array<QualityFieldRow>({
      speed_mismatch,
      {"mismatch"},
      7,
-     true},
+     true,
+     speed_threshold},
     {"acceleration_mismatch",
-     "Acceleration against the passes beside it",
+     "Acceleration difference to the adjacent passes",
      {},
      unit::mm_s2,
      FieldScale::sequential,
@@ -64,17 +78,31 @@ constexpr auto quality_rows = std::to_array<QualityFieldRow>({
      acceleration_mismatch,
      {},
      8,
-     true},
+     true,
+     acceleration_threshold,
+     FieldPreference::lower},
     {"height",
      "Height over the commanded surface",
-     "Height over the chord between the passes beside it",
+     "Height over the chord between the adjacent passes",
      unit::um,
      FieldScale::diverging,
      &Signals::height_note,
      height,
      {},
      9,
-     true},
+     true,
+     height_threshold},
+    {"speed_difference",
+     "Speed difference to the adjacent pass that differs most",
+     {},
+     unit::mm_min,
+     FieldScale::diverging,
+     &Signals::speed_note,
+     speed_difference_of,
+     {},
+     0,
+     true,
+     speed_threshold},
 });
 
 FieldInfo info_of(const QualityFieldRow& row) {
@@ -82,20 +110,26 @@ FieldInfo info_of(const QualityFieldRow& row) {
     if (!row.also.empty()) info.also.emplace_back(row.also);
     info.report_rank = row.report_rank;
     info.percentiles = row.percentiles;
+    info.preference = row.preference;
     return info;
 }
 
-Field compute_row(const QualityFieldRow& row, const ClSurface& surface, const Signals& signals, PointRange points) {
+Field compute_row(const QualityFieldRow& row, const ClSurface& surface, const Signals& signals,
+                  const Thresholds& thresholds, PointRange points) {
+    const Comparer comparer(surface, signals, thresholds.least_speed);
     Field field;
     field.info = info_of(row);
     if (!signals.measured && !row.label_unmeasured.empty()) field.info.label = row.label_unmeasured;
+    // Two thresholds, of values that are signed to either side of 0.
+    const double sides = row.scale == FieldScale::diverging ? 2 : 1;
+    if (row.threshold != nullptr) field.info.least_span = 2 * sides * row.threshold(thresholds, signals.measured);
     field.values.resize(static_cast<std::size_t>(points.size()));
     std::vector<PointIndex> with(static_cast<std::size_t>((points.size() + block_points - 1) / block_points));
     for_each_block(points.size(), [&](PointIndex first, PointIndex last) {
         for (PointIndex i = first; i < last; ++i) {
             const PointIndex point = points.first + i;
             const bool compared = signals[point].zone != Zone::outside;
-            const float value = compared ? row.value(surface, signals, point) : missing<float>;
+            const float value = compared ? row.value(comparer, signals, point) : missing<float>;
             field.values[static_cast<std::size_t>(i)] = value;
             if (value == value) ++with[static_cast<std::size_t>(first / block_points)];
         }
@@ -127,18 +161,29 @@ std::vector<FieldInfo> QualityFields::fields() const {
 }
 
 std::vector<Field> QualityFields::compute(std::span<const std::string_view> names, PointRange points) const {
-    std::call_once(derived_, [&] { signals_.emplace(derive_()); });
+    std::call_once(derived_, [&] {
+        signals_.emplace(derive_());
+        thresholds_ = measure_thresholds(surface_, *signals_, {});
+    });
     std::vector<Field> computed;
     for (const std::string_view name : names) {
         const auto row =
             std::find_if(table_.begin(), table_.end(), [&](const QualityFieldRow& r) { return r.name == name; });
-        computed.push_back(compute_row(*row, surface_, *signals_, points));
+        computed.push_back(compute_row(*row, surface_, *signals_, thresholds_, points));
     }
     return computed;
 }
 
-Column<float> speed_mismatches(const ClSurface& surface, const Signals& signals) {
-    return compute_row(quality_rows[0], surface, signals, {0, surface.positions.size() - 1}).values;
+Column<float> speed_differences(const ClSurface& surface, const Signals& signals) {
+    const PointIndex count = surface.positions.size();
+    Column<float> differences(static_cast<std::size_t>(count), missing<float>);
+    for_each_block(count, [&](PointIndex first, PointIndex last) {
+        for (PointIndex i = first; i < last; ++i) {
+            if (signals[i].zone != Zone::outside)
+                differences[static_cast<std::size_t>(i)] = speed_difference(surface, signals, i);
+        }
+    });
+    return differences;
 }
 
 }  // namespace clsurf

@@ -21,14 +21,17 @@ struct QualityFieldRow {
     FieldScale scale = FieldScale::sequential;
     std::string Signals::*windows = nullptr;  ///< says the windows of what is compared
     /// Of a point that is compared; NaN where there is no neighbour on either side.
-    float (*value)(const ClSurface& surface, const Signals& signals, PointIndex point) = nullptr;
+    float (*value)(const Comparer& comparer, const Signals& signals, PointIndex point) = nullptr;
     // As in FieldInfo:
     std::string_view also;
     int report_rank = 0;
     bool percentiles = false;
+    /// Above which it is a discontinuity, inside units: a picture spans at least two of them.
+    float (*threshold)(const Thresholds& thresholds, bool measured) = nullptr;
+    FieldPreference preference = FieldPreference::none;
 };
 
-/// speed_mismatch, acceleration_mismatch, height.
+/// speed_mismatch, acceleration_mismatch, height, speed_difference.
 [[nodiscard]] std::span<const QualityFieldRow> quality_field_table();
 
 class QualityFields : public FieldProvider {
@@ -49,9 +52,11 @@ private:
     std::span<const QualityFieldRow> table_;
     mutable std::once_flag derived_;
     mutable std::optional<Signals> signals_;
+    mutable Thresholds thresholds_;
 };
 
-/// The values of `speed_mismatch` from signals that are at hand. O(points), parallel.
-[[nodiscard]] Column<float> speed_mismatches(const ClSurface& surface, const Signals& signals);
+/// The larger one of the differences in speed to both adjacent passes [mm/s], signed; NaN where there is none. O(points),
+/// parallel.
+[[nodiscard]] Column<float> speed_differences(const ClSurface& surface, const Signals& signals);
 
 }  // namespace clsurf

@@ -30,6 +30,8 @@ constexpr double height_window = 0.015;     ///< window of the mean that heights
 constexpr PointIndex relief_every = 3;      ///< points: normals and reliefs are those of every third
 constexpr double longest_lag = 0.1;         ///< [s] that the measured position may come after the commanded one
 constexpr PointIndex shortest_reach = 64;   ///< points
+constexpr float least_upward =
+    0.013F;  ///< sin 0.75°: from a wall that leans less it cannot be told which side of it faces up
 constexpr float least_chord_share =
     0.33F;  ///< of the chord between both neighbours, on either side of a point that has a relief
 constexpr PointIndex longest_reach = 4096;
@@ -231,6 +233,8 @@ private:
         const Eigen::Vector3f b = right.exists() ? position_at(p, right) : here;
         const Eigen::Vector3f across = a - b;
         normal = feed.cross(across).normalized();
+        // On a steep wall the left neighbour is the upper one, whichever way the tool runs: the normal would turn round with the feed.
+        if (normal.z() < -least_upward) normal = -normal;
         if (!left.exists() || !right.exists()) return missing<float>;
         // Where a pass is interrupted, by an island, what lies beside is its retract or its end.
         if (out_[left.nearest()].zone == Zone::outside || out_[right.nearest()].zone == Zone::outside)

@@ -1,5 +1,5 @@
 #pragma once
-// Signals: what is compared between neighbouring passes, once for every logged point: speed, feed
+// Signals: what is compared between adjacent passes, once for every logged point: speed, feed
 // direction, acceleration, and two heights along the surface normal. Everything is smoothed over a
 // stated window inside one piece of the path, never across a link.
 

@@ -135,6 +135,27 @@ test('a defect moves the camera there and marks the lines of both passes', async
     assert.equal(await page.locator('.program .row.beside').count(), 0);
 });
 
+test('a defect brings the field that shows it, and a link to itself', async () => {
+    const { defects } = JSON.parse(run('check', bottle.program, bottle.log, '--json'));
+    const fields = {
+        speed: /^Speed difference|^Path speed/,
+        lag: /^Height/,
+        relief: /^Height/,
+        acceleration: /^Acceleration/,
+    };
+    for (const quantity of ['speed', 'lag']) {
+        const index = defects.findIndex((d) => d.quantity === quantity);
+        await page.click(`[data-choice="defect-${index}"]`);
+        await settled(page);
+        const chosen = await page.getByLabel('field').evaluate((select) => select.selectedOptions[0].textContent);
+        assert.match(chosen, fields[quantity]);
+        assert.equal(await page.evaluate(() => window.location.hash), `#defect-${index + 1}`);
+    }
+    await page.evaluate(() => (window.location.hash = '#defect-3'));
+    await settled(page);
+    assert.equal(Number((await numbers(page)).Point), defects[2].point);
+});
+
 test('the table below leads to its defect too', async () => {
     await page.click('#report tr[data-defect="2"]');
     await settled(page);

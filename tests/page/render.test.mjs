@@ -72,7 +72,7 @@ const cases = {
         await page.keyboard.up('Shift');
         await page.getByLabel('field').selectOption({ label: 'Height over the commanded surface [µm]' });
         await page.getByLabel('colour map').selectOption('cividis');
-        await page.getByLabel('upper end').fill('20');
+        await page.getByLabel('upper end').fill('45');
         await page.getByLabel('upper end').press('Enter');
     },
     'the formed surface': async () => {

@@ -155,7 +155,7 @@ test('fields bring their range and a colour map that fits', async () => {
     assert.ok(low === -high && high > 0);
     await page.getByLabel('field').selectOption({ label: 'Path speed [mm/min]' });
     await settled(page);
-    assert.equal(await page.getByLabel('colour map').inputValue(), 'isurface');
+    assert.equal(await page.getByLabel('colour map').inputValue(), 'magma');
     assert.equal(await field(), 'Path speed [mm/min]');
     await page.getByLabel('curve 2').selectOption({ label: 'Jerk [mm/s³]' });
     await settled(page);
@@ -173,6 +173,7 @@ test('colour maps and steps', async () => {
     await settled(page);
     assert.ok(!seen.has(await picture()));
     await page.getByLabel('colour steps').selectOption('0');
+    await page.getByLabel('colour map').selectOption('magma');
 });
 
 test('the range is typed, dragged, and usual again', async () => {
@@ -203,7 +204,7 @@ test('positions and the formed surface', async () => {
         await page.locator('.choices button', { hasText: name }).click();
         await settled(page);
         assert.equal(await page.locator('.choices button[aria-pressed="true"]').textContent(), name);
-        assert.equal(await page.getByLabel('colour map').inputValue(), name === 'formed' ? 'coolwarm' : 'isurface');
+        assert.equal(await page.getByLabel('colour map').inputValue(), name === 'formed' ? 'coolwarm' : 'magma');
     }
 });
 

@@ -75,5 +75,17 @@ TEST(Relief, OfANarrowFilletIsNone) {
     for (const float own : own_reliefs(height, 2, 6)) EXPECT_LT(std::abs(own), 1e-5F);
 }
 
+TEST(Relief, OfAWideFilletIsNone) {
+    // A floor that goes over into a fillet of 4 mm, straight or oblique to the passes: the curvature steps from 0 to 1/4 mm⁻¹,
+    // the reliefs from 0 to 20 µm, with one or two values between.
+    for (const double slope : {0.0, 0.02}) {
+        const auto height = [&](double x, double y) {
+            const double along = y - 4 - slope * (x - 0.5 * length);
+            return along < 0 ? 0.0 : 4 - std::sqrt(16 - along * along);
+        };
+        for (const float own : own_reliefs(height, 2, 6)) EXPECT_LT(std::abs(own), 3e-4F);
+    }
+}
+
 }  // namespace
 }  // namespace clsurf

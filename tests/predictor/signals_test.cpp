@@ -76,7 +76,7 @@ TEST(Mismatch, OfASlowerPassIsWhatItIsSlower) {
     for_each_inner(s, [&](PointIndex i) {
         const int pass = static_cast<int>(std::lround(made.surface.positions[i].y() / 0.4F));
         const Comparison c = comparer.compare({i, 0});
-        if (c.left == 0 || c.right == 0) return;  // next to where the pass beside it begins
+        if (c.left == 0 || c.right == 0) return;  // next to where the adjacent pass begins
         const float step = c.step[index_of(Quantity::speed)];
         const float residual = c.residual[index_of(Quantity::speed)];
         if (pass == 4) {
@@ -106,6 +106,23 @@ TEST(Mismatch, ThatChangesEvenlyFromPassToPassIsNobodysFault) {
         if (c.left == 0 || c.right == 0) return;
         EXPECT_NEAR(c.residual[index_of(Quantity::speed)], 0.0F, 1e-3F) << i;
     });
+}
+
+TEST(Signals, AMeasuredPathOutsideAWallRunsAboveItWhicheverWayTheToolRuns) {
+    for (const double draft : {0.02, 0.1, 0.25}) {
+        const Vec3 outwards(0, -std::cos(draft), std::sin(draft));
+        const test::MadeSurface made = test::flat_zigzag(
+            11, 30, 0.3, 50, [&](const Vec3& commanded, const Vec3&) { return Vec3(commanded + 0.01 * outwards); },
+            [&](const Vec3& flat) { return Vec3(flat.x(), flat.y() * std::sin(draft), flat.y() * std::cos(draft)); });
+        const Signals signals = made.signals();
+        int seen = 0;
+        for (PointIndex i = 0; i < signals.size(); ++i) {
+            if (signals[i].zone == Zone::outside || !(signals[i].lag == signals[i].lag)) continue;
+            EXPECT_NEAR(signals[i].lag, 0.01F, 1e-4F);
+            ++seen;
+        }
+        EXPECT_GT(seen, 1000);
+    }
 }
 
 }  // namespace

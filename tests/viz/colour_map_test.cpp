@@ -1,10 +1,14 @@
 #include "viz/colour_map.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
 
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "viz/colour_difference.h"
 
 namespace clsurf::viz {
 namespace {
@@ -22,7 +26,7 @@ TEST(ColourMap, IsurfaceHasTheColoursOfThePaper) {
 }
 
 TEST(ColourMap, EvenMapsRiseInLightness) {
-    for (const char* name : {"viridis", "cividis", "gray"}) {
+    for (const char* name : {"magma", "viridis", "cividis", "gray"}) {
         const ColourMap map = make_colour_map(name);
         for (int k = 1; k <= 100; ++k)
             EXPECT_GT(lightness(map.at(k / 100.0)) + 0.6, lightness(map.at((k - 1) / 100.0))) << name << k;
@@ -32,7 +36,71 @@ TEST(ColourMap, EvenMapsRiseInLightness) {
 TEST(ColourMap, TakesOwnStopsAndNamesWrongOnes) {
     EXPECT_EQ(make_colour_map("#000000,ff0000").at(0.5), (Rgb{128, 0, 0}));
     EXPECT_THROW((void)make_colour_map("viridos"), UsageError);
+    EXPECT_THROW((void)make_colour_map("viridos_r"), UsageError);
     EXPECT_THROW((void)make_colour_map("#000000,red"), UsageError);
+}
+
+TEST(ColourMap, IsReversedBySuffix) {
+    const ColourMap map = make_colour_map("magma");
+    const ColourMap reversed = make_colour_map("magma_r");
+    EXPECT_EQ(reversed.name(), "magma_r");
+    for (int k = 0; k <= 20; ++k) EXPECT_EQ(map.at(k / 20.0), reversed.at(1 - k / 20.0)) << k;
+}
+
+TEST(ColourMap, PartsSpanTheWholeRange) {
+    const ColourMap map = make_colour_map("viridis");
+    const ColourMap part = map.part(0.2, 0.7);
+    for (int k = 0; k <= 10; ++k) {
+        const Rgb expected = map.at(0.2 + 0.05 * k);
+        for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(part.at(k / 10.0)[c], expected[c], 1) << k;
+    }
+}
+
+/// As people without the cones for green see it (Viénot, Brettel, Mollon 1999), in sRGB.
+Rgb as_deuteranope(Rgb c) {
+    std::array<double, 3> linear{};
+    for (std::size_t k = 0; k < 3; ++k) linear[k] = std::pow(c[k] / 255.0, 2.2);
+    const std::array<double, 3> seen{0.29275 * linear[0] + 0.70725 * linear[1],
+                                     0.29275 * linear[0] + 0.70725 * linear[1],
+                                     -0.02234 * linear[0] + 0.02234 * linear[1] + linear[2]};
+    Rgb result{};
+    for (std::size_t k = 0; k < 3; ++k)
+        result[k] = static_cast<std::uint8_t>(255 * std::pow(std::clamp(seen[k], 0.0, 1.0), 1 / 2.2));
+    return result;
+}
+
+TEST(ColourMap, MapOfSpeedsIsEvenAlsoForTheColourBlind) {
+    const ColourMap map = make_colour_map("magma");
+    // Equal steps look equally different: CIEDE2000 per twentieth stays within a factor of its mean.
+    std::vector<double> steps;
+    std::vector<double> seen;
+    for (int k = 1; k <= 20; ++k) {
+        const Rgb a = map.at((k - 1) / 20.0);
+        const Rgb b = map.at(k / 20.0);
+        steps.push_back(delta_e00(lab_of(a), lab_of(b)));
+        seen.push_back(delta_e00(lab_of(as_deuteranope(a)), lab_of(as_deuteranope(b))));
+    }
+    for (const std::vector<double>* of : {&steps, &seen}) {
+        const double mean = std::accumulate(of->begin(), of->end(), 0.0) / 20;
+        for (const double step : *of) {
+            EXPECT_GT(step, 0.35 * mean);
+            EXPECT_LT(step, 2.2 * mean);
+        }
+    }
+}
+
+TEST(ColourScale, HasAColourOfItsOwnBeyondTheRange) {
+    for (const char* name : {"magma", "magma_r", "coolwarm", "viridis", "gray"}) {
+        const ColourScale scale{make_colour_map(name), 0, 100, 0, 5};
+        EXPECT_EQ(scale.colour(104), scale.colour(100)) << "within the slack";
+        EXPECT_EQ(scale.along(104), scale.along(100));
+        for (int k = 0; k <= 100; ++k) {
+            EXPECT_GT(delta_e00(lab_of(scale.colour(120)), lab_of(scale.colour(k))), 12) << name << k;
+            EXPECT_GT(delta_e00(lab_of(scale.colour(-20)), lab_of(scale.colour(k))), 12) << name << k;
+        }
+    }
+    const ColourScale paper{make_colour_map("isurface"), 0, 100, 0};
+    EXPECT_EQ(paper.colour(120), paper.colour(100));
 }
 
 TEST(ColourScale, ShowsMissingAndEqualValues) {

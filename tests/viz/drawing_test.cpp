@@ -60,16 +60,38 @@ TEST(Drawing, GivesWhatLiesBetweenVerticesAColourOfTheRamp) {
     EXPECT_EQ(image.pixel(60, 30)[2], 255);
 }
 
-TEST(Drawing, DrawsCellsWithoutAValueInTheirOwnColour) {
+TEST(Drawing, HatchesTrianglesWithoutAValue) {
     Sheet sheet = red_square();
     MeshPanel& panel = sheet.panels[0];
     panel.ramp = {{255, 0, 0}, {0, 0, 255}};
     panel.along = Column<float>(4, 0.F);
     panel.bare_colour = {150, 150, 150};
+    panel.bare_ground = {240, 255, 240};
     for (std::uint8_t& c : panel.geometry.rgb) c = 255;
     std::swap(panel.bare_triangles, panel.geometry.triangles);
     const Image image = draw(sheet, "osmesa", 2);
-    for (int k = 0; k < 3; ++k) EXPECT_EQ(image.pixel(40, 30)[k], 150);
+    int lines = 0;
+    int ground = 0;
+    for (int x = 30; x < 46; ++x) {
+        EXPECT_EQ(image.pixel(x, 30)[0], image.pixel(x, 30)[2]) << "neither red nor blue";
+        lines += image.pixel(x, 30)[0] < 225 ? 1 : 0;
+        ground += image.pixel(x, 30)[0] == 240 ? 1 : 0;
+    }
+    // One pixel of eight is a line, and its neighbours may share it.
+    EXPECT_GE(lines, 1);
+    EXPECT_LE(lines, 4);
+    EXPECT_GE(ground, 8);
+}
+
+TEST(Drawing, DrawsPaleVerticesInALighterTone) {
+    Sheet sheet = red_square();
+    MeshPanel& panel = sheet.panels[0];
+    panel.ramp = {{0, 0, 0}, {200, 200, 200}};
+    panel.along = Column<float>(4, 0.F);
+    panel.pale = Column<float>(4, 1.F);
+    for (std::uint8_t& c : panel.geometry.rgb) c = 255;
+    // 60 % of the way to the lightest colour of the ramp.
+    EXPECT_EQ(draw(sheet, "osmesa", 2).pixel(40, 30)[0], 120);
 }
 
 TEST(Drawing, GivesTheSamePixelsEveryTime) {
@@ -89,8 +111,8 @@ TEST(Drawing, PutsTextsAboveQuads) {
 
 TEST(Drawing, PutsLinesAboveThoseUnderThem) {
     Sheet sheet = red_square();
-    sheet.lines.push_back({{{10, 30}, {70, 30}}, 4, {0, 0, 0}, false});
-    sheet.lines.push_back({{{10, 30}, {70, 30}}, 12, {255, 255, 255}, true});
+    sheet.lines.push_back({{{10, 30}, {70, 30}}, 4, {0, 0, 0}, Level::line});
+    sheet.lines.push_back({{{10, 30}, {70, 30}}, 12, {255, 255, 255}, Level::area});
     const Image image = draw(sheet, "osmesa", 2);
     EXPECT_EQ(image.pixel(40, 30)[0], 0);
     EXPECT_EQ(image.pixel(40, 34)[0], 255);

@@ -35,6 +35,42 @@ TEST(Compare, AllowsOneStepEverywhereAndThreeStepsInOneValue) {
 
 TEST(Compare, FailsWhereManyValuesAreTwoStepsOff) { EXPECT_FALSE(compare(grey(10), grey(12), {}).equal); }
 
+TEST(Compare, BlanksTextsOfBothPictures) {
+    Image a = grey(10);
+    Image b = grey(10);
+    // A word of each stands where the other has none; one reaches over the edge.
+    a.rgb[3 * (100 * 20 + 30)] = 200;
+    a.texts.push_back({28, 18, 5, 5});
+    b.rgb[3 * (100 * 49 + 99)] = 200;
+    b.texts.push_back({95, 45, 20, 20});
+    EXPECT_FALSE(compare(a, b, {}).equal);
+    blank_texts(a, b);
+    EXPECT_TRUE(compare(a, b, {}).equal);
+    b.rgb[3 * (100 * 30 + 60)] = 200;
+    EXPECT_FALSE(compare(a, b, {}).equal) << "beside the texts everything counts";
+}
+
+TEST(Image, PngKeepsWhereTextsStand) {
+    Image a = grey(90);
+    a.texts = {{1, 2, 30, 4}, {-5, 6, 7, 8}};
+    const test::TemporaryFolder folder;
+    const Image back = read_image(folder.write("texts.png", encode_image(a, "test", "png")));
+    ASSERT_EQ(back.texts.size(), 2u);
+    EXPECT_EQ(back.texts[1].x, -5);
+    EXPECT_EQ(back.texts[1].height, 8);
+    EXPECT_TRUE(read_image(folder.write("none.png", encode_image(grey(90), "test", "png"))).texts.empty());
+}
+
+TEST(Compare, DifferencePictureSaysWhatItsColoursMean) {
+    Image a = grey(10);
+    a.rgb[0] = 200;
+    const Image difference = difference_picture(a, grey(10));
+    EXPECT_EQ(difference.width, 100);
+    EXPECT_GT(difference.height, 60);
+    EXPECT_EQ(difference.pixel(0, 0)[0], 255) << "red where they differ";
+    EXPECT_EQ(difference.pixel(0, 0)[1], 0);
+}
+
 TEST(Image, ReadsBackWhatItEncoded) {
     Image a = grey(90);
     a.rgb[3 * 5 + 1] = 200;

@@ -12,7 +12,7 @@ set(depth_budget "echo 'max_depth_um = 5' > budget.toml")
 clsurf_cli_test(NAME short_passes_are_not_judged SETUP "${short_passes} && ${depth_budget}" ARGS check part.nc run.biip --budget budget.toml
   EXIT 5 STDOUT "^NOT JUDGED: Only 0[.]0 % of [0-9]+ cutting points" "max_depth_um .* NOT JUDGED" NO_STDOUT "nan" " held" STDERR "warning: not judged: Only")
 clsurf_cli_test(NAME one_pass_is_not_judged SETUP "${one_pass} && ${depth_budget}" ARGS check part.nc run.biip --budget budget.toml
-  EXIT 5 STDOUT "NOT JUDGED: No pass has another pass beside it" NO_STDOUT "nan" " held")
+  EXIT 5 STDOUT "NOT JUDGED: No pass has an adjacent pass" NO_STDOUT "nan" " held")
 clsurf_cli_test(NAME not_judged_in_json SETUP "${short_passes}" ARGS check part.nc run.biip --json
   EXIT 5 STDOUT "\"judged\": false" "\"within_budget\": false" "\"coverage_percent\": 0" "\"not_judged_reasons\": .*Only 0[.]0 %" NO_STDOUT "nan" "NaN")
 clsurf_cli_test(NAME not_judged_in_sarif SETUP "${short_passes}" ARGS check part.nc run.biip --format sarif

@@ -10,12 +10,16 @@ export class ColourMap {
     readonly name: string;
     readonly summary: string;
     readonly centred: boolean;
+    readonly below: Rgb;
+    readonly above: Rgb;
     private readonly rgb: Uint8Array;
 
     constructor(info: ColourMapInfo) {
         this.name = info.name;
         this.summary = info.summary;
         this.centred = info.centred;
+        this.below = info.below;
+        this.above = info.above;
         this.rgb = Uint8Array.from(atob(info.rgb), (c) => c.charCodeAt(0));
     }
     /** x in 0 … 1; outside it the nearest end. */
@@ -34,12 +38,21 @@ export interface ColourScale {
     low: number;
     high: number;
     bins: number; // 0: none
+    slack: number; // as far beyond an end a value still has the end's colour
 }
 
-/** x = 0 … 1 of the range → colour. In a centred map 0 has the middle, whatever the range. */
+/** As far beyond 0 … 1. */
+export function slackAlong(scale: ColourScale): number {
+    return scale.high > scale.low ? scale.slack / (scale.high - scale.low) : 0;
+}
+
+/** x = 0 … 1 of the range → colour; outside, the map's colours for that. In a centred map 0 has the middle, whatever the range. */
 export function colourAlong(scale: ColourScale, x: number): Rgb {
     const { low, high, bins } = scale;
     if (!(high > low)) return scale.map.at(0.5);
+    const slack = slackAlong(scale);
+    if (x < -slack) return scale.map.below;
+    if (x > 1 + slack) return scale.map.above;
     let at = Math.min(Math.max(x, 0), 1);
     if (bins > 0) at = (Math.min(Math.floor(at * bins), bins - 1) + 0.5) / bins;
     if (scale.map.centred && low < 0 && high > 0) at = 0.5 + (0.5 * (low + at * (high - low))) / Math.max(-low, high);

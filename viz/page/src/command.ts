@@ -12,17 +12,17 @@ export function shellWord(text: string): string {
 }
 
 /** Where the map lies on a sheet with legend (Layout of viz/scene.cpp). */
-function panelSize(width: number, height: number): [number, number] {
-    const text = Math.min(60, Math.max(9, Math.min(0.75 * width, height) / 46));
+function panelSize(width: number, height: number, names: boolean): [number, number] {
+    const text = Math.min(60, Math.max(9, Math.min(0.75 * width, height) / (names ? 36 : 46)));
     const small = Math.max(8, 0.78 * text);
-    return [Math.floor(width - 7.2 * text), Math.floor(height - 3 * small - 3.6 * text)];
+    return [Math.floor(width - (names ? 15 : 7.2) * text), Math.floor(height - 3 * small - 3.6 * text)];
 }
 
-/** The sheet whose map has a size. */
-export function sheetSize(width: number, height: number): [number, number] {
+/** The sheet whose map has a size. `names`: of classes, whose legend is wider. */
+export function sheetSize(width: number, height: number, names = false): [number, number] {
     let sheet: [number, number] = [width, height];
     for (let i = 0; i < 40; ++i) {
-        const panel = panelSize(...sheet);
+        const panel = panelSize(...sheet, names);
         if (panel[0] === width && panel[1] === height) break;
         sheet = [sheet[0] + width - panel[0], sheet[1] + height - panel[1]];
     }
@@ -67,13 +67,15 @@ export function renderCommand(
     else words.push('--color', field.name, '--surface', surface.roles[state.role].name);
     if (state.style !== 'surface' && !state.formed) words.push('--style', state.style);
     words.push(...viewOptions(camera, extent));
-    words.push('--range', `${rounded(state.low, 7)},${rounded(state.high, 7)}`, '--colormap', state.map);
-    if (state.bins > 0) words.push('--bins', String(state.bins));
+    const classes = field.classes && !state.formed;
+    if (!classes) words.push('--range', `${rounded(state.low, 7)},${rounded(state.high, 7)}`, '--colormap', state.map);
+    if (state.bins > 0 && !classes) words.push('--bins', String(state.bins));
     if (state.vertex !== null) words.push('--mark-point', String(surface.point[state.vertex]));
     if (state.line > 0 && surface.pointsOfLine(state.line).length > 0) words.push('--mark-line', String(state.line));
     if (state.defects && manifest.defects.length > 0) words.push('--defects');
     if (state.shown === 'wipe') words.push('--before', before);
-    words.push('--size', sheetSize(Math.round(camera.width), Math.round(camera.height)).join('x'));
+    words.push('--no-axes', '--size');
+    words.push(sheetSize(Math.round(camera.width), Math.round(camera.height), classes).join('x'));
     if (dark) words.push('--background', 'black');
     return words.map(shellWord).join(' ');
 }

@@ -13,11 +13,12 @@ import vtkTexture from '@kitware/vtk.js/Rendering/Core/Texture';
 import vtkOpenGLRenderWindow from '@kitware/vtk.js/Rendering/OpenGL/RenderWindow';
 
 import type { Camera } from './camera';
-import { colourAlong, missingColour, type ColourScale, type Rgb } from './colour';
+import { colourAlong, missingColour, slackAlong, type ColourScale, type Rgb } from './colour';
 import { rampImage } from './ramp_image';
 import type { Style } from './store';
 
 const rampColours = 1024;
+const texels = rampColours + 2; // the colours of values outside the range at its ends
 const coarsePoints = 40_000;
 
 export interface Mesh {
@@ -165,14 +166,17 @@ export class GlView {
     }
 
     /** Places of values on the ramp: u along it, v which row: the ramp, or the colour of no value. */
-    setValues(values: Float32Array, low: number, high: number): void {
+    setValues(values: Float32Array, scale: ColourScale): void {
+        const { low, high } = scale;
+        const slack = slackAlong(scale);
         const places = new Float32Array(2 * values.length);
         const span = high > low ? high - low : 1;
         for (let i = 0; i < values.length; ++i) {
             const value = values[i];
             const known = value === value;
-            const along = known ? (high > low ? (value - low) / span : 0.5) : 0;
-            places[2 * i] = (0.5 + along * (rampColours - 1)) / rampColours;
+            let along = known ? (high > low ? (value - low) / span : 0.5) : 0;
+            if (along >= -slack && along <= 1 + slack) along = Math.min(Math.max(along, 0), 1);
+            places[2 * i] = (1.5 + along * (rampColours - 1)) / texels;
             places[2 * i + 1] = known ? 0.25 : 0.75;
         }
         const array = vtkDataArray.newInstance({ name: 'places', numberOfComponents: 2, values: places });
@@ -187,12 +191,12 @@ export class GlView {
     }
 
     setColours(scale: ColourScale): void {
-        const pixels = new Uint8ClampedArray(4 * 2 * rampColours);
+        const pixels = new Uint8ClampedArray(4 * 2 * texels);
         const put = (i: number, rgb: Rgb) => pixels.set([...rgb, 255], 4 * i);
-        for (let i = 0; i < rampColours; ++i) {
-            put(i, colourAlong(scale, i / (rampColours - 1)));
-            put(rampColours + i, missingColour);
-        }
+        for (let i = 0; i < rampColours; ++i) put(i + 1, colourAlong(scale, i / (rampColours - 1)));
+        put(0, scale.map.below);
+        put(texels - 1, scale.map.above);
+        for (let i = 0; i < texels; ++i) put(texels + i, missingColour);
         const texture = vtkTexture.newInstance({ interpolate: scale.bins === 0 });
         texture.setInputData(rampImage(pixels));
         for (const actor of [this.actor, this.coarse]) {

@@ -10,7 +10,7 @@ import { renderCommand } from './command';
 import { CurvesPane, secondCurve } from './curves_pane';
 import { showCommand, showKeys } from './dialogs';
 import { baseName, element } from './dom';
-import { readManifest } from './manifest';
+import { readManifest, type Defect, type Manifest } from './manifest';
 import { ProgramPane } from './program_pane';
 import { ProgramText } from './program_text';
 import { RangePane } from './range_pane';
@@ -22,9 +22,32 @@ import { Toolbar } from './toolbar';
 import { TreePane } from './tree_pane';
 import { ViewPane } from './view_pane';
 
+const formedMap = 'coolwarm'; // deviations are signed
 const system = matchMedia('(prefers-color-scheme: dark)');
 const setTheme = (theme: 'light' | 'dark') => (document.documentElement.dataset.theme = theme);
 const dark = () => document.documentElement.dataset.theme === 'dark';
+
+/** "#defect-10" is the tenth one. */
+const defectLink = (index: number) => `#defect-${index + 1}`;
+function defectOfLink(hash: string, count: number): number | null {
+    const number = Number(/^#defect-(\d+)$/.exec(hash)?.[1] ?? 0);
+    return number >= 1 && number <= count ? number - 1 : null;
+}
+
+/** The field that shows a quantity best, among those of the page. */
+function fieldOfQuantity(manifest: Manifest, quantity: Defect['quantity']): number | null {
+    const names = {
+        speed: ['speed_mismatch', 'feed_share', 'speed'],
+        acceleration: ['acceleration_mismatch', 'acceleration'],
+        lag: ['height'],
+        relief: ['height'],
+    }[quantity];
+    for (const name of names) {
+        const index = manifest.fields.findIndex((field) => field.name === name);
+        if (index >= 0) return index;
+    }
+    return null;
+}
 
 async function begin(app: HTMLElement): Promise<void> {
     const manifest = readManifest();
@@ -40,7 +63,7 @@ async function begin(app: HTMLElement): Promise<void> {
     );
     const store = new Store({
         field: first,
-        map: manifest.fields[first].diverging ? 'coolwarm' : 'isurface',
+        map: manifest.fields[first].map,
         bins: 0,
         low: manifest.fields[first].low,
         high: manifest.fields[first].high,
@@ -60,13 +83,15 @@ async function begin(app: HTMLElement): Promise<void> {
         curves: [first, secondCurve(manifest, first)],
         theme: dark() ? 'dark' : 'light',
     });
+    let usual = manifest.fields[first].map;
     store.on((state, changed) => {
         if (changed.has('theme')) setTheme(state.theme);
-        // Signed fields have a map of their own, unless another was chosen.
+        // Each field has the map that suits it, unless another was chosen.
         if (changed.has('field') || changed.has('formed')) {
-            const diverging = state.formed || manifest.fields[state.field].diverging;
-            if (diverging && state.map === 'isurface') store.set({ map: 'coolwarm' });
-            if (!diverging && state.map === 'coolwarm') store.set({ map: 'isurface' });
+            const next = state.formed ? formedMap : manifest.fields[state.field].map;
+            const chosen = state.map !== usual;
+            usual = next;
+            if (!chosen && state.map !== next) store.set({ map: next });
         }
     });
     system.addEventListener('change', () => store.set({ theme: system.matches ? 'dark' : 'light' }));
@@ -78,7 +103,12 @@ async function begin(app: HTMLElement): Promise<void> {
         if (store.state.shown === 'before') store.set({ shown: 'after' });
         const vertex = surface().vertexOfPoint(defect.point);
         const origin = manifest.surfaces[0].origin_mm;
-        store.set({ defect: index, vertex, line: surface().line[vertex], pass: 0 });
+        // The numbers are those of the defect until the pointer moves.
+        store.set({ defect: index, vertex, hover: null, line: surface().line[vertex], pass: 0 });
+        const field = fieldOfQuantity(manifest, defect.quantity);
+        if (field !== null && (field !== store.state.field || store.state.formed)) store.set({ field, formed: false });
+        if (defect.normal) view.lookAlong(defect.normal);
+        history.replaceState(null, '', defectLink(index));
         view.goTo(
             defect.bounds_mm[0].map((c, k) => c - origin[k]),
             defect.bounds_mm[1].map((c, k) => c - origin[k]),
@@ -162,6 +192,12 @@ async function begin(app: HTMLElement): Promise<void> {
             app.scrollIntoView();
         });
     }
+    const linked = defectOfLink(location.hash, manifest.defects.length);
+    if (linked !== null) goToDefect(linked);
+    addEventListener('hashchange', () => {
+        const index = defectOfLink(location.hash, manifest.defects.length);
+        if (index !== null) goToDefect(index);
+    });
     document.documentElement.dataset.ready = 'yes';
 }
 

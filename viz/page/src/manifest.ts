@@ -1,3 +1,4 @@
+import type { Rgb } from './colour';
 // What io/page/page_data.cpp writes: the names are the same there.
 
 export interface PackedColumn {
@@ -12,7 +13,9 @@ export interface FieldInfo {
     name: string;
     label: string;
     unit: string;
-    diverging: boolean;
+    map: string; // the colour map that suits it
+    slack: number; // beyond an end that still has the end's colour
+    classes: boolean; // its values are names: the command line has no range for it
     note: string;
     low: number;
     high: number;
@@ -26,6 +29,8 @@ export interface ColourMapInfo {
     summary: string;
     centred: boolean;
     rgb: string;
+    below: Rgb; // of values outside the range
+    above: Rgb;
 }
 
 export interface DefectRun {
@@ -38,6 +43,8 @@ export interface Defect {
     id: number;
     severity: number;
     cause: string;
+    quantity: 'speed' | 'acceleration' | 'lag' | 'relief'; // that shows it best
+    normal?: [number, number, number]; // of the surface, there
     text: string;
     position_mm: [number, number, number]; // on the part where the tool is known
     tip_mm: [number, number, number];

@@ -194,13 +194,12 @@ export class Overlay {
             g.lineTo(left + 18, y);
             g.lineTo(left + 9, y + 9 * direction);
             g.closePath();
-            g.fillStyle = cssColour(colourAlong(scale, direction < 0 ? 1 : 0));
+            g.fillStyle = cssColour(direction < 0 ? scale.map.above : scale.map.below);
             g.fill();
             g.stroke();
         };
-        const readable = 0.005 * (scale.high - scale.low);
-        if (scene.highest > scale.high + readable) arrow(top - 1, -1);
-        if (scene.lowest < scale.low - readable) arrow(top + height + 1, 1);
+        if (scene.highest > scale.high + scale.slack) arrow(top - 1, -1);
+        if (scene.lowest < scale.low - scale.slack) arrow(top + height + 1, 1);
         const ticks = niceTicks(scale.low, scale.high, height / 45);
         const step = ticks.length > 1 ? ticks[1] - ticks[0] : 1;
         const text = (value: number, y: number, of: number, bold: boolean) =>

@@ -82,8 +82,10 @@ export class ViewPane {
         return [xyz[3 * vertex], xyz[3 * vertex + 1], xyz[3 * vertex + 2]];
     }
     get scale(): ColourScale {
-        const { map, low, high, bins } = this.store.state;
-        return { map: this.maps.find((m) => m.name === map) ?? this.maps[0], low, high, bins };
+        const { map, low, high, bins, formed, field } = this.store.state;
+        const readable = 0.005 * (high - low);
+        const slack = formed ? readable : Math.max(readable, this.manifest.fields[field].slack);
+        return { map: this.maps.find((m) => m.name === map) ?? this.maps[0], low, high, bins, slack };
     }
 
     /** The values that are coloured, one per vertex of what is shown. */
@@ -165,9 +167,9 @@ export class ViewPane {
     }
 
     private revalue(layer: Layer): void {
-        const { formed, field, low, high } = this.store.state;
+        const { formed, field } = this.store.state;
         const relief = formed && this.relief && layer === this.layers[0];
-        layer.view.setValues(relief && this.relief ? this.relief.deviation : layer.surface.fields[field], low, high);
+        layer.view.setValues(relief && this.relief ? this.relief.deviation : layer.surface.fields[field], this.scale);
     }
 
     private resize(): void {
@@ -195,6 +197,14 @@ export class ViewPane {
         this.fit();
     }
     /** Brings places into the picture, at a size at which they can be read. */
+    /** From where a direction points to. The picture is drawn later. */
+    lookAlong(normal: readonly number[]): void {
+        const [x, y, z] = normal;
+        const degrees = 180 / Math.PI;
+        if (Math.abs(z) < 0.999) this.camera.azimuth = Math.atan2(x, -y) * degrees;
+        else this.camera.azimuth = 0;
+        this.camera.elevation = Math.asin(Math.min(1, Math.max(-1, z))) * degrees;
+    }
     goTo(low: readonly number[], high: readonly number[]): void {
         const step = this.surface.info.step_over_mm || 1;
         this.camera.centre = [0, 1, 2].map((k) => (low[k] + high[k]) / 2) as [number, number, number];

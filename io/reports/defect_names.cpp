@@ -1,0 +1,133 @@
+#include "io/reports/defect_names.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+
+namespace clsurf::io {
+namespace {
+
+constexpr double as_strong = 0.5;  ///< share of the strongest score that the title still speaks of
+
+std::string number_word(std::size_t n) {
+    static constexpr std::array<std::string_view, 12> words{"One",   "Two",   "Three", "Four", "Five",   "Six",
+                                                            "Seven", "Eight", "Nine",  "Ten",  "Eleven", "Twelve"};
+    return n >= 1 && n <= words.size() ? std::string(words[n - 1]) : fmt::format("{}", n);
+}
+
+/// What the title counts together.
+struct Group {
+    std::set<std::int64_t> passes;
+    std::size_t defects = 0;
+    double least = 0, most = 0;  ///< in percent or µm
+};
+
+double shown_size(const Defect& d) {
+    const bool speed = d.quantity == Quantity::speed;
+    return speed ? 100 * std::abs(d.speed_mismatch) : um_per_mm * d.depth;
+}
+
+bool same_kind(const Defect& a, const Defect& b) {
+    const bool same_sign = a.quantity != Quantity::speed || (a.speed_mismatch < 0) == (b.speed_mismatch < 0);
+    const bool same_way = (a.cause == Cause::oscillation) == (b.cause == Cause::oscillation);
+    return a.quantity == b.quantity && same_sign && same_way && !a.systematic && !b.systematic;
+}
+
+Group group_of(const QualityReport& report) {
+    const Defect& strongest = report.defects.front();
+    Group group;
+    for (const Defect& d : report.defects) {
+        if (&d != &strongest && (!same_kind(d, strongest) || d.score < as_strong * strongest.score)) continue;
+        for (const DefectRun& run : d.runs) group.passes.insert(run.pass);
+        const double size = shown_size(d);
+        group.least = group.defects == 0 ? size : std::min(group.least, size);
+        group.most = std::max(group.most, size);
+        ++group.defects;
+    }
+    return group;
+}
+
+/// "82 to 87", "82".
+std::string range_text(const Group& group, int digits) {
+    const std::string low = fmt::format("{:.{}f}", group.least, digits);
+    const std::string high = fmt::format("{:.{}f}", group.most, digits);
+    return low == high ? low : low + " to " + high;
+}
+
+std::string passes_text(const Group& group) {
+    if (group.passes.size() == 1) return fmt::format("Pass {}", *group.passes.begin());
+    return number_word(group.passes.size()) + " passes";
+}
+
+}  // namespace
+
+std::string headline_of(const QualityReport& report) {
+    if (report.defects.empty()) return report.judgement.judged() ? "No defects" : "Not judged";
+    const Defect& d = report.defects.front();
+    if (d.systematic)
+        return fmt::format("The axes lag: adjacent passes differ by up to ±{:.0f} µm on {:.0f} % of the part",
+                           um_per_mm * d.depth, 100 * d.share);
+    const Group group = group_of(report);
+    const bool one = group.passes.size() == 1;
+    const std::string who = passes_text(group);
+    const std::string_view whose = one ? "its" : "their";
+    switch (d.quantity) {
+        case Quantity::speed:
+            if (d.cause == Cause::oscillation)
+                return fmt::format(
+                    "The speed of {} oscillates by {} %",
+                    one ? fmt::format("pass {}", *group.passes.begin()) : fmt::format("{} passes", group.passes.size()),
+                    range_text(group, 0));
+            return fmt::format("{} {} {} % {} than {} neighbours", who, one ? "runs" : "run", range_text(group, 0),
+                               d.speed_mismatch < 0 ? "slower" : "faster", whose);
+        case Quantity::acceleration:
+            return fmt::format("{} {} differently from {} neighbours", who, one ? "accelerates" : "accelerate", whose);
+        case Quantity::lag:
+            return fmt::format(
+                "Axis lag on {} differs from the neighbours by {} µm",
+                one ? fmt::format("pass {}", *group.passes.begin()) : fmt::format("{} passes", group.passes.size()),
+                range_text(group, 1));
+        case Quantity::relief:
+            return fmt::format("{} {} {} µm off {} neighbours in the program", who, one ? "is" : "are",
+                               range_text(group, 1), whose);
+    }
+    return {};
+}
+
+std::string label_of(const Defect& d) {
+    const std::string_view sign = d.systematic ? "±" : d.pit ? "−" : "+";
+    switch (d.quantity) {
+        case Quantity::speed:
+            return fmt::format("{}{:.0f} % speed", d.speed_mismatch < 0 ? "−" : "+", 100 * std::abs(d.speed_mismatch));
+        case Quantity::acceleration: return fmt::format("{:.0f} mm/s² acceleration", d.acceleration_jump);
+        case Quantity::lag: return fmt::format("{}{:.1f} µm lag", sign, um_per_mm * d.depth);
+        case Quantity::relief: return fmt::format("{}{:.1f} µm relief", sign, um_per_mm * d.depth);
+    }
+    return {};
+}
+
+std::string lines_label(const Defect& d) {
+    if (d.runs.empty()) return {};
+    const auto strongest = std::find_if(d.runs.begin(), d.runs.end(), [&](const DefectRun& run) {
+        return d.point >= run.points.first && d.point <= run.points.last;
+    });
+    const DefectRun& run = strongest != d.runs.end() ? *strongest : d.runs.front();
+    std::set<std::pair<LineNumber, LineNumber>> others;
+    for (const DefectRun& other : d.runs) others.insert({other.first_line, other.last_line});
+    others.erase({run.first_line, run.last_line});
+    if (run.first_line == 0) return {};
+    std::string text = run.first_line == run.last_line ? fmt::format("line {}", run.first_line)
+                                                       : fmt::format("lines {}–{}", run.first_line, run.last_line);
+    if (!others.empty()) text += fmt::format(", {} sections", others.size() + 1);
+    return text;
+}
+
+}  // namespace clsurf::io

@@ -1,0 +1,20 @@
+#pragma once
+// The short words for defects on a picture: its title, and one label for each.
+
+#include <string>
+
+#include "predictor/defect.h"
+
+namespace clsurf::io {
+
+/// The strongest finding in one line, with all defects of its kind that are at least half as strong: "Five passes run 82 to
+/// 87 % slower than their neighbours". "No defects" or "Not judged" where that is so.
+[[nodiscard]] std::string headline_of(const QualityReport& report);
+
+/// "−87 % speed", "+12 µm lag", "±67 µm lag": by the quantity that shows it best.
+[[nodiscard]] std::string label_of(const Defect& defect);
+
+/// The lines of its strongest section: "lines 506–669", "line 12, 4 sections".
+[[nodiscard]] std::string lines_label(const Defect& defect);
+
+}  // namespace clsurf::io

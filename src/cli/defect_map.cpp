@@ -1,0 +1,56 @@
+#include "cli/defect_map.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "io/reports/defect_names.h"
+
+namespace clsurf::cli {
+namespace {
+
+constexpr double darkest_score = 16;  ///< multiples of the threshold at which a mark has its full colour
+
+// Vermilion, orange, blue and bluish green: apart for colour-blind readers (Okabe and Ito 2008), and their strokes differ.
+viz::DefectKind kind_of(Quantity quantity) {
+    switch (quantity) {
+        case Quantity::speed: return {"speed", {200, 70, 0}, viz::StrokeStyle::solid};
+        case Quantity::acceleration: return {"acceleration", {190, 125, 0}, viz::StrokeStyle::dashed};
+        case Quantity::lag: return {"axis lag", {0, 105, 170}, viz::StrokeStyle::double_line};
+        case Quantity::relief: return {"relief", {0, 130, 95}, viz::StrokeStyle::dotted};
+    }
+    return {};
+}
+
+}  // namespace
+
+viz::DefectMap defect_map_of(const QualityReport& report) {
+    viz::DefectMap map;
+    constexpr std::array quantities{Quantity::speed, Quantity::acceleration, Quantity::lag, Quantity::relief};
+    std::array<std::size_t, quantities.size()> index{};
+    for (std::size_t q = 0; q < quantities.size(); ++q) {
+        const bool occurs = std::any_of(report.defects.begin(), report.defects.end(),
+                                        [&](const Defect& d) { return d.quantity == quantities[q]; });
+        index[q] = map.kinds.size();
+        if (occurs) map.kinds.push_back(kind_of(quantities[q]));
+    }
+    for (std::size_t i = 0; i < report.defects.size(); ++i) {
+        const Defect& d = report.defects[i];
+        const auto q =
+            static_cast<std::size_t>(std::find(quantities.begin(), quantities.end(), d.quantity) - quantities.begin());
+        viz::DefectMark mark;
+        for (const DefectRun& run : d.runs) mark.sections.push_back(run.points);
+        mark.kind = index[q];
+        mark.strength = std::clamp(std::log2(std::max(1.0, double{d.score})) / std::log2(darkest_score), 0.0, 1.0);
+        mark.region = d.systematic;
+        mark.number = fmt::format("{}", i + 1);
+        mark.label = io::label_of(d);
+        mark.lines = io::lines_label(d);
+        map.marks.push_back(std::move(mark));
+    }
+    return map;
+}
+
+}  // namespace clsurf::cli

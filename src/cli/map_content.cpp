@@ -1,0 +1,102 @@
+#include "cli/map_content.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "cli/defect_map.h"
+#include "core/error.h"
+#include "core/file_name.h"
+#include "field/pass_ramps.h"
+#include "io/reports/defect_names.h"
+
+namespace clsurf::cli {
+namespace {
+
+/// Its ramps at the ends of passes say nothing: all passes have them.
+bool is_speed(const FieldInfo& field) { return field.preference == FieldPreference::higher && !has_classes(field); }
+
+/// "G54" where the program's coordinates are those of one work offset.
+std::string frame_of(const Shown& shown) {
+    constexpr int last_usual = 6;  // G54 … G59
+    const std::vector<WorkFrame>& frames = shown.part.program.motions.frames;
+    const int system = frames.front().system;
+    const bool one = std::all_of(frames.begin(), frames.end(), [&](const WorkFrame& f) { return f.system == system; });
+    return one && system >= 1 && system <= last_usual ? fmt::format("G{}", 53 + system) : std::string();
+}
+
+std::string counts_of(const Shown& shown) {
+    PointIndex passes = 0;
+    for (const Pass& pass : shown.surface.passes) passes += pass.kind == PassKind::cut ? 1 : 0;
+    return fmt::format("{} points, {} passes{}", shown.part.log.records, passes,
+                       shown.surface.step_over > 0 ? fmt::format(", {:.3g} mm apart", shown.surface.step_over) : "");
+}
+
+}  // namespace
+
+viz::MapPanel panel_of(const Shown& shown, const RenderOptions& options, std::string caption) {
+    viz::MapPanel panel;
+    panel.surface = &shown.surface;
+    panel.field = &shown.field;
+    panel.caption = std::move(caption);
+    panel.outlines = shown.defects.outlines;
+    panel.place_of = [&shown](PointIndex i) { return shown.place_of(i); };
+    if (has_classes(shown.field.info)) panel.classes = &shown.classes;
+    if (shown.relief)
+        panel.relief = &*shown.relief;
+    else if (is_speed(shown.field.info))
+        panel.pale = pass_ramps(shown.field, shown.surface.passes, shown.part.log.period);
+    for (const PointIndex point : options.points) {
+        if (point < 0 || point >= shown.part.log.records) {
+            throw UsageError(
+                fmt::format("--mark-point {}: the log has points 0 … {}", point, shown.part.log.records - 1));
+        }
+        panel.points.push_back({point, fmt::format("point {}, line {}", point, shown.part.lines->line_at(point))});
+    }
+    for (const LineNumber line : options.lines) {
+        std::vector<PointRange> ranges = shown.part.lines->points_of(line);
+        if (ranges.empty()) throw UsageError(fmt::format("--mark-line {}: the log has no point of that line", line));
+        panel.lines.push_back({std::move(ranges), fmt::format("line {}", line)});
+    }
+    return panel;
+}
+
+viz::MapTexts texts_of(const Shown& shown, const std::optional<Shown>& before, const RenderOptions& options,
+                       const std::vector<std::string>& range_notes) {
+    viz::MapTexts texts;
+    texts.frame = frame_of(shown);
+    texts.title = fmt::format("{}, {} {}", shown.field.info.label, name_of(shown.part.path.role),
+                              options.shown.look.style == viz::Style::surface ? "surface" : "path");
+    if (shown.relief) texts.title = fmt::format("{}, {}", shown.field.info.label, to_text(*shown.part.tool));
+    const std::string program = file_name(options.part.program);
+    // The captions of two panels name the logs.
+    texts.subtitle = before ? fmt::format("{} · before: {} · after: {}", program, counts_of(*before), counts_of(shown))
+                            : fmt::format("{} · {} · {}", program, file_name(options.part.log), counts_of(shown));
+    if (!shown.field.info.note.empty()) texts.notes.push_back(shown.field.info.note);
+    if (!shown.relief && is_speed(shown.field.info)) texts.notes.emplace_back("paler: ramps at the ends of passes");
+    if (options.defects)
+        texts.notes.push_back(shown.defects.outlines.empty()
+                                  ? "no defects"
+                                  : fmt::format("{} defects, 1 the worst", shown.defects.outlines.size()));
+    texts.notes.insert(texts.notes.end(), range_notes.begin(), range_notes.end());
+    return texts;
+}
+
+viz::Image draw_defect_map(const Shown& shown, const RenderOptions& options) {
+    const viz::DefectMap defects = defect_map_of(shown.defects.report);
+    viz::MapPanel panel = panel_of(shown, options, "");
+    panel.outlines.clear();
+    panel.defects = &defects;
+    const std::string count = defects.marks.size() == 1 ? "1 defect" : fmt::format("{} defects", defects.marks.size());
+    viz::MapTexts texts;
+    texts.frame = frame_of(shown);
+    texts.title = io::headline_of(shown.defects.report);
+    texts.subtitle = fmt::format("{} · {} · {} · {}", count, file_name(options.part.program),
+                                 file_name(options.part.log), counts_of(shown));
+    texts.notes = {"coloured: the sections at fault", "darker: farther above the threshold; 1: the farthest"};
+    const viz::Camera camera = viz::map_camera({panel}, options.shown.look);
+    return viz::draw_map({panel}, camera, {}, texts, options.shown.look);
+}
+
+}  // namespace clsurf::cli

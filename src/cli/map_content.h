@@ -1,0 +1,24 @@
+#pragma once
+// What `render` draws of the parts that it has loaded: marks, titles and footnotes.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/render_options.h"
+#include "cli/shown_part.h"
+#include "viz/scene.h"
+
+namespace clsurf::cli {
+
+/// One part with its marks. Refers to `shown`. Throws UsageError: a mark that the log does not have.
+[[nodiscard]] viz::MapPanel panel_of(const Shown& shown, const RenderOptions& options, std::string caption);
+
+/// Title, subtitle and footnotes of a map that a field colours.
+[[nodiscard]] viz::MapTexts texts_of(const Shown& shown, const std::optional<Shown>& before,
+                                     const RenderOptions& options, const std::vector<std::string>& range_notes);
+
+/// The defect map: a grey relief, the sections at fault on it, and their names beside it.
+[[nodiscard]] viz::Image draw_defect_map(const Shown& shown, const RenderOptions& options);
+
+}  // namespace clsurf::cli

@@ -1,0 +1,23 @@
+#pragma once
+// The field `cause`: what `check` finds to be the cause of a defect, at the points of the passes at fault.
+
+#include "field/field_provider.h"
+#include "pipeline/part.h"
+
+namespace clsurf {
+
+class CauseFields : public FieldProvider {
+public:
+    /// Both must outlive it.
+    CauseFields(const Part& part, const ClSurface& surface) : part_(part), surface_(surface) {}
+
+    [[nodiscard]] std::vector<FieldInfo> fields() const override;
+    /// The defects of the whole part are found for it. NaN outside cut passes. O(points), parallel.
+    [[nodiscard]] std::vector<Field> compute(std::span<const std::string_view> names, PointRange points) const override;
+
+private:
+    const Part& part_;
+    const ClSurface& surface_;
+};
+
+}  // namespace clsurf

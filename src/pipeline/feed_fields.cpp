@@ -1,0 +1,66 @@
+#include "pipeline/feed_fields.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "core/block.h"
+#include "core/error.h"
+#include "core/not_finite.h"
+
+namespace clsurf {
+namespace {
+
+/// Of a motion; NaN: it has none.
+float feed_of(const Motions& motions, std::int64_t motion) {
+    const auto m = static_cast<std::size_t>(motion);
+    return motion >= 0 && is_cut(motions.kind[m]) && motions.feed[m] > 0 ? motions.feed[m] : missing<float>;
+}
+
+}  // namespace
+
+FieldInfo feed_share_info() {
+    FieldInfo info{
+        "feed_share", "Path speed as a share of the programmed feed", unit::percent, FieldScale::sequential, {}};
+    info.preference = FieldPreference::higher;
+    info.usual_range = ValueRange{0, 1};
+    // What overshoot and noise of positions add is no higher speed.
+    info.slack = 0.05;
+    info.report_rank = 1;
+    return info;
+}
+
+double programmed_feed_at(const Part& part, PointIndex point) {
+    return feed_of(part.program.motions, part.lines->motion_at(point));
+}
+
+std::vector<FieldInfo> FeedFields::fields() const { return {feed_share_info()}; }
+
+bool FeedFields::can_compute(std::string_view) const {
+    const Motions& motions = program_.motions;
+    for (std::int64_t i = 0; i < motions.size(); ++i) {
+        if (feed_of(motions, i) > 0) return true;
+    }
+    return false;
+}
+
+std::vector<Field> FeedFields::compute(std::span<const std::string_view> names, PointRange points) const {
+    if (!can_compute(names.front())) throw UsageError("the field 'feed_share' needs a program with feeds: PROGRAM LOG");
+    constexpr std::array<std::string_view, 1> speed{"speed"};
+    Field field = std::move(positions_->compute(speed, points).front());
+    const std::string note = field.info.note;
+    field.info = feed_share_info();
+    field.info.note = note;
+    const Motions& motions = program_.motions;
+    parallel_for(points.size(), block_points, [&](std::int64_t first, std::int64_t last) {
+        std::vector<LineNumber> lines(static_cast<std::size_t>(last - first));
+        lines_->read(points.first + first, lines);
+        for (std::int64_t i = first; i < last; ++i) {
+            const std::int64_t motion = lines_->motion_at(points.first + i, lines[static_cast<std::size_t>(i - first)]);
+            field.values[static_cast<std::size_t>(i)] /= feed_of(motions, motion);
+        }
+    });
+    return std::vector<Field>(names.size(), field);
+}
+
+}  // namespace clsurf

@@ -1,0 +1,39 @@
+#pragma once
+// The field `feed_share`: the path speed as a share of the programmed feed.
+
+#include <memory>
+
+#include "field/field_provider.h"
+#include "field/position_fields.h"
+#include "mapping/line_map.h"
+#include "pipeline/part.h"
+#include "program/program.h"
+
+namespace clsurf {
+
+[[nodiscard]] FieldInfo feed_share_info();
+
+/// The programmed feed at a point of a part [mm/s]; NaN: none is known.
+[[nodiscard]] double programmed_feed_at(const Part& part, PointIndex point);
+
+class FeedFields : public FieldProvider {
+public:
+    /// `program` must outlive it. `positions` has the field `speed`.
+    FeedFields(const Program& program, std::shared_ptr<const LineMap> lines,
+               std::shared_ptr<const PositionFields> positions)
+        : program_(program), lines_(std::move(lines)), positions_(std::move(positions)) {}
+
+    [[nodiscard]] std::vector<FieldInfo> fields() const override;
+    /// Whether any motion of the program has a feed.
+    [[nodiscard]] bool can_compute(std::string_view name) const override;
+    /// 1: as fast as programmed. NaN at rapids, and where no motion is known. Throws UsageError: no motion has a feed.
+    /// O(points), parallel.
+    [[nodiscard]] std::vector<Field> compute(std::span<const std::string_view> names, PointRange points) const override;
+
+private:
+    const Program& program_;
+    std::shared_ptr<const LineMap> lines_;
+    std::shared_ptr<const PositionFields> positions_;
+};
+
+}  // namespace clsurf

@@ -1,0 +1,21 @@
+#pragma once
+// Why the tool is slow at a point, in words: what the log and the program say of it.
+
+#include <string>
+#include <vector>
+
+#include "pipeline/part.h"
+
+namespace clsurf {
+
+struct SpeedReasons {
+    double programmed_feed = 0;        ///< [mm/s]; NaN: none is known
+    std::vector<std::string> reasons;  ///< the surest first; empty: as fast as programmed, or nothing explains it
+};
+
+/// "limited by the jerk" (a simulated log says so), "acceleration of Z at 98 % of its limit" (the part knows its machine),
+/// "blocks of 0.02 mm", "a corner of 35° in line 12", "feed override 50 %". `speed` at the point [mm/s]; none is given for
+/// 95 % of the programmed feed or more. O(blocks nearby).
+[[nodiscard]] SpeedReasons speed_reasons(const Part& part, PointIndex point, double speed);
+
+}  // namespace clsurf

@@ -1,0 +1,143 @@
+#include "predictor/defect_profile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/not_finite.h"
+#include "predictor/compared.h"
+#include "surface/path_location.h"
+
+namespace clsurf {
+namespace {
+
+constexpr double room_of_length = 0.75;  ///< before and after the section, of its length …
+constexpr double room_of_step_over = 6;  ///< … and at least so many step-overs
+constexpr PointIndex most_places = 4000;
+constexpr int most_across = 5;  ///< passes to each side of the strongest place
+
+PointRange strongest_section(const Defect& defect) {
+    for (const DefectRun& run : defect.runs) {
+        if (defect.point >= run.points.first && defect.point <= run.points.last) return run.points;
+    }
+    return defect.runs.empty() ? PointRange{defect.point, defect.point} : defect.runs.front().points;
+}
+
+/// The points of the same pass round a section.
+PointRange with_room(const PointRange& section, const ClSurface& surface, double room) {
+    const auto pass = std::find_if(surface.passes.begin(), surface.passes.end(),
+                                   [&](const Pass& p) { return section.first >= p.first && section.first <= p.last; });
+    if (pass == surface.passes.end()) return section;
+    const auto step = [&](PointIndex i) {
+        return static_cast<double>((surface.positions[i + 1] - surface.positions[i]).norm());
+    };
+    PointRange wide = section;
+    for (double gone = 0; wide.first > pass->first && gone < room;) gone += step(--wide.first);
+    for (double gone = 0; wide.last < pass->last && gone < room; ++wide.last) gone += step(wide.last);
+    return wide;
+}
+
+/// Places on the passes beside a point on one side, the nearest first.
+std::vector<PathLocation> places_beside(const ClSurface& surface, const Signals& signals, PointIndex i, Side side,
+                                        int most) {
+    std::vector<PathLocation> places;
+    PathLocation before{i, 0};
+    PathLocation at = beside(surface, before, signals.feed(i), side);
+    while (at.exists() && static_cast<int>(places.size()) < most) {
+        places.push_back(at);
+        const PathLocation next = beyond(surface, before, at, signals.feed(at.nearest()));
+        before = std::exchange(at, next);
+    }
+    return places;
+}
+
+float median_known(std::vector<float> values) {
+    std::erase_if(values, [](float v) { return !(v == v); });
+    if (values.empty()) return missing<float>;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    if (values.size() % 2 == 1) return *middle;
+    return 0.5F * (*middle + *std::max_element(values.begin(), middle));
+}
+
+void add_across(DefectProfile& profile, const ClSurface& surface, const Signals& signals, PointIndex point) {
+    const Eigen::Vector3f normal = signals.normal(point);
+    const auto height_at = [&](const PathLocation& at) {
+        const Compared c = compared_at(signals, at, normal);
+        return profile.lag ? c.lag : c.relief;
+    };
+    std::vector<std::pair<double, float>> places{{0.0, height_at({point, 0})}};
+    for (const Side side : {Side::left, Side::right}) {
+        Eigen::Vector3f before = surface.positions[point];
+        double gone = 0;
+        for (const PathLocation& at : places_beside(surface, signals, point, side, most_across)) {
+            const Eigen::Vector3f here = position_at(surface.positions, at);
+            gone += (here - before).norm();
+            before = here;
+            places.emplace_back(side == Side::left ? -gone : gone, height_at(at));
+        }
+    }
+    std::sort(places.begin(), places.end());
+    for (const auto& [across, height] : places) {
+        profile.across.push_back(across);
+        profile.across_height.push_back(height);
+    }
+}
+
+}  // namespace
+
+DefectProfile profile_of(const Defect& defect, const ClSurface& surface, const Signals& signals, const LineMap& lines) {
+    DefectProfile profile;
+    profile.lag = signals.measured;
+    const PointRange section = strongest_section(defect);
+    double length = 0;
+    for (PointIndex i = section.first; i < section.last; ++i)
+        length += (surface.positions[i + 1] - surface.positions[i]).norm();
+    profile.section_length = length;
+    const PointRange shown =
+        with_room(section, surface, std::max(room_of_length * length, room_of_step_over * surface.step_over));
+    double from_start = 0;
+    for (PointIndex i = shown.first; i < section.first; ++i)
+        from_start -= (surface.positions[i + 1] - surface.positions[i]).norm();
+    const PointIndex every = std::max<PointIndex>(1, shown.size() / most_places);
+    LineNumber line = 0;
+    for (PointIndex i = shown.first; i <= shown.last; ++i) {
+        if (i > shown.first) from_start += (surface.positions[i] - surface.positions[i - 1]).norm();
+        if (const LineNumber now = lines.line_at(i); now != line) {
+            line = now;
+            if (line != 0) profile.lines.push_back({from_start, line});
+        }
+        if ((i - shown.first) % every != 0) continue;
+        profile.along.push_back(from_start);
+        std::array<PathLocation, DefectProfile::passes> places;
+        places[DefectProfile::at_fault] = {i, 0};
+        for (const Side side : {Side::left, Side::right}) {
+            const std::vector<PathLocation> found = places_beside(surface, signals, i, side, DefectProfile::aside);
+            for (std::size_t k = 0; k < found.size(); ++k)
+                places[side == Side::left ? DefectProfile::at_fault - 1 - k : DefectProfile::at_fault + 1 + k] =
+                    found[k];
+        }
+        std::vector<float> other_speeds;
+        std::vector<float> other_heights;
+        for (std::size_t k = 0; k < places.size(); ++k) {
+            float speed = missing<float>;
+            float height = missing<float>;
+            if (places[k].exists()) {
+                const Compared c = compared_at(signals, places[k], signals.normal(i));
+                speed = c.speed;
+                height = profile.lag ? c.lag : c.relief;
+            }
+            profile.speed[k].push_back(speed);
+            profile.height[k].push_back(height);
+            if (k == DefectProfile::at_fault) continue;
+            other_speeds.push_back(speed);
+            other_heights.push_back(height);
+        }
+        profile.usual_speed.push_back(median_known(std::move(other_speeds)));
+        profile.usual_height.push_back(median_known(std::move(other_heights)));
+    }
+    add_across(profile, surface, signals, defect.point);
+    return profile;
+}
+
+}  // namespace clsurf

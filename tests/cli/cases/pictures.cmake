@@ -1,0 +1,51 @@
+# What pictures show, and how they are compared.
+
+set(bottle @DATA@/programs/bottle_uneven.nc @LOGS@/bottle_uneven.biip)
+set(draw "cp @LOGS@/bottle_uneven.biip renamed.biip; $CLSURF render @DATA@/programs/bottle_uneven.nc renamed.biip -q -o renamed.png --size 640x480; $CLSURF render @DATA@/programs/bottle_uneven.nc @LOGS@/bottle_uneven.biip -q -o map.png --size 640x480")
+
+clsurf_cli_test(NAME compare_sees_another_name SETUP "${draw}" ARGS compare renamed.png map.png EXIT 1 STDOUT "^different: ")
+clsurf_cli_test(NAME compare_ignores_text SETUP "${draw}" ARGS compare renamed.png map.png --ignore-text STDOUT "^equal: 0 pixels")
+clsurf_cli_test(NAME compare_ignores_no_more_than_text
+  SETUP "${draw}; $CLSURF render @DATA@/programs/bottle_uneven.nc renamed.biip -q -o other.png --size 640x480 --color height"
+  ARGS compare other.png map.png --ignore-text EXIT 1 STDOUT "^different: ")
+clsurf_cli_test(NAME compare_ignore_text_needs_to_know_it
+  SETUP "${draw}; $CLSURF render @DATA@/programs/bottle_uneven.nc renamed.biip -q -o bare.png --size 640x480 --no-legend"
+  ARGS compare bare.png map.png --ignore-text EXIT 3 STDERR "bare.png" "does not say where its texts stand")
+clsurf_cli_test(NAME compare_draws_differences SETUP "${draw}" ARGS compare renamed.png map.png --diff difference.png EXIT 1)
+
+# The default field, and the speed where numbers of a range are given.
+clsurf_cli_test(NAME render_default_is_the_share_of_the_feed
+  SETUP "$CLSURF render @DATA@/programs/bottle_uneven.nc @LOGS@/bottle_uneven.biip -o map.png --size 320x240 -q && grep -q 'feed_share 0 to 100 %' map.png" ARGS --version)
+clsurf_cli_test(NAME render_range_in_mm_min
+  SETUP "$CLSURF render @DATA@/programs/bottle_uneven.nc @LOGS@/bottle_uneven.biip -o map.png --size 320x240 --range 500,3000 -q && grep -q 'speed 500 to 3000 mm/min' map.png" ARGS --version)
+clsurf_cli_test(NAME render_without_feeds_shows_speed
+  SETUP "sed 's/F[0-9.]*//' @DATA@/programs/bottle_uneven.nc > nofeed.nc; $CLSURF render nofeed.nc @LOGS@/bottle_uneven.biip -o map.png --size 320x240 --force -q && grep -q ': speed ' map.png" ARGS --version)
+clsurf_cli_test(NAME render_feed_share_needs_feeds
+  SETUP "sed 's/F[0-9.]*//' @DATA@/programs/bottle_uneven.nc > nofeed.nc"
+  ARGS render nofeed.nc @LOGS@/bottle_uneven.biip -o map.png --color feed_share --force EXIT 2 STDERR "needs a program with feeds")
+
+# Names are no numbers.
+clsurf_cli_test(NAME render_classes
+  SETUP "$CLSURF render @DATA@/programs/bottle_uneven.nc @LOGS@/bottle_uneven.biip -o map.png --size 320x240 --color cause -q && grep -q ': cause' map.png" ARGS --version)
+foreach(option "--range;0,3" "--bins;4" "--colormap;viridis")
+  list(GET option 0 word)
+  string(REPLACE "--" "" name ${word})
+  clsurf_cli_test(NAME render_classes_have_no_${name} ARGS render ${bottle} -o map.png --color cause ${option} EXIT 2 STDERR "${word} does not apply to 'cause'")
+endforeach()
+clsurf_cli_test(NAME render_lines_of_two_logs ARGS render ${bottle} -o map.png --color line --before @LOGS@/bottle_uneven.biip EXIT 2
+  STDERR "--before does not apply to 'line'")
+
+# Why it is slow, in words.
+clsurf_cli_test(NAME query_says_why_it_is_slow ARGS query ${bottle} --line 1200 STDOUT "slow: [0-9]+ of F3000 mm/min: blocks of 0[.]02 mm")
+clsurf_cli_test(NAME query_json_says_why ARGS query ${bottle} --line 1200 --json STDOUT "\"feed_mm_min\": 3000" "\"slow_because\": .*blocks of 0[.]02 mm")
+clsurf_cli_test(NAME query_at_the_feed_gives_no_reason ARGS query ${bottle} --point 5200 NO_STDOUT "slow:")
+clsurf_cli_test(NAME query_names_the_limit_of_a_simulated_log
+  SETUP "$CLSURF simulate @DATA@/programs/bottle_uneven.nc --machine @DATA@/machines/three_axis_mill.toml -o run.biip"
+  ARGS query @DATA@/programs/bottle_uneven.nc run.biip --line 1260 STDOUT "limited by: ")
+
+# The card of a defect.
+clsurf_cli_test(NAME plot_defect ARGS plot ${bottle} --defect 1 -o card.png --size 800x380 FILE card.png)
+clsurf_cli_test(NAME plot_defect_of_a_region ARGS plot ${bottle} --defect 6 -o card.png --size 800x380 FILE card.png)
+clsurf_cli_test(NAME plot_defect_that_is_none ARGS plot ${bottle} --defect 99 -o card.png EXIT 2 STDERR "`clsurf check` finds 15 of them")
+clsurf_cli_test(NAME plot_defect_is_no_curve ARGS plot ${bottle} --defect 1 --fields speed -o card.png EXIT 2 STDERR "--fields does not apply to --defect")
+clsurf_cli_test(NAME plot_defect_needs_the_program ARGS plot @LOGS@/bottle_uneven.biip --defect 1 -o card.png EXIT 2 STDERR "--defect needs the program")

@@ -1,0 +1,83 @@
+#include "io/reports/defect_names.h"
+
+#include <gtest/gtest.h>
+
+namespace clsurf::io {
+namespace {
+
+DefectRun run_of(std::int64_t pass, LineNumber first, LineNumber last, PointRange points = {0, 9}) {
+    DefectRun run;
+    run.pass = pass;
+    run.points = points;
+    run.first_line = first;
+    run.last_line = last;
+    return run;
+}
+
+Defect slow(std::int64_t pass, double mismatch, float score) {
+    Defect d;
+    d.quantity = Quantity::speed;
+    d.speed_mismatch = mismatch;
+    d.score = score;
+    d.runs = {run_of(pass, 10 * pass, 10 * pass + 5)};
+    return d;
+}
+
+TEST(Headline, CountsThePassesOfOneKind) {
+    QualityReport report;
+    report.defects = {slow(2, -0.87, 10), slow(4, -0.82, 9), slow(6, -0.85, 8)};
+    EXPECT_EQ(headline_of(report), "Three passes run 82 to 87 % slower than their neighbours");
+}
+
+TEST(Headline, LeavesOutWhatIsLessThanHalfAsStrongOrOfAnotherKind) {
+    QualityReport report;
+    Defect lag = slow(9, 0, 9);
+    lag.quantity = Quantity::lag;
+    report.defects = {slow(2, -0.40, 10), lag, slow(4, 0.50, 9), slow(6, -0.20, 4)};
+    EXPECT_EQ(headline_of(report), "Pass 2 runs 40 % slower than its neighbours");
+}
+
+TEST(Headline, NamesSystematicLagFirst) {
+    QualityReport report;
+    Defect d;
+    d.quantity = Quantity::lag;
+    d.systematic = true;
+    d.depth = 0.067;
+    d.share = 0.31;
+    report.defects = {d};
+    EXPECT_EQ(headline_of(report), "The axes lag: adjacent passes differ by up to ±67 µm on 31 % of the part");
+}
+
+TEST(Headline, DoesNotClearAPartThatWasNotJudged) {
+    QualityReport report;
+    EXPECT_EQ(headline_of(report), "No defects");
+    report.judgement.refuse("Too few points could be compared.");
+    EXPECT_EQ(headline_of(report), "Not judged");
+}
+
+TEST(Label, SaysWhichWay) {
+    EXPECT_EQ(label_of(slow(1, -0.874, 1)), "−87 % speed");
+    EXPECT_EQ(label_of(slow(1, 0.25, 1)), "+25 % speed");
+    Defect d;
+    d.quantity = Quantity::relief;
+    d.depth = 0.0121;
+    EXPECT_EQ(label_of(d), "+12.1 µm relief");
+    d.pit = true;
+    EXPECT_EQ(label_of(d), "−12.1 µm relief");
+    d.quantity = Quantity::lag;
+    d.systematic = true;
+    EXPECT_EQ(label_of(d), "±12.1 µm lag");
+}
+
+TEST(LinesLabel, NamesTheStrongestSection) {
+    Defect d = slow(1, -0.5, 1);
+    EXPECT_EQ(lines_label(d), "lines 10–15");
+    d.runs = {run_of(1, 10, 15, {0, 9}), run_of(2, 20, 20, {10, 19}), run_of(3, 30, 31, {20, 29})};
+    d.point = 12;
+    EXPECT_EQ(lines_label(d), "line 20, 3 sections");
+    d.runs = {run_of(1, 0, 0)};
+    EXPECT_EQ(lines_label(d), "") << "a log without lines";
+}
+
+}  // namespace
+}  // namespace clsurf::io

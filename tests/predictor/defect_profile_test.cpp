@@ -1,0 +1,93 @@
+#include "predictor/defect_profile.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "support/made_surface.h"
+
+namespace clsurf {
+namespace {
+
+constexpr double apart = 0.4;
+constexpr double length = 40;
+
+/// Lines are the numbers of passes.
+LineMap lines_of(const test::MadeSurface& made, std::vector<std::uint32_t>& columns) {
+    columns.assign(static_cast<std::size_t>(made.path.count), 0);
+    std::uint32_t line = 0;
+    for (const Pass& pass : made.passes) {
+        if (pass.kind == PassKind::cut) ++line;
+        for (PointIndex i = pass.first; i <= pass.last; ++i) columns[static_cast<std::size_t>(i)] = line;
+    }
+    const ChannelView view{reinterpret_cast<const std::byte*>(columns.data()),
+                           sizeof(std::uint32_t),
+                           made.path.count,
+                           ScalarType::u32,
+                           false,
+                           1.0,
+                           0.0};
+    Program none;
+    none.files.emplace_back();
+    return {view, none, nullptr};
+}
+
+/// A defect in the middle of a pass, `half` mm to each side.
+Defect middle_of(const test::MadeSurface& made, std::size_t pass, double half) {
+    std::size_t cut = 0;
+    for (const Pass& p : made.passes) {
+        if (p.kind != PassKind::cut || cut++ != pass) continue;
+        Defect d;
+        d.point = (p.first + p.last) / 2;
+        const double step = (made.surface.positions[d.point + 1] - made.surface.positions[d.point]).norm();
+        const auto points = static_cast<PointIndex>(std::lround(half / step));
+        DefectRun run;
+        run.points = {d.point - points, d.point + points};
+        d.runs = {run};
+        return d;
+    }
+    return {};
+}
+
+TEST(DefectProfile, HasTheSpeedsOfFivePassesOverTheSamePath) {
+    std::vector<double> speeds(11, 50);
+    for (std::size_t k = 3; k <= 7; ++k)
+        speeds[k] = 40 + static_cast<double>(k);  // 43 … 47; the sixth pass is at fault
+    const test::MadeSurface made = test::zigzag_of_speeds(speeds, length, apart);
+    const Signals signals = made.signals();
+    std::vector<std::uint32_t> columns;
+    const LineMap lines = lines_of(made, columns);
+    const DefectProfile profile = profile_of(middle_of(made, 5, 4), made.surface, signals, lines);
+    EXPECT_NEAR(profile.section_length, 8, 0.1);
+    ASSERT_FALSE(profile.along.empty());
+    EXPECT_NEAR(profile.along.front(), -6, 0.1) << "three quarters of the section before it";
+    EXPECT_NEAR(profile.along.back(), 14, 0.1);
+    // The sixth pass runs against X: its left is −Y, where the slower passes lie.
+    for (std::size_t i = 0; i < profile.along.size(); ++i) {
+        for (std::size_t k = 0; k < DefectProfile::passes; ++k)
+            EXPECT_NEAR(profile.speed[k][i], 43.0 + static_cast<double>(k), 0.1) << k << " of " << profile.along[i];
+        EXPECT_NEAR(profile.usual_speed[i], 45, 0.1);
+    }
+    ASSERT_EQ(profile.lines.size(), 1U);
+    EXPECT_EQ(profile.lines[0].line, 6U);
+}
+
+TEST(DefectProfile, ShowsAPassThatLiesLower) {
+    const auto lower = [](const Vec3& p, const Vec3&) {
+        return Vec3(p.x(), p.y(), std::abs(p.y() - 5 * apart) < 0.01 ? -0.008 : 0.0);
+    };
+    const test::MadeSurface made = test::flat_zigzag(11, length, apart, 50, lower);
+    const Signals signals = made.signals();
+    std::vector<std::uint32_t> columns;
+    const LineMap lines = lines_of(made, columns);
+    const DefectProfile profile = profile_of(middle_of(made, 5, 4), made.surface, signals, lines);
+    EXPECT_TRUE(profile.lag);
+    ASSERT_EQ(profile.across.size(), 11U);
+    for (std::size_t k = 0; k < profile.across.size(); ++k) {
+        EXPECT_NEAR(profile.across[k], apart * (static_cast<double>(k) - 5), 1e-4);
+        EXPECT_NEAR(profile.across_height[k], k == 5 ? -0.008 : 0.0, 1e-5) << k;
+    }
+}
+
+}  // namespace
+}  // namespace clsurf

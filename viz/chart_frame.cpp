@@ -1,0 +1,50 @@
+#include "viz/chart_frame.h"
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "viz/colour_map.h"
+
+namespace clsurf::viz {
+namespace {
+
+constexpr Rgb number_colour{20, 20, 24};
+constexpr Rgb grid_colour{222, 222, 226};
+
+}  // namespace
+
+void add_grid(Sheet& sheet, const ChartFrame& f, double text, bool x_labels) {
+    // One tick alone, such as 0, tells no scale.
+    std::vector<double> ys;
+    for (int wanted = std::max(2, static_cast<int>(f.rect.height / (3 * text))); ys.size() < 2 && wanted < 10; ++wanted)
+        ys = nice_ticks(f.y_low, f.y_high, wanted);
+    const double y_step = ys.size() > 1 ? ys[1] - ys[0] : 1;
+    double labelled = -std::numeric_limits<double>::infinity();
+    for (const double y : ys) {
+        const Vec2 p = f.at(f.x_low, y);
+        sheet.lines.push_back({{p, {f.rect.x + f.rect.width, p.y()}}, 1, grid_colour, Level::edge});
+        if (p.y() - labelled < 1.05 * text) continue;  // numbers one over the other cannot be read
+        labelled = p.y();
+        sheet.texts.push_back(
+            {f.rect.x - 0.5 * text, p.y(), tick_text(y, y_step), text, Align::right, false, number_colour});
+    }
+    const std::vector<double> xs =
+        nice_ticks(f.x_low, f.x_high, std::max(2, static_cast<int>(f.rect.width / (7 * text))));
+    const double x_step = xs.size() > 1 ? xs[1] - xs[0] : 1;
+    for (const double x : xs) {
+        const Vec2 p = f.at(x, f.y_low);
+        sheet.lines.push_back({{p, {p.x(), f.rect.y + f.rect.height}}, 1, grid_colour, Level::edge});
+        if (x_labels)
+            sheet.texts.push_back(
+                {p.x(), f.rect.y - 0.9 * text, tick_text(x, x_step), text, Align::centre, false, number_colour});
+    }
+    const Rect& r = f.rect;
+    sheet.lines.push_back(
+        {{{r.x, r.y}, {r.x + r.width, r.y}, {r.x + r.width, r.y + r.height}, {r.x, r.y + r.height}, {r.x, r.y}},
+         1,
+         {120, 120, 126},
+         Level::edge});
+}
+
+}  // namespace clsurf::viz

@@ -1,0 +1,22 @@
+#pragma once
+// ChartFrame: a rectangle of a sheet with two axes, its grid and its numbers.
+
+#include "viz/canvas.h"
+
+namespace clsurf::viz {
+
+struct ChartFrame {
+    Rect rect;
+    double x_low = 0, x_high = 1, y_low = 0, y_high = 1;
+    /// Where values lie on the sheet [px].
+    [[nodiscard]] Vec2 at(double x, double y) const {
+        const double u = x_high > x_low ? (x - x_low) / (x_high - x_low) : 0.5;
+        const double v = y_high > y_low ? (y - y_low) / (y_high - y_low) : 0.5;
+        return {rect.x + u * rect.width, rect.y + v * rect.height};
+    }
+};
+
+/// Grid lines at round values, numbers of a text size [px] at the left, and below where `x_labels` says so.
+void add_grid(Sheet& sheet, const ChartFrame& frame, double text, bool x_labels);
+
+}  // namespace clsurf::viz

@@ -1,0 +1,195 @@
+#include "viz/defect_card.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include "viz/chart.h"
+#include "viz/chart_frame.h"
+
+namespace clsurf::viz {
+namespace {
+
+constexpr Rgb card_ink{20, 20, 24};
+constexpr Rgb faint_ink{95, 95, 100};
+constexpr Rgb band_colour{226, 234, 244};
+constexpr Rgb marked_colour{235, 170, 90};
+constexpr double title_share = 0.15;  ///< of the height
+constexpr double map_share = 0.36;    ///< of the width
+constexpr double foot_share = 0.02;
+
+double text_size(int width, int height) { return std::clamp(std::min(width * 0.4, height * 1.0) / 34.0, 8.0, 40.0); }
+
+/// Fits the values of all curves and of the band, with a little room.
+void fit(ChartFrame& frame, const CardChart& chart) {
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    const auto widen = [&](std::span<const double> values) {
+        for (const double v : values) {
+            if (!std::isfinite(v)) continue;
+            low = std::min(low, v);
+            high = std::max(high, v);
+        }
+    };
+    for (const CardCurve& curve : chart.curves) widen(curve.values);
+    widen(chart.band_low);
+    widen(chart.band_high);
+    if (!(low <= high)) low = high = 0;
+    const double room = high > low ? 0.07 * (high - low) : std::max(1.0, 0.05 * std::abs(high));
+    frame.x_low = chart.x.empty() ? 0 : chart.x.front();
+    frame.x_high = chart.x.empty() ? 1 : chart.x.back();
+    frame.y_low = low - (low >= 0 && low < room ? low : room);
+    frame.y_high = high + room;
+}
+
+class CardDrawer {
+public:
+    CardDrawer(Sheet& sheet, double text) : sheet_(sheet), text_(text) {}
+
+    void chart(const CardChart& chart, const Rect& rect) {
+        ChartFrame frame;
+        frame.rect = rect;
+        fit(frame, chart);
+        if (chart.marked_to > chart.marked_from) section(frame, chart.marked_from, chart.marked_to);
+        band(frame, chart);
+        add_grid(sheet_, frame, 0.9 * text_, true);
+        const double scale = text_ / 18;
+        for (const CardCurve& curve : chart.curves) {
+            FlatLine line{{}, curve.width * scale, curve.rgb, Level::line};
+            for (const Vec2& p :
+                 thin_curve(chart.x, curve.values, frame.x_low, frame.x_high, static_cast<int>(rect.width))) {
+                if (std::isfinite(p.y())) {
+                    line.points.push_back(frame.at(p.x(), p.y()));
+                    continue;
+                }
+                finish(line);
+            }
+            finish(line);
+            if (!chart.dots) continue;
+            for (std::size_t i = 0; i < chart.x.size(); ++i) {
+                if (std::isfinite(curve.values[i]))
+                    dot(frame.at(chart.x[i], curve.values[i]), curve.rgb,
+                        &curve == &chart.curves.back() ? Level::dot_fill : Level::dot);
+            }
+        }
+        for (const double x : chart.ticks) {
+            const Vec2 p = frame.at(x, frame.y_low);
+            sheet_.lines.push_back({{p, p + Vec2(0, 0.45 * text_)}, 1.0, faint_ink, Level::line});
+        }
+        const double top = rect.y + rect.height;
+        sheet_.texts.push_back(
+            fitted({rect.x, top + 0.85 * text_, chart.title, text_, Align::left, true, card_ink}, rect.width));
+        const FlatText name{
+            rect.x + rect.width, rect.y - 2.0 * text_, chart.x_label, 0.9 * text_, Align::right, false, faint_ink};
+        const double name_left = name.x - text_width(name);
+        double next = -std::numeric_limits<double>::infinity();
+        for (const auto& [x, words] : chart.tick_labels) {
+            FlatText label{
+                frame.at(x, frame.y_low).x(), rect.y - 2.0 * text_, words, 0.9 * text_, Align::left, false, faint_ink};
+            if (label.x < next || label.x + text_width(label) > name_left - text_) continue;
+            next = label.x + text_width(label) + 0.5 * text_;
+            sheet_.texts.push_back(std::move(label));
+        }
+        sheet_.texts.push_back(name);
+    }
+
+    void key(const DefectCard& card, double right, double y) {
+        const auto entry = [&](const std::string& words, const Rgb& rgb, double width) {
+            FlatText label{right, y, words, 0.9 * text_, Align::right, false, card_ink};
+            right -= text_width(label) + 0.4 * text_;
+            sheet_.lines.push_back({{{right - 1.6 * text_, y}, {right, y}}, width, rgb, Level::line});
+            right -= 2.8 * text_;
+            sheet_.texts.push_back(std::move(label));
+        };
+        entry("section at fault", marked_colour, 0.35 * text_);
+        if (!card.band_name.empty()) entry(card.band_name, band_colour, 0.8 * text_);
+        for (std::size_t k = card.key.size(); k-- > 0;) entry(card.key[k].name, card.key[k].rgb, 0.16 * text_);
+    }
+
+private:
+    void finish(FlatLine& line) {
+        if (line.points.size() > 1) sheet_.lines.push_back(line);
+        line.points.clear();
+    }
+
+    void dot(const Vec2& at, const Rgb& rgb, Level level) {
+        const double r = 0.22 * text_;
+        sheet_.lines.push_back({{at - Vec2(r, 0), at + Vec2(r, 0)}, 2 * r, rgb, level});
+    }
+
+    /// A bar along the upper edge, and lines down from its ends.
+    void section(const ChartFrame& frame, double from, double to) {
+        const double x0 = std::max(frame.rect.x, frame.at(from, 0).x());
+        const double x1 = std::min(frame.rect.x + frame.rect.width, frame.at(to, 0).x());
+        const double top = frame.rect.y + frame.rect.height;
+        const double bar = 0.35 * text_;
+        sheet_.quads.push_back({{x0, top - bar, std::max(1.0, x1 - x0), bar}, marked_colour});
+        for (const double x : {x0, x1})
+            sheet_.lines.push_back({{{x, frame.rect.y}, {x, top}}, 0.08 * text_, marked_colour, Level::edge});
+    }
+
+    void band(const ChartFrame& frame, const CardChart& chart) {
+        for (std::size_t i = 1; i < chart.band_low.size(); ++i) {
+            if (!std::isfinite(chart.band_low[i]) || !std::isfinite(chart.band_high[i])) continue;
+            const Vec2 low = frame.at(chart.x[i - 1], chart.band_low[i]);
+            const Vec2 high = frame.at(chart.x[i], chart.band_high[i]);
+            sheet_.quads.push_back({{low.x(), low.y(), high.x() - low.x() + 0.3, high.y() - low.y()}, band_colour});
+        }
+    }
+
+    Sheet& sheet_;
+    double text_;
+};
+
+/// Puts a picture on another, `y` from the top.
+void paste(Image& onto, const Image& picture, int x, int y) {
+    for (int row = 0; row < picture.height; ++row) {
+        const std::uint8_t* from = picture.pixel(0, row);
+        std::copy(from, from + 3 * picture.width, onto.rgb.data() + (onto.pixel(x, y + row) - onto.rgb.data()));
+    }
+    for (PixelBox box : picture.texts) {
+        box.x += x;
+        box.y += y;
+        onto.texts.push_back(box);
+    }
+}
+
+}  // namespace
+
+CardMapSize card_map_size(int width, int height) {
+    return {static_cast<int>(map_share * width), static_cast<int>((1 - title_share - foot_share) * height)};
+}
+
+Image draw_card(const DefectCard& card, int width, int height, const std::string& gl) {
+    const double text = text_size(width, height);
+    Sheet sheet;
+    sheet.width = width;
+    sheet.height = height;
+    CardDrawer drawer(sheet, text);
+    const double margin = text;
+    sheet.texts.push_back(fitted({margin, height - 1.5 * text, card.title, 1.35 * text, Align::left, true, card_ink},
+                                 width - 2 * margin));
+    sheet.texts.push_back(fitted(
+        {margin, height - 3.2 * text, card.subtitle, 0.9 * text, Align::left, false, faint_ink}, width - 2 * margin));
+    const double left = map_share * width + 5.2 * text;
+    const double right = width - margin;
+    const double top = (1 - title_share) * height - 2.3 * text;
+    drawer.key(card, right, (1 - title_share) * height + 0.7 * text);
+    const double bottom = 3.2 * text;
+    const double gap = 4.6 * text;
+    const double row = 0.5 * (top - bottom - gap);
+    if (!card.charts.empty()) drawer.chart(card.charts[0], {left, bottom + row + gap, right - left, row});
+    const std::size_t below = card.charts.size() > 1 ? card.charts.size() - 1 : 0;
+    for (std::size_t k = 0; k < below; ++k) {
+        const double between = 5.0 * text;
+        const double each = (right - left - between * static_cast<double>(below - 1)) / static_cast<double>(below);
+        drawer.chart(card.charts[k + 1], {left + static_cast<double>(k) * (each + between), bottom, each, row});
+    }
+    Image image = draw(sheet, gl, 2);
+    paste(image, card.map, 0, static_cast<int>(title_share * height));
+    return image;
+}
+
+}  // namespace clsurf::viz

@@ -1,0 +1,50 @@
+#pragma once
+// DefectCard: one defect on a third of a page: where it is, and the curves that prove it.
+
+#include <string>
+#include <vector>
+
+#include "viz/canvas.h"
+
+namespace clsurf::viz {
+
+struct CardCurve {
+    std::vector<double> values;  ///< one per x; NaN: a gap
+    Rgb rgb{0, 0, 0};
+    double width = 1.5;  ///< [px] at a height of 600
+};
+
+struct CardChart {
+    std::string title, x_label;
+    std::vector<double> x;
+    std::vector<CardCurve> curves;            ///< the last on top
+    std::vector<double> band_low, band_high;  ///< what is usual, per x; empty: no band
+    double marked_from = 0, marked_to = 0;    ///< the section at fault; equal: none
+    std::vector<double> ticks;                ///< small ticks at x, where lines of the program begin
+    std::vector<std::pair<double, std::string>> tick_labels;
+    bool dots = false;  ///< at each value
+};
+
+struct CardKey {
+    std::string name;
+    Rgb rgb{0, 0, 0};
+};
+
+struct DefectCard {
+    std::string title, subtitle;
+    Image map;  ///< at the left, as high as the charts
+    std::vector<CardKey> key;
+    std::string band_name;          ///< "usual ± threshold"
+    std::vector<CardChart> charts;  ///< the first across, the others side by side below it
+};
+
+/// The size of a card's map for a card of a size [px].
+struct CardMapSize {
+    int width = 0, height = 0;
+};
+[[nodiscard]] CardMapSize card_map_size(int width, int height);
+
+/// Draws a card. Domain: the map has the size of card_map_size(). Throws SystemError.
+[[nodiscard]] Image draw_card(const DefectCard& card, int width, int height, const std::string& gl);
+
+}  // namespace clsurf::viz

@@ -1,0 +1,315 @@
+#include "viz/defect_marks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "viz/depth_buffer.h"
+
+namespace clsurf::viz {
+namespace {
+
+constexpr double least_mark_width = 0.22;  ///< of a mark, in text sizes
+constexpr double region_width = 0.08;      ///< of the lines of a region
+constexpr double region_share = 0.5;       ///< of the colour in a region
+constexpr double hidden_width = 0.14;      ///< of the dots of hidden parts
+constexpr double dot_every = 0.4;          ///< from one dot to the next, in text sizes
+constexpr double axes_height = 6.2;        ///< of the picture's axes beside the key, in text sizes
+constexpr double lightest = 0.45;          ///< share of the colour in the weakest mark; the rest is white
+
+Rgb mixed(const Rgb& rgb, double share) {
+    Rgb result;
+    for (std::size_t k = 0; k < 3; ++k)
+        result[k] = static_cast<std::uint8_t>(std::lround(share * rgb[k] + (1 - share) * 255));
+    return result;
+}
+
+/// Parts of a line on the picture, from one length along it to another.
+std::vector<Vec2> part_of(const std::vector<Vec2>& line, double from, double to) {
+    std::vector<Vec2> part;
+    double length = 0;
+    for (std::size_t i = 1; i < line.size(); ++i) {
+        const double step = (line[i] - line[i - 1]).norm();
+        const double begin = std::clamp((from - length) / step, 0.0, 1.0);
+        const double end = std::clamp((to - length) / step, 0.0, 1.0);
+        if (step > 0 && end > begin) {
+            if (part.empty()) part.emplace_back(line[i - 1] + begin * (line[i] - line[i - 1]));
+            part.emplace_back(line[i - 1] + end * (line[i] - line[i - 1]));
+        }
+        length += step;
+    }
+    return part;
+}
+
+double length_of(const std::vector<Vec2>& line) {
+    double length = 0;
+    for (std::size_t i = 1; i < line.size(); ++i) length += (line[i] - line[i - 1]).norm();
+    return length;
+}
+
+bool cross(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+    const auto side = [](const Vec2& from, const Vec2& to, const Vec2& p) {
+        return (to - from).x() * (p - from).y() - (to - from).y() * (p - from).x();
+    };
+    return side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0;
+}
+
+/// A section of a pass in the picture, all of it seen or all of it hidden.
+struct Stroke {
+    std::vector<Vec2> line;
+    bool hidden = false;
+};
+
+class DefectDrawer {
+public:
+    DefectDrawer(Sheet& sheet, const MapPanel& map, const MeshPanel& panel, const Look& look, const MapLayout& layout)
+        : sheet_(sheet),
+          map_(map),
+          panel_(panel),
+          look_(look),
+          layout_(layout),
+          ink_(ink_for(look.background)),
+          corner_(panel.rect.x, panel.rect.y),
+          depth_(panel.geometry, panel.camera) {}
+
+    void draw() {
+        const std::vector<DefectMark>& marks = map_.defects->marks;
+        std::vector<std::optional<Vec2>> anchors(marks.size());
+        // The strongest last, on top of the others; regions below all.
+        for (const bool region : {true, false}) {
+            for (std::size_t k = marks.size(); k-- > 0;) {
+                if (marks[k].region == region) anchors[k] = draw_mark(marks[k]);
+            }
+        }
+        if (look_.legend) name(anchors);
+    }
+
+private:
+    [[nodiscard]] const DefectKind& kind_of(const DefectMark& mark) const { return map_.defects->kinds[mark.kind]; }
+
+    /// How wide the strip of a pass is in the picture: from half way to the one neighbour to half way to the other [px].
+    [[nodiscard]] double width_at(PointIndex i) const {
+        const ClSurface& surface = *map_.surface;
+        const Vec2 here = panel_.camera.pixel(surface.positions.absolute(i));
+        double width = 0;
+        int sides = 0;
+        for (const Side side : {Side::left, Side::right}) {
+            if (!surface.neighbours.has(side, i)) continue;
+            const PointIndex other = surface.neighbours.neighbour(side, i);
+            width += 0.5 * (panel_.camera.pixel(surface.positions.absolute(other)) - here).norm();
+            ++sides;
+        }
+        if (sides == 0) return surface.step_over / panel_.camera.mm_per_pixel;
+        return width * 2 / sides;
+    }
+
+    [[nodiscard]] std::vector<Stroke> strokes_of(const PointRange& section) const {
+        std::vector<Stroke> strokes;
+        bool goes_on = false;
+        for (PointIndex i = section.first; i <= section.last; ++i) {
+            const Vec3 place = map_.surface->positions.absolute(i);
+            if (!shows(panel_.camera, look_, place)) {
+                goes_on = false;
+                continue;
+            }
+            const Vec2 at = corner_ + panel_.camera.pixel(place);
+            const bool hidden = depth_.hides(place, map_.surface->step_over);
+            if (goes_on && strokes.back().hidden == hidden) {
+                if ((at - strokes.back().line.back()).norm() >= 0.7) strokes.back().line.push_back(at);
+                continue;
+            }
+            Stroke next{{}, hidden};
+            if (goes_on) next.line.push_back(strokes.back().line.back());
+            next.line.push_back(at);
+            strokes.push_back(std::move(next));
+            goes_on = true;
+        }
+        for (Stroke& stroke : strokes) {
+            if (stroke.line.size() == 1) stroke.line.emplace_back(stroke.line[0] + Vec2(0.5, 0));
+        }
+        return strokes;
+    }
+
+    void add_dots(const std::vector<Vec2>& line, double width, double on, double every, const Rgb& rgb) {
+        const double length = length_of(line);
+        for (double at = 0; at < length; at += every)
+            sheet_.lines.push_back({part_of(line, at, std::min(at + on, length)), width, rgb, Level::mark});
+    }
+
+    void add_stroke(const std::vector<Vec2>& line, const DefectKind& kind, double width, const Rgb& rgb) {
+        const double t = layout_.text;
+        switch (kind.style) {
+            case StrokeStyle::solid: sheet_.lines.push_back({line, width, rgb, Level::mark}); break;
+            case StrokeStyle::dashed: add_dots(line, width, 0.8 * t, 1.1 * t, rgb); break;
+            case StrokeStyle::dotted: add_dots(line, width, 0.2 * t, 0.7 * t, rgb); break;
+            case StrokeStyle::double_line:
+                sheet_.lines.push_back({line, width, rgb, Level::mark});
+                sheet_.lines.push_back({line, 0.34 * width, {255, 255, 255}, Level::inlay});
+                break;
+        }
+    }
+
+    /// Where its name's line begins: the middle of the longest part that is seen, else of one that is hidden; nothing: it
+    /// is not in the picture.
+    std::optional<Vec2> draw_mark(const DefectMark& mark) {
+        const DefectKind& kind = kind_of(mark);
+        const Rgb rgb = mixed(kind.rgb, mark.region ? region_share : lightest + (1 - lightest) * mark.strength);
+        std::optional<Vec2> anchor;
+        double longest = -1;
+        for (const PointRange& section : mark.sections) {
+            const double strip = width_at((section.first + section.last) / 2);
+            const double width =
+                mark.region ? region_width * layout_.text : std::max(least_mark_width * layout_.text, strip);
+            for (const Stroke& stroke : strokes_of(section)) {
+                // Of a region only what is seen: dots of its many lines would tangle.
+                if (stroke.hidden && mark.region) continue;
+                if (stroke.hidden)
+                    add_dots(stroke.line, hidden_width * layout_.text, hidden_width * layout_.text,
+                             dot_every * layout_.text, rgb);
+                else if (mark.region)
+                    sheet_.lines.push_back({stroke.line, width, rgb, Level::area});
+                else
+                    add_stroke(stroke.line, kind, width, rgb);
+                const double length = length_of(stroke.line);
+                // What is seen is named before what is hidden.
+                const double rank = stroke.hidden ? length / (1 + length) : 1 + length;
+                if (rank <= longest) continue;
+                longest = rank;
+                anchor = part_of(stroke.line, 0.5 * length, length).front();
+            }
+        }
+        return anchor;
+    }
+
+    void text(double x, double y, const std::string& words, double size, bool bold, const Rgb& rgb) {
+        const double room = look_.width - 0.4 * layout_.text - x;
+        sheet_.texts.push_back(fitted({x, y, words, size, Align::left, bold, rgb}, room));
+    }
+
+    void name(const std::vector<std::optional<Vec2>>& anchors) {
+        const double t = layout_.text;
+        const double top = look_.height - layout_.title_height - 0.6 * t;
+        const double x = look_.width - layout_.legend_width + 1.4 * t;
+        const double bottom = std::max(add_key(x, 0.9 * t), axes_height * t);
+        const double slot = 2.0 * t;
+        const auto room = static_cast<std::size_t>(std::max(0.0, (top - bottom - 0.8 * t) / slot));
+        std::vector<std::size_t> named;
+        std::size_t outside = 0;
+        for (std::size_t k = 0; k < anchors.size(); ++k) {
+            if (!anchors[k])
+                ++outside;
+            else if (named.size() < std::min(most_named_defects, room))
+                named.push_back(k);
+        }
+        std::vector<Vec2> from;
+        for (const std::size_t k : named) from.push_back(*anchors[k]);
+        std::vector<double> slots;
+        for (std::size_t k = 0; k < named.size(); ++k) slots.push_back(top - slot * (static_cast<double>(k) + 0.5));
+        const double line_end = x - 1.2 * t;
+        const std::vector<std::size_t> slot_of = assign_slots(from, slots, line_end);
+        for (std::size_t k = 0; k < named.size(); ++k)
+            add_name(map_.defects->marks[named[k]], from[k], Vec2(x, slots[slot_of[k]]), line_end);
+        std::string more;
+        if (const std::size_t rest = anchors.size() - outside - named.size(); rest > 0)
+            more = fmt::format("and {} more", rest);
+        if (outside > 0) more += fmt::format("{}{} outside the picture", more.empty() ? "" : ", ", outside);
+        if (!more.empty())
+            text(x, top - slot * static_cast<double>(named.size()) - 0.5 * t, more, layout_.small_text, false,
+                 faint(ink_, look_.background));
+    }
+
+    void add_name(const DefectMark& mark, const Vec2& from, const Vec2& at, double line_end) {
+        const double t = layout_.text;
+        const Rgb rgb = kind_of(mark).rgb;
+        const std::vector<Vec2> leader{from, Vec2(line_end, at.y()), Vec2(at.x() - 0.3 * t, at.y())};
+        sheet_.lines.push_back({leader, 0.2 * t, look_.background, Level::edge});
+        sheet_.lines.push_back({leader, 0.06 * t, faint(ink_, look_.background)});
+        add_anchor(from);
+        text(at.x(), at.y() + 0.42 * t, mark.number + "   " + mark.label, 0.92 * t, true, rgb);
+        text(at.x(), at.y() - 0.5 * t, mark.lines, layout_.small_text, false, faint(ink_, look_.background));
+    }
+
+    /// A white dot with a dark edge.
+    void add_anchor(const Vec2& at) {
+        const double radius = 0.16 * layout_.text;
+        const auto add = [&](double r, const Rgb& rgb, Level level) {
+            // A short wide line is a square; a dot is made of strips.
+            constexpr int strips = 12;
+            for (int k = 0; k < strips; ++k) {
+                const double y = r * (2 * (k + 0.5) / strips - 1);
+                const double half = std::sqrt(std::max(0.0, r * r - y * y));
+                sheet_.lines.push_back({{at + Vec2(-half, y), at + Vec2(half, y)}, 2 * r / strips + 0.2, rgb, level});
+            }
+        };
+        add(radius + 0.07 * layout_.text, ink_, Level::dot);
+        add(radius, look_.background, Level::dot_fill);
+    }
+
+    /// What colours and strokes mean, from `bottom` up. Returns where it ends [px].
+    double add_key(double x, double bottom) {
+        const double t = layout_.text;
+        const double row = 1.3 * layout_.small_text;
+        double y = bottom + 0.5 * row;
+        const Rgb grey = faint(ink_, look_.background);
+        const auto line = [&] { return std::vector<Vec2>{{x, y}, {x + 2.2 * t, y}}; };
+        add_dots(line(), hidden_width * t, hidden_width * t, dot_every * t, grey);
+        text(x + 2.6 * t, y, "hidden", layout_.small_text, false, grey);
+        for (std::size_t k = map_.defects->kinds.size(); k-- > 0;) {
+            y += row;
+            const DefectKind& kind = map_.defects->kinds[k];
+            add_stroke(line(), kind, 0.4 * t, kind.rgb);
+            text(x + 2.6 * t, y, kind.name, layout_.small_text, false, grey);
+        }
+        return y + row;
+    }
+
+    Sheet& sheet_;
+    const MapPanel& map_;
+    const MeshPanel& panel_;
+    const Look& look_;
+    const MapLayout& layout_;
+    Rgb ink_;
+    Vec2 corner_;
+    DepthBuffer depth_;
+};
+
+}  // namespace
+
+std::vector<std::size_t> assign_slots(const std::vector<Vec2>& anchors, const std::vector<double>& slots,
+                                      double slot_x) {
+    // From top to bottom; then two lines that cross exchange their slots, which makes their total length shorter, so that
+    // this ends.
+    std::vector<std::size_t> order(anchors.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return anchors[a].y() > anchors[b].y(); });
+    std::vector<std::size_t> high_to_low(slots.size());
+    std::iota(high_to_low.begin(), high_to_low.end(), std::size_t{0});
+    std::stable_sort(high_to_low.begin(), high_to_low.end(),
+                     [&](std::size_t a, std::size_t b) { return slots[a] > slots[b]; });
+    std::vector<std::size_t> slot_of(anchors.size());
+    for (std::size_t k = 0; k < order.size(); ++k) slot_of[order[k]] = high_to_low[k];
+    const auto end_of = [&](std::size_t k) { return Vec2(slot_x, slots[slot_of[k]]); };
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (std::size_t a = 0; a < anchors.size(); ++a) {
+            for (std::size_t b = a + 1; b < anchors.size(); ++b) {
+                if (!cross(anchors[a], end_of(a), anchors[b], end_of(b))) continue;
+                std::swap(slot_of[a], slot_of[b]);
+                changed = true;
+            }
+        }
+    }
+    return slot_of;
+}
+
+void add_defects(Sheet& sheet, const MapPanel& map, const MeshPanel& panel, const Look& look, const MapLayout& layout) {
+    DefectDrawer(sheet, map, panel, look, layout).draw();
+}
+
+}  // namespace clsurf::viz

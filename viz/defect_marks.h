@@ -1,0 +1,13 @@
+#pragma once
+// DefectMarks: the sections at fault drawn along their passes, as wide as the step-over, and the column of their names.
+
+#include "viz/defect_map.h"
+#include "viz/map_layout.h"
+
+namespace clsurf::viz {
+
+/// Draws the marks of map.defects on its panel, and beside it their names, with lines that do not cross. The rest of the
+/// column says how many more there are, what colours mean, and what dotted means.
+void add_defects(Sheet& sheet, const MapPanel& map, const MeshPanel& panel, const Look& look, const MapLayout& layout);
+
+}  // namespace clsurf::viz

@@ -1,0 +1,61 @@
+#include "viz/depth_buffer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace clsurf::viz {
+
+DepthBuffer::DepthBuffer(const Geometry& geometry, const Camera& camera)
+    : camera_(camera),
+      columns_(static_cast<int>(std::ceil(camera.width / cell)) + 1),
+      rows_(static_cast<int>(std::ceil(camera.height / cell)) + 1),
+      nearest_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_),
+               -std::numeric_limits<float>::infinity()) {
+    const auto vertex = [&](std::uint32_t v) {
+        const float* p = geometry.xyz.data() + 3 * static_cast<std::size_t>(v);
+        return seen(geometry.origin + Vec3(p[0], p[1], p[2]));
+    };
+    for (std::size_t i = 0; i + 3 <= geometry.triangles.size(); i += 3)
+        draw(vertex(geometry.triangles[i]), vertex(geometry.triangles[i + 1]), vertex(geometry.triangles[i + 2]));
+}
+
+Vec3 DepthBuffer::seen(const Vec3& place) const {
+    const Vec2 at = camera_.pixel(place) / cell;
+    return {at.x(), at.y(), camera_.towards.dot(place - camera_.centre)};
+}
+
+void DepthBuffer::draw(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const double area = (b - a).head<2>().x() * (c - a).y() - (b - a).y() * (c - a).x();
+    if (!(std::abs(area) > 0)) return;
+    const auto first = [](double v) { return static_cast<int>(std::max(0.0, std::ceil(v - 0.5))); };
+    const auto last = [](double v, int count) {
+        return static_cast<int>(std::min(static_cast<double>(count) - 1, std::floor(v - 0.5)));
+    };
+    const int column0 = first(std::min({a.x(), b.x(), c.x()}));
+    const int column1 = last(std::max({a.x(), b.x(), c.x()}), columns_);
+    const int row0 = first(std::min({a.y(), b.y(), c.y()}));
+    const int row1 = last(std::max({a.y(), b.y(), c.y()}), rows_);
+    for (int row = row0; row <= row1; ++row) {
+        for (int column = column0; column <= column1; ++column) {
+            const double x = column + 0.5 - a.x();
+            const double y = row + 0.5 - a.y();
+            const double v = (x * (c - a).y() - y * (c - a).x()) / area;
+            const double w = (y * (b - a).x() - x * (b - a).y()) / area;
+            if (v < 0 || w < 0 || v + w > 1) continue;
+            float& nearest = nearest_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+                                      static_cast<std::size_t>(column)];
+            nearest = std::max(nearest, static_cast<float>(a.z() + v * (b - a).z() + w * (c - a).z()));
+        }
+    }
+}
+
+bool DepthBuffer::hides(const Vec3& place, double tolerance) const {
+    const Vec3 at = seen(place);
+    if (!(at.x() >= 0 && at.y() >= 0 && at.x() < columns_ && at.y() < rows_)) return false;
+    const auto column = static_cast<std::size_t>(at.x());
+    const auto row = static_cast<std::size_t>(at.y());
+    return nearest_[row * static_cast<std::size_t>(columns_) + column] > at.z() + tolerance;
+}
+
+}  // namespace clsurf::viz

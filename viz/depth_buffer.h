@@ -1,0 +1,31 @@
+#pragma once
+// DepthBuffer: which places of a part the part itself hides from the eye.
+
+#include <vector>
+
+#include "viz/geometry.h"
+#include "viz/view.h"
+
+namespace clsurf::viz {
+
+class DepthBuffer {
+public:
+    /// Draws the triangles of a geometry in cells of two pixels. O(triangles + cells they cover).
+    DepthBuffer(const Geometry& geometry, const Camera& camera);
+
+    /// Whether a triangle lies between a place [mm] and the eye, nearer to the eye by more than `tolerance` [mm].
+    [[nodiscard]] bool hides(const Vec3& place, double tolerance) const;
+
+private:
+    static constexpr double cell = 2;  ///< [px]
+
+    void draw(const Vec3& a, const Vec3& b, const Vec3& c);
+    /// Column and row [cells], and the distance towards the eye [mm].
+    [[nodiscard]] Vec3 seen(const Vec3& place) const;
+
+    Camera camera_;
+    int columns_ = 0, rows_ = 0;
+    std::vector<float> nearest_;  ///< row by row; −infinity: nothing is there
+};
+
+}  // namespace clsurf::viz

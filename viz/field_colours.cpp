@@ -1,0 +1,39 @@
+#include "viz/field_colours.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace clsurf::viz {
+
+std::string usual_colour_map_name(const FieldInfo& field) {
+    if (field.scale == FieldScale::diverging) return "coolwarm";
+    switch (field.preference) {
+        case FieldPreference::higher: return "magma";
+        case FieldPreference::lower: return "magma_r";
+        case FieldPreference::none: break;
+    }
+    return "viridis";
+}
+
+ColourMap usual_colour_map(const FieldInfo& field) { return make_colour_map(usual_colour_map_name(field)); }
+
+ColourMap colour_map_of_lines(const FieldInfo& field) {
+    constexpr double light = 0.15;  // share of the map
+    const ColourMap map = usual_colour_map(field);
+    if (map.name() == "magma") return map.part(0, 1 - light);
+    if (map.name() == "magma_r") return map.part(light, 1);
+    return map;
+}
+
+ColourScale scale_of(const FieldInfo& field, double low, double high, int bins, ColourMap map) {
+    constexpr double readable = 0.005;  // of the range, from a legend
+    const double slack = std::max(field.slack * std::abs(field.unit.per_inside), readable * (high - low));
+    return {std::move(map), low, high, bins, slack};
+}
+
+ColourScale scale_of(const FieldInfo& field, double low, double high, int bins) {
+    return scale_of(field, low, high, bins, usual_colour_map(field));
+}
+
+}  // namespace clsurf::viz
