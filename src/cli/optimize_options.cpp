@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/controller_command.h"
 #include "cli/work_frames.h"
 #include "core/error.h"
 #include "core/version.h"
@@ -18,12 +19,16 @@ void declare_optimize(po::options_description& options) {
         ("output,o", po::value<std::string>()->value_name("FILE"), "the new program")
         ("picture", po::value<std::string>()->value_name("FILE"), "picture of the speeds before and after on one scale (.png, .jpg, .tif or .webp), also if the new program is rejected")
         ("tolerance", po::value<double>()->value_name("MM"), "largest distance of the new path from the programmed path (default: 0.005)")
+        ("machines", po::value<int>()->value_name("N"), "other machines that the new program must be better on, drawn from what the machine file says of its uncertainty (default: 4; 0: none)")
         ("more-time", po::value<double>()->value_name("PERCENT"), "additional machining time that is allowed for fewer defects (default: 0)")
         ("decimals", po::value<int>()->value_name("N"), "smallest number of decimals of new coordinates, if the controller reads them (default: as in the program)");
     // clang-format on
     options.add_options()(
         "log", po::value<std::string>()->value_name("LOG"),
         "a recorded run of the program: only places that differ from adjacent passes there are repaired; the result is still verified by simulation");
+    declare_controller(options);
+    options.add_options()("runs", po::value<int>()->value_name("N"),
+                          "how often --controller runs, the program itself included if it has no --log (default: 3)");
     declare_log_options(options);
     declare_work_offset(options);
     declare_simulation(options);
@@ -39,9 +44,19 @@ OptimizeRules read_optimize_rules(const po::variables_map& values) {
     if (rules.least_decimals < 0 || rules.least_decimals > 9) throw UsageError("--decimals must be 0 to 9");
     if (values.count("more-time") > 0) rules.more_time = values["more-time"].as<double>() / 100;
     if (!(rules.more_time >= 0) || rules.more_time > 1) throw UsageError("--more-time must be 0 to 100 %");
+    if (values.count("machines") > 0) rules.machines = values["machines"].as<int>();
+    if (rules.machines < 0 || rules.machines > 100) throw UsageError("--machines must be 0 to 100");
     rules.start = read_start(values);
     rules.header = fmt::format("clsurf {} optimize, tolerance {} mm", version, rules.tolerance);
     return rules;
+}
+
+int read_runs(const po::variables_map& values) {
+    if (values.count("runs") == 0) return 3;
+    if (values.count("controller") == 0) throw UsageError("--runs is of --controller");
+    const int runs = values["runs"].as<int>();
+    if (runs < 2 || runs > 1000) throw UsageError("--runs must be 2 to 1000");
+    return runs;
 }
 
 std::optional<Log> read_measured(const po::variables_map& values, bool five_axes) {

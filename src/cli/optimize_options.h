@@ -10,6 +10,8 @@
 namespace clsurf::cli {
 
 void declare_optimize(po::options_description& options);
+/// How often --controller runs. Throws UsageError.
+[[nodiscard]] int read_runs(const po::variables_map& values);
 /// Throws UsageError.
 [[nodiscard]] OptimizeRules read_optimize_rules(const po::variables_map& values);
 /// The recorded run of --log. Throws UsageError where its options are given without it.

@@ -8,6 +8,7 @@
 #include "core/units.h"
 #include "field/field_set.h"
 #include "field/range.h"
+#include "viz/field_colours.h"
 #include "viz/scene.h"
 
 namespace clsurf::cli {
@@ -25,11 +26,11 @@ viz::Image draw_before_and_after(const Optimized& result, const std::string& pro
     look.height = 900;
     const ShownRange a = find_range(before, result.before.surface.passes, {}, {}),
                      b = find_range(after, result.after.surface.passes, {}, {});
-    const viz::ColourScale scale{viz::make_colour_map("isurface"), std::min(a.low, b.low), std::max(a.high, b.high), 0};
+    const viz::ColourScale scale = viz::scale_of(before.info, std::min(a.low, b.low), std::max(a.high, b.high));
     viz::MapTexts texts;
     texts.title = "Path speed before and after, simulated";
     const auto summary = [](const JudgedRun& run, std::size_t defects) {
-        return fmt::format("{:.1f} s, {:.0f} mm/min between neighbour passes (95th percentile), {} defect{}",
+        return fmt::format("{:.1f} s, {:.0f} mm/min between adjacent passes (95th percentile), {} defect{}",
                            run.duration, run.mismatch * seconds_per_minute, defects, defects == 1 ? "" : "s");
     };
     texts.subtitle = file_name(program);

@@ -14,19 +14,34 @@
 #include "surface/stitch.h"
 
 namespace clsurf {
+namespace {
+
+/// [s] from the first to the last motion: a recording may begin early and end late.
+double time_in_motion(const ClSurface& surface, double period) {
+    const PointIndex count = surface.positions.size();
+    PointIndex first = 0, last = count - 1;
+    const auto rests = [&](PointIndex a, PointIndex b) {
+        return surface.positions.absolute(a) == surface.positions.absolute(b);
+    };
+    while (first < last && rests(first, first + 1)) ++first;
+    while (last > first && rests(last, last - 1)) --last;
+    return static_cast<double>(std::max<PointIndex>(0, last - first)) * period;
+}
+
+}  // namespace
 
 JudgedRun judge_run(Log log, const Program& program, const QualityRules& rules, Diagnostics& diagnostics,
-                    std::shared_ptr<const Kinematics> kinematics) {
+                    std::shared_ptr<const Kinematics> kinematics, ProgramIdentity identity) {
     JudgedRun run;
     run.log = std::move(log);
     const Eigen::Isometry3d pose = pose_of(run.log).value_or(Eigen::Isometry3d::Identity());
     run.path = reconstruct(run.log, shown_role(run.log), pose, std::move(kinematics));
-    run.lines = std::make_unique<LineMap>(map_lines(run.path, run.log, program, true, diagnostics));
+    run.lines = std::make_unique<LineMap>(map_lines(run.path, run.log, program, true, diagnostics, identity));
     run.surface = stitch(gather(run.path), *run.lines);
     run.signals = signals_along(run.log, run.path, run.surface).signals;
     run.report = find_defects(run.surface, run.signals, *run.lines, program, run.log.period, rules);
-    run.duration = static_cast<double>(std::max<PointIndex>(0, run.log.records - 1)) * run.log.period;
-    run.speed_differences = speed_mismatches(run.surface, run.signals);
+    run.duration = time_in_motion(run.surface, run.log.period);
+    run.speed_differences = speed_differences(run.surface, run.signals);
     std::vector<float> sizes;
     for (const float value : run.speed_differences) {
         if (value == value) sizes.push_back(std::abs(value));

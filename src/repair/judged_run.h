@@ -9,6 +9,7 @@
 #include "mapping/line_map.h"
 #include "pipeline/simulated_log.h"
 #include "predictor/defects.h"
+#include "repair/objective.h"
 
 namespace clsurf {
 
@@ -19,16 +20,22 @@ struct JudgedRun {
     ClSurface surface;
     Signals signals;
     QualityReport report;
-    double duration = 0;  ///< [s]
-    double mismatch = 0;  ///< [mm/s] 95th percentile of the speed difference to the neighbour passes
+    double duration = 0;  ///< [s] from the first to the last motion
+    double mismatch = 0;  ///< [mm/s] 95th percentile of the speed difference to the adjacent passes
     Column<float>
         speed_differences;         ///< [mm/s] per point, to the neighbour pass that differs most; NaN: none beside it
     double greatest_mismatch = 0;  ///< [mm/s] 99.9th percentile of it
+
+    [[nodiscard]] RunMeasures measures() const {
+        return {mismatch, static_cast<double>(report.defects.size()), duration};
+    }
 };
 
 /// Stitches the surface of a log and judges it by `rules`. Adds diagnostics about lines to `diagnostics`. `kinematics`: of a
-/// machine whose rotary axes the log has; the program's motions are then those of the tip. O(points), parallel.
+/// machine whose rotary axes the log has; the program's motions are then those of the tip. `identity`: what is known of
+/// the program that ran; `same` for a simulation. O(points), parallel.
 [[nodiscard]] JudgedRun judge_run(Log log, const Program& program, const QualityRules& rules, Diagnostics& diagnostics,
-                                  std::shared_ptr<const Kinematics> kinematics = nullptr);
+                                  std::shared_ptr<const Kinematics> kinematics = nullptr,
+                                  ProgramIdentity identity = ProgramIdentity::same);
 
 }  // namespace clsurf

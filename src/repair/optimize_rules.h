@@ -5,6 +5,7 @@
 
 #include "core/geometry.h"
 #include "core/units.h"
+#include "mapping/program_match.h"
 #include "predictor/defect.h"
 
 namespace clsurf {
@@ -27,6 +28,9 @@ struct OptimizeRules {
     Vec3 start = Vec3::Zero();  ///< [mm] where the axes stand before the program
     Vec3 zero = Vec3::Zero();   ///< [mm] machine position of its zero, on five axes
     QualityRules quality = judged_place_by_place();
+    int machines = 4;            ///< of the ensemble that must be better; 0: the nominal machine alone decides
+    bool all_finalists = false;  ///< finds every one that the ensemble accepts, instead of the best
+    ProgramIdentity identity = ProgramIdentity::unknown;  ///< of the program that a recorded run ran
     std::string header;  ///< text of the comment that says where the program comes from
 };
 

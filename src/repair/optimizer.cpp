@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/statistics.h"
+#include "machine/machine_ensemble.h"
 #include "repair/feed_search.h"
 #include "repair/regions.h"
 #include "repair/repair_mask.h"
@@ -17,6 +18,7 @@ namespace {
 constexpr std::array<double, 3> shares_of_tolerance{0.2, 0.1, 0.4};  ///< that lines may leave the curve by
 constexpr double block_reserve = 1.1;                                ///< of the way in a block time
 constexpr RepairMaskRules worst_alone{0.5, 2, 2};                    ///< a draft that leaves the more as it is
+constexpr RepairMaskRules slow_as_well{.slow = 0.9};                 ///< a draft that saves time
 constexpr std::size_t most_mixed = 2;                                ///< drafts of which regions are given back …
 constexpr int mixing_rounds = 3;                                     ///< … so many times …
 constexpr int most_mixing_rounds = 6;                                ///< … or more, while the run is refused
@@ -52,7 +54,7 @@ public:
           evaluator_(program, read, machine, rules, progress, diagnostics) {
         if (evaluator_.before().surface.step_over <= 0)
             throw InputError(Place::of_file(program_.main().name()),
-                             "has no passes beside each other: there is nothing to bring into step");
+                             "has no adjacent passes: there is nothing to equalise");
     }
 
     Optimized run(std::optional<Log> measured) {
@@ -64,10 +66,11 @@ public:
             look_for_need(evaluator_.before());
         propose_all({program_, read_, rules_, block_reserve * machine_.controller.block_time * usual_feed(program_),
                      !has_log, evaluator_.orientation()});
+        result.fidelity = machine_.fidelity;
         result.five_axes = evaluator_.orientation() != nullptr;
         result.before = evaluator_.take_before();
         result.run_before = evaluator_.summary_before();
-        Proposal& best = *evaluator_.best();
+        Proposal& best = *choose(result);
         result.evaluation = std::move(best.evaluation);
         result.text = std::move(best.text);
         result.after = std::move(best.run);
@@ -76,17 +79,47 @@ public:
     }
 
 private:
+    /// The best proposal that the ensemble accepts; the best of all, refused with the ensemble's reason, where it accepts
+    /// none.
+    TriedProposal choose(Optimized& result) {
+        const std::vector<TriedProposal> finalists = evaluator_.finalists();
+        if (finalists.empty()) return evaluator_.best();
+        Ensemble ensemble(program_, machines_drawn_from(machine_, rules_.machines), rules_, evaluator_.kinematics());
+        TriedProposal chosen;
+        std::string refusal;
+        EnsembleResult refused;
+        for (const TriedProposal& each : finalists) {
+            const EnsembleResult runs = ensemble.run(read_(each->text));
+            const std::string reason = why_not_better(runs, rules_.more_time);
+            if (!reason.empty()) {
+                if (refusal.empty()) refused = runs;
+                if (refusal.empty()) refusal = reason;
+                continue;
+            }
+            result.finalists.push_back({each->text, each->run.measures(), each->evaluation, runs});
+            if (chosen == nullptr) result.ensemble = runs;
+            if (chosen == nullptr) chosen = each;
+            if (!rules_.all_finalists) break;
+        }
+        if (chosen != nullptr) return chosen;
+        result.ensemble = refused;
+        finalists.front()->evaluation.accepted = false;
+        finalists.front()->evaluation.reason = refusal;
+        return finalists.front();
+    }
+
     void look_for_need(const JudgedRun& run) {
         needed_ = motions_in_need(run, program_, {});
         in_worst_need_ = motions_in_need(run, program_, worst_alone);
+        needed_or_slow_ = motions_in_need(run, program_, slow_as_well);
     }
 
     Measured judge_measured(Log log) {
         const JudgedRun run =
-            judge_run(std::move(log), program_, rules_.quality, diagnostics_, evaluator_.kinematics());
+            judge_run(std::move(log), program_, rules_.quality, diagnostics_, evaluator_.kinematics(), rules_.identity);
         if (run.surface.step_over <= 0)
             throw InputError(Place::of_file(run.log.name),
-                             "has no passes beside each other: it does not tell what is out of step");
+                             "has no adjacent passes: it does not show which passes differ");
         look_for_need(run);
         return {run.surface.positions.size(), run.duration, run.mismatch, run.report.defects.size(),
                 static_cast<std::size_t>(std::count(needed_.begin(), needed_.end(), 1))};
@@ -97,6 +130,10 @@ private:
         for (const double share : shares_of_tolerance) {
             // What is tried last is left out first where a program is long.
             if (evaluator_.has_time()) propose(drafter.draft(share * rules_.tolerance, needed_), drafts);
+        }
+        for (const double share : shares_of_tolerance) {
+            if (needed_or_slow_ != needed_ && evaluator_.has_time(share_of_drafts))
+                propose(drafter.draft(share * rules_.tolerance, needed_or_slow_), drafts);
         }
         if (drafts.empty()) {
             (void)evaluator_.propose(std::make_shared<const Draft>(drafter.unchanged()), {});
@@ -206,7 +243,7 @@ private:
     const OptimizeRules& rules_;
     Diagnostics& diagnostics_;
     Evaluator evaluator_;
-    std::vector<std::uint8_t> needed_, in_worst_need_;  ///< one entry a motion
+    std::vector<std::uint8_t> needed_, in_worst_need_, needed_or_slow_;  ///< one entry a motion
 };
 
 }  // namespace

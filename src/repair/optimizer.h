@@ -1,11 +1,13 @@
 #pragma once
 // The optimiser: propose, simulate, accept or refuse. A proposal moves points of finishing passes only, so
 // that adjacent passes are programmed alike. It is accepted only if a run on the machine is better in every
-// respect.
+// respect, and if it is better on machines that the knowledge of this one allows, too (ensemble.h).
 
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "repair/ensemble.h"
 #include "repair/proposal.h"
 
 namespace clsurf {
@@ -19,6 +21,23 @@ struct Measured {
     std::size_t motions_in_need = 0;  ///< which alone are repaired
 };
 
+/// A new program that the ensemble accepts.
+struct Finalist {
+    std::string text;
+    RunMeasures promised;  ///< on the nominal machine
+    Evaluation evaluation;
+    EnsembleResult ensemble;
+};
+
+/// A run on the user's controller (controller_repair.h).
+struct ControllerRun {
+    int candidate = 0;                      ///< 0: the program itself
+    std::optional<RunMeasures> promised{};  ///< by the simulation; nothing: the program itself
+    std::optional<RunMeasures> measured{};  ///< nothing: the run failed
+    bool accepted = false;
+    std::string reason{};  ///< why it is not accepted, or how the run failed
+};
+
 struct Optimized {
     Evaluation evaluation;   ///< by simulation, also where a recorded run was given
     bool five_axes = false;  ///< the program was run on them
@@ -26,6 +45,11 @@ struct Optimized {
     std::string text;  ///< of the new program; that of the best proposal where none was accepted
     JudgedRun before, after;
     SimulationSummary run_before, run_after;
+    std::string machine;               ///< where its values come from: a file, or the log that they are fitted to
+    std::optional<Fidelity> fidelity;  ///< of simulations with the machine file
+    EnsembleResult ensemble;           ///< of the new program; no runs: no proposal came so far
+    std::vector<Finalist> finalists;   ///< that the ensemble accepts, the best first; its first one is `text`
+    std::vector<ControllerRun> controller_runs;  ///< empty: simulation decided
 };
 
 /// Simulates the program, makes proposals, simulates and judges them. With a recorded run `measured` of the program,

@@ -14,13 +14,12 @@ namespace {
 
 constexpr double interval_width =
     0.005;  ///< of the speeds in a constant-speed interval: wider, passes side by side differ by as much
-constexpr double most_run_points = 16e6;  ///< of all runs together; then what there is has to do …
-constexpr double large_run = 1e6;         ///< … or less, down to a share of it where a run has so many points …
-constexpr double share_of_large = 0.25;   ///< … this
-constexpr int most_in_vain = 96;          ///< proposals in a row, none of them better than the best
-constexpr double growth_weight = 0.03;    ///< of a program's growth, against shares of mismatch and defects
-constexpr double goal_of_mismatch = 0.5;  ///< share left, from which on …
-constexpr double beyond_goal = 0.1;       ///< … less mismatch counts less
+constexpr double most_run_points = 16e6;   ///< of all runs together; then what there is has to do …
+constexpr double large_run = 1e6;          ///< … or less, down to a share of it where a run has so many points …
+constexpr double share_of_large = 0.25;    ///< … this
+constexpr int most_in_vain = 96;           ///< proposals in a row, none of them better than the best
+constexpr std::size_t most_finalists = 4;  ///< of each kind …
+constexpr std::size_t most_finalists_of_large = 1;  ///< … where runs are large
 
 }  // namespace
 
@@ -62,6 +61,7 @@ TriedProposal Evaluator::propose(const std::shared_ptr<const Draft>& draft, std:
         best_ = tried;
         in_vain_ = 0;
     }
+    if (tried->evaluation.accepted) keep_finalist(tried, tried->targets.empty() ? without_feeds_ : with_feeds_);
     return tried;
 }
 
@@ -106,9 +106,9 @@ Deviation Evaluator::deviation_of(const Program& changed) const {
 
 /// Why a proposal cannot be taken; empty: it can.
 std::string Evaluator::objection(const Proposal& p) const {
-    if (p.evaluation.changed_lines == 0) return "no stretch of the program can be rewritten";
+    if (p.evaluation.changed_lines == 0) return "no section of the program can be rewritten";
     if (p.evaluation.deviation.disordered > 0)
-        return fmt::format("line {} would no longer do the same", p.evaluation.deviation.disordered);
+        return fmt::format("line {} would no longer have the same effect", p.evaluation.deviation.disordered);
     if (p.evaluation.deviation.greatest > rules_.tolerance)
         return fmt::format("it would leave the programmed path by {:.4f} mm at line {}",
                            p.evaluation.deviation.greatest, p.evaluation.deviation.line);
@@ -116,28 +116,40 @@ std::string Evaluator::objection(const Proposal& p) const {
         return fmt::format("it would turn the tool axis away from the programmed one by {:.4f} deg at line {}",
                            p.evaluation.deviation.turned * deg_per_rad, p.evaluation.deviation.turned_line);
     if (!p.summary.limits_ok)
-        return summary_before_.limits_ok ? "the machine's limits would not be kept"
-                                         : "the machine's limits are not kept, nor are they by the program as it is";
-    if (p.run.mismatch >= before_.mismatch)
-        return fmt::format("the speeds of neighbour passes would differ by {:.0f} instead of {:.0f} mm/min",
-                           p.run.mismatch * seconds_per_minute, before_.mismatch * seconds_per_minute);
-    if (p.evaluation.defects_after > p.evaluation.defects_before)
-        return fmt::format("there would be {} defects instead of {}", p.evaluation.defects_after,
-                           p.evaluation.defects_before);
-    if (p.run.duration > longest())
-        return fmt::format("it would take {:.3f} instead of {:.3f} s", p.run.duration, longest());
+        return summary_before_.limits_ok
+                   ? "the machine's limits would not be kept"
+                   : "the machine's limits are not kept, and the original program does not keep them either";
+    if (std::string reason = why_not_better(before_.measures(), p.run.measures(), more_time_); !reason.empty())
+        return reason;
+    const double gain = gain_of(before_.measures(), p.run.measures(), line_ratio(p), more_time_);
+    if (gain < least_gain) return fmt::format("the gain is {:.1f} %, less than {:.0f} %", 100 * gain, 100 * least_gain);
     return {};
 }
 
+double Evaluator::line_ratio(const Proposal& p) const {
+    return static_cast<double>(p.evaluation.lines_after) / static_cast<double>(p.evaluation.lines_before);
+}
+
 double Evaluator::score(const Proposal& p) const {
-    const double growth =
-        static_cast<double>(p.evaluation.lines_after) / static_cast<double>(p.evaluation.lines_before);
-    const double mismatch = p.run.mismatch / before_.mismatch,
-                 defects = static_cast<double>(p.evaluation.defects_after) /
-                           std::max<double>(1, static_cast<double>(p.evaluation.defects_before));
-    const double later = std::clamp(p.run.duration / before_.duration - 1, 0.0, more_time_);
-    return growth_weight * growth + std::max(mismatch, goal_of_mismatch) +
-           beyond_goal * std::min(mismatch, goal_of_mismatch) + defects + later;
+    return objective(before_.measures(), p.run.measures(), line_ratio(p), more_time_);
+}
+
+void Evaluator::keep_finalist(const TriedProposal& proposal, std::vector<TriedProposal>& finalists) const {
+    const std::size_t most =
+        static_cast<double>(before_.log.records) >= large_run ? most_finalists_of_large : most_finalists;
+    const auto place =
+        std::upper_bound(finalists.begin(), finalists.end(), proposal,
+                         [&](const TriedProposal& a, const TriedProposal& b) { return score(*a) < score(*b); });
+    finalists.insert(place, proposal);
+    if (finalists.size() > most) finalists.pop_back();
+}
+
+std::vector<TriedProposal> Evaluator::finalists() const {
+    std::vector<TriedProposal> all = with_feeds_;
+    all.insert(all.end(), without_feeds_.begin(), without_feeds_.end());
+    std::stable_sort(all.begin(), all.end(),
+                     [&](const TriedProposal& a, const TriedProposal& b) { return score(*a) < score(*b); });
+    return all;
 }
 
 bool Evaluator::better(const Proposal& a, const Proposal& b) const {

@@ -59,12 +59,15 @@ public:
     /// `targets`: as those of a Proposal, or none at all.
     TriedProposal propose(const std::shared_ptr<const Draft>& draft, std::vector<float> targets);
     [[nodiscard]] const TriedProposal& best() const { return best_; }
+    /// The accepted proposals with the lowest scores, the lowest first; few where runs are long. Some of them have no feeds,
+    /// where there are such.
+    [[nodiscard]] std::vector<TriedProposal> finalists() const;
 
     /// Accepted proposals are better than others; then the one with less remaining mismatch and fewer defects; of two
     /// nearly equal ones the shorter.
     [[nodiscard]] bool better(const Proposal& a, const Proposal& b) const;
 
-    /// Lower is better: the remaining mismatch and defects, as fractions, and the additional time if more is allowed.
+    /// Lower is better: objective() against the run of the program.
     [[nodiscard]] double score(const Proposal& proposal) const;
 
 private:
@@ -72,6 +75,8 @@ private:
     [[nodiscard]] Deviation deviation_of(const Program& changed) const;
     [[nodiscard]] double most_points() const;
     [[nodiscard]] std::string objection(const Proposal& proposal) const;
+    [[nodiscard]] double line_ratio(const Proposal& proposal) const;
+    void keep_finalist(const TriedProposal& proposal, std::vector<TriedProposal>& finalists) const;
     const Program& program_;
     const ReadProgram& read_;
     const Machine& machine_;
@@ -83,9 +88,10 @@ private:
     JudgedRun before_;
     SimulationSummary summary_before_;
     TriedProposal best_;
-    double more_time_ = 0;  ///< a share
-    double points_ = 0;     ///< simulated so far
-    int in_vain_ = 0;       ///< proposals since the best one
+    std::vector<TriedProposal> with_feeds_, without_feeds_;  ///< finalists
+    double more_time_ = 0;                                   ///< a share
+    double points_ = 0;                                      ///< simulated so far
+    int in_vain_ = 0;                                        ///< proposals since the best one
 };
 
 }  // namespace clsurf

@@ -19,9 +19,11 @@ Marks marked_places(const JudgedRun& run, const RepairMaskRules& rules) {
     Marks marks(static_cast<std::size_t>(run.surface.positions.size()), 0);
     const double step =
         rules.share * run.report.thresholds.of[index_of(Quantity::speed)] * run.report.thresholds.usual_speed;
+    const double slow = rules.slow * run.report.thresholds.usual_speed;
     for (PointIndex i = 0; i < run.surface.positions.size(); ++i) {
-        if (run.signals[i].zone != Zone::outside && std::abs(run.speed_differences[static_cast<std::size_t>(i)]) > step)
-            marks[static_cast<std::size_t>(i)] = 1;
+        if (run.signals[i].zone == Zone::outside) continue;
+        const bool differs = std::abs(run.speed_differences[static_cast<std::size_t>(i)]) > step;
+        if (differs || run.signals[i].speed < slow) marks[static_cast<std::size_t>(i)] = 1;
     }
     for (const Defect& defect : run.report.defects) {
         if (defect.quantity == Quantity::lag) continue;

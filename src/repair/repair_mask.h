@@ -12,6 +12,7 @@ struct RepairMaskRules {
     double share = 0.25;   ///< of the threshold of a speed step, from which on a place is repaired
     double reach = 4;      ///< [mm] of arc length before and behind such a place
     int passes_aside = 4;  ///< which are repaired with it
+    double slow = 0;  ///< of the usual speed: places that are slower are repaired, too, whatever passes beside them do
 };
 
 /// Per motion of the program: 1 if it has points whose speed differs from that of their neighbours, or that are in or

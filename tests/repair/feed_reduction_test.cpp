@@ -6,10 +6,12 @@
 
 #include <cmath>
 #include <numeric>
+#include <set>
 
 #include "repair/feeds/feed_equalisation.h"
 #include "repair/parts.h"
 #include "surface/path_location.h"
+#include "toolpath/toolpath.h"
 
 namespace clsurf {
 namespace {
@@ -50,6 +52,31 @@ TEST(FeedEqualisation, TakesTheLeastStepThatABudgetPaysFor) {
         EXPECT_NEAR(step, wanted, 0.1) << "one part in 1024 of twice the greatest difference";
         EXPECT_LE(equaliser.lost(equaliser.everywhere({0, step})), budget);
     }
+}
+
+// Of lines of 0.02 mm at 50 mm/s a record names every second or third one. The others get the speed of those beside them.
+TEST(FeedEqualisation, LinesThatNoRecordNamesHaveASpeed) {
+    const Program program = read_text(wavy_zigzag(
+        3, 24, [](int, double) { return 0.02; }, 0));
+    Machine machine;
+    machine.controller.block_time = 0;
+    Diagnostics diagnostics;
+    const JudgedRun run = judge_run(simulate_to_log(program, machine, Vec3::Zero(), {}).log, program, {}, diagnostics);
+    const std::vector<float> peaks = peaks_by_motion(run, program, compared_speeds(run));
+    std::set<LineNumber> named;
+    for (PointIndex i = 0; i < run.surface.positions.size(); ++i) named.insert(run.lines->line_at(i));
+    const Toolpath path(program.motions, Vec3::Zero());
+    std::size_t without = 0, unnamed = 0, middle = 0;
+    for (std::int64_t m = 0; m < program.motions.size(); ++m) {
+        const auto k = static_cast<std::size_t>(m);
+        const double x = path.end(static_cast<std::uint32_t>(m)).x();
+        if (program.motions.kind[k] != MotionKind::feed || x < 4 || x > 20) continue;
+        ++middle;
+        unnamed += named.contains(program.motions.line[k]) ? 0 : 1;
+        without += peaks[k] > 0 ? 0 : 1;
+    }
+    EXPECT_GT(unnamed, middle / 4) << "else this tests nothing";
+    EXPECT_EQ(without, 0U);
 }
 
 TEST(FeedReductionTest, LevelsThePassesBesideASlowSection) {

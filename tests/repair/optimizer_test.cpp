@@ -244,7 +244,7 @@ TEST(Optimizer, RefusesWhereNothingCanBeRewritten) {
     Diagnostics diagnostics;
     const Optimized result = optimize(program, read_text, brisk(), {}, {}, {}, diagnostics);
     EXPECT_FALSE(result.evaluation.accepted);
-    EXPECT_EQ(result.evaluation.reason, "no stretch of the program can be rewritten");
+    EXPECT_EQ(result.evaluation.reason, "no section of the program can be rewritten");
 }
 
 TEST(Optimizer, RefusesASinglePass) {

@@ -10,7 +10,8 @@
 namespace clsurf {
 namespace {
 
-constexpr int halvings = 10;  ///< in search of a step
+constexpr int halvings = 10;                          ///< in search of a step
+constexpr LineNumber most_lines_between_points = 50;  ///< that are passed between two points
 
 /// Speeds that are brought down pass by pass.
 class Sweep {
@@ -160,12 +161,25 @@ double FeedEqualiser::lost(const std::vector<float>& speeds) const {
 
 std::vector<float> peaks_by_motion(const JudgedRun& run, const Program& program, const std::vector<float>& values) {
     std::vector<float> peaks(static_cast<std::size_t>(program.motions.size()), missing<float>);
-    for (PointIndex i = 0; i < run.surface.positions.size(); ++i) {
-        const float value = values[static_cast<std::size_t>(i)];
-        if (!(value == value)) continue;
-        for (const std::uint32_t motion : run.lines->motions_of(run.lines->line_at(i))) {
+    const auto raise = [&](LineNumber line, float value) {
+        for (const std::uint32_t motion : run.lines->motions_of(line)) {
             if (motion < peaks.size() && !(peaks[motion] >= value)) peaks[motion] = value;
         }
+    };
+    LineNumber line = 0;  // of the point before
+    float before = missing<float>;
+    for (PointIndex i = 0; i < run.surface.positions.size(); ++i) {
+        const float value = values[static_cast<std::size_t>(i)];
+        const LineNumber here = run.lines->line_at(i);
+        if (value == value) {
+            if (line != 0 && here > line && here - line <= most_lines_between_points) {
+                const float both = before == before ? std::max(before, value) : value;
+                for (LineNumber between = line + 1; between < here; ++between) raise(between, both);
+            }
+            raise(here, value);
+        }
+        line = here;
+        before = value;
     }
     return peaks;
 }

@@ -69,7 +69,8 @@ private:
 };
 
 /// The maximum over the points of each motion of the program, of one value per point; NaN: it has no point with a
-/// value. Used as a feed, the maximum lets a motion follow a curve that rises or falls along it; the mean would be too
+/// value. A motion between the lines of two consecutive points was passed within a period, or joined to the next one by
+/// the controller, and has the greater value of both. Used as a feed, the maximum lets a motion follow a curve that rises or falls along it; the mean would be too
 /// low.
 [[nodiscard]] std::vector<float> peaks_by_motion(const JudgedRun& run, const Program& program,
                                                  const std::vector<float>& values);

@@ -11,7 +11,7 @@
 namespace clsurf {
 
 struct FeedReductionRules {
-    double step = 0.02;    ///< a share: how much faster than the pass beside it a place in or next to a defect may be
+    double step = 0.02;    ///< a share: how much faster than the adjacent pass a place in or next to a defect may be
     double budget = 0;     ///< [s] that may be lost
     double lag_power = 0;  ///< of the speed, that lag steps grow with
     Ramp ramp{};           ///< of the machine

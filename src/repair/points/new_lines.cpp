@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 
 #include "numeric/polyline.h"
 
@@ -10,6 +12,7 @@ namespace {
 
 constexpr std::size_t reach_of_bends = 5;  ///< aligned points to both sides whose bends a line's length fits
 constexpr double most_doublings = 6;       ///< of a part
+constexpr double short_share = 0.5;        ///< of both lines beside it: a shorter line is dropped
 
 class NewLines {
 public:
@@ -26,6 +29,7 @@ public:
             from = k;
         }
         ends_.back() = {old_.length(), old_.points.back()};
+        drop_short_lines();
         return std::move(ends_);
     }
 
@@ -150,6 +154,38 @@ private:
         pass_turns(from, middle);
         ends_.push_back(middle);
         pass_turns(middle, to);
+    }
+
+    /// How far the line between two places leaves what it replaces [mm]; infinite: farther than it may.
+    [[nodiscard]] double error_without(const NewPlace& from, const NewPlace& dropped, const NewPlace& to) const {
+        const double own = (dropped.position - nearest_on_line(dropped.position, from.position, to.position)).norm();
+        const double farthest = std::max(own, farthest_old_point(from, to).distance);
+        return farthest <= rules_.most && !turns_away(from, to) ? farthest : std::numeric_limits<double>::infinity();
+    }
+
+    /// Controllers that pass corners on arcs slow down at a line that is much shorter than those beside it: arcs end in its
+    /// middle. One of its ends is dropped where the path permits.
+    void drop_short_lines() {
+        constexpr double never = std::numeric_limits<double>::infinity();
+        const auto length = [](const NewPlace& from, const NewPlace& to) {
+            return (to.position - from.position).norm();
+        };
+        std::vector<NewPlace> kept{{0, old_.points.front()}};
+        for (std::size_t k = 0; k < ends_.size(); ++k) {
+            const NewPlace& end = ends_[k];
+            const NewPlace* next = k + 1 < ends_.size() ? &ends_[k + 1] : nullptr;
+            const NewPlace* earlier = kept.size() > 1 ? &kept[kept.size() - 2] : nullptr;
+            const double before = earlier != nullptr ? length(*earlier, kept.back()) : never,
+                         after = next != nullptr ? length(end, *next) : never;
+            if (length(kept.back(), end) < short_share * std::min(before, after)) {
+                const double without_begin = earlier != nullptr ? error_without(*earlier, kept.back(), end) : never,
+                             without_end = next != nullptr ? error_without(kept.back(), end, *next) : never;
+                if (without_end < without_begin) continue;
+                if (without_begin < never) kept.pop_back();
+            }
+            kept.push_back(end);
+        }
+        ends_.assign(kept.begin() + 1, kept.end());
     }
 
     const OldSegment& old_;

@@ -1,0 +1,188 @@
+#include "repair/controller_repair.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+
+namespace clsurf {
+namespace {
+
+constexpr double kept_promise = 0.05;  ///< share of the run before, by which mismatch and defects may differ from it
+constexpr double most_missing = 0.02;  ///< share of the program's motions that a log may lack
+constexpr double kept_time = 0.005;    ///< share of the time
+
+bool keeps(const RunMeasures& before, const RunMeasures& promised, const RunMeasures& measured) {
+    const double mismatch = std::abs(measured.mismatch - promised.mismatch) / std::max(before.mismatch, 1e-9),
+                 defects = std::abs(measured.defects - promised.defects) / std::max(before.defects, 1.0),
+                 time = std::abs(measured.duration - promised.duration) / before.duration;
+    return mismatch <= kept_promise && defects <= kept_promise && time <= kept_time;
+}
+
+class ControllerRepair {
+public:
+    ControllerRepair(const Program& program, const ReadProgram& read, const Machine& known, OptimizeRules rules,
+                     const ControllerJudge& judge, const Progress& progress, Diagnostics& diagnostics)
+        : program_(program),
+          read_(read),
+          known_(known),
+          rules_(std::move(rules)),
+          judge_(judge),
+          progress_(progress),
+          diagnostics_(diagnostics) {
+        rules_.all_finalists = true;
+    }
+
+    Optimized run(std::optional<Log> measured) {
+        const std::string text(program_.main().text());
+        if (!measured) {
+            ControllerOutcome outcome = judge_.run(text);
+            if (!outcome.log) refuse(outcome.failure);
+            measured = std::move(outcome.log);
+            runs_.push_back({.candidate = 0});
+        }
+        logs_.push_back({text, *measured});
+        before_ = judged(Log(*measured), program_, rules_.quality);
+        if (const std::string reason = why_unusable(before_); !reason.empty()) refuse(reason);
+        if (before_.surface.step_over <= 0)
+            throw InputError(Place::of_file(measured->name),
+                             "has no adjacent passes: it does not show which passes differ");
+        if (!runs_.empty()) runs_.back().measured = before_.measures();
+        Optimized result = search(*measured);
+        result.controller_runs = runs_;
+        if (!after_judged_) return result;
+        result.before = std::move(before_);
+        result.after = std::move(after_);
+        return result;
+    }
+
+private:
+    [[nodiscard]] bool has_runs() const { return static_cast<int>(runs_.size()) < judge_.runs; }
+
+    [[nodiscard]] JudgedRun judged(Log log, const Program& program, const QualityRules& quality) {
+        return judge_run(std::move(log), program, quality, diagnostics_, nullptr, ProgramIdentity::unknown);
+    }
+
+    /// Why a log does not show how the program ran; empty: it does.
+    [[nodiscard]] static std::string why_unusable(const JudgedRun& run) {
+        const ProgramMatch& match = run.lines->match();
+        if (!match.foreign.empty()) return "the log does not belong to the program: " + match.foreign;
+        if (match.missing > most_missing)
+            return fmt::format("the log lacks {:.1f} % of the program", 100 * match.missing);
+        return {};
+    }
+
+    [[noreturn]] void refuse(const std::string& failure) const {
+        throw InputError(Place::of_file(program_.main().name()), "the controller did not run it: " + failure);
+    }
+
+    /// Searches with the machine that the logs so far give, until a candidate keeps its promise or no run is left.
+    Optimized search(const Log& measured) {
+        Optimized result;
+        Machine machine = judge_.fit(logs_, known_);
+        while (true) {
+            Optimized found =
+                optimize(program_, read_, machine, rules_, std::optional<Log>(measured), progress_, diagnostics_);
+            const bool learned = try_finalists(found, result);
+            if (!result.evaluation.accepted) {
+                if (found.evaluation.accepted) found.evaluation.reason = refusal_;
+                found.evaluation.accepted = false;
+                result = std::move(found);
+            }
+            if (!learned || !has_runs()) return result;
+            machine = judge_.fit(logs_, known_);
+        }
+    }
+
+    /// Runs candidates until one keeps what the simulation promised. True: one did not, so that there is something to learn.
+    bool try_finalists(const Optimized& found, Optimized& result) {
+        for (const Finalist& finalist : found.finalists) {
+            if (!has_runs()) return false;
+            const auto same = [&](const ControllerLog& each) { return each.text == finalist.text; };
+            if (std::any_of(logs_.begin(), logs_.end(), same)) continue;
+            const std::optional<RunMeasures> measured = try_one(finalist, found, result);
+            if (!measured) continue;
+            if (!keeps(before_.measures(), finalist.promised, *measured)) return true;
+            if (runs_.back().accepted) return false;
+        }
+        return false;
+    }
+
+    std::optional<RunMeasures> try_one(const Finalist& finalist, const Optimized& found, Optimized& result) {
+        ControllerRun run{.candidate = ++candidates_, .promised = finalist.promised};
+        run.reason = take_outcome(finalist, found, judge_.run(finalist.text), run, result);
+        runs_.push_back(run);
+        return run.measured;
+    }
+
+    /// Judges a candidate's log. Returns why it is not accepted.
+    std::string take_outcome(const Finalist& finalist, const Optimized& found, ControllerOutcome outcome,
+                             ControllerRun& run, Optimized& result) {
+        if (!outcome.log) return refusal_ = outcome.failure;
+        QualityRules as_before = rules_.quality;
+        as_before.fixed = before_.report.thresholds;
+        JudgedRun after = judged(Log(*outcome.log), read_(finalist.text), as_before);
+        if (const std::string reason = why_unusable(after); !reason.empty()) return refusal_ = reason;
+        logs_.push_back({finalist.text, std::move(*outcome.log)});
+        run.measured = after.measures();
+        return take(finalist, found, std::move(after), run, result);
+    }
+
+    /// Takes a candidate whose log is better than that of the program, and than those of the candidates before.
+    /// Returns why it is not accepted.
+    std::string take(const Finalist& finalist, const Optimized& found, JudgedRun after, ControllerRun& run,
+                     Optimized& result) {
+        const RunMeasures before = before_.measures(), measured = after.measures();
+        const double ratio = static_cast<double>(finalist.evaluation.lines_after) /
+                             static_cast<double>(finalist.evaluation.lines_before);
+        std::string reason = why_not_better(before, measured, rules_.more_time);
+        const double gain = gain_of(before, measured, ratio, rules_.more_time);
+        if (reason.empty() && gain < least_gain)
+            reason = fmt::format("the gain is {:.1f} %, less than {:.0f} %", 100 * gain, 100 * least_gain);
+        run.accepted = reason.empty();
+        if (!run.accepted) refusal_ = "on the controller, " + reason;
+        const bool better = run.accepted && (!result.evaluation.accepted || gain > best_gain_);
+        if (!better && after_judged_) return reason;
+        after_ = std::move(after);
+        after_judged_ = true;
+        if (!better) return reason;
+        best_gain_ = gain;
+        result.text = finalist.text;
+        result.evaluation = finalist.evaluation;
+        result.evaluation.defects_before = before_.report.defects.size();
+        result.evaluation.defects_after = after_.report.defects.size();
+        result.ensemble = finalist.ensemble;
+        result.fidelity = found.fidelity;
+        result.measured = found.measured;
+        return reason;
+    }
+
+    const Program& program_;
+    const ReadProgram& read_;
+    const Machine& known_;
+    OptimizeRules rules_;
+    const ControllerJudge& judge_;
+    const Progress& progress_;
+    Diagnostics& diagnostics_;
+    std::vector<ControllerLog> logs_;
+    std::vector<ControllerRun> runs_;
+    JudgedRun before_, after_;
+    bool after_judged_ = false;
+    int candidates_ = 0;
+    double best_gain_ = 0;
+    std::string refusal_ = "no candidate was better on the simulated machines";
+};
+
+}  // namespace
+
+Optimized optimize_on_controller(const Program& program, const ReadProgram& read, const Machine& machine,
+                                 OptimizeRules rules, const ControllerJudge& judge, std::optional<Log> measured,
+                                 const Progress& progress, Diagnostics& diagnostics) {
+    return ControllerRepair(program, read, machine, std::move(rules), judge, progress, diagnostics)
+        .run(std::move(measured));
+}
+
+}  // namespace clsurf

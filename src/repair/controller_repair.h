@@ -1,0 +1,47 @@
+#pragma once
+// Repair with the user's own controller as the judge: a command runs programs and writes their logs.
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "repair/optimizer.h"
+
+namespace clsurf {
+
+/// What a run on the controller gave: a log, or how it failed, as a clause.
+struct ControllerOutcome {
+    std::optional<Log> log;
+    std::string failure;
+};
+
+/// Runs the text of a program on the controller. The log has the channels that judge_run() needs.
+using RunOnController = std::function<ControllerOutcome(const std::string& text)>;
+
+/// A program and the log of its run.
+struct ControllerLog {
+    std::string text;
+    Log log;
+};
+/// The machine that explains the logs so far; `known` where they do not tell.
+using FitMachine = std::function<Machine(const std::vector<ControllerLog>& logs, const Machine& known)>;
+
+struct ControllerJudge {
+    RunOnController run;
+    FitMachine fit;
+    int runs = 3;  ///< at most, that of the program itself included where it has no log
+};
+
+/// Runs the program (unless `measured` is its log), fits the machine to the log, repairs on the simulated machine, and runs
+/// the best candidates. A candidate is accepted by its log: better than the log of the program in every respect, and by
+/// least_gain. Where a log differs from what the simulation promised, the machine is fitted again to all logs and the
+/// search repeated. `before` and `after` of the result are runs on the controller; without any run of a candidate, `after`
+/// is simulated. A failed run costs one of `runs`. Throws InputError if the program itself cannot be run, and what
+/// optimize() throws.
+[[nodiscard]] Optimized optimize_on_controller(const Program& program, const ReadProgram& read, const Machine& machine,
+                                               OptimizeRules rules, const ControllerJudge& judge,
+                                               std::optional<Log> measured, const Progress& progress,
+                                               Diagnostics& diagnostics);
+
+}  // namespace clsurf

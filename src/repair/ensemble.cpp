@@ -1,0 +1,101 @@
+#include "repair/ensemble.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/parallel.h"
+#include "pipeline/simulated_log.h"
+
+namespace clsurf {
+namespace {
+
+void add(const RunMeasures& each, double weight, RunMeasures& sum) {
+    sum.mismatch += weight * each.mismatch;
+    sum.defects += weight * each.defects;
+    sum.duration += weight * each.duration;
+}
+
+double line_ratio(const Program& before, const Program& after) {
+    return static_cast<double>(after.main().line_count()) / static_cast<double>(before.main().line_count());
+}
+
+}  // namespace
+
+const EnsembleRun& EnsembleResult::worst() const {
+    return *std::min_element(runs.begin(), runs.end(),
+                             [](const EnsembleRun& a, const EnsembleRun& b) { return a.gain < b.gain; });
+}
+
+EnsembleRun EnsembleResult::mean() const {
+    EnsembleRun sum;
+    const double weight = 1 / static_cast<double>(runs.size());
+    for (const EnsembleRun& run : runs) {
+        add(run.before, weight, sum.before);
+        add(run.after, weight, sum.after);
+        sum.gain += weight * run.gain;
+    }
+    return sum;
+}
+
+std::string why_not_better(const EnsembleResult& result, double more_time) {
+    if (result.runs.empty()) return {};
+    const EnsembleRun mean = result.mean();
+    if (const std::string reason = why_not_better(mean.before, mean.after, more_time); !reason.empty())
+        return fmt::format("on the mean of {} machines that the machine file allows, {}", result.runs.size(), reason);
+    if (mean.gain < least_gain)
+        return fmt::format("the mean gain on {} machines that the machine file allows is {:.1f} %, less than {:.0f} %",
+                           result.runs.size(), 100 * mean.gain, 100 * least_gain);
+    for (const EnsembleRun& run : result.runs) {
+        const double longest = run.before.duration * (1 + more_time + most_time_on_one_machine);
+        if (run.after.duration > longest)
+            return fmt::format(
+                "on one of {} machines that the machine file allows, it would take {:.3f} instead of {:.3f} s",
+                result.runs.size(), run.after.duration, run.before.duration);
+        if (run.gain < 0)
+            return fmt::format(
+                "on one of {} machines that the machine file allows it would be worse: {:.0f} defects instead of {:.0f}, "
+                "speed differences of {:.0f} instead of {:.0f} mm/min",
+                result.runs.size(), run.after.defects, run.before.defects, run.after.mismatch * seconds_per_minute,
+                run.before.mismatch * seconds_per_minute);
+    }
+    return {};
+}
+
+Ensemble::Ensemble(const Program& program, std::vector<Machine> machines, const OptimizeRules& rules,
+                   std::shared_ptr<const Kinematics> kinematics)
+    : program_(program), machines_(std::move(machines)), rules_(rules), kinematics_(std::move(kinematics)) {}
+
+JudgedRun Ensemble::judged(const Program& program, const Machine& machine, const QualityRules& quality) const {
+    Diagnostics of_mapping;  // those of the nominal machine are reported
+    const std::shared_ptr<const Kinematics> kinematics =
+        kinematics_ == nullptr ? nullptr : std::make_shared<const Kinematics>(machine.kinematics);
+    return judge_run(simulate_to_log(program, machine, rules_.start, {}, rules_.zero).log, program, quality, of_mapping,
+                     kinematics);
+}
+
+EnsembleResult Ensemble::run(const Program& changed) {
+    EnsembleResult result;
+    result.runs.resize(machines_.size());
+    const bool first = before_.empty();
+    before_.resize(machines_.size());
+    const double ratio = line_ratio(program_, changed);
+    parallel_for(static_cast<std::int64_t>(machines_.size()), 1, [&](std::int64_t from, std::int64_t to) {
+        for (auto k = static_cast<std::size_t>(from); k < static_cast<std::size_t>(to); ++k) {
+            if (first) {
+                const JudgedRun run = judged(program_, machines_[k], rules_.quality);
+                before_[k] = {run.measures(), run.report.thresholds};
+            }
+            QualityRules as_before = rules_.quality;
+            as_before.fixed = before_[k].thresholds;
+            EnsembleRun& run = result.runs[k];
+            run.before = before_[k].measures;
+            run.after = judged(changed, machines_[k], as_before).measures();
+            run.gain = gain_of(run.before, run.after, ratio, rules_.more_time);
+        }
+    });
+    return result;
+}
+
+}  // namespace clsurf

@@ -1,0 +1,58 @@
+#pragma once
+// An ensemble of machines on which a new program must be better: what is known of one machine allows all of them.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "machine/machine.h"
+#include "repair/judged_run.h"
+#include "repair/optimize_rules.h"
+
+namespace clsurf {
+
+/// One machine's runs of the program and of the new program.
+struct EnsembleRun {
+    RunMeasures before, after;
+    double gain = 0;  ///< of the objective, a share
+};
+
+struct EnsembleResult {
+    std::vector<EnsembleRun> runs;  ///< one for each machine; empty: the ensemble has none
+
+    /// The run with the smallest gain. There must be runs.
+    [[nodiscard]] const EnsembleRun& worst() const;
+    /// Means of all measures and gains. There must be runs.
+    [[nodiscard]] EnsembleRun mean() const;
+};
+
+/// Longest additional time on one machine of the ensemble, a share, while the mean must not be longer at all.
+inline constexpr double most_time_on_one_machine = 0.005;
+
+/// Why the new program is not better: on the mean, in mismatch, defects and time and by least_gain; on every machine, in
+/// the objective and, up to most_time_on_one_machine, in time. Empty: it is, or there are no machines.
+[[nodiscard]] std::string why_not_better(const EnsembleResult& result, double more_time);
+
+class Ensemble {
+public:
+    /// Runs the program on every machine when the first new program comes. All must outlive the ensemble.
+    Ensemble(const Program& program, std::vector<Machine> machines, const OptimizeRules& rules,
+             std::shared_ptr<const Kinematics> kinematics);
+
+    /// Runs a new program on every machine. Throws what simulate() throws. O(points) for each machine, parallel.
+    [[nodiscard]] EnsembleResult run(const Program& changed);
+
+private:
+    [[nodiscard]] JudgedRun judged(const Program& program, const Machine& machine, const QualityRules& quality) const;
+    const Program& program_;
+    std::vector<Machine> machines_;
+    const OptimizeRules& rules_;
+    std::shared_ptr<const Kinematics> kinematics_;
+    struct Before {
+        RunMeasures measures;
+        Thresholds thresholds;
+    };
+    std::vector<Before> before_;
+};
+
+}  // namespace clsurf

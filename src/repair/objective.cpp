@@ -1,0 +1,42 @@
+#include "repair/objective.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+
+namespace clsurf {
+namespace {
+
+constexpr double growth_weight = 0.03;    ///< of a program's growth, against shares of mismatch and defects
+constexpr double goal_of_mismatch = 0.5;  ///< share left, from which on …
+constexpr double beyond_goal = 0.1;       ///< … less mismatch counts less
+
+}  // namespace
+
+double objective(const RunMeasures& before, const RunMeasures& after, double line_ratio, double more_time) {
+    const double mismatch = before.mismatch > 0 ? after.mismatch / before.mismatch : (after.mismatch > 0 ? 2.0 : 1.0);
+    const double defects = after.defects / std::max(1.0, before.defects);
+    const double later = std::clamp(after.duration / before.duration - 1, 0.0, more_time);
+    return growth_weight * line_ratio + std::max(mismatch, goal_of_mismatch) +
+           beyond_goal * std::min(mismatch, goal_of_mismatch) + defects + later;
+}
+
+double gain_of(const RunMeasures& before, const RunMeasures& after, double line_ratio, double more_time) {
+    return 1 - objective(before, after, line_ratio, more_time) / objective(before, before, 1, more_time);
+}
+
+std::string why_not_better(const RunMeasures& before, const RunMeasures& after, double more_time) {
+    if (after.mismatch >= before.mismatch)
+        return fmt::format("the speeds of adjacent passes would differ by {:.0f} instead of {:.0f} mm/min",
+                           after.mismatch * seconds_per_minute, before.mismatch * seconds_per_minute);
+    if (after.defects > before.defects)
+        return fmt::format("there would be {:.3g} defects instead of {:.3g}", after.defects, before.defects);
+    const double longest = before.duration * (1 + more_time);
+    if (after.duration > longest)
+        return fmt::format("it would take {:.3f} instead of {:.3f} s", after.duration, longest);
+    return {};
+}
+
+}  // namespace clsurf

@@ -1,0 +1,31 @@
+#pragma once
+// What a repair is to lower, in one place: mismatch, defects and time of a run, and the length of the program.
+
+#include <string>
+
+namespace clsurf {
+
+/// What a run of a program is judged by. Lower is better in each.
+struct RunMeasures {
+    double mismatch = 0;  ///< [mm/s] 95th percentile of the speed differences between adjacent passes
+    double defects = 0;   ///< their number, by the thresholds of the run before; not whole in a mean
+    double duration = 0;  ///< [s]
+};
+
+/// Gains below this are not worth a new program.
+inline constexpr double least_gain = 0.02;
+
+/// The objective, relative to the run before: m + d + t + 0.03 g. m is the share of the mismatch that remains, but what
+/// is below one half counts a tenth, because defects matter more from there on. d is the share of the defects that
+/// remain. t is the share of additional time, at most `more_time`. g = lines after / lines before.
+[[nodiscard]] double objective(const RunMeasures& before, const RunMeasures& after, double line_ratio,
+                               double more_time);
+
+/// By which share the objective falls from that of the unchanged program; negative: it rises.
+[[nodiscard]] double gain_of(const RunMeasures& before, const RunMeasures& after, double line_ratio, double more_time);
+
+/// Why `after` is not better than `before` in every respect: mismatch, defects, time (with `more_time`, a share); empty:
+/// it is.
+[[nodiscard]] std::string why_not_better(const RunMeasures& before, const RunMeasures& after, double more_time);
+
+}  // namespace clsurf

@@ -1,0 +1,58 @@
+// The objective of a repair, and what an ensemble of machines accepts.
+
+#include "repair/objective.h"
+
+#include <gtest/gtest.h>
+
+#include "repair/ensemble.h"
+
+namespace clsurf {
+namespace {
+
+constexpr RunMeasures before{.mismatch = 10, .defects = 20, .duration = 100};
+
+// By hand: 0.03·2 + 0.8 + 0.1·0.5 + 10/20 = 1.41; half of the mismatch and less counts a tenth: 0.03 + 0.5 + 0.1·0.2 + 0.5.
+TEST(Objective, AddsTheSharesThatRemain) {
+    EXPECT_DOUBLE_EQ(objective(before, before, 1, 0), 0.03 + 1 + 0.05 + 1);
+    EXPECT_DOUBLE_EQ(objective(before, {8, 10, 100}, 2, 0), 1.41);
+    EXPECT_DOUBLE_EQ(objective(before, {2, 10, 90}, 1, 0), 1.05);
+    EXPECT_DOUBLE_EQ(objective(before, {2, 10, 103}, 1, 0.05), 1.08) << "3 % more time, of 5 % that are allowed";
+    EXPECT_DOUBLE_EQ(objective({10, 0, 100}, {10, 2, 100}, 1, 0), 0.03 + 1.05 + 2) << "defects where there were none";
+    EXPECT_DOUBLE_EQ(gain_of(before, before, 1, 0), 0);
+    EXPECT_DOUBLE_EQ(gain_of(before, {8, 10, 100}, 2, 0), 1 - 1.41 / 2.08);
+}
+
+TEST(Objective, EveryMeasureMustNotBeWorse) {
+    EXPECT_EQ(why_not_better(before, {9, 20, 100}, 0), "");
+    EXPECT_NE(why_not_better(before, {10, 19, 100}, 0), "") << "the same mismatch";
+    EXPECT_NE(why_not_better(before, {9, 21, 100}, 0), "");
+    EXPECT_NE(why_not_better(before, {9, 20, 100.1}, 0), "");
+    EXPECT_EQ(why_not_better(before, {9, 20, 100.1}, 0.01), "");
+}
+
+EnsembleResult ensemble(const std::vector<RunMeasures>& after) {
+    EnsembleResult result;
+    for (const RunMeasures& each : after) result.runs.push_back({before, each, gain_of(before, each, 1, 0)});
+    return result;
+}
+
+TEST(EnsembleTest, MeanAndWorstAreOfTheRuns) {
+    const EnsembleResult runs = ensemble({{4, 10, 99}, {8, 14, 97}});
+    EXPECT_DOUBLE_EQ(runs.mean().after.mismatch, 6);
+    EXPECT_DOUBLE_EQ(runs.mean().after.defects, 12);
+    EXPECT_DOUBLE_EQ(runs.mean().after.duration, 98);
+    EXPECT_DOUBLE_EQ(runs.worst().after.mismatch, 8);
+}
+
+TEST(EnsembleTest, TheMeanMustBeBetterAndNoMachineWorse) {
+    EXPECT_EQ(why_not_better(EnsembleResult{}, 0), "");
+    EXPECT_EQ(why_not_better(ensemble({{4, 10, 99}, {6, 12, 99}}), 0), "");
+    EXPECT_NE(why_not_better(ensemble({{4, 10, 99}, {9, 31, 99}}), 0), "") << "20.5 defects on the mean";
+    EXPECT_NE(why_not_better(ensemble({{4, 4, 99}, {9, 31, 99}}), 0).find("on one of 2"), std::string::npos);
+    EXPECT_NE(why_not_better(ensemble({{9.9, 20, 99}, {9.9, 20, 99}}), 0).find("less than 2 %"), std::string::npos);
+    EXPECT_EQ(why_not_better(ensemble({{4, 10, 98}, {4, 10, 100.4}}), 0), "") << "0.4 % longer on one machine";
+    EXPECT_NE(why_not_better(ensemble({{4, 10, 98}, {4, 10, 100.6}}), 0), "");
+}
+
+}  // namespace
+}  // namespace clsurf
