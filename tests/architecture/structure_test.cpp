@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <map>
 #include <set>
 
 #include "architecture/functions.h"
@@ -17,24 +16,10 @@ constexpr std::size_t longest_function = 60;  // lines, from its first word to i
 constexpr std::size_t longest_subcommand = 150;
 const std::set<std::string> describing{"src/cli/help.cpp", "src/cli/manual.cpp"};  // all the others
 
-// Room program: what is still longer, and how long. Only ever shorter, until nothing is left.
-const std::map<std::string, std::size_t> long_files{{"heidenhain.cpp", 502}};
-const std::map<std::string, std::size_t> long_functions{
-    {"q_function", 64}, {"named_parameter", 63}, {"cycle", 61}, {"lathe_cycle", 84}, {"assign", 73}, {"match", 64},
-};
-
-std::size_t allowed(const std::map<std::string, std::size_t>& longer, const SourceFile& file, const std::string& name,
-                    std::size_t usual) {
-    const auto found = longer.find(name);
-    return file.path.starts_with("src/program/") && found != longer.end() ? found->second : usual;
-}
-
 Complaints check_lengths(const SourceFile& file) {
     Complaints complaints;
     const std::size_t lines = lines_of(file.text).size();
-    if (lines > allowed(long_files, file, fs::path(file.path).filename().string(), longest_file)) {
-        complaints.push_back(file.path + " has " + std::to_string(lines) + " lines");
-    }
+    if (lines > longest_file) { complaints.push_back(file.path + " has " + std::to_string(lines) + " lines"); }
     if (!file.path.ends_with(".cpp") && !file.path.ends_with(".h")) return complaints;
     const bool subcommand = file.path.starts_with("src/cli/") && file.text.find("_subcommand() {") != std::string::npos;
     if (subcommand && lines > longest_subcommand && !describing.contains(file.path))
@@ -42,7 +27,7 @@ Complaints check_lengths(const SourceFile& file) {
     for (const FunctionPlace& function : functions_of(file.text)) {
         if (function.last_line == 0) {
             complaints.push_back(file.path + ": " + function.name + " is not closed");
-        } else if (function.lines() > allowed(long_functions, file, function.name, longest_function)) {
+        } else if (function.lines() > longest_function) {
             complaints.push_back(file.path + ":" + std::to_string(function.first_line) + ": " + function.name +
                                  " has " + std::to_string(function.lines()) + " lines");
         }

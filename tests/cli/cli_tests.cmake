@@ -69,7 +69,7 @@ clsurf_cli_test(NAME log_missing ARGS render ${part} nowhere.biip -o map.png EXI
 clsurf_cli_test(NAME log_is_empty SETUP ": > run.biip" ARGS render ${part} run.biip -o map.png EXIT 3 STDERR "run.biip: error: is empty")
 clsurf_cli_test(NAME log_is_a_folder SETUP "mkdir run.biip" ARGS render ${part} run.biip -o map.png EXIT 3 STDERR "run.biip: error")
 clsurf_cli_test(NAME log_of_no_format SETUP "head -c 5000 @DATA@/../docs/guide/map.png > run.biip"
-  ARGS render ${part} run.biip -o map.png EXIT 3 STDERR "no log of a known format")
+  ARGS render ${part} run.biip -o map.png EXIT 3 STDERR "not a log in a known format")
 clsurf_cli_test(NAME log_cut_inside_its_header SETUP "head -c 60 @LOGS@/bottle_uneven.biip > run.biip"
   ARGS render ${part} run.biip -o map.png EXIT 3 STDERR "run.biip")
 clsurf_cli_test(NAME log_cut_inside_a_record SETUP "head -c 100000 @LOGS@/bottle_uneven.biip > run.biip"
@@ -163,9 +163,9 @@ clsurf_cli_test(NAME info_wrong_program ARGS info @DATA@/programs/petal_loops_g6
 set(displace "$CLSURF export ${part} ${run} -o run.csv --columns time,x,y,z,line --work-offset -312.5,48.125,101.3; sed -i '1s/.*/time,cmd.x,cmd.y,cmd.z,line/' run.csv")
 set(displace_without_lines "$CLSURF export ${part} ${run} -o run.csv --columns time,x,y,z --work-offset -312.5,48.125,101.3; sed -i '1s/.*/time,cmd.x,cmd.y,cmd.z/' run.csv")
 clsurf_cli_test(NAME work_offset_unknown SETUP "${displace}" ARGS info ${part} run.csv
-  STDOUT "displaced by X 312.5 Y -48.125 Z -101.3 mm" "hint: --work-offset 312.5,-48.125,-101.3 brings them onto it")
+  STDOUT "displaced by X 312.5 Y -48.125 Z -101.3 mm" "hint: --work-offset 312.5,-48.125,-101.3 aligns them")
 clsurf_cli_test(NAME work_offset_unknown_without_lines SETUP "${displace_without_lines}"
-  ARGS query ${part} run.csv --point 5000 STDERR "hint: --work-offset 312.5,-48.125,-101.3 brings them onto it" STDOUT "confidence 0.0")
+  ARGS query ${part} run.csv --point 5000 STDERR "hint: --work-offset 312.5,-48.125,-101.3 aligns them" STDOUT "confidence 0.0")
 clsurf_cli_test(NAME work_offset_given SETUP "${displace}" ARGS info ${part} run.csv --work-offset 312.5,-48.125,-101.3
   STDOUT "positions lie 0.000[0-9] mm" NO_STDOUT "displaced" "another program")
 clsurf_cli_test(NAME work_offset_given_without_lines SETUP "${displace_without_lines}"
@@ -188,7 +188,7 @@ clsurf_cli_test(NAME check_of_a_leaning_ball SETUP "${leaning}" ARGS check plane
   EXIT 5  # of six passes two have one neighbour only: not enough for a verdict
   STDOUT "scallop between clean passes with ball:6: 15.0" "formed surface, .* Rz 1[45][.].. .at most 15")
 clsurf_cli_test(NAME check_of_a_leaning_bull SETUP "${leaning}" ARGS check plane.nc run.biip --machine ${trunnion} --tool bull:6,1
-  EXIT 5 STDERR "bull:6,1 is tilted: the formed surface and its roughness are known of balls only")
+  EXIT 5 STDERR "bull:6,1 is tilted: the formed surface and its roughness are available for ball-end tools only")
 clsurf_cli_test(NAME query_json ARGS query ${part} ${run} --point 5000 --json STDOUT "\"line\": 638" "\"confidence\": 1.0")
 clsurf_cli_test(NAME query_time ARGS query ${part} ${run} --time 3.2 STDOUT "point 3200 at 3.200 s")
 clsurf_cli_test(NAME query_line ARGS query ${part} ${run} --line 515 STDOUT "X1.053 Z4.590")
@@ -228,7 +228,7 @@ clsurf_cli_test(NAME edited_program_in_query
 clsurf_cli_test(NAME other_program_in_render
   SETUP "$CLSURF convert ${run} --program @DATA@/programs/mixed.ngc -o run.biip"
   ARGS render ${part} run.biip -o map.png --size 160x120 FILE map.png
-  STDERR "bottle_uneven.nc is another program than the one that ran: the log was recorded with mixed.ngc")
+  STDERR "bottle_uneven.nc is not the program that ran: the log was recorded with mixed.ngc")
 clsurf_cli_test(NAME convert_missing_program ARGS convert ${run} --program nowhere.nc -o m.biip EXIT 3 STDERR "nowhere.nc: error: cannot open")
 clsurf_cli_test(NAME convert_without_period ARGS convert @LOGS@/mixed.csv -o m.biip EXIT 3 STDERR "sampling period")
 set(shot ${PROJECT_SOURCE_DIR}/tests/snapshots/baseline)
@@ -288,7 +288,7 @@ clsurf_cli_test(NAME machine_zero_limit SETUP "printf '[path]\\nmax_jerk = 0\\n'
 clsurf_cli_test(NAME machine_travel_reversed SETUP "printf '[[axis]]\\nname = \"x\"\\ntravel = [5, -5]\\n' > m.toml" ARGS machine --check m.toml
   EXIT 3 STDERR "m.toml:3" "travel is reversed")
 clsurf_cli_test(NAME machine_axis_twice SETUP "printf '[[axis]]\\nname = \"x\"\\n[[axis]]\\nname = \"x\"\\n' > m.toml" ARGS machine --check m.toml
-  EXIT 3 STDERR "m.toml:4" "axis 'x' is there twice")
+  EXIT 3 STDERR "m.toml:4" "axis 'x' is given twice")
 clsurf_cli_test(NAME machine_unknown_corner SETUP "printf '[controller]\\ncorner = \"stpo\"\\n' > m.toml" ARGS machine --check m.toml
   EXIT 3 STDERR "m.toml:2" "'stpo', which is not known" "did you mean 'stop'")
 clsurf_cli_test(NAME machine_loop_does_not_settle SETUP "printf '[[axis]]\\nname = \"x\"\\n[axis.servo]\\nposition_gain = 300\\nvelocity_time_constant = 0.004\\n' > m.toml"
@@ -306,7 +306,7 @@ clsurf_cli_test(NAME machine_kinematics_order SETUP "printf '[kinematics]\\ntype
 clsurf_cli_test(NAME machine_kinematics_sign SETUP "printf '[kinematics]\\ntype = \"head-head\"\\nsigns = { a = 2 }\\n' > m.toml" ARGS machine --check m.toml
   EXIT 3 STDERR "m.toml:3" "expected 1 or -1")
 clsurf_cli_test(NAME machine_kinematics_offset SETUP "printf '[kinematics]\\ntype = \"head-head\"\\n[kinematics.offsets]\\no = [1, 2, 3]\\n' > m.toml" ARGS machine --check m.toml
-  EXIT 3 STDERR "m.toml:4" "no offset of a head-head machine")
+  EXIT 3 STDERR "m.toml:4" "is not an offset of a head-head machine")
 clsurf_cli_test(NAME machine_axis_without_kinematics SETUP "printf '[[axis]]\\nname = \"a\"\\n' > m.toml" ARGS machine --check m.toml
   EXIT 3 STDERR "m.toml:2" "'a', which is not known")
 
@@ -421,7 +421,7 @@ set(crowded "awk 'BEGIN { print \"G21 G90\\nG64 P0.005\\nG0 X0 Y0 Z10\\nG1 Z0 F1
 clsurf_cli_test(NAME optimize_accepts_what_is_better SETUP "${crowded}" ARGS optimize part.nc --machine @DATA@/machines/linuxcnc_logs.toml --json -o better.nc
   STDOUT "\"accepted\": true" "\"deviation_mm\": 0.00[0-4]" "\"lines_before\": 263" "\"defects_by_quantity\"" "\"defects_left\"" FILE better.nc)
 clsurf_cli_test(NAME optimize_tells_what_defects_show_in SETUP "${crowded}" ARGS optimize part.nc --machine @DATA@/machines/linuxcnc_logs.toml -o better.nc
-  STDOUT "defects +5 +3" "  of speed +1 +0" "  of lag +4 +3" "accepted")
+  STDOUT "defects +5 +[0-4] " "  of speed +1 +0 " "  of lag +4 +[0-4] " "accepted")
 clsurf_cli_test(NAME optimize_starts_from_a_log SETUP "${crowded}; $CLSURF simulate part.nc --machine @DATA@/machines/linuxcnc_logs.toml -o run.biip" ARGS optimize part.nc --log run.biip --machine @DATA@/machines/linuxcnc_logs.toml --json -o better.nc
   STDOUT "\"accepted\": true" "\"proof\": \"simulation\"" "\"motions_in_need\": [1-9]" FILE better.nc)
 # The same passes with a tool that turns, on five axes that are quick to plan for.
@@ -430,12 +430,12 @@ clsurf_cli_test(NAME optimize_five_axes SETUP "${crowded5}" ARGS optimize part.n
   STDOUT "\"accepted\": true" "\"deviation_mm\": 0.00[0-4]" "\"defects_before\": [1-9]" "\"defects_after\": 0" "\"tool_axis_deviation_deg\": 0.00" FILE better.nc)
 # Rapids, codes and comments are still there, every line says its angles, and the last one is where the passes ended.
 clsurf_cli_test(NAME optimize_five_axes_keeps_the_rest
-  SETUP "${crowded5} && $CLSURF optimize part.nc --machine m.toml -o better.nc | grep -q 'tool axis off the programmed one by at most 0.00[0-9]* deg' && grep -v '^X' part.nc > kept && grep -v '^X\\|clsurf' better.nc | sed 's/^F[0-9.]*$//; /^$/d' | cmp - kept && test $(grep -c '^X.* A.* C' better.nc) -eq $(grep -c '^X' better.nc)"
+  SETUP "${crowded5} && $CLSURF optimize part.nc --machine m.toml -o better.nc | grep -q 'tool axis deviates from the programmed one by at most 0.00[0-9]* deg' && grep -v '^X' part.nc > kept && grep -v '^X\\|clsurf' better.nc | sed 's/^F[0-9.]*$//; /^$/d' | cmp - kept && test $(grep -c '^X.* A.* C' better.nc) -eq $(grep -c '^X' better.nc)"
   ARGS moves better.nc --machine m.toml STDOUT "feed,6,0,-0.199,-16.2,0,93,")
 clsurf_cli_test(NAME optimize_five_axes_from_a_log SETUP "${crowded5} && $CLSURF simulate part.nc --machine m.toml --work-offset 5,0,10 -o run.biip -q"
   ARGS optimize part.nc --log run.biip --machine m.toml --json -o better.nc STDOUT "\"accepted\": true" "\"motions_in_need\": [1-9]" FILE better.nc)
 clsurf_cli_test(NAME optimize_five_axes_refuses SETUP "${crowded5}; sed -i 's/^X.*/& (KEEP)/' part.nc" ARGS optimize part.nc --machine m.toml -o better.nc
-  EXIT 1 STDOUT "refused: no stretch of the program can be rewritten" "tool axis off the programmed one by at most 0.0000 deg" NO_FILE better.nc)
+  EXIT 1 STDOUT "refused: no section of the program can be rewritten" "tool axis deviates from the programmed one by at most 0.0000 deg" NO_FILE better.nc)
 clsurf_cli_test(NAME optimize_five_axes_on_three SETUP "${crowded5}" ARGS optimize part.nc --machine @DATA@/machines/three_axis_mill.toml -o better.nc
   EXIT 3 STDERR "part.nc:4: error: a rotary axis moves" "hint: --machine FILE with rotary axes" NO_FILE better.nc)
 clsurf_cli_test(NAME optimize_work_offset_of_three_axes ARGS optimize ${uneven} --work-offset 1,2,3 -o better.nc EXIT 2 STDERR "for programs on rotary axes" NO_FILE better.nc)
@@ -443,8 +443,8 @@ clsurf_cli_test(NAME optimize_log_options_without_a_log ARGS optimize ${uneven} 
 clsurf_cli_test(NAME optimize_wrong_time ARGS optimize ${uneven} --more-time -3 -o better.nc EXIT 2 STDERR "--more-time must be 0 to 100 %" NO_FILE better.nc)
 clsurf_cli_test(NAME optimize_wrong_decimals ARGS optimize ${uneven} --decimals 12 -o better.nc EXIT 2 STDERR "--decimals must be 0 to 9" NO_FILE better.nc)
 clsurf_cli_test(NAME optimize_refuses_what_is_not SETUP "printf 'G21 G90\nG0 X0 Y0 Z0\nG1 X10 F600 (A)\nY0.3 (B)\nX0 (C)\nY0.6 (D)\nX10 (E)\nY0.9 (F)\nX0 (G)\nM2\n' > a.nc"
-  ARGS optimize a.nc -o better.nc EXIT 1 STDOUT "refused: no stretch" NO_FILE better.nc)
-clsurf_cli_test(NAME optimize_single_pass SETUP "printf 'G0 X0 Y0 Z0\nG1 X10 F600\nX20\nM2\n' > a.nc" ARGS optimize a.nc -o better.nc EXIT 3 STDERR "no passes beside each other" NO_FILE better.nc)
+  ARGS optimize a.nc -o better.nc EXIT 1 STDOUT "refused: no section" NO_FILE better.nc)
+clsurf_cli_test(NAME optimize_single_pass SETUP "printf 'G0 X0 Y0 Z0\nG1 X10 F600\nX20\nM2\n' > a.nc" ARGS optimize a.nc -o better.nc EXIT 3 STDERR "no adjacent passes" NO_FILE better.nc)
 clsurf_cli_test(NAME optimize_without_output ARGS optimize ${uneven} EXIT 2 STDERR "output")
 clsurf_cli_test(NAME optimize_wrong_tolerance ARGS optimize ${uneven} -o better.nc --tolerance -1 EXIT 2 STDERR "--tolerance must be above 0 mm" NO_FILE better.nc)
 

@@ -7,6 +7,25 @@ add_test(NAME manual.reference_is_up_to_date COMMAND bash -c
    { echo 'write it anew: ninja -C build/release clsurf_reference'; exit 1; }")
 add_test(NAME manual.bash_completes COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/cli/completion_test
   ${PROJECT_BINARY_DIR}/manual/completion/clsurf)
+
+# The documents: links lead somewhere, shown outputs are what the commands print. `update` in place of `listings` writes them.
+set(check_documents python3 ${PROJECT_SOURCE_DIR}/tests/docs/check_documents.py)
+add_test(NAME docs.links COMMAND ${check_documents} links ${PROJECT_SOURCE_DIR})
+add_test(NAME docs.listings COMMAND ${check_documents} listings ${PROJECT_SOURCE_DIR} $<TARGET_FILE:clsurf> README.md docs/tutorial.md)
+set_tests_properties(docs.listings PROPERTIES TIMEOUT 600)
+set(wrong ${CMAKE_CURRENT_BINARY_DIR}/wrong_documents)
+file(MAKE_DIRECTORY ${wrong}/docs)
+file(CREATE_LINK ${PROJECT_SOURCE_DIR}/data ${wrong}/data SYMBOLIC)
+file(WRITE ${wrong}/README.md "[page](docs/page.md) [gone](docs/gone.md) [there](docs/page.md#two-words)\n\n    $ clsurf query part.nc run.biip --line 560\n    line 560: X1.874 Z4.723\n    …\n")
+file(WRITE ${wrong}/docs/page.md "# Two words\n\n[a](#one-word)\n\n    [code](is/none.md)\n")
+file(WRITE ${wrong}/docs/alone.md "# Alone\n")
+add_test(NAME docs.wrong_links_are_found COMMAND ${check_documents} links ${wrong})
+set_tests_properties(docs.wrong_links_are_found PROPERTIES PASS_REGULAR_EXPRESSION
+  "^README.md: there is no docs/gone.md\ndocs/page.md: docs/page.md has no heading #one-word\ndocs/alone.md: no way leads here from README.md\n$")
+add_test(NAME docs.wrong_listings_are_found COMMAND ${check_documents} listings ${wrong} $<TARGET_FILE:clsurf> README.md)
+set_tests_properties(docs.wrong_listings_are_found PROPERTIES PASS_REGULAR_EXPRESSION
+  "shown: +line 560: X1.874 Z4.723\n +printed: line 560: X1.873 Z4.723\n")
+
 find_program(MAN man)
 if(MAN)
   add_test(NAME manual.pages_are_sound COMMAND bash -c

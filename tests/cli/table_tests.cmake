@@ -3,7 +3,7 @@ set(own "printf '%s\\n' 'Timestamp,Xcmd,X_act,PosY_soll,Z Ist (mm),F,Line,Mode' 
 clsurf_cli_test(NAME table_in_info SETUP "${own}" ARGS info own.csv EXIT 3 STDOUT "own.csv: a table that is not recognised as a log" "3  PosY_soll, such as 2.0" "name = .cmd.y." STDERR "own.csv: error: no column name is that of a position" "hint: .*--suggest-mapping own.csv")
 clsurf_cli_test(NAME table_in_info_json SETUP "${own}" ARGS info own.csv --json EXIT 3 STDOUT "\"kind\": \"table\"" "\"suggested_mapping\"" "\"Xcmd\"" STDERR "no column name")
 clsurf_cli_test(NAME table_as_a_program SETUP "${own}" ARGS lint own.csv EXIT 3 STDERR "own.csv: error: is a table of 8 columns: Timestamp, Xcmd, .* not an NC program" "clsurf info --suggest-mapping own.csv")
-clsurf_cli_test(NAME table_as_a_log SETUP "${own}" ARGS check ${part} own.csv EXIT 3 STDERR "own.csv: error: is a table of 8 columns" "needs --mapping FILE")
+clsurf_cli_test(NAME table_as_a_log SETUP "${own}" ARGS check ${part} own.csv EXIT 3 STDERR "own.csv: error: is a table of 8 columns" "use --mapping FILE")
 clsurf_cli_test(NAME table_mapping_can_be_read SETUP "${own}; $CLSURF info --suggest-mapping own.csv -o own.toml; cat own.toml" ARGS info own.csv --mapping own.toml EXIT 3 STDERR "no role has x, y and z"
   STDOUT "3 records every 1 ms" "channels: time .s., cmd.x .mm., act.x .mm., cmd.y .mm., act.z .mm., speed .mm/min., line")
 foreach(titles "Time[ms];PosX;PosY;PosZ" "t,ENC_POS1,ENC_POS2,ENC_POS3,DES_POS1,DES_POS2,DES_POS3" "Zeit X_Soll Y_Soll Z_Soll Satz" "a\\\"b,Xcmd,Ycmd,Zcmd")
@@ -24,7 +24,7 @@ clsurf_cli_test(NAME tape_with_leaders SETUP "head -c 4 /dev/zero > part.nc; for
 
 # ---- logs with fewer axes, and without a program ----
 set(lathe "printf 'time,cmd.x,cmd.z\\n0,20,0\\n0.001,20,-1\\n0.002,20,-2\\n0.003,21,-3\\n' > turn.csv; printf 'G18\\nG0 X20 Z0\\nG1 Z-2 F60000\\nX21 Z-3\\n' > turn.nc")
-clsurf_cli_test(NAME log_of_x_and_z SETUP "${lathe}" ARGS export turn.nc turn.csv -o - --columns x,y,z,speed STDOUT "x .mm.,y .mm.,z .mm.,speed .mm/min.\n20,0,0,.*\n21,0,-3," STDERR "no channel 'cmd.y': that axis is taken to stand at 0")
+clsurf_cli_test(NAME log_of_x_and_z SETUP "${lathe}" ARGS export turn.nc turn.csv -o - --columns x,y,z,speed STDOUT "x .mm.,y .mm.,z .mm.,speed .mm/min.\n20,0,0,.*\n21,0,-3," STDERR "no channel 'cmd.y': this axis is assumed to stay at 0")
 clsurf_cli_test(NAME log_of_x_alone SETUP "printf 'time,cmd.x\\n0,20\\n0.001,20\\n' > turn.csv; echo 'G1 X20 F100' > turn.nc" ARGS export turn.nc turn.csv -o - EXIT 3 STDERR "no actual positions: channel")
 clsurf_cli_test(NAME log_alone_exported SETUP "$CLSURF export ${part} ${run} -o with.csv --columns point,time,x,y,z; $CLSURF export ${run} -o alone.csv --columns point,time,x,y,z; cmp with.csv alone.csv"
   ARGS export ${run} -o - --columns line,cmd.x STDOUT "line,cmd.x .mm.")

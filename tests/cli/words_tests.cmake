@@ -56,7 +56,7 @@ clsurf_cli_test(NAME config_wrong_work_offset SETUP "${project}; printf 'work-of
 set(trunnion @DATA@/machines/five_axis_trunnion.toml)
 clsurf_cli_test(NAME config_after_the_work_offset_of_the_log
   SETUP "printf 'G21 G90 G54\nG43.4 H1\nG0 X0 Y0 Z5 A10 C0\nG1 X10 F600\nM2\n' > a.nc; $CLSURF simulate a.nc --machine ${trunnion} --work-offset 1,2,3 -o a.biip; echo 'work-offset = [7, 7, 7]' > .clsurf.toml"
-  ARGS query a.nc a.biip --machine ${trunnion} --line 4 -v STDOUT "tool tip X 0[.]00.. Y -?0[.]0000 Z 4[.]99" STDERR "the log says work-offset 1,2,3: the default 7,7,7 is not used")
+  ARGS query a.nc a.biip --machine ${trunnion} --line 4 -v STDOUT "tool tip X 0[.]00.. Y -?0[.]0000 Z 4[.]99" STDERR "the log states work-offset 1,2,3: the default 7,7,7 is not used")
 clsurf_cli_test(NAME config_flag_with_a_value SETUP "${project}; printf 'quiet = 1\n' > parts/.clsurf.toml" ARGS check parts/deep/part.nc ${run} EXIT 3 STDERR "parts/.clsurf.toml:1:[0-9]+: error: 'quiet' is true or false")
 clsurf_cli_test(NAME config_malformed SETUP "${project}; printf 'tool = ball\n' > parts/.clsurf.toml" ARGS check parts/deep/part.nc ${run} EXIT 3 STDERR "parts/.clsurf.toml:1")
 clsurf_cli_test(NAME config_flag SETUP "${project}; printf 'quiet = true\n' > parts/.clsurf.toml" ARGS info parts/deep/part.nc NO_STDOUT ".")

@@ -1,0 +1,167 @@
+# Checks the documents (*.md) of the project.
+#
+# check_documents.py links ROOT                     every relative link leads to a file and, after #, to one of its headings;
+#                                                   every page of docs can be reached from README.md
+# check_documents.py listings ROOT CLSURF PAGE…     the outputs that a page shows are those of its commands
+# check_documents.py update ROOT CLSURF PAGE…       writes the outputs into the pages instead
+#
+# Listings are code blocks, indented by four blanks. A line `$ COMMAND` is run in an empty folder, in the order of the page;
+# the lines below it are its standard output. `…` stands for lines that are left out: what is before it is the beginning
+# of the output, what is after it the end. `$ cat FILE` defines the file instead. Lines `cp …` and `xz …` are run as well.
+# The folder holds part.nc and run.biip, the sample part bottle_uneven, and `data`.
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+CODE = "    "
+LEFT_OUT = "…"
+
+
+def pages_of(root):
+    """Pages and their texts, by path from the root."""
+    found = {}
+    for folder, folders, names in os.walk(root):
+        inside = os.path.relpath(folder, root)
+        folders[:] = [f for f in folders if not f.startswith(".") and f not in ("build", "node_modules")]
+        for name in names:
+            if name.endswith(".md"):
+                path = os.path.normpath(os.path.join(inside, name))
+                found[path] = open(os.path.join(root, path), encoding="utf-8").read()
+    return found
+
+
+def without_code(text):
+    """The text without code blocks, in which a link is none."""
+    return re.sub(r"^    .*$", "", re.sub(r"^```.*?^```", "", text, flags=re.M | re.S), flags=re.M)
+
+
+def anchors_of(text):
+    """The anchors of the headings, as GitHub makes them."""
+    anchors, count = set(), {}
+    for heading in re.findall(r"^#+ +(.*?)\s*$", re.sub(r"^```.*?^```", "", text, flags=re.M | re.S), re.M):
+        plain = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading).lower()
+        anchor = re.sub(r"[^\w\- ]", "", plain).replace(" ", "-")
+        number = count.get(anchor, 0)
+        count[anchor] = number + 1
+        anchors.add(anchor if number == 0 else "%s-%d" % (anchor, number))
+    return anchors
+
+
+def check_links(root):
+    """The complaints about links, and the pages of docs that nothing leads to."""
+    pages = pages_of(root)
+    complaints, leads_to = [], {}
+    for page, text in sorted(pages.items()):
+        leads_to[page] = set()
+        for link in re.findall(r"\]\(([^)\s]+)\)", without_code(text)):
+            if re.match(r"[a-z]+:", link):
+                continue
+            path, _, anchor = link.partition("#")
+            target = os.path.normpath(os.path.join(os.path.dirname(page), path)) if path else page
+            leads_to[page].add(target)
+            if not os.path.exists(os.path.join(root, target)):
+                complaints.append("%s: there is no %s" % (page, link))
+            elif anchor and target in pages and anchor not in anchors_of(pages[target]):
+                complaints.append("%s: %s has no heading #%s" % (page, target, anchor))
+    reached, next_ones = set(), ["README.md"]
+    while next_ones:
+        page = next_ones.pop()
+        if page in reached or page not in pages:
+            continue
+        reached.add(page)
+        next_ones += leads_to[page]
+    for page in sorted(pages):
+        if page.startswith("docs" + os.sep) and page not in reached:
+            complaints.append("%s: no way leads here from README.md" % page)
+    return complaints
+
+
+def expected_of(output, shown):
+    """The lines that a page should show of the output, where it shows `shown`."""
+    lines = [line.rstrip() for line in output.splitlines()]
+    while lines and not lines[-1]:
+        lines.pop()
+    if LEFT_OUT not in [line.strip() for line in shown]:
+        return lines
+    at = [line.strip() for line in shown].index(LEFT_OUT)
+    first, last = at, len(shown) - at - 1
+    return lines[:first] + [shown[at]] + (lines[-last:] if last > 0 else [])
+
+
+class Page:
+    """Runs the listings of a page."""
+
+    def __init__(self, root, clsurf, path):
+        self.lines = open(os.path.join(root, path), encoding="utf-8").read().split("\n")
+        self.path = path
+        self.complaints = []
+        self.scratch = tempfile.TemporaryDirectory()
+        self.folder = self.scratch.name
+        os.symlink(os.path.join(root, "data"), os.path.join(self.folder, "data"))
+        path_with_clsurf = os.path.dirname(clsurf) + os.pathsep + os.environ["PATH"]
+        self.environment = dict(os.environ, PATH=path_with_clsurf, LC_ALL="C.UTF-8")
+        self.run("cp data/programs/bottle_uneven.nc part.nc && xz -dc data/logs/bottle_uneven.biip.xz > run.biip")
+
+    def run(self, command):
+        ran = subprocess.run(command, shell=True, cwd=self.folder, env=self.environment, capture_output=True, text=True)
+        if ran.returncode not in (0, 1, 5):
+            said = ran.stderr.strip()
+            self.complaints.append("%s: '%s' ends with exit code %d: %s" % (self.path, command, ran.returncode, said))
+        return ran.stdout
+
+    def check(self):
+        """Replaces what the page shows by what comes out, and lists the differences."""
+        i = 0
+        while i < len(self.lines):
+            line = self.lines[i]
+            i += 1
+            if re.match(CODE + r"(cp|xz) ", line):
+                self.run(line.strip())
+            if not line.startswith(CODE + "$ "):
+                continue
+            command = line[len(CODE) + 2:]
+            end = i
+            while end < len(self.lines) and (self.lines[end].startswith(CODE) or self.lines[end] == ""):
+                if self.lines[end].startswith(CODE + "$ "):
+                    break
+                end += 1
+            while end > i and self.lines[end - 1] == "":
+                end -= 1
+            shown = [text[len(CODE):].rstrip() for text in self.lines[i:end]]
+            if command.startswith("cat "):
+                with open(os.path.join(self.folder, command[4:]), "w", encoding="utf-8") as file:
+                    file.write("\n".join(shown) + "\n")
+                continue
+            output = self.run(command)
+            expected = expected_of(output, shown) if shown else []
+            if shown != expected:
+                pairs = zip(shown + [""] * len(expected), expected + [""] * len(shown))
+                was, now = next((was, now) for was, now in pairs if was != now)
+                self.complaints.append("%s:%d: $ %s\n  shown:   %s\n  printed: %s" % (self.path, i, command, was, now))
+            self.lines[i:end] = [(CODE + text).rstrip() for text in expected]
+            i += len(expected)
+        return self.complaints
+
+
+def main(arguments):
+    what, root = arguments[0], os.path.abspath(arguments[1])
+    complaints = []
+    if what == "links":
+        complaints = check_links(root)
+    else:
+        for path in arguments[3:]:
+            page = Page(root, os.path.abspath(arguments[2]), path)
+            found = page.check()
+            if what == "update":
+                with open(os.path.join(root, path), "w", encoding="utf-8") as file:
+                    file.write("\n".join(page.lines))
+            else:
+                complaints += found
+    print("\n".join(complaints))
+    return 1 if complaints else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
