@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -63,6 +64,39 @@ std::vector<double> legend_ticks(const ColourScale& scale, int wanted) {
     return edges;
 }
 
+/// Notes from the top: a line takes as many as fit, and a long one goes on at a word. There is room for two lines; what
+/// does not fit into them is written smaller.
+std::vector<FlatText> note_lines(const std::vector<std::string>& notes, FlatText note, double width) {
+    constexpr std::size_t most_lines = 2;
+    constexpr double smaller = 0.95, smallest = 0.7;
+    const double usual = note.size;
+    std::vector<FlatText> lines;
+    for (; note.size >= smallest * usual; note.size *= smaller) {
+        lines.clear();
+        for (const std::string& each : notes) {
+            std::string_view separator = lines.empty() ? "" : "; ";
+            for (std::size_t at = 0; at < each.size();) {
+                const std::size_t end = std::min(each.find(' ', at), each.size());
+                const std::string word = each.substr(at, end - at);
+                FlatText longer = note;
+                if (!lines.empty()) longer.text = lines.back().text;
+                longer.text.append(separator).append(word);
+                if (lines.empty() || text_width(longer) > width) {
+                    lines.push_back(note);
+                    lines.back().text = word;
+                } else {
+                    lines.back() = std::move(longer);
+                }
+                separator = " ";
+                at = end + 1;
+            }
+        }
+        if (lines.size() <= most_lines) break;
+    }
+    if (lines.size() > most_lines) lines.resize(most_lines);
+    return lines;
+}
+
 }  // namespace
 
 void add_title(Sheet& sheet, const MapTexts& texts, const Look& look, const MapLayout& layout, Rgb ink) {
@@ -73,7 +107,6 @@ void add_title(Sheet& sheet, const MapTexts& texts, const Look& look, const MapL
     sheet.texts.push_back(fitted({layout.margin, top - 2.0 * layout.text, texts.subtitle, layout.small_text,
                                   Align::left, false, faint(ink, look.background)},
                                  width));
-    const double note_width = 0.72 * (look.width - layout.legend_width) - layout.margin;
     FlatText note{layout.margin,
                   layout.margin * 0.5 + 0.5 * layout.small_text,
                   "",
@@ -81,22 +114,11 @@ void add_title(Sheet& sheet, const MapTexts& texts, const Look& look, const MapL
                   Align::left,
                   false,
                   faint(ink, look.background)};
-    // From the top: a line takes as many notes as fit; there is room for two.
-    constexpr std::size_t most_lines = 2;
-    std::vector<FlatText> lines;
-    for (const std::string& part : texts.notes) {
-        FlatText longer = note;
-        longer.text = lines.empty() ? part : lines.back().text + "; " + part;
-        if (!lines.empty() && (lines.size() == most_lines || text_width(longer) <= note_width)) {
-            lines.back() = std::move(longer);
-            continue;
-        }
-        lines.push_back(note);
-        lines.back().text = part;
-    }
+    const double beside_axes = width - 3.5 * layout.text;
+    std::vector<FlatText> lines = note_lines(texts.notes, note, beside_axes);
     for (std::size_t k = 0; k < lines.size(); ++k) {
         lines[k].y += 1.25 * layout.small_text * static_cast<double>(lines.size() - 1 - k);
-        sheet.texts.push_back(fitted(std::move(lines[k]), note_width));
+        sheet.texts.push_back(fitted(std::move(lines[k]), beside_axes));
     }
 }
 
