@@ -82,7 +82,7 @@ public:
                                 : reported(channel.values, channel.values, log_.keep_alive);
         const double off_line = identity_ == ProgramIdentity::same ? 0.0 : displaced_share(path_, program_, map);
         if (match_.edited || off_line > displaced) {
-            if (std::optional<LineMap> moved = look_for_edits(channel, own, off_line)) {
+            if (std::optional<LineMap> moved = look_for_edits(channel, own, map, off_line)) {
                 map = std::move(*moved);
             } else if (off_line > all_displaced) {
                 if (std::optional<LineMap> found = fitting_geometry()) return finish(std::move(*found));
@@ -121,9 +121,18 @@ private:
         return {lines, program_, std::move(keep_alive), std::move(motions)};
     }
 
-    /// The log's lines where they stand in the text that was edited after the run. `off_line`: displaced_share() of the
-    /// lines as they are, which edits must explain where no hash says that there are any.
-    std::optional<LineMap> look_for_edits(const Channel& channel, const ProgramLines& own, double off_line) {
+    /// Whether lines that were moved fit the path much better than those `before`, of which a share `off_line` is
+    /// displaced. Short lines next to each other may look displaced without any edit; an edit near the end displaces few.
+    [[nodiscard]] bool explains(const LineMap& moved, const LineMap& before, double off_line) const {
+        if (displaced_share(path_, program_, moved) <= unexplained_share * off_line) return true;
+        const double disagreed = share_of(check_lines(path_, program_, before));
+        return disagreed > disagreeing_share &&
+               share_of(check_lines(path_, program_, moved)) <= unexplained_share * disagreed;
+    }
+
+    /// The log's lines where they stand in the text that was edited after the run. `reported_lines`: as the log has them.
+    std::optional<LineMap> look_for_edits(const Channel& channel, const ProgramLines& own,
+                                          const LineMap& reported_lines, double off_line) {
         Diagnostics of_alignment;
         const LineMap aligned = align_lines(path_, program_, of_alignment);
         if (off_share(aligned) > offset_share) return std::nullopt;
@@ -141,8 +150,7 @@ private:
         }
         const std::string text = edits->text();
         LineMap map = moved_lines(channel, own, std::move(edits->lines));
-        // Short lines next to each other may look moved without any edit.
-        if (!match_.edited && displaced_share(path_, program_, map) > unexplained_share * off_line) return std::nullopt;
+        if (!match_.edited && !explains(map, reported_lines, off_line)) return std::nullopt;
         match_.edited = true;
         diagnostics_.add({Severity::warning,
                           "map.edited",
