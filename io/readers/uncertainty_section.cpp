@@ -38,7 +38,8 @@ std::vector<ParameterUncertainty> read_uncertainty(const TomlFile& file, const t
         ParameterUncertainty row;
         row.key = file.text(table, "key").value_or("");
         row.of = file.text(table, "of").value_or("");
-        if (!is_planning_value(row.key, row.of) && row.of.size() != 1)
+        const bool of_an_axis = row.of.size() == 1 && is_planning_value(row.key, "x");  // or of a rotary one
+        if (!is_planning_value(row.key, row.of) && !of_an_axis)
             file.fail(table, fmt::format("no uncertainty is known of '{}' of '{}'", row.key, row.of),
                       "key and of name a limit or a value of the controller: key = \"max_jerk\", of = \"x\"");
         row.relative_error = read_size(file, table, "relative_error");

@@ -17,7 +17,8 @@ namespace {
 /// Puts the period of the runs into the machine.
 void identify_period(std::span<const IdentifyRun> runs, Identification& result) {
     constexpr double same = 1e-6;  // relative
-    const double period = runs.front().log->period;
+    // Controllers count nanoseconds; times of a text have rounding errors.
+    const double period = std::round(runs.front().log->period * 1e9) * 1e-9;
     for (const auto& [log, lines] : runs) {
         if (std::abs(log->period - period) > same * period)
             throw InputError(

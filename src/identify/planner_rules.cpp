@@ -31,17 +31,17 @@ struct Rule {
 
 bool is_trapezoidal(const Machine& machine) { return machine.controller.planner == PlannerKind::trapezoidal; }
 
-/// A rule of numbers, the present one among them.
+/// A rule of numbers, the present one among them. `unit`: of the machine file, in ours.
 template <typename Number, typename Member>
 Rule rule_of_numbers(const char* name, const char* axis, const Machine& machine, std::vector<Number> numbers,
-                     Member member) {
+                     Member member, Number unit = 1) {
     Machine now = machine;
     const Number present = static_cast<Number>(member(now));
     if (std::find(numbers.begin(), numbers.end(), present) == numbers.end()) numbers.push_back(present);
     std::sort(numbers.begin(), numbers.end());
     Rule rule{name, axis, {}};
     for (const Number number : numbers)
-        rule.values.push_back({fmt::format("{}", number), [=](Machine& m) { member(m) = number; }});
+        rule.values.push_back({fmt::format("{}", number / unit), [=](Machine& m) { member(m) = number; }});
     return rule;
 }
 
@@ -78,6 +78,37 @@ Rule path_acceleration_rule(const PathLimits& identified) {
           [identified](Machine& m) { m.path = identified; }}}};
 }
 
+/// Values that the acceleration of an axis may have, the present one first. A limit that the runs never reached may be the
+/// greatest acceleration that they show. Where blocks overlap, each has half of the acceleration, and the runs may show
+/// half of a limit as if it were one.
+std::vector<double> possible_accelerations(std::size_t axis, const Identification& found) {
+    const double now = found.machine.axes[axis].max_acceleration;
+    std::vector<double> values{now};
+    const IdentifiedParameter* known = found.find("max_acceleration", axis_names[axis]);
+    if (known == nullptr || !known->reached) return values;
+    const bool overlap = !found.machine.controller.trapezoid.arc_blends;
+    if (!*known->reached && std::abs(known->value - now) > 0.01 * now) values.push_back(known->value);
+    if (overlap) values.push_back(2 * known->value);
+    return values;
+}
+
+/// Every combination of these, because the slowest axis hides the others.
+Rule axis_accelerations_rule(const Identification& found) {
+    Rule rule{"max_acceleration", "x, y, z", {}};
+    for (const double x : possible_accelerations(0, found)) {
+        for (const double y : possible_accelerations(1, found)) {
+            for (const double z : possible_accelerations(2, found)) {
+                rule.values.push_back({fmt::format("x {:.6g}, y {:.6g}, z {:.6g}", x, y, z), [=](Machine& m) {
+                                           m.axes[0].max_acceleration = x;
+                                           m.axes[1].max_acceleration = y;
+                                           m.axes[2].max_acceleration = z;
+                                       }});
+            }
+        }
+    }
+    return rule;
+}
+
 Rule interpolation_rule() {
     return {"cubic_interpolation",
             "controller",
@@ -107,8 +138,9 @@ std::vector<std::function<Rule(const Machine&)>> rules_of(const Machine& machine
         rules.emplace_back([identified](const Machine&) { return path_acceleration_rule(identified); });
         rules.emplace_back([](const Machine&) { return interpolation_rule(); });
         rules.emplace_back([](const Machine& m) {
-            return rule_of_numbers("max_feed_override", "controller", m, std::vector{1.0, 1.2, 1.5, 2.0},
-                                   [](Machine& x) -> double& { return x.controller.trapezoid.max_feed_override; });
+            return rule_of_numbers(
+                "max_feed_override", "controller", m, std::vector{1.0, 1.2, 1.5, 2.0},
+                [](Machine& x) -> double& { return x.controller.trapezoid.max_feed_override; }, 0.01);
         });
         rules.emplace_back([](const Machine& m) {
             return rule_of_numbers("blocks_per_period", "controller", m, std::vector{1, 2, 10},
@@ -166,7 +198,9 @@ private:
 
 /// Scores of candidates over the samples that any of them has.
 void score(const std::vector<std::vector<float>>& residuals, double usual_speed, std::span<RuleCandidate> candidates) {
-    constexpr double resolution = 0.005;  // mm/s: differences of rounded positions are no better
+    constexpr double of_positions = 0.005;   // mm/s: differences of rounded positions are no better …
+    constexpr double of_the_model = 0.0005;  // … nor is any model, of the speed
+    const double resolution = std::max(of_positions, of_the_model * usual_speed);
     std::vector<double> sums(residuals.size(), 0);
     std::size_t samples = 0;
     for (std::size_t i = 0; i < residuals.front().size(); ++i) {
@@ -237,10 +271,30 @@ std::size_t present_value(const Rule& rule, const Machine& machine) {
                a.block_time == b.block_time && a.trapezoid.cubic_interpolation == b.trapezoid.cubic_interpolation &&
                a.trapezoid.max_feed_override == b.trapezoid.max_feed_override &&
                a.trapezoid.blocks_per_period == b.trapezoid.blocks_per_period &&
+               std::equal(machine.axes.begin(), machine.axes.end(), changed.axes.begin(),
+                          [](const MachineAxis& x, const MachineAxis& y) {
+                              return x.max_acceleration == y.max_acceleration;
+                          }) &&
                machine.path.max_acceleration == changed.path.max_acceleration &&
                machine.path.max_normal_acceleration == changed.path.max_normal_acceleration;
     };
     return static_cast<std::size_t>(std::find_if(rule.values.begin(), rule.values.end(), same) - rule.values.begin());
+}
+
+/// Parameters of limits that the rules have changed.
+void restate_accelerations(Identification& result) {
+    for (IdentifiedParameter& p : result.parameters) {
+        if (p.name != "max_acceleration") continue;
+        if (p.axis == "path" && result.machine.path.max_acceleration == no_limit) p.note = "the axes alone limit it";
+        const auto axis = std::find(axis_names.begin(), axis_names.end(), p.axis);
+        if (axis == axis_names.end()) continue;
+        const double now = result.machine.axes[static_cast<std::size_t>(axis - axis_names.begin())].max_acceleration;
+        if (p.reached == false) p.note = fmt::format("hardly exceeded; the file has {:.6g}", now);
+        if (p.reached == false || std::abs(now - 2 * p.value) > 0.01 * now) continue;
+        p.value *= 2;
+        if (p.standard_error) *p.standard_error *= 2;
+        p.note += "; twice what blocks that overlap keep";
+    }
 }
 
 }  // namespace
@@ -249,10 +303,15 @@ void identify_rules(std::span<const RecordedRun> runs, Identification& result) {
     RuleScores scores(runs);
     const PathLimits identified = result.machine.path;
     search(planner_rule(), present_planner(result.machine), scores, result);
+    if (is_trapezoidal(result.machine)) {
+        const Rule accelerations = axis_accelerations_rule(result);
+        if (accelerations.values.size() > 1) search(accelerations, 0, scores, result);
+    }
     for (const auto& make : rules_of(result.machine, identified)) {
         const Rule rule = make(result.machine);
         search(rule, present_value(rule, result.machine), scores, result);
     }
+    if (is_trapezoidal(result.machine)) restate_accelerations(result);
     result.unidentified.push_back({"merging_tolerance", "controller", "a program sets it (Q of G64); not searched"});
 }
 

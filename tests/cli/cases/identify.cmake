@@ -23,6 +23,12 @@ clsurf_cli_test(NAME identify_five_axes
 clsurf_cli_test(NAME identify_limits_of_a_kernel ARGS identify ${bottle} ${dome} -o m.toml
   STDOUT "max_acceleration +x +(2000([.]0[0-9]*)?|1999[.]9[0-9]*) mm/s² .*reached. held in" "max_acceleration +z +(1500([.]0[0-9]*)?|1499[.]9[0-9]*) mm/s² .*reached"
   "max_jerk +x +0 mm/s³ +no limit seen" "max_speed +x +4[0-9.]+ mm/min +lower bound" "max_speed +z +(9000([.][0-9]*)?|8999[0-9.]*) mm/min .*reached")
+# Of a kernel whose blocks overlap: each has half of the acceleration.
+clsurf_cli_test(NAME identify_overlapping_blocks ARGS identify @DATA@/programs/tangential_lines.ngc @LOGS@/tangential_lines.parabolic.biip -o m.toml
+  STDOUT "trapezoidal, parabolic blends +[-0-9.]+ +[0-9.]+  chosen" "max_acceleration +x +2000 mm/s² .*twice what blocks that overlap keep")
+# Of LinuxCNC with MAX_FEED_OVERRIDE = 2: in percent, as a machine file has it.
+clsurf_cli_test(NAME identify_feed_override_of_a_kernel ARGS identify @DATA@/programs/dome_loops.nc @LOGS@/dome_loops.biip -o m.toml
+  STDOUT "max_feed_override +200 +[-0-9.]+ +[0-9.]+  chosen")
 clsurf_cli_test(NAME identify_limits_of_a_simulation
   SETUP "$CLSURF simulate @DATA@/programs/dome_loops.nc --machine @DATA@/machines/three_axis_mill.toml -o r.biip"
   ARGS identify @DATA@/programs/dome_loops.nc r.biip -o m.toml
