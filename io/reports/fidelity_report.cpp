@@ -1,5 +1,7 @@
 #include "io/reports/fidelity_report.h"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "core/units.h"
@@ -36,7 +38,7 @@ std::string fidelity_line(const std::optional<Fidelity>& f) {
                                                                    : "the fitted runs";
     std::string text = fmt::format(
         "Fidelity of this machine file ({}: {}): time {:+.2f} %, speed within {:.0f} mm/min over 95 % of the path", of,
-        f->runs, f->time_error * 100, f->speed_error_p95 * seconds_per_minute);
+        f->runs, std::abs(f->time_error) < 5e-5 ? 0.0 : f->time_error * 100, f->speed_error_p95 * seconds_per_minute);
     if (f->following_error_p95) text += fmt::format(", following error within {:.1f} µm", *f->following_error_p95 * um);
     if (f->defects_recall) text += fmt::format(", {:.0f} % of the defects found", *f->defects_recall * 100);
     if (f->defects_precision)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -92,10 +93,10 @@ Json ensemble_json(const EnsembleResult& ensemble) {
 
 std::string optimize_text(const Optimized& r) {
     std::string text;
-    const auto row = [&](std::string_view name, double before, double after, int digits, const char* unit) {
+    const auto row = [&](std::string_view name, double before, double after, int digits) {
         const double change = before > 0 ? 100 * (after / before - 1) : 0;
-        text += fmt::format("{:<28} {:>12.{}f} {:>12.{}f} {:>+8.1f} % {}\n", name, before, digits, after, digits,
-                            change, unit);
+        text += fmt::format("{:<30} {:>12.{}f} {:>12.{}f} {:>8} %\n", name, before, digits, after, digits,
+                            fmt::format("{:+.1f}", std::abs(change) < 0.05 ? 0.0 : change));
     };
     if (r.measured) {
         text += fmt::format(
@@ -107,22 +108,22 @@ std::string optimize_text(const Optimized& r) {
     const bool controller = std::any_of(r.controller_runs.begin(), r.controller_runs.end(),
                                         [](const ControllerRun& run) { return run.candidate > 0 && run.measured; });
     text += controller_text(r.controller_runs);
-    text += fmt::format("{:<28} {:>12} {:>12} {:>10}\n", controller ? "on the controller" : "simulated", "before",
+    text += fmt::format("{:<30} {:>12} {:>12} {:>10}\n", controller ? "on the controller" : "simulated", "before",
                         "after", "change");
-    row("time", r.before.duration, r.after.duration, 3, "s");
-    row("speed mismatch, p95", r.before.mismatch * seconds_per_minute, r.after.mismatch * seconds_per_minute, 1,
-        "mm/min");
-    row("speed mismatch, p99.9", r.before.greatest_mismatch * seconds_per_minute,
-        r.after.greatest_mismatch * seconds_per_minute, 1, "mm/min");
-    row("defects", static_cast<double>(r.evaluation.defects_before), static_cast<double>(r.evaluation.defects_after), 0,
-        "");
+    row("time [s]", r.before.duration, r.after.duration, 3);
+    row("speed mismatch p95 [mm/min]", r.before.mismatch * seconds_per_minute, r.after.mismatch * seconds_per_minute,
+        1);
+    row("speed mismatch p99.9 [mm/min]", r.before.greatest_mismatch * seconds_per_minute,
+        r.after.greatest_mismatch * seconds_per_minute, 1);
+    row("defects", static_cast<double>(r.evaluation.defects_before), static_cast<double>(r.evaluation.defects_after),
+        0);
     const auto before = by_quantity(r.before), after = by_quantity(r.after);
     for (std::size_t k = 0; k < quantities; ++k) {
         if (before[k] + after[k] > 0)
             row(fmt::format("  of {}", name_of(static_cast<Quantity>(k))), static_cast<double>(before[k]),
-                static_cast<double>(after[k]), 0, "");
+                static_cast<double>(after[k]), 0);
     }
-    row("lines", r.evaluation.lines_before, r.evaluation.lines_after, 0, "");
+    row("lines", r.evaluation.lines_before, r.evaluation.lines_after, 0);
     text += fmt::format("{} stretches, {} lines changed; off the programmed path by at most {:.4f} mm\n",
                         r.evaluation.intervals, r.evaluation.changed_lines, r.evaluation.deviation.greatest);
     if (r.five_axes)

@@ -88,7 +88,7 @@ private:
                 optimize(program_, read_, machine, rules_, std::optional<Log>(measured), progress_, diagnostics_);
             const bool learned = try_finalists(found, result);
             if (!result.evaluation.accepted) {
-                if (found.evaluation.accepted) found.evaluation.reason = refusal_;
+                if (found.evaluation.accepted || candidates_ > 0) found.evaluation.reason = refusal_;
                 found.evaluation.accepted = false;
                 result = std::move(found);
             }

@@ -5,31 +5,30 @@
 
 namespace clsurf {
 
-Drafter::Drafter(const Program& program, const ReadProgram& read, const OptimizeRules& rules, double shortest_line,
-                 bool slows_anywhere, const Orientation* orientation)
+Drafter::Drafter(const Program& program, const ReadProgram& read, const OptimizeRules& rules, bool slows_anywhere,
+                 const Orientation* orientation)
     : program_(program),
       read_(read),
       rules_(rules),
-      shortest_line_(shortest_line),
       slows_anywhere_(slows_anywhere),
       orientation_(orientation),
       programmed_(build_programmed_surface(program)) {}
 
-Draft Drafter::draft(double chord_error, std::vector<std::uint8_t> needed) const {
+Draft Drafter::draft(const DraftLines& lines, std::vector<std::uint8_t> needed) const {
     Draft draft;
-    draft.chord_error = chord_error;
+    draft.lines = lines;
     LineEditor editor(program_, rules_.least_decimals);
-    const double spacing = 0.5 * fitting_spacing(program_, programmed_, chord_error);
-    const std::vector<ResampledSegment> segments =
-        resample(program_, programmed_, editor,
-                 {rules_.tolerance, spacing, chord_error, shortest_line_, ResampleRules{}.corner_angle, most_turned},
-                 needed, orientation_);
+    const double spacing = 0.5 * fitting_spacing(program_, programmed_, lines.chord_error);
+    const std::vector<ResampledSegment> segments = resample(
+        program_, programmed_, editor,
+        {rules_.tolerance, spacing, lines.chord_error, lines.shortest_line, ResampleRules{}.corner_angle, most_turned},
+        needed, orientation_);
     std::int64_t old = 0;  // motions so far
     for (const ResampledSegment& segment : segments) {
-        const std::size_t lines = editor.replace(segment.first, segment.last, segment.points, segment.angles);
+        const std::size_t written = editor.replace(segment.first, segment.last, segment.points, segment.angles);
         if (slows_anywhere_) continue;
         draft.may_slow.insert(draft.may_slow.end(), needed.begin() + old, needed.begin() + segment.first);
-        draft.may_slow.insert(draft.may_slow.end(), lines, 1);
+        draft.may_slow.insert(draft.may_slow.end(), written, 1);
         old = segment.last + 1;
     }
     if (!slows_anywhere_) draft.may_slow.insert(draft.may_slow.end(), needed.begin() + old, needed.end());
@@ -41,6 +40,6 @@ Draft Drafter::draft(double chord_error, std::vector<std::uint8_t> needed) const
     return draft;
 }
 
-Draft Drafter::unchanged() const { return {program_, std::string(program_.main().text()), 0, 0, 0, {}, {}}; }
+Draft Drafter::unchanged() const { return {program_, std::string(program_.main().text()), 0, 0, {}, {}, {}}; }
 
 }  // namespace clsurf

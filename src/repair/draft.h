@@ -16,25 +16,30 @@ namespace clsurf {
 /// Reads a text in the dialect of the program, with the same options.
 using ReadProgram = std::function<Program(const std::string& text)>;
 
+/// What the lines of a draft may be [mm].
+struct DraftLines {
+    double chord_error = 0;    ///< largest distance of a line from the smooth curve
+    double shortest_line = 0;  ///< lines are shorter only to keep the tolerance
+};
+
 struct Draft {
     Program program;
     std::string text;
     std::size_t segments = 0, changed_lines = 0;
-    double chord_error = 0;                ///< [mm] of its lines against the smooth curve
+    DraftLines lines{};
     std::vector<std::uint8_t> needed{};    ///< per motion of the old program: 0 has kept its points
     std::vector<std::uint8_t> may_slow{};  ///< per motion of the draft, whether it may get a feed; empty: all may
 };
 
 class Drafter {
 public:
-    /// `shortest_line` [mm]: new lines are shorter only to keep the tolerance. `slows_anywhere`: feeds may also change
-    /// outside the selected sections. `orientation`: of a program that runs on five axes. All must outlive it.
-    /// O(points).
-    Drafter(const Program& program, const ReadProgram& read, const OptimizeRules& rules, double shortest_line,
-            bool slows_anywhere, const Orientation* orientation = nullptr);
+    /// `slows_anywhere`: feeds may also change outside the selected sections. `orientation`: of a program that runs on five
+    /// axes. All must outlive it. O(points).
+    Drafter(const Program& program, const ReadProgram& read, const OptimizeRules& rules, bool slows_anywhere,
+            const Orientation* orientation = nullptr);
 
     /// New points for the motions that need repair (one entry per motion).
-    [[nodiscard]] Draft draft(double chord_error, std::vector<std::uint8_t> needed) const;
+    [[nodiscard]] Draft draft(const DraftLines& lines, std::vector<std::uint8_t> needed) const;
     /// The program as it is.
     [[nodiscard]] Draft unchanged() const;
 
@@ -42,7 +47,6 @@ private:
     const Program& program_;
     const ReadProgram& read_;
     const OptimizeRules& rules_;
-    double shortest_line_;
     bool slows_anywhere_;
     const Orientation* orientation_;
     ProgrammedSurface programmed_;

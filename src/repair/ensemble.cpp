@@ -15,6 +15,7 @@ void add(const RunMeasures& each, double weight, RunMeasures& sum) {
     sum.mismatch += weight * each.mismatch;
     sum.defects += weight * each.defects;
     sum.duration += weight * each.duration;
+    sum.speed += weight * each.speed;
 }
 
 double line_ratio(const Program& before, const Program& after) {

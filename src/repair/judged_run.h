@@ -27,7 +27,8 @@ struct JudgedRun {
     double greatest_mismatch = 0;  ///< [mm/s] 99.9th percentile of it
 
     [[nodiscard]] RunMeasures measures() const {
-        return {mismatch, static_cast<double>(report.defects.size()), duration};
+        return {mismatch, static_cast<double>(report.defects.size()), duration,
+                static_cast<double>(report.thresholds.usual_speed)};
     }
 };
 

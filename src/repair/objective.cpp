@@ -13,10 +13,16 @@ constexpr double growth_weight = 0.03;    ///< of a program's growth, against sh
 constexpr double goal_of_mismatch = 0.5;  ///< share left, from which on …
 constexpr double beyond_goal = 0.1;       ///< … less mismatch counts less
 
+/// What a mismatch counts as.
+double counted(const RunMeasures& run, const RunMeasures& before) {
+    return std::max(run.mismatch, least_mismatch * before.speed);
+}
+
 }  // namespace
 
 double objective(const RunMeasures& before, const RunMeasures& after, double line_ratio, double more_time) {
-    const double mismatch = before.mismatch > 0 ? after.mismatch / before.mismatch : (after.mismatch > 0 ? 2.0 : 1.0);
+    const double was = counted(before, before), is = counted(after, before);
+    const double mismatch = was > 0 ? is / was : (is > 0 ? 2.0 : 1.0);
     const double defects = after.defects / std::max(1.0, before.defects);
     const double later = std::clamp(after.duration / before.duration - 1, 0.0, more_time);
     return growth_weight * line_ratio + std::max(mismatch, goal_of_mismatch) +
@@ -28,7 +34,8 @@ double gain_of(const RunMeasures& before, const RunMeasures& after, double line_
 }
 
 std::string why_not_better(const RunMeasures& before, const RunMeasures& after, double more_time) {
-    if (after.mismatch >= before.mismatch)
+    const bool is_less = after.mismatch < before.mismatch, is_none = after.mismatch <= least_mismatch * before.speed;
+    if (!is_less && !is_none)
         return fmt::format("the speeds of adjacent passes would differ by {:.0f} instead of {:.0f} mm/min",
                            after.mismatch * seconds_per_minute, before.mismatch * seconds_per_minute);
     if (after.defects > before.defects)

@@ -10,13 +10,17 @@ struct RunMeasures {
     double mismatch = 0;  ///< [mm/s] 95th percentile of the speed differences between adjacent passes
     double defects = 0;   ///< their number, by the thresholds of the run before; not whole in a mean
     double duration = 0;  ///< [s]
+    double speed = 0;     ///< [mm/s] usual speed of the cuts
 };
+
+/// A smaller mismatch, as a share of the speed, is none.
+inline constexpr double least_mismatch = 0.002;
 
 /// Gains below this are not worth a new program.
 inline constexpr double least_gain = 0.02;
 
-/// The objective, relative to the run before: m + d + t + 0.03 g. m is the share of the mismatch that remains, but what
-/// is below one half counts a tenth, because defects matter more from there on. d is the share of the defects that
+/// The objective, relative to the run before: m + d + t + 0.03 g. m is the share of the mismatch that remains, both at
+/// least least_mismatch; what is below one half counts a tenth, because defects matter more from there on. d is the share of the defects that
 /// remain. t is the share of additional time, at most `more_time`. g = lines after / lines before.
 [[nodiscard]] double objective(const RunMeasures& before, const RunMeasures& after, double line_ratio,
                                double more_time);

@@ -29,7 +29,7 @@ struct OptimizeRules {
     Vec3 zero = Vec3::Zero();   ///< [mm] machine position of its zero, on five axes
     QualityRules quality = judged_place_by_place();
     int machines = 4;            ///< of the ensemble that must be better; 0: the nominal machine alone decides
-    bool all_finalists = false;  ///< finds every one that the ensemble accepts, instead of the best
+    bool all_finalists = false;  ///< lists all, instead of the best that the ensemble accepts
     ProgramIdentity identity = ProgramIdentity::unknown;  ///< of the program that a recorded run ran
     std::string header;  ///< text of the comment that says where the program comes from
 };

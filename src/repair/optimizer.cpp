@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <utility>
 
 #include "core/error.h"
@@ -16,7 +17,8 @@ namespace clsurf {
 namespace {
 
 constexpr std::array<double, 3> shares_of_tolerance{0.2, 0.1, 0.4};  ///< that lines may leave the curve by
-constexpr double block_reserve = 1.1;                                ///< of the way in a block time
+constexpr double reserve = 1.1;                                      ///< of the way in a block time or in periods
+constexpr double periods_a_line = 2;                                 ///< of the trapezoidal planner
 constexpr RepairMaskRules worst_alone{0.5, 2, 2};                    ///< a draft that leaves the more as it is
 constexpr RepairMaskRules slow_as_well{.slow = 0.9};                 ///< a draft that saves time
 constexpr std::size_t most_mixed = 2;                                ///< drafts of which regions are given back …
@@ -64,8 +66,7 @@ public:
             result.measured = judge_measured(std::move(*measured));
         else
             look_for_need(evaluator_.before());
-        propose_all({program_, read_, rules_, block_reserve * machine_.controller.block_time * usual_feed(program_),
-                     !has_log, evaluator_.orientation()});
+        propose_all({program_, read_, rules_, !has_log, evaluator_.orientation()});
         result.fidelity = machine_.fidelity;
         result.five_axes = evaluator_.orientation() != nullptr;
         result.before = evaluator_.take_before();
@@ -88,12 +89,15 @@ private:
         TriedProposal chosen;
         std::string refusal;
         EnsembleResult refused;
+        std::vector<Finalist> doubtful;
         for (const TriedProposal& each : finalists) {
             const EnsembleResult runs = ensemble.run(read_(each->text));
             const std::string reason = why_not_better(runs, rules_.more_time);
             if (!reason.empty()) {
                 if (refusal.empty()) refused = runs;
                 if (refusal.empty()) refusal = reason;
+                if (rules_.all_finalists)
+                    doubtful.push_back({each->text, each->run.measures(), each->evaluation, runs});
                 continue;
             }
             result.finalists.push_back({each->text, each->run.measures(), each->evaluation, runs});
@@ -101,6 +105,8 @@ private:
             if (chosen == nullptr) chosen = each;
             if (!rules_.all_finalists) break;
         }
+        // Where a controller decides, it decides on these, too.
+        std::move(doubtful.begin(), doubtful.end(), std::back_inserter(result.finalists));
         if (chosen != nullptr) return chosen;
         result.ensemble = refused;
         finalists.front()->evaluation.accepted = false;
@@ -125,15 +131,31 @@ private:
                 static_cast<std::size_t>(std::count(needed_.begin(), needed_.end(), 1))};
     }
 
+    /// Of lines that a controller runs in less than block_time, or in few periods, many would slow it down. What the
+    /// trapezoidal planner makes of short lines depends on the corners, so that both are tried.
+    [[nodiscard]] std::vector<DraftLines> line_choices() const {
+        const ControllerSettings& controller = machine_.controller;
+        const double feed = usual_feed(program_);
+        std::vector<double> shortest{reserve * controller.block_time * feed};
+        if (controller.planner == PlannerKind::trapezoidal)
+            shortest = {reserve * periods_a_line * controller.period * feed, 0};
+        std::vector<DraftLines> choices;
+        for (const double line : shortest) {
+            for (const double share : shares_of_tolerance) choices.push_back({share * rules_.tolerance, line});
+        }
+        return choices;
+    }
+
     void propose_all(const Drafter& drafter) {
         std::vector<TriedProposal> drafts;  // points alone
-        for (const double share : shares_of_tolerance) {
+        const std::vector<DraftLines> choices = line_choices();
+        for (const DraftLines& lines : choices) {
             // What is tried last is left out first where a program is long.
-            if (evaluator_.has_time()) propose(drafter.draft(share * rules_.tolerance, needed_), drafts);
+            if (evaluator_.has_time()) propose(drafter.draft(lines, needed_), drafts);
         }
-        for (const double share : shares_of_tolerance) {
+        for (const DraftLines& lines : choices) {
             if (needed_or_slow_ != needed_ && evaluator_.has_time(share_of_drafts))
-                propose(drafter.draft(share * rules_.tolerance, needed_or_slow_), drafts);
+                propose(drafter.draft(lines, needed_or_slow_), drafts);
         }
         if (drafts.empty()) {
             (void)evaluator_.propose(std::make_shared<const Draft>(drafter.unchanged()), {});
@@ -144,7 +166,7 @@ private:
         for (std::size_t k = 0; k < std::min(most_mixed, drafts.size()); ++k) {
             mix(drafter, drafts[k], mixed);
             if (evaluator_.has_time(share_of_drafts))
-                propose(drafter.draft(drafts[k]->draft->chord_error, in_worst_need_), narrow);
+                propose(drafter.draft(drafts[k]->draft->lines, in_worst_need_), narrow);
         }
         sort(mixed);
         // In turn: what saves most time may be worth more, with feeds, than what is better without.
@@ -223,7 +245,7 @@ private:
             std::vector<std::uint8_t> needed = from->draft->needed;
             for (std::size_t i = 0; i < needed.size(); ++i) needed[i] = needed[i] != 0 && worse[i] == 0 ? 1 : 0;
             if (needed == from->draft->needed) return;
-            from = propose(drafter.draft(from->draft->chord_error, std::move(needed)), drafts);
+            from = propose(drafter.draft(from->draft->lines, std::move(needed)), drafts);
         }
     }
 

@@ -48,7 +48,8 @@ struct Optimized {
     std::string machine;               ///< where its values come from: a file, or the log that they are fitted to
     std::optional<Fidelity> fidelity;  ///< of simulations with the machine file
     EnsembleResult ensemble;           ///< of the new program; no runs: no proposal came so far
-    std::vector<Finalist> finalists;   ///< that the ensemble accepts, the best first; its first one is `text`
+    /// That the ensemble accepts, the best first: its first one is `text`. With OptimizeRules::all_finalists the others follow.
+    std::vector<Finalist> finalists;
     std::vector<ControllerRun> controller_runs;  ///< empty: simulation decided
 };
 

@@ -18,6 +18,7 @@ TEST(Objective, AddsTheSharesThatRemain) {
     EXPECT_DOUBLE_EQ(objective(before, {2, 10, 90}, 1, 0), 1.05);
     EXPECT_DOUBLE_EQ(objective(before, {2, 10, 103}, 1, 0.05), 1.08) << "3 % more time, of 5 % that are allowed";
     EXPECT_DOUBLE_EQ(objective({10, 0, 100}, {10, 2, 100}, 1, 0), 0.03 + 1.05 + 2) << "defects where there were none";
+    EXPECT_DOUBLE_EQ(objective({0.02, 20, 100, 50}, {0.08, 20, 100, 50}, 1, 0), 0.03 + 1.05 + 1) << "0.1 mm/s is none";
     EXPECT_DOUBLE_EQ(gain_of(before, before, 1, 0), 0);
     EXPECT_DOUBLE_EQ(gain_of(before, {8, 10, 100}, 2, 0), 1 - 1.41 / 2.08);
 }
@@ -28,6 +29,8 @@ TEST(Objective, EveryMeasureMustNotBeWorse) {
     EXPECT_NE(why_not_better(before, {9, 21, 100}, 0), "");
     EXPECT_NE(why_not_better(before, {9, 20, 100.1}, 0), "");
     EXPECT_EQ(why_not_better(before, {9, 20, 100.1}, 0.01), "");
+    EXPECT_EQ(why_not_better({0.02, 20, 100, 50}, {0.08, 10, 100, 50}, 0), "") << "no mismatch before and after";
+    EXPECT_NE(why_not_better({0.02, 20, 100, 50}, {0.12, 10, 100, 50}, 0), "");
 }
 
 EnsembleResult ensemble(const std::vector<RunMeasures>& after) {

@@ -99,7 +99,7 @@ TEST(Draft, KeepsWhatIsGivenBackByteForByte) {
     }
     const ReadProgram read = read_text;
     OptimizeRules rules;
-    const Draft draft = Drafter(program, read, rules, 0, true).draft(0.001, needed);
+    const Draft draft = Drafter(program, read, rules, true).draft({0.001, 0}, needed);
     ASSERT_GT(draft.segments, 0U);
     std::istringstream now(draft.text);
     std::size_t next = 0;
@@ -119,12 +119,13 @@ TEST(Optimizer, IsNeverWorseThanADraftTakenWhole) {
     taken.evaluation = result.evaluation;
     taken.run = std::move(result.after);
     Evaluator evaluator(program, read, machine, rules, silent, diagnostics);
-    const Drafter drafter(program, read, rules, 1.1 * machine.controller.block_time * 50, true);
+    const Drafter drafter(program, read, rules, true);
+    const double shortest_line = 1.1 * machine.controller.block_time * 50;
     for (const double share : {0.1, 0.2, 0.4}) {
-        const TriedProposal whole =
-            evaluator.propose(std::make_shared<const Draft>(drafter.draft(
-                                  share * rules.tolerance, motions_in_need(evaluator.before(), program, {}))),
-                              {});
+        const TriedProposal whole = evaluator.propose(
+            std::make_shared<const Draft>(drafter.draft({share * rules.tolerance, shortest_line},
+                                                        motions_in_need(evaluator.before(), program, {}))),
+            {});
         EXPECT_FALSE(evaluator.better(*whole, taken)) << share;
     }
 }
