@@ -131,4 +131,16 @@ Image shrink_from_below(const std::uint8_t* rgb, int width, int height, int fact
                    [&](int y) { return rgb + static_cast<std::size_t>(height - 1 - y) * row; });
 }
 
+Image stacked(Image upper, const Image& lower) {
+    for (PixelBox box : lower.texts) {
+        box.y += upper.height;
+        upper.texts.push_back(box);
+    }
+    const std::size_t above = upper.rgb.size();
+    upper.rgb.resize(above + lower.rgb.size());
+    std::copy(lower.rgb.begin(), lower.rgb.end(), upper.rgb.begin() + static_cast<std::ptrdiff_t>(above));
+    upper.height += lower.height;
+    return upper;
+}
+
 }  // namespace clsurf::viz

@@ -40,4 +40,7 @@ struct Image {
 /// The same of RGB rows that begin at the bottom, as OpenGL has them.
 [[nodiscard]] Image shrink_from_below(const std::uint8_t* rgb, int width, int height, int factor);
 
+/// One image over another one of the same width.
+[[nodiscard]] Image stacked(Image upper, const Image& lower);
+
 }  // namespace clsurf::viz

@@ -1,6 +1,7 @@
 #include "cli/optimize_picture.h"
 
 #include <algorithm>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -12,31 +13,50 @@
 #include "viz/scene.h"
 
 namespace clsurf::cli {
+namespace {
 
-viz::Image draw_before_and_after(const Optimized& result, const std::string& program) {
-    const auto speed = [](const JudgedRun& run) {
-        return FieldSet(run.log, run.path, run.surface.passes).get("speed");
-    };
-    const Field before = speed(result.before), after = speed(result.after);
+/// A field of both runs on one scale.
+viz::Image draw_pair(const Optimized& result, const Field& before, const Field& after, const viz::MapTexts& texts) {
     viz::MapPanel left{&result.before.surface, &before, "before", {}, {}, {}},
         right{&result.after.surface, &after, "after", {}, {}, {}};
     const std::vector<viz::MapPanel> panels{left, right};
     viz::Look look;
     look.view = viz::parse_view("top");
-    look.height = 900;
+    look.height = 720;
     const ShownRange a = find_range(before, result.before.surface.passes, {}, {}),
                      b = find_range(after, result.after.surface.passes, {}, {});
     const viz::ColourScale scale = viz::scale_of(before.info, std::min(a.low, b.low), std::max(a.high, b.high));
-    viz::MapTexts texts;
-    texts.title = "Path speed before and after, simulated";
+    return viz::draw_map(panels, viz::map_camera(panels, look), scale, texts, look);
+}
+
+Field speed_of(const JudgedRun& run) { return FieldSet(run.log, run.path, run.surface.passes).get("speed"); }
+
+Field difference_of(const JudgedRun& run) {
+    FieldInfo info{"speed_difference",
+                   "Speed difference to the adjacent pass that differs most",
+                   unit::mm_min,
+                   FieldScale::diverging,
+                   {}};
+    return {std::move(info), run.speed_differences};
+}
+
+}  // namespace
+
+viz::Image draw_before_and_after(const Optimized& result, const std::string& program) {
+    const bool ran = std::any_of(result.controller_runs.begin(), result.controller_runs.end(),
+                                 [](const ControllerRun& run) { return run.candidate > 0 && run.measured; });
+    viz::MapTexts speed, difference;
+    speed.title = fmt::format("Path speed before and after, {}", ran ? "on the controller" : "simulated");
+    speed.subtitle = file_name(program);
+    difference.title = "Speed difference to the adjacent pass that differs most";
     const auto summary = [](const JudgedRun& run, std::size_t defects) {
         return fmt::format("{:.1f} s, {:.0f} mm/min between adjacent passes (95th percentile), {} defect{}",
                            run.duration, run.mismatch * seconds_per_minute, defects, defects == 1 ? "" : "s");
     };
-    texts.subtitle = file_name(program);
-    texts.notes = {"before: " + summary(result.before, result.evaluation.defects_before),
-                   "after: " + summary(result.after, result.evaluation.defects_after)};
-    return viz::draw_map(panels, viz::map_camera(panels, look), scale, texts, look);
+    difference.notes = {"before: " + summary(result.before, result.evaluation.defects_before),
+                        "after: " + summary(result.after, result.evaluation.defects_after)};
+    return viz::stacked(draw_pair(result, speed_of(result.before), speed_of(result.after), speed),
+                        draw_pair(result, difference_of(result.before), difference_of(result.after), difference));
 }
 
 }  // namespace clsurf::cli

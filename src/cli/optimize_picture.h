@@ -8,7 +8,7 @@
 
 namespace clsurf::cli {
 
-/// Both runs side by side, speeds on one scale. `program`: its name, for the title.
+/// Both runs side by side: speeds, and below them the differences between adjacent passes, each on one scale. `program`: its name, for the title.
 [[nodiscard]] viz::Image draw_before_and_after(const Optimized& result, const std::string& program);
 
 }  // namespace clsurf::cli
