@@ -12,6 +12,9 @@ namespace clsurf::io {
 /// The object `fidelity`; null where it was never measured.
 [[nodiscard]] Json fidelity_json(const std::optional<Fidelity>& fidelity);
 
+/// The same read back; nullopt: null, or not such an object.
+[[nodiscard]] std::optional<Fidelity> read_fidelity(const Json& json);
+
 /// One line for people, with its end.
 [[nodiscard]] std::string fidelity_line(const std::optional<Fidelity>& fidelity);
 

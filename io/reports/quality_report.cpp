@@ -8,6 +8,7 @@
 #include "core/units.h"
 #include "io/files/json_value.h"
 #include "io/reports/defect_json.h"
+#include "io/reports/fidelity_report.h"
 #include "io/reports/joined_reports.h"
 #include "io/reports/limit_reports.h"
 #include "io/reports/line_ranges.h"
@@ -202,6 +203,9 @@ std::string quality_json(const ReportedQuality& q) {
         json["limits"] = limits_json(*q.limits, *q.program);
         json["limits_judged"] = judged_limits_json(*q.limits);
     }
+    json["simulation"] = nullptr;
+    if (q.origin)
+        json["simulation"] = {{"machine", q.origin->machine}, {"fidelity", fidelity_json(q.origin->fidelity)}};
     json["diagnostics"] = list(*q.diagnostics);
     return dump(json);
 }
@@ -269,7 +273,7 @@ std::string quality_text(const ReportedQuality& q) {
                             : !r.judgement.judged() && !is_limit(line) ? "NOT JUDGED"
                                                                        : "NOT HELD");
     }
-    return text;
+    return text + origin_text(q.origin);
 }
 
 }  // namespace clsurf::io

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/diagnostic.h"
+#include "io/reports/simulation_origin.h"
 #include "limits/limit_report.h"
 #include "machined/as_machined_report.h"
 #include "machined/tool.h"
@@ -26,6 +27,7 @@ struct ReportedQuality {
     const AsMachinedReport* as_machined = nullptr;  ///< nullptr: the tool is not known
     const LimitReport* limits = nullptr;            ///< nullptr: no limits are stated
     std::vector<BudgetLine> budget;
+    std::optional<SimulationOrigin> origin;  ///< nullopt: the log is a recorded run
     const Diagnostics* diagnostics = nullptr;
     std::size_t columns = 80;  ///< width of the table in the text
 };

@@ -12,6 +12,7 @@
 #include "cli/stage_clock.h"
 #include "cli/terminal.h"
 #include "io/reports/quality_report.h"
+#include "io/reports/simulation_origin.h"
 #include "pipeline/judge.h"
 #include "pipeline/limits_of.h"
 
@@ -61,6 +62,7 @@ Checked check_log(const PartOptions& options, std::optional<Role> measured, cons
     reported.budget = hold(quality.report, budget.quality);
     const std::vector<BudgetLine> held = hold(limits, budget.limits);
     reported.budget.insert(reported.budget.end(), held.begin(), held.end());
+    reported.origin = io::simulation_origin(part.log);
     reported.diagnostics = &part.diagnostics;
     if (values.count("output") == 0) reported.columns = table_columns();
     clock.end();

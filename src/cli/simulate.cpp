@@ -17,6 +17,7 @@
 #include "io/readers/program_file.h"
 #include "io/reports/fidelity_report.h"
 #include "io/reports/simulated_log.h"
+#include "io/reports/simulation_origin.h"
 #include "pipeline/simulated_log.h"
 
 namespace clsurf::cli {
@@ -67,8 +68,8 @@ ExitCode run_simulate(const po::variables_map& values) {
             metadata = fmt::format("{{\"work_offset\": [{}, {}, {}{}]}}", t.x(), t.y(), t.z(),
                                    turn == 0 ? "" : fmt::format(", {}", turn));
         }
-        return io::SimulatedLogWriter(output, machine,
-                                      io::with_programs(metadata, std::vector<ProgramReference>{io::identify(source)}));
+        metadata = io::with_programs(metadata, std::vector<ProgramReference>{io::identify(source)});
+        return io::SimulatedLogWriter(output, machine, io::with_simulation(metadata, machine));
     };
     if (five_axes) {
         io::ProgramOptions options = read_program_options(values);

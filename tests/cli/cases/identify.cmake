@@ -62,3 +62,6 @@ clsurf_cli_test(NAME identify_test_without_a_log ARGS identify ${bottle} -o m.to
 clsurf_cli_test(NAME simulate_quotes_the_fidelity
   SETUP "$CLSURF identify @DATA@/programs/bottle_uneven.nc @LOGS@/bottle_uneven.biip -o m.toml --test @DATA@/programs/dome_loops.nc @LOGS@/dome_loops.biip -q"
   ARGS simulate @DATA@/programs/bottle_uneven.nc --machine m.toml -o r.biip STDOUT "Fidelity of this machine file .runs not used for the fit: 1.")
+clsurf_cli_test(NAME check_quotes_the_simulation SETUP "$CLSURF simulate @DATA@/programs/dome_loops.nc --machine @DATA@/machines/linuxcnc_kernel.toml -o r.biip -q"
+  ARGS check @DATA@/programs/dome_loops.nc r.biip STDOUT "This log was simulated for the machine .LinuxCNC 2.9, three axes.[.]" "Fidelity of this machine file: not measured")
+clsurf_cli_test(NAME check_quotes_nothing_of_a_recorded_run ARGS check @DATA@/programs/dome_loops.nc @LOGS@/dome_loops.biip NO_STDOUT "simulated")
