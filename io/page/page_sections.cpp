@@ -160,14 +160,18 @@ std::string numbers_section(const ReportPage& page) {
     const std::string thresholds = thresholds_text(report);
     if (!thresholds.empty())
         text += fmt::format("<p>Thresholds of a defect: {}; {}.</p>\n", html(thresholds), html(report.note));
-    if (page.quality.as_machined != nullptr && !page.quality.as_machined->patches.empty()) {
-        const AsMachinedReport& f = *page.quality.as_machined;
+    if (page.quality.as_machined != nullptr && !page.quality.as_machined->roughness.patches.empty()) {
+        const PartRoughness& f = page.quality.as_machined->roughness;
         text += fmt::format(
             "<p>Formed surface with {}, {} patches: Ra {:.2f}, Rz {:.2f} (at most {:.2f}), Sa {:.2f}, Sz {:.2f} µm, cut-off {:g} mm.</p>\n",
             html(to_text(*page.quality.tool)), f.patches.size(), f.ra * um_per_mm, f.rz * um_per_mm,
             f.patches[f.roughest].profile.rz * um_per_mm, f.sa * um_per_mm, f.sz * um_per_mm, f.cutoff);
         text += fmt::format("<p>The form is not known on {:.0f} % of these patches: nothing is measured there.</p>\n",
                             100 * f.unknown);
+        if (f.machine.cells > 0)
+            text += fmt::format(
+                "<p>Of this the machine adds Sa {:.2f}, Sz {:.2f} µm to what the commanded path leaves, creases and fillets included.</p>\n",
+                f.machine.sa * um_per_mm, f.machine.sz * um_per_mm);
     } else {
         text += "<p>Roughness needs the tool: <code>--tool ball:D</code>.</p>\n";
     }
@@ -256,10 +260,10 @@ std::string page_summary(const ReportPage& page) {
             text += fact("Speed mismatch",
                          fmt::format("{:.{}f} mm/min", row.of_magnitude[2], row.of_magnitude[2] < 10 ? 2 : 0), "99 %");
     }
-    if (page.quality.as_machined != nullptr && !page.quality.as_machined->patches.empty()) {
-        text += fact(
-            "Roughness", fmt::format("Rz {:.2f} µm", page.quality.as_machined->rz * um_per_mm),
-            fmt::format("Ra {:.2f} µm, {}", page.quality.as_machined->ra * um_per_mm, to_text(*page.quality.tool)));
+    if (page.quality.as_machined != nullptr && !page.quality.as_machined->roughness.patches.empty()) {
+        text += fact("Roughness", fmt::format("Rz {:.2f} µm", page.quality.as_machined->roughness.rz * um_per_mm),
+                     fmt::format("Ra {:.2f} µm, {}", page.quality.as_machined->roughness.ra * um_per_mm,
+                                 to_text(*page.quality.tool)));
     }
     std::size_t warnings = 0;
     for (const Diagnostic& d : page.health.kept()) warnings += d.severity == Severity::note ? 0 : 1;

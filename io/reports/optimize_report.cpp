@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <optional>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -89,13 +92,40 @@ Json ensemble_json(const EnsembleResult& ensemble) {
         {"machines", ensemble.runs.size()}, {"worst", object(ensemble.worst())}, {"mean", object(ensemble.mean())}};
 }
 
+/// The name of a row, before, after, and the digits behind the point.
+using WriteRow = std::function<void(std::string_view, double, double, int)>;
+
+void write_roughness(const Optimized& r, const WriteRow& row) {
+    if (!r.roughness_before || !r.roughness_after) return;
+    const PartRoughness &before = *r.roughness_before, &after = *r.roughness_after;
+    if (!before.patches.empty() && !after.patches.empty()) {
+        row("roughness Ra [µm]", before.ra * um_per_mm, after.ra * um_per_mm, 2);
+        row("roughness Rz [µm]", before.rz * um_per_mm, after.rz * um_per_mm, 2);
+    }
+    if (before.machine.cells > 0 && after.machine.cells > 0)
+        row("  added by the machine, Sq [µm]", before.machine.sq * um_per_mm, after.machine.sq * um_per_mm, 2);
+}
+
+Json roughness_json(const std::optional<PartRoughness>& roughness) {
+    if (!roughness) return nullptr;
+    const auto known = [](bool is, double mm) { return is ? number(mm * um_per_mm, 3) : Json(nullptr); };
+    const bool form = !roughness->patches.empty(), machine = roughness->machine.cells > 0;
+    return Json{{"ra_um", known(form, roughness->ra)},
+                {"rz_um", known(form, roughness->rz)},
+                {"sa_um", known(form, roughness->sa)},
+                {"sq_um", known(form, roughness->sq)},
+                {"machine_sa_um", known(machine, roughness->machine.sa)},
+                {"machine_sq_um", known(machine, roughness->machine.sq)},
+                {"form_unknown_percent", number(100 * roughness->unknown, 1)}};
+}
+
 }  // namespace
 
 std::string optimize_text(const Optimized& r) {
     std::string text;
     const auto row = [&](std::string_view name, double before, double after, int digits) {
         const double change = before > 0 ? 100 * (after / before - 1) : 0;
-        text += fmt::format("{:<30} {:>12.{}f} {:>12.{}f} {:>8} %\n", name, before, digits, after, digits,
+        text += fmt::format("{:<31} {:>11.{}f} {:>12.{}f} {:>8} %\n", name, before, digits, after, digits,
                             fmt::format("{:+.1f}", std::abs(change) < 0.05 ? 0.0 : change));
     };
     if (r.measured) {
@@ -108,7 +138,7 @@ std::string optimize_text(const Optimized& r) {
     const bool controller = std::any_of(r.controller_runs.begin(), r.controller_runs.end(),
                                         [](const ControllerRun& run) { return run.candidate > 0 && run.measured; });
     text += controller_text(r.controller_runs);
-    text += fmt::format("{:<30} {:>12} {:>12} {:>10}\n", controller ? "on the controller" : "simulated", "before",
+    text += fmt::format("{:<31} {:>11} {:>12} {:>10}\n", controller ? "on the controller" : "simulated", "before",
                         "after", "change");
     row("time [s]", r.before.duration, r.after.duration, 3);
     row("speed mismatch p95 [mm/min]", r.before.mismatch * seconds_per_minute, r.after.mismatch * seconds_per_minute,
@@ -123,6 +153,7 @@ std::string optimize_text(const Optimized& r) {
             row(fmt::format("  of {}", name_of(static_cast<Quantity>(k))), static_cast<double>(before[k]),
                 static_cast<double>(after[k]), 0);
     }
+    write_roughness(r, row);
     row("lines", r.evaluation.lines_before, r.evaluation.lines_after, 0);
     text += fmt::format("{} stretches, {} lines changed; off the programmed path by at most {:.4f} mm\n",
                         r.evaluation.intervals, r.evaluation.changed_lines, r.evaluation.deviation.greatest);
@@ -157,6 +188,8 @@ std::string optimize_json(const Optimized& r, const Diagnostics& diagnostics) {
               {"mismatch_after", number(r.after.mismatch * seconds_per_minute, 2)},
               {"defects_before", r.evaluation.defects_before},
               {"defects_after", r.evaluation.defects_after},
+              {"roughness_before", roughness_json(r.roughness_before)},
+              {"roughness_after", roughness_json(r.roughness_after)},
               {"intervals", r.evaluation.intervals},
               {"lines_before", r.evaluation.lines_before},
               {"lines_after", r.evaluation.lines_after},

@@ -37,7 +37,7 @@ Json looked_at_defects(const ReportedQuality& q) {
     return all;
 }
 
-void add_roughness(Json& summary, const AsMachinedReport& f) {
+void add_roughness(Json& summary, const PartRoughness& f) {
     const auto known = [&](double mm) { return f.patches.empty() ? Json(nullptr) : number(um(mm), 3); };
     summary["ra_um"] = known(f.ra);
     summary["rz_um"] = known(f.rz);
@@ -45,12 +45,16 @@ void add_roughness(Json& summary, const AsMachinedReport& f) {
     summary["sa_um"] = known(f.sa);
     summary["sq_um"] = known(f.sq);
     summary["sz_um"] = known(f.sz);
+    const auto of_machine = [&](double mm) { return f.machine.cells == 0 ? Json(nullptr) : number(um(mm), 3); };
+    summary["machine_sa_um"] = of_machine(f.machine.sa);
+    summary["machine_sq_um"] = of_machine(f.machine.sq);
+    summary["machine_sz_um"] = of_machine(f.machine.sz);
     summary["roughness_cutoff_mm"] = number(f.cutoff);
     summary["roughness_patches"] = f.patches.size();
     summary["form_unknown_percent"] = number(100 * f.unknown, 1);
 }
 
-Json patches_json(const AsMachinedReport& f) {
+Json patches_json(const PartRoughness& f) {
     Json all = Json::array();
     for (const RoughPatch& patch : f.patches) {
         all.push_back({{"point", patch.point},
@@ -61,6 +65,7 @@ Json patches_json(const AsMachinedReport& f) {
                        {"sa_um", number(um(patch.area.sa), 3)},
                        {"sq_um", number(um(patch.area.sq), 3)},
                        {"sz_um", number(um(patch.area.sz), 3)},
+                       {"machine_sq_um", patch.machine.cells == 0 ? Json(nullptr) : number(um(patch.machine.sq), 3)},
                        {"form_unknown_percent", number(100 * patch.unknown, 1)}});
     }
     return all;
@@ -70,6 +75,24 @@ Json patches_json(const AsMachinedReport& f) {
 bool is_limit(const BudgetLine& line) {
     const auto limits = limit_budget_limits();
     return std::any_of(limits.begin(), limits.end(), [&](const auto& row) { return row.name == line.name; });
+}
+
+std::string roughness_text(const PartRoughness& f) {
+    if (f.patches.empty()) return {};
+    const RoughPatch& roughest = f.patches[f.roughest];
+    std::string text = fmt::format(
+        "formed surface, {} patches: Ra {:.2f}, Rz {:.2f} (at most {:.2f}, at {:.2f} {:.2f} {:.2f}), Sa {:.2f}, Sz {:.2f} µm, cut-off {:g} mm\n",
+        f.patches.size(), um(f.ra), um(f.rz), um(roughest.profile.rz), roughest.contact.x(), roughest.contact.y(),
+        roughest.contact.z(), um(f.sa), um(f.sz), f.cutoff);
+    if (f.unknown >= worth_saying)
+        text +=
+            fmt::format("form not known on {:.0f} % of these patches (creases, fillets, borders): not measured there\n",
+                        100 * f.unknown);
+    if (f.machine.cells > 0)
+        text += fmt::format(
+            "of this the machine adds Sa {:.2f}, Sq {:.2f}, Sz {:.2f} µm to what the commanded path leaves, creases and fillets included\n",
+            um(f.machine.sa), um(f.machine.sq), um(f.machine.sz));
+    return text;
 }
 
 /// The verdict, and what stands out most.
@@ -194,11 +217,11 @@ std::string quality_json(const ReportedQuality& q) {
                  {"tool", q.tool ? Json(to_text(*q.tool)) : Json(nullptr)},
                  {"budget", std::move(budget)},
                  {"within_budget", r.judgement.judged() && all_held(q.budget)}};
-    if (q.as_machined != nullptr) add_roughness(summary, *q.as_machined);
+    if (q.as_machined != nullptr) add_roughness(summary, q.as_machined->roughness);
     Json json{{"defects", looked_at_defects(q)},
               {"expected", list_defects(q.report->expected, q.scallop)},
               {"summary", std::move(summary)}};
-    if (q.as_machined != nullptr) json["roughness"] = patches_json(*q.as_machined);
+    if (q.as_machined != nullptr) json["roughness"] = patches_json(q.as_machined->roughness);
     if (q.limits != nullptr) {
         json["limits"] = limits_json(*q.limits, *q.program);
         json["limits_judged"] = judged_limits_json(*q.limits);
@@ -250,18 +273,7 @@ std::string quality_text(const ReportedQuality& q) {
         if (!thresholds.empty()) text += fmt::format("thresholds: {}; {}\n", thresholds, r.note);
         if (q.scallop > 0)
             text += fmt::format("scallop between clean passes with {}: {:.2f} µm\n", to_text(*q.tool), um(q.scallop));
-        if (q.as_machined != nullptr && !q.as_machined->patches.empty()) {
-            const AsMachinedReport& f = *q.as_machined;
-            const RoughPatch& roughest = f.patches[f.roughest];
-            text += fmt::format(
-                "formed surface, {} patches: Ra {:.2f}, Rz {:.2f} (at most {:.2f}, at {:.2f} {:.2f} {:.2f}), Sa {:.2f}, Sz {:.2f} µm, cut-off {:g} mm\n",
-                f.patches.size(), um(f.ra), um(f.rz), um(roughest.profile.rz), roughest.contact.x(),
-                roughest.contact.y(), roughest.contact.z(), um(f.sa), um(f.sz), f.cutoff);
-            if (f.unknown >= worth_saying)
-                text += fmt::format(
-                    "form not known on {:.0f} % of these patches (creases, fillets, borders): not measured there\n",
-                    100 * f.unknown);
-        }
+        if (q.as_machined != nullptr) text += roughness_text(q.as_machined->roughness);
         if (!r.has_lag) text += "no measured positions: depths are those of the commanded path alone\n";
         if (!r.expected.empty())
             text += fmt::format("{} more at the border of the part, where a pass has one neighbour only: not counted\n",

@@ -141,7 +141,7 @@ AsMachinedMap make_as_machined_map(const AsMachinedPart& part, const Box3& box, 
     std::vector<float> heights;
     as_machined.map(frame, [&](std::int64_t first_row, std::span<float> z) {
         heights.assign(z.begin(), z.end());
-        form.subtract(frame, first_row, z);
+        form.subtract(frame, first_row, as_machined.level(), z);
         leave_out_flanks(form, frame, first_row, heights, z);
         const auto wide = static_cast<std::size_t>(frame.columns);
         for (std::size_t r = 0; r < z.size() / wide; ++r) {

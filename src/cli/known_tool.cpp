@@ -7,10 +7,13 @@
 namespace clsurf::cli {
 
 void declare_tool(po::options_description& options) {
-    // clang-format off
-    options.add_options()
-        ("tool", po::value<std::string>()->value_name("ball:D|bull:D,R|flat:D|none"), "the tool, diameter and corner radius in mm; places are then contact points on the part, otherwise tool tips (default: from the log's metadata or --tools)");
-    // clang-format on
+    declare_tool(
+        options,
+        "the tool, diameter and corner radius in mm; places are then contact points on the part, otherwise tool tips (default: from the log's metadata or --tools)");
+}
+
+void declare_tool(po::options_description& options, const char* meaning) {
+    options.add_options()("tool", po::value<std::string>()->value_name("ball:D|bull:D,R|flat:D|none"), meaning);
 }
 
 ToolChoice read_tool(const po::variables_map& values) {

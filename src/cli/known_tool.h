@@ -20,6 +20,8 @@ struct ToolChoice {
 
 /// --tool.
 void declare_tool(po::options_description& options);
+/// The same where it does not tell places; `meaning`: what it is for.
+void declare_tool(po::options_description& options, const char* meaning);
 /// Throws UsageError: not a tool.
 [[nodiscard]] ToolChoice read_tool(const po::variables_map& values);
 

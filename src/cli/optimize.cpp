@@ -6,6 +6,7 @@
 
 #include "cli/controller_runs.h"
 #include "cli/fitted_machine.h"
+#include "cli/known_tool.h"
 #include "cli/optimize_options.h"
 #include "cli/optimize_picture.h"
 #include "cli/options.h"
@@ -54,6 +55,7 @@ RepairInputs read_inputs(const po::variables_map& values, Diagnostics& diagnosti
     const Eigen::Isometry3d zero = place_motions(in.program, poses, Coordinates::level);
     in.reader = {source, read_program_options(values), std::string(in.program.dialect->name), poses};
     diagnostics.append(in.program.diagnostics);
+    in.rules.tool = find_tool(read_tool(values), in.measured ? &*in.measured : nullptr, &in.program, diagnostics);
     if (in.measured) in.rules.identity = io::check_identity(source, *in.measured, diagnostics);
     const bool fitted_later = values.count("controller") > 0;
     if (in.measured && !has_machine && !fitted_later && in.rules.identity != ProgramIdentity::other) {
@@ -129,7 +131,7 @@ Subcommand optimize_subcommand() {
             "only if it is better: speeds of adjacent passes differ less, there are no more defects, it does\n"
             "not take longer (or at most by --more-time), and it stays within the tolerance. Otherwise the\n"
             "exit code is 1, with the reason. Lines that contain anything but line number, G1, X, Y, Z, A, B,\n"
-            "C are kept byte for byte.\n"
+            "C are kept byte for byte. With --tool, the machined surface must not get rougher either.\n"
             "It must also be better on other machines that the machine file allows (--machines). With --log and\n"
             "without --machine, the machine is fitted to the log. With --controller, your own controller runs the\n"
             "program and the best candidates, --runs times in all, and its logs decide.\n"

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "cli/controller_command.h"
+#include "cli/known_tool.h"
 #include "cli/work_frames.h"
 #include "core/error.h"
 #include "core/version.h"
@@ -26,6 +27,9 @@ void declare_optimize(po::options_description& options) {
     options.add_options()(
         "log", po::value<std::string>()->value_name("LOG"),
         "a recorded run of the program: only places that differ from adjacent passes there are repaired; the result is still verified by simulation");
+    declare_tool(
+        options,
+        "the tool, diameter and corner radius in mm: the new program must not leave a rougher surface (default: from the metadata of --log or from --tools)");
     declare_controller(options);
     options.add_options()("runs", po::value<int>()->value_name("N"),
                           "how often --controller runs, the program itself included if it has no --log (default: 3)");

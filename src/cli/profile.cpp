@@ -8,7 +8,7 @@
 #include "cli/picture_output.h"
 #include "core/file_name.h"
 #include "io/reports/profile_report.h"
-#include "machined/as_machined_report.h"
+#include "machined/as_machined_profile.h"
 
 namespace clsurf::cli {
 

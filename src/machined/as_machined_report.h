@@ -1,27 +1,17 @@
 #pragma once
-// AsMachinedReport: roughness and marks of a part, measured on patches of its as-machined surface, so that the
-// cost does not grow with the part. Patches spread evenly over the cutting points give the roughness. A
-// profile across each defect gives its depth after its neighbours have cut.
+// AsMachinedReport: roughness and marks of a part. A profile across each defect gives its depth after its neighbours have
+// cut.
 
 #include <cstdint>
 #include <string_view>
 #include <vector>
 
 #include "core/not_finite.h"
-#include "machined/form.h"
-#include "machined/roughness.h"
+#include "machined/as_machined_surface.h"
+#include "machined/part_roughness.h"
 #include "predictor/defects.h"
 
 namespace clsurf {
-
-/// Roughness of a region.
-struct RoughPatch {
-    PointIndex point = 0;  ///< in its middle
-    Vec3 contact;          ///< [mm] of the tool with the surface there
-    Roughness profile;     ///< across the feed
-    AreaHeights area;      ///< [mm] of a square of two cut-offs, form taken off
-    double unknown = 0;    ///< share of the square's cut cells where the form is not known
-};
 
 /// Why a defect has no depth in the as-machined surface, or another one than its pass alone would leave.
 enum class MarkNote : std::uint8_t {
@@ -42,28 +32,10 @@ struct AsMachinedMark {
 };
 
 struct AsMachinedReport {
-    std::vector<RoughPatch>
-        patches;               ///< that could be measured, in the order of their points; none: nothing below is known
-    double ra = 0, rz = 0;     ///< [mm] mean over the patches' profiles across the feed
-    std::size_t roughest = 0;  ///< patch whose profile has the greatest Rz
-    double sa = 0, sq = 0;     ///< [mm] mean over the patches, form taken off
-    double sz = 0;             ///< [mm] of the roughest patch
-    double cutoff = 0;         ///< [mm] of the profiles' filter
-    double scallop = 0;        ///< [mm] usual_scallop(); 0: not known
-    double unknown = 0;  ///< share of the patches' cut cells where the form is not known: nothing is measured there
+    PartRoughness roughness;
+    double scallop = 0;                 ///< [mm] usual_scallop(); 0: not known
     std::vector<AsMachinedMark> marks;  ///< per defect of the report
 };
-
-/// A profile across the formed surface.
-struct AsMachinedProfile {
-    double step = 0;                   ///< [mm] between values
-    std::vector<double> deviation;     ///< [mm] over the form; NaN: nothing was cut, or no form there
-    std::size_t first = 0, count = 0;  ///< the longest section without gaps …
-    Roughness roughness;               ///< … and its roughness
-};
-
-/// From one place to another [mm], both ends included, a value at least every 1/200 of a step-over.
-[[nodiscard]] AsMachinedProfile measure_profile(const AsMachinedSurface& as_machined, const Vec2& from, const Vec2& to);
 
 /// A mark in the middle of a profile over some step-overs to each side: how far the lowest place within
 /// one step-over is below the usual valley (`pit`), or the highest above the usual cusp. Usual: the median
@@ -76,8 +48,9 @@ struct AsMachinedProfile {
 /// ball, or no place has neighbours. O(10⁴ points).
 [[nodiscard]] double usual_scallop(const AsMachinedSurface& as_machined, const Signals& signals);
 
-/// Some 24 patches and every defect of `report`. Parallel.
+/// Of a surface and every defect of `report`. `commanded`: swept along the commanded positions; nullptr: not known. Parallel.
 [[nodiscard]] AsMachinedReport measure_as_machined(const AsMachinedSurface& as_machined, const Signals& signals,
-                                                   const QualityReport& report);
+                                                   const QualityReport& report,
+                                                   const AsMachinedSurface* commanded = nullptr);
 
 }  // namespace clsurf

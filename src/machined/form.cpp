@@ -89,7 +89,7 @@ struct Form::Workspace {
     std::vector<WeighedPlace> places;
 };
 
-Form::Form(const AsMachinedSurface& as_machined, const Box2& region, double tolerance) {
+Form::Form(const AsMachinedSurface& as_machined, const Box2& region, double tolerance) : level_(as_machined.level()) {
     pitch_ = as_machined.surface().step_over > 0 ? as_machined.surface().step_over : 10 * as_machined.usual_cell();
     // Of the flat formula, with the tool's radius: a measure of size.
     most_scatter_ =
@@ -107,7 +107,7 @@ Form::Form(const AsMachinedSurface& as_machined, const Box2& region, double tole
     wide.extend(Vec2(region.max() + room));
     std::vector<Vec3> found = ungouged_contacts(as_machined, wide, sample_spacing * pitch_);
     Samples samples;
-    samples.level = as_machined.level();
+    samples.level = level_;
     samples.columns = columns_;
     samples.rows = rows_;
     // Points beside the grid belong to its outermost squares.
@@ -246,6 +246,15 @@ Form::Height Form::height_at(const Knot& knot, double x, double y) const {
     return height;
 }
 
+bool Form::is_among_contacts(const Vec2& place) const {
+    const double u = (place.x() - corner_.x()) / pitch_;
+    const double v = (place.y() - corner_.y()) / pitch_;
+    const bool on_grid =
+        u >= 0 && v >= 0 && u < static_cast<double>(columns_ - 1) && v < static_cast<double>(rows_ - 1);
+    return on_grid && inside_[static_cast<std::size_t>(static_cast<std::int64_t>(v * finer) * finer * columns_ +
+                                                       static_cast<std::int64_t>(u * finer))] != 0;
+}
+
 Form::Facet Form::at(const Vec2& place) const {
     const double u = (place.x() - corner_.x()) / pitch_;
     const double v = (place.y() - corner_.y()) / pitch_;
@@ -255,9 +264,7 @@ Form::Facet Form::at(const Vec2& place) const {
     double weights = 0;
     double lowest = std::numeric_limits<double>::infinity();
     double highest = -lowest;
-    const bool on_grid = c >= 0 && r >= 0 && c + 1 < columns_ && r + 1 < rows_;
-    if (on_grid && inside_[static_cast<std::size_t>(static_cast<std::int64_t>(v * finer) * finer * columns_ +
-                                                    static_cast<std::int64_t>(u * finer))] != 0) {
+    if (is_among_contacts(place)) {
         for (int k = 0; k < 4; ++k) {
             const std::int64_t kc = c + k % 2;
             const std::int64_t kr = r + k / 2;
@@ -288,7 +295,8 @@ Form::Facet Form::at(const Vec2& place) const {
     return sum;
 }
 
-std::int64_t Form::subtract(const MapFrame& frame, std::int64_t first_row, std::span<float> z) const {
+std::int64_t Form::subtract(const MapFrame& frame, std::int64_t first_row, double level, std::span<float> z) const {
+    const double shift = level - level_;
     std::atomic<std::int64_t> unknown = 0;
     const auto count = static_cast<std::int64_t>(z.size());
     constexpr std::int64_t grain = 4096;
@@ -299,7 +307,8 @@ std::int64_t Form::subtract(const MapFrame& frame, std::int64_t first_row, std::
             if (!(height == height)) continue;
             const Facet form = at(
                 frame.at(static_cast<double>(k % frame.columns), static_cast<double>(first_row + k / frame.columns)));
-            height = static_cast<float>((height - form.z) / std::sqrt(1 + form.zx * form.zx + form.zy * form.zy));
+            height =
+                static_cast<float>((height + shift - form.z) / std::sqrt(1 + form.zx * form.zx + form.zy * form.zy));
             here += form.unknown ? 1 : 0;
         }
         unknown += here;
@@ -311,7 +320,7 @@ std::int64_t map_deviation(const AsMachinedSurface& as_machined, const Form& for
                            const TakeRows& take) {
     std::int64_t unknown = 0;
     as_machined.map(frame, [&](std::int64_t first_row, std::span<float> z) {
-        unknown += form.subtract(frame, first_row, z);
+        unknown += form.subtract(frame, first_row, as_machined.level(), z);
         take(first_row, z);
     });
     return unknown;

@@ -25,17 +25,21 @@ public:
     /// known; half a scallop at least. O(contact points near it + knots), parallel.
     Form(const AsMachinedSurface& as_machined, const Box2& region, double tolerance = 0);
 
-    /// Turns heights of AsMachinedSurface::map() into deviations [mm] along the form's normal, + outside
-    /// of it; NaN stays, and becomes what has no form: beyond the outermost contact points, and where the form
+    /// Turns heights of AsMachinedSurface::map(), over `level` [mm], into deviations [mm] along the form's normal, +
+    /// outside of it; NaN stays, and becomes what has no form: beyond the outermost contact points, and where the form
     /// is not known. Returns how many heights that were. Parallel.
-    std::int64_t subtract(const MapFrame& frame, std::int64_t first_row, std::span<float> z) const;
+    std::int64_t subtract(const MapFrame& frame, std::int64_t first_row, double level, std::span<float> z) const;
 
-    /// The form's height [mm] over AsMachinedSurface::level(), and its slopes; NaN: none there.
+    /// The form's height [mm] over AsMachinedSurface::level() of the surface that it is made of, and its slopes; NaN: none
+    /// there.
     struct Facet {
         double z = 0, zx = 0, zy = 0;
         bool unknown = false;  ///< contact points lie about, but no smooth form goes through them
     };
     [[nodiscard]] Facet at(const Vec2& place) const;
+
+    /// Whether contact points lie about a place on all sides: beyond the outermost pass stands the tool's flank.
+    [[nodiscard]] bool is_among_contacts(const Vec2& place) const;
 
 private:
     enum class Kind : std::uint8_t {
@@ -62,6 +66,7 @@ private:
     /// Whether contact points lie on all sides of a place: beyond the outermost pass stands the tool's flank.
     [[nodiscard]] bool is_inside(const Vec2& place, const Samples& samples) const;
 
+    double level_ = 0;  ///< [mm] from which its heights are counted
     Vec2 corner_ = Vec2::Zero();
     double pitch_ = 1;
     std::int64_t columns_ = 0, rows_ = 0;
@@ -71,7 +76,7 @@ private:
     std::vector<std::uint8_t> inside_;  ///< on a grid four times as fine
 };
 
-/// AsMachinedSurface::map() with the form taken off: deviations [mm]. Returns how many
+/// AsMachinedSurface::map() with a form, which may be that of another surface, taken off: deviations [mm]. Returns how many
 /// cells were cut where the form is not known.
 std::int64_t map_deviation(const AsMachinedSurface& as_machined, const Form& form, const MapFrame& frame,
                            const TakeRows& take);

@@ -9,6 +9,10 @@ AsMachinedSurface ToolRun::as_machined(const CuttingTool& tool) const {
     return {surface, read.signals, path.role, read.swept(path), read.pieces, tool};
 }
 
+AsMachinedSurface ToolRun::as_commanded(const CuttingTool& tool) const {
+    return {surface, read.signals, path.role, path, read.pieces, tool};
+}
+
 std::unique_ptr<const UprightPart> upright_part(const Part& part, std::optional<Role> wanted, const CuttingTool& tool) {
     if (!tilts(part.log, part.path)) return nullptr;
     if (tool.kind != ToolKind::ball) {

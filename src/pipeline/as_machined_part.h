@@ -16,8 +16,12 @@ struct ToolRun {
     const ClSurface& surface;
     const PartSignals& read;
 
-    /// Refers to what this refers to.
+    /// Swept along the measured positions, where there are such. Refers to what this refers to.
     [[nodiscard]] AsMachinedSurface as_machined(const CuttingTool& tool) const;
+    /// Whether the log has commanded positions besides those that are measured.
+    [[nodiscard]] bool has_both() const { return path.role == Role::commanded && read.measured.has_value(); }
+    /// Swept along the path itself.
+    [[nodiscard]] AsMachinedSurface as_commanded(const CuttingTool& tool) const;
 };
 
 /// A part as an upright tool that cuts the same goes over it.

@@ -17,9 +17,13 @@ void measure_as_machined_surface(const Part& part, const ClSurface& surface, std
     const CuttingTool tool = *part.tool;
     const std::unique_ptr<const UprightPart> upright = upright_part(part, measured, tool);
     const ToolRun run = upright ? upright->run() : ToolRun{part.path, surface, read};
-    quality.as_machined = measure_as_machined(run.as_machined(tool), run.read.signals, quality.report);
+    const AsMachinedSurface measured_surface = run.as_machined(tool);
+    std::optional<AsMachinedSurface> commanded;
+    if (run.has_both()) commanded.emplace(run.as_commanded(tool));
+    quality.as_machined =
+        measure_as_machined(measured_surface, run.read.signals, quality.report, commanded ? &*commanded : nullptr);
     quality.scallop = quality.as_machined->scallop;
-    for (RoughPatch& patch : quality.as_machined->patches)
+    for (RoughPatch& patch : quality.as_machined->roughness.patches)
         patch.contact = contacts.place(patch.point).contact.value_or(patch.contact);
 }
 

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "repair/roughness_gauge.h"
 
 namespace clsurf {
 namespace {
@@ -50,10 +52,13 @@ public:
         if (before_.surface.step_over <= 0)
             throw InputError(Place::of_file(measured->name),
                              "has no adjacent passes: it does not show which passes differ");
+        if (rules_.tool) gauge_.emplace(before_, *rules_.tool);
         if (!runs_.empty()) runs_.back().measured = before_.measures();
         Optimized result = search(*measured);
         result.controller_runs = runs_;
         if (!after_judged_) return result;
+        if (gauge_) result.roughness_before = gauge_->before();
+        result.roughness_after = std::move(roughness_after_);
         result.before = std::move(before_);
         result.after = std::move(after_);
         return result;
@@ -61,6 +66,10 @@ public:
 
 private:
     [[nodiscard]] bool has_runs() const { return static_cast<int>(runs_.size()) < judge_.runs; }
+
+    [[nodiscard]] RunMeasures measures_before() const {
+        return gauge_ ? with_roughness(before_.measures(), gauge_->before()) : before_.measures();
+    }
 
     [[nodiscard]] JudgedRun judged(Log log, const Program& program, const QualityRules& quality) {
         return judge_run(std::move(log), program, quality, diagnostics_, nullptr, ProgramIdentity::unknown);
@@ -135,7 +144,10 @@ private:
     /// Returns why it is not accepted.
     std::string take(const Finalist& finalist, const Optimized& found, JudgedRun after, ControllerRun& run,
                      Optimized& result) {
-        const RunMeasures before = before_.measures(), measured = after.measures();
+        std::optional<PartRoughness> roughness;
+        if (gauge_) roughness = gauge_->after(after);
+        const RunMeasures before = measures_before(),
+                          measured = roughness ? with_roughness(after.measures(), *roughness) : after.measures();
         const double ratio = static_cast<double>(finalist.evaluation.lines_after) /
                              static_cast<double>(finalist.evaluation.lines_before);
         std::string reason = why_not_better(before, measured, rules_.more_time);
@@ -147,6 +159,7 @@ private:
         const bool better = run.accepted && (!result.evaluation.accepted || gain > best_gain_);
         if (!better && after_judged_) return reason;
         after_ = std::move(after);
+        roughness_after_ = std::move(roughness);
         after_judged_ = true;
         if (!better) return reason;
         best_gain_ = gain;
@@ -170,6 +183,8 @@ private:
     std::vector<ControllerLog> logs_;
     std::vector<ControllerRun> runs_;
     JudgedRun before_, after_;
+    std::optional<RoughnessGauge> gauge_;  ///< of before_, where the tool is known
+    std::optional<PartRoughness> roughness_after_;
     bool after_judged_ = false;
     int candidates_ = 0;
     double best_gain_ = 0;

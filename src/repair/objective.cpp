@@ -1,6 +1,7 @@
 #include "repair/objective.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -25,7 +26,9 @@ double objective(const RunMeasures& before, const RunMeasures& after, double lin
     const double mismatch = was > 0 ? is / was : (is > 0 ? 2.0 : 1.0);
     const double defects = after.defects / std::max(1.0, before.defects);
     const double later = std::clamp(after.duration / before.duration - 1, 0.0, more_time);
-    return growth_weight * line_ratio + std::max(mismatch, goal_of_mismatch) +
+    const bool rough = before.roughness > 0 && std::isfinite(after.roughness);
+    const double roughness = rough ? after.roughness / before.roughness : 0;
+    return growth_weight * line_ratio + roughness + std::max(mismatch, goal_of_mismatch) +
            beyond_goal * std::min(mismatch, goal_of_mismatch) + defects + later;
 }
 
@@ -43,6 +46,9 @@ std::string why_not_better(const RunMeasures& before, const RunMeasures& after, 
     const double longest = before.duration * (1 + more_time);
     if (after.duration > longest)
         return fmt::format("it would take {:.3f} instead of {:.3f} s", after.duration, longest);
+    if (after.roughness > before.roughness * (1 + roughness_agrees))
+        return fmt::format("the machined surface would be rougher: Ra {:.2f} instead of {:.2f} µm",
+                           after.roughness * um_per_mm, before.roughness * um_per_mm);
     return {};
 }
 

@@ -1,17 +1,24 @@
 #pragma once
-// What a repair is to lower, in one place: mismatch, defects and time of a run, and the length of the program.
+// What a repair is to lower, in one place: mismatch, defects and time of a run, the roughness of the surface that it
+// leaves, and the length of the program.
 
 #include <string>
+
+#include "core/not_finite.h"
 
 namespace clsurf {
 
 /// What a run of a program is judged by. Lower is better in each.
 struct RunMeasures {
-    double mismatch = 0;  ///< [mm/s] 95th percentile of the speed differences between adjacent passes
-    double defects = 0;   ///< their number, by the thresholds of the run before; not whole in a mean
-    double duration = 0;  ///< [s]
-    double speed = 0;     ///< [mm/s] usual speed of the cuts
+    double mismatch = 0;                 ///< [mm/s] 95th percentile of the speed differences between adjacent passes
+    double defects = 0;                  ///< their number, by the thresholds of the run before; not whole in a mean
+    double duration = 0;                 ///< [s]
+    double speed = 0;                    ///< [mm/s] usual speed of the cuts
+    double roughness = missing<double>;  ///< [mm] Ra of the as-machined surface; NaN: not known
 };
+
+/// A rise of the roughness by this share is none: it is measured at some places only.
+inline constexpr double roughness_agrees = 0.01;
 
 /// A smaller mismatch, as a share of the speed, is none.
 inline constexpr double least_mismatch = 0.002;
@@ -19,16 +26,17 @@ inline constexpr double least_mismatch = 0.002;
 /// Gains below this are not worth a new program.
 inline constexpr double least_gain = 0.02;
 
-/// The objective, relative to the run before: m + d + t + 0.03 g. m is the share of the mismatch that remains, both at
+/// The objective, relative to the run before: m + d + t + r + 0.03 g. m is the share of the mismatch that remains, both at
 /// least least_mismatch; what is below one half counts a tenth, because defects matter more from there on. d is the share of the defects that
-/// remain. t is the share of additional time, at most `more_time`. g = lines after / lines before.
+/// remain. t is the share of additional time, at most `more_time`. r is
+/// the share of the roughness that remains, where both are known. g = lines after / lines before.
 [[nodiscard]] double objective(const RunMeasures& before, const RunMeasures& after, double line_ratio,
                                double more_time);
 
 /// By which share the objective falls from that of the unchanged program; negative: it rises.
 [[nodiscard]] double gain_of(const RunMeasures& before, const RunMeasures& after, double line_ratio, double more_time);
 
-/// Why `after` is not better than `before` in every respect: mismatch, defects, time (with `more_time`, a share); empty:
+/// Why `after` is not better than `before` in every respect: mismatch, defects, time (with `more_time`, a share), roughness; empty:
 /// it is.
 [[nodiscard]] std::string why_not_better(const RunMeasures& before, const RunMeasures& after, double more_time);
 

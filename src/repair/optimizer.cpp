@@ -69,9 +69,11 @@ public:
         propose_all({program_, read_, rules_, !has_log, evaluator_.orientation()});
         result.fidelity = machine_.fidelity;
         result.five_axes = evaluator_.orientation() != nullptr;
-        result.before = evaluator_.take_before();
         result.run_before = evaluator_.summary_before();
         Proposal& best = *choose(result);
+        result.before = evaluator_.take_before();
+        result.roughness_before = evaluator_.roughness_before();
+        result.roughness_after = std::move(best.roughness);
         result.evaluation = std::move(best.evaluation);
         result.text = std::move(best.text);
         result.after = std::move(best.run);
@@ -83,6 +85,7 @@ private:
     /// The best proposal that the ensemble accepts; the best of all, refused with the ensemble's reason, where it accepts
     /// none.
     TriedProposal choose(Optimized& result) {
+        measure_roughness();
         const std::vector<TriedProposal> finalists = evaluator_.finalists();
         if (finalists.empty()) return evaluator_.best();
         Ensemble ensemble(program_, machines_drawn_from(machine_, rules_.machines), rules_, evaluator_.kinematics());
@@ -91,6 +94,10 @@ private:
         EnsembleResult refused;
         std::vector<Finalist> doubtful;
         for (const TriedProposal& each : finalists) {
+            if (!each->evaluation.accepted) {
+                if (refusal.empty()) refusal = each->evaluation.reason;
+                continue;
+            }
             const EnsembleResult runs = ensemble.run(read_(each->text));
             const std::string reason = why_not_better(runs, rules_.more_time);
             if (!reason.empty()) {
@@ -112,6 +119,16 @@ private:
         finalists.front()->evaluation.accepted = false;
         finalists.front()->evaluation.reason = refusal;
         return finalists.front();
+    }
+
+    void measure_roughness() {
+        if (!rules_.tool) return;
+        if (evaluator_.orientation() == nullptr) return evaluator_.measure_roughness(*rules_.tool);
+        diagnostics_.add({Severity::note,
+                          "optimize.tilted-tool",
+                          Place::of_file(program_.main().name()),
+                          "roughness is not measured: the tool may be tilted",
+                          {}});
     }
 
     void look_for_need(const JudgedRun& run) {

@@ -44,6 +44,8 @@ struct Optimized {
     std::optional<Measured> measured;
     std::string text;  ///< of the new program; that of the best proposal where none was accepted
     JudgedRun before, after;
+    /// Of both runs, at the same places; nothing: the tool is not known, or the program was run on five axes.
+    std::optional<PartRoughness> roughness_before, roughness_after;
     SimulationSummary run_before, run_after;
     std::string machine;               ///< where its values come from: a file, or the log that they are fitted to
     std::optional<Fidelity> fidelity;  ///< of simulations with the machine file

@@ -8,6 +8,7 @@
 #include "core/units.h"
 #include "repair/feeds/feed_equalisation.h"
 #include "repair/line_edit.h"
+#include "repair/roughness_gauge.h"
 
 namespace clsurf {
 namespace {
@@ -20,6 +21,9 @@ constexpr double share_of_large = 0.25;    ///< … this
 constexpr int most_in_vain = 96;           ///< proposals in a row, none of them better than the best
 constexpr std::size_t most_finalists = 4;  ///< of each kind …
 constexpr std::size_t most_finalists_of_large = 1;  ///< … where runs are large
+/// Share of the time that feeds leave for the other machines. Of candidates that use all of it, the mean of the machines
+/// takes up to 0.03 % longer than before.
+constexpr double time_reserve = 0.001;
 
 }  // namespace
 
@@ -38,6 +42,11 @@ Evaluator::Evaluator(const Program& program, const ReadProgram& read, const Mach
 bool Evaluator::has_time(double share) const {
     const auto one_run = static_cast<double>(before_.log.records);
     return (points_ == 0 || points_ + one_run <= share * most_points()) && in_vain_ < most_in_vain;
+}
+
+double Evaluator::longest() const {
+    const double reserve = rules_.machines > 0 ? time_reserve : 0;
+    return before_.duration * (1 + more_time_ - reserve);
 }
 
 double Evaluator::most_points() const {
@@ -117,9 +126,9 @@ std::string Evaluator::objection(const Proposal& p) const {
                            p.evaluation.deviation.turned * deg_per_rad, p.evaluation.deviation.turned_line);
     // Some controllers exceed them by themselves, as where blocks overlap in corners.
     if (!p.summary.limits_ok && summary_before_.limits_ok) return "the machine's limits would not be kept";
-    if (std::string reason = why_not_better(before_.measures(), p.run.measures(), more_time_); !reason.empty())
+    if (std::string reason = why_not_better(measures_before(), p.measures(), more_time_); !reason.empty())
         return reason;
-    const double gain = gain_of(before_.measures(), p.run.measures(), line_ratio(p), more_time_);
+    const double gain = gain_of(measures_before(), p.measures(), line_ratio(p), more_time_);
     if (gain < least_gain) return fmt::format("the gain is {:.1f} %, less than {:.0f} %", 100 * gain, 100 * least_gain);
     return {};
 }
@@ -129,7 +138,7 @@ double Evaluator::line_ratio(const Proposal& p) const {
 }
 
 double Evaluator::score(const Proposal& p) const {
-    return objective(before_.measures(), p.run.measures(), line_ratio(p), more_time_);
+    return objective(measures_before(), p.measures(), line_ratio(p), more_time_);
 }
 
 void Evaluator::keep_finalist(const TriedProposal& proposal, std::vector<TriedProposal>& finalists) const {
@@ -142,11 +151,29 @@ void Evaluator::keep_finalist(const TriedProposal& proposal, std::vector<TriedPr
     if (finalists.size() > most) finalists.pop_back();
 }
 
+RunMeasures Proposal::measures() const {
+    return roughness ? with_roughness(run.measures(), *roughness) : run.measures();
+}
+
+RunMeasures Evaluator::measures_before() const {
+    return roughness_before_ ? with_roughness(before_.measures(), *roughness_before_) : before_.measures();
+}
+
+void Evaluator::measure_roughness(const CuttingTool& tool) {
+    const RoughnessGauge gauge(before_, tool);
+    roughness_before_ = gauge.before();
+    for (const TriedProposal& each : finalists()) {
+        each->roughness = gauge.after(each->run);
+        each->evaluation.reason = objection(*each);
+        each->evaluation.accepted = each->evaluation.reason.empty();
+    }
+}
+
 std::vector<TriedProposal> Evaluator::finalists() const {
     std::vector<TriedProposal> all = with_feeds_;
     all.insert(all.end(), without_feeds_.begin(), without_feeds_.end());
     std::stable_sort(all.begin(), all.end(),
-                     [&](const TriedProposal& a, const TriedProposal& b) { return score(*a) < score(*b); });
+                     [&](const TriedProposal& a, const TriedProposal& b) { return better(*a, *b); });
     return all;
 }
 

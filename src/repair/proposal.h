@@ -2,9 +2,11 @@
 // Proposals: changed programs, simulated and compared with the original program.
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "machined/part_roughness.h"
 #include "repair/draft.h"
 #include "repair/judged_run.h"
 #include "repair/optimize_rules.h"
@@ -31,6 +33,9 @@ struct Proposal {
     std::string text;
     JudgedRun run;
     SimulationSummary summary;
+    std::optional<PartRoughness> roughness{};  ///< of a finalist, where the tool is known
+
+    [[nodiscard]] RunMeasures measures() const;
 };
 
 using TriedProposal = std::shared_ptr<Proposal>;
@@ -45,8 +50,9 @@ public:
     [[nodiscard]] const JudgedRun& before() const { return before_; }
     [[nodiscard]] JudgedRun take_before() { return std::move(before_); }
     [[nodiscard]] const SimulationSummary& summary_before() const { return summary_before_; }
-    /// The longest time of a proposal [s]: that of the program, unless more is allowed.
-    [[nodiscard]] double longest() const { return before_.duration * (1 + more_time_); }
+    /// The time that feeds may use [s]: that of the program, unless more is allowed; a little less where other machines
+    /// must not take longer either.
+    [[nodiscard]] double longest() const;
     /// Applies the time that the rules allow from now on. At least as much of the search remains as after half of it.
     void allow_more_time();
     /// nullptr: the program is not run on five axes.
@@ -59,9 +65,15 @@ public:
     /// `targets`: as those of a Proposal, or none at all.
     TriedProposal propose(const std::shared_ptr<const Draft>& draft, std::vector<float> targets);
     [[nodiscard]] const TriedProposal& best() const { return best_; }
-    /// The accepted proposals with the lowest scores, the lowest first; few where runs are long. Some of them have no feeds,
+    /// The accepted proposals with the lowest scores, the lowest first, and last those that measure_roughness() refused; few where runs are long. Some of them have no feeds,
     /// where there are such.
     [[nodiscard]] std::vector<TriedProposal> finalists() const;
+
+    /// Measures the roughness that the program and the finalists leave; it counts in scores and for acceptance from then
+    /// on. Of programs on three axes.
+    void measure_roughness(const CuttingTool& tool);
+    /// Nothing: it is not measured.
+    [[nodiscard]] const std::optional<PartRoughness>& roughness_before() const { return roughness_before_; }
 
     /// Accepted proposals are better than others; then the one with less remaining mismatch and fewer defects; of two
     /// nearly equal ones the shorter.
@@ -74,6 +86,7 @@ private:
     [[nodiscard]] Proposal prove(const std::shared_ptr<const Draft>& draft, std::vector<float> targets);
     [[nodiscard]] Deviation deviation_of(const Program& changed) const;
     [[nodiscard]] double most_points() const;
+    [[nodiscard]] RunMeasures measures_before() const;
     [[nodiscard]] std::string objection(const Proposal& proposal) const;
     [[nodiscard]] double line_ratio(const Proposal& proposal) const;
     void keep_finalist(const TriedProposal& proposal, std::vector<TriedProposal>& finalists) const;
@@ -87,6 +100,7 @@ private:
     std::unique_ptr<const Orientation> orientation_;
     JudgedRun before_;
     SimulationSummary summary_before_;
+    std::optional<PartRoughness> roughness_before_;
     TriedProposal best_;
     std::vector<TriedProposal> with_feeds_, without_feeds_;  ///< finalists
     double more_time_ = 0;                                   ///< a share

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "machined/as_machined_profile.h"
+#include "machined/form.h"
 #include "machined/scallop.h"
 #include "mapping/map_lines.h"
 #include "planted_score.h"
@@ -75,18 +77,19 @@ TEST(AsMachinedReport, RoughnessOfACleanPartIsThatOfItsScallops) {
         recipe.give = 0;
         const Planted clean(recipe);
         const double h = scallop_height(3, 0.3, std::numeric_limits<double>::infinity());
-        EXPECT_GT(clean.result.patches.size(), 15U);
-        const std::vector<RoughPatch>& patches = clean.result.patches;
+        EXPECT_GT(clean.result.roughness.patches.size(), 15U);
+        const std::vector<RoughPatch>& patches = clean.result.roughness.patches;
         double mean = 0;
         for (const RoughPatch& patch : patches) {
             mean += patch.profile.rz / static_cast<double>(patches.size());
-            EXPECT_LE(patch.profile.rz, patches[clean.result.roughest].profile.rz);
+            EXPECT_LE(patch.profile.rz, patches[clean.result.roughness.roughest].profile.rz);
             EXPECT_NEAR((patch.contact - clean.as_machined.contact(patch.point)).norm(), 0, 1e-12);
         }
-        EXPECT_NEAR(mean, clean.result.rz, 1e-12);
-        EXPECT_NEAR(clean.result.rz, h, 0.15 * h);  // the surface's own roundness is 4 %, the log's micrometre the rest
-        EXPECT_NEAR(clean.result.ra, scallop_ra(h), 0.1 * scallop_ra(h));
-        EXPECT_NEAR(clean.result.sa, scallop_ra(h), 0.1 * scallop_ra(h));
+        EXPECT_NEAR(mean, clean.result.roughness.rz, 1e-12);
+        EXPECT_NEAR(clean.result.roughness.rz, h,
+                    0.15 * h);  // the surface's own roundness is 4 %, the log's micrometre the rest
+        EXPECT_NEAR(clean.result.roughness.ra, scallop_ra(h), 0.1 * scallop_ra(h));
+        EXPECT_NEAR(clean.result.roughness.sa, scallop_ra(h), 0.1 * scallop_ra(h));
     }
 }
 
@@ -112,11 +115,11 @@ TEST(AsMachinedReport, WhereTheFormHasCreasesNothingIsMeasured) {
     recipe.width = 0.2;  // two bends of some 0.2 mm, less than the step-over
     const Planted creased(recipe);
     const double h = scallop_height(3, 0.3, std::numeric_limits<double>::infinity());
-    EXPECT_GT(creased.result.unknown, 0.02);
-    EXPECT_LT(creased.result.unknown, 0.5);
+    EXPECT_GT(creased.result.roughness.unknown, 0.02);
+    EXPECT_LT(creased.result.roughness.unknown, 0.5);
     // A fit through a crease would leave some hundred micrometres.
-    EXPECT_LT(creased.result.sz, 2 * h);
-    EXPECT_NEAR(creased.result.rz, h, 0.15 * h);
+    EXPECT_LT(creased.result.roughness.sz, 2 * h);
+    EXPECT_NEAR(creased.result.roughness.rz, h, 0.15 * h);
 }
 
 TEST(AsMachinedReport, AMarkAmongPassesToAndFroIsReadAgainstItsOwnDirection) {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "machined/as_machined_report.h"
+#include "machined/as_machined_profile.h"
 #include "support/made_surface.h"
 
 namespace clsurf {

@@ -33,6 +33,21 @@ TEST(Objective, EveryMeasureMustNotBeWorse) {
     EXPECT_NE(why_not_better({0.02, 20, 100, 50}, {0.12, 10, 100, 50}, 0), "");
 }
 
+// The share of the roughness that remains is added; one that is not known counts nothing.
+TEST(Objective, RoughnessCountsWhereItIsKnown) {
+    RunMeasures rough = before, smoother = before;
+    rough.roughness = 0.002;
+    smoother.roughness = 0.0015;
+    EXPECT_DOUBLE_EQ(objective(rough, smoother, 1, 0), 0.03 + 1.05 + 1 + 0.75);
+    EXPECT_DOUBLE_EQ(objective(rough, before, 1, 0), 0.03 + 1.05 + 1);
+    RunMeasures better{9, 20, 100};
+    better.roughness = 0.002 * 1.009;
+    EXPECT_EQ(why_not_better(rough, better, 0), "") << "within what the measurement can tell";
+    better.roughness = 0.002 * 1.011;
+    EXPECT_NE(why_not_better(rough, better, 0).find("rougher: Ra 2.02 instead of 2.00"), std::string::npos);
+    EXPECT_EQ(why_not_better(before, better, 0), "") << "not known before";
+}
+
 EnsembleResult ensemble(const std::vector<RunMeasures>& after) {
     EnsembleResult result;
     for (const RunMeasures& each : after) result.runs.push_back({before, each, gain_of(before, each, 1, 0)});

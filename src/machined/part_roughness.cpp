@@ -1,0 +1,199 @@
+#include "machined/part_roughness.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/not_finite.h"
+#include "core/parallel.h"
+#include "machined/as_machined_profile.h"
+#include "machined/form.h"
+
+namespace clsurf {
+namespace {
+
+constexpr std::size_t patches_wanted = 24;
+constexpr double profile_cutoffs = 6;  ///< five sampling lengths and half of one at both ends
+constexpr double patch_cutoffs = 2;    ///< side of a patch
+constexpr int lines_across = 6;        ///< through a patch
+
+/// From the lowest place to the highest [mm] on lines across the feed through a square: cells of a map meet the tip of a
+/// cusp within a tenth of its height only, and these within a hundredth.
+double height_across(const AsMachinedSurface& as_machined, const Form& form, const Box2& box,
+                     const AcrossFeed& across) {
+    const Vec2 along(across.direction.y(), -across.direction.x());
+    const double side = box.sizes().x();
+    const double step = across.step_over / steps_per_pass;
+    // The whole square where the feed runs along a side of it, else the circle in it.
+    constexpr double along_side = 0.99;
+    const bool whole = std::max(std::abs(along.x()), std::abs(along.y())) > along_side;
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    for (int line = 0; line < lines_across; ++line) {
+        const double off = ((line + 0.5) / lines_across - 0.5) * side;
+        const double half = along_side * (whole ? 0.5 * side : std::sqrt(0.25 * side * side - off * off));
+        const MapFrame frame{box.center() + off * along - half * across.direction, across.direction, step,
+                             static_cast<std::int64_t>(2 * half / step) + 1, 1};
+        map_deviation(as_machined, form, frame, [&](std::int64_t, std::span<float> z) {
+            for (const float value : z) {
+                if (!std::isfinite(value)) continue;
+                low = std::min(low, static_cast<double>(value));
+                high = std::max(high, static_cast<double>(value));
+            }
+        });
+    }
+    return high > low ? high - low : 0;
+}
+
+/// Of a square about a place.
+AreaHeights square_heights(const AsMachinedSurface& as_machined, const Form& form, const Box2& box,
+                           const AcrossFeed& across, double& unknown) {
+    std::vector<float> cells;
+    const auto unknown_cells = static_cast<double>(
+        map_deviation(as_machined, form, frame_of(box, as_machined.usual_cell()),
+                      [&](std::int64_t, std::span<float> z) { cells.insert(cells.end(), z.begin(), z.end()); }));
+    AreaHeights heights = area_heights(cells);
+    if (heights.cells > 0) heights.sz = std::max(heights.sz, height_across(as_machined, form, box, across));
+    const double cut = unknown_cells + static_cast<double>(heights.cells);
+    unknown = cut > 0 ? unknown_cells / cut : 1;
+    return heights;
+}
+
+/// Evenly spaced points of cut passes that can be compared, by number.
+std::vector<PointIndex> spread_points(const Signals& signals) {
+    std::vector<PointIndex> found;
+    const auto count = signals.size();
+    const auto inner = [&](PointIndex i) { return signals[i].zone >= Zone::near_end && signals.normal(i).allFinite(); };
+    for (std::size_t k = 0; k < patches_wanted; ++k) {
+        const auto first =
+            static_cast<PointIndex>(static_cast<double>(count) * static_cast<double>(k) / patches_wanted);
+        const auto end =
+            static_cast<PointIndex>(static_cast<double>(count) * static_cast<double>(k + 1) / patches_wanted);
+        // From the middle of its share on, so that patches do not crowd where a pass begins.
+        const PointIndex middle = (first + end) / 2;
+        PointIndex i = middle;
+        while (i < end && !inner(i)) ++i;
+        if (i == end) {
+            i = first;
+            while (i < middle && !inner(i)) ++i;
+            if (i == middle) continue;
+        }
+        found.push_back(i);
+    }
+    return found;
+}
+
+/// The slope of a height map at a cell, as 1 / cosine; of differences between the cells beside it.
+double steepness(std::span<const float> z, const MapFrame& frame, std::int64_t column, std::int64_t row) {
+    const auto at = [&](std::int64_t c, std::int64_t r) {
+        return static_cast<double>(z[static_cast<std::size_t>(r * frame.columns + c)]);
+    };
+    const auto slope = [&](double before, double here, double after) {
+        if (std::isfinite(before) && std::isfinite(after)) return (after - before) / (2 * frame.cell);
+        if (std::isfinite(after)) return (after - here) / frame.cell;
+        return std::isfinite(before) ? (here - before) / frame.cell : 0.0;
+    };
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    const double here = at(column, row);
+    const double along =
+        slope(column > 0 ? at(column - 1, row) : none, here, column + 1 < frame.columns ? at(column + 1, row) : none);
+    const double aside =
+        slope(row > 0 ? at(column, row - 1) : none, here, row + 1 < frame.rows ? at(column, row + 1) : none);
+    return std::sqrt(1 + along * along + aside * aside);
+}
+
+std::vector<float> heights_of(const AsMachinedSurface& as_machined, const MapFrame& frame) {
+    std::vector<float> cells;
+    as_machined.map(frame, [&](std::int64_t, std::span<float> z) { cells.insert(cells.end(), z.begin(), z.end()); });
+    return cells;
+}
+
+RoughPatch measure_patch(const RoughnessSurfaces& surfaces, const RoughnessPlace& place, double cutoff) {
+    RoughPatch patch;
+    patch.point = place.point;
+    patch.contact = place.contact;
+    const AcrossFeed& across = place.across;
+    const Vec2 half = 0.5 * profile_cutoffs * cutoff * across.direction;
+    patch.profile = measure_profile(surfaces.measured, surfaces.form_of, across.at - half, across.at + half).roughness;
+    const Vec2 corner = Vec2::Constant(0.5 * patch_cutoffs * cutoff);
+    const Box2 box(across.at - corner, across.at + corner);
+    const Form form(surfaces.form_of, box);
+    patch.area = square_heights(surfaces.measured, form, box, across, patch.unknown);
+    if (surfaces.commanded == nullptr) return patch;
+    const MapFrame frame = frame_of(box, surfaces.form_of.usual_cell());
+    std::vector<float> added = deviation_from(*surfaces.commanded, surfaces.measured, frame);
+    for (std::int64_t k = 0; k < static_cast<std::int64_t>(added.size()); ++k) {
+        const Vec2 middle = frame.at(static_cast<double>(k % frame.columns), static_cast<double>(k / frame.columns));
+        if (!form.is_among_contacts(middle)) added[static_cast<std::size_t>(k)] = missing<float>;
+    }
+    patch.machine = area_heights(added);
+    return patch;
+}
+
+/// Means and extremes of the patches.
+void sum_up(PartRoughness& result, const std::vector<RoughPatch>& patches) {
+    double known_patches = 0, patches_of_machine = 0;
+    for (const RoughPatch& patch : patches) {
+        result.unknown += patch.unknown / static_cast<double>(patches.size());
+        if (patch.machine.cells > 0) {
+            ++patches_of_machine;
+            result.machine.sa += patch.machine.sa;
+            result.machine.sq += patch.machine.sq;
+            result.machine.sz = std::max(result.machine.sz, patch.machine.sz);
+            result.machine.cells += patch.machine.cells;
+        }
+        if (patch.profile.length <= 0 || patch.area.cells == 0) continue;
+        result.patches.push_back(patch);
+        if (patch.profile.rz > result.patches[result.roughest].profile.rz) result.roughest = result.patches.size() - 1;
+        ++known_patches;
+        result.ra += patch.profile.ra;
+        result.rz += patch.profile.rz;
+        result.sa += patch.area.sa;
+        result.sq += patch.area.sq;
+        result.sz = std::max(result.sz, patch.area.sz);
+    }
+    for (double* sum : {&result.machine.sa, &result.machine.sq}) *sum /= std::max(1.0, patches_of_machine);
+    if (result.patches.empty()) return;
+    for (double* sum : {&result.ra, &result.rz, &result.sa, &result.sq}) *sum /= known_patches;
+}
+
+}  // namespace
+
+std::vector<RoughnessPlace> roughness_places(const AsMachinedSurface& as_machined, const Signals& signals) {
+    std::vector<RoughnessPlace> places;
+    if (as_machined.surface().step_over <= 0) return places;
+    for (const PointIndex point : spread_points(signals)) {
+        const AcrossFeed across = across_feed(as_machined, signals, point);
+        if (across.known) places.push_back({point, as_machined.contact(point), across});
+    }
+    return places;
+}
+
+std::vector<float> deviation_from(const AsMachinedSurface& commanded, const AsMachinedSurface& measured,
+                                  const MapFrame& frame) {
+    const std::vector<float> from = heights_of(commanded, frame);
+    std::vector<float> off = heights_of(measured, frame);
+    const double shift = measured.level() - commanded.level();
+    for (std::int64_t k = 0; k < static_cast<std::int64_t>(off.size()); ++k) {
+        const auto cell = static_cast<std::size_t>(k);
+        const double steep = steepness(from, frame, k % frame.columns, k / frame.columns);
+        off[cell] = static_cast<float>((off[cell] + shift - from[cell]) / steep);
+    }
+    return off;
+}
+
+PartRoughness measure_roughness(const RoughnessSurfaces& surfaces, std::span<const RoughnessPlace> places) {
+    PartRoughness result;
+    result.cutoff = cutoff_for(surfaces.form_of.surface().step_over);
+    std::vector<RoughPatch> patches(places.size());
+    parallel_for(static_cast<std::int64_t>(places.size()), 1, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t k = begin; k < end; ++k) {
+            const auto at = static_cast<std::size_t>(k);
+            patches[at] = measure_patch(surfaces, places[at], result.cutoff);
+        }
+    });
+    sum_up(result, patches);
+    return result;
+}
+
+}  // namespace clsurf

@@ -1,0 +1,109 @@
+#include "machined/part_roughness.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "support/made_surface.h"
+
+namespace clsurf {
+namespace {
+
+using test::MadeSurface;
+
+constexpr double radius = 3, apart = 0.4;
+constexpr int passes = 30;
+constexpr double tilt = 0.5;  ///< [rad] of the plane about X
+
+/// A plane, tilted across the feed, whose every second pass is measured `lower` mm below the commanded one, along the normal.
+MadeSurface alternating(double lower) {
+    const Vec3 normal(0, -std::sin(tilt), std::cos(tilt));
+    return test::made_zigzag(
+        std::vector<double>(passes, 50), 12, apart,
+        [=](const Vec3& commanded, const Vec3& feed) {
+            return Vec3(feed.x() < 0 ? commanded - lower * normal : commanded);
+        },
+        [](const Vec3& flat) { return Vec3(flat.x(), flat.y() * std::cos(tilt), flat.y() * std::sin(tilt)); });
+}
+
+struct Cut {
+    MadeSurface made;
+    Signals signals;
+    std::vector<PointRange> pieces;
+
+    explicit Cut(MadeSurface surface) : made(std::move(surface)), signals(made.signals()) {
+        for (const Pass& pass : made.surface.passes) pieces.push_back({pass.first, pass.last});
+    }
+    [[nodiscard]] AsMachinedSurface along(const Trajectory& swept) const {
+        return {made.surface, signals, Role::commanded, swept, pieces, {ToolKind::ball, radius, radius}};
+    }
+    [[nodiscard]] PartRoughness roughness() const {
+        const AsMachinedSurface measured = along(made.measured), commanded = along(made.path);
+        return measure_roughness({measured, measured, &commanded}, roughness_places(measured, signals));
+    }
+};
+
+/// Over the plane, in its own coordinates: the lowest of the circles about pass k at k · apart, `lower` where k is odd.
+double envelope(double across, double lower) {
+    double z = std::numeric_limits<double>::infinity();
+    for (int k = -8; k <= 8; ++k) {
+        const double off = across - k * apart;
+        if (std::abs(off) >= radius) continue;
+        z = std::min(z, radius - std::sqrt(radius * radius - off * off) - (k % 2 != 0 ? lower : 0));
+    }
+    return z;
+}
+
+/// Of envelope(lower) less `share` times that of passes that are alike.
+AreaHeights in_theory(double lower, double share) {
+    std::vector<float> z;
+    for (int k = 0; k < 20000; ++k) {
+        const double across = 2 * apart * k / 20000;
+        z.push_back(static_cast<float>(envelope(across, lower) - share * envelope(across, 0)));
+    }
+    return area_heights(z);
+}
+
+TEST(PartRoughness, WhatTheMachineAddsIsTheDifferenceOfTheEnvelopes) {
+    const double lower = 0.004;
+    const AreaHeights expected = in_theory(lower, 1);
+    const PartRoughness found = Cut(alternating(lower)).roughness();
+    ASSERT_GT(found.machine.cells, 10'000U);
+    EXPECT_NEAR(found.machine.sa, expected.sa, 0.03 * expected.sa);
+    EXPECT_NEAR(found.machine.sq, expected.sq, 0.03 * expected.sq);
+    EXPECT_NEAR(found.machine.sz, expected.sz, 0.05 * expected.sz);
+}
+
+TEST(PartRoughness, AMachineThatFollowsExactlyAddsNothing) {
+    const PartRoughness found = Cut(alternating(0)).roughness();
+    ASSERT_GT(found.machine.cells, 10'000U);
+    EXPECT_LT(found.machine.sz, 1e-6);
+    EXPECT_GT(found.rz, 0.006) << "the scallops of 0.4 mm, 6.7 µm, are there all the same";
+}
+
+TEST(PartRoughness, WithoutCommandedPositionsTheMachinesShareIsNotKnown) {
+    const Cut cut(alternating(0.004));
+    const AsMachinedSurface measured = cut.along(cut.made.measured);
+    const PartRoughness found = measure_roughness({measured, measured}, roughness_places(measured, cut.signals));
+    EXPECT_EQ(found.machine.cells, 0U);
+    EXPECT_FALSE(found.patches.empty());
+}
+
+TEST(PartRoughness, AnotherRunIsMeasuredAtTheSamePlacesOverTheSameForm) {
+    const Cut before(alternating(0)), after(alternating(0.004));
+    const AsMachinedSurface first = before.along(before.made.measured), second = after.along(after.made.measured);
+    const std::vector<RoughnessPlace> places = roughness_places(first, before.signals);
+    const PartRoughness was = measure_roughness({first, first}, places),
+                        is = measure_roughness({second, first}, places);
+    ASSERT_EQ(was.patches.size(), is.patches.size());
+    for (std::size_t k = 0; k < was.patches.size(); ++k) EXPECT_EQ(was.patches[k].point, is.patches[k].point);
+    EXPECT_NEAR(was.sa, in_theory(0, 0).sa, 0.05 * was.sa);
+    EXPECT_NEAR(is.sa, in_theory(0.004, 0).sa, 0.05 * is.sa);
+    EXPECT_GT(is.sa, 1.2 * was.sa);
+}
+
+}  // namespace
+}  // namespace clsurf
