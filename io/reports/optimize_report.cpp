@@ -25,6 +25,7 @@ std::array<std::size_t, quantities> by_quantity(const JudgedRun& run) {
 }
 
 std::string program_of(const ControllerRun& run) {
+    if (!run.round.empty()) return run.round;
     return run.candidate == 0 ? "the program" : fmt::format("candidate {}", run.candidate);
 }
 
@@ -42,6 +43,7 @@ std::string controller_text(const std::vector<ControllerRun>& runs) {
         if (run.measured && run.promised) text += fmt::format("; promised {}", words(*run.promised));
         if (run.measured && run.candidate > 0)
             text += run.accepted ? "; accepted" : fmt::format("; refused: {}", run.reason);
+        if (!run.round.empty() && !run.accepted) text += fmt::format("; no better than the program: {}", run.reason);
         text += "\n";
     }
     return text;
@@ -135,8 +137,9 @@ std::string optimize_text(const Optimized& r) {
             r.measured->motions_in_need);
     }
     text += "machine: " + r.machine + "\n";
-    const bool controller = std::any_of(r.controller_runs.begin(), r.controller_runs.end(),
-                                        [](const ControllerRun& run) { return run.candidate > 0 && run.measured; });
+    const bool controller =
+        r.on_controller && std::any_of(r.controller_runs.begin(), r.controller_runs.end(),
+                                       [](const ControllerRun& run) { return run.candidate > 0 && run.measured; });
     text += controller_text(r.controller_runs);
     text += fmt::format("{:<31} {:>11} {:>12} {:>10}\n", controller ? "on the controller" : "simulated", "before",
                         "after", "change");
@@ -197,7 +200,7 @@ std::string optimize_json(const Optimized& r, const Diagnostics& diagnostics) {
               {"ensemble", ensemble_json(r.ensemble)},
               {"fidelity", fidelity_json(r.fidelity)},
               {"machine", r.machine},
-              {"proof", r.controller_runs.empty() ? "simulation" : "controller"},
+              {"proof", r.on_controller ? "controller" : "simulation"},
               {"controller_runs", controller_json(r.controller_runs)},
               {"log", measured_json(r.measured)},
               {"diagnostics", list(diagnostics)}};

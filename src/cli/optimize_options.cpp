@@ -9,7 +9,9 @@
 #include "cli/known_tool.h"
 #include "cli/work_frames.h"
 #include "core/error.h"
+#include "core/file_name.h"
 #include "core/version.h"
+#include "io/files/compressed.h"
 #include "io/formats/log_format.h"
 
 namespace clsurf::cli {
@@ -27,6 +29,9 @@ void declare_optimize(po::options_description& options) {
     options.add_options()(
         "log", po::value<std::string>()->value_name("LOG"),
         "a recorded run of the program: only places that differ from adjacent passes there are repaired; the result is still verified by simulation");
+    options.add_options()(
+        "round", po::value<std::vector<std::string>>()->multitoken()->value_name("PROGRAM LOG"),
+        "an earlier repaired version of the program, and the log of its run; repeat the option for others. The machine is fitted to all logs, and the new program must be better than each version");
     declare_tool(
         options,
         "the tool, diameter and corner radius in mm: the new program must not leave a rougher surface (default: from the metadata of --log or from --tools)");
@@ -61,6 +66,22 @@ int read_runs(const po::variables_map& values) {
     const int runs = values["runs"].as<int>();
     if (runs < 2 || runs > 1000) throw UsageError("--runs must be 2 to 1000");
     return runs;
+}
+
+std::vector<EarlierRound> read_rounds(const po::variables_map& values) {
+    std::vector<EarlierRound> rounds;
+    if (values.count("round") == 0) return rounds;
+    const auto names = values["round"].as<std::vector<std::string>>();
+    if (names.size() % 2 != 0)
+        throw UsageError("--round takes two files, a program and the log of its run", "--round better.nc run.biip");
+    if (values.count("log") == 0 && values.count("controller") == 0)
+        throw UsageError("--round needs the log of the program itself: give --log");
+    for (std::size_t k = 0; k < names.size(); k += 2) {
+        const io::Source program = io::open_source(names[k]);
+        rounds.push_back(
+            {file_name(names[k]), {std::string(program.text()), io::open_log(names[k + 1], read_log_options(values))}});
+    }
+    return rounds;
 }
 
 std::optional<Log> read_measured(const po::variables_map& values, bool five_axes) {

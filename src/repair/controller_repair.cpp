@@ -38,7 +38,7 @@ public:
         rules_.all_finalists = true;
     }
 
-    Optimized run(std::optional<Log> measured) {
+    Optimized run(std::optional<Log> measured, const std::vector<EarlierRound>& rounds) {
         const std::string text(program_.main().text());
         if (!measured) {
             ControllerOutcome outcome = judge_.run(text);
@@ -53,8 +53,15 @@ public:
             throw InputError(Place::of_file(measured->name),
                              "has no adjacent passes: it does not show which passes differ");
         if (rules_.tool) gauge_.emplace(before_, *rules_.tool);
+        most_runs_ = judge_.runs;
+        if (runs_.empty() && !rounds.empty()) {
+            runs_.push_back({.candidate = 0});
+            ++most_runs_;
+        }
         if (!runs_.empty()) runs_.back().measured = before_.measures();
-        Optimized result = search(*measured);
+        for (const EarlierRound& round : rounds) take_round(round);
+        Optimized result = judge_.run ? search(*measured) : simulated(*measured);
+        result.on_controller = judge_.run != nullptr;
         result.controller_runs = runs_;
         if (!after_judged_) return result;
         if (gauge_) result.roughness_before = gauge_->before();
@@ -65,10 +72,25 @@ public:
     }
 
 private:
-    [[nodiscard]] bool has_runs() const { return static_cast<int>(runs_.size()) < judge_.runs; }
+    [[nodiscard]] bool has_runs() const { return static_cast<int>(runs_.size()) < most_runs_; }
 
     [[nodiscard]] RunMeasures measures_before() const {
         return gauge_ ? with_roughness(before_.measures(), gauge_->before()) : before_.measures();
+    }
+
+    [[nodiscard]] RunMeasures measures_of(const JudgedRun& run) const {
+        return gauge_ ? with_roughness(run.measures(), gauge_->after(run)) : run.measures();
+    }
+
+    /// `reason`: why a run is not better than that of the program; empty: it is.
+    [[nodiscard]] double gain_over_program(const RunMeasures& after, LineNumber lines, std::string& reason) const {
+        const RunMeasures before = measures_before();
+        const double ratio = static_cast<double>(lines) / static_cast<double>(program_.main().line_count());
+        const double gain = gain_of(before, after, ratio, rules_.more_time);
+        reason = why_not_better(before, after, rules_.more_time);
+        if (reason.empty() && gain < least_gain)
+            reason = fmt::format("the gain is {:.1f} %, less than {:.0f} %", 100 * gain, 100 * least_gain);
+        return gain;
     }
 
     [[nodiscard]] JudgedRun judged(Log log, const Program& program, const QualityRules& quality) {
@@ -86,6 +108,47 @@ private:
 
     [[noreturn]] void refuse(const std::string& failure) const {
         throw InputError(Place::of_file(program_.main().name()), "the controller did not run it: " + failure);
+    }
+
+    /// Takes the log of an earlier round into account.
+    void take_round(const EarlierRound& round) {
+        QualityRules as_before = rules_.quality;
+        as_before.fixed = before_.report.thresholds;
+        const Program changed = read_(round.run.text);
+        const JudgedRun after = judged(Log(round.run.log), changed, as_before);
+        if (const std::string reason = why_unusable(after); !reason.empty())
+            throw InputError(Place::of_file(round.run.log.name), "is not a run of " + round.name + ": " + reason);
+        logs_.push_back(round.run);
+        ++most_runs_;
+        ControllerRun run{.candidate = 0, .round = round.name};
+        run.measured = measures_of(after);
+        const double gain = gain_over_program(*run.measured, changed.main().line_count(), run.reason);
+        run.accepted = run.reason.empty();
+        runs_.push_back(run);
+        if (!run.accepted || gain <= best_gain_) return;
+        best_gain_ = gain;
+        best_round_ = round.name;
+    }
+
+    /// The best candidate of the simulation, if it promises more than the earlier rounds gave.
+    Optimized simulated(const Log& measured) {
+        Optimized found = optimize(program_, read_, judge_.fit(logs_, known_), rules_, std::optional<Log>(measured),
+                                   progress_, diagnostics_);
+        if (!found.evaluation.accepted || best_round_.empty()) return found;
+        RunMeasures before = found.before.measures(), after = found.after.measures();
+        if (found.roughness_before && found.roughness_after) {
+            before = with_roughness(before, *found.roughness_before);
+            after = with_roughness(after, *found.roughness_after);
+        }
+        const double ratio =
+            static_cast<double>(found.evaluation.lines_after) / static_cast<double>(found.evaluation.lines_before);
+        const double gain = gain_of(before, after, ratio, rules_.more_time);
+        if (gain >= best_gain_ + least_gain) return found;
+        found.evaluation.accepted = false;
+        found.evaluation.reason =
+            fmt::format("{0} gained {1:.1f} % on the machine, and the best candidate promises {2:.1f} %: keep {0}",
+                        best_round_, 100 * best_gain_, 100 * gain);
+        return found;
     }
 
     /// Searches with the machine that the logs so far give, until a candidate keeps its promise or no run is left.
@@ -146,14 +209,12 @@ private:
                      Optimized& result) {
         std::optional<PartRoughness> roughness;
         if (gauge_) roughness = gauge_->after(after);
-        const RunMeasures before = measures_before(),
-                          measured = roughness ? with_roughness(after.measures(), *roughness) : after.measures();
-        const double ratio = static_cast<double>(finalist.evaluation.lines_after) /
-                             static_cast<double>(finalist.evaluation.lines_before);
-        std::string reason = why_not_better(before, measured, rules_.more_time);
-        const double gain = gain_of(before, measured, ratio, rules_.more_time);
-        if (reason.empty() && gain < least_gain)
-            reason = fmt::format("the gain is {:.1f} %, less than {:.0f} %", 100 * gain, 100 * least_gain);
+        const RunMeasures measured = roughness ? with_roughness(after.measures(), *roughness) : after.measures();
+        std::string reason;
+        const double gain = gain_over_program(measured, finalist.evaluation.lines_after, reason);
+        if (reason.empty() && !best_round_.empty() && gain < best_gain_ + least_gain)
+            reason =
+                fmt::format("it gains {:.1f} %, and {} gained {:.1f} %", 100 * gain, best_round_, 100 * best_gain_);
         run.accepted = reason.empty();
         if (!run.accepted) refusal_ = "on the controller, " + reason;
         const bool better = run.accepted && (!result.evaluation.accepted || gain > best_gain_);
@@ -163,6 +224,7 @@ private:
         after_judged_ = true;
         if (!better) return reason;
         best_gain_ = gain;
+        best_round_.clear();
         result.text = finalist.text;
         result.evaluation = finalist.evaluation;
         result.evaluation.defects_before = before_.report.defects.size();
@@ -187,7 +249,9 @@ private:
     std::optional<PartRoughness> roughness_after_;
     bool after_judged_ = false;
     int candidates_ = 0;
-    double best_gain_ = 0;
+    int most_runs_ = 0;
+    double best_gain_ = 0;    ///< of the runs so far
+    std::string best_round_;  ///< file of the earlier round that has it; empty: none
     std::string refusal_ = "no candidate was better on the simulated machines";
 };
 
@@ -195,9 +259,10 @@ private:
 
 Optimized optimize_on_controller(const Program& program, const ReadProgram& read, const Machine& machine,
                                  OptimizeRules rules, const ControllerJudge& judge, std::optional<Log> measured,
-                                 const Progress& progress, Diagnostics& diagnostics) {
+                                 const std::vector<EarlierRound>& rounds, const Progress& progress,
+                                 Diagnostics& diagnostics) {
     return ControllerRepair(program, read, machine, std::move(rules), judge, progress, diagnostics)
-        .run(std::move(measured));
+        .run(std::move(measured), rounds);
 }
 
 }  // namespace clsurf

@@ -1,5 +1,6 @@
 #pragma once
-// Repair with the user's own controller as the judge: a command runs programs and writes their logs.
+// Repair that learns from runs: the user's own controller is the judge, by a command that runs programs and writes their
+// logs, or by logs of earlier rounds.
 
 #include <functional>
 #include <optional>
@@ -28,20 +29,27 @@ struct ControllerLog {
 using FitMachine = std::function<Machine(const std::vector<ControllerLog>& logs, const Machine& known)>;
 
 struct ControllerJudge {
-    RunOnController run;
+    RunOnController run;  ///< nullptr: there is no controller; the simulation decides on the next candidate
     FitMachine fit;
     int runs = 3;  ///< at most, that of the program itself included where it has no log
+};
+
+/// A repaired program of an earlier round, and how it ran.
+struct EarlierRound {
+    std::string name;  ///< of its file
+    ControllerLog run;
 };
 
 /// Runs the program (unless `measured` is its log), fits the machine to the log, repairs on the simulated machine, and runs
 /// the best candidates. A candidate is accepted by its log: better than the log of the program in every respect, and by
 /// least_gain. Where a log differs from what the simulation promised, the machine is fitted again to all logs and the
-/// search repeated. `before` and `after` of the result are runs on the controller; without any run of a candidate, `after`
-/// is simulated. A failed run costs one of `runs`. Throws InputError if the program itself cannot be run, and what
-/// optimize() throws.
+/// search repeated. The machine is fitted to the logs of `rounds`, too, and a candidate must be better than each of them: by
+/// its log, or without a controller by its simulation, with a gain that exceeds theirs by least_gain. `before` and `after` of the result are runs on the controller; without any run of a candidate, `after`
+/// is simulated. A failed run costs one of `runs`. Throws InputError if the program itself cannot be run, or a log of
+/// `rounds` is none of its program, and what optimize() throws. Without a controller, `measured` is needed.
 [[nodiscard]] Optimized optimize_on_controller(const Program& program, const ReadProgram& read, const Machine& machine,
                                                OptimizeRules rules, const ControllerJudge& judge,
-                                               std::optional<Log> measured, const Progress& progress,
-                                               Diagnostics& diagnostics);
+                                               std::optional<Log> measured, const std::vector<EarlierRound>& rounds,
+                                               const Progress& progress, Diagnostics& diagnostics);
 
 }  // namespace clsurf

@@ -30,6 +30,10 @@ double time_in_motion(const ClSurface& surface, double period) {
 
 }  // namespace
 
+std::size_t defects_by_check(const JudgedRun& run, const Program& program) {
+    return find_defects(run.surface, run.signals, *run.lines, program, run.log.period, QualityRules{}).defects.size();
+}
+
 JudgedRun judge_run(Log log, const Program& program, const QualityRules& rules, Diagnostics& diagnostics,
                     std::shared_ptr<const Kinematics> kinematics, ProgramIdentity identity) {
     JudgedRun run;

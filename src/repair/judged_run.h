@@ -32,6 +32,9 @@ struct JudgedRun {
     }
 };
 
+/// How many defects `check` finds in a run: systematic lag is one of them, and the thresholds are the run's own.
+[[nodiscard]] std::size_t defects_by_check(const JudgedRun& run, const Program& program);
+
 /// Stitches the surface of a log and judges it by `rules`. Adds diagnostics about lines to `diagnostics`. `kinematics`: of a
 /// machine whose rotary axes the log has; the program's motions are then those of the tip. `identity`: what is known of
 /// the program that ran; `same` for a simulation. O(points), parallel.

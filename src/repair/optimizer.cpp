@@ -5,6 +5,8 @@
 #include <iterator>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "core/error.h"
 #include "core/statistics.h"
 #include "machine/machine_ensemble.h"
@@ -89,6 +91,7 @@ private:
         const std::vector<TriedProposal> finalists = evaluator_.finalists();
         if (finalists.empty()) return evaluator_.best();
         Ensemble ensemble(program_, machines_drawn_from(machine_, rules_.machines), rules_, evaluator_.kinematics());
+        const std::size_t found_before = defects_by_check(evaluator_.before(), program_);
         TriedProposal chosen;
         std::string refusal;
         EnsembleResult refused;
@@ -98,8 +101,12 @@ private:
                 if (refusal.empty()) refusal = each->evaluation.reason;
                 continue;
             }
-            const EnsembleResult runs = ensemble.run(read_(each->text));
-            const std::string reason = why_not_better(runs, rules_.more_time);
+            const Program changed = read_(each->text);
+            const EnsembleResult runs = ensemble.run(changed);
+            std::string reason = why_not_better(runs, rules_.more_time);
+            const std::size_t found = defects_by_check(each->run, changed);
+            if (reason.empty() && found > found_before)
+                reason = fmt::format("check would find {} defects instead of {}", found, found_before);
             if (!reason.empty()) {
                 if (refusal.empty()) refused = runs;
                 if (refusal.empty()) refusal = reason;

@@ -31,7 +31,8 @@ struct Finalist {
 
 /// A run on the user's controller (controller_repair.h).
 struct ControllerRun {
-    int candidate = 0;                      ///< 0: the program itself
+    int candidate = 0;                      ///< 0: the program itself, or an earlier round
+    std::string round{};                    ///< file of an earlier round; empty: none
     std::optional<RunMeasures> promised{};  ///< by the simulation; nothing: the program itself
     std::optional<RunMeasures> measured{};  ///< nothing: the run failed
     bool accepted = false;
@@ -52,7 +53,8 @@ struct Optimized {
     EnsembleResult ensemble;           ///< of the new program; no runs: no proposal came so far
     /// That the ensemble accepts, the best first: its first one is `text`. With OptimizeRules::all_finalists the others follow.
     std::vector<Finalist> finalists;
-    std::vector<ControllerRun> controller_runs;  ///< empty: simulation decided
+    std::vector<ControllerRun> controller_runs;
+    bool on_controller = false;  ///< its runs decided; false: simulation did
 };
 
 /// Simulates the program, makes proposals, simulates and judges them. With a recorded run `measured` of the program,

@@ -57,3 +57,23 @@ clsurf_cli_test(NAME repaired_as_the_kernel_ran_it
   SETUP "$CLSURF simulate ${repaired} --machine @DATA@/machines/linuxcnc_kernel.toml -o simulated.biip -q"
   ARGS diff @LOGS@/bottle_uneven_repaired.biip simulated.biip --program ${repaired}
   STDOUT "aligned, 25[.]9[0-9]+ s and 26[.][0-9]+ s" "speed .mm/min. +-?0[.]0[0-9] +0[.]0[0-9] +-?0[.]0[0-9] +0[.]0[0-9] ")
+# Rounds: the machine is another one than its file says. Each round's log improves the fit, and what is kept must be better.
+set(crowded_part "awk 'BEGIN { print \"G21 G90\\nG64 P0.005\\nG0 X0 Y0 Z10\\nG1 Z0 F1000\\nG1 F3000\"; for (k = 0; k < 6; ++k) for (w = 0; w < 9.01; w += k == 3 && w > 3 && w < 4 ? 0.02 : 0.25) { x = k % 2 ? 9 - w : w; printf \"X%.3f Y%.3f Z%.3f\\n\", x, 0.4 * k, 0.5 * sin(0.8 * x) } print \"G0 Z10\\nM2\" }' > part.nc")
+set(crowded_rounds "${crowded_part}; $CLSURF simulate part.nc --machine @DATA@/machines/linuxcnc_logs.toml -o run0.biip -q; $CLSURF optimize part.nc --tolerance 0.003 -o one.nc -q; $CLSURF simulate one.nc --machine @DATA@/machines/linuxcnc_logs.toml -o run1.biip -q")
+clsurf_cli_test(NAME optimize_learns_from_rounds SETUP "${crowded_rounds}"
+  ARGS optimize part.nc --log run0.biip --round one.nc run1.biip -o two.nc FILE two.nc
+  STDOUT "fitted to 2 logs" "run 1, the program: [0-9.]+ s" "run 2, one.nc: [0-9.]+ s, .*no better than the program: it would take" "the fitted runs: 2" "accepted")
+# The same part without the crowded points, by hand, on a machine with better servo loops: nothing that the search finds
+# promises more.
+string(REPLACE "k == 3 && w > 3 && w < 4 ? 0.02 : 0.25" "0.25" even_part "${crowded_part}")
+string(REPLACE "part.nc" "even.nc" even_part "${even_part}")
+clsurf_cli_test(NAME optimize_keeps_the_round_that_is_as_good EXIT 1
+  SETUP "${crowded_rounds}; ${even_part}; sed 's/feedforward = .*/feedforward = 1/; s/position_gain = .*/position_gain = 100/; s/time_constant = .*/time_constant = 0.001/' @DATA@/machines/linuxcnc_logs.toml > servo.toml; $CLSURF simulate even.nc --machine servo.toml -o even.biip -q"
+  ARGS optimize part.nc --log run0.biip --round one.nc run1.biip even.nc even.biip -o two.nc --json NO_FILE two.nc
+  STDOUT "\"program\": \"even.nc\"" "\"reason\": \"even.nc gained [0-9.]+ % on the machine, and the best candidate promises [0-9.]+ %: keep even.nc\"" "\"proof\": \"simulation\"")
+clsurf_cli_test(NAME optimize_round_of_another_program EXIT 3
+  ARGS optimize ${dome} --log @LOGS@/dome_loops.biip --round ${dome} @LOGS@/bottle_uneven.biip -o better.nc NO_FILE better.nc STDERR "is not a run of dome_loops.nc: the log does not belong to the program")
+clsurf_cli_test(NAME optimize_half_a_round EXIT 2
+  ARGS optimize ${dome} --log @LOGS@/dome_loops.biip --round ${dome} -o better.nc STDERR "--round takes two files")
+clsurf_cli_test(NAME optimize_rounds_without_the_log EXIT 2
+  ARGS optimize ${dome} --round ${dome} @LOGS@/dome_loops.biip -o better.nc STDERR "--round needs the log of the program itself")
