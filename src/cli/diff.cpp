@@ -94,7 +94,7 @@ ExitCode run_diff(const po::variables_map& values) {
     reported.drifted = drifted_run(reported.departures);
     if (output) {
         clock.begin("draw");
-        draw_difference(*shown, a, surface, options.look, *output);
+        draw_difference(*shown, a.path, surface, options.look, *output);
     }
     clock.end();
     write_result(reported, diagnostics, options.json, values);

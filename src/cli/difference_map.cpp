@@ -57,7 +57,7 @@ DrawnDifference drawn_difference(RunDifferences& differences, RunQuantity quanti
     return shown;
 }
 
-void draw_difference(const DrawnDifference& shown, const ComparedRun& a, const ClSurface& surface,
+void draw_difference(const DrawnDifference& shown, const Trajectory& path, const ClSurface& surface,
                      const LookOptions& look, PictureOutput& output) {
     const viz::MapPanel panel{&surface, &shown.field, "", {}, {}, {}};
     const viz::Camera camera = viz::map_camera({panel}, look.look);
@@ -66,8 +66,9 @@ void draw_difference(const DrawnDifference& shown, const ComparedRun& a, const C
     texts.title =
         fmt::format("{}: {} minus {}", shown.field.info.label, file_name(shown.run), file_name(shown.reference));
     texts.subtitle =
-        fmt::format("{} points of {}, {} path", a.path.count, file_name(shown.reference), name_of(a.path.role));
+        fmt::format("{} points of {}, {} path", path.count, file_name(shown.reference), name_of(path.role));
     texts.notes = notes_of(range);
+    if (!shown.note.empty()) texts.notes.insert(texts.notes.begin(), shown.note);
     const viz::Image image = viz::draw_map({panel}, camera, scale_of(shown.field.info, range, look), texts, look.look);
     output.write(image, fmt::format("clsurf difference of {} and {}: {} {:g} to {:g} {}", file_name(shown.run),
                                     file_name(shown.reference), shown.field.info.name, range.low, range.high,

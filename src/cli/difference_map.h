@@ -19,13 +19,14 @@ struct DrawnDifference {
     Field field;
     std::string reference, run;
     double threshold = 0;  ///< inside units; more is a difference
+    std::string note{};    ///< below the map
 };
 
 /// Takes the values of a quantity out of `differences`. Throws UsageError: the runs do not have it.
 [[nodiscard]] DrawnDifference drawn_difference(RunDifferences& differences, RunQuantity quantity);
 
-/// `a`: the reference, whose surface that is.
-void draw_difference(const DrawnDifference& shown, const ComparedRun& a, const ClSurface& surface,
+/// `path`: of the reference, whose surface that is.
+void draw_difference(const DrawnDifference& shown, const Trajectory& path, const ClSurface& surface,
                      const LookOptions& look, PictureOutput& output);
 
 }  // namespace clsurf::cli

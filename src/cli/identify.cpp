@@ -1,9 +1,11 @@
 // clsurf identify: a machine file from recorded runs.
 
+#include <optional>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "cli/identify_picture.h"
 #include "cli/options.h"
 #include "cli/part.h"
 #include "cli/stage_clock.h"
@@ -64,6 +66,8 @@ ExitCode run_identify(const po::variables_map& values) {
     const PartOptions options = read_part_options(values);
     const Machine known = options.machine.empty() ? Machine{} : io::read_machine(options.machine);
     io::AtomicFile file(output);
+    std::optional<PictureOutput> picture;
+    if (values.count("picture") > 0) picture.emplace(values["picture"].as<std::string>(), "--picture");
     StageClock clock(read_common(values), 4 * static_cast<int>(files.size() + test_files.size()) + 3);
     Diagnostics diagnostics;
     std::vector<Part> parts = load_parts(files, options, clock, diagnostics);
@@ -75,6 +79,7 @@ ExitCode run_identify(const po::variables_map& values) {
     clock.begin("test");
     test_runs(tests, result);
     clock.end();
+    if (picture) draw_speed_residual(result, parts, tests, *picture);
     file.write(io::identified_machine_text(result));
     file.commit();
     diagnostics.append(result.diagnostics);
@@ -104,12 +109,13 @@ Subcommand identify_subcommand() {
             "is measured on the runs of --test, else by leaving out one run after the other, else on the fitted run, and is kept in the file.\n"
             "Exit code 3 says that nothing could be identified.\n\n"
             "  clsurf identify part.nc run.biip -o mill.toml\n"
-            "  clsurf identify a.nc a.biip b.nc b.biip --machine five_axis.toml -o mill.toml --test c.nc c.biip --json",
+            "  clsurf identify a.nc a.biip b.nc b.biip --machine five_axis.toml -o mill.toml --test c.nc c.biip --picture residual.png",
         .declare =
             [](po::options_description& options) {
                 // clang-format off
                 options.add_options()
                     ("output,o", po::value<std::string>()->value_name("FILE"), "the machine file")
+                    ("picture", po::value<std::string>()->value_name("FILE"), "map of the speed of the simulation minus that of the log, of the run where they differ most: of --test, else of the fit (.png, .jpg, .tif or .webp)")
                     ("test", po::value<std::vector<std::string>>()->multitoken()->value_name("PROGRAM LOG"), "a run that is not used for the fit but compared with its simulation; repeatable");
                 // clang-format on
                 declare_part(options);

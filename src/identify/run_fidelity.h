@@ -43,6 +43,7 @@ public:
     [[nodiscard]] RunFidelity fidelity(const Machine& machine) const;
 
     [[nodiscard]] const Part& part() const { return *part_; }
+    [[nodiscard]] const ClSurface& surface() const { return surface_; }
 
 private:
     const Part* part_;

@@ -65,6 +65,7 @@ clsurf_ending_test(plot_pdf "${picture_endings}" plot ${part} ${run} -o curve.pd
 clsurf_ending_test(profile_svg "${picture_endings}" plot ${part} ${run} --profile 0,0,1,1 --tool ball:6 -o cut.svg)
 clsurf_ending_test(diff_pdf "${picture_endings}" diff ${run} ${run} -o map.pdf)
 clsurf_ending_test(compare_gif "${picture_endings}" compare ${shot}/speed_iso.png ${shot}/speed_top.png --diff d.gif)
+clsurf_ending_test(identify_picture "${picture_endings}" identify ${part} ${run} -o m.toml --picture residual.svg)
 clsurf_ending_test(optimize_picture "${picture_endings}" optimize ${part} -o better.nc --picture better.svg)
 clsurf_ending_test(report_pdf ".html or .htm" report ${part} ${run} -o r.pdf)
 clsurf_ending_test(simulate_csv ".biip" simulate ${part} -o s.csv)

@@ -52,6 +52,11 @@ clsurf_cli_test(NAME identify_selects_the_rules_of_a_kernel ARGS identify ${bott
   STDOUT "planner +trapezoidal, arc blends .*chosen" "fitted runs" "the runs do not tell apart .*lookahead_blocks")
 clsurf_cli_test(NAME identify_tests_another_run ARGS identify ${bottle} -o m.toml --test ${dome}
   STDOUT "test runs, not used for the fit" "dome_loops.biip: time 18.206 s, simulated 18.20[0-9]+ s" "recall 1.00, precision 1.00")
+clsurf_cli_test(NAME identify_draws_the_residual ARGS identify ${bottle} -o m.toml --test ${dome} --picture residual.png FILE residual.png)
+clsurf_cli_test(NAME identify_picture_of_what_cannot_be_simulated
+  SETUP "$CLSURF simulate @DATA@/programs/dome_five_axis.nc --machine @DATA@/machines/five_axis_trunnion.toml -o r.biip"
+  ARGS identify @DATA@/programs/dome_five_axis.nc r.biip --machine @DATA@/machines/five_axis_trunnion.toml -o m.toml --picture residual.png EXIT 3
+  NO_FILE m.toml STDERR "r.biip: error: cannot be compared with a simulation: no picture")
 clsurf_cli_test(NAME identify_leaves_out_each_run ARGS identify ${bottle} ${dome} -o m.toml STDOUT "cross-validation: each run left out of the fit")
 clsurf_cli_test(NAME identify_json_of_rules_and_tests ARGS identify ${bottle} -o m.toml --test ${dome} --json
   STDOUT "\"rules\"" "\"chosen\": true" "\"fit\"" "\"time_error_percent\"" "\"speed_error_p95_mm_min\"" "\"following_error_p95_um\"" "\"defects_recall\"" "\"tests\"")

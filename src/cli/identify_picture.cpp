@@ -1,0 +1,38 @@
+#include "cli/identify_picture.h"
+
+#include <algorithm>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "cli/difference_map.h"
+#include "core/error.h"
+#include "core/units.h"
+#include "identify/run_fidelity.h"
+
+namespace clsurf::cli {
+
+void draw_speed_residual(const Identification& result, std::span<const Part> parts, std::span<const Part> tests,
+                         PictureOutput& output) {
+    const bool tested = !result.tests.empty();
+    const std::vector<RunFidelity>& runs = tested ? result.tests : result.fit;
+    if (runs.empty())
+        throw InputError(Place::of_file(parts.front().log.name), "cannot be compared with a simulation: no picture");
+    const auto worst = std::max_element(runs.begin(), runs.end(), [](const RunFidelity& a, const RunFidelity& b) {
+        return a.speed_error_p95 < b.speed_error_p95;
+    });
+    const RecordedRun run((tested ? tests : parts)[static_cast<std::size_t>(worst - runs.begin())]);
+    const Part simulation = run.simulated(result.machine);
+    RunDifferences differences = run.differences(simulation);
+    DrawnDifference shown = drawn_difference(differences, RunQuantity::speed);
+    shown.run = "simulation";
+    shown.reference = run.part().log.name;
+    shown.note = fmt::format("{}: time {:+.2f} %, speed within {:.3g} mm/min over 95 % of the path",
+                             tested ? "not used for the fit" : "used for the fit", 100 * worst->time_error,
+                             worst->speed_error_p95 * seconds_per_minute);
+    LookOptions look;
+    look.look.view = viz::parse_view("top");
+    draw_difference(shown, run.part().path, run.surface(), look, output);
+}
+
+}  // namespace clsurf::cli
