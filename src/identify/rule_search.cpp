@@ -1,0 +1,150 @@
+#include "identify/rule_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <boost/math/tools/minima.hpp>
+
+namespace clsurf {
+namespace {
+
+constexpr double decisive = 10;          // of the criterion: "very strong" evidence (Kass and Raftery 1995)
+constexpr PointIndex sample_every = 32;  // records
+
+/// Scores of candidates over the samples that any of them has.
+void score(const std::vector<std::vector<float>>& residuals, double usual_speed, std::span<RuleCandidate> candidates) {
+    constexpr double of_positions = 0.005;   // mm/s: differences of rounded positions are no better …
+    constexpr double of_the_model = 0.0005;  // … nor is any model, of the speed
+    const double resolution = std::max(of_positions, of_the_model * usual_speed);
+    std::vector<double> sums(residuals.size(), 0);
+    std::size_t samples = 0;
+    for (std::size_t i = 0; i < residuals.front().size(); ++i) {
+        if (std::all_of(residuals.begin(), residuals.end(), [&](const auto& r) { return std::isnan(r[i]); })) continue;
+        ++samples;
+        for (std::size_t k = 0; k < residuals.size(); ++k)
+            sums[k] += std::isnan(residuals[k][i]) ? usual_speed : static_cast<double>(residuals[k][i]);
+    }
+    for (std::size_t k = 0; k < residuals.size(); ++k) {
+        const auto n = static_cast<double>(samples);
+        candidates[k].speed_error = samples > 0 ? sums[k] / n : 0;
+        candidates[k].score = 2 * n * std::log(std::max(candidates[k].speed_error, resolution));
+    }
+}
+
+/// The candidates that the runs explain about as well as the best one.
+std::vector<std::size_t> equal_to_best(std::span<const RuleCandidate> candidates) {
+    double best = std::numeric_limits<double>::infinity();
+    for (const RuleCandidate& c : candidates) best = std::min(best, c.score);
+    std::vector<std::size_t> equal;
+    for (std::size_t k = 0; k < candidates.size(); ++k)
+        if (candidates[k].score <= best + decisive) equal.push_back(k);
+    return equal;
+}
+
+double rounded(double value) {
+    constexpr int digits = 3;
+    const double scale = std::pow(10.0, digits - 1 - std::floor(std::log10(value)));
+    return std::round(value * scale) / scale;
+}
+
+/// Seeks a better number between the neighbours of the chosen value, and adds it to the candidates.
+void refine(const Rule& rule, std::size_t chosen, RuleScores& scores, Machine& machine,
+            std::vector<RuleCandidate>& candidates) {
+    const std::vector<double>& numbers = rule.continuous.numbers;
+    if (numbers.empty() || !(numbers[chosen] > 0)) return;
+    constexpr int bits = 10;
+    constexpr std::uintmax_t most_runs = 16;
+    const auto machine_with = [&](double number) {
+        Machine changed = machine;
+        rule.continuous.set(changed, number);
+        return changed;
+    };
+    const auto score_of = [&](const std::vector<float>& residuals) {
+        RuleCandidate candidate;
+        score({residuals}, scores.usual_speed(), {&candidate, 1});
+        return candidate.score;
+    };
+    const double below = chosen > 0 ? numbers[chosen - 1] : 0.5 * numbers[chosen],
+                 above = chosen + 1 < numbers.size() ? numbers[chosen + 1] : 2 * numbers[chosen];
+    std::uintmax_t runs = most_runs;
+    const double best = rounded(
+        boost::math::tools::brent_find_minima(
+            [&](double number) { return score_of(scores.residuals(machine_with(number))); }, below, above, bits, runs)
+            .first);
+    RuleCandidate refined{.rule = rule.name, .value = fmt::format("{}", best), .axis = rule.axis};
+    const std::vector<std::vector<float>> both{scores.residuals(machine), scores.residuals(machine_with(best))};
+    std::vector<RuleCandidate> pair{candidates[chosen], refined};
+    score(both, scores.usual_speed(), pair);
+    if (pair[1].score > pair[0].score - decisive) return;
+    candidates[chosen].chosen = candidates[chosen].equal = false;
+    pair[1].chosen = pair[1].equal = true;
+    candidates.push_back(pair[1]);
+    rule.continuous.set(machine, best);
+}
+
+}  // namespace
+
+RuleScores::RuleScores(std::span<const RecordedRun> runs) {
+    constexpr PointIndex most = 200'000;
+    for (const RecordedRun& run : runs) runs_.push_back(&run);
+    std::stable_sort(runs_.begin(), runs_.end(),
+                     [](const auto* a, const auto* b) { return a->part().log.records < b->part().log.records; });
+    PointIndex sum = 0;
+    const auto beyond = std::find_if(runs_.begin() + 1, runs_.end(), [&](const RecordedRun* run) {
+        sum += run->part().log.records;
+        return sum + runs_.front()->part().log.records > most;
+    });
+    runs_.erase(beyond, runs_.end());
+}
+
+std::vector<float> RuleScores::residuals(const Machine& machine) {
+    std::vector<float> all;
+    for (const RecordedRun* run : runs_) {
+        const RunDifferences found = run->differences(run->simulated(machine));
+        usual_speed_ = std::max(usual_speed_, found.usual_speed);
+        const Column<float>& speed = found.of[index_of(RunQuantity::speed)];
+        for (std::size_t i = 0; i < speed.size(); i += sample_every) all.push_back(std::abs(speed[i]));
+    }
+    return all;
+}
+
+void search_rule(const Rule& rule, std::size_t present, double least_gain, RuleScores& scores, Identification& result) {
+    std::vector<RuleCandidate> candidates;
+    std::vector<std::vector<float>> residuals;
+    for (const RuleValue& value : rule.values) {
+        Machine machine = result.machine;
+        value.apply(machine);
+        residuals.push_back(scores.residuals(machine));
+        candidates.push_back({.rule = rule.name, .value = value.name, .axis = rule.axis});
+    }
+    score(residuals, scores.usual_speed(), candidates);
+    const std::vector<std::size_t> equal = equal_to_best(candidates);
+    const bool keeps = std::find(equal.begin(), equal.end(), present) != equal.end();
+    std::size_t chosen =
+        keeps ? present : *std::min_element(equal.begin(), equal.end(), [&](std::size_t a, std::size_t b) {
+            return candidates[a].score < candidates[b].score;
+        });
+    if (present < candidates.size() &&
+        candidates[chosen].speed_error > (1 - least_gain) * candidates[present].speed_error)
+        chosen = present;
+    candidates[chosen].chosen = true;
+    for (const std::size_t k : equal) candidates[k].equal = true;
+    rule.values[chosen].apply(result.machine);
+    if (equal.size() > 1) {
+        std::vector<std::string> names;
+        for (const std::size_t k : equal) names.push_back(rule.values[k].name);
+        result.unidentified.push_back(
+            {rule.name, rule.axis,
+             fmt::format("the runs do not tell apart {}; kept {}", fmt::join(names, "; "), rule.values[chosen].name)});
+    }
+    if (equal.size() == 1 && equal.front() == chosen) refine(rule, chosen, scores, result.machine, candidates);
+    std::move(candidates.begin(), candidates.end(), std::back_inserter(result.rules));
+}
+
+}  // namespace clsurf

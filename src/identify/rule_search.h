@@ -1,0 +1,53 @@
+#pragma once
+// Rules of a planner as candidates that are simulated and scored against recorded runs.
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "identify/identification.h"
+#include "identify/run_fidelity.h"
+
+namespace clsurf {
+
+/// A value of a rule, and how a machine gets it.
+struct RuleValue {
+    std::string name;
+    std::function<void(Machine&)> apply;
+};
+
+/// The numbers of a rule's values, in their order and rising, where other numbers between them are possible.
+struct ContinuousValues {
+    std::vector<double> numbers{};  ///< empty: there are no others
+    std::function<void(Machine&, double)> set{};
+};
+
+struct Rule {
+    std::string name, axis;
+    std::vector<RuleValue> values;
+    ContinuousValues continuous;
+};
+
+/// Scores machines against the runs.
+class RuleScores {
+public:
+    /// `runs` must outlive it; long ones beyond 2·10^5 records in all are left out.
+    explicit RuleScores(std::span<const RecordedRun> runs);
+
+    /// |difference of speed| at every sample [mm/s]; NaN: not compared.
+    [[nodiscard]] std::vector<float> residuals(const Machine& machine);
+    /// The speed that a place counts as wrong by where the simulation does not go there [mm/s].
+    [[nodiscard]] double usual_speed() const { return static_cast<double>(usual_speed_); }
+
+private:
+    std::vector<const RecordedRun*> runs_;
+    float usual_speed_ = 0;
+};
+
+/// Searches one rule and keeps the value that explains the runs best; where the runs do not tell it from the present one,
+/// that. Another value must lower the mean error of the speed by the share `least_gain`. `present`: the index of the value that the machine has, size() where it has none of them. Between the values of a
+/// continuous rule the best number is sought by Brent's method, to three digits, where the runs tell the values apart.
+void search_rule(const Rule& rule, std::size_t present, double least_gain, RuleScores& scores, Identification& result);
+
+}  // namespace clsurf

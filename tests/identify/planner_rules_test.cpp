@@ -1,0 +1,77 @@
+// The rules of a simulated planner are found again, and what the runs do not show is left alone.
+
+#include "identify/planner_rules.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "pipeline/simulated_log.h"
+#include "repair/parts.h"
+
+namespace clsurf {
+namespace {
+
+/// A zigzag over waves with a cluster of short lines on every third pass.
+Program crowded_waves() {
+    return read_text(
+        wavy_zigzag(6, 20, [](int pass, double x) { return pass % 3 == 0 && x > 8 && x < 10 ? 0.03 : 0.3; }));
+}
+
+Part run_on(const Machine& machine) {
+    const Program program = crowded_waves();
+    return assemble(program, simulate_to_log(program, machine, Vec3::Zero()).log);
+}
+
+Identification identified(const Part& part, const Machine& known) {
+    Identification result;
+    result.machine = known;
+    const RecordedRun run(part);
+    identify_rules({&run, 1}, result);
+    return result;
+}
+
+const RuleCandidate* chosen(const Identification& result, std::string_view rule) {
+    const auto found = std::find_if(result.rules.begin(), result.rules.end(),
+                                    [&](const RuleCandidate& c) { return c.rule == rule && c.chosen; });
+    return found == result.rules.end() ? nullptr : &*found;
+}
+
+TEST(PlannerRules, ATrapezoidalPlannerIsToldFromATimeOptimalOne) {
+    Machine real;
+    real.controller.planner = PlannerKind::trapezoidal;
+    for (MachineAxis& axis : real.axes) axis.max_jerk = 0;
+    Machine known = real;
+    known.controller.planner = PlannerKind::time_optimal;
+    const Part part = run_on(real);
+    const Identification result = identified(part, known);
+    EXPECT_EQ(result.machine.controller.planner, PlannerKind::trapezoidal);
+    const RuleCandidate* last = chosen(result, "blocks_per_period");
+    ASSERT_NE(last, nullptr);
+    EXPECT_LT(last->speed_error, 0.1) << "mm/s";
+}
+
+// The first rules alone take it for a look-ahead of 20 blocks.
+TEST(PlannerRules, ABlockTimeBetweenTheTriedOnesIsFound) {
+    Machine real, known;
+    real.controller.block_time = 0.004;
+    const Part part = run_on(real);
+    const Identification result = identified(part, known);
+    EXPECT_NEAR(result.machine.controller.block_time, 0.004, 0.0002);
+    EXPECT_GE(result.machine.controller.lookahead_blocks, 200) << "enough for every place of this part";
+}
+
+TEST(PlannerRules, WhatTheRunDoesNotShowKeepsItsValueAndIsNamed) {
+    Machine real;
+    const Part part = run_on(real);
+    const Identification result = identified(part, real);
+    // No corner is sharp enough for the tolerance to matter.
+    EXPECT_EQ(result.machine.controller.tolerance, real.controller.tolerance);
+    EXPECT_TRUE(std::any_of(result.unidentified.begin(), result.unidentified.end(),
+                            [](const UnidentifiedParameter& p) { return p.name == "tolerance"; }));
+    EXPECT_EQ(result.machine.controller.lookahead_blocks, 500);
+    EXPECT_DOUBLE_EQ(result.machine.controller.block_time, 0);
+}
+
+}  // namespace
+}  // namespace clsurf
