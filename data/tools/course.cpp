@@ -146,6 +146,7 @@ public:
         switch (r_.layout) {
             case Layout::waterline:
             case Layout::staggered:
+            case Layout::slanted:
             case Layout::helix: {
                 const double around = p.x() / (0.5 * r_.length);
                 const double radius = 0.5 * r_.length * (1 + 0.05 * std::cos(3 * around)) - p.y() * std::sin(r_.draft);
@@ -293,6 +294,15 @@ std::vector<PlanePass> round_a_tower(const CourseRecipe& r) {
             passes.push_back({{{start, v}, {start + around, v}}, Joint::link});
             continue;
         }
+        if (r.layout == Layout::slanted) {
+            constexpr double before = 1.6,
+                             farther = 1.8;  // [mm] of a link before and behind the place where the loop began
+            const double start = k * farther, end = start + around;
+            const double fall = r.step_over * (1 - r.spacing / (before + farther));
+            passes.push_back({{{start, v}, {end - before, v}, {end + farther - r.spacing, v - fall}},
+                              k > 0 ? Joint::none : Joint::link});
+            continue;
+        }
         const double last = helix ? around - r.spacing : around;
         const double fall = helix ? r.step_over * last / around : 0;
         passes.push_back({{{0, v}, {last, v - fall}}, helix && k > 0 ? Joint::none : Joint::link});
@@ -338,6 +348,7 @@ std::vector<PlanePass> lay_on_plane(const CourseRecipe& r) {
         case Layout::spiral: return winding(r);
         case Layout::waterline:
         case Layout::staggered:
+        case Layout::slanted:
         case Layout::helix: return round_a_tower(r);
         case Layout::triangles: return triangles(r);
         default: return to_and_fro(r);
@@ -354,9 +365,9 @@ void move_to(std::vector<CoursePoint>& course, const Vec3& to, Motion motion, do
 }  // namespace
 
 std::string_view name_of(Layout layout) {
-    constexpr std::array<std::string_view, layouts> names{"zigzag",   "one-way", "oblique",  "arcs",      "interrupted",
-                                                          "contours", "islands", "spiral",   "waterline", "staggered",
-                                                          "helix",    "wall",    "triangles"};
+    constexpr std::array<std::string_view, layouts> names{"zigzag",   "one-way", "oblique", "arcs",      "interrupted",
+                                                          "contours", "islands", "spiral",  "waterline", "staggered",
+                                                          "slanted",  "helix",   "wall",    "triangles"};
     return names[static_cast<std::size_t>(layout)];
 }
 

@@ -24,11 +24,12 @@ enum class Layout : std::uint8_t {
     spiral,       ///< from outside inwards
     waterline,    ///< closed loops round a tower, level by level
     staggered,    ///< the same, each level joined on a slant, farther on than the one before
+    slanted,      ///< the same, over links of 3.4 mm that begin before the loop closes
     helix,        ///< the same as one continuous turn
     wall,         ///< a zigzag on a steep wall, level above level
     triangles,  ///< closed loops with sharp corners from the border of a triangle inwards, each joined straight sideways
 };
-inline constexpr int layouts = 13;
+inline constexpr int layouts = 14;
 [[nodiscard]] std::string_view name_of(Layout layout);
 
 struct CourseRecipe {

@@ -52,6 +52,8 @@ constexpr std::array kinds = std::to_array<LogKind>({
     {"arcs F3000 clock 50 µs", Layout::arcs, 3000, 0.001, 0.0001, Fault::all, 50e-6},
     {"triangles F3000 dips", Layout::triangles, 3000, 0.001, 0.001, Fault::dip},
     {"triangles F5000 2 ms", Layout::triangles, 5000, 0.002, 0.0001, Fault::all},
+    {"slanted F3000", Layout::slanted, 3000, 0.001, 0.001, Fault::all},
+    {"slanted F4000", Layout::slanted, 4000, 0.001, 0.0001, Fault::all},
 });
 
 constexpr double pi = std::numbers::pi;
@@ -119,7 +121,8 @@ private:
         const double base = slow ? 14 : fast ? 60 : kind_.layout == Layout::interrupted ? 44 : 26;
         shape_.length = base * uniform(g, 1, 1.3);
         const bool round = kind_.layout == Layout::spiral || kind_.layout == Layout::waterline ||
-                           kind_.layout == Layout::staggered || kind_.layout == Layout::helix;
+                           kind_.layout == Layout::staggered || kind_.layout == Layout::slanted ||
+                           kind_.layout == Layout::helix;
         if (round) shape_.length = std::max(0.6 * shape_.length, 2.2 * shape_.passes * shape_.step_over);
         shape_.angle = uniform(g, 0.35, 1.2);
         shape_.waviness = uniform(g, 0.2, slow ? 0.6 : 1.5);

@@ -24,6 +24,9 @@ constexpr float link_sine = 0.24F;        ///< sin 14°: of the link against the
 constexpr float closing_reach = 5;        ///< step-overs on either side, within which a loop closes …
 constexpr float closing_nearest = 0.5F;   ///< … where the distance to the pass beside it falls below this …
 constexpr float closing_farthest = 0.8F;  ///< … and is more than this before or after it [step-overs]
+constexpr float long_link = 20;           ///< step-overs: a link is shorter …
+constexpr float link_nearest = 0.65F;     ///< … comes as near to one of the passes beside it [step-overs] …
+constexpr float own_turn = 0.035F;        ///< … and turns otherwise than the passes beside it by 2° at either corner
 constexpr float beside_reach = 1.5F;      ///< step-overs along the feed within which a pass beside has its bend
 constexpr float look_every = 0.1F;        ///< step-overs
 constexpr float accelerates = 0.35F;  ///< of the usual acceleration, at least: jerk limits and windows take the rest
@@ -180,8 +183,35 @@ float Bends::distance_beside(PointIndex point) const {
 
 bool Bends::closes_loop(PointIndex point) const {
     const float reach = closing_reach * step_over_;
-    const PointIndex first = at_distance(point, -1, reach), last = at_distance(point, +1, reach);
-    const PointIndex stride = stride_at(point);
+    return distance_falls(at_distance(point, -1, reach), at_distance(point, +1, reach), closing_nearest);
+}
+
+float Bends::turn_of_its_own(PointIndex point) const {
+    const float reach = net_reach * step_over_;
+    const auto turn = [&](PointIndex at) {
+        return Eigen::Vector3f(signals_.feed(at_distance(at, +1, reach)) - signals_.feed(at_distance(at, -1, reach)));
+    };
+    const Eigen::Vector3f own = turn(point);
+    float least = std::numeric_limits<float>::infinity();
+    for (const Side side : {Side::left, Side::right}) {
+        const PathLocation at = beside(surface_, {point, 0}, signals_.feed(point), side);
+        if (!at.exists()) continue;
+        // A pass that runs the other way turns the other way, too: the difference of its feeds is the same.
+        const float other = (own - turn(at.nearest())).norm();
+        if (other == other) least = std::min(least, other);
+    }
+    return std::isfinite(least) ? least : 0;
+}
+
+bool Bends::is_corner_of_long_link(PointIndex point) const {
+    if (!(turn_of_its_own(point) > own_turn)) return false;
+    const float reach = long_link * step_over_, room = closing_reach * step_over_;
+    return distance_falls(at_distance(point, -1, reach), at_distance(point, +1, room), link_nearest) ||
+           distance_falls(at_distance(point, -1, room), at_distance(point, +1, reach), link_nearest);
+}
+
+bool Bends::distance_falls(PointIndex first, PointIndex last, float below) const {
+    const PointIndex stride = stride_at(first);
     float nearest = std::numeric_limits<float>::infinity(), farthest = 0;
     for (PointIndex i = first; i <= last; i += stride) {
         const float distance = distance_beside(i);
@@ -189,14 +219,14 @@ bool Bends::closes_loop(PointIndex point) const {
         nearest = std::min(nearest, distance);
         farthest = std::max(farthest, distance);
     }
-    return nearest < closing_nearest * step_over_ && farthest > closing_farthest * step_over_;
+    return nearest < below * step_over_ && farthest > closing_farthest * step_over_;
 }
 
 bool Bends::is_bend(PointIndex point) const {
     if (closes_loop(point)) return true;
     const Turn turn = turn_at(point);
     const float usual = thresholds_.usual_acceleration;
-    if (turn.acceleration >= link_accelerates * usual && is_link(point)) return true;
+    if (turn.acceleration >= link_accelerates * usual && (is_link(point) || is_corner_of_long_link(point))) return true;
     if (!(turn.acceleration >= accelerates * usual)) return false;
     if (turn.cosine < bend_cosine) return !taken_faster_beside(point, turn);
     return turn.cosine < slight_cosine && turns_alone(point, turn);

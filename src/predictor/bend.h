@@ -39,6 +39,14 @@ private:
     /// A closed loop ends there and a link leads to the next one: the path comes to where it has already run, and leaves again.
     /// This holds in tight curves and for links that slant by a few degrees, where the path alone does not show the link.
     [[nodiscard]] bool closes_loop(PointIndex point) const;
+    /// Either corner of a long link that slants by a few degrees: the path turns otherwise than the passes beside it, and between
+    /// its corners it leads over the place where the loop began, so that the distance to the pass beside it grows from nothing to
+    /// a step-over.
+    [[nodiscard]] bool is_corner_of_long_link(PointIndex point) const;
+    /// Between two points of the path the distance to the pass beside it is below so many step-overs, and about one elsewhere.
+    [[nodiscard]] bool distance_falls(PointIndex first, PointIndex last, float below) const;
+    /// How much more or otherwise the path turns there than the passes beside it, as difference of unit feeds; 0: there is none.
+    [[nodiscard]] float turn_of_its_own(PointIndex point) const;
     /// [mm] to the nearer one of the neighbours, straight across; infinite: there is none.
     [[nodiscard]] float distance_beside(PointIndex point) const;
     [[nodiscard]] bool turns_alone(PointIndex bend, const Turn& turn) const;

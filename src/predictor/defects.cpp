@@ -335,6 +335,7 @@ struct Built {
     Defect defect;
     DefectCandidates core;
     bool expected = false;
+    bool listed = true;  ///< large enough
 };
 
 /// A start: where a score reaches 1. In the motion, accelerations start a defect only where they are
@@ -379,7 +380,7 @@ public:
 
 private:
     void add(DefectCandidates core, Quantity quantity) {
-        if (core.size() < fewest_sites || !starts_defect(core, family_)) return;
+        if (core.empty() || !starts_defect(core, family_)) return;
         if (at_border_) return keep(core, quantity, !border_.stands_out(core, quantity));
         const std::optional<PointIndex> flank = border_.flank_of(core, quantity);
         if (!flank) return keep(core, quantity, false);
@@ -396,9 +397,11 @@ private:
     }
 
     void keep(const DefectCandidates& core, Quantity quantity, bool expected) {
-        if (core.size() < fewest_sites) return;
+        if (core.empty()) return;
         Defect defect = builder_.build(core, quantity, family_);
-        if (defect.area >= smallest_) built_.push_back({std::move(defect), core, expected});
+        // An expected motion explains the heights that it makes, however short it is.
+        const bool large = core.size() >= fewest_sites && defect.area >= smallest_;
+        if (large || expected) built_.push_back({std::move(defect), core, expected, large});
     }
 
     Family family_;
@@ -461,6 +464,7 @@ QualityReport find_defects(const ClSurface& surface, const Signals& signals, con
         }
     }
     for (Built& built : all) {
+        if (!built.listed) continue;
         if (built.expected) built.defect.cause = Cause::pass_end;
         (built.expected ? report.expected : report.defects).push_back(std::move(built.defect));
     }

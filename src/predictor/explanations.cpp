@@ -1,13 +1,11 @@
 #include "predictor/explanations.h"
 
 #include <algorithm>
-#include <map>
 
 namespace clsurf {
 
 void Explanations::add(const std::vector<DefectRun>& runs, PointIndex room) {
-    for (const DefectRun& run : runs) sections_.push_back({run.points.first - room, run.points.last + room, 0, added_});
-    ++added_;
+    for (const DefectRun& run : runs) sections_.push_back({run.points.first - room, run.points.last + room, 0});
     sorted_ = false;
 }
 
@@ -21,22 +19,12 @@ void Explanations::sort() {
 
 bool Explanations::explain(std::span<const DefectCandidate* const> sites) {
     sort();
-    struct Inside {
-        std::size_t sites = 0;
-        PointIndex last = -1;  ///< that was counted
+    const auto inside = [&](const DefectCandidate* s) {
+        const auto after = std::upper_bound(sections_.begin(), sections_.end(), s->point,
+                                            [](PointIndex p, const Section& section) { return p < section.first; });
+        return after != sections_.begin() && (after - 1)->farthest >= s->point;
     };
-    std::map<std::size_t, Inside> inside;
-    for (const DefectCandidate* s : sites) {
-        auto at = std::upper_bound(sections_.begin(), sections_.end(), s->point,
-                                   [](PointIndex p, const Section& b) { return p < b.first; });
-        while (at != sections_.begin() && (--at)->farthest >= s->point) {
-            Inside& in = inside[at->found];
-            if (at->last < s->point || in.last == s->point) continue;
-            in.last = s->point;
-            if (2 * ++in.sites >= sites.size()) return true;
-        }
-    }
-    return false;
+    return 2 * std::count_if(sites.begin(), sites.end(), inside) >= static_cast<std::ptrdiff_t>(sites.size());
 }
 
 }  // namespace clsurf
