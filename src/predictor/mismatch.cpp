@@ -74,11 +74,12 @@ float change_of_two_periods(const Signals& signals, float Sample::*signal, Point
     return change == change ? change : 0;
 }
 
-/// Whether a relief is the part's own. A pass that lies off lifts the chords of its neighbours, or lowers them, by
-/// as much as it stands out: with the adjacent pass, or both, its relief adds up to nothing. That of an edge
+/// Whether a relief is the part's own. A pass that lies off lifts the chords of its neighbours, or lowers them: with
+/// theirs its relief adds up to nothing, and so it does for two passes that lie off, or every second one, with both of theirs. That of an edge
 /// or a fillet of the part adds up to the angle by which the surface turns there, and beside one reliefs may add up
-/// to anything, but are smaller. Counted from the mean of all `places` around.
-bool is_shape(float relief, const Compared& left, const Compared& right, std::span<const Compared> places) {
+/// to anything, but are smaller. Counted from the mean of all `places` around: those of one side, the adjacent one first, then as
+/// many of the other one.
+bool is_shape(float relief, std::span<const Compared> places) {
     float sum = relief;
     int known = 1;
     for (const Compared& place : places) {
@@ -87,11 +88,19 @@ bool is_shape(float relief, const Compared& left, const Compared& right, std::sp
         ++known;
     }
     const float mean = sum / static_cast<float>(known);
-    const float own = relief - mean, l = left.relief - mean, r = right.relief - mean;
-    if (std::min({std::abs(own + l), std::abs(own + r), std::abs(own + l + r)}) > shape_left * std::abs(own))
-        return true;
-    return std::any_of(places.begin(), places.end(),
-                       [&](const Compared& v) { return std::abs(own) < shape_beside * std::abs(v.relief - mean); });
+    const float own = relief - mean;
+    const std::size_t aside = places.size() / 2;
+    const auto at = [&](std::size_t side, std::size_t k) {  // nothing, where there is no chord
+        const float there = k < aside ? places[side * aside + k].relief : missing<float>;
+        return there == there ? there - mean : 0;
+    };
+    const auto adds_up = [&](float all) { return std::abs(all) <= shape_left * std::abs(own); };
+    const float three = at(0, 0) + own + at(1, 0);
+    const bool alone = at(0, 0) == 0 && at(1, 0) == 0;
+    const bool lies_off = alone || adds_up(three) || adds_up(three + at(0, 1)) || adds_up(three + at(1, 1));
+    return !lies_off || std::any_of(places.begin(), places.end(), [&](const Compared& v) {
+        return std::abs(own) < shape_beside * std::abs(v.relief - mean);
+    });
 }
 
 /// How far a relief lies above the reliefs of the passes on its two sides, or below (−): by the distance from the interval between
@@ -167,7 +176,7 @@ float fill_residuals(const Compared& mine, const PassesBeside& others, float lea
     float& relief = result.residual[index_of(Quantity::relief)];
     if (even == 0)
         relief = mine.relief - median_of(reliefs, fewest_passes, [](const Compared& v) { return v.relief; });
-    else if (is_shape(mine.relief, beside_it[0][0], beside_it[1][0], reliefs))
+    else if (is_shape(mine.relief, reliefs))
         relief = 0;
     else
         relief = relief_beyond_sides(mine.relief, reliefs);
