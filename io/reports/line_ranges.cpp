@@ -49,4 +49,12 @@ std::string line_ranges(std::span<const DefectRun> runs, std::size_t shown) {
     return text;
 }
 
+std::string named_line_ranges(std::span<const DefectRun> runs, std::size_t shown) {
+    const std::string text = line_ranges(runs, shown);
+    if (text == "-") return "no known line";
+    // Lines of a subprogram follow in brackets; the word is of what stands before them.
+    const bool one = text.substr(0, text.find(" (in ")).find_first_not_of("0123456789") == std::string::npos;
+    return (one ? "line " : "lines ") + text;
+}
+
 }  // namespace clsurf::io

@@ -12,4 +12,7 @@ namespace clsurf::io {
 /// and then "and 3 more"; "-": none has a line.
 [[nodiscard]] std::string line_ranges(std::span<const DefectRun> runs, std::size_t shown);
 
+/// The same with the word before it: "line 16", "lines 12-13, 40"; "no known line": none has one.
+[[nodiscard]] std::string named_line_ranges(std::span<const DefectRun> runs, std::size_t shown);
+
 }  // namespace clsurf::io

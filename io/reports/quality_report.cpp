@@ -107,18 +107,15 @@ std::string verdict_text(const QualityReport& r) {
     constexpr std::size_t most_ranges = 3;
     const Defect& worst = r.defects.front();
     return text +
-           fmt::format("Stands out most: {}, lines {}.\n\n", sentence_of(worst), line_ranges(worst.runs, most_ranges));
+           fmt::format("Stands out most: {}, {}.\n\n", sentence_of(worst), named_line_ranges(worst.runs, most_ranges));
 }
 
-/// Few enough to fit beside the numbers.
-std::string lines_column(const Defect& d) {
+/// As many ranges of lines as fit beside the numbers, three at most.
+std::size_t ranges_in_column(const Defect& d) {
     constexpr std::size_t widest = 21;
-    std::string text;
-    for (std::size_t shown = 3; shown > 0; --shown) {
-        text = line_ranges(d.runs, shown);
-        if (text.size() <= widest) break;
-    }
-    return text;
+    std::size_t shown = 3;
+    while (shown > 1 && line_ranges(d.runs, shown).size() > widest) --shown;
+    return shown;
 }
 
 /// Why depths in the as-machined surface are missing, or other than those of the passes alone: a line a reason.
@@ -167,8 +164,9 @@ std::string defects_table(const ReportedQuality& q) {
                             depth_column(d), d.length, formed_column(q, i));
         const Vec3& at = d.place.position();
         text += one_row ? fmt::format("  {:<22} {}\n", fmt::format("{:.2f} {:.2f} {:.2f}", at.x(), at.y(), at.z()),
-                                      lines_column(d))
-                        : fmt::format("\n     {}, lines {}\n", place_text(d.place), lines_column(d));
+                                      line_ranges(d.runs, ranges_in_column(d)))
+                        : fmt::format("\n     {}, {}\n", place_text(d.place),
+                                      named_line_ranges(d.runs, ranges_in_column(d)));
     }
     if (as_machined) text += as_machined_notes(q);
     return text + "\n";

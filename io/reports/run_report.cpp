@@ -1,6 +1,7 @@
 #include "io/reports/run_report.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -11,7 +12,7 @@
 namespace clsurf::io {
 namespace {
 
-constexpr std::size_t shown_sections = 12;  ///< of a run, in the text
+constexpr int shown_of_quantity = 3;  ///< sections of a run, in the text
 
 const RunQuantityInfo& info_of(RunQuantity q) { return run_quantity_table()[index_of(q)]; }
 
@@ -111,8 +112,15 @@ std::string run_text(const ReportedRun& run, const std::string& reference) {
     if (!r.sections.empty())
         text += fmt::format("\n{:>3} {:<13} {:>16} {:>10} {:>8} {:>8} {:<28} {}\n", "no", "quantity", "peak", "mean",
                             "mm", "s", fmt::format("{} X Y Z [mm]", place_word(r.sections.front().place)), "lines");
-    for (std::size_t i = 0; i < std::min(shown_sections, r.sections.size()); ++i) {
+    // The worst are often all of one quantity; those of the others must be seen, too.
+    std::array<int, run_quantities> shown{};
+    std::size_t left_out = 0;
+    for (std::size_t i = 0; i < r.sections.size(); ++i) {
         const RunDifferenceSection& d = r.sections[i];
+        if (++shown[index_of(d.quantity)] > shown_of_quantity) {
+            ++left_out;
+            continue;
+        }
         const RunQuantityInfo& info = info_of(d.quantity);
         const double u = info.unit.per_inside;
         const bool relative = d.quantity == RunQuantity::speed;
@@ -125,8 +133,7 @@ std::string run_text(const ReportedRun& run, const std::string& reference) {
             fmt::format("{:.2f} {:.2f} {:.2f}", d.place.position().x(), d.place.position().y(), d.place.position().z()),
             lines_of(d));
     }
-    if (r.sections.size() > shown_sections)
-        text += fmt::format("and {} more: --json lists them\n", r.sections.size() - shown_sections);
+    if (left_out > 0) text += fmt::format("and {} more: --json lists them\n", left_out);
     for (const BudgetLine& line : run.budget) {
         text += fmt::format("budget {:<34} {:>10.4g} of {:<10.4g} {}\n", line.name, line.measured, line.limit,
                             line.held ? "held" : "NOT HELD");

@@ -18,5 +18,17 @@ TEST(LineRanges, NamesEachLineOnce) {
     EXPECT_EQ(line_ranges(std::vector{run(20, 4)}, 4), "4-20");
 }
 
+TEST(LineRanges, SayLineOfOneAndLinesOfMore) {
+    EXPECT_EQ(named_line_ranges(std::vector{run(16, 16), run(16, 16)}, 4), "line 16");
+    EXPECT_EQ(named_line_ranges(std::vector{run(16, 17)}, 4), "lines 16-17");
+    EXPECT_EQ(named_line_ranges(std::vector{run(1, 1), run(3, 3)}, 1), "lines 1 and 1 more");
+    EXPECT_EQ(named_line_ranges(std::vector{run(0, 0)}, 4), "no known line");
+    DefectRun called = run(16, 16);
+    called.file = "ramp.nc";
+    called.file_first_line = 3;
+    called.file_last_line = 9;
+    EXPECT_EQ(named_line_ranges(std::vector{called}, 4), "line 16 (in ramp.nc: 3-9)");
+}
+
 }  // namespace
 }  // namespace clsurf::io
