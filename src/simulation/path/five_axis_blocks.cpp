@@ -100,6 +100,11 @@ bool FiveAxisBlocks::derate(const std::vector<BlockExcess>& excesses) {
     return derated;
 }
 
+void FiveAxisBlocks::forget_caps() {
+    caps_.assign(count(), infinite);
+    apply_caps();
+}
+
 double FiveAxisBlocks::part_at(std::size_t block, const Vec3& p, double from) const {
     const PathElement& e = elements_[block];
     if (!(e.length > 0)) return 1;

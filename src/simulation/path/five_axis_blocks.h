@@ -33,6 +33,9 @@ public:
     /// Slows down the blocks that exceed a limit. False: none did.
     bool derate(const std::vector<BlockExcess>& excesses);
 
+    /// Feeds as programmed, for a planner that knows all axes.
+    void forget_caps();
+
     /// The way of the tip for the planner; the line of a motion is its block's number, from 1.
     [[nodiscard]] const Program& planned() const { return planned_; }
     [[nodiscard]] std::size_t count() const { return axis_paths_.size(); }

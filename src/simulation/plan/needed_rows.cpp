@@ -25,39 +25,47 @@ Three sum(double a, const Three& u, double b, const Three& v) {
     return {a * u[0] + b * v[0], a * u[1] + b * v[1], a * u[2] + b * v[2]};
 }
 
-constexpr std::uint8_t acceleration_bit(int axis) {
-    return static_cast<std::uint8_t>(1U << static_cast<unsigned>(axis));
+constexpr std::uint16_t acceleration_bit(int axis) {
+    return static_cast<std::uint16_t>(1U << static_cast<unsigned>(axis));
 }
-constexpr std::uint8_t jerk_bit(int axis) { return static_cast<std::uint8_t>(8U << static_cast<unsigned>(axis)); }
-constexpr std::uint8_t path_bit = 64U;
-constexpr std::uint32_t rows_of_sample = 7;
+template <int Axes>
+constexpr std::uint16_t jerk_bit(int axis) {
+    return acceleration_bit(Axes + axis);
+}
+template <int Axes>
+constexpr std::uint16_t path_bit = acceleration_bit(2 * Axes);
+template <int Axes>
+constexpr std::uint32_t rows_of_sample = 2 * Axes + 1;
 
 }  // namespace
 
 /// Whether an axis or the path may be above a part of a limit at a sample of a cell where v², acceleration and jerk along the path are at most these.
-bool SpeedProblem::may_break(const Cell& cell, double part, double acceleration, double square, double jerk) const {
-    const double limit = part * machine_->path.max_acceleration;
+template <int Axes>
+bool AxisSpeedProblem<Axes>::may_break(const Cell& cell, double part, double acceleration, double square,
+                                       double jerk) const {
+    const double limit = part * limits_.path_acceleration;
     if (cell.pace.value * acceleration + cell.pace.slope * square > limit) return true;
     const double speed = std::sqrt(square);
-    for (int x = 0; x < 3; ++x) {
-        const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(x)];
-        if (cell.slope[x] * acceleration + cell.bend[x] * square > part * axis.max_acceleration) return true;
-        if (axis.max_jerk > 0 &&
+    for (int x = 0; x < Axes; ++x) {
+        if (cell.slope[x] * acceleration + cell.bend[x] * square > part * limits_.acceleration[x]) return true;
+        if (limits_.jerk[x] > 0 &&
             cell.slope[x] * jerk + speed * (3 * cell.bend[x] * acceleration + cell.twist[x] * square) >
-                part * axis.max_jerk)
+                part * limits_.jerk[x])
             return true;
     }
     return false;
 }
 
 /// The tangential acceleration allowed at the end of a cell: the next cell begins with the same one.
-double SpeedProblem::acceleration_at_end(std::size_t cell) const {
+template <int Axes>
+double AxisSpeedProblem<Axes>::acceleration_at_end(std::size_t cell) const {
     const double here = cells_[cell].limits.acceleration;
     return cell + 1 < cells_.size() ? std::min(here, cells_[cell + 1].limits.acceleration) : here;
 }
 
 /// Rows for what may come to its limit, judged by the values to begin with.
-void SpeedProblem::need_likely_rows() {
+template <int Axes>
+void AxisSpeedProblem<Axes>::need_likely_rows() {
     for (std::size_t i = 0; i < cells_.size(); ++i) {
         Cell& cell = cells_[i];
         const double* c = &value_[i];
@@ -75,26 +83,25 @@ void SpeedProblem::need_likely_rows() {
         if (!may_break(cell, 1, steep, speed * speed, cell.limits.jerk)) continue;
         for (std::uint32_t s = cell.first_sample; s < cell.end_sample; ++s) {
             HeldSample& held_sample = samples_[s];
-            const PathSample& sample = held_sample.sample;
-            if (sample.pace.value * steep + std::abs(sample.pace.slope) * speed * speed >
-                machine_->path.max_acceleration)
-                held_sample.needed |= path_bit;
-            for (int x = 0; x < 3; ++x) {
-                const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(x)];
+            const Sample& sample = held_sample.sample;
+            if (sample.pace.value * steep + std::abs(sample.pace.slope) * speed * speed > limits_.path_acceleration)
+                held_sample.needed |= path_bit<Axes>;
+            for (int x = 0; x < Axes; ++x) {
                 const double slope = std::abs(sample.slope[x]), bend = std::abs(sample.bend[x]),
                              twist = std::abs(sample.twist[x]);
-                if (slope * steep + bend * speed * speed > axis.max_acceleration)
+                if (slope * steep + bend * speed * speed > limits_.acceleration[x])
                     held_sample.needed |= acceleration_bit(x);
-                if (axis.max_jerk <= 0) continue;
-                if (slope * cell.limits.jerk + speed * (3 * bend * steep + twist * speed * speed) > axis.max_jerk)
-                    held_sample.needed |= jerk_bit(x);
+                if (limits_.jerk[x] <= 0) continue;
+                if (slope * cell.limits.jerk + speed * (3 * bend * steep + twist * speed * speed) > limits_.jerk[x])
+                    held_sample.needed |= jerk_bit<Axes>(x);
             }
         }
     }
 }
 
 /// Rows for what is above a part of its limit and has none; false: nothing is.
-bool SpeedProblem::need_broken_rows(double part) {
+template <int Axes>
+bool AxisSpeedProblem<Axes>::need_broken_rows(double part) {
     bool any = false;
     const auto need = [&](bool& row) { any = any || !row, row = true; };
     for (std::size_t i = 0; i < cells_.size(); ++i) {
@@ -122,23 +129,22 @@ bool SpeedProblem::need_broken_rows(double part) {
             continue;
         for (std::uint32_t s = cell.first_sample; s < cell.end_sample; ++s) {
             HeldSample& held_sample = samples_[s];
-            const PathSample& sample = held_sample.sample;
+            const Sample& sample = held_sample.sample;
             const double b_here = b + sample.at * (slope + 0.5 * sample.at * curve);
             const double slope_here = slope + sample.at * curve;
             const double root = std::sqrt(b_here);
-            std::uint8_t broken = 0;
+            std::uint16_t broken = 0;
             if (std::abs(0.5 * sample.pace.value * slope_here + sample.pace.slope * b_here) >
-                part * machine_->path.max_acceleration)
-                broken |= path_bit;
-            for (int x = 0; x < 3; ++x) {
-                const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(x)];
+                part * limits_.path_acceleration)
+                broken |= path_bit<Axes>;
+            for (int x = 0; x < Axes; ++x) {
                 const double acceleration = std::abs(0.5 * sample.slope[x] * slope_here + sample.bend[x] * b_here);
-                if (acceleration > part * axis.max_acceleration) broken |= acceleration_bit(x);
-                if (axis.max_jerk <= 0) continue;
+                if (acceleration > part * limits_.acceleration[x]) broken |= acceleration_bit(x);
+                if (limits_.jerk[x] <= 0) continue;
                 const double jerk = std::abs(0.5 * sample.slope[x] * curve + 1.5 * sample.bend[x] * slope_here +
                                              sample.twist[x] * b_here) *
                                     root;
-                if (jerk > part * axis.max_jerk) broken |= jerk_bit(x);
+                if (jerk > part * limits_.jerk[x]) broken |= jerk_bit<Axes>(x);
             }
             any = any || (broken & ~held_sample.needed) != 0;
             held_sample.needed |= broken;
@@ -147,7 +153,8 @@ bool SpeedProblem::need_broken_rows(double part) {
     return any;
 }
 
-void SpeedProblem::add_cap(std::uint32_t number, std::size_t cell, const Three& weights, double cap) {
+template <int Axes>
+void AxisSpeedProblem<Axes>::add_cap(std::uint32_t number, std::size_t cell, const Three& weights, double cap) {
     const double share = 1 / (cap * cap);
     LimitRow row;
     row.w = {weights[0] * share, weights[1] * share, weights[2] * share};
@@ -157,16 +164,19 @@ void SpeedProblem::add_cap(std::uint32_t number, std::size_t cell, const Three& 
     rows_.add(row);
 }
 
-void SpeedProblem::add_row(std::uint32_t number, Row kind, std::size_t cell, const Three& w, double limit) {
+template <int Axes>
+void AxisSpeedProblem<Axes>::add_row(std::uint32_t number, Row kind, std::size_t cell, const Three& w, double limit) {
     rows_.add({{w[0] / limit, w[1] / limit, w[2] / limit}, {}, 1, 1, static_cast<std::uint32_t>(cell), number, kind});
 }
 
-void SpeedProblem::add_jerk(std::uint32_t number, Row kind, std::size_t cell, const Three& w, const Three& b,
-                            double limit) {
+template <int Axes>
+void AxisSpeedProblem<Axes>::add_jerk(std::uint32_t number, Row kind, std::size_t cell, const Three& w, const Three& b,
+                                      double limit) {
     rows_.add({{w[0] / limit, w[1] / limit, w[2] / limit}, b, 0, 1, static_cast<std::uint32_t>(cell), number, kind});
 }
 
-void SpeedProblem::make_rows() {
+template <int Axes>
+void AxisSpeedProblem<Axes>::make_rows() {
     rows_.clear();
     for (std::size_t i = 0; i < cells_.size(); ++i) {
         Cell& cell = cells_[i];
@@ -189,18 +199,17 @@ void SpeedProblem::make_rows() {
         }
         for (std::uint32_t s = cell.first_sample; s < cell.end_sample; ++s) {
             if (samples_[s].needed == 0) continue;
-            const PathSample& sample = samples_[s].sample;
+            const Sample& sample = samples_[s].sample;
             const Weights w = weights_at(i, sample.at);
-            const std::uint32_t first = 6 + rows_of_sample * (s - cell.first_sample);
-            for (int x = 0; x < 3; ++x) {
-                const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(x)];
+            const std::uint32_t first = 6 + rows_of_sample<Axes> * (s - cell.first_sample);
+            for (int x = 0; x < Axes; ++x) {
                 const std::uint32_t number = first + 2 * static_cast<std::uint32_t>(x);
                 if ((samples_[s].needed & acceleration_bit(x)) != 0) {
                     add_row(number, Row::axis_acceleration, i, sum(0.5 * sample.slope[x], w.slope, sample.bend[x], w.b),
-                            acceleration_share * axis.max_acceleration);
+                            acceleration_share * limits_.acceleration[x]);
                 }
-                if ((samples_[s].needed & jerk_bit(x)) != 0) {
-                    const double limit = jerk_share * axis.max_jerk;
+                if ((samples_[s].needed & jerk_bit<Axes>(x)) != 0) {
+                    const double limit = jerk_share * limits_.jerk[x];
                     const double steady =
                         std::abs(sample.twist[x]) * cell.limits.cap * cell.limits.cap * cell.limits.cap;
                     const Three moving = sum(1.5 * sample.bend[x], w.slope, sample.twist[x], w.b);
@@ -208,12 +217,20 @@ void SpeedProblem::make_rows() {
                              sum(0.5 * sample.slope[x], w.curve, 1, moving), w.b, limit);
                 }
             }
-            if ((samples_[s].needed & path_bit) != 0)
-                add_row(first + 6, Row::tangential_acceleration, i,
+            if ((samples_[s].needed & path_bit<Axes>) != 0)
+                add_row(first + 2 * Axes, Row::tangential_acceleration, i,
                         sum(0.5 * sample.pace.value, w.slope, sample.pace.slope, w.b),
-                        acceleration_share * machine_->path.max_acceleration);
+                        acceleration_share * limits_.path_acceleration);
         }
     }
 }
+
+// What speed_problem.cpp calls of these; the rest comes with it.
+template void AxisSpeedProblem<3>::need_likely_rows();
+template void AxisSpeedProblem<5>::need_likely_rows();
+template bool AxisSpeedProblem<3>::need_broken_rows(double part);
+template bool AxisSpeedProblem<5>::need_broken_rows(double part);
+template void AxisSpeedProblem<3>::make_rows();
+template void AxisSpeedProblem<5>::make_rows();
 
 }  // namespace clsurf

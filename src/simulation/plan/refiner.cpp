@@ -44,7 +44,7 @@ KnotState state_at(const SCurve& profile, double time) {
 }  // namespace
 
 Refiner::Refiner(const Machine& machine, Interpolator& interpolator, std::int64_t blocks)
-    : machine_(&machine), interpolator_(&interpolator), blocks_(blocks), problem_(machine) {
+    : machine_(&machine), interpolator_(&interpolator), blocks_(blocks), problem_(linear_limits(machine)) {
     const double period = machine.controller.period;
     const double ramp = machine.path.max_acceleration / machine.path.max_jerk;
     knot_time_ = std::clamp(ramp / cells_a_ramp, 2 * period, 10 * period);

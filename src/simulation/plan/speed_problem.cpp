@@ -23,21 +23,44 @@ constexpr double later_slack = 0.05;                                  ///< of a 
 
 }  // namespace
 
-double SpeedProblem::value_between(double length, const KnotState& begin, const KnotState& end) {
+ProblemLimits<3> linear_limits(const Machine& machine) {
+    ProblemLimits<3> limits;
+    for (int k = 0; k < 3; ++k) {
+        const MachineAxis& axis = machine.axes[static_cast<std::size_t>(k)];
+        limits.acceleration[k] = axis.max_acceleration;
+        limits.jerk[k] = axis.max_jerk;
+    }
+    limits.path_acceleration = machine.path.max_acceleration;
+    return limits;
+}
+
+ProblemLimits<5> five_axis_limits(const Machine& machine) {
+    const ProblemLimits<3> linear = linear_limits(machine);
+    ProblemLimits<5> limits;
+    limits.acceleration << linear.acceleration, machine.rotary[0].max_acceleration, machine.rotary[1].max_acceleration;
+    limits.jerk << linear.jerk, machine.rotary[0].max_jerk, machine.rotary[1].max_jerk;
+    limits.path_acceleration = machine.path.max_acceleration;
+    return limits;
+}
+
+template <int Axes>
+double AxisSpeedProblem<Axes>::value_between(double length, const KnotState& begin, const KnotState& end) {
     const double from_begin = begin.speed * begin.speed + begin.acceleration * length;
     const double from_end = end.speed * end.speed - end.acceleration * length;
     const double low = std::min(begin.speed, end.speed), high = std::max(begin.speed, end.speed);
     return std::clamp(0.5 * (from_begin + from_end), std::max(low * low, 0.01 * high * high), high * high * 1.5);
 }
 
-void SpeedProblem::clear() {
+template <int Axes>
+void AxisSpeedProblem<Axes>::clear() {
     cells_.clear();
     samples_.clear();
     limiting_.clear();
     value_.assign(1, 0.0);
 }
 
-void SpeedProblem::add_cell(double length, double value, const CellLimits& limits) {
+template <int Axes>
+void AxisSpeedProblem<Axes>::add_cell(double length, double value, const CellLimits& limits) {
     const auto at = static_cast<std::uint32_t>(samples_.size());
     value_.resize(cells_.size() + 1);  // without the one beyond the end
     Cell cell;
@@ -48,7 +71,8 @@ void SpeedProblem::add_cell(double length, double value, const CellLimits& limit
     value_.push_back(value);
 }
 
-void SpeedProblem::add_sample(const PathSample& sample) {
+template <int Axes>
+void AxisSpeedProblem<Axes>::add_sample(const Sample& sample) {
     samples_.push_back({sample});
     Cell& cell = cells_.back();
     cell.end_sample = static_cast<std::uint32_t>(samples_.size());
@@ -58,7 +82,8 @@ void SpeedProblem::add_sample(const PathSample& sample) {
     cell.pace = {std::max(cell.pace.value, sample.pace.value), std::max(cell.pace.slope, std::abs(sample.pace.slope))};
 }
 
-void SpeedProblem::drop_back(std::size_t left) {
+template <int Axes>
+void AxisSpeedProblem<Axes>::drop_back(std::size_t left) {
     if (left == cells_.size()) return;
     samples_.erase(samples_.begin() + static_cast<std::ptrdiff_t>(cells_[left].first_sample), samples_.end());
     cells_.resize(left);
@@ -66,7 +91,8 @@ void SpeedProblem::drop_back(std::size_t left) {
     limiting_.resize(std::min(left, limiting_.size()));
 }
 
-void SpeedProblem::drop_front(std::size_t count) {
+template <int Axes>
+void AxisSpeedProblem<Axes>::drop_front(std::size_t count) {
     if (count == 0) return;
     const std::uint32_t samples = cells_[count - 1].end_sample;
     cells_.erase(cells_.begin(), cells_.begin() + static_cast<std::ptrdiff_t>(count));
@@ -78,7 +104,8 @@ void SpeedProblem::drop_front(std::size_t count) {
 }
 
 /// The states at the ends set the first and last cell, and one beyond, as long, that gives b there.
-void SpeedProblem::fix_ends(const KnotState& start, const KnotState& end) {
+template <int Axes>
+void AxisSpeedProblem<Axes>::fix_ends(const KnotState& start, const KnotState& end) {
     const double first = cells_.front().length, last = cells_.back().length;
     const std::size_t n = cells_.size();
     value_.resize(n + 2);
@@ -89,7 +116,8 @@ void SpeedProblem::fix_ends(const KnotState& start, const KnotState& end) {
 }
 
 /// The weights at the begins of all cells.
-void SpeedProblem::weigh() {
+template <int Axes>
+void AxisSpeedProblem<Axes>::weigh() {
     begins_.resize(cells_.size());
     for (std::size_t i = 0; i < cells_.size(); ++i) {
         const double h = cells_[i].length;
@@ -101,7 +129,8 @@ void SpeedProblem::weigh() {
     }
 }
 
-SpeedProblem::Weights SpeedProblem::weights_at(std::size_t cell, double at) const {
+template <int Axes>
+typename AxisSpeedProblem<Axes>::Weights AxisSpeedProblem<Axes>::weights_at(std::size_t cell, double at) const {
     const Weights& begin = begins_[cell];
     Weights w;
     for (std::size_t q = 0; q < 3; ++q) {
@@ -112,33 +141,38 @@ SpeedProblem::Weights SpeedProblem::weights_at(std::size_t cell, double at) cons
     return w;
 }
 
-std::array<SpeedProblem::Weights, 3> SpeedProblem::weights_along(std::size_t cell) const {
+template <int Axes>
+std::array<typename AxisSpeedProblem<Axes>::Weights, 3> AxisSpeedProblem<Axes>::weights_along(std::size_t cell) const {
     const double h = cells_[cell].length;
     return {weights_at(cell, 0), weights_at(cell, 0.5 * h), weights_at(cell, h)};
 }
 
-double SpeedProblem::time() const {
+template <int Axes>
+double AxisSpeedProblem<Axes>::time() const {
     double sum = 0;
     for (std::size_t i = 0; i < cells_.size(); ++i) sum += cells_[i].length / std::sqrt(value_[i + 1]);
     return sum;
 }
 
 /// No speeds take less [s].
-double SpeedProblem::time_at_caps() const {
+template <int Axes>
+double AxisSpeedProblem<Axes>::time_at_caps() const {
     double sum = 0;
     for (const Cell& cell : cells_) sum += cell.length / cell.limits.cap;
     return sum;
 }
 
 /// Rows that have become needed, beside those that are there with what they are in the middle of.
-void SpeedProblem::add_needed_rows() {
+template <int Axes>
+void AxisSpeedProblem<Axes>::add_needed_rows() {
     std::swap(rows_before_, rows_);
     make_rows();
     rows_.begin(value_.data(), gap_ / rows_before_.sides(), later_slack, &rows_before_);
 }
 
 /// The Newton matrix, and its right side but for the barrier.
-void SpeedProblem::assemble() {
+template <int Axes>
+void AxisSpeedProblem<Axes>::assemble() {
     const std::size_t n = cells_.size();
     for (std::vector<double>* part : {&newton_.d0, &newton_.d1, &newton_.d2, &newton_.pull}) part->assign(n + 2, 0);
     for (std::size_t i = 0; i < n; ++i) {
@@ -153,7 +187,8 @@ void SpeedProblem::assemble() {
 }
 
 /// L D Lᵀ of the five diagonals in place; the coefficients at the ends are known.
-bool SpeedProblem::factorise() {
+template <int Axes>
+bool AxisSpeedProblem<Axes>::factorise() {
     const std::size_t first = 2, last = cells_.size() - 1;
     for (std::size_t i = first; i <= last; ++i) {
         if (!(newton_.d0[i] > 0) || !std::isfinite(newton_.d0[i])) return false;
@@ -171,7 +206,8 @@ bool SpeedProblem::factorise() {
 }
 
 /// step_ becomes the solution for the right side that is in it.
-void SpeedProblem::substitute() {
+template <int Axes>
+void AxisSpeedProblem<Axes>::substitute() {
     const std::size_t first = 2, last = cells_.size() - 1;
     for (std::size_t i = first; i <= last; ++i) {
         if (i + 1 <= last) step_[i + 1] -= newton_.d1[i] * step_[i];
@@ -185,14 +221,16 @@ void SpeedProblem::substitute() {
     for (const std::size_t end : {std::size_t{0}, std::size_t{1}, cells_.size(), cells_.size() + 1}) step_[end] = 0;
 }
 
-bool SpeedProblem::solve(const KnotState& start, const KnotState& end) {
+template <int Axes>
+bool AxisSpeedProblem<Axes>::solve(const KnotState& start, const KnotState& end) {
     const std::vector<double> before = value_;
     if (optimise(start, end)) return true;
     value_ = before;
     return false;
 }
 
-bool SpeedProblem::optimise(const KnotState& start, const KnotState& end) {
+template <int Axes>
+bool AxisSpeedProblem<Axes>::optimise(const KnotState& start, const KnotState& end) {
     constexpr std::size_t fewest = 4;
     if (cells_.size() < fewest) return false;
     fix_ends(start, end);
@@ -203,13 +241,13 @@ bool SpeedProblem::optimise(const KnotState& start, const KnotState& end) {
         if (!(value_[i] > 0)) return false;
     }
     const double planned = time();
-    if (planned < (1 + end_gap) * time_at_caps()) return false;
+    if (first_ == FirstSpeeds::hold && planned < (1 + end_gap) * time_at_caps()) return false;
     weigh();
     need_likely_rows();
     for (int round = 0; round < most_rounds; ++round) {
         make_rows();
         rows_.begin(value_.data(), first_gap * time() / rows_.sides(), first_slack);
-        if (!iterate() || time() > planned) return false;
+        if (!iterate() || (first_ == FirstSpeeds::hold && time() > planned)) return false;
         if (!need_broken_rows(held)) {
             limiting_.assign(cells_.size(), Row::cap);
             rows_.judge(value_.data(), limiting_);
@@ -220,7 +258,8 @@ bool SpeedProblem::optimise(const KnotState& start, const KnotState& end) {
 }
 
 /// Newton's steps to the optimum for the rows; false: it was not found.
-bool SpeedProblem::iterate() {
+template <int Axes>
+bool AxisSpeedProblem<Axes>::iterate() {
     double look_at = early_gap;
     for (int k = 0; k < most_steps; ++k) {
         assemble();
@@ -240,7 +279,8 @@ bool SpeedProblem::iterate() {
     return broken_ < mended;
 }
 
-bool SpeedProblem::step() {
+template <int Axes>
+bool AxisSpeedProblem<Axes>::step() {
     if (!factorise()) return false;
     step_ = newton_.pull;
     substitute();
@@ -263,5 +303,8 @@ bool SpeedProblem::step() {
     rows_.advance(forward, taken(corrected.dual));
     return true;
 }
+
+template class AxisSpeedProblem<3>;
+template class AxisSpeedProblem<5>;
 
 }  // namespace clsurf

@@ -1,5 +1,5 @@
 #pragma once
-// SpeedProblem: the fastest speeds along a given path under limits of speed, acceleration and jerk.
+// AxisSpeedProblem: the fastest speeds along a given path under limits of speed, acceleration and jerk.
 //
 // The unknown is b(u) = v², where u is arc length: a quadratic spline with one coefficient c per cell. Then a
 // = b′/2 is continuous and the jerk is √b b″/2. With the derivatives of the path x′, x″, x‴ for each axis,
@@ -34,22 +34,50 @@ struct CellLimits {
     double cap = 0, acceleration = 0, jerk = 0;
 };
 
-/// The derivatives of a bent path at a place of a cell.
-struct PathSample {
-    double at = 0;                                                         ///< arc length after the cell's begin [mm]
-    Vec3 slope = Vec3::Zero(), bend = Vec3::Zero(), twist = Vec3::Zero();  ///< x′, x″ [1/mm], x‴ [1/mm²]
+/// A value for each of the axes that move along the path.
+template <int Axes>
+using AxisVector = Eigen::Matrix<double, Axes, 1>;
+
+/// The derivatives of a bent path at a place of a cell; of rotary axes in rad.
+template <int Axes>
+struct AxisSample {
+    using Vector = AxisVector<Axes>;
+    double at = 0;  ///< arc length after the cell's begin [mm]
+    Vector slope = Vector::Zero(), bend = Vector::Zero(), twist = Vector::Zero();  ///< x′, x″ [1/mm], x‴ [1/mm²]
     Pace pace{0, 0};  ///< 0: the cell's own limit of the acceleration is enough
 };
+using PathSample = AxisSample<3>;
 
-class SpeedProblem {
+/// Of each axis, and of the acceleration along the path. A jerk of 0 is not limited.
+template <int Axes>
+struct ProblemLimits {
+    AxisVector<Axes> acceleration, jerk;
+    double path_acceleration = 0;
+};
+[[nodiscard]] ProblemLimits<3> linear_limits(const Machine& machine);
+[[nodiscard]] ProblemLimits<5> five_axis_limits(const Machine& machine);
+
+/// What the solution is compared with.
+enum class FirstSpeeds : std::uint8_t {
+    hold,   ///< the values to begin with hold every limit: a solution that is not faster is none
+    guess,  ///< they need not
+};
+
+/// `Axes`: 3, or 5 with the rotary ones (speed_problem.cpp).
+template <int Axes>
+class AxisSpeedProblem {
 public:
-    explicit SpeedProblem(const Machine& machine) : machine_(&machine) {}
+    using Vector = AxisVector<Axes>;
+    using Sample = AxisSample<Axes>;
+
+    explicit AxisSpeedProblem(const ProblemLimits<Axes>& limits, FirstSpeeds first = FirstSpeeds::hold)
+        : limits_(limits), first_(first) {}
 
     void clear();
     /// A cell after the last one; `value`: its coefficient to begin with [mm²/s²], greater than 0.
     void add_cell(double length, double value, const CellLimits& limits);
     /// A place of the last cell where the limits of the axes are held.
-    void add_sample(const PathSample& sample);
+    void add_sample(const Sample& sample);
 
     /// The fastest speeds from one state to another. False: none was found that holds every limit, or none much
     /// faster; the values are then what they were. At least four cells.
@@ -73,7 +101,7 @@ private:
         CellLimits limits;
         std::uint32_t first_sample = 0, end_sample = 0;
         // Greatest of its samples.
-        Vec3 slope = Vec3::Zero(), bend = Vec3::Zero(), twist = Vec3::Zero();
+        Vector slope = Vector::Zero(), bend = Vector::Zero(), twist = Vector::Zero();
         Pace pace{0, 0};
         // Rows found to be needed: of the acceleration at the end; of the jerk at begin, middle and end.
         bool acceleration = false;
@@ -81,8 +109,8 @@ private:
         double jerk_share = 1;  ///< of the jerk along the path, lowered where it is broken between rows
     };
     struct HeldSample {
-        PathSample sample;
-        std::uint8_t needed =
+        Sample sample;
+        std::uint16_t needed =
             0;  ///< a bit for the acceleration of each axis, then one for the jerk of each, then one for
                 ///< the acceleration of the path
     };
@@ -117,7 +145,8 @@ private:
     [[nodiscard]] std::array<Weights, 3> weights_along(std::size_t cell) const;
     [[nodiscard]] Weights weights_at(std::size_t cell, double at) const;
 
-    const Machine* machine_;
+    ProblemLimits<Axes> limits_;
+    FirstSpeeds first_;
     std::vector<Cell> cells_;
     std::vector<HeldSample> samples_;
     std::vector<Weights> begins_;  ///< weights at the begin of each cell
@@ -129,5 +158,9 @@ private:
     double gap_ = 0,
            broken_ = 0;  ///< sum of slack times multiplier; greatest part of a bound that a limit is broken by
 };
+
+using SpeedProblem = AxisSpeedProblem<3>;
+extern template class AxisSpeedProblem<3>;
+extern template class AxisSpeedProblem<5>;
 
 }  // namespace clsurf

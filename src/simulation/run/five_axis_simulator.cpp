@@ -10,7 +10,8 @@
 #include "core/block.h"
 #include "core/not_finite.h"
 #include "simulation/path/five_axis_blocks.h"
-#include "simulation/run/servo.h"
+#include "simulation/run/five_axis_log.h"
+#include "simulation/run/five_axis_run.h"
 
 namespace clsurf {
 namespace {
@@ -27,11 +28,10 @@ public:
     FiveAxisRecorder(const FiveAxisBlocks& blocks, const Program& program, const Machine& machine,
                      const FiveAxisSink& sink)
         : blocks_(&blocks),
-          program_(&program),
           machine_(&machine),
-          sink_(&sink),
           period_(machine.controller.period),
-          excesses_(blocks.count()) {}
+          excesses_(blocks.count()),
+          log_(program, machine, blocks.limits(), sink) {}
 
     void add(std::span<const SimulatedPoint> points) {
         for (const SimulatedPoint& point : points) add(point);
@@ -49,11 +49,7 @@ public:
                 put(last);
             }
         }
-        flush();
-        summary_.run.points = points_;
-        summary_.run.duration = static_cast<double>(std::max<PointIndex>(0, points_ - 1)) * period_;
-        summary_.run.limits_ok = held_;
-        return std::move(summary_);
+        return log_.finish();
     }
 
     [[nodiscard]] const std::vector<BlockExcess>& excesses() const { return excesses_; }
@@ -156,58 +152,16 @@ private:
         point.limit = sample.point.limit;
         if (point.limit == LimitingFactor::feed && blocks_->capped(sample.block))
             point.limit = LimitingFactor::axis_speed;
-        if (servos_.empty()) {
-            last_.fill(point.commanded);
-            for (std::size_t k = 0; k < 5; ++k) {
-                const ServoModel& model = k < 3 ? machine_->axes[k].servo : machine_->rotary[k - 3].servo;
-                servos_.emplace_back(model, period_, point.commanded[k], k + 1);
-            }
-        }
-        for (std::size_t k = 0; k < 5; ++k) point.feedback[k] = servos_[k].follow(point.commanded[k]);
         if (begun_ && blocks_->cuts(sample.block)) {
-            summary_.orientation_error =
-                std::max(summary_.orientation_error, angle_between(kinematics.axis_of(angles), sample.ideal));
+            log_.note_orientation(angle_between(kinematics.axis_of(angles), sample.ideal));
         }
-        ++summary_.run.limited_by[static_cast<std::size_t>(point.limit)];
-        measure(point);
-        ++points_;
-        block_of_points_.push_back(point);
-        if (static_cast<PointIndex>(block_of_points_.size()) == block_points) flush();
-    }
-
-    void measure(const FiveAxisPoint& point) {
-        const std::array<AxisLimits, 5>& limits = blocks_->limits();
-        for (std::size_t k = 0; k < 5; ++k) {
-            const double p = point.commanded[k];
-            const double speed = std::abs(p - last_[0][k]) / period_;
-            const double acceleration = std::abs(p - 2 * last_[0][k] + last_[1][k]) / (period_ * period_);
-            const double jerk =
-                std::abs(p - 3 * last_[0][k] + 3 * last_[1][k] - last_[2][k]) / (period_ * period_ * period_);
-            hold(k, speed, limits[k].speed, 1);
-            hold(k, acceleration, limits[k].acceleration, 2);
-            hold(k, jerk, limits[k].jerk, 3);
-            if (k < 3) {
-                const auto axis = static_cast<int>(k);
-                SimulationSummary& run = summary_.run;
-                run.max_axis_speed[axis] = std::max(run.max_axis_speed[axis], speed);
-                run.max_acceleration[axis] = std::max(run.max_acceleration[axis], acceleration);
-                run.max_jerk[axis] = std::max(run.max_jerk[axis], jerk);
-            } else {
-                summary_.max_speed[k - 3] = std::max(summary_.max_speed[k - 3], speed);
-                summary_.max_acceleration[k - 3] = std::max(summary_.max_acceleration[k - 3], acceleration);
-                summary_.max_jerk[k - 3] = std::max(summary_.max_jerk[k - 3], jerk);
-            }
-            note_travel(k, p, point.line);
-        }
-        summary_.run.max_speed = std::max(summary_.run.max_speed, point.speed);
-        last_ = {point.commanded, last_[0], last_[1]};
+        log_.add(point,
+                 [&](std::size_t axis, double value, double limit, int order) { hold(axis, value, limit, order); });
     }
 
     /// Where a derivative of an axis (its order: 1 … 3) exceeds its limit, blocks are to be slower: a run as a whole
     /// at half the speed has an eighth of the jerk.
     void hold(std::size_t axis, double value, double limit, int order) {
-        if (!(value > limit * limit_tolerance)) return;
-        held_ = false;
         const double share = limit / value;
         share_ = std::min(share_, share);
         const double scale = order == 1 ? share : order == 2 ? std::sqrt(share) : std::cbrt(share);
@@ -240,33 +194,8 @@ private:
         excesses_[block].scale = std::min(excesses_[block].scale, static_cast<float>(scale));
     }
 
-    void note_travel(std::size_t axis, double position, LineNumber line) {
-        const AxisLimits& limits = blocks_->limits()[axis];
-        const bool outside = position < limits.low || position > limits.high;
-        if (outside && !outside_[axis]) {
-            const double shown = axis < 3 ? 1.0 : deg_per_rad;
-            const char letter = axis < 3    ? "xyz"[axis]
-                                : axis == 3 ? machine_->kinematics.tilt.letter
-                                            : machine_->kinematics.rotation.letter;
-            summary_.run.diagnostics.add({Severity::warning,
-                                          "motion.travel",
-                                          Place::of_line(program_->main().name(), line),
-                                          fmt::format("{} leaves its travel of {:g} … {:g} {}", letter,
-                                                      limits.low * shown, limits.high * shown, axis < 3 ? "mm" : "deg"),
-                                          {}});
-        }
-        outside_[axis] = outside;
-    }
-
-    void flush() {
-        if (*sink_ && !block_of_points_.empty()) (*sink_)(block_of_points_);
-        block_of_points_.clear();
-    }
-
     const FiveAxisBlocks* blocks_;
-    const Program* program_;
     const Machine* machine_;
-    const FiveAxisSink* sink_;
     double period_;
     std::vector<BlockExcess> excesses_;
     std::size_t block_ = 0;
@@ -278,14 +207,8 @@ private:
     RotaryAngles carry_;     ///< what the angles had to make up for at the last change of blocks
     int carry_left_ = 0;     ///< [periods]
     std::vector<Sample> waiting_;
-    std::vector<ServoLoop> servos_;
-    std::array<std::array<double, 5>, 3> last_{};
-    std::array<bool, 5> outside_{};
-    bool held_ = true;
     double share_ = 1;
-    PointIndex points_ = 0;
-    std::vector<FiveAxisPoint> block_of_points_;
-    FiveAxisSummary summary_;
+    FiveAxisLog log_;
 };
 
 /// The machine that the tip's arc length is planned for: its axes may lie anyhow to those of the workpiece.
@@ -309,15 +232,19 @@ Machine machine_of_tip(const Machine& machine) {
 FiveAxisSummary simulate_five_axis(const Program& program, const Machine& machine, const Vec3& zero, const Vec3& start,
                                    const FiveAxisSink& sink, const Progress& progress) {
     FiveAxisBlocks blocks(program, machine, zero, start);
+    // Planners whose corners are no curve of continuous curvature plan the tip.
+    const bool plans_tip =
+        machine.controller.planner == PlannerKind::trapezoidal || machine.controller.corner == CornerMode::junction;
+    if (!plans_tip) return run_five_axes(program, machine, std::move(blocks), start, sink, progress);
     Machine tip = machine_of_tip(machine);
     double share = 1;
     const auto run = [&](const FiveAxisSink& to, std::vector<BlockExcess>* excesses) {
         FiveAxisRecorder recorder(blocks, program, machine, to);
-        const SimulationSummary of_tip = simulate(
+        const SimulationSummary planned = simulate(
             blocks.planned(), tip, start, [&](std::span<const SimulatedPoint> points) { recorder.add(points); },
             progress, Planning::by_nodes);
         FiveAxisSummary summary = recorder.finish();
-        summary.run.path_deviation = of_tip.path_deviation;
+        summary.run.path_deviation = planned.path_deviation;
         if (excesses != nullptr) *excesses = recorder.excesses();
         share = recorder.share();
         return summary;

@@ -1,0 +1,352 @@
+#include "simulation/plan/five_axis_speeds.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "core/not_finite.h"
+#include "simulation/path/junction.h"
+
+namespace clsurf {
+namespace {
+
+constexpr double first_share = 0.5;   ///< of the limits, for the first speeds
+constexpr double steady_share = 0.8;  ///< of the limits, that bends alone may take of them
+constexpr double rest_part = 0.25;    ///< of the jerk phase next to a rest: the jerk is constant there
+constexpr double rest_jerk = 0.95;    ///< of what the axes allow at the rest
+constexpr double cells_in_ramp = 10;  ///< over the time in which the jerk reaches the acceleration
+constexpr double cell_growth = 0.15;  ///< of the time from or to a rest: longest cell
+constexpr std::size_t window_cells = 1500, samples_of_cell = 4;
+constexpr double kept_share = 0.6;                                             ///< of a window
+constexpr std::array<double, 6> slower_tries{1, 0.5, 0.25, 0.1, 0.03, 0.003};  ///< first v², tried in turn
+
+/// What the limits say at a place.
+struct LimitPlace {
+    double u = 0;
+    double free_cap = infinite, cap = infinite;  ///< of u's speed: without bends, and with them at no acceleration
+    double acceleration = 0, jerk = 0;           ///< of u, on a straight path with these slopes
+    double square = 0;                           ///< v² to begin with
+    LimitingFactor why = LimitingFactor::none;
+};
+
+class FiveAxisPlanner {
+public:
+    FiveAxisPlanner(const FiveAxisPath& path, const Machine& machine)
+        : path_(&path), machine_(&machine), limits_(five_axis_limits(machine)), problem_(limits_, FirstSpeeds::guess) {
+        for (int k = 0; k < 5; ++k) {
+            const auto axis = static_cast<std::size_t>(k);
+            speeds_[k] = k < 3 ? machine.axes[axis].max_speed : machine.rotary[axis - 3].max_speed;
+            if (limits_.jerk[k] > 0) ramp_ = std::min(ramp_, limits_.acceleration[k] / limits_.jerk[k]);
+        }
+        ramp_ = std::min(ramp_, machine.path.max_acceleration / machine.path.max_jerk);
+    }
+
+    std::vector<FiveAxisMotion> plan() {
+        for (const double u : path_->places()) places_.push_back(place_at(u));
+        for (std::size_t i = 1; i + 1 < places_.size(); ++i) {
+            // Between two places limits may be less than at either; a third of the way beside counts, too.
+            places_[i].cap = std::min(places_[i].cap, places_[i].free_cap);
+        }
+        const double length = path_->length();
+        double from = 0;
+        while (from < length) from = window(from);
+        return std::move(motions_);
+    }
+
+private:
+    [[nodiscard]] LimitPlace place_at(double u) const {
+        PathDerivatives tip;
+        const AxisSample<5> d = path_->derivatives(u, tip);
+        LimitPlace place;
+        place.u = u;
+        const FiveAxisChord& chord = path_->chord(path_->chord_at(u));
+        const auto cap = [&](double speed, LimitingFactor why) {
+            if (speed < place.free_cap) place.free_cap = speed, place.why = why;
+        };
+        if (d.pace.value > 0) {
+            cap(chord.feed / d.pace.value, LimitingFactor::feed);
+            cap(machine_->path.max_speed / d.pace.value, LimitingFactor::axis_speed);
+            const double bend = tip.first.cross(tip.second).norm();
+            if (bend > 0) {
+                const double radius = d.pace.value * d.pace.value * d.pace.value / bend;
+                cap(arc_speed(radius, machine_->path.max_normal_acceleration) / d.pace.value,
+                    LimitingFactor::axis_acceleration);
+                cap(chord_speed(radius, machine_->controller.chord_tolerance, machine_->controller.period) /
+                        d.pace.value,
+                    LimitingFactor::chord_error);
+            }
+        }
+        place.acceleration = place.jerk = infinite;
+        if (d.pace.value > 0) {
+            place.acceleration = machine_->path.max_acceleration / d.pace.value;
+            place.jerk = machine_->path.max_jerk / d.pace.value;
+        }
+        place.cap = infinite;
+        for (int k = 0; k < 5; ++k) {
+            const double slope = std::abs(d.slope[k]), bend = std::abs(d.bend[k]), twist = std::abs(d.twist[k]);
+            cap(speeds_[k] / slope, LimitingFactor::axis_speed);
+            place.acceleration = std::min(place.acceleration, limits_.acceleration[k] / slope);
+            place.cap = std::min(place.cap, std::sqrt(steady_share * limits_.acceleration[k] / bend));
+            if (!(limits_.jerk[k] > 0)) continue;
+            place.jerk = std::min(place.jerk, limits_.jerk[k] / slope);
+            place.cap = std::min(place.cap, std::cbrt(steady_share * limits_.jerk[k] / twist));
+        }
+        place.cap = std::min(place.cap, place.free_cap);
+        return place;
+    }
+
+    /// v² of a rest `way` away, at constant jerk.
+    [[nodiscard]] static double square_at(double way, double jerk) {
+        const double time = std::cbrt(6 * way / jerk);
+        return 0.25 * jerk * jerk * time * time * time * time;
+    }
+
+    /// Plans from rest at `from` to the next rest. Where it is.
+    double window(double from) {
+        state_ = {};
+        at_ = from;
+        while (true) {
+            const double end = horizon();
+            const bool last = end >= path_->length();
+            if (!solve(end)) {
+                // What was planned before comes to rest.
+                if (tail_.empty()) throw std::logic_error("no speeds hold the limits of the axes");
+                for (const FiveAxisMotion& motion : tail_) motions_.push_back(motion);
+                tail_.clear();
+                return tail_end_;
+            }
+            run(last);
+            if (last) {
+                tail_.clear();
+                return path_->length();
+            }
+        }
+    }
+
+    /// Where a window of cells ends.
+    [[nodiscard]] double horizon() {
+        double time = 0;
+        const double most = static_cast<double>(window_cells) * ramp_ / cells_in_ramp;
+        auto place = std::lower_bound(places_.begin(), places_.end(), at_,
+                                      [](const LimitPlace& p, double u) { return p.u < u; });
+        for (double u = at_; place != places_.end(); ++place) {
+            time += (place->u - u) / std::max(1e-6, place->cap);
+            u = place->u;
+            if (time > most && u > at_) break;
+        }
+        return place == places_.end() ? path_->length() : place->u;
+    }
+
+    /// First speeds of the places from at_ to `end`, v² times `scale`.
+    void scan(double end, double scale) {
+        first_ = static_cast<std::size_t>(std::upper_bound(places_.begin(), places_.end(), at_,
+                                                           [](double u, const LimitPlace& p) { return u < p.u; }) -
+                                          places_.begin());
+        last_ = first_;
+        while (last_ < places_.size() && places_[last_].u < end) ++last_;
+        const double jerk = scale * first_share;
+        double before = state_.speed * state_.speed, u = at_;
+        for (std::size_t i = first_; i < last_; ++i) {
+            LimitPlace& p = places_[i];
+            const double reached = state_.speed > 0 || i > first_
+                                       ? before + 2 * first_share * scale * p.acceleration * (p.u - u)
+                                       : infinite;
+            p.square = std::min(scale * p.cap * p.cap, reached);
+            if (state_.speed == 0) p.square = std::min(p.square, square_at(p.u - at_, jerk * p.jerk));
+            before = p.square;
+            u = p.u;
+        }
+        before = infinite;
+        u = end;
+        for (std::size_t i = last_; i-- > first_;) {
+            LimitPlace& p = places_[i];
+            if (before < infinite)
+                p.square = std::min(p.square, before + 2 * first_share * scale * p.acceleration * (u - p.u));
+            p.square = std::min(p.square, square_at(end - p.u, jerk * p.jerk));
+            before = p.square;
+            u = p.u;
+        }
+    }
+
+    [[nodiscard]] double least_jerk(double u) const { return rest_jerk * place_at(u).jerk; }
+
+    bool solve(double end) {
+        for (const double scale : slower_tries) {
+            scan(end, scale);
+            if (solve_scanned(end)) return true;
+        }
+        return false;
+    }
+
+    /// The piece next to a rest: its time.
+    [[nodiscard]] double rest_time(double jerk, double length) const {
+        return rest_part * std::min(ramp_, std::cbrt(length / (2 * jerk)));
+    }
+
+    bool solve_scanned(double end) {
+        problem_.clear();
+        cells_.clear();
+        const double end_jerk = least_jerk(end), length = end - at_;
+        const double end_time = rest_time(end_jerk, length);
+        const double last_u = end - end_jerk * end_time * end_time * end_time / 6;
+        const KnotState stop{0.5 * end_jerk * end_time * end_time, -end_jerk * end_time};
+        KnotState start = state_;
+        double u = at_, start_time = 0;
+        first_piece_ = {};
+        if (start.speed == 0) {
+            const double jerk = least_jerk(at_);
+            start_time = rest_time(jerk, length);
+            start = {0.5 * jerk * start_time * start_time, jerk * start_time};
+            first_piece_ = {at_, start_time, {}, jerk, LimitingFactor::jerk};
+            u += jerk * start_time * start_time * start_time / 6;
+        }
+        last_piece_ = {last_u, end_time, {}, -end_jerk, LimitingFactor::lookahead_end};
+        if (!(last_u > u)) return false;
+        divide(u, last_u, start, stop, start.speed > 0 && start_time > 0 ? start_time : -1, end_time);
+        start_ = start;
+        stop_ = stop;
+        return problem_.solve(start, stop);
+    }
+
+    /// v² to begin with at u; `cursor`: the first place behind it.
+    [[nodiscard]] double square_near(double u, std::size_t cursor, double from, double from_square, double to,
+                                     double to_square) const {
+        double a = from, b = to, x = from_square, y = to_square;
+        if (cursor > first_ && places_[cursor - 1].u > from) a = places_[cursor - 1].u, x = places_[cursor - 1].square;
+        if (cursor < last_ && places_[cursor].u < to) b = places_[cursor].u, y = places_[cursor].square;
+        return b > a ? x + (y - x) * std::clamp((u - a) / (b - a), 0.0, 1.0) : x;
+    }
+
+    void divide(double from, double to, const KnotState& start, const KnotState& stop, double since, double until) {
+        std::size_t cursor = first_;
+        const double longest = ramp_ / cells_in_ramp;
+        const double from_square = start.speed * start.speed, to_square = stop.speed * stop.speed;
+        // Times to the end come first: cells shorten before it.
+        std::vector<double> steps;
+        double u = from;
+        while (u < to) {
+            while (cursor < last_ && places_[cursor].u <= u) ++cursor;
+            const double speed = std::sqrt(std::max(1e-18, square_near(u, cursor, from, from_square, to, to_square)));
+            const double way_left = to - u;
+            double step = longest;
+            if (since >= 0) step = std::min(step, cell_growth * since);
+            step = std::min(step, cell_growth * (until + 1.5 * way_left / std::max(speed, stop.speed)));
+            double next = u + step * speed;
+            if (to - next < 0.5 * step * speed) next = to;
+            steps.push_back(next - u);
+            if (since >= 0) since += step;
+            u = next;
+        }
+        u = from;
+        cursor = first_;
+        for (const double step : steps) {
+            const double middle = u + 0.5 * step;
+            while (cursor < last_ && places_[cursor].u <= middle) ++cursor;
+            add_cell(u, step, square_near(middle, cursor, from, from_square, to, to_square));
+            u += step;
+        }
+    }
+
+    void add_cell(double begin, double length, double square) {
+        CellLimits limits{infinite, infinite, infinite};
+        LimitingFactor why = LimitingFactor::none;
+        std::array<AxisSample<5>, samples_of_cell + 1> samples;
+        for (std::size_t k = 0; k <= samples_of_cell; ++k) {
+            const double at = length * static_cast<double>(k) / samples_of_cell;
+            PathDerivatives tip;
+            samples[k] = path_->derivatives(begin + at, tip);
+            samples[k].at = at;
+            const LimitPlace place = place_at(begin + at);
+            if (place.free_cap < limits.cap) limits.cap = place.free_cap, why = place.why;
+            // Beside bends an axis allows more than on a straight path: its rows say how much.
+            limits.acceleration = std::min(limits.acceleration, 2 * place.acceleration);
+            limits.jerk = std::min(limits.jerk, 3 * place.jerk);
+        }
+        problem_.add_cell(length, std::max(square, 1e-18), limits);
+        for (const AxisSample<5>& sample : samples) problem_.add_sample(sample);
+        cells_.push_back({begin, length, why});
+    }
+
+    /// The solution as motions: all to the end, or most.
+    void run(bool last) {
+        const std::size_t n = cells_.size();
+        std::vector<FiveAxisMotion> plan;
+        if (first_piece_.duration > 0) plan.push_back(first_piece_);
+        KnotState at = start_;
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < n; ++i) {
+            KnotState next = stop_;
+            const double h = cells_[i].length;
+            if (i + 1 < n) {
+                const double after = cells_[i + 1].length, c0 = problem_.value(i), c1 = problem_.value(i + 1);
+                next = {std::sqrt((after * c0 + h * c1) / (h + after)), (c1 - c0) / (h + after)};
+            }
+            FiveAxisMotion motion;
+            motion.begin = cells_[i].begin;
+            motion.cell = {h, at.speed, at.acceleration, (next.acceleration - at.acceleration) / h};
+            motion.duration = motion.cell.duration();
+            motion.limit = limiting(problem_.limiting(i), cells_[i].why);
+            plan.push_back(motion);
+            at = next;
+            if (i < static_cast<std::size_t>(kept_share * static_cast<double>(n))) {
+                kept = plan.size();
+                state_ = at;
+                at_ = cells_[i].begin + h;
+            }
+        }
+        plan.push_back(last_piece_);
+        if (last) kept = plan.size();
+        motions_.insert(motions_.end(), plan.begin(), plan.begin() + static_cast<std::ptrdiff_t>(kept));
+        tail_.assign(plan.begin() + static_cast<std::ptrdiff_t>(kept), plan.end());
+        const FiveAxisMotion& stop = last_piece_;
+        tail_end_ = stop.begin - stop.jerk * stop.duration * stop.duration * stop.duration / 6;
+    }
+
+    static LimitingFactor limiting(Row row, LimitingFactor at_cap) {
+        switch (row) {
+            case Row::cap: return at_cap;
+            case Row::tangential_acceleration:
+            case Row::axis_acceleration: return LimitingFactor::axis_acceleration;
+            case Row::corner_jerk: return LimitingFactor::corner_tolerance;
+            default: return LimitingFactor::jerk;
+        }
+    }
+
+    struct Cell {
+        double begin, length;
+        LimitingFactor why;
+    };
+
+    const FiveAxisPath* path_;
+    const Machine* machine_;
+    ProblemLimits<5> limits_;
+    FiveAxes speeds_;
+    double ramp_ = infinite;  ///< least time in which a jerk reaches an acceleration [s]
+    std::vector<LimitPlace> places_;
+    std::size_t first_ = 0, last_ = 0;  ///< places of the window
+    std::vector<Cell> cells_;
+    AxisSpeedProblem<5> problem_;
+    double at_ = 0;  ///< where the window begins
+    KnotState state_, start_, stop_;
+    FiveAxisMotion first_piece_, last_piece_;
+    std::vector<FiveAxisMotion> motions_, tail_;
+    double tail_end_ = 0;
+};
+
+}  // namespace
+
+double FiveAxisMotion::at(double time, double& speed) const {
+    if (jerk == 0) return begin + cell.arc_length_at(time, speed);
+    const double from_rest = jerk > 0 ? time : duration - time;
+    const double size = std::abs(jerk), way = size * from_rest * from_rest * from_rest / 6;
+    speed = 0.5 * size * from_rest * from_rest;
+    return jerk > 0 ? begin + way : begin + size * duration * duration * duration / 6 - way;
+}
+
+std::vector<FiveAxisMotion> plan_speeds(const FiveAxisPath& path, const Machine& machine) {
+    return FiveAxisPlanner(path, machine).plan();
+}
+
+}  // namespace clsurf

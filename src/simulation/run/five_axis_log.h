@@ -1,0 +1,50 @@
+#pragma once
+// FiveAxisLog: set points of five axes in, their records out: servo loops, limits measured by differences, travel.
+
+#include <array>
+#include <functional>
+#include <vector>
+
+#include "simulation/path/five_axis_blocks.h"
+#include "simulation/run/five_axis_simulator.h"
+#include "simulation/run/servo.h"
+
+namespace clsurf {
+
+/// An axis, the value of a derivative of it, its limit that is exceeded, and the order: 1 … 3.
+using LimitExcess = std::function<void(std::size_t axis, double value, double limit, int order)>;
+
+class FiveAxisLog {
+public:
+    /// All must outlive it.
+    FiveAxisLog(const Program& program, const Machine& machine, const std::array<AxisLimits, 5>& limits,
+                const FiveAxisSink& sink)
+        : program_(&program), machine_(&machine), limits_(&limits), sink_(&sink), period_(machine.controller.period) {}
+
+    /// The set point of the next period; its feedback follows from it.
+    void add(FiveAxisPoint point, const LimitExcess& exceeds = {});
+    void note_orientation(double error) { summary_.orientation_error = std::max(summary_.orientation_error, error); }
+    void note_deviation(double error) { summary_.run.path_deviation = std::max(summary_.run.path_deviation, error); }
+    [[nodiscard]] PointIndex points() const { return points_; }
+    [[nodiscard]] FiveAxisSummary finish();
+
+private:
+    void measure(const FiveAxisPoint& point, const LimitExcess& exceeds);
+    void note_travel(std::size_t axis, double position, LineNumber line);
+    void flush();
+
+    const Program* program_;
+    const Machine* machine_;
+    const std::array<AxisLimits, 5>* limits_;
+    const FiveAxisSink* sink_;
+    double period_;
+    std::vector<ServoLoop> servos_;
+    std::array<std::array<double, 5>, 3> last_{};
+    std::array<bool, 5> outside_{};
+    bool held_ = true;
+    PointIndex points_ = 0;
+    std::vector<FiveAxisPoint> block_of_points_;
+    FiveAxisSummary summary_;
+};
+
+}  // namespace clsurf
