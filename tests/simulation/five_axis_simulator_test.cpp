@@ -128,6 +128,16 @@ TEST(FiveAxisSimulator, TurningOnTheSpotKeepsTheTip) {
     EXPECT_NEAR(r.points.back().commanded[4], 90 * rad_per_deg, 1e-12);
 }
 
+// 20 mm at 1000 mm/min are 1.2 s, and ramps some hundredths: A turns within its limits at that feed. It took hours.
+TEST(FiveAxisSimulator, AShortLineTakesTheTimeOfItsFeed) {
+    Machine machine;
+    machine.kinematics.type = KinematicsType::table_table;
+    const Recorded r = run("G21 G90\nG43.4 H1\nG1 X20 A40 F1000\nM30\n", machine);
+    EXPECT_TRUE(r.summary.run.limits_ok);
+    EXPECT_GT(r.summary.run.duration, 1.2);
+    EXPECT_LT(r.summary.run.duration, 1.4);
+}
+
 TEST(FiveAxisSimulator, FeedOfZeroNamesTheLine) {
     try {
         (void)run("G43.4 H1\nG1 X10 A-5 F0\n", trunnion());

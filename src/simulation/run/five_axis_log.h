@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "simulation/path/five_axis_blocks.h"
-#include "simulation/run/five_axis_simulator.h"
+#include "simulation/run/five_axis_point.h"
 #include "simulation/run/servo.h"
 
 namespace clsurf {

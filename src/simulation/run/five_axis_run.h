@@ -3,8 +3,10 @@
 // limits of each (plan/five_axis_speeds.h), and set points are places on it. Blocks that only turn run from rest to rest.
 
 #include "core/progress.h"
+#include "machine/machine.h"
+#include "program/program.h"
 #include "simulation/path/five_axis_blocks.h"
-#include "simulation/run/five_axis_simulator.h"
+#include "simulation/run/five_axis_point.h"
 
 namespace clsurf {
 

@@ -12,6 +12,7 @@
 #include "simulation/path/five_axis_blocks.h"
 #include "simulation/run/five_axis_log.h"
 #include "simulation/run/five_axis_run.h"
+#include "simulation/run/simulator.h"
 
 namespace clsurf {
 namespace {
