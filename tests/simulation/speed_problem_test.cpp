@@ -98,7 +98,7 @@ TEST(SpeedProblem, TakesTheTimeOfTheOptimum) {
             axis.max_acceleration = of.axis_acceleration;
             axis.max_jerk = of.axis_jerk;
         }
-        SpeedProblem problem(machine);
+        SpeedProblem problem(linear_limits(machine));
         problem.clear();
         for (int i = 0; i < cells; ++i) {
             const double begin = i * cell_length;
@@ -127,7 +127,7 @@ TEST(SpeedProblem, TakesTheTimeOfTheOptimum) {
 TEST(SpeedProblem, EntersACellWithTheAccelerationThatTheCellAllows) {
     // Speed falls through cells that allow much acceleration, then through cells that allow little.
     Machine machine;
-    SpeedProblem problem(machine);
+    SpeedProblem problem(linear_limits(machine));
     problem.clear();
     constexpr int half = 20;
     constexpr double h = 0.05, much = 4000, little = 250;
@@ -143,7 +143,7 @@ TEST(SpeedProblem, EntersACellWithTheAccelerationThatTheCellAllows) {
 
 TEST(SpeedProblem, KeepsItsValuesWhereNothingIsFaster) {
     Machine machine;
-    SpeedProblem problem(machine);
+    SpeedProblem problem(linear_limits(machine));
     problem.clear();
     for (int i = 0; i < 8; ++i) problem.add_cell(1, 400, {20, 1000, 1e5});  // at its cap already
     EXPECT_FALSE(problem.solve({20, 0}, {20, 0}));
