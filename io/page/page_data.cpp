@@ -7,6 +7,7 @@
 #include "core/block.h"
 #include "core/units.h"
 #include "io/reports/quality_words.h"
+#include "predictor/severity.h"
 
 namespace clsurf::io {
 namespace {
@@ -240,17 +241,23 @@ Json defects_json(const ReportPage& page) {
         const Defect& d = page.quality.report->defects[i];
         all.push_back({{"id", i + 1},
                        {"severity", d.severity},
+                       {"severity_name", name_of_severity(d.severity)},
                        {"cause", name_of(d.cause)},
                        {"quantity", name_of(d.quantity)},
                        {"text", sentence_of(d)},
                        {"bounds_mm", box(d.contact_bounds.isEmpty() ? d.bounds : d.contact_bounds)},
                        {"depth_um", number(d.depth * um_per_mm, 2)},
+                       {"score", number(d.score, 2)},
+                       {"speed_percent", number(100 * d.speed_mismatch, 2)},
+                       {"length_mm", number(d.length, 2)},
                        {"shape", shape_of(d)},
                        {"point", d.point},
                        {"runs", runs_json(d.runs)},
                        {"neighbours", runs_json(d.neighbours)},
                        {"outlines", lines_json(page.defects[i].outlines)}});
         add_place(all.back(), d.place);
+        if (page.quality.as_machined != nullptr)
+            all.back()["formed_um"] = number(page.quality.as_machined->marks[i].depth * um_per_mm, 2);
         if (page.defects[i].normal != Vec3::Zero()) all.back()["normal"] = exact_vector(page.defects[i].normal);
         if (!page.defects[i].contact_outlines.empty())
             all.back()["contact_outlines"] = lines_json(page.defects[i].contact_outlines);

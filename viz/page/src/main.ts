@@ -8,6 +8,7 @@ import { ColourMap } from './colour';
 import { readBytes } from './columns';
 import { renderCommand } from './command';
 import { CurvesPane, secondCurve } from './curves_pane';
+import { DefectList } from './defect_list';
 import { showCommand, showKeys } from './dialogs';
 import { baseName, element } from './dom';
 import { readManifest, type Defect, type Manifest } from './manifest';
@@ -185,13 +186,12 @@ async function begin(app: HTMLElement): Promise<void> {
         event.preventDefault();
         action.run();
     });
-    for (const row of document.querySelectorAll<HTMLElement>('[data-defect]')) {
-        row.title = 'show this defect above';
-        row.addEventListener('click', () => {
-            goToDefect(Number(row.dataset.defect) - 1);
+    const list = document.getElementById('defect-list');
+    if (list)
+        new DefectList(list, manifest, (index) => {
+            goToDefect(index);
             app.scrollIntoView();
         });
-    }
     const linked = defectOfLink(location.hash, manifest.defects.length);
     if (linked !== null) goToDefect(linked);
     addEventListener('hashchange', () => {

@@ -42,6 +42,7 @@ export interface DefectRun {
 export interface Defect {
     id: number;
     severity: number;
+    severity_name: string;
     cause: string;
     quantity: 'speed' | 'acceleration' | 'lag' | 'relief'; // that shows it best
     normal?: [number, number, number]; // of the surface, there
@@ -52,6 +53,10 @@ export interface Defect {
     contact_outlines?: number[][]; // as outlines, on the part
     bounds_mm: [[number, number, number], [number, number, number]];
     depth_um: number | null; // without a sign: `shape` is pit, bulge or alternating
+    score: number; // times the threshold
+    speed_percent: number | null;
+    length_mm: number | null;
+    formed_um?: number | null; // in the formed surface, where the tool is known
     shape: string;
     point: number;
     runs: DefectRun[];

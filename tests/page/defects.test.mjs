@@ -1,0 +1,106 @@
+// The table of all defects: sorted, filtered and saved, by mouse and by keys; its numbers are those of `check`.
+
+import assert from 'node:assert/strict';
+import fs from 'node:fs';
+import { test } from 'node:test';
+
+import { bottle, numbers, run, settled, useReport, writeReport } from './browser.mjs';
+
+let page;
+useReport(
+    () => writeReport('bottle.html', bottle),
+    (opened) => (page = opened),
+);
+
+const { defects } = JSON.parse(run('check', bottle.program, bottle.log, '--json'));
+const ranks = () => page.$$eval('#defect-list tbody tr', (rows) => rows.map((row) => Number(row.dataset.defect)));
+const head = (name) => page.locator('#defect-list th', { hasText: name });
+const choose = (name, value) => page.getByLabel(name, { exact: true }).selectOption(value);
+/** Ranks of the defects that pass, the worst first. */
+const expected = (passes) => defects.flatMap((defect, k) => (passes(defect) ? [k + 1] : []));
+
+test('a click on a head sorts, a second one the other way round', async () => {
+    assert.deepEqual(
+        await ranks(),
+        expected(() => true),
+    );
+    await head('Depth').locator('button').click();
+    assert.equal(await head('Depth').getAttribute('aria-sort'), 'ascending');
+    const depths = (await ranks()).map((rank) => defects[rank - 1].depth_um);
+    for (let k = 1; k < depths.length; ++k) assert.ok(depths[k] >= depths[k - 1] - 0.011, `${depths}`);
+    await head('Depth').locator('button').press('Enter');
+    assert.equal(await head('Depth').getAttribute('aria-sort'), 'descending');
+    const deepest = defects[(await ranks())[0] - 1].depth_um;
+    assert.ok(Math.max(...defects.map((d) => d.depth_um)) - deepest < 0.011);
+    await head('Rank').locator('button').click();
+});
+
+test('filters by severity, cause and pass leave what check finds', async () => {
+    const severity = Math.max(...defects.map((d) => d.severity));
+    await choose('severity of defects', String(severity));
+    assert.deepEqual(
+        await ranks(),
+        expected((d) => d.severity === severity),
+    );
+    await choose('severity of defects', '');
+    const { cause } = defects.at(-1);
+    await choose('cause of defects', cause);
+    assert.deepEqual(
+        await ranks(),
+        expected((d) => d.cause === cause),
+    );
+    assert.equal(await page.textContent('#defect-list .count'), `${(await ranks()).length} of ${defects.length}`);
+    await choose('cause of defects', '');
+    const pass = await page.getByLabel('pass of defects').evaluate((select) => select.options[1].value);
+    await choose('pass of defects', pass);
+    assert.ok((await ranks()).length > 0 && (await ranks()).length < defects.length);
+    await choose('pass of defects', '');
+    assert.equal((await ranks()).length, defects.length);
+});
+
+test('CSV has the defects of the table in its order', async () => {
+    await choose('cause of defects', defects[0].cause);
+    await head('Length').locator('button').click();
+    const order = await ranks();
+    const [download] = await Promise.all([page.waitForEvent('download'), page.click('[data-action="save-defects"]')]);
+    assert.equal(download.suggestedFilename(), 'bottle_uneven.nc.defects.csv');
+    const text = fs.readFileSync(await download.path(), 'utf8');
+    assert.ok(text.endsWith('\r\n'));
+    const [names, ...rows] = text
+        .trimEnd()
+        .split('\r\n')
+        .map((row) => row.match(/"(?:[^"]|"")*"|[^,]+|(?<=,)(?=,|$)/g));
+    assert.deepEqual(
+        rows.map((row) => Number(row[0])),
+        order,
+    );
+    for (const row of rows) {
+        assert.equal(row.length, names.length);
+        const defect = defects[Number(row[0]) - 1];
+        assert.equal(row[names.indexOf('cause')], defect.cause);
+        assert.equal(Number(row[names.indexOf('severity')]), defect.severity);
+        assert.ok(Math.abs(Number(row[names.indexOf('depth_um')]) - defect.depth_um) < 0.011);
+    }
+    await choose('cause of defects', '');
+    await head('Rank').locator('button').click();
+});
+
+test('a row, and its link by key, lead to the defect', async () => {
+    await page.locator('#defect-list tr[data-defect="3"] a').focus();
+    await page.keyboard.press('Enter');
+    assert.equal(Number((await numbers(page)).Point), defects[2].point);
+    await page.click('#defect-list tr[data-defect="2"] td:nth-child(3)');
+    await settled(page);
+    assert.equal(await page.evaluate(() => window.location.hash), '#defect-2');
+});
+
+test('on a phone the table stays in the page', async () => {
+    await page.setViewportSize({ width: 390, height: 844 });
+    await page.locator('#defect-list').scrollIntoViewIfNeeded();
+    for (const name of ['.filters', '.wide']) {
+        const { x, width } = await page.locator(`#defect-list ${name}`).boundingBox();
+        assert.ok(x >= 0 && x + width <= 390, `${name} ends at ${x + width}`);
+    }
+    await head('Depth').locator('button').click();
+    assert.equal(await head('Depth').getAttribute('aria-sort'), 'ascending');
+});
