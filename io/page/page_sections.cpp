@@ -7,6 +7,7 @@
 
 #include "core/file_name.h"
 #include "core/units.h"
+#include "core/version.h"
 #include "io/files/json_value.h"
 #include "io/page/html_text.h"
 #include "io/page/page_pack.h"
@@ -230,11 +231,12 @@ std::string page_summary(const ReportPage& page) {
     const PageSurface& s = page.surfaces.front();
     const QualityReport& report = *page.quality.report;
     const Log& log = *s.log;
-    std::string text =
-        fmt::format("<header id=\"summary\">\n<h1>{} <small>{}{}</small></h1>\n<dl>\n", html(file_name(page.program)),
-                    html(file_name(page.log)), page.before.empty() ? "" : html(" · before: " + file_name(page.before)));
+    std::string text = fmt::format("<header id=\"summary\">\n<h1>{} <small>{}{} · clsurf {}</small></h1>\n<dl>\n",
+                                   html(file_name(page.program)), html(file_name(page.log)),
+                                   page.before.empty() ? "" : html(" · before: " + file_name(page.before)), version);
     const std::string machine = metadata_text(log, "machine");
     if (!machine.empty()) text += fact("Machine", machine);
+    if (page.quality.tool) text += fact("Tool", to_text(*page.quality.tool));
     text +=
         fact("Duration", duration_text(log.time_of(log.records - 1)), fmt::format("every {:g} ms", log.period * 1e3));
     text += fact("Points", count_text(log.records), fmt::format("{} log", log.format));

@@ -81,7 +81,10 @@ test('without JavaScript summary, pictures and tables are there', async () => {
     const page = await openReport(browser, file, { javaScriptEnabled: false });
     assert.ok(!(await page.locator('#app').isVisible()));
     assert.ok((await page.locator('noscript').count()) === 1);
-    assert.match(await page.locator('#summary').innerText(), /bottle_uneven\.nc/);
+    const summary = await page.locator('#summary').innerText();
+    assert.match(summary, /bottle_uneven\.nc/);
+    assert.match(summary, /clsurf \d+\.\d+\.\d+/);
+    assert.match(summary, /Tool\s+ball:6/);
     assert.ok((await page.locator('#defect-list tbody tr').count()) > 10);
     assert.ok((await page.locator('figure img').count()) >= 8);
     for (const image of await page.locator('figure img').all())
