@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
+#include "core/error.h"
 #include "core/not_finite.h"
 #include "simulation/path/junction.h"
 
@@ -33,8 +33,13 @@ struct LimitPlace {
 
 class FiveAxisPlanner {
 public:
-    FiveAxisPlanner(const FiveAxisPath& path, const Machine& machine)
-        : path_(&path), machine_(&machine), limits_(five_axis_limits(machine)), problem_(limits_, FirstSpeeds::guess) {
+    FiveAxisPlanner(const FiveAxisPath& path, const Machine& machine,
+                    const std::function<Place(std::size_t block)>& place_of)
+        : path_(&path),
+          machine_(&machine),
+          place_of_(&place_of),
+          limits_(five_axis_limits(machine)),
+          problem_(limits_, FirstSpeeds::guess) {
         for (int k = 0; k < 5; ++k) {
             const auto axis = static_cast<std::size_t>(k);
             speeds_[k] = k < 3 ? machine.axes[axis].max_speed : machine.rotary[axis - 3].max_speed;
@@ -45,10 +50,6 @@ public:
 
     std::vector<FiveAxisMotion> plan() {
         for (const double u : path_->places()) places_.push_back(place_at(u));
-        for (std::size_t i = 1; i + 1 < places_.size(); ++i) {
-            // Between two places limits may be less than at either; a third of the way beside counts, too.
-            places_[i].cap = std::min(places_[i].cap, places_[i].free_cap);
-        }
         const double length = path_->length();
         double from = 0;
         while (from < length) from = window(from);
@@ -112,7 +113,10 @@ private:
             const bool last = end >= path_->length();
             if (!solve(end)) {
                 // What was planned before comes to rest.
-                if (tail_.empty()) throw std::logic_error("no speeds hold the limits of the axes");
+                if (tail_.empty()) {
+                    throw InputError((*place_of_)(path_->chord(path_->chord_at(at_)).block),
+                                     "no speeds hold the limits of all axes here");
+                }
                 for (const FiveAxisMotion& motion : tail_) motions_.push_back(motion);
                 tail_.clear();
                 return tail_end_;
@@ -321,6 +325,7 @@ private:
 
     const FiveAxisPath* path_;
     const Machine* machine_;
+    const std::function<Place(std::size_t block)>* place_of_;
     ProblemLimits<5> limits_;
     FiveAxes speeds_;
     double ramp_ = infinite;  ///< least time in which a jerk reaches an acceleration [s]
@@ -345,8 +350,9 @@ double FiveAxisMotion::at(double time, double& speed) const {
     return jerk > 0 ? begin + way : begin + size * duration * duration * duration / 6 - way;
 }
 
-std::vector<FiveAxisMotion> plan_speeds(const FiveAxisPath& path, const Machine& machine) {
-    return FiveAxisPlanner(path, machine).plan();
+std::vector<FiveAxisMotion> plan_speeds(const FiveAxisPath& path, const Machine& machine,
+                                        const std::function<Place(std::size_t block)>& place_of) {
+    return FiveAxisPlanner(path, machine, place_of).plan();
 }
 
 }  // namespace clsurf

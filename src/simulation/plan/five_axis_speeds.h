@@ -6,8 +6,10 @@
 // windows that end at rest; most of a window is run, and the next one begins in its state. Next to a rest, where v² is
 // no quadratic of u, the jerk is constant. Nothing here knows the interpolation period but the chord error.
 
+#include <functional>
 #include <vector>
 
+#include "core/place.h"
 #include "machine/machine.h"
 #include "simulation/path/five_axis_path.h"
 #include "simulation/run/interpolator.h"
@@ -26,7 +28,8 @@ struct FiveAxisMotion {
     [[nodiscard]] double at(double time, double& speed) const;
 };
 
-/// Throws InputError where nothing holds the limits. O(chords).
-[[nodiscard]] std::vector<FiveAxisMotion> plan_speeds(const FiveAxisPath& path, const Machine& machine);
+/// `place_of`: the line of a block, for errors. Throws InputError where nothing holds the limits. O(chords).
+[[nodiscard]] std::vector<FiveAxisMotion> plan_speeds(const FiveAxisPath& path, const Machine& machine,
+                                                      const std::function<Place(std::size_t block)>& place_of);
 
 }  // namespace clsurf

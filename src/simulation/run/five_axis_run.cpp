@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "core/place.h"
 #include "program/motion_source.h"
 #include "simulation/path/block_stream.h"
 #include "simulation/path/curve_blocks.h"
@@ -24,7 +26,10 @@ constexpr int judged_parts = 8;      ///< of a block's angles, for whether they 
 class FiveAxisRun {
 public:
     FiveAxisRun(const Program& program, const Machine& machine, const FiveAxisBlocks& blocks, const FiveAxisSink& sink)
-        : machine_(&machine), blocks_(&blocks), log_(program, machine, blocks.limits(), sink) {}
+        : machine_(&machine),
+          blocks_(&blocks),
+          program_name_(program.main().name()),
+          log_(program, machine, blocks.limits(), sink) {}
 
     /// Between two rests of the program.
     void run_section(ElementSource& source, const Vec3& at) {
@@ -124,7 +129,8 @@ private:
         const FiveAxisPath path(machine_->kinematics, blocks_->zero(), begin_, chords_);
         chords_.clear();
         if (!(path.length() > 0)) return;
-        for (const FiveAxisMotion& motion : plan_speeds(path, *machine_)) {
+        const auto place_of = [&](std::size_t block) { return Place::of_line(program_name_, blocks_->line(block)); };
+        for (const FiveAxisMotion& motion : plan_speeds(path, *machine_, place_of)) {
             const double end = time_ + motion.duration;
             for (; next_time() < end; add_point(path, motion, next_time() - time_)) {}
             time_ = end;
@@ -176,6 +182,7 @@ private:
 
     const Machine* machine_;
     const FiveAxisBlocks* blocks_;
+    std::string program_name_;
     FiveAxisLog log_;
     std::vector<FiveAxisChord> chords_;
     FiveAxes begin_ = FiveAxes::Zero();

@@ -228,14 +228,29 @@ Machine machine_of_tip(const Machine& machine) {
     return tip;
 }
 
+/// The planner of all axes divides the ramps of the acceleration; shorter ones would cost too many cells.
+constexpr double shortest_resolved_ramp = 0.0005;  // s
+
+/// The shortest time in which a jerk limit lets an axis or the path reach its acceleration [s].
+double shortest_ramp_of(const Machine& machine) {
+    double ramp = machine.path.max_acceleration / machine.path.max_jerk;
+    const auto shorten = [&](double acceleration, double jerk) {
+        if (jerk > 0) ramp = std::min(ramp, acceleration / jerk);
+    };
+    for (const MachineAxis& axis : machine.axes) shorten(axis.max_acceleration, axis.max_jerk);
+    for (const MachineAxis& axis : machine.rotary) shorten(axis.max_acceleration, axis.max_jerk);
+    return ramp;
+}
+
 }  // namespace
 
 FiveAxisSummary simulate_five_axis(const Program& program, const Machine& machine, const Vec3& zero, const Vec3& start,
                                    const FiveAxisSink& sink, const Progress& progress) {
     FiveAxisBlocks blocks(program, machine, zero, start);
     // Planners whose corners are no curve of continuous curvature plan the tip.
-    const bool plans_tip =
-        machine.controller.planner == PlannerKind::trapezoidal || machine.controller.corner == CornerMode::junction;
+    const bool plans_tip = machine.controller.planner == PlannerKind::trapezoidal ||
+                           machine.controller.corner == CornerMode::junction ||
+                           shortest_ramp_of(machine) < shortest_resolved_ramp;
     if (!plans_tip) return run_five_axes(program, machine, std::move(blocks), start, sink, progress);
     Machine tip = machine_of_tip(machine);
     double share = 1;
