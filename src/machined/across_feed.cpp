@@ -23,7 +23,7 @@ AcrossFeed across_feed(const AsMachinedSurface& as_machined, const Signals& sign
 }
 
 std::vector<double> deviations_along(const AsMachinedSurface& as_machined, const AsMachinedSurface& form_of,
-                                     const Row& row, double tolerance) {
+                                     const ProfileRow& row, double tolerance) {
     const MapFrame frame{row.from, row.along, row.step, row.count, 1};
     const Form form(form_of, frame.bounds(0, 0, row.count, 1), tolerance);
     std::vector<double> deviations;

@@ -23,7 +23,7 @@ struct AcrossFeed {
 [[nodiscard]] AcrossFeed across_feed(const AsMachinedSurface& as_machined, const Signals& signals, PointIndex point);
 
 /// A row of `count` places: the first one [mm], the direction of the others from it, and how far they are apart.
-struct Row {
+struct ProfileRow {
     Vec2 from = Vec2::Zero(), along = Vec2::UnitX();
     double step = 0;  ///< [mm]
     std::int64_t count = 0;
@@ -32,7 +32,7 @@ struct Row {
 /// Deviations [mm] of a surface along a row, over the form of `form_of`; `tolerance` as of Form. NaN: nothing was cut, or
 /// no form there.
 [[nodiscard]] std::vector<double> deviations_along(const AsMachinedSurface& as_machined,
-                                                   const AsMachinedSurface& form_of, const Row& row,
+                                                   const AsMachinedSurface& form_of, const ProfileRow& row,
                                                    double tolerance = 0);
 
 }  // namespace clsurf

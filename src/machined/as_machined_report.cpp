@@ -147,8 +147,8 @@ AsMachinedMark mark_of(const AsMachinedSurface& as_machined, const Signals& sign
     const AcrossFeed across = across_feed(as_machined, signals, defect.point);
     if (!across.known) return {missing<double>, MarkNote::unknown_form};
     const double step = across.step_over / steps_per_pass;
-    const Row row{across.at - passes_aside * across.step_over * across.direction, across.direction, step,
-                  static_cast<std::int64_t>(2 * passes_aside * steps_per_pass) + 1};
+    const ProfileRow row{across.at - passes_aside * across.step_over * across.direction, across.direction, step,
+                         static_cast<std::int64_t>(2 * passes_aside * steps_per_pass) + 1};
     const std::vector<double> deviations =
         deviations_along(as_machined, as_machined, row, mark_tolerance * std::abs(defect.depth));
     return with_note(mark_depth(deviations, step, across.step_over, defect.pit), defect);
