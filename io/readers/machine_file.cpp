@@ -89,15 +89,15 @@ void read_controller(const TomlFile& file, const toml::table& table, ControllerS
     take_mode<2>(file, table, "planner", c.planner);
     // A key of the other planner would be without effect.
     if (c.planner == PlannerKind::trapezoidal) {
-        file.allow(table,
-                   {"planner", "period", "lookahead_blocks", "tolerance", "feed_override", "arc_blends", "gap_periods",
-                    "ramp_frequency", "kink_ratio", "max_feed_override", "blocks_per_period", "cubic_interpolation"});
+        file.allow(table, {"planner", "feed", "period", "lookahead_blocks", "tolerance", "feed_override", "arc_blends",
+                           "gap_periods", "ramp_frequency", "kink_ratio", "max_feed_override", "blocks_per_period",
+                           "cubic_interpolation"});
         read_trapezoid(file, table, c.trapezoid);
     } else {
         take_mode<4>(file, table, "corner", c.corner);
-        std::vector<std::string_view> keys{"planner",       "period",         "lookahead_blocks", "lookahead_distance",
-                                           "replan_blocks", "corner",         "block_time",       "whole_periods",
-                                           "feed_override", "chord_tolerance"};
+        std::vector<std::string_view> keys{
+            "planner", "feed",       "period",        "lookahead_blocks", "lookahead_distance", "replan_blocks",
+            "corner",  "block_time", "whole_periods", "feed_override",    "chord_tolerance"};
         if (c.corner == CornerMode::junction) {
             keys.insert(keys.end(), {"junction_deviation", "junction_speed_step"});
         } else {
@@ -106,6 +106,7 @@ void read_controller(const TomlFile& file, const toml::table& table, ControllerS
         file.allow(table, keys);
         read_junction(file, table, c.junction);
     }
+    take_mode<2>(file, table, "feed", c.feed);
     take(file, table, "period", c.period, Low::above_zero, 1.0, 1.0);
     if (const auto blocks = file.integer(table, "lookahead_blocks", 2, 100000))
         c.lookahead_blocks = static_cast<int>(*blocks);
@@ -217,6 +218,9 @@ std::string axis_text(std::string_view name, const MachineAxis& a, double factor
 std::string controller_text(const ControllerSettings& c) {
     std::string text;
     if (c.planner == PlannerKind::trapezoidal) text += fmt::format("planner = \"{}\"\n", name_of(c.planner));
+    text += fmt::format(
+        "feed = \"{}\"           # highest speed; intervals: less where a constant-speed interval is planned to be slower\n",
+        name_of(c.feed));
     text += fmt::format("period = {}                # interpolation period\n", c.period);
     text += fmt::format("lookahead_blocks = {}\n", c.lookahead_blocks);
     const std::string tolerance =

@@ -22,6 +22,7 @@ void declare_optimize(po::options_description& options) {
         ("output,o", po::value<std::string>()->value_name("FILE"), "the new program")
         ("picture", po::value<std::string>()->value_name("FILE"), "picture of the speeds, and of the differences between adjacent passes, before and after (.png, .jpg, .tif or .webp), also if the new program is rejected")
         ("tolerance", po::value<double>()->value_name("MM"), "largest distance of the new path from the programmed path (default: 0.005)")
+        ("feeds", po::value<std::string>()->value_name("searched|intervals"), "feeds of the new program: searched, so that adjacent passes run at equal speeds, or intervals, the planned speed of each constant-speed interval, as clsurf intervals lists them (default: searched)")
         ("machines", po::value<int>()->value_name("N"), "other machines that the new program must be better on, drawn from what the machine file says of its uncertainty (default: 4; 0: none)")
         ("more-time", po::value<double>()->value_name("PERCENT"), "additional machining time that is allowed for fewer defects (default: 0)")
         ("decimals", po::value<int>()->value_name("N"), "smallest number of decimals of new coordinates, if the controller reads them (default: as in the program)");
@@ -55,6 +56,12 @@ OptimizeRules read_optimize_rules(const po::variables_map& values) {
     if (!(rules.more_time >= 0) || rules.more_time > 1) throw UsageError("--more-time must be 0 to 100 %");
     if (values.count("machines") > 0) rules.machines = values["machines"].as<int>();
     if (rules.machines < 0 || rules.machines > 100) throw UsageError("--machines must be 0 to 100");
+    if (values.count("feeds") > 0) {
+        const std::string feeds = values["feeds"].as<std::string>();
+        if (feeds != "searched" && feeds != "intervals")
+            throw UsageError("--feeds: '" + feeds + "' is not searched or intervals");
+        if (feeds == "intervals") rules.feeds = FeedChoice::intervals;
+    }
     rules.start = read_start(values);
     rules.header = fmt::format("clsurf {} optimize, tolerance {} mm", version, rules.tolerance);
     return rules;

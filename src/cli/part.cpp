@@ -1,5 +1,6 @@
 #include "cli/part.h"
 
+#include <memory>
 #include <utility>
 
 #include "cli/work_frames.h"
@@ -87,7 +88,10 @@ Part load_part(const PartOptions& options, StageClock& clock) {
     rules.role = options.role;
     rules.poses = options.poses;
     rules.kinematics = load_kinematics(options.machine);
-    if (!options.machine.empty()) rules.limits = io::read_stated_limits(options.machine);
+    if (!options.machine.empty()) {
+        rules.limits = io::read_stated_limits(options.machine);
+        rules.machine = std::make_shared<const Machine>(io::read_machine(options.machine));
+    }
     rules.use_line_channel = options.use_line_channel;
     rules.accept_foreign = options.force;
     rules.derivative = options.derivative;

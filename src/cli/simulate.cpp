@@ -11,6 +11,7 @@
 #include "cli/simulation_text.h"
 #include "cli/work_frames.h"
 #include "core/units.h"
+#include "intervals/interval_feeds.h"
 #include "io/files/compressed.h"
 #include "io/formats/program_identity.h"
 #include "io/readers/machine_file.h"
@@ -76,18 +77,28 @@ ExitCode run_simulate(const po::variables_map& values) {
         options.coordinates.reset();
         Program program = io::read_program(source, options);
         const Eigen::Isometry3d pose = prepare_five_axes(program, machine, poses);
+        if (machine.controller.feed == FeedRule::intervals) hold_interval_speeds(program, machine);
         const bool told = poses.zero || !pose.translation().isZero(0);
         io::SimulatedLogWriter log = open_log(told ? std::optional(poses.zero.value_or(pose)) : std::nullopt);
         return run_five_axis(program, machine, pose.translation(), start, log, values);
     }
-    const std::unique_ptr<ProgramReader> program = io::open_program(source, read_program_options(values));
     io::SimulatedLogWriter log = open_log(std::nullopt);
     ProgressBar bar(read_common(values));
-    const SimulationSummary summary = simulate(
-        *program, machine, start, [&](std::span<const SimulatedPoint> points) { log.append(points); }, bar.callback());
+    const PointSink append = [&](std::span<const SimulatedPoint> points) { log.append(points); };
+    SimulationSummary summary;
+    Diagnostics diagnostics;
+    if (machine.controller.feed == FeedRule::intervals) {
+        Program program = io::read_program(source, read_program_options(values));
+        hold_interval_speeds(program, machine);
+        summary = simulate(program, machine, start, append, bar.callback());
+        diagnostics = program.diagnostics;
+    } else {
+        const std::unique_ptr<ProgramReader> program = io::open_program(source, read_program_options(values));
+        summary = simulate(*program, machine, start, append, bar.callback());
+        diagnostics = program->program().diagnostics;
+    }
     log.close();
     bar.clear();
-    Diagnostics diagnostics = program->program().diagnostics;
     diagnostics.append(summary.diagnostics);
     if (read_json(values)) {
         write_to_stdout(io::simulation_json(summary, diagnostics, machine.fidelity));

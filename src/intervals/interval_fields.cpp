@@ -19,12 +19,10 @@ FieldInfo interval_field_info() {
 std::vector<Field> IntervalFields::compute(std::span<const std::string_view> names, PointRange points) const {
     if (program_.motions.size() == 0) throw UsageError("the field 'interval' needs the program: PROGRAM LOG");
     const ProgrammedSurface programmed = build_programmed_surface(program_);
-    IntervalRules rules;
-    rules.reach = 0.5 * programmed.surface.step_over;
-    const ProgramIntervals planned = plan_intervals(program_, programmed, rules, machine_);
+    const ProgramIntervals planned = plan_intervals(program_, programmed, {}, machine_);
     Field field{interval_field_info(), Column<float>(static_cast<std::size_t>(points.size()), missing<float>)};
-    field.info.note = fmt::format("{} intervals on {} passes, on the machine of clsurf machine --defaults",
-                                  planned.intervals.size(), planned.passes);
+    field.info.note = fmt::format("{} intervals on {} passes, planned for the machine \"{}\"", planned.intervals.size(),
+                                  planned.passes, machine_.name);
     for (PointIndex i = points.first; i <= points.last; ++i) {
         const std::span<const std::uint32_t> motions = lines_->motions_of(lines_->line_at(i));
         if (!motions.empty())

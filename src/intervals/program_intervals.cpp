@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "intervals/shared_boundaries.h"
+#include "program/coordinate_step.h"
 #include "simulation/plan/scurve.h"
 #include "surface/path_location.h"
 #include "toolpath/toolpath.h"
@@ -11,7 +13,14 @@
 namespace clsurf {
 namespace {
 
-constexpr double alike = 0.15;  ///< speeds side by side that differ by less (a share) become one
+constexpr double shared_reach = 2;  ///< step-overs along the path, that boundaries of adjacent passes scatter
+constexpr double alike = 0.15;      ///< speeds side by side that differ by less (a share) become one
+
+/// A cut pass without repeated points.
+struct PassPoints {
+    std::vector<Vec3> points;
+    std::vector<double> curvature;
+};
 
 class IntervalPlanner {
 public:
@@ -22,14 +31,21 @@ public:
           programmed_(programmed),
           rules_(rules),
           machine_(machine),
+          limits_(speed_limits_of(machine)),
           of_point_(programmed.motion.size(), none) {
+        rules_.coordinate_step = coordinate_step(program.motions);
         result_.step_over = programmed.surface.step_over;
         result_.speed_of_motion.assign(static_cast<std::size_t>(motions_.size()),
                                        std::numeric_limits<float>::quiet_NaN());
     }
 
     ProgramIntervals run() {
-        for (const ProgrammedPass& pass : cut_passes(programmed_)) divide_pass(pass);
+        passes_ = cut_passes(programmed_);
+        result_.passes = static_cast<std::int64_t>(passes_.size());
+        PassBoundaries boundaries;
+        for (ProgrammedPass& pass : passes_) boundaries.push_back(divide_pass(pass));
+        share(boundaries);
+        for (std::size_t k = 0; k < passes_.size(); ++k) add_intervals(k, boundaries[k]);
         match_neighbours();
         for (std::size_t i = 0; i < of_point_.size(); ++i) {
             if (of_point_[i] != none)
@@ -42,38 +58,94 @@ public:
 private:
     static constexpr std::uint32_t none = 0xffffffffU;
 
-    void divide_pass(const ProgrammedPass& pass) {
-        ++result_.passes;
-        std::vector<Vec3> points;
+    /// The pass' own boundaries; its ends lose repeated points.
+    std::vector<PointIndex> divide_pass(ProgrammedPass& pass) {
+        PassPoints mine;
         std::vector<PointIndex> ends;
         for (const PointIndex end : pass.ends) {
             const Vec3 p = programmed_.ends_motion(end) ? path_.end(programmed_.motion_of(end))
                                                         : programmed_.surface.positions.absolute(end);
-            if (!points.empty() && p == points.back()) continue;
-            points.push_back(p);
+            if (!mine.points.empty() && p == mine.points.back()) continue;
+            mine.points.push_back(p);
             ends.push_back(end);
         }
-        add_beginning(pass, points, ends);
+        add_beginning(pass, mine.points, ends);
+        pass.ends = std::move(ends);
+        mine.curvature = curvatures(mine.points, rules_);
+        std::vector<PointIndex> boundaries;
+        for (const std::size_t b : all_boundaries(mine.points, mine.curvature, rules_))
+            boundaries.push_back(pass.ends[b]);
+        points_.push_back(std::move(mine));
+        return boundaries;
+    }
+
+    /// Boundaries in line with those of the adjacent passes, without those that no other pass has and that separate equal
+    /// speeds.
+    void share(PassBoundaries& boundaries) const {
+        if (!(programmed_.surface.step_over > 0)) return;
+        const double reach = shared_reach * programmed_.surface.step_over;
+        boundaries = share_boundaries(programmed_, passes_, boundaries, reach);
+        const AdjacentBoundaries adjacent(programmed_, boundaries, reach);
+        PassBoundaries kept(boundaries.size());
+        for (std::size_t k = 0; k < boundaries.size(); ++k) {
+            const std::vector<SpeedInterval> intervals = intervals_of(k, boundaries[k]);
+            for (std::size_t b = 0; b < boundaries[k].size(); ++b) {
+                const bool inside = b > 0 && b < intervals.size();
+                if (inside && alike_across(k, intervals[b - 1], intervals[b])) {
+                    const AdjacentBoundaries::Places places = adjacent.around(boundaries[k][b]);
+                    if (places.passes > 1 && places.offsets.empty()) continue;
+                }
+                kept[k].push_back(boundaries[k][b]);
+            }
+        }
+        boundaries = std::move(kept);
+    }
+
+    /// Whether two consecutive intervals can be run at one speed.
+    [[nodiscard]] bool alike_across(std::size_t k, const SpeedInterval& before, const SpeedInterval& after) const {
+        if (!std::isfinite(points_[k].curvature[before.last])) return false;  // turns back
+        const double a = planned_speed(before, machine_.path.max_speed, limits_),
+                     b = planned_speed(after, machine_.path.max_speed, limits_);
+        return std::max(a, b) < (1 + alike) * std::min(a, b);
+    }
+
+    [[nodiscard]] std::vector<SpeedInterval> intervals_of(std::size_t k,
+                                                          const std::vector<PointIndex>& boundaries) const {
+        const std::vector<PointIndex>& ends = passes_[k].ends;
+        std::vector<std::size_t> indices;
+        for (const PointIndex b : boundaries)
+            indices.push_back(static_cast<std::size_t>(std::lower_bound(ends.begin(), ends.end(), b) - ends.begin()));
+        return intervals_between(points_[k].points, points_[k].curvature, indices);
+    }
+
+    void add_intervals(std::size_t k, const std::vector<PointIndex>& boundaries) {
+        const std::vector<PointIndex>& ends = passes_[k].ends;
+        const std::vector<Vec3>& points = points_[k].points;
         const std::size_t first = result_.intervals.size();
-        for (const SpeedInterval& piece : divide(points, rules_)) {
+        for (const SpeedInterval& piece : intervals_of(k, boundaries)) {
             ProgramInterval interval;
-            interval.pass = pass.number;
+            interval.pass = passes_[k].number;
             interval.first_line = motions_.line[programmed_.motion_of(ends[piece.first + 1])];
             interval.last_line = motions_.line[programmed_.motion_of(ends[piece.last])];
             interval.mean_curvature = piece.mean_curvature;
             interval.greatest_curvature = piece.greatest_curvature;
             interval.feed = std::numeric_limits<double>::infinity();
-            for (std::size_t k = piece.first + 1; k <= piece.last; ++k) {
-                interval.length += (points[k] - points[k - 1]).norm();
+            for (std::size_t i = piece.first + 1; i <= piece.last; ++i) {
+                interval.length += (points[i] - points[i - 1]).norm();
                 interval.feed =
-                    std::min(interval.feed, static_cast<double>(motions_.feed[programmed_.motion_of(ends[k])]));
+                    std::min(interval.feed, static_cast<double>(motions_.feed[programmed_.motion_of(ends[i])]));
             }
             for (PointIndex i = ends[piece.first] + 1; i <= ends[piece.last]; ++i)
                 of_point_[static_cast<std::size_t>(i)] = static_cast<std::uint32_t>(result_.intervals.size());
             const double most = std::min(interval.feed * machine_.controller.feed_override, machine_.path.max_speed);
-            interval.own_speed = interval.speed = planned_speed(piece, most, speed_limits_of(machine_));
+            interval.own_speed = interval.speed = planned_speed(piece, most, limits_);
             result_.intervals.push_back(interval);
         }
+        slow_short_ones(first);
+    }
+
+    /// Intervals that are too short to get faster and slower again keep the higher speed of both sides.
+    void slow_short_ones(std::size_t first) {
         for (std::size_t k = first + 1; k + 1 < result_.intervals.size(); ++k) {
             ProgramInterval& here = result_.intervals[k];
             const double before = result_.intervals[k - 1].speed, after = result_.intervals[k + 1].speed;
@@ -128,8 +200,11 @@ private:
     const Motions& motions_;
     Toolpath path_;
     const ProgrammedSurface& programmed_;
-    const IntervalRules& rules_;
+    IntervalRules rules_;
     const Machine& machine_;
+    SpeedLimits limits_;
+    std::vector<ProgrammedPass> passes_;   ///< their ends without repeated points
+    std::vector<PassPoints> points_;       ///< of each pass
     std::vector<std::uint32_t> of_point_;  ///< index of its interval
     ProgramIntervals result_;
 };

@@ -17,4 +17,9 @@ std::string_view name_of(PlannerKind kind) {
     return names[static_cast<std::size_t>(kind)];
 }
 
+std::string_view name_of(FeedRule rule) {
+    constexpr std::array<std::string_view, 2> names{"programmed", "intervals"};
+    return names[static_cast<std::size_t>(rule)];
+}
+
 }  // namespace clsurf

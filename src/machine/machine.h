@@ -79,8 +79,17 @@ struct JunctionSettings {
     double speed_step = 0;    ///< greatest step of an axis' speed [mm/s]; 0: no rule
 };
 
+/// The highest speed of a motion.
+enum class FeedRule : unsigned char {
+    programmed,  ///< its feed
+    intervals,  ///< its feed, or less where its constant-speed interval is planned to be slower (intervals/interval_feeds.h)
+};
+
+[[nodiscard]] std::string_view name_of(FeedRule rule);
+
 struct ControllerSettings {
     PlannerKind planner = PlannerKind::time_optimal;
+    FeedRule feed = FeedRule::programmed;
     TrapezoidSettings trapezoid;
     double period = 0.001;  ///< interpolation period [s]
     int lookahead_blocks = 500;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "numeric/polyline.h"
+#include "numeric/resolved_curvature.h"
 
 namespace clsurf {
 namespace {
@@ -82,21 +83,31 @@ void cut_drifts(std::vector<std::size_t>& boundaries, std::span<const double> cu
     boundaries = std::move(all);
 }
 
+/// Divides intervals that are too long into equal parts.
+void cut_lengths(std::vector<std::size_t>& boundaries, std::span<const Vec3> points, double longest) {
+    std::vector<std::size_t> all{boundaries.front()};
+    for (std::size_t k = 1; k < boundaries.size(); ++k) {
+        double whole = 0;
+        for (std::size_t i = boundaries[k - 1]; i < boundaries[k]; ++i) whole += (points[i + 1] - points[i]).norm();
+        const double part = whole / std::max(std::ceil(whole / longest), 1.0);
+        double arc_length = 0;
+        for (std::size_t i = boundaries[k - 1] + 1; i < boundaries[k]; ++i) {
+            const double before = arc_length;
+            arc_length += (points[i] - points[i - 1]).norm();
+            if (std::floor(arc_length / part) > std::floor(before / part)) all.push_back(i);
+        }
+        all.push_back(boundaries[k]);
+    }
+    boundaries = std::move(all);
+}
+
 }  // namespace
 
-std::vector<double> curvatures(std::span<const Vec3> points, double reach) {
+std::vector<double> curvatures(std::span<const Vec3> points) {
     const std::size_t n = points.size();
     std::vector<double> result(n, 0);
     if (n < 3) return result;
-    std::vector<double> arc_length(n, 0);
-    for (std::size_t i = 1; i < n; ++i) arc_length[i] = arc_length[i - 1] + (points[i] - points[i - 1]).norm();
-    std::size_t before = 0, after = 1;
-    for (std::size_t i = 1; i + 1 < n; ++i) {
-        while (before + 1 < i && arc_length[i] - arc_length[before + 1] >= reach) ++before;
-        after = std::max(after, i + 1);
-        while (after + 1 < n && arc_length[after] - arc_length[i] < reach) ++after;
-        result[i] = three_point_curvature(points[before], points[i], points[after]);
-    }
+    for (std::size_t i = 1; i + 1 < n; ++i) result[i] = three_point_curvature(points[i - 1], points[i], points[i + 1]);
     result.front() = result[1];
     result.back() = result[n - 2];
     return result;
@@ -163,11 +174,35 @@ std::vector<std::size_t> interval_boundaries(std::span<const Vec3> points, std::
     return boundaries;
 }
 
-std::vector<SpeedInterval> divide(std::span<const Vec3> points, const IntervalRules& rules) {
-    if (points.size() < 2) return {};
-    const std::vector<double> curvature = curvatures(points, rules.reach);
+std::vector<double> curvatures(std::span<const Vec3> points, const IntervalRules& rules) {
+    return rules.coordinate_step > 0 ? resolved_curvatures(points, rules.coordinate_step, rules.flat_curvature)
+                                     : curvatures(points);
+}
+
+std::vector<std::size_t> all_boundaries(std::span<const Vec3> points, std::span<const double> curvature,
+                                        const IntervalRules& rules) {
     std::vector<std::size_t> boundaries = interval_boundaries(points, curvature, rules);
-    if (rules.drift_ratio > 0) cut_drifts(boundaries, curvature, rules);
+    if (boundaries.size() < 2) return boundaries;
+    // In one of both directions, whichever way the pass is travelled, so that adjacent passes get the same cuts.
+    const Vec3 &begin = points.front(), &end = points.back();
+    const bool back = std::lexicographical_compare(end.begin(), end.end(), begin.begin(), begin.end());
+    const auto turn_round = [&] {
+        if (!back) return;
+        std::reverse(boundaries.begin(), boundaries.end());
+        for (std::size_t& b : boundaries) b = points.size() - 1 - b;
+    };
+    turn_round();
+    if (rules.drift_ratio > 0) {
+        const std::vector<double> backward(curvature.rbegin(), curvature.rend());
+        cut_drifts(boundaries, back ? backward : curvature, rules);
+    }
+    turn_round();
+    if (rules.greatest_length > 0) cut_lengths(boundaries, points, rules.greatest_length);
+    return boundaries;
+}
+
+std::vector<SpeedInterval> intervals_between(std::span<const Vec3> points, std::span<const double> curvature,
+                                             std::span<const std::size_t> boundaries) {
     std::vector<SpeedInterval> intervals;
     for (std::size_t k = 1; k < boundaries.size(); ++k) {
         SpeedInterval interval{boundaries[k - 1], boundaries[k], 0, 0};
@@ -182,6 +217,12 @@ std::vector<SpeedInterval> divide(std::span<const Vec3> points, const IntervalRu
         intervals.push_back(interval);
     }
     return intervals;
+}
+
+std::vector<SpeedInterval> divide(std::span<const Vec3> points, const IntervalRules& rules) {
+    if (points.size() < 2) return {};
+    const std::vector<double> curvature = curvatures(points, rules);
+    return intervals_between(points, curvature, all_boundaries(points, curvature, rules));
 }
 
 }  // namespace clsurf

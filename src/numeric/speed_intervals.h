@@ -22,7 +22,8 @@ struct IntervalRules {
     double curvature_ratio = 2;    ///< of the curvatures before and behind, likewise
     double flat_curvature = 1e-3;  ///< [1/mm] less counts as this much
     double drift_ratio = 4;        ///< greatest over least curvature inside; 0: not looked at
-    double reach = 0;              ///< [mm] of arc length to each side that a curvature is measured over, at least
+    double greatest_length = 0;    ///< [mm] of an interval; 0: not bounded
+    double coordinate_step = 0;    ///< [mm] that coordinates are rounded to (resolved_curvature.h); 0: they are exact
 };
 
 /// Points first … last of a pass; neighbours share the point between them.
@@ -32,8 +33,9 @@ struct SpeedInterval {
     double greatest_curvature = 0;  ///< [1/mm] of the inner points
 };
 
-/// Curvature at each point [1/mm], those of the ends copied from beside them; infinite where the path turns back.
-[[nodiscard]] std::vector<double> curvatures(std::span<const Vec3> points, double reach = 0);
+/// Curvature of the circle through each point and its neighbours [1/mm], those of the ends copied from beside them; infinite
+/// where the path turns back.
+[[nodiscard]] std::vector<double> curvatures(std::span<const Vec3> points);
 
 /// Indices of the points of a polyline that leaves no point farther out than `error` [mm] (Douglas and
 /// Peucker), both ends among them; a closed one is cut at the point farthest from its start first.
@@ -43,6 +45,18 @@ struct SpeedInterval {
 [[nodiscard]] std::vector<std::size_t> interval_boundaries(std::span<const Vec3> points,
                                                            std::span<const double> curvature,
                                                            const IntervalRules& rules);
+
+/// The curvatures that rules ask for: those of the neighbours, or, where coordinates are rounded, resolved ones.
+[[nodiscard]] std::vector<double> curvatures(std::span<const Vec3> points, const IntervalRules& rules);
+
+/// The same, and where curvature drifts or an interval would get too long.
+[[nodiscard]] std::vector<std::size_t> all_boundaries(std::span<const Vec3> points, std::span<const double> curvature,
+                                                      const IntervalRules& rules);
+
+/// The intervals from each boundary to the next.
+[[nodiscard]] std::vector<SpeedInterval> intervals_between(std::span<const Vec3> points,
+                                                           std::span<const double> curvature,
+                                                           std::span<const std::size_t> boundaries);
 
 /// The intervals of a pass; a single point: none. O(points log points).
 [[nodiscard]] std::vector<SpeedInterval> divide(std::span<const Vec3> points, const IntervalRules& rules);

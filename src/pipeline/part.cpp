@@ -27,6 +27,7 @@ Part part_of(Log log, const PartRules& rules) {
     part.log = std::move(log);
     part.tool = rules.tool;
     part.limits = rules.limits;
+    part.machine = rules.machine;
     part.derivative = rules.derivative;
     return part;
 }

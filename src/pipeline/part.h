@@ -10,6 +10,7 @@
 #include "log/log.h"
 #include "machine/kinematics.h"
 #include "machine/limit_table.h"
+#include "machine/machine.h"
 #include "machined/tool.h"
 #include "mapping/line_map.h"
 #include "mapping/program_match.h"
@@ -31,6 +32,7 @@ struct PartRules {
     ProgramIdentity identity = ProgramIdentity::unknown;  ///< what hashes say (io/formats/program_identity.h)
     std::optional<CuttingTool> tool;
     std::vector<StatedLimit> limits;  ///< of the machine; empty: none are stated
+    std::shared_ptr<const Machine> machine;  ///< that planned speeds are for; nullptr: the default one
     DerivativeMethod derivative = DerivativeMethod::savgol;
 };
 
@@ -43,6 +45,7 @@ struct Part {
     DerivativeMethod derivative = DerivativeMethod::savgol;  ///< of fields
     std::optional<CuttingTool> tool;
     std::vector<StatedLimit> limits;  ///< of the machine
+    std::shared_ptr<const Machine> machine;  ///< nullptr: not given
     Diagnostics diagnostics;          ///< of program, log and lines together
 };
 

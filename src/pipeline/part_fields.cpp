@@ -29,7 +29,8 @@ FieldSet fields_of(const Part& part, const ClSurface& surface,
     fields.add(std::make_shared<const FeedFields>(part.program, part.lines, positions));
     fields.add(std::make_shared<const QualityFields>(surface, [&] { return signals_alone(part, surface); }));
     fields.add(std::make_shared<const CauseFields>(part, surface));
-    fields.add(std::make_shared<const IntervalFields>(part.program, part.lines));
+    fields.add(
+        std::make_shared<const IntervalFields>(part.program, part.lines, part.machine ? *part.machine : Machine{}));
     fields.add(limit_fields(part));
     for (const auto& provider : more) fields.add(provider);
     fields.add(std::make_shared<const ChannelFields>(part.log, channel_classes()));

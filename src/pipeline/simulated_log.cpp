@@ -2,12 +2,14 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/units.h"
+#include "intervals/interval_feeds.h"
 #include "simulation/run/five_axis_simulator.h"
 #include "toolpath/tip_motions.h"
 
@@ -80,8 +82,11 @@ Eigen::Isometry3d prepare_five_axes(Program& program, const Machine& machine, Fr
     return pose;
 }
 
-SimulatedRun simulate_to_log(const Program& program, const Machine& machine, const Vec3& start,
+SimulatedRun simulate_to_log(const Program& programmed, const Machine& machine, const Vec3& start,
                              const Progress& progress, const Vec3& zero) {
+    std::optional<Program> held;
+    if (machine.controller.feed == FeedRule::intervals) hold_interval_speeds(held.emplace(programmed), machine);
+    const Program& program = held ? *held : programmed;
     if (runs_on_five_axes(program, machine)) return five_axes_to_log(program, machine, start, progress, zero);
     return run_to_log(program, machine, "xyz", [&](Columns& columns) {
         const auto take = [&](std::span<const SimulatedPoint> points) {

@@ -23,7 +23,14 @@ inline constexpr double most_turned = 0.01 * rad_per_deg;
     return rules;
 }
 
+/// Which feeds a new program gets.
+enum class FeedChoice : unsigned char {
+    searched,   ///< those that make adjacent passes equal, as far as the time goes
+    intervals,  ///< the speeds of its constant-speed intervals (Wu et al. 2022)
+};
+
 struct OptimizeRules {
+    FeedChoice feeds = FeedChoice::searched;
     double tolerance = 0.005;   ///< [mm] from the programmed path
     double more_time = 0;       ///< a share: how much longer the new program may take
     int least_decimals = 0;     ///< of new coordinates; 0: as many as the program has

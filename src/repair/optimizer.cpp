@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/statistics.h"
+#include "intervals/interval_feeds.h"
 #include "machine/machine_ensemble.h"
 #include "repair/feed_search.h"
 #include "repair/regions.h"
@@ -170,7 +171,21 @@ private:
         return choices;
     }
 
+    /// Each draft, and the program itself, at the speeds of its constant-speed intervals.
+    void propose_intervals(const Drafter& drafter) {
+        std::vector<Draft> drafts;
+        drafts.push_back(drafter.unchanged());
+        for (const DraftLines& lines : line_choices()) drafts.push_back(drafter.draft(lines, needed_or_slow_));
+        for (Draft& draft : drafts) {
+            if (!evaluator_.has_time()) return;
+            std::vector<float> feeds = interval_feeds(draft.program, machine_);
+            (void)evaluator_.propose(std::make_shared<const Draft>(std::move(draft)), std::move(feeds));
+        }
+    }
+
     void propose_all(const Drafter& drafter) {
+        if (rules_.more_time > 0 && rules_.feeds == FeedChoice::intervals) evaluator_.allow_more_time();
+        if (rules_.feeds == FeedChoice::intervals) return propose_intervals(drafter);
         std::vector<TriedProposal> drafts;  // points alone
         const std::vector<DraftLines> choices = line_choices();
         for (const DraftLines& lines : choices) {

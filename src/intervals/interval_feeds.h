@@ -1,0 +1,18 @@
+#pragma once
+// Feeds at which a program runs at the planned speeds of its constant-speed intervals.
+
+#include <vector>
+
+#include "machine/machine.h"
+#include "program/program.h"
+
+namespace clsurf {
+
+/// The feed of each motion [mm/s], below the programmed one; 0: the programmed one stays. The machine's feed override
+/// applies to them. O(points log points).
+[[nodiscard]] std::vector<float> interval_feeds(const Program& program, const Machine& machine);
+
+/// Lowers the feeds of a program to them: what a controller with `feed = "intervals"` does.
+void hold_interval_speeds(Program& program, const Machine& machine);
+
+}  // namespace clsurf
