@@ -1,5 +1,5 @@
 #pragma once
-// DefectMarks: the sections at fault drawn along their passes, as wide as the step-over, and the column of their names.
+// The sections at fault drawn along their passes, as wide as the step-over, and the column of their names.
 
 #include "viz/defect_map.h"
 #include "viz/map_layout.h"

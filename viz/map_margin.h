@@ -1,5 +1,5 @@
 #pragma once
-// MapMargin: the items around a map: title, legend, scale bar, axes.
+// The items around a map: title, legend, scale bar, axes.
 
 #include "viz/colour_map.h"
 #include "viz/map_layout.h"

@@ -1,5 +1,5 @@
 #pragma once
-// MapMarks: what is marked on a map: points, lines of the program, outlines of defects.
+// What is marked on a map: points, lines of the program, outlines of defects.
 
 #include "viz/map_layout.h"
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "core/cell_grid.h"
 #include "pipeline/part.h"
 #include "pipeline/signals_of.h"
 #include "program/interpreter.h"
@@ -19,22 +20,19 @@ constexpr double planned_enough = 0.05;
 /// Points by cell, for a yes or no within a radius.
 class Near {
 public:
-    Near(const PlantedLog& log, const std::vector<PointIndex>& points, double radius) : log_(log), radius_(radius) {
-        for (const PointIndex i : points) cells_[key(at(i), 0, 0, 0)].push_back(i);
+    Near(const PlantedLog& log, const std::vector<PointIndex>& points, double radius)
+        : log_(log), radius_(radius), grid_(radius) {
+        for (const PointIndex i : points) cells_[grid_.key(at(i))].push_back(i);
     }
     [[nodiscard]] bool has(const Vec3& p) const {
-        for (int dx = -1; dx <= 1; ++dx) {
-            for (int dy = -1; dy <= 1; ++dy) {
-                for (int dz = -1; dz <= 1; ++dz) {
-                    const auto cell = cells_.find(key(p, dx, dy, dz));
-                    if (cell == cells_.end()) continue;
-                    for (const PointIndex i : cell->second) {
-                        if ((at(i) - p).norm() <= radius_) return true;
-                    }
-                }
-            }
-        }
-        return false;
+        bool found = false;
+        grid_.for_each_near(p, [&](CellGrid::Key key) {
+            const auto cell = cells_.find(key);
+            if (found || cell == cells_.end()) return;
+            found = std::any_of(cell->second.begin(), cell->second.end(),
+                                [&](PointIndex i) { return (at(i) - p).norm() <= radius_; });
+        });
+        return found;
     }
     [[nodiscard]] double share(const std::vector<PointIndex>& points) const {
         const auto inside = std::count_if(points.begin(), points.end(), [&](PointIndex i) { return has(at(i)); });
@@ -46,16 +44,10 @@ public:
     }
 
 private:
-    [[nodiscard]] std::int64_t key(const Vec3& p, int dx, int dy, int dz) const {
-        const auto c = [&](double v, int d) {
-            return (static_cast<std::int64_t>(std::floor(v / radius_)) + d) & 0x1fffff;
-        };
-        return c(p.x(), dx) << 42 | c(p.y(), dy) << 21 | c(p.z(), dz);
-    }
-
     const PlantedLog& log_;
     double radius_;
-    std::unordered_map<std::int64_t, std::vector<PointIndex>> cells_;
+    CellGrid grid_;
+    std::unordered_map<CellGrid::Key, std::vector<PointIndex>> cells_;
 };
 
 std::vector<PointIndex> points_of(const clsurf::Defect& defect) {

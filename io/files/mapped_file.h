@@ -1,5 +1,5 @@
 #pragma once
-// MappedFile: the bytes of a file, read-only, mapped into memory. Standard input ("-"), pipes and
+// The bytes of a file, read-only, mapped into memory. Standard input ("-"), pipes and
 // other things that cannot be mapped are read into memory instead.
 
 #include <cstddef>

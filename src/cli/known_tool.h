@@ -1,5 +1,5 @@
 #pragma once
-// KnownTool: the tool that cut, from whatever tells it: --tool, the log's metadata, the config file, the tool table.
+// The tool that cut, from whatever states it: --tool, the log's metadata, the config file, the tool table.
 
 #include <optional>
 #include <string>

@@ -6,6 +6,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "core/cell_grid.h"
 #include "core/statistics.h"
 #include "mapping/map_lines.h"
 #include "pipeline/judge.h"
@@ -112,13 +113,13 @@ std::optional<double> following_error(const Part& part, const RunDifferences& di
 class DefectPlaces {
 public:
     DefectPlaces(const QualityReport& report, const Positions& positions, double cell)
-        : report_(&report), positions_(&positions), cell_(cell) {
+        : report_(&report), positions_(&positions), grid_(cell) {
         for (const Defect& defect : report.defects) {
             if (defect.systematic) {
                 systematic_ = true;
                 continue;
             }
-            visit(defect, [&](const Eigen::Vector3i& at) { return cells_.insert(key(at)), false; });
+            visit(defect, [&](CellGrid::Key at) { return cells_.insert(at), false; });
         }
     }
 
@@ -126,41 +127,33 @@ public:
     [[nodiscard]] std::size_t found_in(const DefectPlaces& others) const {
         std::size_t found = 0;
         for (const Defect& defect : report_->defects) {
-            const bool has = defect.systematic
-                                 ? others.systematic_
-                                 : visit(defect, [&](const Eigen::Vector3i& at) { return others.is_near(at); });
+            const bool has = defect.systematic ? others.systematic_
+                                               : visit(defect, [&](CellGrid::Key at) { return others.is_near(at); });
             if (has) ++found;
         }
         return found;
     }
 
 private:
-    static std::uint64_t key(const Eigen::Vector3i& at) {
-        constexpr std::uint64_t mask = (1U << 21U) - 1;
-        return (static_cast<std::uint64_t>(at.x()) & mask) | ((static_cast<std::uint64_t>(at.y()) & mask) << 21U) |
-               ((static_cast<std::uint64_t>(at.z()) & mask) << 42U);
-    }
-    [[nodiscard]] bool is_near(const Eigen::Vector3i& at) const {
-        for (int x = -1; x <= 1; ++x)
-            for (int y = -1; y <= 1; ++y)
-                for (int z = -1; z <= 1; ++z)
-                    if (cells_.contains(key(at + Eigen::Vector3i(x, y, z)))) return true;
-        return false;
+    [[nodiscard]] bool is_near(CellGrid::Key at) const {
+        bool found = false;
+        CellGrid::for_each_near(at, 1, [&](CellGrid::Key cell) { found = found || cells_.contains(cell); });
+        return found;
     }
     /// f(cell) of each point at fault, until it returns true.
     template <typename F>
     bool visit(const Defect& defect, F&& f) const {
         for (const DefectRun& run : defect.runs)
             for (PointIndex i = run.points.first; i <= run.points.last; ++i)
-                if (f((positions_->absolute(i) / cell_).array().floor().matrix().cast<int>())) return true;
+                if (f(grid_.key(positions_->absolute(i)))) return true;
         return false;
     }
 
     const QualityReport* report_;
     const Positions* positions_;
-    double cell_;
+    CellGrid grid_;
     bool systematic_ = false;
-    std::unordered_set<std::uint64_t> cells_;
+    std::unordered_set<CellGrid::Key> cells_;
 };
 
 void compare_defects(const Part& part, const ClSurface& surface, const Part& simulation, RunFidelity& out) {

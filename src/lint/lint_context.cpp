@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "core/statistics.h"
+#include "lint/lint.h"
 #include "lint/lint_rule.h"
 #include "numeric/polyline.h"
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "lint/lint.h"
+#include "lint/lint_finding.h"
 #include "surface/path_location.h"
 #include "toolpath/toolpath.h"
 

@@ -8,6 +8,7 @@
 
 #include "core/statistics.h"
 #include "core/units.h"
+#include "lint/lint.h"
 #include "lint/lint_rule.h"
 
 namespace clsurf {

@@ -5,6 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "core/cell_grid.h"
 #include "toolpath/toolpath.h"
 
 namespace clsurf {
@@ -18,11 +19,9 @@ public:
     [[nodiscard]] std::vector<std::int64_t> near(const Vec3& p, double distance) const;
 
 private:
-    [[nodiscard]] Eigen::Vector3i cell_of(const Vec3& p) const { return (p / cell_).array().floor().cast<int>(); }
-
     const Toolpath& path_;
-    double cell_ = 1;
-    std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
+    CellGrid grid_;
+    std::unordered_map<CellGrid::Key, std::vector<std::uint32_t>> cells_;
 };
 
 }  // namespace clsurf

@@ -1,11 +1,11 @@
 #include "repair/regions.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <unordered_map>
 #include <unordered_set>
 
+#include "core/cell_grid.h"
 #include "repair/repair_mask.h"
 
 namespace clsurf {
@@ -30,26 +30,19 @@ constexpr double counted_from = 0.5;  ///< of the mismatch before: smaller diffe
 
 class CellMap {
 public:
-    using Key = std::uint64_t;
+    explicit CellMap(double side) : grid_(side) {}
 
-    explicit CellMap(double side) : side_(side) {}
+    [[nodiscard]] CellGrid::Key key(const Vec3& p) const { return grid_.key(p); }
+    Excess& at(CellGrid::Key key) { return cells_[key]; }
 
-    [[nodiscard]] Key key(const Vec3& p) const { return pack({index(p.x()), index(p.y()), index(p.z())}); }
-    Excess& at(Key key) { return cells_[key]; }
-
-    /// Every cell's sum with those about it, in the order of their keys.
-    [[nodiscard]] std::vector<std::pair<Key, Excess>> sums(int aside) const {
-        std::vector<std::pair<Key, Excess>> result;
+    /// Every cell's sum with those around it, in the order of their keys.
+    [[nodiscard]] std::vector<std::pair<CellGrid::Key, Excess>> sums(int aside) const {
+        std::vector<std::pair<CellGrid::Key, Excess>> result;
         for (const auto& [key, own] : cells_) {
             Excess sum;
-            for (int x = -aside; x <= aside; ++x) {
-                for (int y = -aside; y <= aside; ++y) {
-                    for (int z = -aside; z <= aside; ++z) {
-                        if (const auto it = cells_.find(key + pack_step(x, y, z)); it != cells_.end())
-                            sum += it->second;
-                    }
-                }
-            }
+            CellGrid::for_each_near(key, aside, [&](CellGrid::Key near) {
+                if (const auto it = cells_.find(near); it != cells_.end()) sum += it->second;
+            });
             result.emplace_back(key, sum);
         }
         std::sort(result.begin(), result.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -57,21 +50,8 @@ public:
     }
 
 private:
-    static constexpr int bits = 21;
-    static constexpr std::int64_t middle = std::int64_t{1} << (bits - 1);
-
-    [[nodiscard]] std::int64_t index(double x) const {
-        return std::clamp(static_cast<std::int64_t>(std::floor(x / side_)) + middle, std::int64_t{1}, 2 * middle - 2);
-    }
-    static Key pack(const std::array<std::int64_t, 3>& c) {
-        return (static_cast<Key>(c[0]) << (2 * bits)) | (static_cast<Key>(c[1]) << bits) | static_cast<Key>(c[2]);
-    }
-    static Key pack_step(int x, int y, int z) {
-        return (static_cast<Key>(x) << (2 * bits)) + (static_cast<Key>(y) << bits) + static_cast<Key>(z);
-    }
-
-    double side_;
-    std::unordered_map<Key, Excess> cells_;
+    CellGrid grid_;
+    std::unordered_map<CellGrid::Key, Excess> cells_;
 };
 
 /// Beyond what a difference of speed counts, and how much of that a run has in all [mm/s].
@@ -106,10 +86,10 @@ void add(const JudgedRun& run, int sign, const Mismatch& mismatch, std::size_t d
     }
 }
 
-std::unordered_set<CellMap::Key> worse_cells(CellMap& map, int aside) {
-    std::unordered_set<CellMap::Key> worse;
-    std::vector<std::pair<double, CellMap::Key>> dear;  // the time that a gain takes, and where
-    std::int64_t longer = 0;                            // than before, outside the worse cells [periods]
+std::unordered_set<CellGrid::Key> worse_cells(CellMap& map, int aside) {
+    std::unordered_set<CellGrid::Key> worse;
+    std::vector<std::pair<double, CellGrid::Key>> dear;  // the time that a gain takes, and where
+    std::int64_t longer = 0;                             // than before, outside the worse cells [periods]
     for (const auto& [key, sum] : map.sums(aside)) {
         if (sum.loss() > least_loss) {
             worse.insert(key);
@@ -135,7 +115,7 @@ std::vector<std::uint8_t> worse_motions(const JudgedRun& before, const JudgedRun
     const Mismatch mismatch(before);
     add(before, -1, mismatch, before.report.defects.size(), map);
     add(after, 1, mismatch, before.report.defects.size(), map);
-    const std::unordered_set<CellMap::Key> worse = worse_cells(map, rules.cells_aside);
+    const std::unordered_set<CellGrid::Key> worse = worse_cells(map, rules.cells_aside);
     std::vector<std::uint8_t> marks(static_cast<std::size_t>(before.surface.positions.size()), 0);
     for (std::size_t i = 0; i < marks.size(); ++i)
         marks[i] = worse.contains(map.key(before.surface.positions.absolute(static_cast<PointIndex>(i)))) ? 1 : 0;

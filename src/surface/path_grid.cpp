@@ -5,9 +5,9 @@
 namespace clsurf {
 
 PathGrid::PathGrid(const Positions& positions, const Passes& passes, const ArcLength& arc_length, double cell)
-    : per_mm_(static_cast<float>(1.0 / cell)) {
+    : grid_(cell) {
     Column<Entry> found;
-    Column<std::uint64_t> cells;
+    Column<CellGrid::Key> cells;
     for (std::size_t pass = 0; pass < passes.size(); ++pass) {
         if (passes[pass].kind != PassKind::cut) continue;
         double since = cell;
@@ -16,7 +16,7 @@ PathGrid::PathGrid(const Positions& positions, const Passes& passes, const ArcLe
             if (since < cell && i != passes[pass].last) continue;
             since = 0;
             found.push_back({i, static_cast<std::int32_t>(pass)});
-            cells.push_back(key(cell_of(positions[i])));
+            cells.push_back(grid_.key(positions[i].cast<double>()));
         }
     }
     // Counting sort by hash slot; about two entries a slot.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/block.h"
+#include "core/cell_grid.h"
 #include "core/statistics.h"
 
 namespace clsurf {
@@ -25,35 +26,23 @@ struct Probe {
     double nearest = 1e300;  ///< [mm]
 };
 
-/// Probes by cell; each stands in the 27 cells round its own.
+/// Probes by cell; each is in the 27 cells around its own.
 class ProbeCells {
 public:
-    ProbeCells(const Positions& p, const std::vector<Probe>& probes, float cell) : per_mm_(1 / cell) {
+    ProbeCells(const Positions& p, const std::vector<Probe>& probes, float cell) : grid_(cell) {
         for (std::uint32_t i = 0; i < probes.size(); ++i) {
-            const Eigen::Vector3i c = cell_of(p[probes[i].point]);
-            for (int dx = -1; dx <= 1; ++dx) {
-                for (int dy = -1; dy <= 1; ++dy) {
-                    for (int dz = -1; dz <= 1; ++dz) { cells_[key(c + Eigen::Vector3i(dx, dy, dz))].push_back(i); }
-                }
-            }
+            grid_.for_each_near(p[probes[i].point].cast<double>(),
+                                [&](CellGrid::Key key) { cells_[key].push_back(i); });
         }
     }
     [[nodiscard]] const std::vector<std::uint32_t>* near(const Eigen::Vector3f& p) const {
-        const auto found = cells_.find(key(cell_of(p)));
+        const auto found = cells_.find(grid_.key(p.cast<double>()));
         return found == cells_.end() ? nullptr : &found->second;
     }
 
 private:
-    [[nodiscard]] Eigen::Vector3i cell_of(const Eigen::Vector3f& p) const {
-        return (p * per_mm_).array().floor().cast<int>();
-    }
-    static std::uint64_t key(const Eigen::Vector3i& c) {
-        const auto part = [](int v) { return static_cast<std::uint64_t>(static_cast<std::uint32_t>(v)) & 0x1fffff; };
-        return part(c.x()) << 42 | part(c.y()) << 21 | part(c.z());
-    }
-
-    float per_mm_;
-    std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
+    CellGrid grid_;
+    std::unordered_map<CellGrid::Key, std::vector<std::uint32_t>> cells_;
 };
 
 double distance_to_segment(const Eigen::Vector3f& p, const Eigen::Vector3f& a, const Eigen::Vector3f& b) {

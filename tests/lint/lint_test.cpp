@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "lint/lint.h"
 #include "lint/lint_rule.h"
 #include "numeric/polyline.h"
 #include "repair/parts.h"

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "io/reports/lint_report.h"
+#include "lint/lint.h"
 #include "lint/lint_rule.h"
 #include "repair/parts.h"
 

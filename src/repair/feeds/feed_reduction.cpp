@@ -1,11 +1,11 @@
 #include "repair/feeds/feed_reduction.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 #include <span>
+#include <unordered_map>
 
+#include "core/cell_grid.h"
 #include "core/parallel.h"
 #include "repair/feeds/feed_equalisation.h"
 #include "surface/path_location.h"
@@ -13,27 +13,26 @@
 namespace clsurf {
 namespace {
 
-constexpr double levelled_reach = 1;  ///< [mm] of arc length before and behind a defect that is equalised with it
-constexpr double lag_aim = 0.95;      ///< of the threshold, that a lag step is brought down to
-constexpr double slowest = 0.6;       ///< of its speed, to which a place is slowed at most for that
-constexpr double most_levelled =
+constexpr double equalised_reach = 1;  ///< [mm] of arc length before and behind a defect that is equalised with it
+constexpr double lag_aim = 0.95;       ///< of the threshold, that a lag step is brought down to
+constexpr double slowest = 0.6;        ///< of its speed, to which a place is slowed at most for that
+constexpr double most_equalised =
     2;  ///< times what slowing alone costs, that a lag step may cost that is equalised as well
 
 /// Which defect the points in each cell of space are equalised for.
 class CauseMap {
 public:
-    void add(const Vec3& p, std::int32_t cause) { causes_.insert_or_assign(cell_of(p), cause); }
+    void add(const Vec3& p, std::int32_t cause) { causes_.insert_or_assign(key(p), cause); }
     /// That of the nearest cell about a place; −1: none is near.
     [[nodiscard]] std::int32_t near(const Vec3& p) const {
-        const Cell centre = cell_of(p);
+        const CellGrid::Key centre = key(p);
         std::int32_t found = -1;
-        std::int64_t nearest = cells_around * cells_around * 3 + 1;
-        for (std::int64_t x = -cells_around; x <= cells_around; ++x) {
-            for (std::int64_t y = -cells_around; y <= cells_around; ++y) {
-                for (std::int64_t z = -cells_around; z <= cells_around; ++z) {
-                    const auto at = x * x + y * y + z * z < nearest
-                                        ? causes_.find({centre[0] + x, centre[1] + y, centre[2] + z})
-                                        : causes_.end();
+        int nearest = cells_around * cells_around * 3 + 1;
+        for (int x = -cells_around; x <= cells_around; ++x) {
+            for (int y = -cells_around; y <= cells_around; ++y) {
+                for (int z = -cells_around; z <= cells_around; ++z) {
+                    if (x * x + y * y + z * z >= nearest) continue;
+                    const auto at = causes_.find(centre + CellGrid::step(x, y, z));
                     if (at == causes_.end()) continue;
                     nearest = x * x + y * y + z * z;
                     found = at->second;
@@ -44,18 +43,19 @@ public:
     }
 
 private:
-    using Cell = std::array<std::int64_t, 3>;
-    static constexpr std::int64_t cells_around = 3;
-    static Cell cell_of(const Vec3& p) {
-        return {std::llround(p.x()), std::llround(p.y()), std::llround(p.z())};
-    }  // 1 mm wide
+    static constexpr int cells_around = 3;
+    static constexpr double side = 1;  ///< [mm]
 
-    std::map<Cell, std::int32_t> causes_;
+    /// Cells have whole millimetres in their middle.
+    [[nodiscard]] CellGrid::Key key(const Vec3& p) const { return cells_.key(p + Vec3::Constant(side / 2)); }
+
+    CellGrid cells_{side};
+    std::unordered_map<CellGrid::Key, std::int32_t> causes_;
 };
 
-class Cure {
+class FeedReducer {
 public:
-    Cure(const JudgedRun& run, const FeedReductionRules& rules)
+    FeedReducer(const JudgedRun& run, const FeedReductionRules& rules)
         : run_(run), rules_(rules), equaliser_(run), equalised_(run.report.defects.size(), 1) {}
 
     /// For the cheapest defects, each by what it costs alone: as many of them as the budget pays for together.
@@ -77,7 +77,7 @@ private:
     [[nodiscard]] std::vector<std::int32_t> by_cost() {
         std::vector<std::int32_t> order;
         for (std::size_t k = 0; k < run_.report.defects.size(); ++k) {
-            if (can_be_cured(run_.report.defects[k])) order.push_back(static_cast<std::int32_t>(k));
+            if (can_be_reduced(run_.report.defects[k])) order.push_back(static_cast<std::int32_t>(k));
         }
         std::vector<double> costs(run_.report.defects.size(), 0);
         parallel_for(static_cast<std::int64_t>(order.size()), 1, [&](std::int64_t first, std::int64_t last) {
@@ -98,15 +98,15 @@ private:
         if (run_.report.defects[static_cast<std::size_t>(k)].quantity != Quantity::lag) return cost;
         equalised_[static_cast<std::size_t>(k)] = 0;
         const double slowed = equaliser_.lost(level({&k, 1}).speeds);
-        if (cost >= most_levelled * slowed) return slowed;
+        if (cost >= most_equalised * slowed) return slowed;
         equalised_[static_cast<std::size_t>(k)] = 1;
         return cost;
     }
 
-    [[nodiscard]] bool can_be_cured(const Defect& defect) const {
+    [[nodiscard]] bool can_be_reduced(const Defect& defect) const {
         if (defect.quantity == Quantity::relief) return false;
         return std::none_of(rules_.abandoned.begin(), rules_.abandoned.end(),
-                            [&](const Vec3& place) { return (place - defect.place.tip).norm() < levelled_reach; });
+                            [&](const Vec3& place) { return (place - defect.place.tip).norm() < equalised_reach; });
     }
 
     /// The speeds for some of the defects.
@@ -125,7 +125,7 @@ private:
         return {std::move(equalisation.speeds), std::move(equalisation.causes)};
     }
 
-    /// A section and what lies within `levelled_reach` before and behind it.
+    /// A section and what lies within `equalised_reach` before and behind it.
     void mark(const PointRange& points, std::int32_t cause, FeedEqualisation& equalisation) const {
         const bool equalised = equalised_[static_cast<std::size_t>(cause)] != 0;
         const auto mark_point = [&](PointIndex i) {
@@ -135,7 +135,7 @@ private:
         for (PointIndex i = points.first; i <= points.last; ++i) mark_point(i);
         const std::vector<float>& own = equaliser_.own();
         const auto walk = [&](PointIndex from, PointIndex step) {
-            double left = levelled_reach;
+            double left = equalised_reach;
             for (PointIndex i = from + step; left > 0 && i >= 0 && i < run_.signals.size() &&
                                              own[static_cast<std::size_t>(i)] == own[static_cast<std::size_t>(i)];
                  i += step) {
@@ -194,7 +194,7 @@ double lag_power(const Machine& machine) {
 }
 
 ReducedSpeeds reduced_speeds(const JudgedRun& run, const FeedReductionRules& rules) {
-    return Cure(run, rules).speeds();
+    return FeedReducer(run, rules).speeds();
 }
 
 std::vector<int> gains_of(const ReducedSpeeds& reduction, const JudgedRun& run, const JudgedRun& reduced) {

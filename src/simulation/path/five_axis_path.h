@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "machine/kinematics.h"
-#include "simulation/plan/speed_problem.h"
+#include "simulation/path/axis_sample.h"
 
 namespace clsurf {
 

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/not_finite.h"
 #include "simulation/path/junction.h"
+#include "simulation/plan/speed_problem.h"
 
 namespace clsurf {
 namespace {

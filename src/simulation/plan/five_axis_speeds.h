@@ -12,7 +12,7 @@
 #include "core/place.h"
 #include "machine/machine.h"
 #include "simulation/path/five_axis_path.h"
-#include "simulation/run/interpolator.h"
+#include "simulation/plan/planned_motion.h"
 
 namespace clsurf {
 

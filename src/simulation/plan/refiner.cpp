@@ -43,8 +43,8 @@ KnotState state_at(const SCurve& profile, double time) {
 
 }  // namespace
 
-Refiner::Refiner(const Machine& machine, Interpolator& interpolator, std::int64_t blocks)
-    : machine_(&machine), interpolator_(&interpolator), blocks_(blocks), problem_(linear_limits(machine)) {
+Refiner::Refiner(const Machine& machine, MotionSink& sink, std::int64_t blocks)
+    : machine_(&machine), sink_(&sink), blocks_(blocks), problem_(linear_limits(machine)) {
     const double period = machine.controller.period;
     const double ramp = machine.path.max_acceleration / machine.path.max_jerk;
     knot_time_ = std::clamp(ramp / cells_a_ramp, 2 * period, 10 * period);
@@ -92,7 +92,7 @@ void Refiner::push(const SpeedRun& run, std::span<const Span> spans) {
 
 void Refiner::run_as_planned(const Section& section) {
     const KeptRun& run = kept(section.run);
-    interpolator_->run(ProfileSegment{&run.profile, section.from, section.to, run.spans, run.to_rest, run.derated});
+    sink_->run(ProfileSegment{&run.profile, section.from, section.to, run.spans, run.to_rest, run.derated});
 }
 
 void Refiner::add(const Section& section) {
@@ -312,7 +312,7 @@ void Refiner::run_cells(std::size_t count, bool to_rest) {
     for (std::size_t i = 0; i < count; ++i) {
         const LimitingFactor limiting =
             i >= braking ? LimitingFactor::lookahead_end : limiting_of(problem_.limiting(i), cells_[i].at_cap);
-        interpolator_->run(motions[i], std::span(parts_).subspan(part, cells_[i].parts), limiting);
+        sink_->run(motions[i], std::span(parts_).subspan(part, cells_[i].parts), limiting);
         part += cells_[i].parts;
     }
     cells_.erase(cells_.begin(), cells_.begin() + static_cast<std::ptrdiff_t>(count));

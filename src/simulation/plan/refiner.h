@@ -11,15 +11,15 @@
 #include <vector>
 
 #include "simulation/plan/lookahead.h"
+#include "simulation/plan/planned_motion.h"
 #include "simulation/plan/speed_problem.h"
-#include "simulation/run/interpolator.h"
 
 namespace clsurf {
 
 class Refiner {
 public:
     /// `blocks`: most that a window may span; 0: runs stay as they are planned. Both must outlive it.
-    Refiner(const Machine& machine, Interpolator& interpolator, std::int64_t blocks);
+    Refiner(const Machine& machine, MotionSink& sink, std::int64_t blocks);
 
     /// The next run, whose profile begins where that of the last one ended; `spans` are the run's own.
     /// A run that ends at rest ends its window.
@@ -67,7 +67,7 @@ private:
     void forget_runs();
 
     const Machine* machine_;
-    Interpolator* interpolator_;
+    MotionSink* sink_;
     std::int64_t blocks_;
     double knot_time_, least_time_;  ///< longest cell, and the shortest where spans are shorter [s]
 

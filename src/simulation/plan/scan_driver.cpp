@@ -180,7 +180,7 @@ void ScanDriver::run(std::size_t count) {
                                                 ? LimitingFactor::lookahead_end
                                                 : LimitingFactor::axis_acceleration;
             const CellPart part{cell.span, from, motion.length};
-            interpolator_->run(motion, {&part, 1}, limiting);
+            sink_->run(motion, {&part, 1}, limiting);
             from += motion.length;
         }
     }

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "simulation/path/path_stream.h"
+#include "simulation/plan/planned_motion.h"
 #include "simulation/plan/speed_scan.h"
-#include "simulation/run/interpolator.h"
 
 namespace clsurf {
 
@@ -21,8 +21,8 @@ namespace clsurf {
 class ScanDriver {
 public:
     /// All must outlive it.
-    ScanDriver(const Machine& machine, PathStream& stream, Interpolator& interpolator)
-        : machine_(&machine), stream_(&stream), interpolator_(&interpolator) {}
+    ScanDriver(const Machine& machine, PathStream& stream, MotionSink& sink)
+        : machine_(&machine), stream_(&stream), sink_(&sink) {}
 
     /// Runs a section, from rest to rest; `report` is called after each part of it.
     void run_section(const std::function<void()>& report);
@@ -45,7 +45,7 @@ private:
 
     const Machine* machine_;
     PathStream* stream_;
-    Interpolator* interpolator_;
+    MotionSink* sink_;
     std::deque<Span> spans_;   ///< of the window
     std::vector<Cell> cells_;  ///< those of scan_
     SpeedScan scan_;

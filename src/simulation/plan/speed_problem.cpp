@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace clsurf {
 namespace {
@@ -186,38 +187,18 @@ void AxisSpeedProblem<Axes>::assemble() {
     broken_ = gap.broken;
 }
 
-/// L D Lᵀ of the five diagonals in place; the coefficients at the ends are known.
+/// The diagonals of the coefficients that are free: those at the ends are known.
 template <int Axes>
-bool AxisSpeedProblem<Axes>::factorise() {
-    const std::size_t first = 2, last = cells_.size() - 1;
-    for (std::size_t i = first; i <= last; ++i) {
-        if (!(newton_.d0[i] > 0) || !std::isfinite(newton_.d0[i])) return false;
-        newton_.d0[i] = 1 / newton_.d0[i];
-        const double l1 = newton_.d1[i] * newton_.d0[i], l2 = newton_.d2[i] * newton_.d0[i];
-        if (i + 1 <= last) {
-            newton_.d0[i + 1] -= l1 * newton_.d1[i];
-            newton_.d1[i + 1] -= l1 * newton_.d2[i];
-        }
-        if (i + 2 <= last) newton_.d0[i + 2] -= l2 * newton_.d2[i];
-        newton_.d1[i] = l1;
-        newton_.d2[i] = l2;
-    }
-    return true;
+BandedDiagonals<2> AxisSpeedProblem<Axes>::free_diagonals() {
+    const std::size_t first = 2, count = cells_.size() - 2;
+    return {std::span(newton_.d0).subspan(first, count), std::span(newton_.d1).subspan(first, count),
+            std::span(newton_.d2).subspan(first, count)};
 }
 
 /// step_ becomes the solution for the right side that is in it.
 template <int Axes>
 void AxisSpeedProblem<Axes>::substitute() {
-    const std::size_t first = 2, last = cells_.size() - 1;
-    for (std::size_t i = first; i <= last; ++i) {
-        if (i + 1 <= last) step_[i + 1] -= newton_.d1[i] * step_[i];
-        if (i + 2 <= last) step_[i + 2] -= newton_.d2[i] * step_[i];
-    }
-    for (std::size_t i = last + 1; i-- > first;) {
-        step_[i] *= newton_.d0[i];
-        if (i + 1 <= last) step_[i] -= newton_.d1[i] * step_[i + 1];
-        if (i + 2 <= last) step_[i] -= newton_.d2[i] * step_[i + 2];
-    }
+    solve_banded<2>(free_diagonals(), std::span(step_).subspan(2, cells_.size() - 2));
     for (const std::size_t end : {std::size_t{0}, std::size_t{1}, cells_.size(), cells_.size() + 1}) step_[end] = 0;
 }
 
@@ -281,7 +262,7 @@ bool AxisSpeedProblem<Axes>::iterate() {
 
 template <int Axes>
 bool AxisSpeedProblem<Axes>::step() {
-    if (!factorise()) return false;
+    if (!factorise_banded<2>(free_diagonals())) return false;
     step_ = newton_.pull;
     substitute();
     const auto taken = [](double most) { return std::min(1.0, boundary_share / most); };

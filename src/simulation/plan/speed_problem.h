@@ -19,7 +19,8 @@
 
 #include "core/geometry.h"
 #include "machine/machine.h"
-#include "simulation/path/path_stream.h"
+#include "numeric/banded_ldlt.h"
+#include "simulation/path/axis_sample.h"
 #include "simulation/plan/limit_rows.h"
 
 namespace clsurf {
@@ -33,20 +34,6 @@ struct KnotState {
 struct CellLimits {
     double cap = 0, acceleration = 0, jerk = 0;
 };
-
-/// A value for each of the axes that move along the path.
-template <int Axes>
-using AxisVector = Eigen::Matrix<double, Axes, 1>;
-
-/// The derivatives of a bent path at a place of a cell; of rotary axes in rad.
-template <int Axes>
-struct AxisSample {
-    using Vector = AxisVector<Axes>;
-    double at = 0;  ///< arc length after the cell's begin [mm]
-    Vector slope = Vector::Zero(), bend = Vector::Zero(), twist = Vector::Zero();  ///< x′, x″ [1/mm], x‴ [1/mm²]
-    Pace pace{0, 0};  ///< 0: the cell's own limit of the acceleration is enough
-};
-using PathSample = AxisSample<3>;
 
 /// Of each axis, and of the acceleration along the path. A jerk of 0 is not limited.
 template <int Axes>
@@ -125,7 +112,7 @@ private:
     [[nodiscard]] bool iterate();
     void assemble();
     [[nodiscard]] bool step();
-    [[nodiscard]] bool factorise();
+    [[nodiscard]] BandedDiagonals<2> free_diagonals();
     void substitute();
     [[nodiscard]] double time() const;
     [[nodiscard]] double time_at_caps() const;

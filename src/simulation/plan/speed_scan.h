@@ -10,7 +10,7 @@
 #include <limits>
 #include <vector>
 
-#include "simulation/run/interpolator.h"
+#include "simulation/plan/planned_motion.h"
 
 namespace clsurf {
 

@@ -1,0 +1,24 @@
+#pragma once
+// AxisSample: the derivatives of a path at one place, for each of the axes that move along it.
+
+#include <Eigen/Core>
+
+#include "simulation/path/path_stream.h"
+
+namespace clsurf {
+
+/// A value for each of the axes that move along the path.
+template <int Axes>
+using AxisVector = Eigen::Matrix<double, Axes, 1>;
+
+/// The derivatives of a curved path by arc length; of rotary axes in rad.
+template <int Axes>
+struct AxisSample {
+    using Vector = AxisVector<Axes>;
+    double at = 0;  ///< arc length after the begin of the cell [mm]
+    Vector slope = Vector::Zero(), bend = Vector::Zero(), twist = Vector::Zero();  ///< x′, x″ [1/mm], x‴ [1/mm²]
+    Pace pace{0, 0};  ///< 0: the cell's own limit of the acceleration is enough
+};
+using PathSample = AxisSample<3>;
+
+}  // namespace clsurf
