@@ -132,11 +132,11 @@ private:
         const std::int32_t now = earlier(vertex, side);
         const std::int32_t before = earlier(vertex - 1, side);
         if (now < 0 || before < 0) return now == before;
-        const float play = 0.3F * static_cast<float>(s_.step_over);
+        const float tolerance = 0.3F * static_cast<float>(s_.step_over);
         const float step = distance(vertex - 1, vertex);
-        if (std::abs(distance(vertex, now) - distance(vertex - 1, before)) <= play + 0.5F * step) return true;
+        if (std::abs(distance(vertex, now) - distance(vertex - 1, before)) <= tolerance + 0.5F * step) return true;
         // Where vertices lie far apart, those across stand before or behind: their distance tells little then.
-        return arc_length_but_one_chord(before, now) <= play + step;
+        return arc_length_but_one_chord(before, now) <= tolerance + step;
     }
 
     /// A bend sees another bend across itself for a moment, and what follows a turn the pass beyond its

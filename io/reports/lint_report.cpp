@@ -7,6 +7,7 @@
 #include "core/units.h"
 #include "io/reports/quality_words.h"
 #include "io/reports/sarif.h"
+#include "lint/lint.h"
 #include "lint/lint_rule.h"
 
 namespace clsurf::io {
@@ -39,7 +40,7 @@ std::string lint_text(const ReportedLint& l) {
     for (const LintFinding& f : r.findings) {
         text += fmt::format("{}:{}: {}: {} [{}]", l.program->main().name(), lines_text(f.first_line, f.last_line),
                             name_of(f.severity), message_of(f), f.rule->name);
-        if (f.beside_first > 0) text += fmt::format(", beside lines {}", lines_text(f.beside_first, f.beside_last));
+        if (f.beside_first > 0) text += fmt::format(", next to lines {}", lines_text(f.beside_first, f.beside_last));
         text += fmt::format(", {}\n", place_text(f.place));
     }
     if (r.not_finishing > 0.5)

@@ -158,7 +158,7 @@ std::string optimize_text(const Optimized& r) {
     }
     write_roughness(r, row);
     row("lines", r.evaluation.lines_before, r.evaluation.lines_after, 0);
-    text += fmt::format("{} stretches, {} lines changed; off the programmed path by at most {:.4f} mm\n",
+    text += fmt::format("{} sections, {} lines changed; off the programmed path by at most {:.4f} mm\n",
                         r.evaluation.intervals, r.evaluation.changed_lines, r.evaluation.deviation.greatest);
     if (r.five_axes)
         text += fmt::format("tool axis deviates from the programmed one by at most {:.4f} deg\n",

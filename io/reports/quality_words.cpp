@@ -106,8 +106,8 @@ std::array<std::string_view, 2> kind_of(const Defect& d) {
     if (d.cause == Cause::oscillation) return {"speed oscillation", "speed oscillations"};
     switch (d.quantity) {
         case Quantity::speed:
-            return d.speed_mismatch < 0 ? std::array<std::string_view, 2>{"slower stretch", "slower stretches"}
-                                        : std::array<std::string_view, 2>{"faster stretch", "faster stretches"};
+            return d.speed_mismatch < 0 ? std::array<std::string_view, 2>{"slower section", "slower sections"}
+                                        : std::array<std::string_view, 2>{"faster section", "faster sections"};
         case Quantity::acceleration: return {"place of different acceleration", "places of different acceleration"};
         case Quantity::lag: return {"place of different axis lag", "places of different axis lag"};
         case Quantity::relief: return {"offset pass in the program", "offset passes in the program"};

@@ -32,7 +32,7 @@ void ignore_texts(viz::Image& a, const std::string& made, viz::Image& b, const s
     for (const auto& [image, name] : {std::pair(&a, &made), std::pair(&b, &reference)}) {
         if (image->texts.empty())
             throw InputError(
-                Place::of_file(*name), "does not say where its texts stand, which --ignore-text needs",
+                Place::of_file(*name), "does not say where its texts are, which --ignore-text needs",
                 "PNG pictures of clsurf with texts do; make it again, or compare pictures made with --no-legend");
     }
     viz::blank_texts(a, b);

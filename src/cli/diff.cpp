@@ -19,7 +19,7 @@ void require_alignment(const RunDifferences& differences, const std::string& a, 
     if (differences.alignment.aligned > 0) return;
     throw InputError(
         Place::of_file(b), "nowhere runs along the path of " + a,
-        "another part, or another work offset? --work-offset holds for all runs; `clsurf info` tells what a log knows");
+        "another part, or another work offset? --work-offset holds for all runs; `clsurf info` shows what a log states");
 }
 
 bool lines_known(const LoadedRun& run, const RunOptions& options) {

@@ -9,7 +9,7 @@ namespace {
 
 // Lengths in mm.
 constexpr float spacing = 0.005F;            ///< of knots at least: coarser than the noise of axes that stand
-constexpr float play = 0.05F;                ///< arc length that the window always has
+constexpr float window_margin = 0.05F;       ///< arc length that the window always has
 constexpr float window_of_chord = 2.0F;      ///< arc length per chord: corners are cut, the chord is shorter
 constexpr float window_of_distance = 10.0F;  ///< arc length per distance: a projection jumps over a cut corner
 constexpr float farthest = 0.5F;             ///< distance beyond which the window grows no more
@@ -63,7 +63,8 @@ PathProjection KnotPath::advance(const PathProjection& from, const Eigen::Vector
             best = here;
         }
         arc_length += length;
-        if (arc_length > play + window_of_chord * chord + window_of_distance * std::min(nearest, farthest)) break;
+        if (arc_length > window_margin + window_of_chord * chord + window_of_distance * std::min(nearest, farthest))
+            break;
     }
     // The end of a chord is the start of the next, where pauses are found.
     if (best.fraction == 1.0F && best.knot + 2 < size()) best = {best.knot + 1, 0.0F, best.distance};

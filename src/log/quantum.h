@@ -9,7 +9,7 @@ namespace clsurf {
 /// 0: no grid. From 20,000 points in the middle of the channel.
 [[nodiscard]] double quantum_of(const ChannelView& channel);
 
-/// The step that rounding left in a channel, in its unit, from stretches where it moves all over the log: quantum_of()'s,
+/// The step that rounding left in a channel, in its unit, from sections where it moves all over the log: quantum_of()'s,
 /// else the coarsest power of ten of its stored numbers, else the last place of its type. Rounding is off by half of it.
 [[nodiscard]] double resolution_of(const ChannelView& channel);
 

@@ -79,7 +79,7 @@ public:
         for (std::size_t k = 0; k < std::min(most_reported, found_.size()); ++k) {
             const std::size_t more = k + 1 == most_reported ? found_.size() - most_reported : 0;
             diagnostics.add({Severity::warning, "map.feed", Place::of_file(program_.main().name()),
-                             found_[k] + (more > 0 ? fmt::format(", and {} more stretches", more) : std::string()),
+                             found_[k] + (more > 0 ? fmt::format(", and {} more sections", more) : std::string()),
                              "the feed was changed after the run, or an override was active"});
         }
     }

@@ -41,14 +41,14 @@ double off_confidence(double distance) {
 }  // namespace
 
 double corner_tolerance(const Program& program) {
-    double play = agreeing_distance;
+    double allowed = agreeing_distance;
     for (const ProgramEvent& event : program.events) {
         if (!event.path_mode || event.path_mode->block_end != BlockEnd::rounded) continue;
         // What a corner may lose, and what merging short blocks may add.
         const double tolerance = event.path_mode->tolerance + event.path_mode->merging_tolerance;
-        if (!std::isnan(tolerance)) play = std::max(play, std::min(tolerance, blending_distance));
+        if (!std::isnan(tolerance)) allowed = std::max(allowed, std::min(tolerance, blending_distance));
     }
-    return play;
+    return allowed;
 }
 
 LineAgreement check_lines(const Trajectory& path, const Program& program, const LineMap& map) {

@@ -8,7 +8,7 @@ namespace clsurf {
 namespace {
 
 // Lengths in mm.
-constexpr double window_play = 0.05;         ///< length that the window always has
+constexpr double window_margin = 0.05;       ///< length that the window always has
 constexpr double window_of_chord = 2.0;      ///< length per chord: corners are cut, the chord is shorter
 constexpr double window_of_distance = 10.0;  ///< length per distance: a projection jumps over a cut corner
 constexpr double arc_length_penalty = 0.02;  ///< mm of distance per mm that arc length and chord differ
@@ -40,7 +40,8 @@ WalkState PathWalk::advance(const WalkState& from, const Vec3& p, double chord, 
         }
         gone += length(m);
         // Farther than lost the walk finds nothing: a whole program would be searched for each point.
-        if (gone > window_play + window_of_chord * chord + window_of_distance * std::min(nearest, lost_distance)) break;
+        if (gone > window_margin + window_of_chord * chord + window_of_distance * std::min(nearest, lost_distance))
+            break;
     }
     return best;
 }

@@ -38,7 +38,7 @@ constexpr double more_points = 0.01;  ///< share of the points that tells poses 
 constexpr double far_better = 1.5;    ///< residuals of poses that are not alike
 constexpr std::size_t profile_points = 32768;
 constexpr std::size_t hypotheses = 400;  ///< pairs of line changes that are tried
-constexpr double pair_play = 1;          ///< [mm] of a line change from the end of its line, and the corner tolerance
+constexpr double pair_tolerance = 1;     ///< [mm] of a line change from the end of its line, and the corner tolerance
 constexpr int most_rounds = 30;
 constexpr double settled = 1e-5;        ///< [mm]
 constexpr double least_scatter = 1e-3;  ///< [mm] residuals below count the same
@@ -138,8 +138,8 @@ Box3 box_of(const Trajectory& path) {
 
 class Fit {
 public:
-    Fit(const Toolpath& path, std::vector<PathSample> samples, double play)
-        : path_(path), samples_(std::move(samples)), near_(std::min(most_near, near + 2 * play)) {
+    Fit(const Toolpath& path, std::vector<PathSample> samples, double tolerance)
+        : path_(path), samples_(std::move(samples)), near_(std::min(most_near, near + 2 * tolerance)) {
         for (const PathSample& sample : samples_) centre_ += sample.position / static_cast<double>(samples_.size());
         double square = 0;
         for (const PathSample& sample : samples_) square += (sample.position - centre_).head<2>().squaredNorm();
@@ -279,12 +279,12 @@ private:
 };
 
 /// The pose that most line changes agree with: two of them far apart say it, and the others vote.
-std::optional<Eigen::Isometry3d> guess_from_changes(const std::vector<PointPair>& pairs, double play) {
+std::optional<Eigen::Isometry3d> guess_from_changes(const std::vector<PointPair>& pairs, double tolerance) {
     if (pairs.size() < least_changes) return std::nullopt;
     Box3 box;
     for (const PointPair& pair : pairs) box.extend(pair.program);
     const double apart = 0.2 * box.diagonal().norm();
-    const double reach_of_pair = pair_play + 2 * std::min(play, most_near);
+    const double reach_of_pair = pair_tolerance + 2 * std::min(tolerance, most_near);
     std::minstd_rand random(1);
     std::uniform_int_distribution<std::size_t> any(0, pairs.size() - 1);
     std::vector<PointPair> most_agreeing, agreeing;
@@ -369,9 +369,9 @@ std::vector<Eigen::Isometry3d> find_with(const Trajectory& path, const Program& 
     const Toolpath toolpath = known_path(program);
     PathSamples samples = take_samples(path, toolpath, map, system);
     if (samples.points.size() < least_samples) return {};
-    const double play = corner_tolerance(program);
-    Fit fit(toolpath, std::move(samples.points), play);
-    if (const std::optional<Eigen::Isometry3d> guess = guess_from_changes(samples.at_changes, play)) {
+    const double tolerance = corner_tolerance(program);
+    Fit fit(toolpath, std::move(samples.points), tolerance);
+    if (const std::optional<Eigen::Isometry3d> guess = guess_from_changes(samples.at_changes, tolerance)) {
         if (std::vector<Eigen::Isometry3d> found = best_of({*guess}, fit); !found.empty()) return found;
     }
     std::vector<Eigen::Isometry3d> found = best_of(by_order, fit);
@@ -480,11 +480,11 @@ bool note_pose(const Trajectory& path, const Program& program, const LineMap* ma
         by = found->inverse().translation();
     }
     // Rounded corners lie inside of the programmed ones: a best fit is off by some of it.
-    const double play = corner_tolerance(program);
+    const double tolerance = corner_tolerance(program);
     const std::string known_to =
-        play > near ? fmt::format("; its corners may be rounded by {} mm, which limits the accuracy of the shift",
-                                  decimals(play, 3))
-                    : "";
+        tolerance > near ? fmt::format("; its corners may be rounded by {} mm, which limits the accuracy of the shift",
+                                       decimals(tolerance, 3))
+                         : "";
     diagnostics.add({Severity::warning, "map.work-offset", Place::of_file(path.name),
                      fmt::format("the positions are parallel to the programmed path, {} by X {} Y {} Z {} mm{}", how,
                                  decimals(by.x(), 3), decimals(by.y(), 3), decimals(by.z(), 3), known_to),

@@ -30,7 +30,7 @@ void measure(DefectCandidate& candidate, const Thresholds& thresholds) {
             std::max(std::abs(c.residual[q]) - c.slack[q], 0.0F) / thresholds.of[q];  // NaN stays NaN in this order
         if (!(share == share)) continue;
         candidate.share[q] = share;
-        const float step = (c.step[q] - c.play[q] - c.slack[q]) / thresholds.of[q];
+        const float step = (c.step[q] - c.uncertainty[q] - c.slack[q]) / thresholds.of[q];
         candidate.score[q] = step == step ? std::min(step, 2 * share) : 0;
     }
 }

@@ -316,8 +316,9 @@ Comparison Comparer::compare_with(Peers peers, const PathLocation& here, int asi
     const float reference = fill_residuals(mine, others, least_speed_, result);
     result.step[index_of(Quantity::speed)] /= reference;
     result.lesser_step[index_of(Quantity::speed)] /= reference;
-    result.play[index_of(Quantity::speed)] = change_of_two_periods(signals_, &Sample::speed, point) / reference;
-    if (signals_.measured) result.play[index_of(Quantity::lag)] = change_of_two_periods(signals_, &Sample::lag, point);
+    result.uncertainty[index_of(Quantity::speed)] = change_of_two_periods(signals_, &Sample::speed, point) / reference;
+    if (signals_.measured)
+        result.uncertainty[index_of(Quantity::lag)] = change_of_two_periods(signals_, &Sample::lag, point);
     return result;
 }
 

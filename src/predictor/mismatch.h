@@ -20,7 +20,7 @@ struct Comparison {
     std::array<float, quantities> step;           ///< ≥ 0; NaN: not known
     std::array<float, quantities> lesser_step{};  ///< the smaller one of both sides: of a band's edge it is nothing
     std::array<float, quantities> residual;       ///< signed; of the acceleration the length; NaN: not known
-    std::array<float, quantities> play{};         ///< of the step, where log and place agree to a period only
+    std::array<float, quantities> uncertainty{};  ///< of the step, where log and place agree to a period only
     std::array<float, quantities> slack{};        ///< of step and residual, where passes begin and end a little apart
     float speed_jump = 0;                         ///< residual of the speed [mm/s]
     int left = 0, right = 0;                      ///< passes that were compared with

@@ -212,7 +212,7 @@ void subtract(const Candidate& candidate, const Thresholds& thresholds) {
     s.comparison.step[q] = step;
     s.comparison.slack[q] = 0;
     s.share[q] = left / thresholds.of[q];
-    s.score[q] = std::max(0.0F, std::min((step - s.comparison.play[q]) / thresholds.of[q], 2 * s.share[q]));
+    s.score[q] = std::max(0.0F, std::min((step - s.comparison.uncertainty[q]) / thresholds.of[q], 2 * s.share[q]));
 }
 
 /// Domain: a candidate of that point is there. O(log candidates).

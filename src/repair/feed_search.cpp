@@ -10,10 +10,10 @@ namespace clsurf {
 namespace {
 
 constexpr std::array<double, 3> steps_between_passes{0.1, 0.05, 0.02};
-constexpr double play_of_feeds = 0.003;  ///< a motion this little too fast (a share) gets no feed
-constexpr int levelling_rounds = 3;      ///< with the time that there is
-constexpr double most_share = 0.65;      ///< of the time there is, that a round may reckon with: feeds hold whole lines
-constexpr double time_used = 0.95;       ///< of what is there: enough
+constexpr double feed_tolerance = 0.003;  ///< a motion this little too fast (a share) gets no feed
+constexpr int levelling_rounds = 3;       ///< with the time that there is
+constexpr double most_share = 0.65;  ///< of the time there is, that a round may reckon with: feeds hold whole lines
+constexpr double time_used = 0.95;   ///< of what is there: enough
 
 /// The targets of a proposal, and lower ones from a speed per point of its run [mm/s]; its own where none is lower.
 std::vector<float> lowered_targets(const Proposal& proposal, const std::vector<float>& speeds) {
@@ -24,7 +24,7 @@ std::vector<float> lowered_targets(const Proposal& proposal, const std::vector<f
     targets.resize(wanted.size(), 0);
     bool any = false;
     for (std::size_t i = 0; i < wanted.size(); ++i) {
-        const bool too_fast = wanted[i] < (1 - play_of_feeds) * own[i];
+        const bool too_fast = wanted[i] < (1 - feed_tolerance) * own[i];
         if (!too_fast || (targets[i] > 0 && targets[i] <= wanted[i])) continue;
         targets[i] = wanted[i];
         any = true;

@@ -18,7 +18,7 @@ using Vec3f = Eigen::Vector3f;
 constexpr float nearest_neighbour = 0.2F;   ///< nearer is the same pass cut again
 constexpr float usual_neighbour = 1.6F;     ///< farther, a nearer one may have begun: it is sought
 constexpr float farthest_neighbour = 4.0F;  ///< on steep flanks passes are so far apart
-constexpr float along_play = 0.35F;         ///< how far a projection may lie along the feed
+constexpr float along_tolerance = 0.35F;    ///< how far a projection may lie along the feed
 constexpr float steep_share = 0.12F;        ///< squared cosine to the horizontal below which a neighbour is above
 constexpr float direction_chord = 0.75F;    ///< arc length of the chords that give the feed direction
 constexpr double grid_cell = 4.0;
@@ -158,8 +158,9 @@ private:
     [[nodiscard]] bool valid(const Across& across, PointIndex n, const PointRange& pass, Side side) const {
         const Vec3f d = p_[n] - across.here;
         const float along = d.dot(across.chord);
-        const float play = along_play * step_over_;
-        if (along * along > play * play * across.chord_squared && !crosses(across, n, along, pass)) return false;
+        const float tolerance = along_tolerance * step_over_;
+        if (along * along > tolerance * tolerance * across.chord_squared && !crosses(across, n, along, pass))
+            return false;
         const Vec3f aside = across.aside(p_[n]);
         const float squared = aside.squaredNorm() / (step_over_ * step_over_);
         if (!(squared > nearest_neighbour * nearest_neighbour && squared < farthest_neighbour * farthest_neighbour)) {

@@ -9,13 +9,13 @@
 namespace clsurf {
 namespace {
 
-constexpr float turning_cosine = -0.5F;    ///< chords that enclose more than 120° turn back
-constexpr double chord_step_overs = 1.5;   ///< arc length of a chord
-constexpr float corner_tolerance = 1e-6F;  ///< [mm²] of reach times chord; less is no progress
-constexpr double shortest_pass = 2.0;      ///< step-overs of arc length; a shorter piece belongs to its link
-constexpr float vertical_slope = 0.02F;    ///< horizontal per vertical arc length of an approach
-constexpr float vertical_play = 0.005F;    ///< [mm]
-constexpr float least_approach = 0.1F;     ///< [mm]; a shorter vertical piece is left alone
+constexpr float turning_cosine = -0.5F;       ///< chords that enclose more than 120° turn back
+constexpr double chord_step_overs = 1.5;      ///< arc length of a chord
+constexpr float corner_tolerance = 1e-6F;     ///< [mm²] of reach times chord; less is no progress
+constexpr double shortest_pass = 2.0;         ///< step-overs of arc length; a shorter piece belongs to its link
+constexpr float vertical_slope = 0.02F;       ///< horizontal per vertical arc length of an approach
+constexpr float vertical_tolerance = 0.005F;  ///< [mm]
+constexpr float least_approach = 0.1F;        ///< [mm]; a shorter vertical piece is left alone
 
 /// Appends a piece; joins it with the one before when it is of the same kind.
 void append(Passes& passes, Pass piece) {
@@ -33,7 +33,7 @@ PointIndex vertical_points(const Positions& p, PointIndex from, PointIndex to, i
     PointIndex i = from;
     while (i != to) {
         const Eigen::Vector3f offset = p[i + direction] - start;
-        if (std::hypot(offset.x(), offset.y()) > vertical_play + vertical_slope * std::abs(offset.z())) break;
+        if (std::hypot(offset.x(), offset.y()) > vertical_tolerance + vertical_slope * std::abs(offset.z())) break;
         i += direction;
     }
     if (std::abs((p[i] - start).z()) < least_approach) return 0;

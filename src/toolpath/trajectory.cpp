@@ -201,10 +201,10 @@ Trajectory upright_ball(const Log& log, const Trajectory& like, double radius) {
 
 bool tilts(const Log& log, const Trajectory& trajectory) {
     if (trajectory.kinematics == nullptr) return false;
-    constexpr double play = 1e-6;
+    constexpr double tolerance = 1e-6;
     const Kinematics& kinematics = *trajectory.kinematics;
     return for_angles(log, AngleReader(log, trajectory.role, kinematics), [&](PointIndex, const RotaryAngles& angles) {
-        return angle_between(kinematics.axis_of(angles), Vec3::UnitZ()) > play;
+        return angle_between(kinematics.axis_of(angles), Vec3::UnitZ()) > tolerance;
     });
 }
 

@@ -46,10 +46,10 @@ TEST(RefusedWords, InterpolationOfRotaryAxesAndAxesByTheirNames) {
 }
 
 TEST(RefusedWords, TurnsOfArcsOfOtherDialects) {
-    expect_error("G0 X0 Y0 Z0\nG2 X10 Y0 I5 P2 F60\n", "fanuc", "2:14: error: P beside an arc is not known in fanuc",
-                 "--dialect linuxcnc");
-    expect_error("G0 X0 Y0 Z0\nG2 X10 Y0 I5 L2 F60\n", "fanuc", "2:14: error: L beside an arc", "spirals");
-    expect_error("G0 X0 Y0 Z0\nG2 X10 Y0 I5 P2 F60\n", "siemens", "2:14: error: P beside an arc", "TURN=");
+    expect_error("G0 X0 Y0 Z0\nG2 X10 Y0 I5 P2 F60\n", "fanuc",
+                 "2:14: error: P in a block with an arc is not known in fanuc", "--dialect linuxcnc");
+    expect_error("G0 X0 Y0 Z0\nG2 X10 Y0 I5 L2 F60\n", "fanuc", "2:14: error: L in a block with an arc", "spirals");
+    expect_error("G0 X0 Y0 Z0\nG2 X10 Y0 I5 P2 F60\n", "siemens", "2:14: error: P in a block with an arc", "TURN=");
 }
 
 TEST(RefusedWords, PositioningCodesOfFanucAreCarriedOut) {

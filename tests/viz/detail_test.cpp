@@ -37,9 +37,9 @@ public:
                 const Vec2 b = corner(t + (k + 1) % 3);
                 side[k] = (b.x() - a.x()) * (y - a.y()) - (b.y() - a.y()) * (x - a.x());
             }
-            constexpr double play = 1e-6;
-            if ((side[0] >= -play && side[1] >= -play && side[2] >= -play) ||
-                (side[0] <= play && side[1] <= play && side[2] <= play))
+            constexpr double tolerance = 1e-6;
+            if ((side[0] >= -tolerance && side[1] >= -tolerance && side[2] >= -tolerance) ||
+                (side[0] <= tolerance && side[1] <= tolerance && side[2] <= tolerance))
                 return true;
         }
         return false;

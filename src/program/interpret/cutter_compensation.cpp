@@ -12,8 +12,8 @@ namespace {
 constexpr double pi = std::numbers::pi;
 /// Corners flatter than this are passed without a rounding or a retreat [rad], as LinuxCNC has it.
 constexpr double flat_corner = 0.05;
-constexpr double no_length = 1e-9;   ///< [mm]
-constexpr double angle_play = 1e-9;  ///< [rad]
+constexpr double no_length = 1e-9;        ///< [mm]
+constexpr double angle_tolerance = 1e-9;  ///< [rad]
 
 Vec2 left_of(const Vec2& v) { return {-v.y(), v.x()}; }
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
@@ -22,8 +22,8 @@ double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(
 double sweep_of(const Vec2& begin, const Vec2& end, const Vec2& centre, bool counter_clockwise) {
     double sweep = angle_of(end - centre) - angle_of(begin - centre);
     if (!counter_clockwise) sweep = -sweep;
-    while (sweep <= angle_play) sweep += 2 * pi;
-    while (sweep > 2 * pi + angle_play) sweep -= 2 * pi;
+    while (sweep <= angle_tolerance) sweep += 2 * pi;
+    while (sweep > 2 * pi + angle_tolerance) sweep -= 2 * pi;
     return sweep;
 }
 

@@ -268,7 +268,7 @@ void Interpreter::refuse_turns(const Block& block) const {
     if (block.words.m_count > 0) return;
     for (const RefusedLetter& row : rules_->motion.refused_at_arcs) {
         if (!block.words.given(row.letter)) continue;
-        fail(fmt::format("{} beside an arc is not known in {}", row.letter, program_.dialect->name),
+        fail(fmt::format("{} in a block with an arc is not known in {}", row.letter, program_.dialect->name),
              block.words.column[static_cast<std::size_t>(row.letter - 'A')], row.hint);
     }
 }

@@ -47,16 +47,16 @@ public:
     };
     [[nodiscard]] std::optional<Circle> circle(int axis) const {
         if (!active_) return Circle{axis, false};
-        constexpr double play = 1e-9;
+        constexpr double tolerance = 1e-9;
         const Vec3 u = turn_.col((axis + 1) % 3);
         const Vec3 v = turn_.col((axis + 2) % 3);
-        if (std::abs(u.norm() - v.norm()) > play * u.norm() || std::abs(u.dot(v)) > play * u.squaredNorm())
+        if (std::abs(u.norm() - v.norm()) > tolerance * u.norm() || std::abs(u.dot(v)) > tolerance * u.squaredNorm())
             return std::nullopt;
         const Vec3 normal = u.cross(v).normalized();
         for (int k = 0; k < 3; ++k) {
-            if (std::abs(normal[k]) < 1 - play) continue;
+            if (std::abs(normal[k]) < 1 - tolerance) continue;
             // A helix rises along its axis.
-            if (turn_.col(axis).cross(normal).norm() > play * turn_.col(axis).norm()) return std::nullopt;
+            if (turn_.col(axis).cross(normal).norm() > tolerance * turn_.col(axis).norm()) return std::nullopt;
             return Circle{k, normal[k] < 0};
         }
         return std::nullopt;
@@ -71,10 +71,10 @@ public:
     [[nodiscard]] std::array<double, 12> numbers() const {
         std::array<double, 12> all{};
         std::copy_n(turn_.data(), 9, all.begin());
-        for (int axis = 0; axis < 3; ++axis) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
             // About an unknown position: as good a number as any, but one that equals itself.
-            const double shift = shift_[axis];
-            all[static_cast<std::size_t>(9 + axis)] = std::isnan(shift) ? std::numeric_limits<double>::max() : shift;
+            const double shift = shift_[static_cast<Eigen::Index>(axis)];
+            all[9 + axis] = std::isnan(shift) ? std::numeric_limits<double>::max() : shift;
         }
         return all;
     }

@@ -10,7 +10,7 @@ namespace clsurf {
 namespace {
 
 constexpr double steepest = 2.2, flattest = 0.45;  ///< of a phase along a pass, in phases per spacing
-constexpr double jump_play = 0.05;                 ///< of a phase that is no jump
+constexpr double jump_tolerance = 0.05;            ///< of a phase that is no jump
 constexpr double fewest_taken = 0.2;  ///< of a pass's points: less in common with the passes before is no hold
 constexpr int parts = 4;              ///< of a phase, that are told apart
 
@@ -84,8 +84,8 @@ private:
         const auto known = [&](std::size_t k) { return mine_[k] == mine_[k]; };
         const auto follows = [&](std::size_t a, std::size_t b) {
             const double run = sign * (mine_[b] - mine_[a]) * phases_.spacing, gone = arc_length_[b] - arc_length_[a],
-                         play = jump_play * phases_.spacing;
-            return run <= steepest * gone + play && run >= flattest * gone - play;
+                         tolerance = jump_tolerance * phases_.spacing;
+            return run <= steepest * gone + tolerance && run >= flattest * gone - tolerance;
         };
         std::size_t best = 0, best_size = 0, begin = 0;
         for (std::size_t k = 0; k < mine_.size(); ++k) {

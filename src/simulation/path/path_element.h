@@ -44,7 +44,7 @@ struct PathElement {
     [[nodiscard]] bool straight() const { return !arc && !cubic; }
     [[nodiscard]] Vec3 at(double arc_length) const;
     /// The position, and the first derivative by the arc length: a unit vector but for the growth of a radius
-    /// (radii of start and end may differ within the reader's play).
+    /// (radii of start and end may differ within the reader's tolerance).
     [[nodiscard]] Vec3 at(double arc_length, Vec3& tangent) const;
     [[nodiscard]] Vec3 tangent(double arc_length) const;
     [[nodiscard]] Vec3 second_derivative(double arc_length) const { return derivatives(arc_length).second; }

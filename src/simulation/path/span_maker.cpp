@@ -78,20 +78,21 @@ void bound_curve(Span& span) {
     if (span.base.arc) {
         const double turn = span.base.rate * step;  // between checked points
         const double rate = span.base.rate;
-        const double play = 0.125 * turn * turn *
-                            (span.base.radius + std::abs(span.base.growth * span.base.length * rate)) * rate * rate *
-                            rate;
-        span.twist.array() += (span.base.first.cwiseAbs() + span.base.second.cwiseAbs()).array().min(1.0) * play;
+        const double margin = 0.125 * turn * turn *
+                              (span.base.radius + std::abs(span.base.growth * span.base.length * rate)) * rate * rate *
+                              rate;
+        span.twist.array() += (span.base.first.cwiseAbs() + span.base.second.cwiseAbs()).array().min(1.0) * margin;
     }
     span.fourth = 24 * span.rounding[4].norm() + (span.base.arc ? span.base.radius * std::pow(span.base.rate, 4) : 0.0);
     if (span.base.cubic) {
         // By the way a cubic is no polynomial: its differences stand for the derivatives, with as much again.
-        Vec3 play = Vec3::Zero();
+        Vec3 margin = Vec3::Zero();
         for (std::size_t k = 1; k < thirds.size(); ++k) {
             span.fourth = std::max(span.fourth, 2 * (thirds[k] - thirds[k - 1]).norm() / step);
-            if (k + 1 < thirds.size()) play = play.cwiseMax((thirds[k - 1] - 2 * thirds[k] + thirds[k + 1]).cwiseAbs());
+            if (k + 1 < thirds.size())
+                margin = margin.cwiseMax((thirds[k - 1] - 2 * thirds[k] + thirds[k + 1]).cwiseAbs());
         }
-        span.twist += 0.25 * play;
+        span.twist += 0.25 * margin;
     }
     // Between checked points a function is at most its values there plus step²/8 of its second derivative.
     const double curve = step * step / 8;

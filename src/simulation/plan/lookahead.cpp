@@ -6,8 +6,8 @@
 namespace clsurf {
 namespace {
 
-constexpr double holds = 1 + 1e-9;     ///< part of a limit that counts as held
-constexpr double braking_play = 1e-9;  ///< of a start speed, for rounding in reach()
+constexpr double holds = 1 + 1e-9;          ///< part of a limit that counts as held
+constexpr double braking_tolerance = 1e-9;  ///< of a start speed, for rounding in reach()
 
 /// The greatest speed and acceleration of a profile between two times.
 struct Extremes {
@@ -39,7 +39,7 @@ bool scan_speeds(std::span<const ScanSegment> segments, std::span<double> speeds
         if (speeds[i] > speeds[i + 1])
             speeds[i] = std::min(speeds[i], reach(speeds[i + 1], s.length, s.acceleration, s.jerk));
     }
-    if (speeds.front() < present * (1 - braking_play)) return false;
+    if (speeds.front() < present * (1 - braking_tolerance)) return false;
     speeds.front() = present;
     for (std::size_t i = 0; i < segments.size(); ++i) {
         const ScanSegment& s = segments[i];

@@ -12,8 +12,8 @@ namespace {
 
 // A way is long enough for a ramp when it misses less than this: speeds that come from reach()
 // carry rounding relative to the way.
-constexpr double relative_play = 1e-9;
-constexpr double absolute_play = 1e-12;  ///< [mm]
+constexpr double relative_tolerance = 1e-9;
+constexpr double absolute_tolerance = 1e-12;  ///< [mm]
 constexpr double speed_tolerance = 4 * std::numeric_limits<double>::epsilon();
 
 constexpr std::array<double, 7> jerk_signs{1, 0, -1, 0, -1, 0, 1};
@@ -147,7 +147,7 @@ PlannedProfile plan_scurve(double arc_length, double start_speed, double end_spe
     const double rounding = speed_tolerance * std::max(vs, ve);
     const double least_arc_length =
         0.5 * (vs + ve) * ramp_time(std::max(0.0, std::abs(ve - vs) - rounding), towards, limits.jerk);
-    if (least_arc_length > arc_length * (1 + relative_play) + absolute_play) {
+    if (least_arc_length > arc_length * (1 + relative_tolerance) + absolute_tolerance) {
         if (ve < vs) {
             plan.status = ProfileStatus::infeasible_decel;
             plan.allowed_start = reach(ve, arc_length, limits.deceleration, limits.jerk);

@@ -32,7 +32,7 @@ clsurf_cli_test(NAME findings_in_falling_order_in_json
 
 # ---- words and numbers ----
 clsurf_cli_test(NAME verdict_comes_first ARGS check ${part} ${run}
-  STDOUT "^[0-9]+ defects: [0-9]+ slower stretches .up to -8[0-9] %., systematic axis lag .±[0-9.]+ µm on [0-9]+ % of the part." "Stands out most: Pass [0-9]+ runs 8[0-9] % slower than its neighbours")
+  STDOUT "^[0-9]+ defects: [0-9]+ slower sections .up to -8[0-9] %., systematic axis lag .±[0-9.]+ µm on [0-9]+ % of the part." "Stands out most: Pass [0-9]+ runs 8[0-9] % slower than its neighbours")
 clsurf_cli_test(NAME lag_of_a_zigzag_names_its_axes ARGS check ${part} ${run} --json
   STDOUT "Axes lag, forward against backward.*servo gains or feed-forward of X and Z differ .Z trails X by 1[.][0-9]+ ms." "\"axis\": \"z\"")
 clsurf_cli_test(NAME clean_recording_has_no_reject ARGS check @DATA@/programs/bottle_zigzag.nc @LOGS@/bottle_zigzag.biip NO_STDOUT "reject" STDOUT "[0-9]+ defects: systematic axis lag")

@@ -72,7 +72,7 @@ set(slow_passes "(printf 'G21 G90 G17\\nG0 X0 Y0 Z5\\nG1 Z0 F600\\n' && seq 0 29
   "printf 'o<pair> sub\\nF3000\\nG1 X0 Y[#1]\\nX20\\nY[#1+0.4]\\nX14\\nF[#2]\\nX6\\nF3000\\nX0\\no<pair> endsub\\nM2\\n' > pair.ngc"
   "$CLSURF simulate part.ngc --dialect linuxcnc -o run.biip > /dev/null")
 list(JOIN slow_passes " && " slow_passes)
-# The slow stretch is line 8 of pair.ngc with its ramps, called in line 6, 11 …
+# The slow section is line 8 of pair.ngc with its ramps, called in line 6, 11 …
 clsurf_cli_test(NAME defect_in_a_file_that_is_called SETUP "${slow_passes}" ARGS check part.ngc run.biip --dialect linuxcnc
   STDOUT " 16 .in pair.ngc: 6-10." " 31 .in pair.ngc: 6-10.")
 clsurf_cli_test(NAME defect_in_a_file_that_is_called_in_json SETUP "${slow_passes}" ARGS check part.ngc run.biip --dialect linuxcnc --json

@@ -10,7 +10,7 @@ clsurf_cli_test(NAME compare_ignores_no_more_than_text
   ARGS compare other.png map.png --ignore-text EXIT 1 STDOUT "^different: ")
 clsurf_cli_test(NAME compare_ignore_text_needs_to_know_it
   SETUP "${draw}; $CLSURF render @DATA@/programs/bottle_uneven.nc renamed.biip -q -o bare.png --size 640x480 --no-legend"
-  ARGS compare bare.png map.png --ignore-text EXIT 3 STDERR "bare.png" "does not say where its texts stand")
+  ARGS compare bare.png map.png --ignore-text EXIT 3 STDERR "bare.png" "does not say where its texts are")
 clsurf_cli_test(NAME compare_draws_differences SETUP "${draw}" ARGS compare renamed.png map.png --diff difference.png EXIT 1)
 
 # The default field, and the speed where numbers of a range are given.
