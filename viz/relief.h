@@ -16,7 +16,8 @@ struct Relief {
     Column<float> z;  ///< [mm] row by row; NaN: no vertex
 
     [[nodiscard]] Vec3 at(std::int64_t i) const {
-        return origin + Vec3(pitch * static_cast<double>(i % columns), pitch * static_cast<double>(i / columns),
+        const std::int64_t row = i / columns;
+        return origin + Vec3(pitch * static_cast<double>(i - row * columns), pitch * static_cast<double>(row),
                              z[static_cast<std::size_t>(i)]);
     }
 };

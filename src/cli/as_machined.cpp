@@ -57,8 +57,9 @@ void leave_out_flanks(const Form& form, const MapFrame& frame, std::int64_t firs
             float& height = heights[static_cast<std::size_t>(k)];
             const float over = deviation[static_cast<std::size_t>(k)];
             if (!(height == height) || over == over) continue;
+            const std::int64_t row = k / frame.columns;
             const Vec2 place =
-                frame.at(static_cast<double>(k % frame.columns), static_cast<double>(first_row + k / frame.columns));
+                frame.at(static_cast<double>(k - row * frame.columns), static_cast<double>(first_row + row));
             if (!form.at(place).unknown) height = std::numeric_limits<float>::quiet_NaN();
         }
     });

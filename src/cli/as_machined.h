@@ -15,7 +15,7 @@ struct AsMachinedMap {
 };
 
 /// As fine as a picture's pixels, each vertex the mean of its cells. `box` empty: all that `camera` shows.
-[[nodiscard]] AsMachinedMap make_as_machined_map(const AsMachinedPart& as_machined, const Box3& box,
+[[nodiscard]] AsMachinedMap make_as_machined_map(const AsMachinedPart& part, const Box3& box,
                                                  const viz::Camera& camera);
 
 }  // namespace clsurf::cli

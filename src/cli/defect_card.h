@@ -19,7 +19,7 @@ struct JudgedPart {
 };
 
 /// The card of a defect of the report, from 0. Throws SystemError.
-[[nodiscard]] viz::Image draw_defect_card(const JudgedPart& judged, std::size_t defect, int width, int height,
+[[nodiscard]] viz::Image draw_defect_card(const JudgedPart& judged, std::size_t index, int width, int height,
                                           const std::string& gl);
 
 /// `plot --defect N`: finds the defects and draws the card of one. Throws UsageError: there is no such defect.

@@ -25,6 +25,7 @@ Column<float> as_floats(const io::ExportColumn& column) {
 void write_vtk(const std::string& path, bool hdf, const ClSurface& surface,
                const std::vector<io::ExportColumn>& columns) {
     std::vector<Column<float>> values;
+    values.reserve(columns.size());
     for (const io::ExportColumn& column : columns) values.push_back(as_floats(column));
     std::vector<viz::PointData> data;
     for (std::size_t i = 0; i < columns.size(); ++i) data.push_back({columns[i].name, &values[i]});

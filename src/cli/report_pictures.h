@@ -23,7 +23,7 @@ struct PicturedPart {
 };
 
 /// The whole part in a field, with what was found outlined.
-[[nodiscard]] io::PagePicture picture_of_part(const PicturedPart& shown, const std::string& field);
+[[nodiscard]] io::PagePicture picture_of_part(const PicturedPart& shown, const std::string& name);
 
 /// The card of a defect.
 [[nodiscard]] io::PagePicture picture_of_defect(const PicturedPart& shown, const Signals& signals, std::size_t defect);

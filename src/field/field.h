@@ -38,6 +38,7 @@ struct FieldUnit {
     double per_inside = 1;  ///< shown = inside · per_inside
 
     FieldUnit() = default;
+    // NOLINTNEXTLINE(google-explicit-constructor): rows of fields name a Unit.
     FieldUnit(const Unit& unit) : name(unit.name), per_inside(unit.per_inside) {}
     /// Values that are shown as they are stored.
     explicit FieldUnit(std::string as_stored) : name(std::move(as_stored)) {}

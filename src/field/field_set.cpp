@@ -96,6 +96,7 @@ std::vector<Field> FieldSet::get_all(const std::vector<std::string>& names) cons
 
 std::vector<Field> FieldSet::get_all(const std::vector<std::string>& names, PointRange points) const {
     std::vector<Found> wanted;
+    wanted.reserve(names.size());
     for (const std::string& name : names) wanted.push_back(require(name));
     std::vector<Field> fields(names.size());
     for (std::size_t p = 0; p < providers_.size(); ++p) {
@@ -118,6 +119,7 @@ std::vector<Field> FieldSet::get_all(const std::vector<std::string>& names, Poin
 
 void unknown_field(std::string_view name, const std::vector<FieldInfo>& fields) {
     std::vector<std::string_view> names;
+    names.reserve(fields.size());
     for (const FieldInfo& f : fields) names.push_back(f.name);
     const std::string nearest = did_you_mean(name, names);
     throw UsageError("unknown field '" + std::string(name) + "'",

@@ -306,7 +306,7 @@ std::vector<Field> PositionFields::compute(std::span<const std::string_view> nam
     computed.reserve(names.size());
     for (const std::string_view name : names) {
         const FieldRow& asked = row(name);
-        if (const std::optional<UsageError> error = refusal(asked, *log_, path_, derivation_)) throw *error;
+        if (const std::optional<UsageError> error = refusal(asked, *log_, path_, derivation_)) throw UsageError(*error);
         Field& field = computed.emplace_back();
         field.info = info_of(asked);
         field.info.note = note_of(asked);
