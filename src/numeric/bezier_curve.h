@@ -1,0 +1,110 @@
+#pragma once
+// BezierCurve: a span of a spline as a rational Bézier curve over t ∈ [0, 1],
+//   C(t) = Σ B_i(t) w_i P_i / Σ B_i(t) w_i,  B_i: Bernstein polynomials of its degree
+// (L. Piegl, W. Tiller, The NURBS Book, 1997, chapter 1). NURBS, polynomials and quotients of polynomials all have this
+// form without an error. Arc lengths are known to 1 part in 10¹⁰.
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "core/geometry.h"
+
+namespace clsurf {
+
+inline constexpr int most_bezier_degree = 24;
+
+/// A point of a curve, and derivatives by its parameter [mm].
+struct CurveJet {
+    Vec3 at, first, second, third;
+};
+
+class BezierCurve {
+public:
+    struct Nearest {
+        double t = 0, distance = 0;  ///< [mm]
+    };
+
+    /// A control point times its weight, relative to an origin, and the weight.
+    using Weighted = Eigen::Matrix<double, 4, 1, Eigen::DontAlign>;
+
+    /// `points`: 2 … most_bezier_degree + 1 control points [mm]; `weights`: as many; empty: all 1.
+    /// A coordinate that is not known (NaN) is so in all points; nothing then has a length or a nearest point.
+    explicit BezierCurve(std::span<const Vec3> points, std::span<const double> weights = {});
+    /// Weights may be 0 or less where the sum of all is greater than 0 on the whole curve.
+    BezierCurve(const Vec3& origin, std::vector<Weighted> points);
+
+    [[nodiscard]] int degree() const { return static_cast<int>(points_.size()) - 1; }
+    [[nodiscard]] Vec3 point(std::size_t i) const { return origin_ + points_[i].head<3>() / points_[i][3]; }
+    [[nodiscard]] double weight(std::size_t i) const { return points_[i][3]; }
+
+    [[nodiscard]] Vec3 at(double t) const;
+    [[nodiscard]] CurveJet jet(double t) const;
+    /// Where the first derivative is zero, the jet of a place beside it.
+    [[nodiscard]] CurveJet moving_jet(double t) const;
+    /// Unit vector; also where the first derivative is zero.
+    [[nodiscard]] Vec3 tangent(double t) const;
+
+    [[nodiscard]] double length() const { return knots_.back().arc_length; }  ///< [mm]
+    [[nodiscard]] double arc_length_to(double t) const;                       ///< [mm]
+    /// Where the way from the begin is `arc_length` [mm], clipped to [0, 1].
+    [[nodiscard]] double at_arc_length(double arc_length) const;
+    /// How far the direction turns on the whole, summed up [rad].
+    [[nodiscard]] double turning() const;
+
+    /// The nearest point at or behind `from`.
+    [[nodiscard]] Nearest nearest(const Vec3& p, double from = 0) const;
+    /// Where chords end that stay within `error` [mm] of the curve; the last one is 1.
+    [[nodiscard]] std::vector<double> chord_ends(double error) const;
+
+    /// Whether it has the same control points, within `play` [mm], and weights, within 10⁻⁹.
+    [[nodiscard]] bool same_as(const BezierCurve& other, double play) const;
+    /// Coordinates that are not known are those of `rest`.
+    [[nodiscard]] BezierCurve with_unknown_at(const Vec3& rest) const;
+    /// The curve as an affine map makes it.
+    [[nodiscard]] BezierCurve mapped(const std::function<Vec3(const Vec3&)>& map) const;
+
+private:
+    /// A place of the table of arc lengths, at an equal step of t.
+    struct Knot {
+        Vec3 point;
+        double arc_length;
+    };
+    [[nodiscard]] double gauss(double from, double to) const;
+    void measure();
+    [[nodiscard]] double stepped(std::size_t piece) const {
+        return static_cast<double>(piece) / static_cast<double>(knots_.size() - 1);
+    }
+
+    Vec3 origin_;
+    std::vector<Weighted> points_;
+    std::vector<Knot> knots_;  ///< pieces + 1
+};
+
+/// A spline as its control points, their weights (empty: all 1) and its knots: points + degree + 1 of them, never
+/// falling.
+struct Nurbs {
+    int degree = 3;
+    std::vector<Vec3> points;
+    std::vector<double> weights, knots;
+};
+
+/// A span between two different knots.
+struct NurbsSpan {
+    std::size_t last_point = 0;  ///< of those that shape it: degree + 1 of them
+    BezierCurve curve;
+};
+
+/// The spans of a spline in their order, between the knots `degree` and `points`. Bézier points are values of the
+/// spline's blossom. O(spans degree³). Domain: counts as Nurbs has them, knots that do not fall.
+[[nodiscard]] std::vector<NurbsSpan> spans_of(const Nurbs& nurbs);
+
+/// Knots of a spline that begins and ends in its first and last point, with these lengths of spans.
+[[nodiscard]] std::vector<double> clamped_knots(int degree, std::span<const double> intervals);
+
+/// A polynomial Σ aᵢ pⁱ, or with `denominator` (b₀ = 1) a quotient, over p ∈ [0, interval].
+/// `coefficients`: of p⁰, p¹ …; degree = the larger count − 1.
+[[nodiscard]] BezierCurve bezier_of(std::span<const Vec3> coefficients, std::span<const double> denominator,
+                                    double interval);
+
+}  // namespace clsurf
