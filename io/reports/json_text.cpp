@@ -17,7 +17,8 @@ std::string program_json(const Program& program, const ToolpathSummary& s, const
               {"file", program.main().name()},
               {"dialect", program.dialect->name},
               {"lines", program.main().line_count()},
-              {"motions", {{"rapid", s.rapids}, {"feed", s.feeds}, {"arc", s.arcs}, {"dwell", s.dwells}}},
+              {"motions",
+               {{"rapid", s.rapids}, {"feed", s.feeds}, {"arc", s.arcs}, {"spline", s.splines}, {"dwell", s.dwells}}},
               {"cutting_length_mm", number(s.cutting_length)}};
     if (!program.dialect_guessed_from.empty()) json["dialect_guessed_from"] = program.dialect_guessed_from;
     json["bounds_mm"] = box(s.bounds);

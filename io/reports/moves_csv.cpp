@@ -1,6 +1,7 @@
 #include "io/reports/moves_csv.h"
 
 #include <cmath>
+#include <vector>
 
 #include <fmt/compile.h>
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 namespace clsurf::io {
 namespace {
 
+constexpr double chord_error = 1e-4;  ///< [mm] of the chords of a curve
 constexpr std::size_t piece_bytes = std::size_t{1} << 20;
 
 std::string_view name_of(MotionKind kind) {
@@ -44,10 +46,9 @@ void write_moves_csv(const Motions& motions, const Kinematics* kinematics,
     if (kinematics != nullptr) out.append(std::string_view(",ti,tj,tk"));
     out.push_back('\n');
     auto arc = motions.arcs.begin();
-    for (std::size_t i = 0; i < motions.kind.size(); ++i) {
+    const auto put_row = [&](std::size_t i, const Xyz& end) {
         const MotionKind kind = motions.kind[i];
         fmt::format_to(std::back_inserter(out), FMT_COMPILE("{},{}"), motions.line[i], name_of(kind));
-        const Xyz& end = motions.end[i];
         put(out, end.x);
         put(out, end.y);
         put(out, end.z);
@@ -82,6 +83,17 @@ void write_moves_csv(const Motions& motions, const Kinematics* kinematics,
             write({out.data(), out.size()});
             out.clear();
         }
+    };
+    for (std::size_t i = 0; i < motions.kind.size(); ++i) {
+        if (motions.kind[i] == MotionKind::spline) {
+            if (const Curve* curve = motions.curve_of(static_cast<std::int64_t>(i))) {
+                // Rows are points, so a curve becomes those of its chords.
+                std::vector<double> ends = curve->span->with_unknown_at(Vec3::Zero()).chord_ends(chord_error);
+                ends.pop_back();
+                for (const double t : ends) put_row(i, Xyz(curve->span->at(t)));
+            }
+        }
+        put_row(i, motions.end[i]);
     }
     write({out.data(), out.size()});
 }

@@ -33,6 +33,7 @@ void print_program(const Program& program, const ToolpathSummary& s, const Diagn
                guessed.empty() ? std::string() : fmt::format(" (a guess: {})", printable(guessed)));
     fmt::print("  {} lines; {} rapids, {} lines at feed, {} arcs, {} dwells\n", program.main().line_count(), s.rapids,
                s.feeds, s.arcs, s.dwells);
+    if (s.splines > 0) fmt::print("  {} splines\n", s.splines);
     fmt::print("  {:.1f} mm at feed", s.cutting_length);
     if (!s.bounds.isEmpty()) {
         const Vec3 a = s.bounds.min();

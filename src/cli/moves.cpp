@@ -55,7 +55,8 @@ Subcommand moves_subcommand() {
             "One row per motion, in the active work coordinate system, mm and deg:\n"
             "line,kind,x,y,z,a,b,c,ci,cj,ck,turns,plane,feed. Kinds are rapid, feed, cw, ccw,\n"
             "dwell and spline; the centre (ci, cj, ck) is absolute; a field is empty where it\n"
-            "means nothing. PROGRAM may be - for standard input. With --machine a, b, c are also those\n"
+            "means nothing. A spline has a row for each of its chords, which stay within 0.1 µm of it.\n"
+            "PROGRAM may be - for standard input. With --machine a, b, c are also those\n"
             "of tool axes given as vectors (G43.5, A3=), and ti,tj,tk at the end is the tool axis.",
         .declare =
             [](po::options_description& options) {

@@ -40,7 +40,7 @@ PathTolerance::PathTolerance(const Trajectory& path, const Program& program, con
 
 bool PathTolerance::cuts(std::int64_t motion) const {
     const MotionKind kind = program_->motions.kind[static_cast<std::size_t>(motion)];
-    return kind == MotionKind::feed || is_arc(kind);
+    return kind == MotionKind::feed || is_curved(kind);
 }
 
 double PathTolerance::tolerance_at(std::int64_t motion) const {

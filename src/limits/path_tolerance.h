@@ -29,7 +29,7 @@ public:
     [[nodiscard]] bool any() const { return any_; }
     /// The smallest tolerance of any motion [mm]; infinite: none.
     [[nodiscard]] double least() const { return least_; }
-    /// Records [first, last]. Rapids, exact stops and splines are not judged. A corner has the tolerance of the motion
+    /// Records [first, last]. Rapids and exact stops are not judged. A corner has the tolerance of the motion
     /// that ends in it. O(records).
     [[nodiscard]] std::vector<PathDeviation> read(PointRange records) const;
 

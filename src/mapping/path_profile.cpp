@@ -201,7 +201,7 @@ PathProfile profile_of(const Toolpath& path, std::size_t most_points) {
         const double part = path.length(m);
         if (!std::isfinite(part)) continue;
         if (!points.begun()) points.go_to(path.begin(m));
-        const bool curved = is_arc(path.motions().kind[static_cast<std::size_t>(m)]);
+        const bool curved = is_curved(path.motions().kind[static_cast<std::size_t>(m)]);
         const int pieces = curved ? std::clamp(static_cast<int>(part / 0.2), 8, 720) : 1;
         for (int k = 1; k < pieces; ++k) points.go_to(path.at(m, static_cast<double>(k) / pieces));
         points.go_to(path.end(m));

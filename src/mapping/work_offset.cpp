@@ -114,7 +114,7 @@ Box3 box_of(const Toolpath& path) {
     };
     for (std::int64_t m = 0; m < path.size(); ++m) {
         extend(path.end(m));
-        if (!is_arc(path.motions().kind[static_cast<std::size_t>(m)])) continue;
+        if (!is_curved(path.motions().kind[static_cast<std::size_t>(m)])) continue;
         for (int k = 0; k < pieces; ++k) extend(path.at(m, static_cast<double>(k) / pieces));
     }
     return box;

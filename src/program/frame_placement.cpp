@@ -102,6 +102,7 @@ void insert_chords(Motions& motions, std::vector<ProgramEvent>& events, const st
         return std::any_of(all.begin(), all.end(), [&](const Chords& c) { return c.motion == arc.motion; });
     });
     for (Arc& arc : motions.arcs) arc.motion += shift[static_cast<std::size_t>(arc.motion)];
+    for (Curve& curve : motions.curves) curve.motion += shift[static_cast<std::size_t>(curve.motion)];
     for (ProgramEvent& event : events) {
         const auto at = static_cast<std::size_t>(std::clamp<std::int64_t>(event.motion, 0, from.size()));
         event.motion += shift[at];
@@ -241,6 +242,15 @@ void FramePlacer::place_by_axis(Motions& motions, std::int64_t i) {
     end = Xyz(apply(without_rounding(reference_.inverse() * displaced_), machine_));
 }
 
+/// A curve goes with its motion's end, which is placed already.
+void FramePlacer::place_curve(const Motions& motions, Curve& curve) {
+    const Eigen::Isometry3d& placed = motions.frame_of(curve.motion).placed;
+    const Vec3 off = motions.end[static_cast<std::size_t>(curve.motion)].vec() - apply(placed, curve.span->at(1));
+    const Vec3 shift = off.array().isNaN().select(0.0, off);
+    curve.span = std::make_shared<const BezierCurve>(
+        curve.span->mapped([&](const Vec3& p) { return Vec3(apply(placed, p) + shift); }));
+}
+
 std::int64_t FramePlacer::place(Motions& motions, std::vector<ProgramEvent>& events, std::int64_t count) {
     if (count == 0) return 0;
     if (!begun_) begin(motions);
@@ -256,6 +266,10 @@ std::int64_t FramePlacer::place(Motions& motions, std::vector<ProgramEvent>& eve
         if (!motions.tool_axis.empty())
             motions.tool_axis[at] = Xyz(frame.placed.linear() * motions.tool_axis[at].vec());
         if (!motions.rotary.empty()) motions.rotary[at] = Xyz(motions.rotary[at].vec() + frame.rotary);
+    }
+    for (Curve& curve : motions.curves) {
+        if (curve.motion >= count) break;
+        place_curve(motions, curve);
     }
     std::vector<Chords> tilted;
     for (Arc& arc : motions.arcs) {

@@ -38,7 +38,7 @@ class FramePlacer {
 public:
     FramePlacer(FramePoses poses, Coordinates coordinates) : poses_(std::move(poses)), coordinates_(coordinates) {}
 
-    /// Brings motions [0, count) into the coordinates, and with them arcs, tool axes and rotary angles. Arcs that leave
+    /// Brings motions [0, count) into the coordinates, and with them arcs, curves, tool axes and rotary angles. Arcs that leave
     /// the principal planes become chords within 1 µm; events move along. Returns how many motions those are then.
     /// Without effect where all frames are one and the same. O(motions).
     std::int64_t place(Motions& motions, std::vector<ProgramEvent>& events, std::int64_t count);
@@ -52,6 +52,7 @@ private:
     void follow_frames(Motions& motions);
     [[nodiscard]] Eigen::Isometry3d offset_of(const WorkFrame& frame) const;
     void place_by_axis(Motions& motions, std::int64_t i);
+    static void place_curve(const Motions& motions, Curve& curve);
 
     FramePoses poses_;
     Coordinates coordinates_;

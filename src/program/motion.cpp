@@ -10,6 +10,12 @@ const Arc* Motions::arc_of(std::int64_t i) const {
     return found != arcs.end() && found->motion == i ? &*found : nullptr;
 }
 
+const Curve* Motions::curve_of(std::int64_t i) const {
+    const auto found = std::lower_bound(curves.begin(), curves.end(), i,
+                                        [](const Curve& curve, std::int64_t m) { return curve.motion < m; });
+    return found != curves.end() && found->motion == i ? &*found : nullptr;
+}
+
 void Motions::drop_front(std::int64_t count) {
     if (count == 0) return;
     const auto n = static_cast<std::size_t>(count);
@@ -30,6 +36,9 @@ void Motions::drop_front(std::int64_t count) {
     arcs.erase(arcs.begin(),
                std::find_if(arcs.begin(), arcs.end(), [count](const Arc& arc) { return arc.motion >= count; }));
     for (Arc& arc : arcs) arc.motion -= count;
+    curves.erase(curves.begin(), std::find_if(curves.begin(), curves.end(),
+                                              [count](const Curve& curve) { return curve.motion >= count; }));
+    for (Curve& curve : curves) curve.motion -= count;
 }
 
 }  // namespace clsurf

@@ -8,11 +8,13 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "core/column.h"
 #include "core/geometry.h"
 #include "core/point.h"
+#include "numeric/bezier_curve.h"
 #include "program/work_frame.h"
 
 namespace clsurf {
@@ -20,6 +22,9 @@ namespace clsurf {
 enum class MotionKind : std::uint8_t { rapid, feed, cw, ccw, dwell, spline };
 
 [[nodiscard]] constexpr bool is_arc(MotionKind kind) { return kind == MotionKind::cw || kind == MotionKind::ccw; }
+
+/// Whether it may be other than straight.
+[[nodiscard]] constexpr bool is_curved(MotionKind kind) { return is_arc(kind) || kind == MotionKind::spline; }
 
 /// Whether the tool moves at feed.
 [[nodiscard]] constexpr bool is_cut(MotionKind kind) { return kind != MotionKind::rapid && kind != MotionKind::dwell; }
@@ -30,6 +35,12 @@ struct Arc {
     Xyz centre;               ///< [mm]; the component along the axis is that of the start
     std::int32_t turns = 1;   ///< 1: at most a full circle; n: n − 1 full circles more
     std::uint8_t axis = 2;    ///< axis of rotation: 2 z (G17), 1 y (G18), 0 x (G19)
+};
+
+/// A span of a spline. It begins where its motion begins.
+struct Curve {
+    std::int64_t motion = 0;  ///< index of its motion
+    std::shared_ptr<const BezierCurve> span;
 };
 
 /// A call of a subprogram, at one place and with one way there.
@@ -57,8 +68,9 @@ struct Motions {
     /// Index of the first motion for which X, Y, Z have been programmed; before it they stand where the program finds
     /// the machine, whatever `start` says.
     std::array<std::int64_t, 3> programmed_from{};
-    std::vector<Call> calls;  ///< a call stands behind its caller; the same line called again is the same
-    std::vector<Arc> arcs;    ///< sorted by motion
+    std::vector<Call> calls;    ///< a call stands behind its caller; the same line called again is the same
+    std::vector<Arc> arcs;      ///< sorted by motion
+    std::vector<Curve> curves;  ///< sorted by motion
     Xyz start{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN(),
               std::numeric_limits<double>::quiet_NaN()};  ///< before the first motion; NaN: unknown
 
@@ -73,6 +85,8 @@ struct Motions {
     }
     /// The arc of motion i; nullptr for anything but cw and ccw. O(log arcs).
     [[nodiscard]] const Arc* arc_of(std::int64_t i) const;
+    /// The curve of motion i; nullptr for anything but a spline, and for a spline that is a chord of an arc. O(log curves).
+    [[nodiscard]] const Curve* curve_of(std::int64_t i) const;
 
     /// Without the first motions; their calls stay. O(motions that stay).
     void drop_front(std::int64_t count);

@@ -12,7 +12,7 @@ namespace clsurf {
 /// What is known of a program as a whole before its first motion.
 struct ProgramOutline {
     std::int64_t motions = 0;
-    bool arcs = false;  ///< it has any
+    bool curved = false;  ///< it has arcs or splines
 };
 
 class MotionSource {
@@ -26,7 +26,7 @@ public:
     /// Goes to the next piece, at first to the first; motions and events of the one before are gone.
     /// False: there is none. Throws InputError.
     [[nodiscard]] virtual bool next_piece() = 0;
-    /// The program with the piece at hand: events and arcs name motions by their places in it. The reference holds
+    /// The program with the piece at hand: events, arcs and curves name motions by their places in it. The reference holds
     /// for all pieces.
     [[nodiscard]] virtual const Program& program() const = 0;
     /// Motions of the piece, 0 before the first; what the program holds behind them belongs to the next one, and may still change.
@@ -38,7 +38,8 @@ class WholeProgram final : public MotionSource {
 public:
     /// It must outlive this.
     explicit WholeProgram(const Program& program)
-        : program_(&program), outline_{program.motions.size(), !program.motions.arcs.empty()} {}
+        : program_(&program),
+          outline_{program.motions.size(), !program.motions.arcs.empty() || !program.motions.curves.empty()} {}
 
     [[nodiscard]] const ProgramOutline& outline() const override { return outline_; }
     [[nodiscard]] bool next_piece() override { return !std::exchange(given_, true); }

@@ -23,7 +23,7 @@ void ProgramReader::read_piece() {
     interpreter_->forget(size_);
     size_ = interpreter_->place_settled(interpreter_->read_on(piece_));
     outline_.motions += size_;
-    outline_.arcs = outline_.arcs || !program().motions.arcs.empty();
+    outline_.curved = outline_.curved || !program().motions.arcs.empty() || !program().motions.curves.empty();
 }
 
 bool ProgramReader::next_piece() {

@@ -103,7 +103,17 @@ private:
             to_.arcs.push_back(*arc);
             to_.arcs.back().motion = to_.size();
         }
+        if (const Curve* curve = from_->curve_of(motion)) {
+            const Vec3 off = programmed(motion) - from_->end[at].vec();
+            const Vec3 shift = off.array().isNaN().select(0.0, off);
+            put_curve(*curve, [&](const Vec3& p) { return Vec3(p + shift); });
+        }
         put(motion, from_->kind[at], moves ? programmed(motion) : tip_, from_->rotary[at]);
+    }
+
+    template <typename Map>
+    void put_curve(const Curve& curve, const Map& map) {
+        to_.curves.push_back({to_.size(), std::make_shared<const BezierCurve>(curve.span->mapped(map))});
     }
 
     void transform(std::int64_t motion, const RotaryAngles& before, const RotaryAngles& after) {
@@ -112,6 +122,12 @@ private:
         // Where the motion before was one of the tip, the words count on from where the axes are.
         const Vec3 begin = position_of(tip_, before);
         const Vec3 end = programmed(motion);
+        if (const Curve* curve = from_->curve_of(motion)) {
+            // No rotary axis turns along a curve.
+            put_curve(*curve, [&](const Vec3& p) { return tip_of(p, after); });
+            put(motion, kind, tip_of(end, after), from_->rotary[at]);
+            return;
+        }
         const double turn = std::max(std::abs(after.tilt - before.tilt), std::abs(after.rotation - before.rotation));
         int chords = std::clamp(static_cast<int>(std::ceil(turn / chord_turn)), 1, most_chords);
         const Arc* arc = is_arc(kind) ? from_->arc_of(motion) : nullptr;

@@ -73,8 +73,17 @@ Projection projection_on_helix(const Helix& h, const Vec3& p, double from) {
 
 }  // namespace
 
+std::shared_ptr<const BezierCurve> Toolpath::curve(std::int64_t motion) const {
+    if (motions_->kind[static_cast<std::size_t>(motion)] != MotionKind::spline) return nullptr;
+    const Curve* found = motions_->curve_of(motion);
+    if (found == nullptr) return nullptr;
+    if (!found->span->at(0).hasNaN()) return found->span;
+    return std::make_shared<const BezierCurve>(found->span->with_unknown_at(rest_));
+}
+
 Vec3 Toolpath::at(std::int64_t motion, double fraction) const {
     const MotionKind kind = motions_->kind[static_cast<std::size_t>(motion)];
+    if (const auto spline = curve(motion)) return spline->at(spline->at_arc_length(fraction * spline->length()));
     const Vec3 a = begin(motion);
     const Vec3 b = end(motion);
     const Arc* arc = is_arc(kind) ? motions_->arc_of(motion) : nullptr;
@@ -84,6 +93,7 @@ Vec3 Toolpath::at(std::int64_t motion, double fraction) const {
 double Toolpath::length(std::int64_t motion) const {
     const MotionKind kind = motions_->kind[static_cast<std::size_t>(motion)];
     if (kind == MotionKind::dwell) return 0.0;
+    if (const auto spline = curve(motion)) return spline->length();
     const Vec3 a = begin(motion);
     const Vec3 b = end(motion);
     const Arc* arc = is_arc(kind) ? motions_->arc_of(motion) : nullptr;
@@ -95,6 +105,13 @@ double Toolpath::length(std::int64_t motion) const {
 
 Projection Toolpath::projection(std::int64_t motion, const Vec3& p, double from) const {
     const MotionKind kind = motions_->kind[static_cast<std::size_t>(motion)];
+    if (const auto spline = curve(motion)) {
+        const double length = spline->length();
+        const double from_t = from > 0 ? spline->at_arc_length(from * length) : 0.0;
+        const BezierCurve::Nearest nearest = spline->nearest(p, from_t);
+        const double fraction = length > 0 ? spline->arc_length_to(nearest.t) / length : 1.0;
+        return {nearest.distance, std::clamp(fraction, from, 1.0)};
+    }
     const Vec3 a = begin(motion);
     const Vec3 b = end(motion);
     if (is_arc(kind)) {

@@ -1,6 +1,8 @@
 #pragma once
 // Toolpath: the programmed motions as geometry: where the nearest point of a motion is, and how long
-// it is. Lines, arcs and helices; dwells are points.
+// it is. Lines, arcs, helices and curves; dwells are points.
+
+#include <memory>
 
 #include "core/geometry.h"
 #include "program/motion.h"
@@ -23,6 +25,8 @@ public:
     [[nodiscard]] const Motions& motions() const { return *motions_; }
     [[nodiscard]] Vec3 begin(std::int64_t motion) const { return known(motions_->begin_of(motion)); }
     [[nodiscard]] Vec3 end(std::int64_t motion) const { return known(motions_->end[static_cast<std::size_t>(motion)]); }
+    /// The curve of a motion with all its coordinates known; nullptr: it has none.
+    [[nodiscard]] std::shared_ptr<const BezierCurve> curve(std::int64_t motion) const;
     /// The point after a fraction of a motion's arc length.
     [[nodiscard]] Vec3 at(std::int64_t motion, double fraction) const;
     /// Arc length along a motion [mm].

@@ -5,10 +5,13 @@
 namespace clsurf {
 namespace {
 
-/// An arc's box: points every few degrees and its ends, which is within 10^-4 of the radius.
-void extend_by_arc(Box3& box, const Toolpath& path, std::int64_t motion) {
+/// The box of an arc: points every few degrees and its ends, which is within 10^-4 of the radius; of curves as many.
+void extend_by_curve(Box3& box, const Toolpath& path, std::int64_t motion) {
     constexpr int pieces = 360;
-    for (int k = 0; k <= pieces; ++k) box.extend(path.at(motion, static_cast<double>(k) / pieces));
+    for (int k = 0; k <= pieces; ++k) {
+        const Vec3 p = path.at(motion, static_cast<double>(k) / pieces);
+        if (p.allFinite()) box.extend(p);
+    }
 }
 
 }  // namespace
@@ -21,11 +24,11 @@ ToolpathSummary summarise(const Motions& motions) {
         if (kind == MotionKind::dwell) ++s.dwells;
         if (kind == MotionKind::rapid) ++s.rapids;
         if (kind == MotionKind::dwell || kind == MotionKind::rapid) continue;
-        (is_arc(kind) ? s.arcs : s.feeds) += 1;
+        (is_arc(kind) ? s.arcs : kind == MotionKind::spline ? s.splines : s.feeds) += 1;
         const double length = path.length(m);
         if (std::isfinite(length)) s.cutting_length += length;
-        if (is_arc(kind)) {
-            extend_by_arc(s.bounds, path, m);
+        if (is_arc(kind) || kind == MotionKind::spline) {
+            extend_by_curve(s.bounds, path, m);
             continue;
         }
         for (const Vec3& p : {path.begin(m), path.end(m)}) {

@@ -7,9 +7,9 @@
 namespace clsurf {
 
 struct ToolpathSummary {
-    std::int64_t rapids = 0, feeds = 0, arcs = 0, dwells = 0;  ///< splines count as feeds
-    double cutting_length = 0;                                 ///< [mm] of all motions at feed
-    Box3 bounds;  ///< [mm] of the motions at feed, arcs included; empty: none
+    std::int64_t rapids = 0, feeds = 0, arcs = 0, splines = 0, dwells = 0;
+    double cutting_length = 0;  ///< [mm] of all motions at feed
+    Box3 bounds;                ///< [mm] of the motions at feed, arcs included; empty: none
 };
 
 /// O(motions).

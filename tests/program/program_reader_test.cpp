@@ -43,7 +43,7 @@ void expect_piece(const Program& piece, std::int64_t size, const Program& whole,
 
 void expect_same(ProgramReader& reader, const Program& whole) {
     EXPECT_EQ(reader.outline().motions, whole.motions.size());
-    EXPECT_EQ(reader.outline().arcs, !whole.motions.arcs.empty());
+    EXPECT_EQ(reader.outline().curved, !whole.motions.arcs.empty() || !whole.motions.curves.empty());
     std::int64_t at = 0;
     std::size_t event = 0;
     while (reader.next_piece()) {

@@ -19,14 +19,11 @@ TEST(RefusedWords, SplinesOfOtherDialects) {
     expect_error("G0 X0 Y0\nG5.2 P2\n", "siemens", "2:1: error: G5.2 is not known in siemens, and moves axes",
                  "--dialect linuxcnc");
     expect_error("G0 X0 Y0\nG5 X1 Y1 I0 J1 P0 Q-1\n", "fanuc", "2:1: error: G5 ", "--dialect linuxcnc");
-    expect_error("G0 X0 Y0\nN20 G06.2 K0 X1 Y1 R1\n", "fanuc", "2:5: error: G6.2 is not known",
-                 "NURBS are not supported");
-    expect_error("G0 X0 Y0\nG6.2 P3 X1 Y1\n", "linuxcnc", "2:1: error: G6.2 is not known", "NURBS are not supported");
+    expect_error("G0 X0 Y0\nN20 G06.1 K0 X1 Y1 R1\n", "fanuc", "2:5: error: G6.1 is not known", "not supported");
+    expect_error("G0 X0 Y0\nG6.2 P3 X1 Y1\n", "siemens", "2:1: error: G6.2 is not known",
+                 "a NURBS of fanuc and linuxcnc");
     expect_error("G0 X0 Y0\nG2.2 X1 Y1 R1\n", "fanuc", "2:1: error: G2.2 is not known", "involutes");
-    for (const char* word : {"ASPLINE", "BSPLINE", "CSPLINE", "POLY"})
-        expect_error("G0 X0 Y0\nG1 " + std::string(word) + " X1\n", "siemens",
-                     "2:4: error: " + std::string(word) + " is not known in siemens",
-                     "splines and polynomials are not supported");
+    expect_error("G0 X0 Y0\nINVCW X1\n", "siemens", "2:1: error: INVCW is not known in siemens", "involutes");
 }
 
 TEST(RefusedWords, UnknownCodesBesideAxes) {

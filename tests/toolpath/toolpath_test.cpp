@@ -1,5 +1,8 @@
 #include "toolpath/toolpath.h"
 
+#include <cmath>
+#include <limits>
+#include <memory>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -48,6 +51,27 @@ TEST(Toolpath, BeginsUnknownAxesWhereTheToolRests) {
     m.feed.push_back(0);
     m.line.push_back(1);
     EXPECT_EQ(Toolpath(m, Vec3(1, 2, 3)).begin(0), Vec3(1, 2, 3));
+}
+
+TEST(Toolpath, FindsTheFootOnACurve) {
+    // A parabola y = x (4 − x), of which only x and y are known: z is where the machine stands.
+    Motions m = quarter_circle();
+    m.arcs.clear();
+    m.kind[0] = MotionKind::spline;
+    const double unknown = std::numeric_limits<double>::quiet_NaN();
+    const std::vector<Vec3> points{{0, 0, unknown}, {2, 8, unknown}, {4, 0, unknown}};
+    m.start = Xyz(points.front());
+    m.end[0] = Xyz(points.back());
+    m.curves.push_back({0, std::make_shared<const BezierCurve>(points)});
+    const Toolpath path(m, Vec3(0, 0, 7));
+    const Projection top = path.projection(0, Vec3(2, 6, 7));
+    EXPECT_NEAR(top.distance, 2, 1e-9);
+    EXPECT_NEAR(top.fraction, 0.5, 1e-6);
+    EXPECT_LE((path.at(0, 0.5) - Vec3(2, 4, 7)).norm(), 1e-9);
+    // ∫ √(1 + (4 − 2x)²) dx over 0 … 4 = 2 √17 + ½ asinh 4.
+    EXPECT_NEAR(path.length(0), 2 * std::sqrt(17.0) + 0.5 * std::asinh(4.0), 1e-8);
+    // Behind a fraction of the way only.
+    EXPECT_NEAR(path.projection(0, Vec3(1, 4, 7), 0.5).fraction, 0.5, 1e-6);
 }
 
 }  // namespace

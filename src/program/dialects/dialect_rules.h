@@ -60,6 +60,7 @@ struct MotionRules {
     bool rotary_in_machine = false;                    ///< G53 holds for A, B, C as well
     bool turns_by_p = false;                           ///< P beside an arc counts its turns
     bool separate_uvw = false;                         ///< U, V, W are axes of their own, which leave X, Y, Z true
+    bool splines_by_last_block = false;                ///< all spans of a spline stand in the block that ends it
     bool refuses_curve_codes = true;                   ///< G5.2, G5.3, G6.1 … move axes elsewhere: an error
     double probe_retreat = 0;                          ///< [mm] a probing move stops so far before its end
     std::string_view idle_letters = "IJKLPQR";         ///< without meaning beside a straight motion: reported

@@ -162,6 +162,10 @@ bool high_speed(Interpreter& in, const CodeWord& w) {
     words.has &= ~(Words::bit('P') | Words::bit('Q') | Words::bit('R'));
     return true;
 }
+bool start_nurbs(Interpreter& in, const CodeWord&) {
+    in.state_.motion = MotionMode::knotted_nurbs;
+    return true;
+}
 bool set_data(Interpreter& in, const CodeWord& w) {
     const Words& words = w.block.words;
     if (words.given('L') && words.of('L') >= 50) in.data_entry_ = true;
@@ -280,6 +284,7 @@ constexpr auto codes = std::to_array<CodeRule>({
     {4_g, dwell},
     {5_g, high_speed},
     {5.1_g, high_speed},
+    {6.2_g, start_nurbs},
     {7.1_g, interpolate_on_cylinder},
     {8_g, high_speed},
     {8.1_g, high_speed},

@@ -228,7 +228,7 @@ constexpr auto statements = std::to_array<StatementRow>({
     {"FLT", refuse},
     {"FC", refuse},
     {"FCT", refuse},
-    {"SPL", refuse},
+    {"SPL", spline},
 });
 
 bool takes(Cursor& c, std::string_view words) {

@@ -31,6 +31,11 @@ struct Line {
 void straight(Line& line, const KlartextWords& words);
 /// An arc: C, CR, CT and their polar kin.
 void arc(Line& line, const KlartextWords& words, ArcKind kind);
+// klartext_spline.cpp
+/// SPL
+void spline(Line& line);
+
+// klartext_motions.cpp
 /// Words of a block beside a G code.
 void move_with(Line& line, const KlartextWords& words, int code);
 /// Whether a statement of that name may follow RND and CHF.

@@ -149,6 +149,11 @@ int code_of(MotionMode mode, int cycle) {
         case MotionMode::cubic_spline: return 50;
         case MotionMode::quadratic_spline: return 51;
         case MotionMode::nurbs: return 52;
+        case MotionMode::knotted_nurbs: return 62;
+        case MotionMode::akima_spline:
+        case MotionMode::basis_spline:
+        case MotionMode::point_spline:
+        case MotionMode::polynomial: return 800;  // of siemens
         case MotionMode::probe: return 382;
         case MotionMode::cycle: return cycle;
         case MotionMode::none: return 800;
@@ -268,6 +273,7 @@ constexpr auto codes = std::to_array<CodeRule>({
          in.nurbs_end();
          return true;
      }},
+    {6.2_g, set_motion<MotionMode::knotted_nurbs>},
     {7_g, set_diameter},
     {8_g, set_diameter},
     {10_g,
@@ -331,21 +337,21 @@ constexpr auto m_codes = std::to_array<MRule>({
 });
 
 /// Codes that have no meaning, or another, while the path is not the programmed one.
-constexpr auto forbidden_in_compensation =
-    std::to_array<int>({5_g,    5.1_g,  5.2_g,  28_g,   28.1_g, 30_g, 30.1_g, 33_g,   33.1_g, 38.2_g, 38.3_g, 38.4_g,
-                        38.5_g, 43_g,   43.1_g, 43.2_g, 49_g,   52_g, 53_g,   54_g,   55_g,   56_g,   57_g,   58_g,
-                        59_g,   59.1_g, 59.2_g, 59.3_g, 70_g,   71_g, 71.1_g, 71.2_g, 72_g,   72.1_g, 72.2_g, 73_g,
-                        74_g,   76_g,   81_g,   82_g,   83_g,   84_g, 85_g,   86_g,   87_g,   88_g,   89_g,   92_g});
+constexpr auto forbidden_in_compensation = std::to_array<int>(
+    {5_g,    5.1_g,  5.2_g,  6.2_g,  28_g, 28.1_g, 30_g,   30.1_g, 33_g,   33.1_g, 38.2_g, 38.3_g, 38.4_g,
+     38.5_g, 43_g,   43.1_g, 43.2_g, 49_g, 52_g,   53_g,   54_g,   55_g,   56_g,   57_g,   58_g,   59_g,
+     59.1_g, 59.2_g, 59.3_g, 70_g,   71_g, 71.1_g, 71.2_g, 72_g,   72.1_g, 72.2_g, 73_g,   74_g,   76_g,
+     81_g,   82_g,   83_g,   84_g,   85_g, 86_g,   87_g,   88_g,   89_g,   92_g});
 
 std::string work_system_name(int number) { return fmt::format("G59.{}", number - 6); }
 
 constexpr auto word_signs = std::to_array<WordSign>({{"EXISTS", 8}});
 constexpr auto code_signs = std::to_array<CodeSign>(
     {{64_g, 6, "P", ""},  {5_g, 6, "IJQ", ""}, {5.1_g, 6, "IJ", "Q"}, {5.2_g, 8, "", ""},  {5.3_g, 8, "", ""},
-     {33.1_g, 5, "", ""}, {38.2_g, 4, "", ""}, {38.3_g, 4, "", ""},   {38.4_g, 4, "", ""}, {38.5_g, 4, "", ""},
-     {41.1_g, 4, "", ""}, {42.1_g, 4, "", ""}, {43.1_g, 3, "", ""},   {61_g, 2, "", ""},   {61.1_g, 2, "", ""},
-     {90.1_g, 3, "", ""}, {91.1_g, 3, "", ""}, {92.1_g, 3, "", ""},   {92.2_g, 3, "", ""}, {92.3_g, 3, "", ""},
-     {28.1_g, 3, "", ""}, {30.1_g, 3, "", ""}});
+     {6.2_g, 8, "Q", ""}, {33.1_g, 5, "", ""}, {38.2_g, 4, "", ""},   {38.3_g, 4, "", ""}, {38.4_g, 4, "", ""},
+     {38.5_g, 4, "", ""}, {41.1_g, 4, "", ""}, {42.1_g, 4, "", ""},   {43.1_g, 3, "", ""}, {61_g, 2, "", ""},
+     {61.1_g, 2, "", ""}, {90.1_g, 3, "", ""}, {91.1_g, 3, "", ""},   {92.1_g, 3, "", ""}, {92.2_g, 3, "", ""},
+     {92.3_g, 3, "", ""}, {28.1_g, 3, "", ""}, {30.1_g, 3, "", ""}});
 constexpr auto ending_signs = std::to_array<EndingSign>({{".ngc", 4}});
 constexpr auto mark_signs = std::to_array<MarkSign>({{Mark::polar_sign, 6},
                                                      {Mark::active_comment, 6},
@@ -382,6 +388,7 @@ const DialectRules linuxcnc_rules{
                .rotary_in_machine = true,
                .turns_by_p = true,
                .separate_uvw = true,
+               .splines_by_last_block = true,
                .probe_retreat = 0.01 * mm_per_inch,
                .forbidden_in_compensation = rs274::forbidden_in_compensation},
     .tools = {.m61 = true, .always_looks_up = true, .length_of = LengthOf::tool_in_spindle},

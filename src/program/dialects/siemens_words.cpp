@@ -17,16 +17,21 @@ namespace clsurf {
 namespace {
 
 constexpr auto noted_words = std::to_array<std::string_view>({
-    "MSG",     "FNORM",  "FLIN",      "FCUB",    "STOPRE",   "ORIWKS",    "ORIMKS",   "ORIAXES", "ORIVECT",
-    "ORISON",  "OTOL",   "CTOL",      "UPATH",   "SPATH",    "CDOF",      "CDOF2",    "CDON",    "CUT2D",
-    "CUT2DF",  "ORISOF", "WORKPIECE", "FGROUP",  "FIFOCTRL", "STARTFIFO", "STOPFIFO", "NORM",    "KONT",
-    "KONTT",   "KONTC",  "DISPLOF",   "DISPLON", "SAVE",     "SBLOF",     "SBLON",    "FFWON",   "FFWOF",
-    "SOFT",    "BRISK",  "DRIVE",     "SOFTA",   "BRISKA",   "ACC",       "RTLION",   "RTLIOF",  "TOFFOF",
-    "PAROTOF", "CFC",    "CFTCP",     "CFIN",    "FENDNORM", "FFWOFF",    "VELOLIM",  "GETT",    "TLPREP",
-    "TOWSTD",  "TCOABS", "WALIMOF",   "WALIMON", "SPOS",     "SPCON",     "SPCOF",
+    "MSG",     "FNORM",  "FLIN",      "FCUB",    "STOPRE",   "ORIWKS",    "ORIMKS",   "ORIAXES",    "ORIVECT",
+    "ORISON",  "OTOL",   "CTOL",      "UPATH",   "SPATH",    "CDOF",      "CDOF2",    "CDON",       "CUT2D",
+    "CUT2DF",  "ORISOF", "WORKPIECE", "FGROUP",  "FIFOCTRL", "STARTFIFO", "STOPFIFO", "NORM",       "KONT",
+    "KONTT",   "KONTC",  "DISPLOF",   "DISPLON", "SAVE",     "SBLOF",     "SBLON",    "FFWON",      "FFWOF",
+    "SOFT",    "BRISK",  "DRIVE",     "SOFTA",   "BRISKA",   "ACC",       "RTLION",   "RTLIOF",     "TOFFOF",
+    "PAROTOF", "CFC",    "CFTCP",     "CFIN",    "FENDNORM", "FFWOFF",    "VELOLIM",  "GETT",       "TLPREP",
+    "TOWSTD",  "TCOABS", "WALIMOF",   "WALIMON", "SPOS",     "SPCON",     "SPCOF",    "SPLINEPATH",
 });
-constexpr auto curve_words =
-    std::to_array<std::string_view>({"ASPLINE", "BSPLINE", "CSPLINE", "POLY", "OEMIPO1", "OEMIPO2", "INVCW", "INVCCW"});
+constexpr auto curve_words = std::to_array<std::string_view>({"OEMIPO1", "OEMIPO2", "INVCW", "INVCCW"});
+constexpr auto spline_words = std::to_array<std::pair<std::string_view, MotionMode>>({
+    {"ASPLINE", MotionMode::akima_spline},
+    {"BSPLINE", MotionMode::basis_spline},
+    {"CSPLINE", MotionMode::point_spline},
+    {"POLY", MotionMode::polynomial},
+});
 
 std::string text_of(const Keyword& keyword) {
     return keyword.has_arguments ? keyword.name + "(" + keyword.arguments + ")" : keyword.name;
@@ -232,14 +237,40 @@ bool Interpreter::mode_keyword(const Keyword& keyword) {
     return true;
 }
 
+/// Splines, and what holds at their ends.
+bool Interpreter::spline_keyword(const Keyword& keyword, const Block& block) {
+    const std::string& name = keyword.name;
+    for (const auto& [word, mode] : spline_words) {
+        if (name != word) continue;
+        for (const int code : {0_g, 1_g, 2_g, 3_g}) {
+            if (block.words.has_g(code))
+                fail(fmt::format("{} and {} in one block", name, code_text(code)), keyword.column);
+        }
+        state_.motion = mode;
+        arcs_.kind = ArcKind::usual;
+        return true;
+    }
+    static constexpr auto ends = std::to_array<std::pair<std::string_view, SplineEnd>>(
+        {{"AUTO", SplineEnd::free}, {"NAT", SplineEnd::natural}, {"TAN", SplineEnd::tangent}});
+    for (const auto& [word, end] : ends) {
+        if (name == "B" + std::string(word))
+            curves_.begin = end;
+        else if (name == "E" + std::string(word))
+            curves_.end = end;
+        else
+            continue;
+        return true;
+    }
+    return false;
+}
+
 void Interpreter::apply_keyword(const Keyword& keyword, Block& block) {
     const std::string& name = keyword.name;
-    if (mode_keyword(keyword) || modal_keyword(keyword, block)) return;
+    if (spline_keyword(keyword, block) || mode_keyword(keyword) || modal_keyword(keyword, block)) return;
     if (siemens_frame(keyword, block) || siemens_cycle(keyword)) return;
     if (name == "EXTCALL" || name == "CALL" || name == "PCALL") return call_by_path(keyword);
     if (contains(curve_words, name)) {
-        refuse_motion(name, block, keyword.column,
-                      "splines and polynomials are not supported: let the CAM system write lines");
+        refuse_motion(name, block, keyword.column, "involutes are not supported: let the CAM system write lines");
     }
     if (contains(noted_words, name) || name.starts_with("COMP") || name.ends_with("=")) {
         event("mode", text_of(keyword));

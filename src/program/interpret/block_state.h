@@ -3,6 +3,7 @@
 // block alone.
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -21,10 +22,47 @@ struct ArcState {
     Vec3 begin_of_last = Vec3::Zero();  ///< where the last motion began [mm], of the work system
 };
 
+/// A spline whose points come block by block.
+enum class SplineKind : std::uint8_t {
+    none,
+    uniform,  ///< G5.2: control points, even knots
+    knotted,  ///< G6.2: control points with their knots
+    basis,    ///< BSPLINE: control points, intervals of knots
+    akima,    ///< ASPLINE: points that it goes through
+    cubic,    ///< CSPLINE: points that it goes through
+};
+
+/// What holds at an end of a spline through points.
+enum class SplineEnd : std::uint8_t {
+    free,     ///< BAUTO, EAUTO
+    natural,  ///< BNAT, ENAT: no curvature
+    tangent,  ///< BTAN, ETAN: in the direction of the motion beside it
+};
+
+struct SplinePoint {
+    Vec3 at = Vec3::Zero();  ///< [mm], of the work system
+    double weight = 1;
+    double knot = std::numeric_limits<double>::quiet_NaN();  ///< of G6.2; of BSPLINE the interval PL; NaN: not given
+    LineNumber line = 0;
+    double feed = 0;  ///< as programmed
+};
+
+struct OpenSpline {
+    SplineKind kind = SplineKind::none;
+    int degree = 3;
+    std::vector<SplinePoint> points;
+    std::vector<double> last_knots;  ///< of blocks without a point, behind those of the points
+    Vec3 begin_tangent = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< NaN: there is none
+    std::vector<std::size_t> events;  ///< of each event that came in between, how many points stood before it
+};
+
 struct CurveState {
-    std::vector<Vec3> nurbs;  ///< x, y, weight
-    int nurbs_order = 3;
+    OpenSpline open;
     Vec2 spline_out = Vec2::Zero();  ///< P Q of the cubic spline before
+    SplineEnd begin = SplineEnd::tangent, end = SplineEnd::tangent;
+    int degree = 3;  ///< SD
+
+    [[nodiscard]] bool is_open() const { return open.kind != SplineKind::none; }
 };
 
 /// A corner that the next line cuts off: RND, CHF.

@@ -36,7 +36,9 @@ bool is_numbered_axis(std::string_view word) {
 std::string hint_of_code(int code) {
     if (code >= 5_g && code <= 5.3_g)
         return fmt::format("{} is a spline of linuxcnc: --dialect linuxcnc", code_text(code));
-    if (code >= 6.1_g && code <= 6.3_g) return "NURBS are not supported: let the CAM system write lines and arcs";
+    if (code == 6.2_g) return "G6.2 is a NURBS of fanuc and linuxcnc: --dialect";
+    if (code >= 6.1_g && code <= 6.3_g)
+        return "splines by G6.1 and G6.3 are not supported: let the CAM system write lines";
     return {};
 }
 

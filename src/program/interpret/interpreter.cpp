@@ -36,7 +36,7 @@ Interpreter::Interpreter(SourceText text, const InterpreterOptions& options)
     rules_ = program_.dialect->rules;
     index_codes();
     program_.files.push_back(std::move(text));
-    // A line makes 100 chords of a spline at most, and a few motions besides.
+    // A line makes a span of a spline and a few motions; an arc in a tilted frame is chords.
     constexpr std::uint64_t most_of_a_line = 200;
     constexpr std::uint64_t most_numbers = 0xfffffff0u;
     most_motions_ = std::min(most_numbers, options_.most_repeated + most_of_a_line * program_.main().line_count());
@@ -54,8 +54,7 @@ Interpreter::Interpreter(SourceText text, const InterpreterOptions& options)
 std::int64_t Interpreter::read_on(std::int64_t motions) {
     if (!ended_) {
         while (!ended_ && settled() < motions) run_line();
-        if (ended_ && !curves_.nurbs.empty())
-            note(Severity::warning, "program.open-spline", "a spline is not closed at the end");
+        if (ended_ && curves_.is_open()) close_spline(Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
         if (ended_ && corner_.pending) fail("a straight line with feed must follow RND and CHF");
     }
     return settled();
@@ -161,7 +160,7 @@ bool Interpreter::run_plain(const Words& words) {
     }
     const bool ordinary = (mode == MotionMode::rapid || mode == MotionMode::feed) && !state_.incremental &&
                           state_.feed_mode == FeedMode::per_minute && !modal_call_.active && !frames_.polar.on &&
-                          !state_.frame.active() && curves_.nurbs.empty() && !state_.diameter &&
+                          !state_.frame.active() && !curves_.is_open() && !state_.diameter &&
                           !compensation_.path.on() && !corner_.pending;
     if (!ordinary) return false;
     state_.motion = mode;
@@ -242,6 +241,7 @@ void Interpreter::note(Severity severity, const char* code, const std::string& t
 }
 
 void Interpreter::event(const std::string& name, const std::string& value) {
+    if (curves_.is_open()) curves_.open.events.push_back(curves_.open.points.size());
     program_.events.push_back({program_.motions.size(), place_.line, name, value, {}});
 }
 

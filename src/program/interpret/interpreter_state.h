@@ -126,6 +126,7 @@ public:
     void apply_keyword(const Keyword& keyword, Block& block);
     bool modal_keyword(const Keyword& keyword, const Block& block);
     bool mode_keyword(const Keyword& keyword);
+    bool spline_keyword(const Keyword& keyword, const Block& block);
     void call_by_path(const Keyword& keyword);
     bool arc_of_siemens(const Block& block, ArcWords& words);
     void set_pole(int code, const Block& block);                 ///< G110 … G112
@@ -213,10 +214,6 @@ public:
     void refuse_turns(const Block& block) const;
     void push_arc(Arc arc, bool clockwise, const Vec3& begin, const Vec3& end, const Vec3& rotary);
     void probe(const Vec3& end, const Vec3& rotary);
-    void spline(const Block& block);
-    void nurbs_point(const Block& block);
-    void nurbs_end();
-    void flatten_bezier(const std::vector<Vec2>& control);
     void push(MotionKind kind, const Vec3& end, const Vec3& rotary, float feed);
     void settle_work_frame();
     [[nodiscard]] float feed_for(double length);
@@ -241,6 +238,27 @@ public:
     void bore_fine(double bottom, double clear, const Vec3& rotary);
     void bore_back_shifted(double r, double top, double clear, const Vec3& rotary);
     void bore_back(double r, double bottom, double clear, const Vec3& rotary);
+
+    // curves.cpp: splines
+    void refuse_beside_spline(const Block& block);
+    void push_curve(BezierCurve curve, LineNumber line, double feed);
+    void spline(const Block& block);         ///< G5, G5.1
+    void nurbs_point(const Block& block);    ///< G5.2
+    void nurbs_end();                        ///< G5.3
+    void knotted_point(const Block& block);  ///< G6.2
+    void spline_point(const Block& block);   ///< ASPLINE, BSPLINE, CSPLINE
+    void polynomial(const Block& block);     ///< POLY
+    [[nodiscard]] const PolynomialWord* polynomial_of(const Block& block, char axis) const;
+    void begin_spline(SplineKind kind);
+    void add_spline_point(const Vec3& at, double weight, double knot);
+    void finish_nurbs(std::vector<double> knots);
+    void finish_knotted();
+    void finish_basis_spline();
+    void finish_point_spline(const Vec3& end_tangent);
+    void close_spline(const Vec3& end_tangent);
+    void close_spline_before(const Vec3& next);  ///< a straight motion to a point
+    void settle_spline(const Block& block);
+    void move_events(const OpenSpline& open, std::int64_t first, std::size_t shaping);
 
     // flow.cpp: control statements; true: the line was one
     bool control_statement(const Statement& statement);

@@ -142,6 +142,7 @@ Vec2 Interpreter::record_profile(const std::string& name, std::vector<Compensate
     const Vec2 begin = zx(m.end[first].vec());
     for (std::size_t i = first + 1; i < m.kind.size(); ++i) {
         CompensatedMove move{zx(m.end[i].vec())};
+        if (m.kind[i] == MotionKind::spline) fail("a profile of a lathe cycle may not have splines");
         if (const Arc* arc = m.arc_of(static_cast<std::int64_t>(i))) {
             move.centre = zx(arc->centre.vec());
             move.is_arc = true;

@@ -26,6 +26,11 @@ enum class MotionMode : std::uint8_t {
     cubic_spline,
     quadratic_spline,
     nurbs,
+    knotted_nurbs,
+    akima_spline,
+    basis_spline,
+    point_spline,
+    polynomial,
     probe,
     cycle,
 };

@@ -1,4 +1,4 @@
-// Blocks that move: targets, lines, arcs, splines.
+// Blocks that move: targets, lines, arcs.
 
 #include <algorithm>
 #include <cmath>
@@ -15,10 +15,6 @@ constexpr std::uint32_t rotary_axes = Words::bit('A') | Words::bit('B') | Words:
 constexpr std::uint32_t other_axes = Words::bit('U') | Words::bit('V') | Words::bit('W');
 constexpr std::uint32_t centres = Words::bit('I') | Words::bit('J') | Words::bit('K') | Words::bit('R');
 constexpr int most_turns = 100'000;
-/// Pieces that a curve is flattened to: chords within 1 µm of it for curves of finishing size.
-constexpr int curve_pieces = 100;
-constexpr int least_nurbs_order = 3;  ///< LinuxCNC reads a smaller L as 3
-constexpr int most_nurbs_order = 20;
 constexpr int first_probed_parameter = 5061, probe_result_parameter = 5070;
 
 bool names_motion(const Block& block) {
@@ -140,6 +136,7 @@ void Interpreter::move(const Block& block) {
     const bool axes = turns_tool || (block.words.has & (Words::xyz | rotary_axes | other_axes)) != 0 ||
                       block.polar_radius || block.polar_angle ||
                       (arcs_.polar_line && (block.words.has & (Words::bit('R') | Words::bit('H'))) != 0);
+    settle_spline(block);
     switch (state_.motion) {
         case MotionMode::none:
             if (!axes) return;
@@ -172,6 +169,15 @@ void Interpreter::move(const Block& block) {
             if (axes) spline(block);
             return;
         case MotionMode::nurbs: nurbs_point(block); return;
+        case MotionMode::knotted_nurbs: knotted_point(block); return;
+        case MotionMode::akima_spline:
+        case MotionMode::basis_spline:
+        case MotionMode::point_spline:
+            if (axes) spline_point(block);
+            return;
+        case MotionMode::polynomial:
+            if (axes || !block.polynomials.empty()) polynomial(block);
+            return;
         case MotionMode::cycle:
             if (axes) cycle(block);
             return;
@@ -290,6 +296,13 @@ void Interpreter::flatten_arc(const Arc& arc, bool clockwise, const Vec3& begin,
 }
 
 void Interpreter::push_arc(Arc arc, bool clockwise, const Vec3& begin, const Vec3& end, const Vec3& rotary) {
+    if (curves_.is_open()) {
+        // The spline ends in the direction in which the arc begins.
+        Vec3 out = begin - arc.centre.vec();
+        out[arc.axis] = 0;
+        const Vec3 axis = Vec3::Unit(arc.axis);
+        close_spline(clockwise ? out.cross(axis) : axis.cross(out));
+    }
     arc.motion = program_.motions.size();
     program_.motions.arcs.push_back(arc);
     push(clockwise ? MotionKind::cw : MotionKind::ccw, end, rotary, feed_for(arc_length(arc, clockwise, begin, end)));
@@ -311,6 +324,7 @@ void Interpreter::probe(const Vec3& end, const Vec3& rotary) {
 }
 
 void Interpreter::push(MotionKind kind, const Vec3& end, const Vec3& rotary, float feed) {
+    if (curves_.is_open()) close_spline_before(end);
     Motions& m = program_.motions;
     if (forgotten_ + m.kind.size() >= most_motions_)
         fail(fmt::format("more than {} motions from {} lines: an endless loop?", most_motions_,
@@ -358,106 +372,6 @@ void Interpreter::push(MotionKind kind, const Vec3& end, const Vec3& rotary, flo
     arcs_.begin_of_last = state_.position;
     state_.position = end;
     state_.rotary = angles;
-}
-
-namespace {
-
-Vec2 bezier(const std::vector<Vec2>& control, double t) {
-    std::vector<Vec2> p = control;
-    for (std::size_t level = p.size() - 1; level > 0; --level) {
-        for (std::size_t i = 0; i < level; ++i) p[i] = (1 - t) * p[i] + t * p[i + 1];
-    }
-    return p[0];
-}
-
-}  // namespace
-
-void Interpreter::spline(const Block& block) {
-    if (state_.plane_axis != 2) fail("G5 and G5.1 need the XY plane (G17)");
-    const double unit = state_.unit_mm;
-    const Vec3 begin = state_.position;
-    const Vec3 end = target(block, false);
-    const auto word = [&](char letter) { return block.words.given(letter) ? block.words.of(letter) * unit : 0.0; };
-    std::vector<Vec2> control;
-    const Vec2 from = begin.head<2>();
-    const Vec2 to = end.head<2>();
-    if (state_.motion == MotionMode::cubic_spline) {
-        const bool first = block.words.given('I') || block.words.given('J');
-        if (!block.words.given('P') || !block.words.given('Q')) fail("G5 needs P and Q");
-        if (first && !(block.words.given('I') && block.words.given('J'))) fail("G5 needs both I and J, or neither");
-        if (!first && curves_.spline_out.isZero()) fail("the first G5 needs I and J");
-        const Vec2 out = first ? Vec2(word('I'), word('J')) : Vec2(-curves_.spline_out);
-        curves_.spline_out = Vec2(word('P'), word('Q'));
-        control = {from, from + out, to + curves_.spline_out, to};
-    } else {
-        if (!block.words.given('I') && !block.words.given('J')) fail("G5.1 needs I or J");
-        const Vec2 middle = from + Vec2(word('I'), word('J'));
-        control = {from, (from + 2 * middle) / 3, (to + 2 * middle) / 3, to};
-    }
-    flatten_bezier(control);
-}
-
-void Interpreter::flatten_bezier(const std::vector<Vec2>& control) {
-    for (int k = 1; k <= curve_pieces; ++k) {
-        const Vec2 p = bezier(control, static_cast<double>(k) / curve_pieces);
-        straight(MotionKind::spline, Vec3(p.x(), p.y(), state_.position.z()), state_.rotary);
-    }
-}
-
-/// A point of G5.2 with its weight. The first one is where the tool stands; its weight is the P of a block
-/// without X and Y.
-void Interpreter::nurbs_point(const Block& block) {
-    const Words& w = block.words;
-    if (state_.plane_axis != 2) fail("G5.2 needs the XY plane (G17)");
-    if (w.given('X') != w.given('Y')) fail("a point of G5.2 needs both X and Y");
-    constexpr std::uint32_t others = Words::bit('Z') | Words::bit('A') | Words::bit('B') | Words::bit('C');
-    if ((w.has & others) != 0) fail("a spline (G5.2) moves only X and Y");
-    const bool is_point = w.given('X');
-    const double weight = w.given('P') ? w.of('P') : 1.0;
-    if (!(weight > 0)) fail("a weight (P) must be greater than 0");
-    if (curves_.nurbs.empty()) {
-        curves_.nurbs_order = least_nurbs_order;
-        curves_.nurbs.emplace_back(state_.position.x(), state_.position.y(), is_point ? 1.0 : weight);
-    } else if (!is_point && w.given('P')) {
-        fail("P without X and Y is the weight of the first point only", w.column['P' - 'A']);
-    }
-    if (w.given('L')) curves_.nurbs_order = static_cast<int>(std::clamp(w.of('L'), double(least_nurbs_order), 1e6));
-    if (curves_.nurbs_order > most_nurbs_order)
-        fail(fmt::format("the order of a spline (L) is at most {}", most_nurbs_order));
-    if (!is_point) return;
-    const Vec3 end = target(block, false);
-    curves_.nurbs.emplace_back(end.x(), end.y(), weight);
-}
-
-void Interpreter::nurbs_end() {
-    const auto count = static_cast<int>(curves_.nurbs.size());
-    const int order = curves_.nurbs_order;
-    if (count < order) fail(fmt::format("a spline of order {} needs {} points, it has {}", order, order, count));
-    // Clamped uniform knots; de Boor in homogeneous coordinates.
-    const int spans = count - order + 1;
-    const auto knot = [&](int i) { return static_cast<double>(std::clamp(i - order + 1, 0, spans)); };
-    for (int k = 1; k <= spans * curve_pieces / 4; ++k) {
-        const double u = std::min(static_cast<double>(k) * 4 / curve_pieces, static_cast<double>(spans));
-        const int span = std::min(static_cast<int>(u), spans - 1) + order - 1;
-        std::vector<Vec3> d;
-        for (int j = 0; j < order; ++j) {
-            const Vec3& c = curves_.nurbs[static_cast<std::size_t>(span - order + 1 + j)];
-            d.emplace_back(c.x() * c.z(), c.y() * c.z(), c.z());
-        }
-        for (int r = 1; r < order; ++r) {
-            for (int j = order - 1; j >= r; --j) {
-                const int i = span - order + 1 + j;
-                const double width = knot(i + order - r) - knot(i);
-                const double a = width > 0 ? (u - knot(i)) / width : 0.0;
-                d[static_cast<std::size_t>(j)] =
-                    (1 - a) * d[static_cast<std::size_t>(j - 1)] + a * d[static_cast<std::size_t>(j)];
-            }
-        }
-        const Vec3& p = d[static_cast<std::size_t>(order - 1)];
-        straight(MotionKind::spline, Vec3(p.x() / p.z(), p.y() / p.z(), state_.position.z()), state_.rotary);
-    }
-    curves_.nurbs.clear();
-    state_.motion = MotionMode::none;
 }
 
 }  // namespace clsurf

@@ -32,6 +32,7 @@ Vec3 Interpreter::tangent_at_end(std::int64_t motion) const {
     const Motions& m = program_.motions;
     const auto i = static_cast<std::size_t>(motion);
     if (m.kind[i] == MotionKind::dwell) return Vec3::Zero();
+    if (const Curve* curve = m.curve_of(motion)) return curve->span->tangent(1);
     const Arc* arc = m.arc_of(motion);
     if (arc == nullptr) return m.end[i].vec() - m.begin_of(motion).vec();
     Vec3 out = m.end[i].vec() - arc->centre.vec();

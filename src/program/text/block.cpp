@@ -323,6 +323,10 @@ private:
         std::string id = c_.identifier();
         Cursor after = c_;
         after.at += id.size();
+        if (id == "PO" && after.peek() == '[') {
+            block_.polynomials.push_back(read_polynomial(c_ = after, variables_, rules_, column));
+            return;
+        }
         if (after.peek() == '[') id += element_index(after);
         // G1, X10, Z-5: a letter with its number.
         const std::size_t letters = static_cast<std::size_t>(
@@ -422,8 +426,6 @@ private:
             assign_letter(id[0], column);
             return;
         }
-        if (id.starts_with("PO["))
-            throw ReadError{"polynomials (PO) are not supported", column, "let the CAM system write lines"};
         assign_named(id, column);
     }
 
@@ -453,8 +455,8 @@ private:
             return;
         }
         static constexpr auto of_blocks =
-            std::to_array<std::string_view>({"AR", "RPL", "I1", "J1", "K1", "RND", "RNDM", "CHR", "CHF", "ANG", "DISR",
-                                             "A3", "B3", "C3", "CTOL", "OTOL", "ATOL"});
+            std::to_array<std::string_view>({"AR",   "RPL", "I1", "J1", "K1",   "RND",  "RNDM", "CHR", "CHF", "ANG",
+                                             "DISR", "A3",  "B3", "C3", "CTOL", "OTOL", "ATOL", "PL",  "PW",  "SD"});
         const bool of_block = std::find(of_blocks.begin(), of_blocks.end(), id) != of_blocks.end();
         const double value = of_block ? coordinate(increment) : evaluate(c_, variables_, rules_);
         if (id == "CR") {

@@ -12,6 +12,7 @@
 #include "program/text/cursor.h"
 #include "program/text/expression.h"
 #include "program/text/lexer.h"
+#include "program/text/polynomial_word.h"
 
 namespace clsurf {
 
@@ -44,6 +45,7 @@ struct Block {
     bool polar_radius_incremental = false, polar_angle_incremental = false;  ///< IC(…)
     std::vector<NamedWord> named;
     std::vector<std::pair<char, double>> centres;  ///< every I, J, K of Fanuc, which macro calls count
+    std::vector<PolynomialWord> polynomials;
     std::vector<Keyword> keywords;
     std::vector<UnknownWord> unknown;
 
@@ -67,6 +69,7 @@ struct Block {
         polar_radius_incremental = polar_angle_incremental = false;
         named.clear();
         centres.clear();
+        polynomials.clear();
         keywords.clear();
         unknown.clear();
     }

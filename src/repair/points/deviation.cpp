@@ -159,6 +159,9 @@ bool same(const Motions& a, std::int64_t i, const Motions& b, std::int64_t j) {
     const bool feeds = a.feed[k] == b.feed[l] || (a.feed[k] != a.feed[k] && b.feed[l] != b.feed[l]);
     if (!feeds) return false;
     if (!a.rotary.empty() && !equal(a.rotary[k], b.rotary[l])) return false;
+    const Curve *curve = a.curve_of(i), *other_curve = b.curve_of(j);
+    if ((curve == nullptr) != (other_curve == nullptr)) return false;
+    if (curve != nullptr && !curve->span->same_as(*other_curve->span, same_place)) return false;
     const Arc *arc = a.arc_of(i), *other = b.arc_of(j);
     if (arc == nullptr || other == nullptr) return arc == other;
     return arc->centre == other->centre && arc->turns == other->turns && arc->axis == other->axis;

@@ -32,9 +32,11 @@ bool BlockStream::stops_between(const PathElement& before, const PathElement& af
     if (before.stops || turning > reversal_angle) return true;
     if (before.tolerance > 0 && after.tolerance > 0) return false;
     if (machine_->controller.corner == CornerMode::junction) return false;
+    const bool splines = before.spline && after.spline;
     // On an exact path only what is straight on, with no jump of curvature, is passed without a stop.
     const double bend = (after.second_derivative(0) - before.second_derivative(before.length)).norm();
-    return turning > straight_on || bend > least_bend_jump;
+    return turning > (splines ? straight_on_of_splines : straight_on) ||
+           bend > (splines ? least_bend_jump_of_splines : least_bend_jump);
 }
 
 void BlockStream::take(const PathMode& mode) {
@@ -97,13 +99,18 @@ bool BlockStream::read(PathElement& element) {
             pending_dwell_line_ = motions.line[i];
             continue;
         }
-        if (kind == MotionKind::spline) fail(m, "splines cannot be simulated yet");
         if (turning)
             fail(m, "a rotary axis moves: only x, y and z can be simulated",
                  "--machine FILE with rotary axes and their kinematics simulates five");
         const Xyz& to = motions.end[i];
         const Vec3 end(to.x == to.x ? to.x : at_.x(), to.y == to.y ? to.y : at_.y(), to.z == to.z ? to.z : at_.z());
-        element = element_of(kind, is_arc(kind) ? motions.arc_of(m) : nullptr, at_, end);
+        const Curve* curve = kind == MotionKind::spline ? motions.curve_of(m) : nullptr;
+        if (curve == nullptr)
+            element = element_of(kind, is_arc(kind) ? motions.arc_of(m) : nullptr, at_, end);
+        else if (curve->span->at(0).hasNaN())
+            element = element_of(std::make_shared<const BezierCurve>(curve->span->with_unknown_at(at_)));
+        else
+            element = element_of(curve->span);
         if (!(element.length > 0)) continue;
         element.line = motions.line[i];
         element.block = blocks_++;

@@ -34,7 +34,7 @@ public:
     BlockStream(MotionSource& source, const Machine& machine, const Vec3& start, Stops stops = Stops::at_corners);
 
     /// Goes to the next section. False: the program has ended.
-    /// Throws InputError (feed 0, rotary axes, splines).
+    /// Throws InputError (feed 0, rotary axes).
     [[nodiscard]] bool begin_section();
     [[nodiscard]] bool next(PathElement& element) override;
 

@@ -51,8 +51,11 @@ FiveAxisBlocks::FiveAxisBlocks(const Program& program, const Machine& machine, c
         const Vec3 word = motions.end[i].vec();
         const Vec3 end = word.array().isNaN().select(at, word);
         MotionKind& kind = motions.kind[i];
-        if (kind == MotionKind::spline) kind = MotionKind::feed;  // its points are its lines
-        if (kind != MotionKind::dwell)
+        const Curve* curve = kind == MotionKind::spline ? motions.curve_of(motion) : nullptr;
+        if (kind == MotionKind::spline && curve == nullptr) kind = MotionKind::feed;  // a chord
+        if (curve != nullptr)
+            elements_[i] = element_of(std::make_shared<const BezierCurve>(curve->span->with_unknown_at(at)));
+        else if (kind != MotionKind::dwell)
             elements_[i] = element_of(kind, is_arc(kind) ? motions.arc_of(motion) : nullptr, at, end);
         const RotaryAngles to = motions.rotary.empty() ? angles : machine.kinematics.angles_of(motions.rotary[i].vec());
         const bool cuts = kind != MotionKind::rapid && kind != MotionKind::dwell;
@@ -114,6 +117,8 @@ double FiveAxisBlocks::part_at(std::size_t block, const Vec3& p, double from) co
         const double full = 2 * std::numbers::pi / e.rate;
         axis_path = std::atan2(off.dot(e.second), off.dot(e.first)) / e.rate;
         axis_path += full * std::round((from * e.length - axis_path) / full);
+    } else if (e.spline) {
+        axis_path = e.spline->arc_length_to(e.spline->nearest(p, e.spline->at_arc_length(from * e.length)).t);
     } else {
         axis_path = (p - e.begin).dot(e.direction);
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "simulation/path/junction.h"
 
@@ -28,6 +29,7 @@ PathDerivatives by_the_way(const Vec3& r1, const Vec3& r2, const Vec3& r3) {
 Vec3 PathElement::at(double arc_length) const {
     if (straight()) return begin + arc_length * direction;
     if (cubic) return curve.at(curve.at_arc_length(curve_from + arc_length, curve_length));
+    if (spline) return spline->at(spline->at_arc_length(curve_from + arc_length));
     const double angle = rate * arc_length;
     return centre + (radius + growth * angle) * (first * std::cos(angle) + second * std::sin(angle)) + rise * angle;
 }
@@ -41,6 +43,11 @@ Vec3 PathElement::at(double arc_length, Vec3& tangent) const {
         const double u = curve.at_arc_length(curve_from + arc_length, curve_length);
         tangent = curve.derivative(u).normalized();
         return curve.at(u);
+    }
+    if (spline) {
+        const double t = spline->at_arc_length(curve_from + arc_length);
+        tangent = spline->tangent(t);
+        return spline->at(t);
     }
     const double angle = rate * arc_length;
     const Vec3 outward = first * std::cos(angle) + second * std::sin(angle);
@@ -61,6 +68,10 @@ PathDerivatives PathElement::derivatives(double arc_length) const {
         const double u = curve.at_arc_length(curve_from + arc_length, curve_length);
         return by_the_way(curve.derivative(u), curve.second_derivative(u), 6 * curve.coefficients[3]);
     }
+    if (spline) {
+        const CurveJet jet = spline->moving_jet(spline->at_arc_length(curve_from + arc_length));
+        return by_the_way(jet.first, jet.second, jet.third);
+    }
     const double angle = rate * arc_length;
     const Vec3 outward = first * std::cos(angle) + second * std::sin(angle);
     const Vec3 along = second * std::cos(angle) - first * std::sin(angle);
@@ -73,6 +84,7 @@ PathDerivatives PathElement::derivatives(double arc_length) const {
 double PathElement::turning() const {
     if (straight()) return 0;
     if (arc) return length * rate;
+    if (spline && length == curve_length) return spline->turning();
     double sum = 0;
     Vec3 before = tangent(0);
     for (int k = 1; k <= turning_places; ++k) {
@@ -88,7 +100,7 @@ PathElement PathElement::part(double from, double to) const {
     p.length = to - from;
     if (from > 0) p.begin = at(from);
     if (to < length) p.end = at(to);
-    if (cubic) p.curve_from = curve_from + from;
+    if (!straight() && !arc) p.curve_from = curve_from + from;
     if (arc && from > 0) {
         const double angle = rate * from;
         p.first = first * std::cos(angle) + second * std::sin(angle);
@@ -108,6 +120,16 @@ void PathElement::take_block(const PathElement& other) {
     block_length = other.block_length;
     deviation = other.deviation;
     greatest_speed = other.greatest_speed;
+}
+
+PathElement element_of(std::shared_ptr<const BezierCurve> spline) {
+    PathElement e;
+    e.begin = spline->at(0);
+    e.end = spline->at(1);
+    e.length = e.curve_length = spline->length();
+    if (e.length < no_arc_length) e.length = 0;
+    e.spline = std::move(spline);
+    return e;
 }
 
 PathElement element_of(const CubicSpan& curve) {

@@ -1,10 +1,12 @@
 #pragma once
-// PathElement: one motion of a program, or a part of one, as a curve over arc length: a line, an arc, a helix
-// or a cubic.
+// PathElement: one motion of a program, or a part of one, as a curve over arc length: a line, an arc, a helix,
+// a cubic or a span of a spline.
 
 #include <limits>
+#include <memory>
 
 #include "core/geometry.h"
+#include "numeric/bezier_curve.h"
 #include "numeric/cubic_span.h"
 #include "program/motion.h"
 
@@ -12,7 +14,10 @@ namespace clsurf {
 
 inline constexpr double straight_on = 1e-9;      ///< [rad] turning below this moves no axis
 inline constexpr double least_bend_jump = 1e-9;  ///< [1/mm] a smaller jump of curvature is none
-inline constexpr double no_arc_length = 1e-9;    ///< [mm] below it two points are one
+// Between spans of splines, whose control points a program rounds.
+inline constexpr double straight_on_of_splines = 1e-6;      ///< [rad]
+inline constexpr double least_bend_jump_of_splines = 1e-4;  ///< [1/mm]
+inline constexpr double no_arc_length = 1e-9;               ///< [mm] below it two points are one
 
 /// Derivatives of a position by the arc length: none, 1/mm, 1/mm².
 struct PathDerivatives {
@@ -27,8 +32,9 @@ struct PathElement {
     Vec3 centre = Vec3::Zero(), first = Vec3::Zero(), second = Vec3::Zero(), rise = Vec3::Zero();
     double radius = 0, growth = 0, rate = 0;
     CubicSpan curve;
-    double curve_from = 0, curve_length = 0;  ///< where the element begins on the curve; of the whole curve [mm]
-    double length = 0;                        ///< [mm]
+    std::shared_ptr<const BezierCurve> spline;  ///< nullptr: none
+    double curve_from = 0, curve_length = 0;    ///< where the element begins on the curve; of the whole curve [mm]
+    double length = 0;                          ///< [mm]
 
     // Of the block that the element stands for.
     double feed = 0;               ///< asked speed [mm/s]; infinite for a rapid
@@ -41,7 +47,7 @@ struct PathElement {
     double deviation = 0;                                             ///< of the element from the block, at most [mm]
     double greatest_speed = std::numeric_limits<double>::infinity();  ///< that its shape is good for [mm/s]
 
-    [[nodiscard]] bool straight() const { return !arc && !cubic; }
+    [[nodiscard]] bool straight() const { return !arc && !cubic && spline == nullptr; }
     [[nodiscard]] Vec3 at(double arc_length) const;
     /// The position, and the first derivative by the arc length: a unit vector but for the growth of a radius
     /// (radii of start and end may differ within the reader's tolerance).
@@ -60,6 +66,8 @@ struct PathElement {
 
 /// The curve of a motion between two points; length 0 where it has none.
 [[nodiscard]] PathElement element_of(MotionKind kind, const Arc* arc, const Vec3& begin, const Vec3& end);
+/// A span of a spline from one end to the other.
+[[nodiscard]] PathElement element_of(std::shared_ptr<const BezierCurve> spline);
 /// A cubic from one end to the other.
 [[nodiscard]] PathElement element_of(const CubicSpan& curve);
 

@@ -39,7 +39,7 @@ PathStream::PathStream(MotionSource& source, const Machine& machine, const Vec3&
                       std::none_of(machine.axes.begin(), machine.axes.end(),
                                    [](const MachineAxis& axis) { return axis.max_jerk > 0; });
     const bool curves = machine.controller.curve != CurveMode::none;
-    if (!arcs && (curves || source.outline().arcs)) bend_share_ = share_of_bends;
+    if (!arcs && (curves || source.outline().curved)) bend_share_ = share_of_bends;
     if (curves) {
         curves_ = std::make_unique<CurveBlocks>(*source_, machine.controller.curve);
         source_ = curves_.get();
@@ -55,13 +55,14 @@ void PathStream::add_joint(const PathElement& before, const PathElement& after) 
     joint.at = ends_.back();
     joint.turn = after.tangent(0) - before.tangent(before.length);
     joint.turning = joint.turn.norm();
-    if (joint.turning < straight_on) joint.turn.setZero(), joint.turning = 0;
+    const bool splines = before.spline && after.spline;
+    if (joint.turning < (splines ? straight_on_of_splines : straight_on)) joint.turn.setZero(), joint.turning = 0;
     joint.tolerance = std::min(before.tolerance, after.tolerance);
     // A corner that has no arc keeps off the arcs of others, which take the tolerance for themselves.
     joint.widest = arcs_ ? std::min(before.length, after.length) : std::numeric_limits<double>::infinity();
     if (bend_share_ > 0) joint.bend = after.second_derivative(0) - before.second_derivative(before.length);
     const double bend = joint.bend.norm();
-    if (bend > least_bend_jump) {
+    if (bend > (splines ? least_bend_jump_of_splines : least_bend_jump)) {
         // |d (v − |d|)³/(12 v²)| is greatest at v/4: 27/3072 v². The halves of a block keep the
         // roundings of its two ends apart.
         const double widest = std::sqrt(bend_share_ * joint.tolerance * 3072 / (27 * bend));

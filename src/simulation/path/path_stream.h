@@ -97,7 +97,7 @@ public:
     PathStream(MotionSource& source, const Machine& machine, const Vec3& start);
 
     /// Goes to the next section, the way between two exact stops. False: the program has ended.
-    /// Throws InputError (feed 0, rotary axes, splines).
+    /// Throws InputError (feed 0, rotary axes).
     bool begin_section();
     /// The next span of the section in order, there until the next call; nullptr: none is left.
     [[nodiscard]] const Span* next();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/not_finite.h"
 #include "simulation/path/junction.h"
 #include "simulation/path/path_stream.h"
 
@@ -12,8 +13,11 @@ namespace {
 
 constexpr double least_span = 1e-9;         ///< [mm] nearer cuts are one
 constexpr double most_turn_of_span = 0.75;  ///< [rad] of a curve in one span: limits of axes change round it
-constexpr int checked_points = 5;           ///< of a span whose bounds are not at its ends
-constexpr double nearly = 1 - 1e-9;         ///< of a limit, for rounding
+constexpr double gentle_turn = 0.1;         ///< [rad] a span of a spline that turns less is not cut further …
+constexpr double most_bend_ratio = 1.5;   ///< … nor one whose greatest curvature is less than so many times the least
+constexpr int most_spline_halvings = 10;  ///< of a span of a spline
+constexpr int checked_points = 5;         ///< of a span whose bounds are not at its ends
+constexpr double nearly = 1 - 1e-9;       ///< of a limit, for rounding
 
 /// Adds factor · (a + b τ)(c + e τ)³ to a polynomial in τ.
 void add_product(std::array<Vec3, 5>& sum, const Vec3& factor, double a, double b, double c, double e) {
@@ -60,6 +64,23 @@ void bound_line(Span& span) {
     span.fourth = 24 * c[4].norm();
 }
 
+/// Cuts a spline where a span would turn too far, or its curvature vary too much for one speed.
+void divide_spline(const PathElement& base, double from, double to, int depth, std::vector<double>& cuts) {
+    if (depth == most_spline_halvings) return;
+    double least = infinite, most = 0;
+    for (int k = 0; k < checked_points; ++k) {
+        const double bend = base.second_derivative(from + (to - from) * k / (checked_points - 1)).norm();
+        least = std::min(least, bend);
+        most = std::max(most, bend);
+    }
+    const double turns = most * (to - from);
+    if (turns <= most_turn_of_span && (turns <= gentle_turn || most <= most_bend_ratio * least)) return;
+    const double middle = 0.5 * (from + to);
+    divide_spline(base, from, middle, depth + 1, cuts);
+    cuts.push_back(middle);
+    divide_spline(base, middle, to, depth + 1, cuts);
+}
+
 /// Greatest values on an arc or a cubic, rounded or not. The third derivative of what is rounded is linear, that of
 /// an arc as good as: its greatest value is at a checked point; those below change between them by no more than
 /// the next one allows.
@@ -84,7 +105,7 @@ void bound_curve(Span& span) {
         span.twist.array() += (span.base.first.cwiseAbs() + span.base.second.cwiseAbs()).array().min(1.0) * margin;
     }
     span.fourth = 24 * span.rounding[4].norm() + (span.base.arc ? span.base.radius * std::pow(span.base.rate, 4) : 0.0);
-    if (span.base.cubic) {
+    if (span.base.cubic || span.base.spline) {
         // By the way a cubic is no polynomial: its differences stand for the derivatives, with as much again.
         Vec3 margin = Vec3::Zero();
         for (std::size_t k = 1; k < thirds.size(); ++k) {
@@ -154,7 +175,9 @@ void PathStream::make_spans(std::int64_t element) {
         if (j->width > 0) cut(j->at - j->width), cut(j->at + j->width);
         if (j->bend_width > 0) cut(j->at - j->bend_width), cut(j->at + j->bend_width);
     }
-    if (!base.straight()) {
+    if (base.spline) {
+        divide_spline(base, 0, base.length, 0, cuts_);
+    } else if (!base.straight()) {
         const int parts = static_cast<int>(std::ceil(base.turning() / most_turn_of_span));
         for (int k = 1; k < parts; ++k) cuts_.push_back(base.length * k / parts);
     }

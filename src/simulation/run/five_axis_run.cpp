@@ -19,9 +19,10 @@
 namespace clsurf {
 namespace {
 
-constexpr double chords_off = 0.03;  ///< of a tolerance, that the chords of a curved block may be off
-constexpr int most_chords = 4096;    ///< of a block
-constexpr int judged_parts = 8;      ///< of a block's angles, for whether they change in proportion to its way
+constexpr int places_of_spline = 32;  ///< of a span, where its bend is looked at
+constexpr double chords_off = 0.03;   ///< of a tolerance, that the chords of a curved block may be off
+constexpr int most_chords = 4096;     ///< of a block
+constexpr int judged_parts = 8;       ///< of a block's angles, for whether they change in proportion to its way
 
 class FiveAxisRun {
 public:
@@ -107,6 +108,13 @@ private:
 
     static int chords_of_tip(const PathElement& element, double tolerance) {
         if (element.straight()) return 1;
+        if (element.spline) {
+            // Chords are equally long, and the sharpest bend decides.
+            double bend = 0;
+            for (int k = 0; k <= places_of_spline; ++k)
+                bend = std::max(bend, element.second_derivative(element.length * k / places_of_spline).norm());
+            return static_cast<int>(std::ceil(element.length * std::sqrt(bend / (8 * chords_off * tolerance)))) + 1;
+        }
         // The sagitta of a chord that turns by t is its length times t/8.
         return static_cast<int>(
             std::ceil(std::sqrt(element.turning() * element.length / (8 * chords_off * tolerance))));

@@ -15,7 +15,7 @@ enum class Planning : std::uint8_t {
 };
 
 /// Plans, interpolates and follows a program; points go to `sink` in order, block by block.
-/// Memory: of the look-ahead and of the source. Throws InputError (feed 0, rotary axes, splines).
+/// Memory: of the look-ahead and of the source. Throws InputError (feed 0, rotary axes).
 [[nodiscard]] SimulationSummary simulate(MotionSource& source, const Machine& machine, const Vec3& start,
                                          const PointSink& sink, const Progress& progress = {},
                                          Planning planning = Planning::nearly_optimal);

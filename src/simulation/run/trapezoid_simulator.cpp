@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "simulation/path/block_merging.h"
+#include "simulation/path/spline_sections.h"
 #include "simulation/plan/segment_queue.h"
 #include "simulation/plan/segment_runner.h"
 #include "simulation/run/recorder.h"
@@ -56,7 +57,8 @@ private:
 SimulationSummary simulate_trapezoids(MotionSource& source, const Machine& machine, const Vec3& start,
                                       const PointSink& sink, const Progress& progress) {
     BlockStream blocks(source, machine, start, Stops::programmed);
-    BlockMerging merged(blocks);
+    SplineSections sections(blocks);
+    BlockMerging merged(sections);
     const Vec3 from = blocks.position();
     Recorder recorder(source.program(), machine, from, sink);
     SetPoints points(machine, recorder, from);

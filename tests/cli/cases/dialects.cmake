@@ -17,11 +17,11 @@ clsurf_cli_test(NAME spline_of_another_dialect
   SETUP "printf 'G21 G90\\nG0 X0 Y0 Z0\\nG5.2 X1 Y1 P1 L3\\nX2 Y2 P1\\nG5.3\\nM30\\n' > part.nc"
   ARGS simulate part.nc --dialect fanuc -o run.biip EXIT 3 STDERR "part.nc:3:1: error: G5.2 is not known in fanuc" "--dialect linuxcnc"
   NO_FILE run.biip)
-clsurf_cli_test(NAME nurbs_of_fanuc SETUP "printf 'G21 G90\\nG0 X0 Y0 Z0\\nG6.2 P3 K0 X1 Y1 R1\\nK0 X2\\nM30\\n' > part.nc"
-  ARGS simulate part.nc -o run.biip EXIT 3 STDERR "part.nc:3:1: error: G6.2 is not known in fanuc" NO_FILE run.biip)
-clsurf_cli_test(NAME polynomials_of_siemens
-  SETUP "printf 'G71 G90\\nG0 X0 Y0 Z0\\nG1 F1000\\nPOLY PO[X]=(5,1) PO[Y]=(3,2)\\nM30\\n' > part.mpf"
-  ARGS simulate part.mpf -o run.biip EXIT 3 STDERR "part.mpf:4:6: error: polynomials .PO. are not supported" NO_FILE run.biip)
+clsurf_cli_test(NAME nurbs_that_does_not_end SETUP "printf 'G21 G90\\nG0 X1 Y1 Z0\\nG6.2 P3 K0 X1 Y1 R1 F600\\nK0 X2\\nK0 X3 Y2\\nK1\\nM30\\n' > part.nc"
+  ARGS simulate part.nc -o run.biip EXIT 3 STDERR "part.nc:7: error: a spline .G6.2. ends with 3 blocks of K alone, here are 1" NO_FILE run.biip)
+clsurf_cli_test(NAME polynomials_of_another_mode
+  SETUP "printf 'G71 G90\\nG0 X0 Y0 Z0\\nG1 F1000\\nPO[X]=(5,1) PO[Y]=(3,2)\\nM30\\n' > part.mpf"
+  ARGS simulate part.mpf -o run.biip EXIT 3 STDERR "part.mpf:4:1: error: PO moves axes, but POLY is not in force" NO_FILE run.biip)
 clsurf_cli_test(NAME exact_stop_is_no_g61_of_siemens SETUP "printf 'G71 G90 G61\\nG0 X0\\nM30\\n' > part.mpf" ARGS moves part.mpf
   EXIT 3 STDERR "part.mpf:1:9: error: G61 is not a word of siemens" "exact stop of siemens is G60")
 
