@@ -88,10 +88,11 @@ bool LintContext::is_corner(const ProgrammedPass& pass, std::size_t k) const {
     return in.dot(out) < bending_cosine * in.norm() * out.norm();
 }
 
-std::optional<std::array<PathLocation, 2>> LintContext::both_sides(const ProgrammedPass& pass, PointIndex i) const {
-    if (!surface().neighbours.has(Side::left, i) || !surface().neighbours.has(Side::right, i)) return std::nullopt;
-    const Eigen::Vector3f feed = direction_at(surface().positions, pass, i);
-    const PathLocation here{i, 0};
+std::optional<std::array<PathLocation, 2>> LintContext::both_sides(const ProgrammedPass& pass, PointIndex point) const {
+    if (!surface().neighbours.has(Side::left, point) || !surface().neighbours.has(Side::right, point))
+        return std::nullopt;
+    const Eigen::Vector3f feed = direction_at(surface().positions, pass, point);
+    const PathLocation here{point, 0};
     const std::array<PathLocation, 2> both{beside(surface(), here, feed, Side::left),
                                            beside(surface(), here, feed, Side::right)};
     if (!both[0].exists() || !both[1].exists()) return std::nullopt;
