@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
 #include <unordered_map>
 
@@ -16,11 +17,13 @@ constexpr double surface_share = 0.6;     ///< of a smaller group that has a nei
 constexpr std::size_t fewest_passes = 2;  ///< of a group
 /// Of the points of a smaller group that have a neighbour: it lies above or below.
 constexpr double stacked_share = 0.5;
-constexpr float upright = 0.9F;         ///< squared cosine to z of what lies above
-constexpr double many_beside = 0.4;     ///< of a group of many passes that has a neighbour
-constexpr float plumb = 0.98F;          ///< squared cosine to z: the turns of a helix, up to 8° steep
-constexpr double plumb_share = 0.9;     ///< of the points of a helix
-constexpr double plunge_diameter = 50;  ///< pitches: a helix that is narrower leads into the material
+constexpr float upright = 0.9F;           ///< squared cosine to z of what lies above
+constexpr double many_beside = 0.4;       ///< of a group of many passes that has a neighbour
+constexpr float plumb = 0.98F;            ///< squared cosine to z: the turns of a helix, up to 8° steep
+constexpr double plumb_share = 0.9;       ///< of the points of a helix
+constexpr double plunge_diameter = 50;    ///< pitches: a helix that is narrower leads into the material
+constexpr PointIndex turn_parts = 8;      ///< of a turn, by its points; a helix …
+constexpr PointIndex climbing_parts = 6;  ///< … climbs in so many of them; levels are joined in a few
 
 /// Disjoint sets of passes.
 class Groups {
@@ -42,6 +45,7 @@ struct Beside {
     PointIndex points = 0;                                ///< with a neighbour
     PointIndex stacked = 0;                               ///< of them, with one above or below
     PointIndex plumb = 0;                                 ///< of them, with one exactly above or below
+    PointIndex climbing = 0;                              ///< all of them, where the pass climbs all along
     double distance = 0;                                  ///< [mm] to the plumb ones, summed
     Eigen::AlignedBox3f box;                              ///< of the points
     std::unordered_map<std::size_t, PointIndex> of_pass;  ///< neighbours by pass
@@ -53,8 +57,22 @@ std::size_t pass_at(const Passes& passes, PointIndex point) {
     return static_cast<std::size_t>(after - passes.begin()) - 1;
 }
 
+/// The height changes all along the pass, as on a helix, and not in one place, where a level is left for the next.
+bool climbs_all_along(const Positions& positions, const Pass& pass) {
+    if (pass.size() <= turn_parts) return false;
+    const auto height_at = [&](PointIndex part) {
+        return positions[pass.first + (pass.size() - 1) * part / turn_parts].z();
+    };
+    const float usual = std::abs(height_at(turn_parts) - height_at(0)) / static_cast<float>(turn_parts);
+    PointIndex climbing = 0;
+    for (PointIndex part = 0; part < turn_parts; ++part)
+        climbing += 2 * std::abs(height_at(part + 1) - height_at(part)) > usual ? 1 : 0;
+    return usual > 0 && climbing >= climbing_parts;
+}
+
 Beside look_beside(const ClSurface& surface, const Pass& pass) {
     Beside found;
+    if (climbs_all_along(surface.positions, pass)) found.climbing = pass.size();
     // Neighbours stay on one pass for long: they are counted run by run.
     struct Counter {
         PointRange range{0, -1};
@@ -110,6 +128,7 @@ struct Group {
         beside.points += its.points;
         beside.stacked += its.stacked;
         beside.plumb += its.plumb;
+        beside.climbing += its.climbing;
         beside.distance += its.distance;
         beside.box.extend(its.box);
         climb += its.box.isEmpty() ? 0.0 : static_cast<double>(its.box.sizes().z());
@@ -132,7 +151,7 @@ private:
         const auto plumb_points = static_cast<double>(beside.plumb);
         if (beside.plumb == 0 || plumb_points < plumb_share * static_cast<double>(beside.points)) return false;
         const double pitch = beside.distance / plumb_points;
-        if (climb < 0.5 * pitch * static_cast<double>(passes)) return false;  // levels
+        if (climb < 0.5 * pitch * static_cast<double>(passes) || 2 * beside.climbing < points) return false;  // levels
         return static_cast<double>(beside.box.sizes().head<2>().maxCoeff()) < plunge_diameter * pitch;
     }
 };

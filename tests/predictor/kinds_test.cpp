@@ -67,6 +67,20 @@ TEST(Kinds, CornersOfLongLinksAreExpected) {
     EXPECT_LE(reported, 1);
 }
 
+/// The levels of a steep wall lie above each other within 8°, as the turns of a helix into the material do, but each is level
+/// all round and goes down in one place.
+TEST(Kinds, LevelsOfANarrowSteepWallAreFinishingPasses) {
+    for (const planted::LogKind& kind : planted::log_kinds()) {
+        if (kind.layout != planted::Layout::waterline) continue;
+        for (const std::uint64_t seed : {101, 103, 502}) {
+            double coverage = 0;
+            const planted::Score one = score_of(kind, seed, false, coverage);
+            EXPECT_GT(coverage, 0.7) << kind.name << ' ' << seed;
+            EXPECT_EQ(one.found, one.planted) << kind.name << ' ' << seed;
+        }
+    }
+}
+
 /// A slow section that begins in a crease is more than the flank of what is expected there.
 TEST(Kinds, WhatIsExpectedInACreaseEndsThere) {
     planted::Score all;
