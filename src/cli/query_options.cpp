@@ -39,8 +39,10 @@ std::vector<FoundPlace> find_on_part(const PointQuery& query, const WantedPlace&
                                      Diagnostics& diagnostics) {
     constexpr double far_away = 5;  // step-overs
     std::vector<FoundPlace> found = query.find_nearest(wanted);
+    constexpr double far_from_one_pass = 10;  // mm: no step-over is known; a tip may lie a tool's radius off the part
     const double step_over = query.step_over();
-    const bool is_far = !found.empty() && step_over > 0 && found.front().distance > far_away * step_over;
+    const double far = step_over > 0 ? far_away * step_over : far_from_one_pass;
+    const bool is_far = !found.empty() && found.front().distance > far;
     if (wanted.from_above && (found.empty() || is_far)) {
         const std::string away = found.empty()
                                      ? "no cutter reaches there"
@@ -49,13 +51,15 @@ std::vector<FoundPlace> find_on_part(const PointQuery& query, const WantedPlace&
                          "`clsurf info` says where the part lies; --at X,Y,Z finds the nearest pass all the same");
     }
     if (is_far) {
-        diagnostics.add({Severity::warning,
-                         "query.off-the-part",
-                         Place::of_file(query.part().log.name),
-                         fmt::format("--at {} is not on the part: the nearest {} is {:.3f} mm away, {:.0f} step-overs",
-                                     text, found.front().place.contact ? "contact point" : "tool tip",
-                                     found.front().distance, found.front().distance / step_over),
-                         {}});
+        diagnostics.add(
+            {Severity::warning,
+             "query.off-the-part",
+             Place::of_file(query.part().log.name),
+             fmt::format("--at {} is not on the part: the nearest {} is {:.3f} mm away{}", text,
+                         found.front().place.contact ? "contact point" : "tool tip", found.front().distance,
+                         step_over > 0 ? fmt::format(", {:.0f} step-overs", found.front().distance / step_over)
+                                       : std::string()),
+             {}});
     }
     return found;
 }
