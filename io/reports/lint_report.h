@@ -1,6 +1,7 @@
 #pragma once
 // What lint finds, as text, JSON and SARIF 2.1.0.
 
+#include <span>
 #include <string>
 
 #include "core/diagnostic.h"
@@ -8,17 +9,20 @@
 
 namespace clsurf::io {
 
+/// What lint found in one program.
 struct ReportedLint {
-    const LintReport* report = nullptr;
-    const Program* program = nullptr;
-    const Diagnostics* diagnostics = nullptr;
+    std::string program;  ///< its name
+    LintReport report;
+    Diagnostics diagnostics;
 };
 
-/// One line a finding, "part.nc:120: warning: … [point-spacing]", and a summary.
-[[nodiscard]] std::string lint_text(const ReportedLint& lint);
-/// Keys: findings[]{rule, severity, lines, beside_lines, pass, position_mm, tip_mm, contact_mm (where the tool is known), found, expected, unit, text}, summary, diagnostics[].
-[[nodiscard]] std::string lint_json(const ReportedLint& lint);
-/// One result per finding on its lines.
-[[nodiscard]] std::string lint_sarif(const ReportedLint& lint);
+/// Summaries first (a line a program, worst first, where there are several), then one line a finding, "part.nc:120:
+/// warning: … [point-spacing]".
+[[nodiscard]] std::string lint_text(std::span<const ReportedLint> programs);
+/// Keys: programs[]{program, findings[]{rule, severity, lines, beside_lines, pass, position_mm, tip_mm, contact_mm
+/// (where the tool is known), found, expected, unit, text}, summary, diagnostics[]}; of one program its keys besides.
+[[nodiscard]] std::string lint_json(std::span<const ReportedLint> programs);
+/// One run for all programs, one result a finding on its lines.
+[[nodiscard]] std::string lint_sarif(std::span<const ReportedLint> programs);
 
 }  // namespace clsurf::io

@@ -1,7 +1,11 @@
 // clsurf lint: problems in the program itself.
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "cli/known_tool.h"
 #include "cli/options.h"
@@ -47,7 +51,17 @@ void locate(LintReport& report, const Program& program, const ProgrammedSurface&
 
 constexpr const char* lint_formats = "text|json|sarif";
 
-using LintWriter = std::string (*)(const io::ReportedLint&);
+using LintWriter = std::string (*)(std::span<const io::ReportedLint>);
+
+io::ReportedLint lint_program(const std::string& path, const io::ProgramOptions& options,
+                              const LintThresholds& thresholds, const ToolChoice& choice) {
+    const Program program = io::read_program(path, options);
+    const ProgrammedSurface programmed = build_programmed_surface(program);
+    io::ReportedLint linted{program.main().name(), lint(program, programmed, thresholds), program.diagnostics};
+    if (const std::optional<CuttingTool> tool = find_tool(choice, nullptr, &program, linted.diagnostics))
+        locate(linted.report, program, programmed, *tool);
+    return linted;
+}
 
 ExitCode run_lint(const po::variables_map& values) {
     static const std::map<std::string, LintWriter, std::less<>> writers{
@@ -59,16 +73,17 @@ ExitCode run_lint(const po::variables_map& values) {
             throw UsageError("--tolerance must be above 0 mm");
     }
     const ToolChoice choice = read_tool(values);
+    const io::ProgramOptions options = read_program_options(values);
+    if (values.count("PROGRAM") == 0) throw UsageError("missing argument: PROGRAM");
     ReportOutput output(values, lint_formats);
-    const Program program = io::read_program(required(values, "PROGRAM"), read_program_options(values));
-    Diagnostics diagnostics = program.diagnostics;
-    const ProgrammedSurface programmed = build_programmed_surface(program);
-    LintReport report = lint(program, programmed, thresholds);
-    if (const std::optional<CuttingTool> tool = find_tool(choice, nullptr, &program, diagnostics))
-        locate(report, program, programmed, *tool);
-    if (output.format() != "json") print(diagnostics, values);
-    output.write(writers.at(output.format())({&report, &program, &diagnostics}));
-    return report.warnings() > 0 ? ExitCode::check_failed : ExitCode::done;
+    std::vector<io::ReportedLint> programs;
+    for (const std::string& path : values["PROGRAM"].as<std::vector<std::string>>()) {
+        programs.push_back(lint_program(path, options, thresholds, choice));
+        if (output.format() != "json") print(programs.back().diagnostics, values);
+    }
+    output.write(writers.at(output.format())(programs));
+    const bool warned = std::ranges::any_of(programs, [](const auto& p) { return p.report.warnings() > 0; });
+    return warned ? ExitCode::check_failed : ExitCode::done;
 }
 
 }  // namespace
@@ -76,15 +91,16 @@ ExitCode run_lint(const po::variables_map& values) {
 Subcommand lint_subcommand() {
     return {
         .name = "lint",
-        .arguments = "PROGRAM",
+        .arguments = "PROGRAM…",
         .summary = "problems in the program itself: uneven points, chord errors, reversals, feeds, pass ends",
         .description =
             "Compares adjacent programmed passes, without a log, and lists the lines that a controller will\n"
             "run differently from their neighbours: points closer or farther apart than on both adjacent\n"
             "passes, chord errors against the controller's tolerance (a good tolerance is 110 to 200 % of the\n"
             "chord error), short lines that run backward, different feeds, pass ends that are out of line.\n"
-            "Exit code 1 means that there are warnings.\n\n"
+            "Of several programs the report begins with a table. Exit code 1 means that one has warnings.\n\n"
             "  clsurf lint part.nc\n"
+            "  clsurf lint *.nc -o lint.sarif\n"
             "  clsurf lint part.nc --tolerance 0.01 --format sarif -o part.sarif",
         .declare =
             [](po::options_description& options) {
@@ -96,7 +112,7 @@ Subcommand lint_subcommand() {
                 declare_report_output(options, lint_formats);
                 declare_program_options(options);
             },
-        .positional = {"PROGRAM"},
+        .positional = {"PROGRAM…"},
         .run = run_lint,
     };
 }

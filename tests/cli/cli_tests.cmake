@@ -407,12 +407,23 @@ endforeach()
 
 # ---- problems in a program, and its repair ----
 set(uneven @DATA@/programs/bottle_uneven.nc)
-clsurf_cli_test(NAME lint_finds_crowded_points ARGS lint @DATA@/programs/petal_zigzag_irregular.ngc EXIT 1 STDOUT "points 0.040 mm apart on pass 7, 0.990 mm" "point-spacing" "4[0-9][0-9] findings|findings on 121 passes")
-clsurf_cli_test(NAME lint_json ARGS lint ${uneven} --json EXIT 1 STDOUT "\"by_rule\"" "\"step_over_mm\": 0.4" "\"tolerance_um\": 5")
+clsurf_cli_test(NAME lint_finds_crowded_points ARGS lint @DATA@/programs/petal_zigzag_irregular.ngc EXIT 1 STDOUT "points 0.040 mm apart on pass 7, 0.990 mm" "point-spacing" "^[0-9]+ warnings( and [0-9]+ notes?)? on 121 passes")
+clsurf_cli_test(NAME lint_json ARGS lint ${uneven} --json EXIT 1 STDOUT "\"by_rule\"" "\"step_over_mm\": 0.4" "\"tolerance_um\": 5" "\"programs\"")
 clsurf_cli_test(NAME lint_sarif ARGS lint ${uneven} --format sarif -o part.sarif EXIT 1 FILE part.sarif)
 clsurf_cli_test(NAME lint_of_a_clean_program SETUP "printf 'G0 X0 Y0 Z0\nG1 X10 F600\nX20\n' > a.nc" ARGS lint a.nc STDOUT "nothing found" "no adjacent passes")
 clsurf_cli_test(NAME lint_wrong_tolerance ARGS lint ${uneven} --tolerance 0 EXIT 2 STDERR "--tolerance must be above 0 mm")
 clsurf_cli_test(NAME lint_format_twice ARGS lint ${uneven} --json --format text EXIT 2 STDERR "say the same")
+clsurf_cli_test(NAME lint_summary_first ARGS lint ${uneven} EXIT 1 STDOUT "^[0-9]+ warnings( and [0-9]+ notes?)? on [0-9]+ passes, 0[.]4[0-9]* mm apart.*point-spacing [0-9]+.*:[0-9]+-[0-9]+: warning")
+set(two_programs "cp ${uneven} b.nc; printf 'G0 X0 Y0 Z0\nG1 X10 F600\nX20\n' > a.nc")
+clsurf_cli_test(NAME lint_several SETUP "${two_programs}" ARGS lint a.nc b.nc EXIT 1
+  STDOUT "^2 programs: 1 with warnings" "program[[:space:]]+[0-9]+ +[0-9]+ +[0-9]+  b.nc[[:space:]]+0 +0 +1  a.nc  .no adjacent passes." "b.nc: [0-9]+ warnings" "b.nc:[0-9]+-[0-9]+: warning")
+clsurf_cli_test(NAME lint_several_clean SETUP "${two_programs}; cp a.nc c.nc" ARGS lint a.nc c.nc STDOUT "^2 programs: 0 with warnings")
+clsurf_cli_test(NAME lint_several_json SETUP "${two_programs}" ARGS lint a.nc b.nc --json EXIT 1
+  STDOUT "\"program\": \"a.nc\"" "\"program\": \"b.nc\"" "\"programs\"" "\"rule\": \"point-spacing\"")
+clsurf_cli_test(NAME lint_several_sarif
+  SETUP "${two_programs}; cp b.nc c.nc; $CLSURF lint a.nc b.nc c.nc -o all.sarif || test $? = 1; test $(grep -c '\"id\": \"point-spacing\"' all.sarif) = 1 && grep -q '\"uri\": \"b.nc\"' all.sarif && grep -q '\"uri\": \"c.nc\"' all.sarif"
+  ARGS --version FILE all.sarif)
+clsurf_cli_test(NAME lint_several_one_missing SETUP "${two_programs}" ARGS lint a.nc nowhere.nc EXIT 3 STDERR "nowhere.nc: error")
 clsurf_cli_test(NAME lint_missing_program ARGS lint nowhere.nc EXIT 3 STDERR "nowhere.nc: error")
 clsurf_cli_test(NAME intervals_text ARGS intervals @DATA@/programs/transition_g61.nc STDOUT "intervals on 21 passes")
 clsurf_cli_test(NAME intervals_json ARGS intervals ${uneven} --json STDOUT "\"own_speed_mm_min\"" "\"passes\": 41")

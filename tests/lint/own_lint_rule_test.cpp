@@ -51,8 +51,7 @@ TEST(OwnLintRule, StandsBesideOursInEveryReport) {
     rules.push_back(slow);
     const LintReport report = lint(program, build_programmed_surface(program), {}, rules);
     EXPECT_GE(report.count("feed-difference"), 1U);
-    const Diagnostics none;
-    const io::ReportedLint reported{&report, &program, &none};
+    const std::vector<io::ReportedLint> reported{{program.main().name(), report, {}}};
     EXPECT_NE(io::lint_json(reported).find("\"slow-feed\""), std::string::npos);
     EXPECT_NE(io::lint_text(reported).find("below 1200 mm/min [slow-feed]"), std::string::npos);
     EXPECT_NE(io::lint_sarif(reported).find("slower than our machines"), std::string::npos);
