@@ -26,11 +26,13 @@ std::string program_json(const Program& program, const ToolpathSummary& s, const
     return dump(json);
 }
 
-std::string log_json(const Log& log, const Diagnostics& diagnostics) {
+std::string log_json(const Log& log, const LogVerdict& verdict, const Diagnostics& diagnostics) {
     Json channels = Json::array();
     for (const Channel& c : log.channels) channels.push_back({{"name", c.name}, {"unit", c.unit}});
     Json json{{"kind", "log"},
               {"file", log.name},
+              {"ok", verdict.ok},
+              {"verdict", verdict.text},
               {"format", log.format},
               {"records", log.records},
               {"period_s", number(log.period)},

@@ -8,6 +8,7 @@
 #include "core/diagnostic.h"
 #include "io/formats/foreign_content.h"
 #include "log/log.h"
+#include "pipeline/log_verdict.h"
 #include "pipeline/point_query.h"
 #include "program/program.h"
 #include "toolpath/toolpath_summary.h"
@@ -16,7 +17,7 @@ namespace clsurf::io {
 
 [[nodiscard]] std::string program_json(const Program& program, const ToolpathSummary& summary,
                                        const Diagnostics& diagnostics);
-[[nodiscard]] std::string log_json(const Log& log, const Diagnostics& diagnostics);
+[[nodiscard]] std::string log_json(const Log& log, const LogVerdict& verdict, const Diagnostics& diagnostics);
 [[nodiscard]] std::string query_json(const std::vector<QueryMatch>& matches, const Diagnostics& diagnostics);
 
 struct ComparisonReport {

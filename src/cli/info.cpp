@@ -4,6 +4,7 @@
 #include "cli/info_text.h"
 #include "cli/options.h"
 #include "cli/work_frames.h"
+#include "core/file_name.h"
 #include "io/files/compressed.h"
 #include "io/formats/program_identity.h"
 #include "io/readers/program_file.h"
@@ -12,6 +13,7 @@
 #include "mapping/line_agreement.h"
 #include "mapping/map_lines.h"
 #include "pipeline/log_match.h"
+#include "pipeline/log_verdict.h"
 #include "toolpath/toolpath_summary.h"
 
 namespace clsurf::cli {
@@ -24,14 +26,46 @@ void note_foreign(const Log& log, const Program& program, const std::string& rea
                      "--work-offset or --machine may be missing"});
 }
 
+/// A program with its motions as programmed.
+struct ReadProgram {
+    Program program;
+    io::Source source;
+};
+
+struct CheckedLog {
+    Log log;
+    Diagnostics diagnostics;
+    LogVerdict verdict;
+};
+
+/// Reads a log and checks it, against the program too where there is one.
+CheckedLog check_log(const io::Source& source, const io::LogOptions& options, const std::optional<ReadProgram>& read,
+                     const std::shared_ptr<const Kinematics>& kinematics, const po::variables_map& values) {
+    CheckedLog checked{io::open_log(source, options), {}, {}};
+    const Log& log = checked.log;
+    Diagnostics& diagnostics = checked.diagnostics;
+    diagnostics = log.diagnostics;
+    diagnostics.append(check_health(log, read ? read->program.main().line_count() : 0));
+    if (!read) {
+        checked.verdict = log_verdict(log, diagnostics, {}, ProgramIdentity::unknown);
+        return checked;
+    }
+    const Program& program = read->program;
+    const ProgramIdentity identity = io::check_identity(read->source, log, diagnostics);
+    const ProgramMatch match = match_log(program, log, read_work_offset(values), kinematics, identity, diagnostics);
+    if (!match.foreign.empty() && (kinematics || diagnostics.count("path.rotary") == 0))
+        note_foreign(log, program, match.foreign, values.count("force") > 0, diagnostics);
+    checked.verdict = log_verdict(log, diagnostics, file_name(program.main().name()), identity);
+    return checked;
+}
+
 ExitCode run_info(const po::variables_map& values) {
     if (values.count("FILE") == 0) throw UsageError("missing argument: FILE");
     if (suggest_mapping_asked(values)) return ExitCode::done;
     const bool json = read_json(values);
     const bool quiet = read_common(values).quiet;
     std::vector<std::string> objects;
-    std::optional<Program> program;
-    io::Source program_source;
+    std::optional<ReadProgram> program;
     bool unusable = false;
     const std::shared_ptr<const Kinematics> kinematics =
         load_kinematics(values.count("machine") > 0 ? values["machine"].as<std::string>() : std::string());
@@ -48,35 +82,26 @@ ExitCode run_info(const po::variables_map& values) {
             continue;
         }
         if (!is_log) {
-            program_source = source;
             io::ProgramOptions options = read_program_options(values);
             options.coordinates.reset();
-            program = io::read_program(source, options);
-            Program placed = *program;
+            program = {io::read_program(source, options), source};
+            const Program& read = program->program;
+            Program placed = read;
             (void)place_motions(placed);
             const ToolpathSummary summary = summarise(placed.motions);
             if (json)
-                objects.push_back(io::program_json(*program, summary, program->diagnostics));
+                objects.push_back(io::program_json(read, summary, read.diagnostics));
             else if (!quiet)
-                print_program(*program, summary, program->diagnostics);
+                print_program(read, summary, read.diagnostics);
             continue;
         }
-        const Log log = io::open_log(source, log_options);
-        Diagnostics diagnostics = log.diagnostics;
-        diagnostics.append(check_health(log, program ? program->main().line_count() : 0));
-        if (program) {
-            const ProgramIdentity identity = io::check_identity(program_source, log, diagnostics);
-            const ProgramMatch match =
-                match_log(*program, log, read_work_offset(values), kinematics, identity, diagnostics);
-            if (!match.foreign.empty() && (kinematics || diagnostics.count("path.rotary") == 0))
-                note_foreign(log, *program, match.foreign, values.count("force") > 0, diagnostics);
-        }
-        unusable = unusable || diagnostics.has_errors();
-        print_errors(diagnostics);
+        const CheckedLog checked = check_log(source, log_options, program, kinematics, values);
+        unusable = unusable || checked.diagnostics.has_errors();
+        print_errors(checked.diagnostics);
         if (json)
-            objects.push_back(io::log_json(log, diagnostics));
+            objects.push_back(io::log_json(checked.log, checked.verdict, checked.diagnostics));
         else if (!quiet)
-            print_log(log, diagnostics);
+            print_log(checked.log, checked.verdict, checked.diagnostics);
     }
     if (json) write_to_stdout(io::list_json("files", objects));
     return unusable ? ExitCode::bad_input : ExitCode::done;

@@ -45,8 +45,9 @@ void print_program(const Program& program, const ToolpathSummary& s, const Diagn
     print_diagnostics(diagnostics);
 }
 
-void print_log(const Log& log, const Diagnostics& diagnostics) {
+void print_log(const Log& log, const LogVerdict& verdict, const Diagnostics& diagnostics) {
     fmt::print("{}: log, format {}{}\n", log.name, log.format, log.closed ? "" : ", not closed");
+    fmt::print("  {}\n", printable(verdict.text));
     fmt::print("  {} records every {:g} ms, {:.3f} s\n", log.records, log.period * 1e3,
                log.records > 0 ? log.time_of(log.records - 1) : 0.0);
     std::string channels;
@@ -54,7 +55,7 @@ void print_log(const Log& log, const Diagnostics& diagnostics) {
         channels +=
             fmt::format("{}{}{}", channels.empty() ? "" : ", ", c.name, c.unit.empty() ? "" : " [" + c.unit + "]");
     fmt::print("  channels: {}\n", channels);
-    print_diagnostics(diagnostics);
+    if (!diagnostics.empty()) print_diagnostics(diagnostics);
 }
 
 }  // namespace clsurf::cli

@@ -128,8 +128,18 @@ clsurf_cli_test(NAME render_of_made_one_way SETUP "${make_sample} one-way 200000
   ARGS render a.nc a.biip -o map.png --size 160x120 -v FILE map.png)
 add_test(NAME make_sample_usage COMMAND clsurf_make_sample spiral 100 a.nc a.biip)
 set_tests_properties(make_sample_usage PROPERTIES PASS_REGULAR_EXPRESSION "usage: clsurf_make_sample zigzag")
-clsurf_cli_test(NAME info_of_good_csv ARGS info @LOGS@/mixed.csv --period 0.001 STDOUT "no findings")
-clsurf_cli_test(NAME info_of_good_raw ARGS info @LOGS@/petal_spiral.raw --layout @DATA@/logs/petal_spiral.layout.toml STDOUT "no findings")
+clsurf_cli_test(NAME info_of_good_csv ARGS info @LOGS@/mixed.csv --period 0.001 STDOUT "  OK: a record every 1 ms, no jumps")
+clsurf_cli_test(NAME info_of_good_raw ARGS info @LOGS@/petal_spiral.raw --layout @DATA@/logs/petal_spiral.layout.toml STDOUT "  OK: a record every 1 ms, no jumps")
+set(own_run @DATA@/programs/bottle_uneven.nc @LOGS@/bottle_uneven.biip)
+clsurf_cli_test(NAME info_says_ok ARGS info ${own_run} STDOUT "  OK: a run of bottle_uneven.nc as it stands, all of it, a record every 1 ms, no jumps")
+clsurf_cli_test(NAME info_says_ok_in_json ARGS info ${own_run} --json STDOUT "\"ok\": true" "\"verdict\": \"OK: a run of bottle_uneven.nc as it stands, all of it")
+clsurf_cli_test(NAME info_of_a_part_says_care SETUP "head -c 1000000 @LOGS@/bottle_uneven.biip > cut.biip" ARGS info @DATA@/programs/bottle_uneven.nc cut.biip
+  STDOUT "  usable with care: 2 warnings, see below" NO_STDOUT "OK:")
+clsurf_cli_test(NAME info_of_another_program_says_no ARGS info @DATA@/programs/bottle_zigzag.nc @LOGS@/bottle_uneven.biip EXIT 3 STDOUT "  not usable as it is: 1 error, see below" NO_STDOUT "OK:")
+clsurf_cli_test(NAME info_of_a_lathe_log SETUP "(echo time,x,z; seq 0 99 | awk '{printf \"%.3f,20,%.3f\\n\", $1/1000, -$1/100}') > lathe.csv" ARGS info lathe.csv
+  STDOUT "whether x, z are commanded or measured" "this axis is assumed to stay at 0" "cmd.x .mm., cmd.z .mm.")
+clsurf_cli_test(NAME export_of_a_log_without_lines SETUP "(echo time,x,z; seq 0 99 | awk '{printf \"%.3f,20,%.3f\\n\", $1/1000, -$1/100}') > lathe.csv" ARGS export lathe.csv -o - --columns point,line,x,y,z
+  STDOUT "[^0-9]99,0,20,0,-0.99" NO_STDOUT "4294967295")
 # One run in the forms of several controls: lines and positions fit the program in each.
 foreach(form halscope.csv twincat.csv trace.xml)
   clsurf_cli_test(NAME info_of_${form} ARGS info @DATA@/programs/dome_loops.nc @LOGS@/dome_loops.${form}

@@ -1,0 +1,46 @@
+#include "pipeline/log_verdict.h"
+
+#include <cstdint>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace clsurf {
+namespace {
+
+/// How many findings are errors, and how many warnings.
+std::pair<std::int64_t, std::int64_t> count_findings(const Diagnostics& diagnostics) {
+    std::int64_t errors = 0, warnings = 0;
+    for (const Diagnostic& d : diagnostics.kept()) {
+        errors += d.severity == Severity::error ? 1 : 0;
+        warnings += d.severity == Severity::warning ? 1 : 0;
+    }
+    return {errors, warnings};
+}
+
+std::string counted(std::int64_t count, std::string_view noun) {
+    return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+LogVerdict log_verdict(const Log& log, const Diagnostics& diagnostics, const std::string& program,
+                       ProgramIdentity identity) {
+    const auto [errors, warnings] = count_findings(diagnostics);
+    if (errors > 0) return {false, fmt::format("not usable as it is: {}, see below", counted(errors, "error"))};
+    if (warnings > 0) return {false, fmt::format("usable with care: {}, see below", counted(warnings, "warning"))};
+    std::string text = "OK: ";
+    if (!program.empty() && diagnostics.count("map.distance") > 0) {
+        // A part of the program, or another one, would have been a warning.
+        text += fmt::format("a run of {}{}, all of it, ", program,
+                            identity == ProgramIdentity::same ? " as it stands" : "");
+    } else if (!program.empty()) {
+        text += fmt::format("not compared with {}, ", program);
+    }
+    // Without a clock of its own, lost records show as jumps only.
+    text +=
+        fmt::format("a record every {:g} ms, no {}", log.period * 1e3, log.find("time") != nullptr ? "gaps" : "jumps");
+    return {true, text};
+}
+
+}  // namespace clsurf
