@@ -34,14 +34,16 @@ int probe_delimited(std::span<const std::byte> head, const LogOptions& options) 
         const std::vector<std::string> first = read_head(text_of(head)).first;
         return std::any_of(first.begin(), first.end(), is_value) ? 60 : 0;
     }
-    // A header that names a position by its role, or all three of them without.
+    // A header that names a position by its role, or all three of them without; two of them beside a clock: a lathe.
     std::size_t axes = 0;
+    bool clock = false;
     for (const ColumnPlan& column : read_head(text_of(head)).columns) {
         const std::string name = settled_name(column.name);
         if (is_position(name)) return 80;
         axes += name == "x" || name == "y" || name == "z" ? 1 : 0;
+        clock = clock || name == "time";
     }
-    return axes == 3 ? 70 : 0;
+    return axes == 3 || (axes == 2 && clock) ? 70 : 0;
 }
 
 int probe_halsampler(std::span<const std::byte> head, const LogOptions& options) {

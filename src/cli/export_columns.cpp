@@ -23,7 +23,10 @@ std::optional<io::ExportColumn> own_column(const std::string& name, const Part& 
     } else if (name == "line") {
         column.counts.resize(count);
         for_each_block(part.log.records, [&](PointIndex first, PointIndex last) {
-            part.lines->read(first, {column.counts.data() + first, static_cast<std::size_t>(last - first)});
+            const std::span<std::uint32_t> lines(column.counts.data() + first, static_cast<std::size_t>(last - first));
+            part.lines->read(first, lines);
+            // A log without lines and without a program: 0 as of any point that has none.
+            std::ranges::replace(lines, no_line, 0U);
         });
     } else if (name == "pass") {
         column.counts = Column<std::uint32_t>(count, 0);

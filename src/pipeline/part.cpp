@@ -35,7 +35,6 @@ Part part_of(Log log, const PartRules& rules) {
 }  // namespace
 
 LineMap lines_without_program(const Log& log, PointIndex count) {
-    static constexpr LineNumber no_line = 0xffffffffU;  // that no program has
     Program none;
     none.files.emplace_back();
     if (const Channel* channel = log.find("line")) return {channel->values, none, log.keep_alive};

@@ -58,6 +58,9 @@ struct Part {
 /// Throws InputError: the log is empty or lacks channels.
 [[nodiscard]] Part assemble(Log log, const PartRules& rules = {});
 
+/// Of all points of a log that has neither a program nor a channel `line`; no program has so many lines.
+inline constexpr LineNumber no_line = 0xffffffffU;
+
 /// The line map of a log without its program, as assemble() makes it.
 [[nodiscard]] LineMap lines_without_program(const Log& log, PointIndex count);
 
