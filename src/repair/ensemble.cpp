@@ -70,10 +70,13 @@ Ensemble::Ensemble(const Program& program, std::vector<Machine> machines, const 
 
 JudgedRun Ensemble::judged(const Program& program, const Machine& machine, const QualityRules& quality) const {
     Diagnostics of_mapping;  // those of the nominal machine are reported
+    // The places of a systematic lag differ from machine to machine, by more than a repair changes them.
+    QualityRules as_check = quality;
+    as_check.group_systematic = true;
     const std::shared_ptr<const Kinematics> kinematics =
         kinematics_ == nullptr ? nullptr : std::make_shared<const Kinematics>(machine.kinematics);
-    return judge_run(simulate_to_log(program, machine, rules_.start, {}, rules_.zero).log, program, quality, of_mapping,
-                     kinematics);
+    return judge_run(simulate_to_log(program, machine, rules_.start, {}, rules_.zero).log, program, as_check,
+                     of_mapping, kinematics);
 }
 
 EnsembleResult Ensemble::run(const Program& changed) {

@@ -1,0 +1,43 @@
+// Runs on other machines: what they count.
+
+#include "repair/ensemble.h"
+
+#include <gtest/gtest.h>
+
+#include "repair/parts.h"
+
+namespace clsurf {
+namespace {
+
+/// Loops that differ: the axes trail by other times, so that forward and backward passes lag apart nearly everywhere.
+Machine uneven_loops() {
+    Machine machine;
+    machine.path.max_jerk = 1e6;
+    for (MachineAxis& axis : machine.axes) axis.max_jerk = 2e6;
+    machine.axes[2].servo.position_gain = 40;
+    machine.axes[2].servo.velocity_feedforward = 0.8;
+    return machine;
+}
+
+// A systematic lag is one property of a machine. Its places come and go with the machine, and would hide what a new program
+// changes.
+TEST(Ensemble, ASystematicLagCountsOnceAsInCheck) {
+    const Program program = read_text(wavy_zigzag(12, 20, [](int, double) { return 0.3; }));
+    const Machine machine = uneven_loops();
+    const OptimizeRules rules;
+    Diagnostics diagnostics;
+    const auto defects_by = [&](const QualityRules& quality) {
+        Log log = simulate_to_log(program, machine).log;
+        return judge_run(std::move(log), program, quality, diagnostics).report.defects.size();
+    };
+    const std::size_t places = defects_by(rules.quality), as_check = defects_by({});
+    ASSERT_GT(places, as_check) << "the part has no systematic lag";
+    Ensemble ensemble(program, {machine}, rules, nullptr);
+    const EnsembleResult result = ensemble.run(program);
+    ASSERT_EQ(result.runs.size(), 1U);
+    EXPECT_DOUBLE_EQ(result.runs[0].before.defects, static_cast<double>(as_check));
+    EXPECT_DOUBLE_EQ(result.runs[0].after.defects, static_cast<double>(as_check));
+}
+
+}  // namespace
+}  // namespace clsurf
