@@ -1,16 +1,11 @@
 // clsurf simulate: simulates the controller.
 
-#include <cmath>
-
-#include <fmt/format.h>
-
 #include "cli/controller_runs.h"
 #include "cli/options.h"
 #include "cli/output_format.h"
 #include "cli/progress_bar.h"
 #include "cli/simulation_text.h"
 #include "cli/work_frames.h"
-#include "core/units.h"
 #include "intervals/interval_feeds.h"
 #include "io/files/compressed.h"
 #include "io/formats/program_identity.h"
@@ -24,7 +19,7 @@
 namespace clsurf::cli {
 namespace {
 
-/// The program is gone through many times, and stands in memory.
+/// The program is traversed repeatedly, so it is kept in memory.
 ExitCode run_five_axis(const Program& program, const Machine& machine, const Vec3& zero, const Vec3& start,
                        io::SimulatedLogWriter& log, const po::variables_map& values) {
     ProgressBar bar(read_common(values));
@@ -62,14 +57,8 @@ ExitCode run_simulate(const po::variables_map& values) {
     if (given(values, "work-offset") && !five_axes)
         throw UsageError("--work-offset is for machines with rotary axes; of three the program's own offsets count");
     const auto open_log = [&](const std::optional<Eigen::Isometry3d>& pose) {
-        std::string metadata = "{}";
-        if (pose) {
-            const Vec3 t = pose->translation();
-            const double turn = std::atan2(pose->linear()(1, 0), pose->linear()(0, 0)) * deg_per_rad;
-            metadata = fmt::format("{{\"work_offset\": [{}, {}, {}{}]}}", t.x(), t.y(), t.z(),
-                                   turn == 0 ? "" : fmt::format(", {}", turn));
-        }
-        metadata = io::with_programs(metadata, std::vector<ProgramReference>{io::identify(source)});
+        const std::string metadata =
+            io::with_programs(pose_metadata(pose), std::vector<ProgramReference>{io::identify(source)});
         return io::SimulatedLogWriter(output, machine, io::with_simulation(metadata, machine));
     };
     if (five_axes) {
@@ -78,8 +67,8 @@ ExitCode run_simulate(const po::variables_map& values) {
         Program program = io::read_program(source, options);
         const Eigen::Isometry3d pose = prepare_five_axes(program, machine, poses);
         if (machine.controller.feed == FeedRule::intervals) hold_interval_speeds(program, machine);
-        const bool told = poses.zero || !pose.translation().isZero(0);
-        io::SimulatedLogWriter log = open_log(told ? std::optional(poses.zero.value_or(pose)) : std::nullopt);
+        const bool known = poses.zero || !pose.translation().isZero(0);
+        io::SimulatedLogWriter log = open_log(known ? std::optional(poses.zero.value_or(pose)) : std::nullopt);
         return run_five_axis(program, machine, pose.translation(), start, log, values);
     }
     io::SimulatedLogWriter log = open_log(std::nullopt);

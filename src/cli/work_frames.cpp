@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "cli/options.h"
+#include "core/units.h"
 #include "mapping/work_offset.h"
 
 namespace clsurf::cli {
@@ -52,6 +53,14 @@ FramePoses read_work_offset(const po::variables_map& values) {
         poses.zero = pose_from(text);
     }
     return poses;
+}
+
+std::string pose_metadata(const std::optional<Eigen::Isometry3d>& pose) {
+    if (!pose) return "{}";
+    const Vec3 t = pose->translation();
+    const double turn = std::atan2(pose->linear()(1, 0), pose->linear()(0, 0)) * deg_per_rad;
+    return fmt::format("{{\"work_offset\": [{}, {}, {}{}]}}", t.x(), t.y(), t.z(),
+                       turn == 0 ? "" : fmt::format(", {}", turn));
 }
 
 }  // namespace clsurf::cli

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "cli/subcommand.h"
 #include "core/diagnostic.h"
@@ -16,5 +17,8 @@ namespace clsurf::cli {
 void declare_work_offset(po::options_description& options);
 /// X,Y,Z or X,Y,Z,R of the program's zero, a default where the configuration gives it; G55:X,Y,Z,R of a work system that the program does not set.
 [[nodiscard]] FramePoses read_work_offset(const po::variables_map& values);
+
+/// The metadata of a log, a JSON object, with the pose of the program's zero, if it is known.
+[[nodiscard]] std::string pose_metadata(const std::optional<Eigen::Isometry3d>& pose);
 
 }  // namespace clsurf::cli
