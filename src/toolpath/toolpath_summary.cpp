@@ -5,11 +5,17 @@
 namespace clsurf {
 namespace {
 
-/// The box of an arc: points every few degrees and its ends, which is within 10^-4 of the radius; of curves as many.
-void extend_by_curve(Box3& box, const Toolpath& path, std::int64_t motion) {
+/// An arc's box: points every few degrees and its ends, which is within 10^-4 of the radius.
+void extend_by_arc(Box3& box, const Toolpath& path, std::int64_t motion) {
     constexpr int pieces = 360;
+    for (int k = 0; k <= pieces; ++k) box.extend(path.at(motion, static_cast<double>(k) / pieces));
+}
+
+/// The box of a span of a spline, which turns less than an arc may.
+void extend_by_curve(Box3& box, const BezierCurve& curve) {
+    constexpr int pieces = 64;
     for (int k = 0; k <= pieces; ++k) {
-        const Vec3 p = path.at(motion, static_cast<double>(k) / pieces);
+        const Vec3 p = curve.at(static_cast<double>(k) / pieces);
         if (p.allFinite()) box.extend(p);
     }
 }
@@ -27,8 +33,12 @@ ToolpathSummary summarise(const Motions& motions) {
         (is_arc(kind) ? s.arcs : kind == MotionKind::spline ? s.splines : s.feeds) += 1;
         const double length = path.length(m);
         if (std::isfinite(length)) s.cutting_length += length;
-        if (is_arc(kind) || kind == MotionKind::spline) {
-            extend_by_curve(s.bounds, path, m);
+        if (is_arc(kind)) {
+            extend_by_arc(s.bounds, path, m);
+            continue;
+        }
+        if (const auto curve = path.curve(m)) {
+            extend_by_curve(s.bounds, *curve);
             continue;
         }
         for (const Vec3& p : {path.begin(m), path.end(m)}) {
