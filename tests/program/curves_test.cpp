@@ -121,6 +121,15 @@ TEST(Curves, ADenominatorMakesACircle) {
     expect_refused("G71 G90\nG0 X0 Y0 Z0\nG1 POLY PO[X]=(5,1) F100\n", "siemens", "3:4:", "POLY and G1 in one block");
 }
 
+TEST(Curves, TheExampleOfTheManualIsACircle) {
+    // SINUMERIK, 5-axis machining, reference section: from the zero to (1/4, √3/4), about (1/4, √3/12). Its numbers have
+    // three decimals.
+    const Program p = parse(
+        "G71 G90\nG0 X0 Y0 Z0\nG1 F1000\nPOLY PO[X]=(0.25,0.5,0) PO[Y]=(0.433,0,0) PO[]=(1,1,0)\nG1 X5\n", "siemens");
+    for (int k = 0; k <= 10; ++k)
+        EXPECT_NEAR((at(p, 0, k / 10.0) - Vec3(0.25, std::sqrt(3.0) / 12, 0)).norm(), std::sqrt(3.0) / 6, 5e-5);
+}
+
 TEST(Curves, SplinesThroughPointsEndWithTheMotionsBesideThem) {
     // BTAN and ETAN are the default: the direction of the blocks beside the spline.
     const std::string points = "CSPLINE X20 Y0\nX30 Y10\nX30 Y20\n";
