@@ -103,6 +103,7 @@ private:
                 continue;
             }
             const Program changed = read_(each->text);
+            if (rules_.machines > 0) evaluator_.say("the best candidates on other machines");
             const EnsembleResult runs = ensemble.run(changed);
             std::string reason = why_not_better(runs, rules_.more_time);
             const std::size_t found = defects_by_check(each->run, changed);

@@ -63,7 +63,20 @@ void Evaluator::allow_more_time() {
     best_->evaluation.accepted = best_->evaluation.reason.empty();
 }
 
+void Evaluator::say(std::string_view what) const {
+    if (progress_) progress_(what, std::min(1.0, points_ / most_points()));
+}
+
+std::string Evaluator::candidate_text() const {
+    if (!best_ || !(before_.mismatch > 0)) return fmt::format("candidate {}", tried_);
+    if (!best_->evaluation.accepted) return fmt::format("candidate {}, none is better so far", tried_);
+    return fmt::format("candidate {}, best: {:.0f} % less mismatch, {:.1f} s", tried_,
+                       100 * (1 - best_->run.mismatch / before_.mismatch), best_->run.duration);
+}
+
 TriedProposal Evaluator::propose(const std::shared_ptr<const Draft>& draft, std::vector<float> targets) {
+    ++tried_;
+    say(candidate_text());
     const auto tried = std::make_shared<Proposal>(prove(draft, std::move(targets)));
     ++in_vain_;
     if (!best_ || better(*tried, *best_)) {
@@ -92,7 +105,7 @@ Proposal Evaluator::prove(const std::shared_ptr<const Draft>& draft, std::vector
     evaluation.lines_before = program_.main().line_count();
     evaluation.lines_after = changed.main().line_count();
     SimulatedRun simulated;
-    parallel_invoke([&] { simulated = simulate_to_log(changed, machine_, rules_.start, progress_, rules_.zero); },
+    parallel_invoke([&] { simulated = simulate_to_log(changed, machine_, rules_.start, {}, rules_.zero); },
                     [&] { evaluation.deviation = deviation_of(changed); });
     result.summary = std::move(simulated.summary);
     points_ += static_cast<double>(result.summary.points);

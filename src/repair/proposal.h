@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "machined/part_roughness.h"
@@ -79,6 +80,9 @@ public:
     /// nearly equal ones the shorter.
     [[nodiscard]] bool better(const Proposal& a, const Proposal& b) const;
 
+    /// Says what is being done, to who shows progress. Thread-safe.
+    void say(std::string_view what) const;
+
     /// Lower is better: objective() against the run of the program.
     [[nodiscard]] double score(const Proposal& proposal) const;
 
@@ -86,6 +90,8 @@ private:
     [[nodiscard]] Proposal prove(const std::shared_ptr<const Draft>& draft, std::vector<float> targets);
     [[nodiscard]] Deviation deviation_of(const Program& changed) const;
     [[nodiscard]] double most_points() const;
+    /// "candidate 14, best: 61 % less mismatch, 38.0 s".
+    [[nodiscard]] std::string candidate_text() const;
     [[nodiscard]] RunMeasures measures_before() const;
     [[nodiscard]] std::string objection(const Proposal& proposal) const;
     [[nodiscard]] double line_ratio(const Proposal& proposal) const;
@@ -106,6 +112,7 @@ private:
     double more_time_ = 0;                                   ///< a share
     double points_ = 0;                                      ///< simulated so far
     int in_vain_ = 0;                                        ///< proposals since the best one
+    int tried_ = 0;                                          ///< proposals
 };
 
 }  // namespace clsurf
