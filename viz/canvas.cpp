@@ -29,6 +29,7 @@
 #include <vtkUnsignedCharArray.h>
 
 #include "core/error.h"
+#include "viz/drawing.h"
 #include "viz/gl_window.h"
 
 namespace clsurf::viz {
@@ -342,6 +343,24 @@ PixelBox box_of(const FlatText& text, int height) {
             static_cast<int>(std::ceil(1.5 * text.size + 2 * room)) + 1};
 }
 
+/// The flat things of a sheet, and nothing yet below them.
+Drawing drawing_of(const Sheet& sheet) {
+    Drawing drawing;
+    drawing.width = sheet.width;
+    drawing.height = sheet.height;
+    drawing.background = sheet.background;
+    drawing.quads = sheet.quads;
+    drawing.lines = sheet.lines;
+    std::stable_sort(drawing.lines.begin(), drawing.lines.end(),
+                     [](const FlatLine& a, const FlatLine& b) { return a.level < b.level; });
+    for (const FlatText& text : sheet.texts) {
+        if (text.text.empty()) continue;
+        drawing.texts.push_back(text);
+        drawing.text_widths.push_back(text_width(text));
+    }
+    return drawing;
+}
+
 }  // namespace
 
 Image draw(const Sheet& sheet, const std::string& gl, int supersample) {
@@ -381,6 +400,18 @@ Image draw(const Sheet& sheet, const std::string& gl, int supersample) {
     add_texts(flat.back(), sheet.texts, supersample);
     Image image = gl_window.render(supersample);
     for (const FlatText& text : sheet.texts) image.texts.push_back(box_of(text, sheet.height));
+    if (sheet.keep_drawing) {
+        auto drawing = std::make_shared<Drawing>(drawing_of(sheet));
+        for (const auto& renderer : flat) renderer->DrawOff();
+        if (!sheet.panels.empty()) {
+            Image ground = gl_window.render(1);
+            drawing->grounds.push_back({ground.width,
+                                        ground.height,
+                                        std::move(ground.rgb),
+                                        {0, 0, static_cast<double>(sheet.width), static_cast<double>(sheet.height)}});
+        }
+        image.drawing = std::move(drawing);
+    }
     return image;
 }
 

@@ -10,40 +10,13 @@
 #include <vector>
 
 #include "viz/colour_map.h"
+#include "viz/flat.h"
 #include "viz/geometry.h"
 #include "viz/gl_context.h"
 #include "viz/image.h"
 #include "viz/view.h"
 
 namespace clsurf::viz {
-
-struct Rect {
-    double x = 0, y = 0, width = 0, height = 0;
-};
-
-enum class Align : std::uint8_t { left, centre, right };
-
-struct FlatText {
-    double x = 0, y = 0;  ///< baseline side, middle of the line's height
-    std::string text;     ///< UTF-8
-    double size = 12;     ///< [px]
-    Align align = Align::left;
-    bool bold = false;
-    Rgb rgb{0, 0, 0};
-};
-struct FlatQuad {
-    Rect rect;
-    Rgb rgb{0, 0, 0};
-};
-/// What lies above what among lines; within a level they have no order.
-enum class Level : std::uint8_t { area, mark, inlay, edge, line, dot, dot_fill };
-
-struct FlatLine {
-    std::vector<Vec2> points;
-    double width = 1;
-    Rgb rgb{0, 0, 0};
-    Level level = Level::line;
-};
 
 struct MeshPanel {
     Rect rect;
@@ -71,6 +44,7 @@ struct Sheet {
     std::vector<FlatQuad> quads;
     std::vector<FlatLine> lines;
     std::vector<FlatText> texts;
+    bool keep_drawing = false;  ///< the image gets its drawing, too
 };
 
 /// Width of a text [px].

@@ -76,13 +76,63 @@ std::vector<Vec2> thin_curve(std::span<const double> x, std::span<const double> 
     return out;
 }
 
+namespace {
+
+const CurveClass* class_of(const Curve& curve, double value) {
+    const auto found =
+        std::find_if(curve.classes.begin(), curve.classes.end(), [&](const CurveClass& c) { return c.value == value; });
+    return found == curve.classes.end() ? nullptr : &*found;
+}
+
+/// Sections of one class as rectangles in its colour, each at least a pixel wide.
+void add_bands(Sheet& sheet, const ChartFrame& f, std::span<const double> x, const Curve& curve) {
+    const double right = f.rect.x + f.rect.width;
+    double drawn = f.rect.x;
+    for (std::size_t i = 0; i < x.size();) {
+        std::size_t end = i + 1;
+        while (end < x.size() && curve.values[end] == curve.values[i]) ++end;
+        const double to = end < x.size() ? std::max(f.at(x[end], 0).x(), drawn) : right;
+        const CurveClass* known = class_of(curve, curve.values[i]);
+        // Of several sections in one pixel the first one is seen.
+        if (known != nullptr && to > drawn) {
+            const double from = std::max(drawn, f.at(x[i], 0).x());
+            const double width = std::min(right, std::max(to, from + 1)) - from;
+            sheet.quads.push_back({{from, f.rect.y, width, f.rect.height}, known->rgb});
+            drawn = from + width;
+        }
+        i = end;
+    }
+    const Rect& r = f.rect;
+    sheet.lines.push_back({{{r.x, r.y}, {right, r.y}, {right, r.y + r.height}, {r.x, r.y + r.height}, {r.x, r.y}},
+                           1,
+                           {120, 120, 126},
+                           Level::edge});
+}
+
+/// Names of classes with their colours, from the right, above the frame; those that have no room are left out.
+void add_class_names(Sheet& sheet, const ChartFrame& f, const Curve& curve, const FlatText& name) {
+    const double text = name.size;
+    double x = f.rect.x + text_width(name) + 2 * text;
+    for (const CurveClass& c : curve.classes) {
+        const FlatText label{x + 1.3 * text, name.y, c.name, text, Align::left, false, ink_colour};
+        const double end = label.x + text_width(label) + 1.2 * text;
+        if (end > f.rect.x + f.rect.width + text) return;
+        sheet.quads.push_back({{x, name.y - 0.4 * text, 0.8 * text, 0.8 * text}, c.rgb});
+        sheet.texts.push_back(label);
+        x = end;
+    }
+}
+
 /// A cursor in the frame, with its value above it, where no curve runs, beside the curve's name.
-void add_cursor(Sheet& sheet, const ChartFrame& f, const ChartCursor& cursor, const FlatText& name, std::size_t k) {
+void add_cursor(Sheet& sheet, const ChartFrame& f, const ChartCursor& cursor, const Curve& curve, const FlatText& name,
+                std::size_t k) {
     const double text = name.size;
     const Vec2 p = f.at(cursor.x, f.y_low);
     if (p.x() < f.rect.x || p.x() > f.rect.x + f.rect.width) return;
     sheet.lines.push_back({{p, {p.x(), f.rect.y + f.rect.height}}, 1.4, cursor_colour});
-    const std::string value = tick_text(cursor.values[k], std::max(1e-4, (f.y_high - f.y_low) / 1000));
+    const CurveClass* known = class_of(curve, cursor.values[k]);
+    const std::string value =
+        known != nullptr ? known->name : tick_text(cursor.values[k], std::max(1e-4, (f.y_high - f.y_low) / 1000));
     FlatText note{p.x(),
                   f.rect.y + f.rect.height + 0.9 * text,
                   k == 0 ? cursor.label + ": " + value : value,
@@ -91,9 +141,25 @@ void add_cursor(Sheet& sheet, const ChartFrame& f, const ChartCursor& cursor, co
                   true,
                   cursor_colour};
     const double least = f.rect.x + text_width({0, 0, name.text, text, Align::left, true, name.rgb}) + text;
-    note.x = std::max(least, std::min(note.x, f.rect.x + f.rect.width - text_width(note)));
+    if (known != nullptr) note.y = f.rect.y + f.rect.height - 0.9 * text;  // names of classes stand above
+    note.x = std::max(known != nullptr ? f.rect.x : least, std::min(note.x, f.rect.x + f.rect.width - text_width(note)));
     sheet.texts.push_back(std::move(note));
 }
+
+void add_curve(Sheet& sheet, const ChartFrame& f, std::span<const double> x, const Curve& curve, const Rgb& colour) {
+    FlatLine line{{}, 1.4, colour};
+    for (const Vec2& p : thin_curve(x, curve.values, f.x_low, f.x_high, static_cast<int>(f.rect.width))) {
+        if (std::isfinite(p.y())) {
+            line.points.push_back(f.at(p.x(), p.y()));
+        } else if (!line.points.empty()) {
+            sheet.lines.push_back(line);
+            line.points.clear();
+        }
+    }
+    if (!line.points.empty()) sheet.lines.push_back(std::move(line));
+}
+
+}  // namespace
 
 Image draw_chart(std::span<const double> x, const std::vector<Curve>& curves, const std::vector<ChartCursor>& cursors,
                  const ChartLook& look) {
@@ -102,6 +168,7 @@ Image draw_chart(std::span<const double> x, const std::vector<Curve>& curves, co
     sheet.width = look.width;
     sheet.height = look.height;
     sheet.background = look.background;
+    sheet.keep_drawing = look.keep_drawing;
     const double left = 6.5 * text;
     const double right = 1.5 * text;
     const double top = 4.6 * text;
@@ -125,22 +192,21 @@ Image draw_chart(std::span<const double> x, const std::vector<Curve>& curves, co
         f.x_low = x.empty() ? 0 : x.front();
         f.x_high = x.empty() ? 1 : x.back();
         fit(f, curves[k]);
-        add_grid(sheet, f, text, k + 1 == curves.size());
+        if (curves[k].classes.empty())
+            add_grid(sheet, f, text, k + 1 == curves.size());
+        else
+            add_x_grid(sheet, f, text, k + 1 == curves.size());
         const Rgb colour = curve_colours[k % std::size(curve_colours)];
         const FlatText name{f.rect.x, f.rect.y + f.rect.height + 0.9 * text, curves[k].label, text, Align::left, true,
                             colour};
         sheet.texts.push_back(name);
-        FlatLine line{{}, 1.4, colour};
-        for (const Vec2& p : thin_curve(x, curves[k].values, f.x_low, f.x_high, static_cast<int>(f.rect.width))) {
-            if (std::isfinite(p.y())) {
-                line.points.push_back(f.at(p.x(), p.y()));
-            } else if (!line.points.empty()) {
-                sheet.lines.push_back(line);
-                line.points.clear();
-            }
+        if (!curves[k].classes.empty()) {
+            add_bands(sheet, f, x, curves[k]);
+            add_class_names(sheet, f, curves[k], name);
+        } else {
+            add_curve(sheet, f, x, curves[k], colour);
         }
-        if (!line.points.empty()) sheet.lines.push_back(std::move(line));
-        for (const ChartCursor& cursor : cursors) add_cursor(sheet, f, cursor, name, k);
+        for (const ChartCursor& cursor : cursors) add_cursor(sheet, f, cursor, curves[k], name, k);
     }
     return draw(sheet, look.gl, look.supersample);
 }

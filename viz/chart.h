@@ -10,9 +10,17 @@
 
 namespace clsurf::viz {
 
+/// What a value of a curve means whose values are names.
+struct CurveClass {
+    double value = 0;
+    std::string name;
+    Rgb rgb{0, 0, 0};
+};
+
 struct Curve {
     std::string label;           ///< "Path speed [mm/min]"
     std::vector<double> values;  ///< shown units; NaN: a gap
+    std::vector<CurveClass> classes = {};  ///< of names: they are drawn as bands; empty: values are numbers
 };
 
 struct ChartCursor {
@@ -26,6 +34,7 @@ struct ChartLook {
     Rgb background{255, 255, 255};
     std::string gl = "osmesa";
     int supersample = 2;
+    bool keep_drawing = false;  ///< for SVG and PDF
     std::string title, subtitle, x_label, footnote;
 };
 

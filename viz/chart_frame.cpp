@@ -29,6 +29,16 @@ void add_grid(Sheet& sheet, const ChartFrame& f, double text, bool x_labels) {
         sheet.texts.push_back(
             {f.rect.x - 0.5 * text, p.y(), tick_text(y, y_step), text, Align::right, false, number_colour});
     }
+    add_x_grid(sheet, f, text, x_labels);
+    const Rect& r = f.rect;
+    sheet.lines.push_back(
+        {{{r.x, r.y}, {r.x + r.width, r.y}, {r.x + r.width, r.y + r.height}, {r.x, r.y + r.height}, {r.x, r.y}},
+         1,
+         {120, 120, 126},
+         Level::edge});
+}
+
+void add_x_grid(Sheet& sheet, const ChartFrame& f, double text, bool x_labels) {
     const std::vector<double> xs =
         nice_ticks(f.x_low, f.x_high, std::max(2, static_cast<int>(f.rect.width / (7 * text))));
     const double x_step = xs.size() > 1 ? xs[1] - xs[0] : 1;
@@ -39,12 +49,6 @@ void add_grid(Sheet& sheet, const ChartFrame& f, double text, bool x_labels) {
             sheet.texts.push_back(
                 {p.x(), f.rect.y - 0.9 * text, tick_text(x, x_step), text, Align::centre, false, number_colour});
     }
-    const Rect& r = f.rect;
-    sheet.lines.push_back(
-        {{{r.x, r.y}, {r.x + r.width, r.y}, {r.x + r.width, r.y + r.height}, {r.x, r.y + r.height}, {r.x, r.y}},
-         1,
-         {120, 120, 126},
-         Level::edge});
 }
 
 }  // namespace clsurf::viz

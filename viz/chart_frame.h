@@ -18,5 +18,7 @@ struct ChartFrame {
 
 /// Grid lines at round values, numbers of a text size [px] at the left, and below where `x_labels` says so.
 void add_grid(Sheet& sheet, const ChartFrame& frame, double text, bool x_labels);
+/// The lines up from the x axis, and its numbers, alone.
+void add_x_grid(Sheet& sheet, const ChartFrame& frame, double text, bool x_labels);
 
 }  // namespace clsurf::viz

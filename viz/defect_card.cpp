@@ -8,6 +8,7 @@
 
 #include "viz/chart.h"
 #include "viz/chart_frame.h"
+#include "viz/drawing.h"
 
 namespace clsurf::viz {
 namespace {
@@ -167,6 +168,7 @@ Image draw_card(const DefectCard& card, int width, int height, const std::string
     Sheet sheet;
     sheet.width = width;
     sheet.height = height;
+    sheet.keep_drawing = card.map.drawing != nullptr;
     CardDrawer drawer(sheet, text);
     const double margin = text;
     sheet.texts.push_back(fitted({margin, height - 1.5 * text, card.title, 1.35 * text, Align::left, true, card_ink},
@@ -188,7 +190,13 @@ Image draw_card(const DefectCard& card, int width, int height, const std::string
         drawer.chart(card.charts[k + 1], {left + static_cast<double>(k) * (each + between), bottom, each, row});
     }
     Image image = draw(sheet, gl, 2);
-    paste(image, card.map, 0, static_cast<int>(title_share * height));
+    const int top_of_map = static_cast<int>(title_share * height);
+    paste(image, card.map, 0, top_of_map);
+    if (sheet.keep_drawing) {
+        auto whole = std::make_shared<Drawing>(*image.drawing);
+        add(*whole, *card.map.drawing, 0, height - top_of_map - card.map.height);
+        image.drawing = std::move(whole);
+    }
     return image;
 }
 

@@ -44,7 +44,7 @@ struct CardMapSize {
 };
 [[nodiscard]] CardMapSize card_map_size(int width, int height);
 
-/// Draws a card. Domain: the map has the size of card_map_size(). Throws SystemError.
+/// Draws a card; its drawing too, where the map has one. Domain: the map has the size of card_map_size(). Throws SystemError.
 [[nodiscard]] Image draw_card(const DefectCard& card, int width, int height, const std::string& gl);
 
 }  // namespace clsurf::viz

@@ -96,6 +96,11 @@ float FieldClasses::place_of(float value) const {
     return static_cast<float>(found->colour) + 0.5F;
 }
 
+Rgb FieldClasses::rgb_of(float value) const {
+    const float place = place_of(value);
+    return place == place ? colours_[static_cast<std::size_t>(place)] : Rgb{255, 255, 255};
+}
+
 ColourScale FieldClasses::scale() const {
     std::vector<ColourStop> stops;
     const auto count = static_cast<double>(colours_.size());

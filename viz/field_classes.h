@@ -31,6 +31,8 @@ public:
     [[nodiscard]] const std::vector<ShownClass>& shown() const { return shown_; }
     /// A value on scale(): the middle of its class's step; NaN: it has none.
     [[nodiscard]] float place_of(float value) const;
+    /// The colour of a value; white: it has none.
+    [[nodiscard]] Rgb rgb_of(float value) const;
     /// Steps in the colours of the classes, one wide.
     [[nodiscard]] ColourScale scale() const;
 

@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "viz/drawing.h"
 #include "viz/image_library.h"
 
 namespace clsurf::viz {
@@ -139,6 +140,15 @@ Image stacked(Image upper, const Image& lower) {
     const std::size_t above = upper.rgb.size();
     upper.rgb.resize(above + lower.rgb.size());
     std::copy(lower.rgb.begin(), lower.rgb.end(), upper.rgb.begin() + static_cast<std::ptrdiff_t>(above));
+    if (upper.drawing && lower.drawing) {
+        auto both = std::make_shared<Drawing>();
+        both->width = upper.width;
+        both->height = upper.height + lower.height;
+        both->background = upper.drawing->background;
+        add(*both, *upper.drawing, 0, lower.height);
+        add(*both, *lower.drawing, 0, 0);
+        upper.drawing = std::move(both);
+    }
     upper.height += lower.height;
     return upper;
 }

@@ -2,6 +2,7 @@
 // Image: 8-bit RGB pixels, rows from the top. Read and encoded through OpenImageIO.
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,6 +10,8 @@
 #include "core/column.h"
 
 namespace clsurf::viz {
+
+struct Drawing;
 
 /// A rectangle of pixels, from the picture's upper left corner.
 struct PixelBox {
@@ -20,6 +23,7 @@ struct Image {
     int height = 0;
     Column<std::uint8_t> rgb;     ///< 3 · width · height
     std::vector<PixelBox> texts;  ///< where words and numbers stand; empty: not known. PNG files keep it
+    std::shared_ptr<const Drawing> drawing = nullptr;  ///< the same as lines and texts; nullptr: not asked for
 
     [[nodiscard]] const std::uint8_t* pixel(int x, int y) const {
         return rgb.data() +

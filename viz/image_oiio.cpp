@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "viz/image_library.h"
+#include "viz/image_pdf.h"
 
 namespace clsurf::viz {
 namespace {
@@ -127,7 +128,7 @@ ImageLibrary::Errors compare(const std::uint8_t* a, const std::uint8_t* b, int w
     return {result.maxerror, result.meanerror, result.PSNR};
 }
 
-constexpr ImageLibrary library{encode, read, compare};
+constexpr ImageLibrary library{encode, write_pdf, read, compare};
 
 }  // namespace
 }  // namespace clsurf::viz

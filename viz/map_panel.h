@@ -29,6 +29,7 @@ struct Look {
     bool names = false;  ///< room for names, of defects or classes, in place of the colour scale
     std::string gl = "osmesa";
     int supersample = 2;
+    bool keep_drawing = false;  ///< for SVG and PDF
 };
 
 /// A point to be ringed, or the points of a line to be drawn bold.

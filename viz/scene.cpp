@@ -245,6 +245,7 @@ Sheet map_sheet(const std::vector<MapPanel>& panels, const Camera& camera, const
     sheet.width = look.width;
     sheet.height = look.height;
     sheet.background = look.background;
+    sheet.keep_drawing = look.keep_drawing;
     Beyond beyond;
     int without_room = 0;
     for (std::size_t k = 0; k < panels.size(); ++k) {

@@ -39,8 +39,8 @@ viz::View view_along(const Eigen::Vector3f& normal) {
     return {std::atan2(n.x(), -n.y()) * deg_per_rad, std::asin(n.z()) * deg_per_rad};
 }
 
-viz::Image draw_place(const JudgedPart& judged, std::size_t index, const viz::CardMapSize& size,
-                      const std::string& gl) {
+viz::Image draw_place(const JudgedPart& judged, std::size_t index, const viz::CardMapSize& size, const std::string& gl,
+                      bool keep_drawing) {
     const Defect& d = judged.report.defects[index];
     QualityReport one;
     one.defects = {d};
@@ -55,6 +55,7 @@ viz::Image draw_place(const JudgedPart& judged, std::size_t index, const viz::Ca
     look.height = size.height;
     look.legend = false;
     look.gl = gl;
+    look.keep_drawing = keep_drawing;
     look.view = view_along(judged.signals.normal(d.point));
     Box3 section;
     for (const DefectRun& run : d.runs) {
@@ -146,7 +147,8 @@ viz::CardChart chart_across(const DefectProfile& profile, float threshold, const
 
 }  // namespace
 
-viz::Image draw_defect_card(const JudgedPart& judged, std::size_t index, int width, int height, const std::string& gl) {
+viz::Image draw_defect_card(const JudgedPart& judged, std::size_t index, int width, int height, const std::string& gl,
+                            bool keep_drawing) {
     const Defect& d = judged.report.defects[index];
     const DefectProfile profile = profile_of(d, judged.surface, judged.signals, *judged.part.lines);
     const Thresholds& thresholds = judged.report.thresholds;
@@ -159,7 +161,7 @@ viz::Image draw_defect_card(const JudgedPart& judged, std::size_t index, int wid
     card.title = fmt::format("Defect {}: {}{}", index + 1, io::label_of(d), lines.empty() ? "" : ", " + lines);
     card.subtitle = fmt::format("{} · {} · {}", io::sentence_of(d), file_name(judged.part.program.main().name()),
                                 file_name(judged.part.log.name));
-    card.map = draw_place(judged, index, viz::card_map_size(width, height), gl);
+    card.map = draw_place(judged, index, viz::card_map_size(width, height), gl, keep_drawing);
     card.key = {{pass_name(d), rgb}, {"next passes", near_colour}, {"second next", far_colour}};
     card.band_name = "usual ± threshold";
     std::vector<double> speed_threshold;
@@ -180,7 +182,7 @@ viz::Image draw_defect_card(const JudgedPart& judged, std::size_t index, int wid
 ExitCode plot_defect(const po::variables_map& values, const PartOptions& options, long long number,
                      const std::string& output_name, int width, int height, const std::string& gl) {
     if (options.program.empty()) throw UsageError("--defect needs the program: PROGRAM LOG");
-    PictureOutput output(output_name);
+    PictureOutput output(output_name, "-o", PictureKind::drawing);
     StageClock clock(read_common(values), 7);
     Part part = load_part(options, clock);
     clock.begin("stitch the surface");
@@ -195,7 +197,8 @@ ExitCode plot_defect(const po::variables_map& values, const PartOptions& options
         throw UsageError(fmt::format("--defect {}: `clsurf check` finds {} of them", number, report.defects.size()));
     clock.begin("draw");
     const auto index = static_cast<std::size_t>(number - 1);
-    const viz::Image image = draw_defect_card({part, surface, read.signals, report}, index, width, height, gl);
+    const viz::Image image =
+        draw_defect_card({part, surface, read.signals, report}, index, width, height, gl, output.wants_drawing());
     output.write(image, fmt::format("clsurf defect {} of {} from {}: {}", number, file_name(options.program),
                                     file_name(options.log), io::label_of(report.defects[index])));
     return ExitCode::done;

@@ -18,9 +18,9 @@ struct JudgedPart {
     const QualityReport& report;
 };
 
-/// The card of a defect of the report, from 0. Throws SystemError.
+/// The card of a defect of the report, from 0; `keep_drawing`: for SVG and PDF. Throws SystemError.
 [[nodiscard]] viz::Image draw_defect_card(const JudgedPart& judged, std::size_t index, int width, int height,
-                                          const std::string& gl);
+                                          const std::string& gl, bool keep_drawing = false);
 
 /// `plot --defect N`: finds the defects and draws the card of one. Throws UsageError: there is no such defect.
 [[nodiscard]] ExitCode plot_defect(const po::variables_map& values, const PartOptions& options, long long number,

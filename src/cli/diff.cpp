@@ -42,9 +42,12 @@ io::ReportedRuns reported_against(const LoadedRun& reference, const Diagnostics&
 }
 
 ExitCode run_diff(const po::variables_map& values) {
-    const DiffOptions options = read_diff_options(values);
+    DiffOptions options = read_diff_options(values);
     std::optional<PictureOutput> output;
-    if (!options.output.empty()) output.emplace(options.output);
+    if (!options.output.empty()) {
+        output.emplace(options.output, "-o", PictureKind::drawing);
+        options.look.look.keep_drawing = output->wants_drawing();
+    }
     StageClock clock(read_common(values), 3 + 2 * static_cast<int>(options.files.size()));
     Diagnostics diagnostics;
     clock.begin("read the reference");

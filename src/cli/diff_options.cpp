@@ -9,7 +9,7 @@ void declare_diff(po::options_description& options) {
     // clang-format off
     options.add_options()
         ("budget", po::value<std::string>()->value_name("FILE"), "limits (TOML); exit code 1 if one is exceeded")
-        ("output,o", po::value<std::string>()->value_name("FILE"), "a map of the differences: .png, .jpg, .tif or .webp")
+        ("output,o", po::value<std::string>()->value_name("FILE"), "a map of the differences: .png, .jpg, .tif, .webp, .svg or .pdf")
         ("color", po::value<std::string>()->value_name("speed|acceleration|lag|height"), "which difference the map shows (default: speed)");
     // clang-format on
     declare_json(options);

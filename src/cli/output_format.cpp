@@ -18,6 +18,12 @@ namespace {
 
 constexpr std::array picture_table{OutputFormat{"png", ".png", true}, OutputFormat{"jpeg", ".jpg .jpeg", true},
                                    OutputFormat{"tiff", ".tif .tiff", true}, OutputFormat{"webp", ".webp", true}};
+constexpr std::array drawing_table{OutputFormat{"png", ".png", true},
+                                   OutputFormat{"jpeg", ".jpg .jpeg", true},
+                                   OutputFormat{"tiff", ".tif .tiff", true},
+                                   OutputFormat{"webp", ".webp", true},
+                                   OutputFormat{"svg", ".svg"},
+                                   OutputFormat{"pdf", ".pdf", true}};
 constexpr std::array page_table{OutputFormat{"html", ".html .htm"}};
 constexpr std::array log_table{OutputFormat{"biip", ".biip", true}};
 constexpr std::array column_table{OutputFormat{"csv", ".csv"}, OutputFormat{"biip", ".biip", true},
@@ -28,7 +34,7 @@ constexpr std::array motion_table{OutputFormat{"csv", ".csv"}};
 
 constexpr std::array mapping_table{OutputFormat{"toml", ".toml"}};
 
-constexpr OutputFormats all_kinds[] = {picture_table, page_table, log_table, column_table, report_table};
+constexpr OutputFormats all_kinds[] = {drawing_table, page_table, log_table, column_table, report_table};
 
 std::vector<std::string_view> endings_of(const OutputFormat& format) {
     std::vector<std::string_view> endings;
@@ -75,6 +81,7 @@ const OutputFormat& by_name(std::string_view name, OutputFormats formats) {
 }  // namespace
 
 OutputFormats picture_formats() { return picture_table; }
+OutputFormats drawing_formats() { return drawing_table; }
 OutputFormats page_formats() { return page_table; }
 OutputFormats log_formats() { return log_table; }
 OutputFormats table_formats() { return column_table; }

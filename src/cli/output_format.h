@@ -18,6 +18,7 @@ struct OutputFormat {
 using OutputFormats = std::span<const OutputFormat>;
 
 [[nodiscard]] OutputFormats picture_formats();  ///< those that viz::encode_image() writes
+[[nodiscard]] OutputFormats drawing_formats();  ///< these, and SVG and PDF
 [[nodiscard]] OutputFormats page_formats();
 [[nodiscard]] OutputFormats log_formats();
 [[nodiscard]] OutputFormats table_formats();    ///< of per-point columns

@@ -11,6 +11,7 @@
 #include "cli/profile.h"
 #include "core/file_name.h"
 #include "pipeline/part_fields.h"
+#include "viz/field_classes.h"
 
 namespace clsurf::cli {
 namespace {
@@ -51,13 +52,26 @@ PointRange shown_range(const PlotOptions& options, const Part& part, const std::
     return range;
 }
 
+/// The names of a field's values in the colours of the map, those that occur.
+std::vector<viz::CurveClass> classes_of(const Field& field, const ClSurface& surface) {
+    const viz::FieldClasses classes(field.info, field.values, surface.passes);
+    std::vector<viz::CurveClass> all;
+    for (const FieldClass& known : field.info.classes) {
+        const auto occurs = [&](float value) { return value == known.value; };
+        if (std::any_of(field.values.begin(), field.values.end(), occurs))
+            all.push_back({known.value * field.info.unit.per_inside, known.name, classes.rgb_of(known.value)});
+    }
+    return all;
+}
+
 ExitCode run_plot(const po::variables_map& values) {
     PlotOptions options = read_plot_options(values);
     if (asks_for_profile(values)) return plot_profile(values, options.part, options.look, options.output);
     if (options.defect)
         return plot_defect(values, options.part, *options.defect, options.output, options.look.width,
                            options.look.height, options.look.gl);
-    PictureOutput output(options.output);
+    PictureOutput output(options.output, "-o", PictureKind::drawing);
+    options.look.keep_drawing = output.wants_drawing();
     StageClock clock(read_common(values), 5);
     const Part part = load_part(options.part, clock);
     print(part.diagnostics, values);
@@ -84,6 +98,7 @@ ExitCode run_plot(const po::variables_map& values) {
             field.info.label + (field.info.unit.name.empty() ? "" : fmt::format(" ({})", field.info.unit.name));
         for (PointIndex i = range.first; i <= range.last; ++i)
             curve.values.push_back(field.values[static_cast<std::size_t>(i)] * field.info.unit.per_inside);
+        if (!field.info.classes.empty()) curve.classes = classes_of(field, surface);
         for (std::size_t k = 0; k < cursors.size(); ++k) {
             cursors[k].values.push_back(field.values[static_cast<std::size_t>(options.points[k])] *
                                         field.info.unit.per_inside);

@@ -10,7 +10,7 @@ namespace clsurf::cli {
 void declare_plot(po::options_description& options) {
     // clang-format off
     options.add_options()
-        ("output,o", po::value<std::string>()->value_name("FILE"), "the picture: .png, .jpg, .tif or .webp")
+        ("output,o", po::value<std::string>()->value_name("FILE"), "the picture: .png, .jpg, .tif, .webp, .svg or .pdf")
         ("fields", po::value<std::string>()->value_name("FIELD,…"), "fields to draw (default: speed; `clsurf help fields`)")
         ("over", po::value<std::string>()->value_name("time|length"), "quantity on the x axis (default: time)")
         ("from", po::value<double>()->value_name("X"), "first x to show [s or mm]")

@@ -43,7 +43,8 @@ ExitCode plot_profile(const po::variables_map& values, PartOptions options, viz:
     if (!((to - from).norm() > 0 && (to - from).norm() <= longest))
         throw UsageError(fmt::format("--profile: from one place to another, at most {:g} mm apart", longest));
     const std::optional<Role> role = take_measured_role(options);
-    PictureOutput output(output_name);
+    PictureOutput output(output_name, "-o", PictureKind::drawing);
+    look.keep_drawing = output.wants_drawing();
     StageClock clock(read_common(values), 7);
     const Part part = load_part(options, clock);
     if (!json) print(part.diagnostics, values);

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/change_map.h"
 #include "cli/look.h"
 #include "cli/map_content.h"
 #include "cli/picture_output.h"
@@ -26,11 +27,12 @@ struct MapScale {
     viz::ColourScale colours;
     std::vector<std::string> notes;
     std::string words;  ///< " 0 to 100 %"
+    double span = 0;    ///< from end to end, in shown units; of classes 0
 };
 
 MapScale scale_of_map(const Shown& after, const std::optional<Shown>& before, const RenderOptions& options,
                       const viz::Camera& camera) {
-    if (has_classes(after.field.info)) return {after.classes.scale(), {"shares of the cutting points"}, ""};
+    if (has_classes(after.field.info)) return {after.classes.scale(), {"shares of the cutting points"}, "", 0};
     ShownRange range = range_in_picture(after, options, camera);
     if (before) {
         const std::string note = range.note;
@@ -38,12 +40,29 @@ MapScale scale_of_map(const Shown& after, const std::optional<Shown>& before, co
         if (options.shown.range.kind == RangeRule::Kind::fixed) range.note = note;
     }
     return {scale_of(after.field.info, range, options.shown), notes_of(range),
-            fmt::format(" {:g} to {:g} {}", range.low, range.high, after.field.info.unit.name)};
+            fmt::format(" {:g} to {:g} {}", range.low, range.high, after.field.info.unit.name), range.high - range.low};
+}
+
+/// Before and after side by side, and what changed below them, where there is something to compare.
+viz::Image draw_maps(const std::vector<viz::MapPanel>& panels, const Shown& after, const std::optional<Shown>& before,
+                     const MapScale& scale, RenderOptions options) {
+    const viz::MapTexts texts = texts_of(after, before, options, scale.notes);
+    const auto draw = [&] {
+        return viz::draw_map(panels, viz::map_camera(panels, options.shown.look), scale.colours, texts,
+                             options.shown.look);
+    };
+    if (!before) return draw();
+    const int height = options.shown.look.height;
+    options.shown.look.height = height / 2;
+    const std::optional<viz::Image> change = draw_change(*before, after, scale.span, options);
+    options.shown.look.height = change ? height - height / 2 : height;
+    return change ? viz::stacked(draw(), *change) : draw();
 }
 
 ExitCode run_render(const po::variables_map& values) {
     RenderOptions options = read_render_options(values);
-    PictureOutput output(options.output);
+    PictureOutput output(options.output, "-o", PictureKind::drawing);
+    options.shown.look.keep_drawing = output.wants_drawing();
     const int stages_of_a_part = options.defects ? 7 : 5;
     StageClock clock(read_common(values), stages_of_a_part * (options.before.empty() ? 1 : 2) + 3);
     Shown after = load_shown(options.part, options.field, options.defects, clock);
@@ -82,8 +101,7 @@ ExitCode run_render(const po::variables_map& values) {
     warn_of_marks_outside(after, options, camera, values);
     const MapScale shown = scale_of_map(after, before, options, camera);
     clock.begin("draw");
-    const viz::Image image =
-        viz::draw_map(panels, camera, shown.colours, texts_of(after, before, options, shown.notes), options.shown.look);
+    const viz::Image image = draw_maps(panels, after, before, shown, options);
     clock.begin("write the picture");
     output.write(image, fmt::format("clsurf map of {} from {}: {}{}", file_name(options.part.program),
                                     file_name(options.part.log), after.field.info.name, shown.words));

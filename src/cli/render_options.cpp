@@ -27,12 +27,12 @@ void declare_render(po::options_description& options) {
     // clang-format off
     options.add_options()
         ("swept", po::value<std::string>()->value_name("commanded|feedback|actual"), "positions along which the tool moves for the as-machined surface (default: actual, else feedback, else commanded)")
-        ("output,o", po::value<std::string>()->value_name("FILE"), "the picture: .png, .jpg, .tif or .webp")
+        ("output,o", po::value<std::string>()->value_name("FILE"), "the picture: .png, .jpg, .tif, .webp, .svg or .pdf")
         ("color", po::value<std::string>()->value_name("FIELD"), "field that colours the surface (default: feed_share, the speed in percent of the programmed feed; speed if --range gives numbers or no feed is known; `clsurf help fields`)")
         ("mark-point", po::value<std::vector<long long>>()->value_name("N"), "mark a point with a ring; may be repeated")
         ("mark-line", po::value<std::vector<long long>>()->value_name("N"), "draw the points of a line bold; may be repeated")
         ("defects", "draw what `clsurf check` finds on a grey relief and name the twelve strongest; with --color, --before or --surface formed: outlines with numbers")
-        ("before", po::value<std::string>()->value_name("LOG"), "another log of the program, drawn next to it on the same scale");
+        ("before", po::value<std::string>()->value_name("LOG"), "another log of the program, drawn next to it on the same scale; what changed is drawn below both");
     // clang-format on
     declare_look(options);
 }

@@ -1,0 +1,22 @@
+#pragma once
+// What changed from one run to the other: the third map of `render --before`.
+
+#include <optional>
+#include <string>
+
+#include "cli/render_options.h"
+#include "cli/shown_part.h"
+#include "viz/image.h"
+
+namespace clsurf::cli {
+
+/// "2 gone, 1 new, 5 remaining", of the defects of both. Domain: they were looked for.
+[[nodiscard]] std::string changed_defects_text(const Shown& before, const Shown& after);
+
+/// The field of the later run minus that of the earlier one, place by place, as large as `options` say. `range`: of the maps of
+/// both, which tells how large a difference is. Nothing where there is none to draw: classes, machined surfaces, runs
+/// that nowhere follow the same path.
+[[nodiscard]] std::optional<viz::Image> draw_change(const Shown& before, const Shown& after, double range,
+                                                    const RenderOptions& options);
+
+}  // namespace clsurf::cli

@@ -1,0 +1,42 @@
+#pragma once
+// Flat things of a picture: texts, rectangles and lines over its surfaces, placed in pixels of the finished picture, from
+// its lower left corner.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/geometry.h"
+#include "viz/colour_map.h"
+
+namespace clsurf::viz {
+
+struct Rect {
+    double x = 0, y = 0, width = 0, height = 0;
+};
+
+enum class Align : std::uint8_t { left, centre, right };
+
+struct FlatText {
+    double x = 0, y = 0;  ///< baseline side, middle of the line's height
+    std::string text;     ///< UTF-8
+    double size = 12;     ///< [px]
+    Align align = Align::left;
+    bool bold = false;
+    Rgb rgb{0, 0, 0};
+};
+struct FlatQuad {
+    Rect rect;
+    Rgb rgb{0, 0, 0};
+};
+/// What lies above what among lines; within a level they have no order.
+enum class Level : std::uint8_t { area, mark, inlay, edge, line, dot, dot_fill };
+
+struct FlatLine {
+    std::vector<Vec2> points;
+    double width = 1;
+    Rgb rgb{0, 0, 0};
+    Level level = Level::line;
+};
+
+}  // namespace clsurf::viz

@@ -1,0 +1,17 @@
+#pragma once
+// A drawing as a file: SVG, PDF. viz never writes files, the caller does.
+
+#include <string>
+
+#include "viz/drawing.h"
+
+namespace clsurf::viz {
+
+/// As a document of its own (SVG 1.1): texts are texts, surfaces are embedded PNGs. Throws SystemError.
+[[nodiscard]] std::string svg_text(const Drawing& drawing, const std::string& title);
+
+/// One page of 0.75 points a pixel: texts are texts, with their fonts. The same drawing gives the same bytes. Throws
+/// SystemError.
+[[nodiscard]] std::string pdf_bytes(const Drawing& drawing, const std::string& title);
+
+}  // namespace clsurf::viz
