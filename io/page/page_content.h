@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "compare/defect_match.h"
 #include "field/field.h"
 #include "field/range.h"
 #include "io/page/kept_points.h"
@@ -15,6 +16,7 @@
 #include "log/log.h"
 #include "mapping/line_map.h"
 #include "surface/cl_surface.h"
+#include "surface/path_location.h"
 #include "toolpath/trajectory.h"
 
 namespace clsurf::io {
@@ -31,6 +33,13 @@ struct PageSurface {
     std::span<const std::uint8_t> joined;      ///< per kept point: goes on from the one before
     std::span<const std::uint32_t> triangles;  ///< numbers of kept points
     std::span<const std::uint32_t> segments;
+    std::span<const PathLocation> places_before = {};  ///< per point of the log: the same place of the log before
+};
+
+/// What became of the defects of the log before.
+struct PageChange {
+    const QualityReport* before = nullptr;
+    DefectMatch match;
 };
 
 struct PagePicture {
@@ -71,13 +80,15 @@ struct PagePercentiles {
 
 struct ReportPage {
     std::string program, log, before;              ///< as they stand on the command line; `before` empty: none
+    std::string log_date = {};                     ///< of the log's file, "2026-11-24 09:30 UTC"; empty: not known
     std::vector<std::string> reading_options;      ///< that `render` needs too, to read the same
     std::vector<std::string> as_machined_options;  ///< … and to draw the formed surface
     std::vector<PageSurface> surfaces;             ///< of `log`, then of `before`
     std::vector<ShownRange> ranges;                ///< per field, of all logs
     std::string first_field;                       ///< shown at first
     ReportedQuality quality;
-    std::vector<PageDefect> defects;  ///< one per defect of the report
+    std::optional<PageChange> change;  ///< where there is a log before
+    std::vector<PageDefect> defects;   ///< one per defect of the report
     std::vector<PagePercentiles> percentiles;
     Diagnostics health;  ///< findings on program and log
     std::vector<PagePicture> pictures;

@@ -6,6 +6,7 @@
 
 #include "core/block.h"
 #include "core/units.h"
+#include "io/reports/defect_fingerprint.h"
 #include "io/reports/quality_words.h"
 #include "predictor/severity.h"
 
@@ -14,6 +15,7 @@ namespace {
 
 constexpr double position_quantum = 1e-4;  ///< [mm]
 constexpr double time_quantum = 1e-6;      ///< [s]
+constexpr double before_steps = 16;        ///< of a step between two points
 constexpr double field_steps = 32768;      ///< in the range that is shown
 
 /// Columns are packed side by side once all are known.
@@ -186,6 +188,16 @@ Json surface_json(Blocks& blocks, const std::string& base, const ReportPage& pag
     blocks.add(at(base + "/columns", "passes"), [passes = std::move(passes)] { return pack_integers(passes, 2); });
     add_roles(blocks, json, base, s);
     json["fields"] = Json::array();
+    if (!s.places_before.empty()) {
+        // In sixteenths of a step from point to point, from 1; 0: the log before was not there.
+        blocks.add(at(base + "/columns", "before"), [&s] {
+            return pack_kept(*s.kept, 1.0 / before_steps, [&](PointIndex i) {
+                const PathLocation& place = s.places_before[static_cast<std::size_t>(i)];
+                return place.exists() ? static_cast<double>(place.point) + static_cast<double>(place.fraction) + 1.0
+                                      : 0.0;
+            });
+        });
+    }
     for (std::size_t k = 0; k < s.fields.size(); ++k)
         add_field(blocks, json["fields"], base, s, s.fields[k], page.ranges[k]);
     return json;
@@ -237,9 +249,11 @@ Json lines_json(const std::vector<std::vector<Vec3>>& lines) {
 
 Json defects_json(const ReportPage& page) {
     Json all = Json::array();
+    const std::vector<std::string> fingerprints = fingerprints_of(page.quality.report->defects);
     for (std::size_t i = 0; i < page.defects.size(); ++i) {
         const Defect& d = page.quality.report->defects[i];
         all.push_back({{"id", i + 1},
+                       {"fingerprint", fingerprints[i]},
                        {"severity", d.severity},
                        {"severity_name", name_of_severity(d.severity)},
                        {"cause", name_of(d.cause)},
@@ -256,11 +270,44 @@ Json defects_json(const ReportPage& page) {
                        {"neighbours", runs_json(d.neighbours)},
                        {"outlines", lines_json(page.defects[i].outlines)}});
         add_place(all.back(), d.place);
+        if (page.change) {
+            const std::optional<std::size_t>& before = page.change->match.before_of[i];
+            all.back()["change"] = before ? "remaining" : "new";
+            if (before) all.back()["id_before"] = *before + 1;
+        }
+        if (page.quality.acceptance != nullptr) {
+            const Acceptance::Entry& entry = page.quality.acceptance->of_defect[i];
+            all.back()["accepted"] = entry.accepted;
+            all.back()["comment"] = entry.comment;
+        }
         if (page.quality.as_machined != nullptr)
             all.back()["formed_um"] = number(page.quality.as_machined->marks[i].depth * um_per_mm, 2);
         if (page.defects[i].normal != Vec3::Zero()) all.back()["normal"] = exact_vector(page.defects[i].normal);
         if (!page.defects[i].contact_outlines.empty())
             all.back()["contact_outlines"] = lines_json(page.defects[i].contact_outlines);
+    }
+    return all;
+}
+
+/// `upright`: its axis is Z all the way.
+Json tool_json(const CuttingTool& tool, bool upright) {
+    return {{"text", to_text(tool)}, {"radius_mm", tool.radius}, {"corner_mm", tool.corner}, {"upright", upright}};
+}
+
+/// Defects of the log before that are gone: what is said of them and where they were.
+Json gone_json(const ReportPage& page) {
+    Json all = Json::array();
+    if (!page.change) return all;
+    for (const std::size_t i : page.change->match.gone) {
+        const Defect& d = page.change->before->defects[i];
+        all.push_back({{"id", i + 1},
+                       {"severity", d.severity},
+                       {"severity_name", name_of_severity(d.severity)},
+                       {"cause", name_of(d.cause)},
+                       {"text", sentence_of(d)},
+                       {"bounds_mm", box(d.bounds)},
+                       {"point", d.point}});
+        add_place(all.back(), d.place);
     }
     return all;
 }
@@ -308,7 +355,12 @@ PageData page_data(const ReportPage& page) {
            {"before", page.before},
            {"options", page.reading_options},
            {"formed", page.as_machined_options}}},
-         {"first_field", page.first_field}};
+         {"first_field", page.first_field},
+         {"judged", page.quality.report->judgement.judged()}};
+    if (page.quality.tool) {
+        const PageSurface& shown = page.surfaces.front();
+        m["tool"] = tool_json(*page.quality.tool, !tilts(*shown.log, *shown.path));
+    }
     m["colour_maps"] = Json::array();
     for (const PageColourMap& map : page.colour_maps)
         m["colour_maps"].push_back({{"name", map.name},
@@ -319,6 +371,7 @@ PageData page_data(const ReportPage& page) {
                                     {"rgb", to_base64(map.rgb)}});
     m["fields"] = fields_json(page);
     m["defects"] = defects_json(page);
+    m["gone"] = gone_json(page);
     m["surfaces"] = Json::array();
     const std::string names[] = {page.log, page.before};
     for (std::size_t k = 0; k < page.surfaces.size(); ++k)

@@ -9,8 +9,8 @@
 #include "core/units.h"
 #include "core/version.h"
 #include "io/files/json_value.h"
+#include "io/page/defect_cards.h"
 #include "io/page/html_text.h"
-#include "io/page/page_pack.h"
 #include "io/reports/quality_words.h"
 
 namespace clsurf::io {
@@ -56,18 +56,6 @@ std::string metadata_text(const Log& log, const char* name) {
     return json[name].get<std::string>();
 }
 
-std::string picture_html(const PagePicture& picture) {
-    return fmt::format(
-        "<figure><img alt=\"{}\" src=\"data:image/png;base64,{}\"><figcaption><b>{}</b> {}</figcaption></figure>\n",
-        html(picture.title), to_base64(picture.png), html(picture.title), html(picture.text));
-}
-
-std::string lines_text(const DefectRun& run) {
-    if (run.first_line == 0) return "–";
-    return run.first_line == run.last_line ? fmt::format("{}", run.first_line)
-                                           : fmt::format("{}–{}", run.first_line, run.last_line);
-}
-
 std::string defect_lines(const Defect& d) {
     std::string text;
     constexpr std::size_t shown = 4;
@@ -77,12 +65,53 @@ std::string defect_lines(const Defect& d) {
     return text;
 }
 
-/// A bar across the page where there is no verdict.
-std::string not_judged_bar(const QualityReport& report) {
-    if (report.judgement.judged()) return {};
-    std::string text = "<p class=\"not-judged\" role=\"alert\"><b>Not judged.</b>";
-    for (const std::string& reason : report.judgement.reasons) text += " " + html(reason);
-    return text + "</p>\n";
+/// Bars across the page: why there is no verdict, and what the log lacks.
+std::string alarm_bars(const ReportPage& page) {
+    constexpr double worth_saying = 0.01;  // of the program's motions
+    const QualityReport& report = *page.quality.report;
+    const PageSurface& s = page.surfaces.front();
+    const auto bar = [](std::string_view what, const std::string& why) {
+        return fmt::format("<p class=\"alarm\" role=\"alert\"><b>{}</b>{}</p>\n", what, why);
+    };
+    std::string text;
+    if (!report.judgement.judged()) {
+        std::string why;
+        for (const std::string& reason : report.judgement.reasons) why += " " + html(reason);
+        text += bar("Not judged.", why + " What was found is shown in grey: it proves nothing.");
+    }
+    const double missing = s.lines->match().missing;
+    if (!s.log->closed)
+        text += bar("The log is cut off.",
+                    missing > worth_saying
+                        ? fmt::format(" Its recording was not closed, and it lacks {:.0f} % of the program's motions.",
+                                      100 * missing)
+                        : " Its recording was not closed: records at its end may be missing.");
+    else if (missing > worth_saying && report.judgement.judged())
+        text += bar("The log is not complete.",
+                    fmt::format(" It lacks {:.0f} % of the program's motions, which nothing on this page judges.",
+                                100 * missing));
+    return text;
+}
+
+/// When and how the log was recorded.
+std::string run_facts(const ReportPage& page) {
+    const QualityReport& report = *page.quality.report;
+    const Log& log = *page.surfaces.front().log;
+    std::string text;
+    const std::string recorded = metadata_text(log, "recorded");
+    if (!recorded.empty())
+        text += fact("Recorded", recorded);
+    else if (!page.log_date.empty())
+        text += fact("Date", page.log_date, "of the file");
+    const std::string machine = metadata_text(log, "machine");
+    if (!machine.empty()) text += fact("Machine", machine);
+    if (page.quality.tool) text += fact("Tool", to_text(*page.quality.tool));
+    text +=
+        fact("Duration", duration_text(log.time_of(log.records - 1)), fmt::format("every {:g} ms", log.period * 1e3));
+    text += fact("Points", count_text(log.records), fmt::format("{} log", log.format));
+    text += fact("Passes", count_text(report.passes),
+                 report.step_over > 0 ? fmt::format("{:.3g} mm apart", report.step_over) : "");
+    return text;
 }
 
 /// "1 trace (in the data, hardly on the part), 2 visible (…), …".
@@ -105,8 +134,8 @@ std::string defects_section(const ReportPage& page) {
         text += fmt::format(
             "<p><a href=\"#defect-list\">All defects are listed below</a>, worst first. Severity: {}.</p>\n<div class=\"pictures\">\n",
             severities_text());
-        for (const PageDefect& defect : page.defects) {
-            if (defect.picture) text += picture_html(*defect.picture);
+        for (std::size_t i = 0; i < page.defects.size(); ++i) {
+            if (page.defects[i].picture) text += defect_card_html(page, i);
         }
         text += "</div>\n";
     }
@@ -116,21 +145,59 @@ std::string defects_section(const ReportPage& page) {
     return text + "</section>\n";
 }
 
+/// What the user said of a defect.
+std::string accepted_note(const ReportPage& page, std::size_t defect) {
+    if (page.quality.acceptance == nullptr) return {};
+    const Acceptance::Entry& entry = page.quality.acceptance->of_defect[defect];
+    if (!entry.accepted && entry.comment.empty()) return {};
+    return fmt::format("<br><small>{}{}{}</small>", entry.accepted ? "accepted" : "",
+                       entry.accepted && !entry.comment.empty() ? ": " : "", html(entry.comment));
+}
+
+/// What became of the defects of the log before.
+std::string change_section(const ReportPage& page) {
+    if (!page.change) return {};
+    const DefectMatch& match = page.change->match;
+    const std::vector<Defect>& before = page.change->before->defects;
+    std::string text = fmt::format(
+        "<section id=\"change\"><h2>Before and after</h2>\n<p><b>Of {} defects before, {} {} gone. Of {} now, {} "
+        "{} new and {} {} there before.</b></p>\n",
+        before.size(), match.gone.size(), match.gone.size() == 1 ? "is" : "are", match.before_of.size(), match.fresh(),
+        match.fresh() == 1 ? "is" : "are", match.remaining(), match.remaining() == 1 ? "was" : "were");
+    const auto row = [](std::string_view what, std::size_t id, const Defect& d) {
+        return fmt::format(
+            "<tr><td>{}</td><td>{}</td><td><span class=\"severity s{}\">{}</span> {}</td><td>{}</td><td>{}</td></tr>\n",
+            what, id, d.severity, d.severity, name_of_severity(d.severity), html(sentence_of(d)),
+            html(defect_lines(d)));
+    };
+    std::string rows;
+    for (std::size_t i = 0; i < std::min(match.gone.size(), defects_in_table); ++i)
+        rows += row("gone", match.gone[i] + 1, before[match.gone[i]]);
+    for (std::size_t i = 0; i < std::min(match.before_of.size(), defects_in_table); ++i) {
+        if (!match.before_of[i]) rows += row("new", i + 1, page.quality.report->defects[i]);
+    }
+    if (!rows.empty())
+        text +=
+            "<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"gone and new defects\"><table><thead><tr><th>Defect</th><th>Rank</th><th>Severity</th><th>Finding</th><th>Lines</th></tr></thead><tbody>\n" +
+            rows + "</tbody></table></div>\n";
+    return text + "</section>\n";
+}
+
 /// At the end, because it can fill many sheets.
 std::string defect_list_section(const ReportPage& page) {
     const QualityReport& report = *page.quality.report;
     if (report.defects.empty()) return "";
     const bool as_machined = page.quality.as_machined != nullptr;
     std::string text = fmt::format(
-        "<section id=\"defect-list\"><h2>All defects</h2>\n<div class=\"wide\"><table><thead><tr><th>Rank</th><th>Severity</th><th>Finding</th><th>Times the threshold</th><th>Depth [µm]</th>{}<th>Speed [%]</th>"
+        "<section id=\"defect-list\"><h2>All defects</h2>\n<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"table of all defects\"><table><thead><tr><th>Rank</th><th>Severity</th><th>Finding</th><th>Times the threshold</th><th>Depth [µm]</th>{}<th>Speed [%]</th>"
         "<th>Length [mm]</th><th>X Y Z [mm]</th><th>Lines</th></tr></thead><tbody>\n",
         as_machined ? "<th>Formed [µm]</th>" : "");
     for (std::size_t i = 0; i < std::min(defects_in_table, report.defects.size()); ++i) {
         const Defect& d = report.defects[i];
         text += fmt::format(
             "<tr data-defect=\"{}\"><td>{}</td><td><span class=\"severity s{}\">{}</span> {}</td><td>{}</td><td>{:.1f}</td><td>{:.1f} {}</td>{}<td>{:+.1f}</td><td>{:.1f}</td><td>{:.2f} {:.2f} {:.2f}</td><td>{}</td></tr>\n",
-            i + 1, i + 1, d.severity, d.severity, name_of_severity(d.severity), html(sentence_of(d)), d.score,
-            d.depth * um_per_mm, shape_of(d),
+            i + 1, i + 1, d.severity, d.severity, name_of_severity(d.severity),
+            html(sentence_of(d)) + accepted_note(page, i), d.score, d.depth * um_per_mm, shape_of(d),
             as_machined ? fmt::format("<td>{}</td>", um_text(page.quality.as_machined->marks[i].depth)) : "",
             100 * d.speed_mismatch, d.length, d.place.position().x(), d.place.position().y(), d.place.position().z(),
             html(defect_lines(d)));
@@ -145,7 +212,7 @@ std::string defect_list_section(const ReportPage& page) {
 std::string numbers_section(const ReportPage& page) {
     const QualityReport& report = *page.quality.report;
     std::string text =
-        "<section id=\"numbers\"><h2>Adjacent passes in numbers</h2>\n<div class=\"wide\"><table><thead><tr><th>Size of</th><th>50 %</th><th>90 %</th><th>99 %</th><th>maximum</th><th>unit</th></tr></thead><tbody>\n";
+        "<section id=\"numbers\"><h2>Adjacent passes in numbers</h2>\n<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"numbers\"><table><thead><tr><th>Size of</th><th>50 %</th><th>90 %</th><th>99 %</th><th>maximum</th><th>unit</th></tr></thead><tbody>\n";
     for (const PagePercentiles& row : page.percentiles) {
         const FieldInfo* info = nullptr;
         for (const Field& field : page.surfaces.front().fields) {
@@ -228,20 +295,11 @@ std::string contents_section(const ReportPage& page) {
 std::string page_title(const ReportPage& page) { return file_name(page.program) + " · " + file_name(page.log); }
 
 std::string page_summary(const ReportPage& page) {
-    const PageSurface& s = page.surfaces.front();
     const QualityReport& report = *page.quality.report;
-    const Log& log = *s.log;
     std::string text = fmt::format("<header id=\"summary\">\n<h1>{} <small>{}{} · clsurf {}</small></h1>\n<dl>\n",
                                    html(file_name(page.program)), html(file_name(page.log)),
                                    page.before.empty() ? "" : html(" · before: " + file_name(page.before)), version);
-    const std::string machine = metadata_text(log, "machine");
-    if (!machine.empty()) text += fact("Machine", machine);
-    if (page.quality.tool) text += fact("Tool", to_text(*page.quality.tool));
-    text +=
-        fact("Duration", duration_text(log.time_of(log.records - 1)), fmt::format("every {:g} ms", log.period * 1e3));
-    text += fact("Points", count_text(log.records), fmt::format("{} log", log.format));
-    text += fact("Passes", count_text(report.passes),
-                 report.step_over > 0 ? fmt::format("{:.3g} mm apart", report.step_over) : "");
+    text += run_facts(page);
     int worst = 0;
     double deepest = 0;
     for (const Defect& d : report.defects) {
@@ -249,7 +307,11 @@ std::string page_summary(const ReportPage& page) {
         deepest = std::max(deepest, d.depth);
     }
     const bool judged = report.judgement.judged();
-    text += fact("Defects", judged ? fmt::format("{}", report.defects.size()) : "not judged",
+    const std::size_t accepted = page.quality.acceptance != nullptr ? page.quality.acceptance->count() : 0;
+    text += fact("Defects",
+                 !judged        ? "not judged"
+                 : accepted > 0 ? fmt::format("{}, {} accepted", report.defects.size(), accepted)
+                                : fmt::format("{}", report.defects.size()),
                  judged                   ? worst > 0 ? name_of_severity(worst) : std::string_view()
                                    : report.defects.empty() ? ""
                                           : fmt::format("{} found", report.defects.size()),
@@ -277,7 +339,7 @@ std::string page_summary(const ReportPage& page) {
                  page.health.has_errors() ? "bad"
                  : warnings > 0           ? "fair"
                                           : "good");
-    return text + "</dl>\n" + not_judged_bar(report) + "</header>\n";
+    return text + "</dl>\n" + alarm_bars(page) + "</header>\n";
 }
 
 std::string page_sections(const ReportPage& page) {
@@ -287,8 +349,8 @@ std::string page_sections(const ReportPage& page) {
         for (const PagePicture& picture : page.pictures) text += picture_html(picture);
         text += "</div></section>\n";
     }
-    text += defects_section(page) + numbers_section(page) + health_section(page) + defect_list_section(page) +
-            contents_section(page);
+    text += change_section(page) + defects_section(page) + numbers_section(page) + health_section(page) +
+            defect_list_section(page) + contents_section(page);
     return text + "</main>\n";
 }
 

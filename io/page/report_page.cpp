@@ -37,15 +37,15 @@ std::string write_page(const ReportPage& page) {
     for (const std::string& block : data.blocks) size += block.size();
     text.reserve(size + (std::size_t{4} << 20));
     text += fmt::format(
-        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n"
+        "<!doctype html>\n<html lang=\"en\"{}>\n<head>\n<meta charset=\"utf-8\">\n<meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n"
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
         "<meta name=\"referrer\" content=\"no-referrer\">\n<title>{}</title>\n<style>",
-        policy(), html(page_title(page)));
+        page.quality.report->judgement.judged() ? "" : " data-judged=\"no\"", policy(), html(page_title(page)));
     text += page_style();
     text += "</style>\n</head>\n<body>\n";
     text += page_summary(page);
     text +=
-        "<noscript><p class=\"note\">The interactive view needs JavaScript. Pictures, tables and summary do not.</p></noscript>\n<div id=\"app\" hidden></div>\n";
+        "<noscript><p class=\"note\">The interactive view needs JavaScript. Pictures, tables and summary do not.</p></noscript>\n<div id=\"app\" role=\"region\" aria-label=\"interactive view\" hidden></div>\n";
     text += page_sections(page);
     text += "<script type=\"application/json\" id=\"manifest\">" +
             json_for_html(data.manifest.dump(-1, ' ', true, Json::error_handler_t::replace)) + "</script>\n";

@@ -105,7 +105,7 @@ std::string limits_csv(const LimitReport& report, std::size_t id) {
     std::string text;
     for (const LimitFinding& f : report.findings) {
         text += fmt::format(
-            "{},,limit,,{},{},{},{},{:.4f},{:.4f},{:.4f},,,,,,,,,{},,tool tip,,,,{},{:.4f},{:.4f},{:.4f},{:.4f},{},{:.6f},{:.6f}\n",
+            "{},,limit,,{},{},{},{},{:.4f},{:.4f},{:.4f},,,,,,,,,{},,tool tip,,,,{},{:.4f},{:.4f},{:.4f},{:.4f},{},{:.6f},{:.6f},,\n",
             id++, f.line, f.line, f.points.first, f.points.last, f.tip.x(), f.tip.y(), f.tip.z(),
             name_of(f.limit.quantity), axis_name(f.limit), f.factor, f.uncertainty, shown(f.limit, f.value),
             shown(f.limit, f.limit.value), unit_of(f.limit).name, f.time, f.duration);

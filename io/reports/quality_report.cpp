@@ -7,6 +7,7 @@
 
 #include "core/units.h"
 #include "io/files/json_value.h"
+#include "io/reports/defect_fingerprint.h"
 #include "io/reports/defect_json.h"
 #include "io/reports/fidelity_report.h"
 #include "io/reports/joined_reports.h"
@@ -26,6 +27,7 @@ double per_minute(double per_second) { return per_second * seconds_per_minute; }
 /// The defects, with what the formed surface and the colours say of each.
 Json looked_at_defects(const ReportedQuality& q) {
     Json all = list_defects(q.report->defects, q.scallop);
+    const std::vector<std::string> fingerprints = fingerprints_of(q.report->defects);
     for (std::size_t i = 0; i < all.size(); ++i) {
         if (q.as_machined != nullptr) {
             const AsMachinedMark& mark = q.as_machined->marks[i];
@@ -33,7 +35,32 @@ Json looked_at_defects(const ReportedQuality& q) {
             all[i]["formed_note"] = mark.note == MarkNote::none ? Json(nullptr) : Json(std::string(name_of(mark.note)));
         }
         if (i < q.colour_differences.size()) all[i]["delta_e00"] = number(q.colour_differences[i], 1);
+        all[i]["fingerprint"] = fingerprints[i];
+        all[i]["accepted"] = q.acceptance != nullptr && q.acceptance->accepts(i);
+        if (q.acceptance != nullptr && !q.acceptance->of_defect[i].comment.empty())
+            all[i]["comment"] = q.acceptance->of_defect[i].comment;
     }
+    return all;
+}
+
+/// What the file of accepted defects names, and what became of it.
+Json accepted_json(const ReportedQuality& q) {
+    Json all = Json::array();
+    if (q.acceptance == nullptr) return all;
+    const std::vector<std::string> fingerprints = fingerprints_of(q.report->defects);
+    for (std::size_t i = 0; i < fingerprints.size(); ++i) {
+        const Acceptance::Entry& entry = q.acceptance->of_defect[i];
+        if (!entry.listed) continue;
+        all.push_back({{"fingerprint", fingerprints[i]},
+                       {"state", entry.accepted ? "accepted"
+                                 : entry.worse  ? "worse"
+                                                : "commented"},
+                       {"id", i + 1},
+                       {"comment", entry.comment}});
+    }
+    for (const AcceptedDefect& named : q.acceptance->unknown)
+        all.push_back(
+            {{"fingerprint", named.fingerprint}, {"state", "unknown"}, {"id", nullptr}, {"comment", named.comment}});
     return all;
 }
 
@@ -169,6 +196,8 @@ std::string defects_table(const ReportedQuality& q) {
                                       named_line_ranges(d.runs, ranges_in_column(d)));
     }
     if (as_machined) text += as_machined_notes(q);
+    if (q.acceptance != nullptr && q.acceptance->count() > 0)
+        text += fmt::format("\n{}\n", accepted_text(*q.acceptance));
     return text + "\n";
 }
 
@@ -201,6 +230,7 @@ std::string quality_json(const ReportedQuality& q) {
                  {"points", r.points},
                  {"passes", r.passes},
                  {"defects", r.defects.size()},
+                 {"accepted", q.acceptance != nullptr ? q.acceptance->count() : 0},
                  {"expected", r.expected.size()},
                  {"worst_severity", r.worst_severity()},
                  {"scallop_um", number(um(q.scallop), 3)},
@@ -218,6 +248,7 @@ std::string quality_json(const ReportedQuality& q) {
     if (q.as_machined != nullptr) add_roughness(summary, q.as_machined->roughness);
     Json json{{"defects", looked_at_defects(q)},
               {"expected", list_defects(q.report->expected, q.scallop)},
+              {"accepted", accepted_json(q)},
               {"summary", std::move(summary)}};
     if (q.as_machined != nullptr) json["roughness"] = patches_json(q.as_machined->roughness);
     if (q.limits != nullptr) {
@@ -235,17 +266,19 @@ std::string quality_csv(const ReportedQuality& q) {
     std::string text =
         "id,severity,cause,pass,first_line,last_line,first_point,last_point,x [mm],y [mm],z [mm],depth [µm],shape,"
         "speed jump [mm/min],acceleration jump [mm/s²],length [mm],area [mm²],score,speed jump [%],quantity,systematic,place,file,file_first_line,file_last_line,";
-    text += fmt::format("{}\n", limit_column_titles());
+    text += fmt::format("{},accepted,comment\n", limit_column_titles());
     for (std::size_t i = 0; i < q.report->defects.size(); ++i) {
         const Defect& d = q.report->defects[i];
         const Vec3& at = d.place.position();
         for (const DefectRun& run : d.runs) {
             text += fmt::format(
-                "{},{},{},{},{},{},{},{},{:.4f},{:.4f},{:.4f},{:.3f},{},{:.1f},{:.1f},{:.3f},{:.4f},{:.2f},{:.1f},{},{},{},{},,,,,,,,\n",
+                "{},{},{},{},{},{},{},{},{:.4f},{:.4f},{:.4f},{:.3f},{},{:.1f},{:.1f},{:.3f},{:.4f},{:.2f},{:.1f},{},{},{},{},,,,,,,,,{},{}\n",
                 i + 1, d.severity, name_of(d.cause), run.pass, run.first_line, run.last_line, run.points.first,
                 run.points.last, at.x(), at.y(), at.z(), um(d.depth), shape_of(d), per_minute(d.speed_jump),
                 d.acceleration_jump, d.length, d.area, d.score, 100 * d.speed_mismatch, name_of(d.quantity),
-                d.systematic, place_word(d.place), subprogram_columns(run));
+                d.systematic, place_word(d.place), subprogram_columns(run),
+                q.acceptance != nullptr && q.acceptance->accepts(i),
+                q.acceptance != nullptr ? csv_field(q.acceptance->of_defect[i].comment) : std::string());
         }
     }
     if (q.limits != nullptr) text += limits_csv(*q.limits, q.report->defects.size() + 1);

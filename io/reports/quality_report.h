@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/diagnostic.h"
+#include "io/reports/acceptance.h"
 #include "io/reports/simulation_origin.h"
 #include "limits/limit_report.h"
 #include "machined/as_machined_report.h"
@@ -26,6 +27,7 @@ struct ReportedQuality {
     std::vector<double> colour_differences;  ///< ΔE00 of each defect's speed and that beside it, in the map of speeds
     const AsMachinedReport* as_machined = nullptr;  ///< nullptr: the tool is not known
     const LimitReport* limits = nullptr;            ///< nullptr: no limits are stated
+    const Acceptance* acceptance = nullptr;         ///< nullptr: no file of accepted defects
     std::vector<BudgetLine> budget;
     std::optional<SimulationOrigin> origin;  ///< nullopt: the log is a recorded run
     const Diagnostics* diagnostics = nullptr;

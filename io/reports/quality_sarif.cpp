@@ -3,7 +3,6 @@
 // subprogram's lines, and the line that calls it is a related location.
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <string>
 #include <vector>
@@ -13,6 +12,7 @@
 #include "core/file_name.h"
 #include "core/units.h"
 #include "io/files/json_value.h"
+#include "io/reports/defect_fingerprint.h"
 #include "io/reports/limit_reports.h"
 #include "io/reports/quality_report.h"
 #include "io/reports/quality_words.h"
@@ -55,16 +55,11 @@ std::string markdown_of(const Defect& d) {
         100 * d.speed_mismatch, d.speed_jump * seconds_per_minute, d.length, at.x(), at.y(), at.z());
 }
 
-/// The same on every run of the program: what, on which pass, and about where, in cells of 5 mm.
-std::string fingerprint_of(const Defect& d, std::map<std::string, int>& seen) {
-    constexpr double cell = 5;
-    const auto coarse = [](double mm) { return static_cast<long>(std::floor(mm / cell)); };
-    std::string text = d.systematic ? std::string(rule_of(d).id)
-                                    : fmt::format("{}/{}/{}/{}/{}/{}", name_of(d.cause), name_of(d.quantity),
-                                                  d.runs.empty() ? 0 : d.runs.front().pass, coarse(d.place.tip.x()),
-                                                  coarse(d.place.tip.y()), coarse(d.place.tip.z()));
-    const int number = ++seen[text];
-    return number == 1 ? text : fmt::format("{}/{}", text, number);
+/// Accepted by the user: SARIF counts such results as suppressed.
+Json suppressions_of(const Acceptance& acceptance, std::size_t i) {
+    Json suppression{{"kind", "external"}, {"status", "accepted"}};
+    if (!acceptance.of_defect[i].comment.empty()) suppression["justification"] = acceptance.of_defect[i].comment;
+    return Json::array({std::move(suppression)});
 }
 
 Json rule_json(const RuleText& rule) {
@@ -99,7 +94,7 @@ std::string quality_sarif(const ReportedQuality& q) {
     for (const Defect& d : defects) {
         if (index_of_rule.try_emplace(rule_of(d).id, rules.size()).second) rules.push_back(rule_json(rule_of(d)));
     }
-    std::map<std::string, int> seen;
+    const std::vector<std::string> fingerprints = fingerprints_of(defects);
     Json results = Json::array();
     for (std::size_t i = 0; i < defects.size(); ++i) {
         const Defect& d = defects[i];
@@ -111,7 +106,7 @@ std::string quality_sarif(const ReportedQuality& q) {
             {"message", {{"text", message_of(d)}, {"markdown", markdown_of(d)}}},
             {"locations", Json::array({location(*q.program, d.runs.empty() ? DefectRun{} : d.runs.front(), "")})},
             {"rank", number(100.0 * static_cast<double>(defects.size() - i) / static_cast<double>(defects.size()), 1)},
-            {"partialFingerprints", {{"clsurfDefect/v1", fingerprint_of(d, seen)}}},
+            {"partialFingerprints", {{"clsurfDefect/v1", fingerprints[i]}}},
             {"properties",
              {{"id", i + 1},
               {"severity", d.severity},
@@ -123,6 +118,8 @@ std::string quality_sarif(const ReportedQuality& q) {
         add_place(result["properties"], d.place);
         Json related = related_locations(*q.program, d);
         if (!related.empty()) result["relatedLocations"] = std::move(related);
+        if (q.acceptance != nullptr && q.acceptance->accepts(i))
+            result["suppressions"] = suppressions_of(*q.acceptance, i);
         results.push_back(std::move(result));
     }
     if (q.limits != nullptr) add_limits_sarif(*q.limits, *q.program, q.log, rules, results);

@@ -11,6 +11,8 @@
 #include "cli/report_output.h"
 #include "cli/stage_clock.h"
 #include "cli/terminal.h"
+#include "io/readers/accepted_file.h"
+#include "io/reports/acceptance.h"
 #include "io/reports/quality_report.h"
 #include "io/reports/simulation_origin.h"
 #include "pipeline/judge.h"
@@ -36,7 +38,8 @@ struct Checked {
 };
 
 Checked check_log(const PartOptions& options, std::optional<Role> measured, const CheckBudget& budget,
-                  const std::string& format, const po::variables_map& values) {
+                  const std::optional<io::AcceptedFile>& accepted, const std::string& format,
+                  const po::variables_map& values) {
     StageClock clock(read_common(values), 8);
     Part part = load_part(options, clock);
     clock.begin("stitch the surface");
@@ -59,7 +62,14 @@ Checked check_log(const PartOptions& options, std::optional<Role> measured, cons
     if (format == "json") reported.colour_differences = colour_differences(quality.report, part);
     reported.as_machined = quality.as_machined ? &*quality.as_machined : nullptr;
     if (!options.machine.empty() || budget.limits.max_following_error_um) reported.limits = &limits;
-    reported.budget = hold(quality.report, budget.quality);
+    io::Acceptance acceptance;
+    if (accepted) {
+        acceptance = io::accept(quality.report, *accepted);
+        io::note_changes(acceptance, quality.report, part.diagnostics);
+        reported.acceptance = &acceptance;
+    }
+    reported.budget =
+        hold(accepted ? io::without_accepted(quality.report, acceptance) : quality.report, budget.quality);
     const std::vector<BudgetLine> held = hold(limits, budget.limits);
     reported.budget.insert(reported.budget.end(), held.begin(), held.end());
     reported.origin = io::simulation_origin(part.log);
@@ -75,6 +85,8 @@ ExitCode run_check(const po::variables_map& values) {
     PartOptions options = read_part_options(values);
     const std::optional<Role> measured = take_measured_role(options);
     const CheckBudget budget = read_limits(values);
+    std::optional<io::AcceptedFile> accepted;
+    if (values.count("accepted") > 0) accepted = io::read_accepted(values["accepted"].as<std::string>());
     const std::vector<std::string> logs = values["LOG"].as<std::vector<std::string>>();
     if (logs.size() > 1 && options.program == "-")
         throw UsageError("the program of several logs cannot come from standard input");
@@ -83,7 +95,7 @@ ExitCode run_check(const po::variables_map& values) {
     ExitCode worst = ExitCode::done;
     for (const std::string& log : logs) {
         options.log = log;
-        Checked checked = check_log(options, measured, budget, output.format(), values);
+        Checked checked = check_log(options, measured, budget, accepted, output.format(), values);
         texts.push_back(std::move(checked.text));
         worst = std::max(worst, checked.code);
     }
@@ -123,6 +135,7 @@ Subcommand check_subcommand() {
                 options.add_options()
                     ("budget", po::value<std::string>()->value_name("FILE"), "limits (TOML); exit code 1 if one is exceeded")
                     ("fail-on", po::value<std::string>()->value_name(severity_words), "exit code 1 if a defect has at least this severity")
+                    ("accepted", po::value<std::string>()->value_name("FILE"), "accepted defects (JSON, from the page of report): they are listed, and no limit counts them")
                     ("max-depth", po::value<std::string>()->value_name("LENGTH"), "exit code 1 if a defect is deeper, for example 5um or 0.005mm");
                 // clang-format on
                 declare_report_output(options, check_formats);

@@ -41,13 +41,17 @@ io::ReportedRuns reported_against(const LoadedRun& reference, const Diagnostics&
     return reported;
 }
 
+/// Opens the file of the map, if one is asked for.
+void open_map(DiffOptions& options, std::optional<PictureOutput>& output) {
+    if (options.output.empty()) return;
+    output.emplace(options.output, "-o", PictureKind::drawing);
+    options.look.look.keep_drawing = output->wants_drawing();
+}
+
 ExitCode run_diff(const po::variables_map& values) {
     DiffOptions options = read_diff_options(values);
     std::optional<PictureOutput> output;
-    if (!options.output.empty()) {
-        output.emplace(options.output, "-o", PictureKind::drawing);
-        options.look.look.keep_drawing = output->wants_drawing();
-    }
+    open_map(options, output);
     StageClock clock(read_common(values), 3 + 2 * static_cast<int>(options.files.size()));
     Diagnostics diagnostics;
     clock.begin("read the reference");

@@ -6,6 +6,7 @@
 #include "cli/report_content.h"
 #include "cli/report_log.h"
 #include "cli/report_options.h"
+#include "compare/run_alignment.h"
 #include "io/files/atomic_file.h"
 #include "viz/image_library.h"
 
@@ -24,9 +25,14 @@ ExitCode run_report(const po::variables_map& values) {
     (void)output_format(options.output, page_formats());
     io::AtomicFile output(options.output);  // a name that cannot be written fails before the work
     const viz::ImageLibraryPreload preload;
-    StageClock clock(read_common(values), options.before.empty() ? 12 : 20);
+    StageClock clock(read_common(values), options.before.empty() ? 12 : 21);
     std::vector<ReportLog> logs;
     logs.push_back(load_report_log(options.part, options, clock));
+    if (options.accepted) {
+        ReportLog& judged = logs.front();
+        judged.acceptance = io::accept(judged.quality.report, *options.accepted);
+        io::note_changes(*judged.acceptance, judged.quality.report, judged.part.diagnostics);
+    }
     print(logs.front().part.diagnostics, values);
     if (!options.before.empty()) {
         PartOptions other = options.part;
@@ -35,6 +41,9 @@ ExitCode run_report(const po::variables_map& values) {
         print(logs.back().part.diagnostics, values);
         keep_common_fields(logs.front().fields, logs.back().fields);
         keep_common_fields(logs.back().fields, logs.front().fields);
+        clock.begin("compare the logs");
+        RunAlignment alignment = align_runs(logs.front().surface.positions, logs.back().surface.positions);
+        if (alignment.aligned > 0) logs.front().places_before = std::move(alignment.locations);
     }
     const ReportLog& shown = logs.front();
     if (shown.fields.empty())

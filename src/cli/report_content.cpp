@@ -1,7 +1,11 @@
 #include "cli/report_content.h"
 
 #include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <system_error>
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include "cli/report_pictures.h"
@@ -28,6 +32,15 @@ std::vector<ShownRange> ranges_of(const std::vector<ReportLog>& logs) {
         ranges.push_back(std::move(range));
     }
     return ranges;
+}
+
+/// "2026-11-24 09:30 UTC"; empty: the log is no file.
+std::string date_of_file(const std::string& name) {
+    std::error_code none;
+    const auto written = std::filesystem::last_write_time(name, none);
+    if (none) return {};
+    const auto time = std::chrono::time_point_cast<std::chrono::seconds>(std::chrono::file_clock::to_sys(written));
+    return fmt::format("{:%Y-%m-%d %H:%M} UTC", time);
 }
 
 /// The name of the field that is coloured at first. `wanted`: its name or another word for it; empty: the first.
@@ -109,6 +122,7 @@ io::ReportPage report_page_of(const ReportLog& shown, const std::vector<ReportLo
     page.program = options.part.program;
     page.log = options.part.log;
     page.before = options.before;
+    page.log_date = date_of_file(options.part.log);
     page.reading_options = options.reading_options;
     page.most_bytes = options.most_bytes;
     page.ranges = ranges_of(logs);
@@ -119,12 +133,21 @@ io::ReportPage report_page_of(const ReportLog& shown, const std::vector<ReportLo
     page.quality.tool = shown.part.tool;
     page.quality.scallop = shown.quality.scallop;
     page.quality.as_machined = shown.quality.as_machined ? &*shown.quality.as_machined : nullptr;
+    page.quality.acceptance = shown.acceptance ? &*shown.acceptance : nullptr;
     page.health = shown.part.diagnostics;
     page.health.append(check_health(shown.part.log, shown.part.program.main().line_count()));
     for (const Field& field : shown.fields) {
         if (!field.info.percentiles) continue;
         page.percentiles.push_back(
             {field.info.name, percentiles_of_size(field, shown.surface.passes, io::page_percentiles)});
+    }
+    if (logs.size() > 1) {
+        const ReportLog& before = logs.back();
+        page.change.emplace();
+        page.change->before = &before.quality.report;
+        page.change->match =
+            match_defects({&before.quality.report.defects, &before.surface.positions, before.surface.step_over},
+                          {&shown.quality.report.defects, &shown.surface.positions, shown.surface.step_over});
     }
     page.colour_maps = page_colour_maps();
     for (const Field& field : shown.fields) page.field_maps.push_back(viz::usual_colour_map_name(field.info));

@@ -38,6 +38,7 @@ io::PageSurface page_surface(const ReportLog& shown) {
     page.joined = shown.vertices.joined;
     page.triangles = shown.bands.triangles;
     page.segments = shown.bands.segments;
+    page.places_before = shown.places_before;
     return page;
 }
 

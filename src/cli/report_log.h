@@ -1,12 +1,15 @@
 #pragma once
 // ReportLog: what a report shows of one log, and the page that holds as much of it as may be.
 
+#include <optional>
 #include <vector>
 
 #include "cli/report_options.h"
 #include "cli/stage_clock.h"
 #include "io/page/report_page.h"
+#include "io/reports/acceptance.h"
 #include "pipeline/judge.h"
+#include "surface/path_location.h"
 #include "viz/bands.h"
 
 namespace clsurf::cli {
@@ -16,8 +19,10 @@ struct ReportLog {
     Part part;
     ClSurface surface;
     Quality quality;
+    std::optional<io::Acceptance> acceptance;  ///< of the log that is shown, where there is a file
     std::vector<Field> fields;
     std::vector<Trajectory> other_roles;
+    Column<PathLocation> places_before;  ///< per point, on the log before; empty: there is none
     KeptPoints kept;
     viz::SectionVertices vertices;
     viz::Bands bands;

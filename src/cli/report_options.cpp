@@ -19,6 +19,7 @@ void declare_report(po::options_description& options) {
     options.add_options()
         ("output,o", po::value<std::string>()->value_name("FILE"), "the page (HTML)")
         ("before", po::value<std::string>()->value_name("LOG"), "another log of the program, shown on the same scale")
+        ("accepted", po::value<std::string>()->value_name("FILE"), "accepted defects (JSON) that the page saved: it begins with them")
         ("fields", po::value<std::string>()->value_name("FIELD,…"), "fields for colouring and plotting (default: motion, errors, differences to adjacent passes, the log's own channels)")
         ("color", po::value<std::string>()->value_name("FIELD"), "field that is shown first (default: the first of the fields)")
         ("max-size", po::value<double>()->value_name("MB"), "largest size of the file; points are left out if necessary (default: 30)")
@@ -34,6 +35,7 @@ ReportOptions read_report_options(const po::variables_map& values) {
     options.measured = take_measured_role(options.part);
     options.output = required(values, "output");
     if (values.count("before") > 0) options.before = values["before"].as<std::string>();
+    if (values.count("accepted") > 0) options.accepted = io::read_accepted(values["accepted"].as<std::string>());
     options.gl = values.count("gl") > 0 ? values["gl"].as<std::string>() : "osmesa";
     if (values.count("fields") > 0) {
         options.fields = split_names(values["fields"].as<std::string>());

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/part.h"
+#include "io/readers/accepted_file.h"
 
 namespace clsurf::cli {
 
@@ -14,6 +15,7 @@ struct ReportOptions {
     PartOptions part;
     std::optional<Role> measured;
     std::string before, output, gl;
+    std::optional<io::AcceptedFile> accepted;
     std::vector<std::string> fields;  ///< empty: the usual ones
     std::string first_field;
     std::uint64_t most_bytes = 0;

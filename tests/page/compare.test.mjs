@@ -77,6 +77,39 @@ test('points belong to the log that is shown', async () => {
     assert.notEqual(before_.Line, after_.Line); // the missing loop lies before
 });
 
+test('the difference of both: what the earlier log lacks has no value', async () => {
+    await page.click('[data-action="difference"]');
+    await settled(page);
+    assert.deepEqual(await layers(), ['visible', 'hidden']);
+    const ends = [await page.getByLabel('lower end').inputValue(), await page.getByLabel('upper end').inputValue()];
+    assert.equal(Number(ends[0]), -Number(ends[1])); // even about 0
+    assert.equal(await page.getByLabel('colour map').inputValue(), 'coolwarm');
+    await comparePicture(page, 'difference');
+    await press(page, '2');
+    assert.notEqual(Number(await page.getByLabel('lower end').inputValue()), Number(ends[0]));
+});
+
+test('defects are gone, new or remaining', async () => {
+    const found = (log) =>
+        JSON.parse(execFileSync(clsurf, ['check', part.program, log, '--json', '-q'])).defects.length;
+    const { defects, gone } = await page.evaluate(() => JSON.parse(document.getElementById('manifest').textContent));
+    const [before_, after_] = [found(older), found(part.log)];
+    assert.equal(defects.length, after_);
+    const remaining = defects.filter((d) => d.change === 'remaining');
+    assert.ok(remaining.length > 0 && remaining.every((d) => d.id_before >= 1 && d.id_before <= before_));
+    assert.ok(gone.length + new Set(remaining.map((d) => d.id_before)).size <= before_);
+    const text = await page.textContent('#change p');
+    const fresh = after_ - remaining.length;
+    const numbers_ = text.match(/\d+/g).map(Number);
+    assert.deepEqual(numbers_, [before_, gone.length, after_, fresh, remaining.length]);
+    if (gone.length > 0) {
+        await page.click('.tree summary:has-text("Gone")');
+        await page.click('[data-choice="gone-0"]');
+        assert.ok(await pressed(page, 'before'));
+        await press(page, '2');
+    }
+});
+
 test('the line between is dragged', async () => {
     await press(page, 'w');
     const box = await page.locator('.layer').first().boundingBox();

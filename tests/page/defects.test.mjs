@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import { test } from 'node:test';
 
-import { bottle, numbers, run, settled, useReport, writeReport } from './browser.mjs';
+import { bottle, chosenLine, numbers, press, run, settled, useReport, writeReport } from './browser.mjs';
 
 let page;
 useReport(
@@ -56,6 +56,54 @@ test('filters by severity, cause and pass leave what check finds', async () => {
     assert.ok((await ranks()).length > 0 && (await ranks()).length < defects.length);
     await choose('pass of defects', '');
     assert.equal((await ranks()).length, defects.length);
+});
+
+test('one filter for the table, the list, the view and the key D', async () => {
+    const { pass } = await page.evaluate(() => {
+        const manifest = JSON.parse(document.getElementById('manifest').textContent);
+        return { pass: manifest.defects[1].runs[0].pass };
+    });
+    await page.click('.tree .filter summary');
+    await choose('pass of the list', String(pass));
+    const left = await ranks();
+    assert.ok(left.includes(2) && left.length < defects.length);
+    assert.equal(await page.getByLabel('pass of defects').inputValue(), String(pass));
+    const listed = await page.$$eval('.tree .list .item[data-choice^="defect-"]', (all) =>
+        all.filter((item) => item.checkVisibility()).map((item) => Number(item.textContent.match(/^\d+/)[0])),
+    );
+    assert.deepEqual(listed, left);
+    assert.match(await page.textContent('.tree > details > summary'), /^Defects \(\d+ of \d+\)$/);
+    for (const rank of [...left, left[0]]) {
+        await press(page, 'd');
+        assert.equal(await page.evaluate(() => window.location.hash), `#defect-${rank}`);
+    }
+    await choose('pass of the list', '');
+    await choose('quantity of the list', 'lag');
+    assert.deepEqual(
+        await ranks(),
+        expected((d) => d.quantity === 'lag'),
+    );
+    await choose('quantity of the list', '');
+    await page.click('[data-action="card-close"]');
+});
+
+test('the card of a defect stays until it is closed', async () => {
+    await press(page, 'd');
+    const card = page.locator('.card');
+    const rank = Number((await card.locator('h2').textContent()).match(/\d+$/)[0]);
+    const defect = defects[rank - 1];
+    assert.ok((await card.textContent()).includes(`${defect.depth_um.toFixed(1)} µm ${defect.shape}`));
+    await page.click('.program .row >> nth=3');
+    assert.ok(await card.isVisible());
+    await card.locator('[data-action="card-line"]').first().click();
+    await settled(page);
+    assert.equal(await chosenLine(page), defect.lines[0][0]);
+    await card.locator('[data-action="card-show"]').click();
+    assert.equal(Number((await numbers(page)).Point), defect.point);
+    await card.locator('[data-action="card-next"]').click();
+    assert.equal(await card.locator('h2').textContent(), `Defect ${(rank % defects.length) + 1}`);
+    await card.locator('[data-action="card-close"]').click();
+    assert.equal(await card.isVisible(), false);
 });
 
 test('CSV has the defects of the table in its order', async () => {

@@ -269,3 +269,30 @@ test('every button has a tooltip with its key', async () => {
     const titles = await page.$$eval('.toolbar button', (all) => all.map((b) => b.title));
     for (const title of titles) assert.match(title, /\(key .\)$/);
 });
+
+test('kinds of motion and passes that are drawn', async () => {
+    const whole = await picture();
+    await page.click('.passes summary');
+    const box = (name) => page.getByLabel(`${name} pass drawn`);
+    await box('first').fill('10');
+    await box('last').fill('20');
+    await box('last').press('Enter');
+    await settled(page);
+    const part = await picture();
+    assert.notEqual(part, whole);
+    await page.click('[data-action="next-defect"]'); // on pass 14
+    await page.click('[data-action="iso"]');
+    await page.click('[data-action="lines"]');
+    const lines = await picture();
+    await page.click('[data-choice="kind-0"]');
+    assert.equal(await page.getAttribute('[data-choice="kind-0"]', 'aria-pressed'), 'false');
+    assert.notEqual(await picture(), lines);
+    await page.click('[data-choice="kind-0"]');
+    assert.equal(await picture(), lines);
+    await page.click('[data-action="surface"]');
+    await box('first').fill('1');
+    await box('last').fill('41');
+    await box('last').press('Enter');
+    await page.click('[data-action="card-close"]');
+    await page.click('.passes summary');
+});

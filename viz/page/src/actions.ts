@@ -17,16 +17,17 @@ export interface Deeds {
     savePicture: () => void;
     showCommand: () => void;
     showHelp: () => void;
+    play: () => void;
     locate: () => void;
-    goToDefect: (index: number) => void;
+    stepDefect: (by: number) => void;
 }
 
 export function actionsOf(
     store: Store,
     view: ViewPane,
     deeds: Deeds,
-    defects: number,
     logs: number,
+    differs: boolean,
     maps: string[],
 ): Action[] {
     const { state } = store;
@@ -59,12 +60,6 @@ export function actionsOf(
         },
         pressed: () => state.tool === name,
     });
-    const step = (by: number) => () => {
-        if (defects > 0)
-            deeds.goToDefect(
-                state.defect === null ? (by > 0 ? 0 : defects - 1) : (state.defect + by + defects) % defects,
-            );
-    };
     const point = (by: number) => () => {
         const vertex = Math.min(view.surface.count - 1, Math.max(0, (state.vertex ?? 0) + by));
         store.set({ vertex, line: view.surface.line[vertex], defect: null, pass: 0 });
@@ -89,20 +84,35 @@ export function actionsOf(
             run: () => store.set({ defects: !state.defects }),
             pressed: () => state.defects,
         },
-        { name: 'previous-defect', text: '◀', key: 'v', title: 'the previous defect', group: 'Defects', run: step(-1) },
+        {
+            name: 'previous-defect',
+            text: '◀',
+            key: 'v',
+            title: 'the previous defect',
+            group: 'Defects',
+            run: () => deeds.stepDefect(-1),
+        },
         {
             name: 'next-defect',
             text: 'Defect ▶',
             key: 'd',
             title: 'the next defect, the worst first',
             group: 'Defects',
-            run: step(1),
+            run: () => deeds.stepDefect(1),
         },
         { name: 'point-before', text: '', key: ',', title: 'the previous point', group: 'Cursor', run: point(-1) },
         { name: 'point-after', text: '', key: '.', title: 'the next point', group: 'Cursor', run: point(1) },
         {
+            name: 'play',
+            text: '',
+            key: 'a',
+            title: 'play and pause the motion of the tool',
+            group: 'Cursor',
+            run: deeds.play,
+        },
+        {
             name: 'over',
-            text: 'Time/way',
+            text: 'Time/path',
             key: 'x',
             title: 'curves over time or arc length',
             group: 'Curves',
@@ -151,7 +161,8 @@ export function actionsOf(
         { name: 'help', text: '?', key: '?', title: 'all keys', group: 'Page', run: deeds.showHelp },
     ];
     if (logs > 1) {
-        const shown = (name: 'before' | 'after' | 'wipe', key: string, title: string): Action => ({
+        const left = { vertex: null, hover: null, pass: 0, defect: null }; // numbers of points are those of a log
+        const shown = (name: 'before' | 'after' | 'wipe' | 'difference', key: string, title: string): Action => ({
             name,
             text: name[0].toUpperCase() + name.slice(1),
             key,
@@ -161,7 +172,9 @@ export function actionsOf(
                 store.set(
                     name === 'wipe'
                         ? { shown: name }
-                        : { shown: name, vertex: null, hover: null, pass: 0, defect: null },
+                        : name === 'difference'
+                          ? { shown: name, formed: false, ...(state.shown === 'before' ? left : {}) }
+                          : { shown: name, ...left },
                 ),
             pressed: () => state.shown === name,
         });
@@ -169,6 +182,7 @@ export function actionsOf(
             shown('before', '1', 'the earlier log'),
             shown('after', '2', 'the later log'),
             shown('wipe', 'w', 'before on the left, after on the right: drag the line between them'),
+            ...(differs ? [shown('difference', 'e', 'after minus before, place by place')] : []),
             {
                 name: 'toggle',
                 text: '',

@@ -68,12 +68,13 @@ export function renderCommand(
     if (state.style !== 'surface' && !state.formed) words.push('--style', state.style);
     words.push(...viewOptions(camera, extent));
     const classes = field.classes && !state.formed;
-    if (!classes) words.push('--range', `${rounded(state.low, 7)},${rounded(state.high, 7)}`, '--colormap', state.map);
-    if (state.bins > 0 && !classes) words.push('--bins', String(state.bins));
+    if (!classes && state.shown !== 'difference')
+        words.push('--range', `${rounded(state.low, 7)},${rounded(state.high, 7)}`, '--colormap', state.map);
+    if (state.bins > 0 && !classes && state.shown !== 'difference') words.push('--bins', String(state.bins));
     if (state.vertex !== null) words.push('--mark-point', String(surface.point[state.vertex]));
     if (state.line > 0 && surface.pointsOfLine(state.line).length > 0) words.push('--mark-line', String(state.line));
     if (state.defects && manifest.defects.length > 0) words.push('--defects');
-    if (state.shown === 'wipe') words.push('--before', before);
+    if (state.shown === 'wipe' || state.shown === 'difference') words.push('--before', before);
     words.push('--no-axes', '--size');
     words.push(sheetSize(Math.round(camera.width), Math.round(camera.height), classes).join('x'));
     if (dark) words.push('--background', 'black');

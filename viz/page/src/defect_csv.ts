@@ -1,5 +1,6 @@
 // Defects as CSV (RFC 4180): one row each, names with their units.
 
+import type { Opinions } from './accepted';
 import type { Defect } from './manifest';
 
 export interface Column {
@@ -36,7 +37,12 @@ function cell(value: number | string | null): string {
     return /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
 }
 
-export function defectsCsv(defects: Defect[]): string {
-    const rows = [columns.map((c) => c.head), ...defects.map((d) => columns.map((c) => cell(c.value(d))))];
+export function defectsCsv(defects: Defect[], opinions: Opinions): string {
+    const all: Column[] = [
+        ...columns,
+        { head: 'accepted', value: (d) => String(opinions.get(d.id)?.accepted === true) },
+        { head: 'comment', value: (d) => opinions.get(d.id)?.comment ?? '' },
+    ];
+    const rows = [all.map((c) => c.head), ...defects.map((d) => all.map((c) => cell(c.value(d))))];
     return rows.map((row) => `${row.join(',')}\r\n`).join('');
 }

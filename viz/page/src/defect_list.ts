@@ -2,8 +2,11 @@
 // rows of the file stay (io/page/page_sections.cpp): columns and their texts are the same there.
 
 import { defectsCsv, type Column } from './defect_csv';
-import { baseName, element } from './dom';
+import { opinionsText, readOpinions } from './accepted';
+import { baseName, element, saveFile } from './dom';
+import { FilterBar, keeps } from './filters';
 import type { Defect, DefectRun, Manifest } from './manifest';
+import type { Store } from './store';
 
 const mostRows = 200;
 const mostRuns = 4; // in a cell
@@ -53,16 +56,11 @@ function compare(a: number | string | null, b: number | string | null, descendin
     return descending ? -order : order;
 }
 
-interface Filter {
-    select: HTMLSelectElement;
-    keeps: (defect: Defect, chosen: string) => boolean;
-}
-
 export class DefectList {
     private readonly columns: Column[];
     private readonly body: HTMLTableSectionElement;
-    private readonly filters: Filter[] = [];
     private readonly count = element('span', { class: 'count', role: 'status' });
+    private readonly note = element('span', { class: 'note-of-file', role: 'status' });
     private readonly heads: HTMLTableCellElement[] = [];
     private sorted = 0; // column
     private descending = false;
@@ -71,6 +69,7 @@ export class DefectList {
     constructor(
         section: HTMLElement,
         private readonly manifest: Manifest,
+        private readonly store: Store,
         private readonly goToDefect: (index: number) => void,
     ) {
         this.columns = columnsOf(manifest);
@@ -78,6 +77,9 @@ export class DefectList {
         section.querySelector('thead')?.replaceChildren(element('tr', {}, ...this.columns.map((_, k) => this.head(k))));
         section.querySelector('.wide')?.before(this.bar());
         section.querySelector('.wide + p')?.remove(); // what the file's own rows leave out
+        store.on((_, changed) => {
+            if (changed.has('filter') || changed.has('accepted')) this.draw();
+        });
         this.draw();
     }
 
@@ -92,51 +94,61 @@ export class DefectList {
     }
 
     private bar(): HTMLElement {
-        const { defects } = this.manifest;
-        const bar = element('div', { class: 'filters', role: 'group', 'aria-label': 'filters of the defects' });
-        const add = (name: string, all: string, options: [string, string][], keeps: Filter['keeps']) => {
-            const select = element('select', { 'aria-label': name }, new Option(all, ''));
-            for (const [value, text] of options) select.append(new Option(text, value));
-            select.addEventListener('change', () => this.draw());
-            this.filters.push({ select, keeps });
-            bar.append(select);
-        };
-        const severities = new Map(defects.map((d) => [d.severity, d.severity_name]));
-        add(
-            'severity of defects',
-            'all severities',
-            [...severities].sort(([a], [b]) => b - a).map(([n, name]) => [String(n), `${n} ${name} and worse`]),
-            (d, chosen) => d.severity >= Number(chosen),
-        );
-        const causes = [...new Set(defects.map((d) => d.cause))].sort();
-        add(
-            'cause of defects',
-            'all causes',
-            causes.map((cause) => [cause, cause.replaceAll('_', ' ')]),
-            (d, chosen) => d.cause === chosen,
-        );
-        const passes = [...new Set(defects.flatMap((d) => d.runs.map((run) => run.pass)))].sort((a, b) => a - b);
-        add(
-            'pass of defects',
-            'all passes',
-            passes.map((pass) => [String(pass), `pass ${pass}`]),
-            (d, chosen) => d.runs.some((run) => run.pass === Number(chosen)),
-        );
+        const bar = new FilterBar(this.manifest, this.store, 'of defects').element;
         const save = element(
             'button',
             { 'data-action': 'save-defects', title: 'save the defects that the filters leave, in this order' },
             'CSV',
         );
         save.addEventListener('click', () => this.save());
-        bar.append(save, this.count);
+        bar.append(save, ...this.opinionButtons(), this.count, this.note);
         return bar;
+    }
+
+    /** The file of accepted defects, out and in. */
+    private opinionButtons(): HTMLElement[] {
+        const save = element(
+            'button',
+            { 'data-action': 'save-accepted', title: 'save accepted defects and comments for clsurf check --accepted' },
+            'Save accepted',
+        );
+        save.addEventListener('click', () => {
+            const text = opinionsText(this.manifest, this.store.state.accepted);
+            const name = `${baseName(this.manifest.program.name)}.accepted.json`;
+            saveFile(name, new Blob([text], { type: 'application/json' }));
+        });
+        const file = element('input', {
+            type: 'file',
+            accept: '.json',
+            hidden: '',
+            'aria-label': 'file of accepted defects',
+        });
+        file.addEventListener('change', async () => {
+            const chosen = file.files?.[0];
+            file.value = '';
+            if (!chosen) return;
+            try {
+                const { opinions, note } = readOpinions(this.manifest, await chosen.text());
+                this.store.set({ accepted: opinions });
+                this.note.textContent = note;
+            } catch (error) {
+                this.note.textContent = `${chosen.name}: ${error instanceof Error ? error.message : String(error)}`;
+            }
+        });
+        const load = element(
+            'button',
+            { 'data-action': 'load-accepted', title: 'load accepted defects and comments from a file' },
+            'Load accepted',
+        );
+        load.addEventListener('click', () => file.click());
+        return [save, load, file];
     }
 
     /** Those that the filters leave, in the order of the table. */
     private shown(): Defect[] {
         const { value } = this.columns[this.sorted];
         return this.manifest.defects
-            .filter((d) => this.filters.every(({ select, keeps }) => !select.value || keeps(d, select.value)))
+            .filter((d) => keeps(this.store.state, d))
             .sort((a, b) => compare(value(a), value(b), this.descending) || a.id - b.id);
     }
 
@@ -148,11 +160,17 @@ export class DefectList {
                     {},
                     element('a', { href: `#defect-${defect.id}`, title: 'a link to this defect' }, String(defect.id)),
                 );
+            const opinion = this.store.state.accepted.get(defect.id);
+            if (head === 'Finding' && opinion) {
+                const words = [opinion.accepted ? 'accepted' : '', opinion.comment].filter(Boolean).join(': ');
+                return element('td', {}, defect.text, element('br'), element('small', {}, words));
+            }
             if (head !== 'Severity') return element('td', {}, text ? text(defect) : String(value(defect) ?? '–'));
             const badge = element('span', { class: `severity s${defect.severity}` }, String(defect.severity));
             return element('td', {}, badge, ` ${defect.severity_name}`);
         });
         const row = element('tr', { 'data-defect': String(defect.id), title: 'show this defect above' }, ...cells);
+        row.classList.toggle('accepted', this.store.state.accepted.get(defect.id)?.accepted === true);
         row.addEventListener('click', (event) => {
             if (event.ctrlKey || event.metaKey) return; // the link, in a tab of its own
             event.preventDefault();
@@ -172,9 +190,7 @@ export class DefectList {
     }
 
     private save(): void {
-        const text = defectsCsv(this.shown());
-        const url = URL.createObjectURL(new Blob([text], { type: 'text/csv' }));
-        element('a', { href: url, download: `${baseName(this.manifest.program.name)}.defects.csv` }).click();
-        setTimeout(() => URL.revokeObjectURL(url), 1000);
+        const text = defectsCsv(this.shown(), this.store.state.accepted);
+        saveFile(`${baseName(this.manifest.program.name)}.defects.csv`, new Blob([text], { type: 'text/csv' }));
     }
 }

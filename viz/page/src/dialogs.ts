@@ -2,6 +2,7 @@
 
 import type { Action } from './actions';
 import { element } from './dom';
+import type { Store } from './store';
 
 function open(title: string, ...children: Node[]): void {
     document.querySelector('dialog')?.remove();
@@ -30,7 +31,7 @@ export function showCommand(command: string): void {
     text.select();
 }
 
-export function showKeys(actions: Action[]): void {
+export function showKeys(actions: Action[], store: Store): void {
     const rows = actions.map((a) =>
         element('tr', {}, element('td', {}, element('kbd', {}, a.key.toUpperCase())), element('td', {}, a.title)),
     );
@@ -41,11 +42,15 @@ export function showKeys(actions: Action[]): void {
         ['double click', 'show the whole part'],
         ['click', 'select the place, its line and its point on the curves'],
     ].map(([what, does]) => element('tr', {}, element('td', {}, what), element('td', {}, does)));
+    const on = element('input', { type: 'checkbox', name: 'keys' });
+    on.checked = store.state.keys;
+    on.addEventListener('change', () => store.set({ keys: on.checked }));
     open(
         'Keys',
+        element('p', {}, element('label', {}, on, ' One-letter keys are on')),
         element(
             'div',
-            { class: 'keys' },
+            { class: 'keys', tabindex: '0' },
             element('table', {}, element('tbody', {}, ...rows)),
             element('table', {}, element('tbody', {}, ...pointer)),
         ),

@@ -17,6 +17,13 @@ export function baseName(path: string): string {
     return path.slice(path.lastIndexOf('/') + 1);
 }
 
+/** A page cannot write files: the browser saves it where downloads go. */
+export function saveFile(name: string, content: Blob): void {
+    const url = URL.createObjectURL(content);
+    element('a', { href: url, download: name }).click();
+    setTimeout(() => URL.revokeObjectURL(url), 1000);
+}
+
 /** The value of a custom property of the style sheet. */
 export function styleValue(name: string): string {
     return getComputedStyle(document.documentElement).getPropertyValue(name).trim();

@@ -26,6 +26,7 @@ export interface Mesh {
     normals: Float32Array | null;
     triangles: Uint32Array;
     segments: Uint32Array; // what has no triangles beside it; with style lines, all of the way
+    points: Uint32Array; // vertices that are drawn
 }
 
 /** Vertex normals, up, the sum of the triangles'. */
@@ -105,7 +106,7 @@ export class GlView {
         const { xyz } = mesh;
         this.data.getPoints().setData(xyz, 3);
         const empty = new Uint32Array(0);
-        const all = style === 'points' ? Uint32Array.from({ length: xyz.length / 3 }, (_, i) => i) : empty;
+        const all = style === 'points' ? mesh.points : empty;
         this.data.setPolys(
             vtkCellArray.newInstance({ values: style === 'surface' ? cells(mesh.triangles, 3) : empty }),
         );
@@ -135,14 +136,14 @@ export class GlView {
         this.middle = [0, 2, 4].map((k) => (bounds[k] + bounds[k + 1]) / 2);
         this.radius = Math.max(1e-3, Math.hypot(...[0, 2, 4].map((k) => bounds[k + 1] - bounds[k])) / 2);
         this.data.modified();
-        this.setCoarsePoints(xyz);
+        this.setCoarsePoints(xyz, mesh.points);
     }
 
     /** Every so many-th vertex. */
-    private setCoarsePoints(xyz: Float32Array): void {
-        const count = xyz.length / 3;
+    private setCoarsePoints(xyz: Float32Array, points: Uint32Array): void {
+        const count = points.length;
         const step = Math.max(1, Math.ceil(count / coarsePoints));
-        this.coarseVertices = Uint32Array.from({ length: Math.floor(count / step) }, (_, i) => i * step);
+        this.coarseVertices = Uint32Array.from({ length: Math.floor(count / step) }, (_, i) => points[i * step]);
         const some = new Float32Array(3 * this.coarseVertices.length);
         this.coarseVertices.forEach((v, i) => some.set(xyz.subarray(3 * v, 3 * v + 3), 3 * i));
         this.coarseData.getPoints().setData(some, 3);

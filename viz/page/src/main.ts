@@ -3,17 +3,23 @@
 import 'uplot/dist/uPlot.min.css';
 import './style.css';
 
+import { firstOpinions } from './accepted';
 import { actionsOf } from './actions';
 import { ColourMap } from './colour';
 import { readBytes } from './columns';
 import { renderCommand } from './command';
 import { CurvesPane, secondCurve } from './curves_pane';
+import { DefectCard } from './defect_card';
+import { printDefect } from './defect_print';
 import { DefectList } from './defect_list';
 import { showCommand, showKeys } from './dialogs';
-import { baseName, element } from './dom';
+import { baseName, element, saveFile } from './dom';
+import { everyDefect, keeps } from './filters';
 import { readManifest, type Defect, type Manifest } from './manifest';
 import { ProgramPane } from './program_pane';
 import { ProgramText } from './program_text';
+import { Player } from './player';
+import { rememberKeys, rememberedKeys } from './preferences';
 import { RangePane } from './range_pane';
 import { readRelief } from './relief';
 import { Store } from './store';
@@ -21,9 +27,9 @@ import { readSurface } from './surface';
 import { TablePane } from './table_pane';
 import { Toolbar } from './toolbar';
 import { TreePane } from './tree_pane';
-import { ViewPane } from './view_pane';
+import { everyKind, ViewPane } from './view_pane';
 
-const formedMap = 'coolwarm'; // deviations are signed
+const signedMap = 'coolwarm'; // of deviations and differences
 const system = matchMedia('(prefers-color-scheme: dark)');
 const setTheme = (theme: 'light' | 'dark') => (document.documentElement.dataset.theme = theme);
 const dark = () => document.documentElement.dataset.theme === 'dark';
@@ -73,23 +79,33 @@ async function begin(app: HTMLElement): Promise<void> {
         formed: false,
         defects: false,
         shown: 'after',
+        playing: false,
+        time: null,
         wipe: 0.5,
         vertex: null,
         hover: null,
         line: 0,
         pass: 0,
         defect: null,
+        pinned: null,
+        accepted: firstOpinions(manifest),
+        filter: everyDefect,
+        kinds: everyKind,
+        passes: null,
         tool: 'turn',
         over: 'time',
         curves: [first, secondCurve(manifest, first)],
         theme: dark() ? 'dark' : 'light',
+        keys: rememberedKeys(),
     });
     let usual = manifest.fields[first].map;
     store.on((state, changed) => {
         if (changed.has('theme')) setTheme(state.theme);
+        if (changed.has('keys')) rememberKeys(state.keys);
         // Each field has the map that suits it, unless another was chosen.
-        if (changed.has('field') || changed.has('formed')) {
-            const next = state.formed ? formedMap : manifest.fields[state.field].map;
+        if (changed.has('field') || changed.has('formed') || changed.has('shown')) {
+            const signed = state.formed || state.shown === 'difference';
+            const next = signed ? signedMap : manifest.fields[state.field].map;
             const chosen = state.map !== usual;
             usual = next;
             if (!chosen && state.map !== next) store.set({ map: next });
@@ -105,7 +121,7 @@ async function begin(app: HTMLElement): Promise<void> {
         const vertex = surface().vertexOfPoint(defect.point);
         const origin = manifest.surfaces[0].origin_mm;
         // The numbers are those of the defect until the pointer moves.
-        store.set({ defect: index, vertex, hover: null, line: surface().line[vertex], pass: 0 });
+        store.set({ defect: index, pinned: index, vertex, hover: null, line: surface().line[vertex], pass: 0 });
         const field = fieldOfQuantity(manifest, defect.quantity);
         if (field !== null && (field !== store.state.field || store.state.formed)) store.set({ field, formed: false });
         if (defect.normal) view.lookAlong(defect.normal);
@@ -114,6 +130,23 @@ async function begin(app: HTMLElement): Promise<void> {
             defect.bounds_mm[0].map((c, k) => c - origin[k]),
             defect.bounds_mm[1].map((c, k) => c - origin[k]),
         );
+    };
+    const goToGone = (index: number) => {
+        const gone = manifest.gone[index];
+        const origin = manifest.surfaces[0].origin_mm;
+        store.set({ shown: 'before', formed: false, defect: null, pinned: null, pass: 0 });
+        const vertex = surface().vertexOfPoint(gone.point);
+        store.set({ vertex, hover: null, line: surface().line[vertex] });
+        view.goTo(
+            gone.bounds_mm[0].map((c, k) => c - origin[k]),
+            gone.bounds_mm[1].map((c, k) => c - origin[k]),
+        );
+    };
+    const stepDefect = (by: number) => {
+        const kept = manifest.defects.map((_, k) => k).filter((k) => keeps(store.state, manifest.defects[k]));
+        if (kept.length === 0) return;
+        const at = kept.indexOf(store.state.defect ?? store.state.pinned ?? -1);
+        goToDefect(kept[at < 0 ? (by > 0 ? 0 : kept.length - 1) : (at + by + kept.length) % kept.length]);
     };
     const locate = (kind: string, value: number): string | null => {
         const s = surface();
@@ -131,12 +164,7 @@ async function begin(app: HTMLElement): Promise<void> {
         store.set({ vertex, line: s.line[vertex], defect: null, pass: 0 });
         return null;
     };
-    const savePicture = async () => {
-        const url = URL.createObjectURL(await view.picture());
-        const link = element('a', { href: url, download: `${baseName(manifest.program.name)}.png` });
-        link.click();
-        setTimeout(() => URL.revokeObjectURL(url), 1000);
-    };
+    const savePicture = async () => saveFile(`${baseName(manifest.program.name)}.png`, await view.picture());
     const actions = actionsOf(
         store,
         view,
@@ -144,24 +172,39 @@ async function begin(app: HTMLElement): Promise<void> {
             savePicture: () => void savePicture(),
             showCommand: () =>
                 showCommand(renderCommand(manifest, store.state, view.camera, surface(), view.extent(), dark())),
-            showHelp: () => showKeys(actions),
+            play: () => player.toggle(),
+            showHelp: () => showKeys(actions, store),
             locate: () => toolbar.locator.input.focus(),
-            goToDefect,
+            stepDefect,
         },
-        manifest.defects.length,
         surfaces.length,
+        surfaces[0].before !== null,
         maps.map((m) => m.name),
     );
     const toolbar = new Toolbar(manifest, store, actions, locate);
-    const range = new RangePane(manifest, store, view);
+    const range = new RangePane(store, view);
     const curves = new CurvesPane(manifest, store, surfaces, surface);
-    const tree = new TreePane(manifest, store, surface, goToDefect, relief !== null);
+    const tree = new TreePane(manifest, store, surface, { goToDefect, goToGone }, relief !== null);
     const program = new ProgramPane(manifest, text, store, surface);
     const table = new TablePane(manifest, text, store, surface);
+    const player = new Player(store, surface);
+    const printCard = async (index: number) => {
+        const defect = manifest.defects[index];
+        const comment = store.state.accepted.get(defect.id)?.comment ?? '';
+        await printDefect(manifest, text, defect, comment, await view.picture());
+    };
+    const card = new DefectCard(manifest, store, {
+        step: stepDefect,
+        goToLine: (line) => void locate('line', line),
+        goToDefect,
+        print: (index) => void printCard(index),
+    });
     app.append(
         toolbar.element,
         element('div', { class: 'side' }, range.element, tree.element),
         view.element,
+        card.element,
+        player.element,
         program.element,
         curves.element,
         table.element,
@@ -175,11 +218,13 @@ async function begin(app: HTMLElement): Promise<void> {
     range.begin();
     curves.build();
     store.on((state, changed) => {
-        if (changed.has('vertex') && state.vertex !== null && state.defect === null) view.reveal(state.vertex);
+        if (changed.has('vertex') && state.vertex !== null && state.defect === null && !state.playing)
+            view.reveal(state.vertex);
     });
 
     document.addEventListener('keydown', (event) => {
         const target = event.target as HTMLElement;
+        if (!store.state.keys && event.key.length === 1) return;
         if (event.ctrlKey || event.metaKey || event.altKey || target.closest('input, textarea, select, dialog')) return;
         const action = actions.find((a) => a.key === event.key.toLowerCase());
         if (!action) return;
@@ -188,7 +233,7 @@ async function begin(app: HTMLElement): Promise<void> {
     });
     const list = document.getElementById('defect-list');
     if (list)
-        new DefectList(list, manifest, (index) => {
+        new DefectList(list, manifest, store, (index) => {
             goToDefect(index);
             app.scrollIntoView();
         });

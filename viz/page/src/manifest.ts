@@ -41,6 +41,9 @@ export interface DefectRun {
 
 export interface Defect {
     id: number;
+    fingerprint: string; // the same from run to run
+    accepted?: boolean; // when the report was written
+    comment?: string;
     severity: number;
     severity_name: string;
     cause: string;
@@ -58,6 +61,8 @@ export interface Defect {
     length_mm: number | null;
     formed_um?: number | null; // in the formed surface, where the tool is known
     shape: string;
+    change?: 'new' | 'remaining'; // against the log before
+    id_before?: number; // of a remaining one
     point: number;
     runs: DefectRun[];
     neighbours: DefectRun[];
@@ -89,6 +94,7 @@ export interface SurfaceInfo {
         y: PackedColumn;
         z: PackedColumn;
         passes: PackedColumn;
+        before?: PackedColumn; // place on the log before, in sixteenths of a step, from 1; 0: none
     };
     roles: { name: string; x: PackedColumn; y: PackedColumn; z: PackedColumn }[];
     fields: { name: string; quantum: number; values: PackedColumn; missing?: PackedColumn }[];
@@ -111,14 +117,36 @@ export interface ReliefInfo {
     missing: PackedColumn;
 }
 
+/** A defect of the log before that is gone. */
+export interface GoneDefect {
+    id: number; // in the report of the log before
+    severity: number;
+    severity_name: string;
+    cause: string;
+    text: string;
+    tip_mm: [number, number, number];
+    bounds_mm: Defect['bounds_mm'];
+    point: number; // of the log before
+}
+
+export interface ToolInfo {
+    text: string; // "ball:6"
+    radius_mm: number;
+    corner_mm: number; // of its edge: the radius of a ball, 0 of a flat one
+    upright: boolean; // its axis is Z all the way
+}
+
 export interface Manifest {
     version: number;
+    judged: boolean; // false: what was found proves nothing
+    tool?: ToolInfo;
     program: { name: string; lines: number; text: PackedColumn };
     command: { program: string; log: string; before: string; options: string[]; formed: string[] };
     first_field: string;
     colour_maps: ColourMapInfo[];
     fields: FieldInfo[];
     defects: Defect[];
+    gone: GoneDefect[];
     surfaces: SurfaceInfo[];
     relief?: ReliefInfo;
 }

@@ -1,7 +1,8 @@
 // What is marked on the surface: defects, and the line, pass and point that are chosen.
 
 import { styleValue } from './dom';
-import type { Manifest } from './manifest';
+import { keeps } from './filters';
+import type { Defect, Manifest } from './manifest';
 import type { Polyline, Ring, Tag } from './overlay';
 import type { State } from './store';
 import type { Surface } from './surface';
@@ -27,6 +28,7 @@ export function marksOf(
     const accent = styleValue('--accent');
     const marks: Marks = { tags: [], polylines: [], rings: [] };
     if (judged) addDefects(manifest, state, marks);
+    if (state.shown !== 'after') addGone(manifest, marks);
 
     const addRun = ([begin, end]: [number, number], colour: string, width: number) => {
         const corners: number[] = [];
@@ -54,23 +56,36 @@ export function marksOf(
             small,
         });
     if (runs.length > 0 && runs[0][0] !== state.vertex) addRing(runs[0][0], '', true);
-    if (state.vertex !== null)
+    if (state.vertex !== null && !state.playing)
         addRing(state.vertex, `point ${surface.point[state.vertex]}, line ${surface.line[state.vertex]}`, false);
     return marks;
+}
+
+/** Defects of the log before that are gone. */
+function addGone(manifest: Manifest, marks: Marks): void {
+    const origin = manifest.surfaces[0].origin_mm;
+    for (const { id, severity, tip_mm } of manifest.gone.slice(0, mostTags))
+        marks.tags.push({ at: tip_mm.map((c, k) => c - origin[k]), text: `gone ${id}`, severity, chosen: false });
+}
+
+/** Whether one of its passes is. */
+function isDrawn(defect: Defect, passes: readonly [number, number] | null): boolean {
+    return passes === null || defect.runs.some(({ pass }) => pass >= passes[0] && pass <= passes[1]);
 }
 
 function addDefects(manifest: Manifest, state: Readonly<State>, marks: Marks): void {
     const origin = manifest.surfaces[0].origin_mm;
     manifest.defects.forEach((defect, k) => {
         const chosen = state.defect === k;
+        if (!chosen && !(keeps(state, defect) && isDrawn(defect, state.passes))) return;
         // The surface that is drawn is that of the tool tips, unless it is what the tool formed.
         const outlines = (state.formed && defect.contact_outlines) || defect.outlines;
         const place = state.formed ? defect.position_mm : defect.tip_mm;
-        if (k < mostTags || chosen)
+        if (marks.tags.length < mostTags || chosen)
             marks.tags.push({
                 at: place.map((c, i) => c - origin[i]),
                 text: String(defect.id),
-                severity: defect.severity,
+                severity: manifest.judged && !state.accepted.get(defect.id)?.accepted ? defect.severity : 0,
                 chosen,
             });
         if (!chosen && !state.defects) return;

@@ -141,8 +141,15 @@ export class Overlay {
         }
         g.lineWidth = 1;
         if (!ring.label) return;
-        const right = x < camera.width - 190;
-        label(g, ring.label, right ? x + 13 : x - 13, y - 12, ring.colour, halo, right ? 'left' : 'right', true);
+        g.font = `600 12px ${styleValue('--font')}`;
+        const room = g.measureText(ring.label).width + 18;
+        const [align, at] =
+            x + room < camera.width
+                ? (['left', x + 13] as const)
+                : x > room
+                  ? (['right', x - 13] as const)
+                  : (['center', Math.max(room / 2, Math.min(camera.width - room / 2, x))] as const);
+        label(g, ring.label, at, y - (align === 'center' ? 17 : 12), ring.colour, halo, align, true);
     }
 
     private measure(

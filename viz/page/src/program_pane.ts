@@ -81,6 +81,7 @@ export class ProgramPane {
         const lines = this.text.lineCount - seen;
         const room = this.height - this.element.clientHeight;
         if (lines > 0) this.element.scrollTop = (Math.max(0, Math.min(lines, line - 1 - seen / 2)) / lines) * room;
+        this.drawNow(); // in this frame: while the tool moves there is a jump in each
     }
 
     private drawNow(): void {

@@ -3,7 +3,6 @@
 
 import { colourAlong, cssColour } from './colour';
 import { element, numberText, styleValue } from './dom';
-import type { Manifest } from './manifest';
 import type { Store } from './store';
 import { Kind } from './surface';
 import type { ViewPane } from './view_pane';
@@ -23,10 +22,10 @@ export class RangePane {
     private counts = new Float64Array(bars);
     private from = 0;
     private to = 1;
+    private difference = false; // of the range that is shown
     private dragged: 'low' | 'high' | null = null;
 
     constructor(
-        private readonly manifest: Manifest,
         private readonly store: Store,
         private readonly view: ViewPane,
     ) {
@@ -42,12 +41,12 @@ export class RangePane {
         );
         reset.addEventListener('click', () => this.reset());
         all.addEventListener('click', () => {
-            const { lowest, highest } = this.ends();
+            const { lowest, highest } = this.view.ends();
             this.store.set({ low: lowest, high: highest });
         });
         for (const input of [this.low, this.high]) input.addEventListener('change', () => this.type());
         this.element.append(
-            element('h3', {}, 'Range'),
+            element('h2', {}, 'Range'),
             this.canvas,
             element('div', { class: 'ends' }, this.low, this.high, reset, all),
         );
@@ -69,7 +68,11 @@ export class RangePane {
             else this.put(low, high + step);
         });
         store.on((_, changed) => {
-            if (changed.has('field') || changed.has('formed')) this.reset();
+            const difference = store.state.shown === 'difference';
+            if (changed.has('field') || changed.has('formed') || difference !== this.difference) {
+                this.difference = difference;
+                this.reset();
+            }
             if (
                 ['field', 'formed', 'shown', 'theme', 'low', 'high', 'map', 'bins'].some((key) =>
                     changed.has(key as never),
@@ -87,12 +90,8 @@ export class RangePane {
         this.draw();
     }
 
-    private ends(): { low: number; high: number; lowest: number; highest: number } {
-        const relief = this.manifest.relief;
-        return this.store.state.formed && relief ? relief : this.manifest.fields[this.store.state.field];
-    }
     private reset(): void {
-        const { low, high } = this.ends();
+        const { low, high } = this.view.ends();
         this.store.set({ low, high });
     }
     private put(low: number, high: number): void {
@@ -105,7 +104,7 @@ export class RangePane {
     }
 
     private count(): void {
-        const { low, high, lowest, highest } = this.ends();
+        const { low, high, lowest, highest } = this.view.ends();
         const room = beside * (high - low || 1);
         this.from = Math.max(Math.min(lowest, low), low - room);
         this.to = Math.min(Math.max(highest, high), high + room);

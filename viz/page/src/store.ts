@@ -1,7 +1,10 @@
 // The state of the page: one object, changed through set(), which tells who listens what changed.
 
+import type { Opinions } from './accepted';
+import type { DefectFilter } from './filters';
+
 export type Style = 'surface' | 'lines' | 'points';
-export type Shown = 'after' | 'before' | 'wipe';
+export type Shown = 'after' | 'before' | 'wipe' | 'difference';
 export type Tool = 'turn' | 'box' | 'measure';
 
 export interface State {
@@ -15,16 +18,24 @@ export interface State {
     formed: boolean; // the formed surface in place of the CL surface
     defects: boolean; // outlined
     shown: Shown;
+    playing: boolean;
+    time: number | null; // [s] where the tool stands; null: it is not drawn
     wipe: number; // 0 … 1 of the width: left of it is before
     vertex: number | null; // the cursor, a vertex of the surface that is shown
     hover: number | null; // under the pointer
     line: number; // 0: none
     pass: number; // 0: none
     defect: number | null; // index
+    pinned: number | null; // the defect whose card is open
+    accepted: Opinions; // of the reader
+    filter: DefectFilter; // of the defects that are listed and marked
+    kinds: number; // of motion that are drawn: bits 1 << Kind
+    passes: [number, number] | null; // that are drawn, first and last; null: all
     tool: Tool;
     over: 'time' | 'length';
     curves: number[]; // fields; the first follows `field`
     theme: 'light' | 'dark';
+    keys: boolean; // one-letter keys are on
 }
 
 type Listener = (state: Readonly<State>, changed: ReadonlySet<keyof State>) => void;

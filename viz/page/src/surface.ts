@@ -3,6 +3,7 @@
 
 import { readBytes, readIndices, readNumbers } from './columns';
 import type { Manifest, SurfaceInfo } from './manifest';
+import { lowerBound } from './thin';
 
 export const enum Kind {
     cut = 0,
@@ -30,6 +31,7 @@ export class Surface {
         readonly segments: Uint32Array,
         readonly fields: Float32Array[], // shown units; NaN: no value
         readonly passes: Float64Array, // first and last point of each cut pass
+        readonly before: Float64Array | null, // the same place on the log before, in points; < 0: none
     ) {
         this.line = new Uint32Array(point.length);
         for (let i = 0, run = 0; i < point.length; ++i) {
@@ -68,6 +70,10 @@ export class Surface {
     }
     vertexOfPoint(point: number): number {
         return this.nearest(this.point, point);
+    }
+    /** The first vertex at or after a time; the last one where there is none. */
+    vertexFrom(time: number): number {
+        return Math.min(this.count - 1, lowerBound(this.time, time));
     }
     vertexAtTime(time: number): number {
         return this.nearest(this.time, time);
@@ -117,6 +123,25 @@ export class Surface {
         }
         return 2 * low < this.passes.length && this.passes[2 * low] <= point ? low + 1 : 0;
     }
+}
+
+/** A field of the surface minus that of the log before, at the same places; NaN where that was not. */
+export function differenceOf(after: Surface, before: Surface, field: number): Float32Array {
+    const values = after.fields[field].slice();
+    const old = before.fields[field];
+    for (let i = 0; i < values.length; ++i) {
+        const place = after.before?.[i] ?? -1;
+        if (place < 0) {
+            values[i] = NaN;
+            continue;
+        }
+        const next = Math.min(before.count - 1, lowerBound(before.point, place));
+        const last = Math.max(0, next - 1);
+        const step = before.point[next] - before.point[last];
+        const t = step > 0 && before.joined(next) ? (place - before.point[last]) / step : 1;
+        values[i] -= old[last] + Math.min(1, Math.max(0, t)) * (old[next] - old[last]);
+    }
+    return values;
 }
 
 /** Positions from a common origin, so that two logs lie in one space. */
@@ -176,5 +201,6 @@ export async function readSurface(manifest: Manifest, index: number): Promise<Su
         await readIndices(columns.segments),
         fields,
         await readNumbers(columns.passes),
+        columns.before ? (await readNumbers(columns.before)).map((n) => n / 16 - 1) : null,
     );
 }

@@ -7,7 +7,12 @@ import type { Store } from './store';
 import type { Surface } from './surface';
 
 export class TablePane {
-    readonly element = element('div', { class: 'table' });
+    readonly element = element('div', {
+        class: 'table',
+        tabindex: '0',
+        role: 'region',
+        'aria-label': 'values of the point',
+    });
 
     constructor(
         private readonly manifest: Manifest,
@@ -54,7 +59,7 @@ export class TablePane {
             element(
                 'tr',
                 {},
-                element('th', {}, ''),
+                element('th', {}, 'Text'),
                 element('td', { class: 'text', colspan: '2' }, line > 0 ? this.text.line(line).slice(0, 80) : ''),
             ),
             row('Time', surface.time[at].toFixed(4), 's'),

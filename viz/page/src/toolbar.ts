@@ -11,7 +11,7 @@ export interface Locator {
 }
 
 export class Toolbar {
-    readonly element = element('div', { class: 'toolbar', role: 'toolbar' });
+    readonly element = element('div', { class: 'toolbar', role: 'toolbar', 'aria-label': 'tools' });
     readonly locator: Locator;
 
     constructor(
@@ -33,7 +33,8 @@ export class Toolbar {
         }
         map.addEventListener('change', () => store.set({ map: map.value }));
         const bins = element('select', { title: 'continuous colours or steps', 'aria-label': 'colour steps' });
-        for (const n of [0, 6, 8, 10, 12, 16]) bins.append(new Option(n === 0 ? 'running' : `${n} steps`, String(n)));
+        for (const n of [0, 6, 8, 10, 12, 16])
+            bins.append(new Option(n === 0 ? 'continuous' : `${n} steps`, String(n)));
         bins.addEventListener('change', () => store.set({ bins: Number(bins.value) }));
         this.element.append(element('span', { class: 'set' }, field, map, bins));
 
@@ -45,11 +46,7 @@ export class Toolbar {
                 groups.set(action.group, (group = element('span', { class: 'set' })));
                 this.element.append(group);
             }
-            const button = element(
-                'button',
-                { 'data-action': action.name, title: `${action.title} (key ${action.key.toUpperCase()})` },
-                action.text,
-            );
+            const button = element('button', { 'data-action': action.name }, action.text);
             button.addEventListener('click', () => action.run());
             group.append(button);
         }
@@ -58,9 +55,9 @@ export class Toolbar {
             field.value = String(state.field);
             map.value = state.map;
             bins.value = String(state.bins);
-            this.update(actions);
+            this.update(actions, state.keys);
         });
-        this.update(actions);
+        this.update(actions, store.state.keys);
     }
 
     private addLocator(locate: (kind: string, value: number) => string | null): Locator {
@@ -92,12 +89,12 @@ export class Toolbar {
         return { kind, input };
     }
 
-    private update(actions: Action[]): void {
+    private update(actions: Action[], keys: boolean): void {
         for (const action of actions) {
-            if (!action.pressed) continue;
-            this.element
-                .querySelector(`[data-action="${action.name}"]`)
-                ?.setAttribute('aria-pressed', String(action.pressed()));
+            const button = this.element.querySelector<HTMLElement>(`[data-action="${action.name}"]`);
+            if (!button) continue;
+            button.title = keys ? `${action.title} (key ${action.key.toUpperCase()})` : action.title;
+            if (action.pressed) button.setAttribute('aria-pressed', String(action.pressed()));
         }
     }
 }

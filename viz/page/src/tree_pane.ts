@@ -1,9 +1,10 @@
 // What is loaded: program, positions, formed surface, passes, defects.
 
 import { baseName, element } from './dom';
+import { FilterBar, keeps } from './filters';
 import type { Manifest } from './manifest';
 import type { State, Store } from './store';
-import type { Surface } from './surface';
+import { Kind, type Surface } from './surface';
 
 const mostPasses = 1000;
 /** Below its neighbours, above them, or both in turn. */
@@ -12,12 +13,14 @@ const shapeSigns: Record<string, string> = { pit: '▾ ', bulge: '▴ ', alterna
 export class TreePane {
     readonly element = element('nav', { class: 'tree', 'aria-label': 'contents' });
     private readonly passes = element('details', { class: 'passes' });
+    private readonly defectItems: HTMLElement[] = [];
+    private readonly defectCount = element('summary');
 
     constructor(
         private readonly manifest: Manifest,
         private readonly store: Store,
         private readonly surface: () => Surface,
-        private readonly goToDefect: (index: number) => void,
+        private readonly deeds: { goToDefect: (index: number) => void; goToGone: (index: number) => void },
         formed: boolean,
     ) {
         const { program, surfaces } = manifest;
@@ -45,13 +48,16 @@ export class TreePane {
                 ),
             ),
             this.positions(formed),
+            this.motions(),
             this.defects(),
+            ...this.gone(),
             this.passes,
         );
         this.fillPasses();
         this.update(store.state);
         store.on((state, changed) => {
             if (changed.has('shown')) this.fillPasses();
+            if (changed.has('filter') || changed.has('accepted')) this.filterDefects();
             this.update(state);
         });
     }
@@ -76,10 +82,32 @@ export class TreePane {
         if (formed)
             list.append(
                 this.choice('formed', 'formed', 'the as-machined surface, above its form', () =>
-                    this.store.set({ formed: true }),
+                    this.store.set({
+                        formed: true,
+                        shown: this.store.state.shown === 'difference' ? 'after' : this.store.state.shown,
+                    }),
                 ),
             );
-        return element('div', { class: 'group' }, element('h3', {}, 'Surface'), list);
+        return element('div', { class: 'group' }, element('h2', {}, 'Surface'), list);
+    }
+
+    /** Which kinds of motion are drawn. */
+    private motions(): HTMLElement {
+        const list = element('div', { class: 'choices' });
+        const surface = this.surface();
+        for (const [name, kind, what] of [
+            ['cuts', Kind.cut, 'cutting passes'],
+            ['links', Kind.link, 'motions at feed between passes'],
+            ['rapids', Kind.rapid, 'rapid motions'],
+        ] as const) {
+            if (!surface.kinds.some((_, i) => surface.kind(i) === kind)) continue;
+            list.append(
+                this.choice(name, `kind-${kind}`, `draw ${what}`, () =>
+                    this.store.set({ kinds: this.store.state.kinds ^ (1 << kind) }),
+                ),
+            );
+        }
+        return element('div', { class: 'group' }, element('h2', {}, 'Motion'), list);
     }
 
     private defects(): HTMLElement {
@@ -97,17 +125,74 @@ export class TreePane {
                     String(defect.id),
                 ),
                 element('span', {}, defect.cause.replace('_', ' ')),
-                element('small', {}, depth),
+                element('small', {}, defect.change === 'new' ? `new ${depth}` : depth),
             );
-            button.addEventListener('click', () => this.goToDefect(k));
+            button.addEventListener('click', () => this.deeds.goToDefect(k));
+            this.defectItems.push(button);
             list.append(button);
         });
+        this.filterDefects();
+        const filters = element('details', { class: 'filter' }, element('summary', {}, 'Filter'));
+        filters.append(new FilterBar(this.manifest, this.store, 'of the list').element);
         return element(
             'details',
             { open: '' },
-            element('summary', {}, `Defects (${defects.length})`),
-            defects.length > 0 ? list : element('p', { class: 'hint' }, 'none'),
+            this.defectCount,
+            ...(defects.length > 0 ? [filters, list] : [element('p', { class: 'hint' }, 'none')]),
         );
+    }
+
+    /** Defects of the log before that are there no more. */
+    private gone(): HTMLElement[] {
+        const { gone } = this.manifest;
+        if (gone.length === 0) return [];
+        const list = element('div', { class: 'list' });
+        gone.slice(0, 500).forEach((defect, k) => {
+            const button = element(
+                'button',
+                { class: 'item', 'data-choice': `gone-${k}`, title: defect.text },
+                element('span', { class: `severity s${defect.severity}` }, String(defect.id)),
+                element('span', {}, defect.cause.replace('_', ' ')),
+                element('small', {}, 'gone'),
+            );
+            button.addEventListener('click', () => this.deeds.goToGone(k));
+            list.append(button);
+        });
+        return [element('details', {}, element('summary', {}, `Gone (${gone.length})`), list)];
+    }
+
+    private filterDefects(): void {
+        const { defects } = this.manifest;
+        const { state } = this.store;
+        this.defectItems.forEach((item, k) => {
+            item.hidden = !keeps(state, defects[k]);
+            item.classList.toggle('accepted', state.accepted.get(defects[k].id)?.accepted === true);
+        });
+        const kept = defects.filter((defect) => keeps(state, defect)).length;
+        this.defectCount.textContent =
+            kept < defects.length ? `Defects (${kept} of ${defects.length})` : `Defects (${kept})`;
+    }
+
+    /** From which pass to which the surface is drawn. */
+    private passRange(count: number): HTMLElement {
+        const box = (name: string, value: number) =>
+            element('input', {
+                type: 'number',
+                min: '1',
+                max: String(count),
+                value: String(value),
+                'aria-label': `${name} pass drawn`,
+            });
+        const [first, last] = this.store.state.passes ?? [1, count];
+        const [from, to] = [box('first', first), box('last', last)];
+        const change = () => {
+            const [a, b] = [Number(from.value), Number(to.value)].map((n) =>
+                Math.min(count, Math.max(1, Math.round(n))),
+            );
+            this.store.set({ passes: a > b || (a === 1 && b === count) ? null : [a, b] });
+        };
+        for (const input of [from, to]) input.addEventListener('change', change);
+        return element('p', { class: 'range-of-passes' }, 'draw ', from, ' to ', to);
     }
 
     private fillPasses(): void {
@@ -129,7 +214,11 @@ export class TreePane {
         }
         if (count > mostPasses)
             list.append(element('p', { class: 'hint' }, `${count - mostPasses} more: click the surface`));
-        this.passes.replaceChildren(element('summary', {}, `Passes (${count.toLocaleString('en')})`), list);
+        this.passes.replaceChildren(
+            element('summary', {}, `Passes (${count.toLocaleString('en')})`),
+            ...(count > 1 ? [this.passRange(count)] : []),
+            list,
+        );
     }
 
     private update(state: Readonly<State>): void {
@@ -137,6 +226,7 @@ export class TreePane {
             state.formed ? 'formed' : `role-${state.role}`,
             `defect-${state.defect}`,
             `pass-${state.pass}`,
+            ...[Kind.cut, Kind.link, Kind.rapid].filter((k) => (state.kinds >> k) & 1).map((k) => `kind-${k}`),
         ]);
         for (const button of this.element.querySelectorAll<HTMLElement>('[data-choice]')) {
             button.setAttribute('aria-pressed', String(chosen.has(button.dataset.choice ?? '')));

@@ -8,12 +8,15 @@ import { GlView, normalsOf } from './gl_view';
 import type { Manifest } from './manifest';
 import { marksOf } from './marks';
 import { legendWidth, Overlay, viewName, type OverlayScene } from './overlay';
+import { drawTool } from './tool_shape';
 import { Picker } from './picker';
 import type { Relief } from './relief';
 import type { State, Store } from './store';
+import { ShownValues, type Ends } from './shown_values';
 import { Kind, type Surface } from './surface';
 
 const slowFrame = 80; // ms
+export const everyKind = (1 << Kind.cut) | (1 << Kind.link) | (1 << Kind.rapid);
 
 interface Layer {
     surface: Surface;
@@ -30,17 +33,30 @@ function waySegments(surface: Surface): Uint32Array {
     return Uint32Array.from(pairs);
 }
 
+/** The cells of `size` corners whose corners are all shown. */
+function shownCells(corners: Uint32Array, size: number, shows: (vertex: number) => boolean): Uint32Array {
+    const out: number[] = [];
+    for (let at = 0; at + size <= corners.length; at += size) {
+        const cell = corners.subarray(at, at + size);
+        if (cell.every(shows)) out.push(...cell);
+    }
+    return Uint32Array.from(out);
+}
+
 export class ViewPane {
     readonly element = element('div', {
         class: 'view',
         tabindex: '0',
+        role: 'group',
         'aria-label': 'the surface; drag to turn, shift and drag to move, wheel to zoom',
     });
     readonly camera = new Camera();
     private readonly layers: Layer[] = [];
     private readonly overlay: Overlay;
+    private readonly shown: ShownValues;
     private drag: { x: number; y: number; moved: boolean; pan: boolean; wipe: boolean } | null = null;
     private box: [number, number, number, number] | null = null;
+    private readonly fingers = new Map<number, [number, number]>();
     private places: number[][] = [];
     private stale = true; // the surfaces must be drawn again, not only what stands over them
     private readonly drawLater = oncePerFrame(() => this.drawNow());
@@ -54,6 +70,7 @@ export class ViewPane {
         private readonly maps: ColourMap[],
         private readonly relief: Relief | null,
     ) {
+        this.shown = new ShownValues(manifest, store, surfaces, relief);
         for (const surface of surfaces) {
             const box = element('div', { class: 'layer' });
             this.element.append(box);
@@ -88,10 +105,13 @@ export class ViewPane {
         return { map: this.maps.find((m) => m.name === map) ?? this.maps[0], low, high, bins, slack };
     }
 
+    /** The usual ends of the colours, and the lowest and highest value. */
+    ends(): Ends {
+        return this.shown.ends(this.surface);
+    }
     /** The values that are coloured, one per vertex of what is shown. */
     get values(): Float32Array {
-        const { formed, field } = this.store.state;
-        return formed && this.relief ? this.relief.deviation : this.surface.fields[field];
+        return this.shown.of(this.surface);
     }
 
     // ---- what is shown ----
@@ -104,10 +124,11 @@ export class ViewPane {
 
     private update(changed: ReadonlySet<keyof State>): void {
         const any = (...keys: (keyof State)[]) => keys.some((key) => changed.has(key));
-        if (any('style', 'role', 'formed')) for (const layer of this.layers) this.remesh(layer);
-        if (any('style', 'role', 'formed', 'field', 'low', 'high'))
-            for (const layer of this.layers) this.revalue(layer);
-        if (any('style', 'role', 'formed', 'field', 'low', 'high', 'map', 'bins'))
+        if (changed.has('shown')) for (const layer of this.layers) this.revalue(layer);
+        const mesh = ['style', 'role', 'formed', 'kinds', 'passes'] as const;
+        if (any(...mesh)) for (const layer of this.layers) this.remesh(layer);
+        if (any(...mesh, 'field', 'low', 'high')) for (const layer of this.layers) this.revalue(layer);
+        if (any(...mesh, 'field', 'low', 'high', 'map', 'bins'))
             for (const layer of this.layers) layer.view.setColours(this.scale);
         if (any('tool')) this.element.dataset.tool = this.store.state.tool;
         if (any('theme')) for (const layer of this.layers) layer.view.setBackground(rgbOf(styleValue('--view')));
@@ -117,7 +138,7 @@ export class ViewPane {
             layer.box.style.visibility = seen ? 'visible' : 'hidden';
             layer.box.style.clipPath = shown === 'wipe' && k === 1 ? `inset(0 ${100 * (1 - wipe)}% 0 0)` : '';
         });
-        if (any('style', 'role', 'formed', 'field', 'low', 'high', 'map', 'bins', 'theme', 'shown')) this.draw();
+        if (any(...mesh, 'field', 'low', 'high', 'map', 'bins', 'theme', 'shown')) this.draw();
         else if (changed.size > 1 || !changed.has('hover')) this.drawLater();
     }
 
@@ -147,7 +168,13 @@ export class ViewPane {
         if (formed && this.relief && layer === this.layers[0]) {
             const { xyz, triangles } = this.relief;
             layer.view.setMesh(
-                { xyz, triangles, normals: normalsOf(xyz, triangles), segments: new Uint32Array(0) },
+                {
+                    xyz,
+                    triangles,
+                    normals: normalsOf(xyz, triangles),
+                    segments: new Uint32Array(0),
+                    points: Uint32Array.from({ length: xyz.length / 3 }, (_, i) => i),
+                },
                 'surface',
             );
             return;
@@ -155,21 +182,35 @@ export class ViewPane {
         const xyz = this.xyzOf(surface);
         let normals = layer.normals.get(role) ?? null;
         if (!normals && style === 'surface') layer.normals.set(role, (normals = normalsOf(xyz, surface.triangles)));
+        const shows = this.shows(surface);
+        const part = (corners: Uint32Array, size: number) => (shows ? shownCells(corners, size, shows) : corners);
         layer.view.setMesh(
             {
                 xyz,
                 normals,
-                triangles: surface.triangles,
-                segments: style === 'lines' ? waySegments(surface) : surface.segments,
+                triangles: part(surface.triangles, 3),
+                segments: part(style === 'lines' ? waySegments(surface) : surface.segments, 2),
+                points: part(
+                    Uint32Array.from({ length: surface.count }, (_, i) => i),
+                    1,
+                ),
             },
             style,
         );
     }
 
+    /** Whether a vertex is of the kinds and passes that are drawn; null: all are. */
+    private shows(surface: Surface): ((vertex: number) => boolean) | null {
+        const { kinds, passes } = this.store.state;
+        if (kinds === everyKind && !passes) return null;
+        const [first, last] = passes ?? [1, surface.info.pass_count];
+        const from = passes ? surface.passes[2 * first - 2] : 0;
+        const to = passes ? (surface.passes[2 * last - 1] ?? Infinity) : Infinity;
+        return (i) => ((kinds >> surface.kind(i)) & 1) === 1 && surface.point[i] >= from && surface.point[i] <= to;
+    }
+
     private revalue(layer: Layer): void {
-        const { formed, field } = this.store.state;
-        const relief = formed && this.relief && layer === this.layers[0];
-        layer.view.setValues(relief && this.relief ? this.relief.deviation : layer.surface.fields[field], this.scale);
+        layer.view.setValues(this.shown.of(layer.surface), this.scale);
     }
 
     private resize(): void {
@@ -196,7 +237,6 @@ export class ViewPane {
         [this.camera.azimuth, this.camera.elevation] = views[name];
         this.fit();
     }
-    /** Brings places into the picture, at a size at which they can be read. */
     /** From where a direction points to. The picture is drawn later. */
     lookAlong(normal: readonly number[]): void {
         const [x, y, z] = normal;
@@ -205,6 +245,7 @@ export class ViewPane {
         else this.camera.azimuth = 0;
         this.camera.elevation = Math.asin(Math.min(1, Math.max(-1, z))) * degrees;
     }
+    /** Brings places into the picture, at a size at which they can be read. */
     goTo(low: readonly number[], high: readonly number[]): void {
         const step = this.surface.info.step_over_mm || 1;
         this.camera.centre = [0, 1, 2].map((k) => (low[k] + high[k]) / 2) as [number, number, number];
@@ -230,7 +271,7 @@ export class ViewPane {
             for (const layer of this.layers)
                 if (layer.box.style.visibility !== 'hidden') layer.view.render(this.camera);
         }
-        this.overlay.draw(this.camera, this.scene(), devicePixelRatio);
+        this.drawOverlay();
         this.element.dataset.view = viewName(this.camera);
         this.element.dataset.drawn = String(Number(this.element.dataset.drawn ?? 0) + 1);
     }
@@ -245,18 +286,30 @@ export class ViewPane {
         return {
             ...marksOf(this.manifest, state, surface, this.xyzOf(surface), surface === this.layers[0].surface),
             scale: this.scale,
-            lowest: formed?.lowest ?? field.lowest,
-            highest: formed?.highest ?? field.highest,
-            title: formed ? 'Formed surface over its form' : field.label,
+            ...this.ends(),
+            title: formed
+                ? 'Formed surface over its form'
+                : state.shown === 'difference'
+                  ? `${field.label}, after minus before`
+                  : field.label,
             unit: formed ? 'µm' : field.unit,
             caption:
-                (this.layers.length > 1 && state.shown !== 'wipe'
+                (this.layers.length > 1 && (state.shown === 'before' || state.shown === 'after')
                     ? `${state.shown}: ${baseName(surface.info.log)}, `
                     : '') + viewName(this.camera),
             measure: this.places,
             box: this.box,
             wipe: state.shown === 'wipe' ? state.wipe : null,
         };
+    }
+
+    private drawOverlay(): void {
+        this.overlay.draw(this.camera, this.scene(), devicePixelRatio);
+        const { time } = this.store.state;
+        if (time === null) return;
+        const { surface } = this;
+        const g = this.overlay.canvas.getContext('2d') as CanvasRenderingContext2D;
+        drawTool(g, this.camera, this.manifest.tool, surface, this.xyzOf(surface), time);
     }
 
     // ---- the pointer ----
@@ -269,11 +322,12 @@ export class ViewPane {
         const { surface } = layer;
         // A single pass has no triangles.
         const style = surface.triangles.length > 0 ? state.style : 'lines';
+        const shows = this.shows(surface);
         layer.picker ??= new Picker(
             this.xyzOf(surface),
-            surface.triangles,
+            shows ? shownCells(surface.triangles, 3, shows) : surface.triangles,
             style,
-            (i) => surface.kind(i) !== Kind.rapid,
+            (i) => surface.kind(i) !== Kind.rapid && (shows?.(i) ?? true),
         );
         return layer.picker.pick(this.camera, x, y);
     }
@@ -286,6 +340,11 @@ export class ViewPane {
         canvas.addEventListener('contextmenu', (event) => event.preventDefault());
         canvas.addEventListener('pointerdown', (event) => {
             const [x, y] = at(event);
+            this.fingers.set(event.pointerId, [x, y]);
+            if (this.fingers.size > 1) {
+                this.drag = this.box = null; // two fingers pinch
+                return;
+            }
             const { state } = this.store;
             const wipe = state.shown === 'wipe' && Math.abs(x - state.wipe * this.camera.width) < 8;
             this.drag = { x, y, moved: false, pan: event.button !== 0 || event.shiftKey, wipe };
@@ -295,12 +354,18 @@ export class ViewPane {
         });
         canvas.addEventListener('pointermove', (event) => {
             const [x, y] = at(event);
-            if (this.drag) this.dragTo(x, y);
+            if (this.fingers.size > 1) this.pinch(event.pointerId, x, y);
+            else if (this.drag) this.dragTo(x, y);
             else this.hover(x, y);
         });
         canvas.addEventListener('pointerup', (event) => {
             const [x, y] = at(event);
+            this.fingers.delete(event.pointerId);
             this.drop(x, y);
+        });
+        canvas.addEventListener('pointercancel', (event) => {
+            this.fingers.delete(event.pointerId);
+            this.drag = this.box = null;
         });
         canvas.addEventListener('pointerleave', () => {
             this.hoverAt = null; // also for a question that was asked already
@@ -316,6 +381,18 @@ export class ViewPane {
             },
             { passive: false },
         );
+    }
+
+    /** Two fingers move the picture between them and zoom it by their distance. */
+    private pinch(finger: number, x: number, y: number): void {
+        const fingers = () => [...this.fingers.values()].slice(0, 2);
+        const [[ax, ay], [bx, by]] = fingers();
+        this.fingers.set(finger, [x, y]);
+        const [[cx, cy], [dx, dy]] = fingers();
+        this.camera.pan((cx + dx - ax - bx) / 2, (cy + dy - ay - by) / 2);
+        const factor = Math.hypot(bx - ax, by - ay) / Math.max(1, Math.hypot(dx - cx, dy - cy));
+        this.camera.zoom(factor, (cx + dx) / 2, (cy + dy) / 2);
+        this.drawMoving();
     }
 
     private dragTo(x: number, y: number): void {
@@ -390,7 +467,7 @@ export class ViewPane {
             const part = shown === 'wipe' && k === 1 ? Math.round(size[0] * wipe) : size[0];
             if (part > 0) g.drawImage(layer.view.canvas, 0, 0, part, size[1], 0, 0, part, size[1]);
         });
-        this.overlay.draw(this.camera, this.scene(), devicePixelRatio);
+        this.drawOverlay();
         g.drawImage(this.overlay.canvas, 0, 0);
         return new Promise((resolve, reject) =>
             canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error('no picture'))), 'image/png'),

@@ -1,0 +1,91 @@
+#include "io/page/defect_cards.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "core/file_name.h"
+#include "io/page/html_text.h"
+#include "io/page/page_pack.h"
+#include "io/reports/quality_words.h"
+
+namespace clsurf::io {
+namespace {
+
+// The page shows as many: viz/page/src/defect_print.ts.
+constexpr LineNumber most_lines = 14;
+constexpr LineNumber lines_at_the_end = 3;  ///< where not all are shown
+constexpr std::size_t widest_line = 100;
+
+/// The file that a run is in, and its lines there.
+struct Excerpt {
+    const SourceText* text = nullptr;
+    LineNumber first = 0, last = 0;
+};
+
+Excerpt excerpt_of(const Program& program, const DefectRun& run) {
+    if (run.file.empty()) return {&program.main(), run.first_line, run.last_line};
+    for (const SourceText& text : program.files) {
+        if (file_name(text.name()) == run.file) return {&text, run.file_first_line, run.file_last_line};
+    }
+    return {};
+}
+
+std::string code_line(const SourceText& text, LineNumber number) {
+    const std::string_view line = text.line(number);
+    return fmt::format("<span class=\"number\">{:>6}</span> {}{}\n", number, html(line.substr(0, widest_line)),
+                       line.size() > widest_line ? "…" : "");
+}
+
+/// The lines of a run, the first and the last of many.
+std::string code_html(const Program& program, const DefectRun& run) {
+    const Excerpt excerpt = excerpt_of(program, run);
+    if (excerpt.text == nullptr || excerpt.first == 0) return {};
+    const bool all = excerpt.last - excerpt.first < most_lines;
+    const LineNumber shown = all ? excerpt.last : excerpt.first + (most_lines - lines_at_the_end - 1) - 1;
+    std::string text = "<pre>";
+    for (LineNumber n = excerpt.first; n <= shown; ++n) text += code_line(*excerpt.text, n);
+    if (!all) {
+        text += fmt::format("<span class=\"number\">     …</span> {} more lines\n",
+                            excerpt.last - lines_at_the_end - shown);
+        for (LineNumber n = excerpt.last - lines_at_the_end + 1; n <= excerpt.last; ++n)
+            text += code_line(*excerpt.text, n);
+    }
+    return text + "</pre>\n";
+}
+
+std::string list_of_lines(const std::vector<DefectRun>& runs) {
+    constexpr std::size_t most_runs = 6;
+    std::string text;
+    for (std::size_t k = 0; k < std::min(most_runs, runs.size()); ++k)
+        text += fmt::format("{}{} (pass {})", k > 0 ? ", " : "", lines_text(runs[k]), runs[k].pass);
+    if (runs.size() > most_runs) text += fmt::format(" and {} more", runs.size() - most_runs);
+    return text;
+}
+
+}  // namespace
+
+std::string picture_html(const PagePicture& picture) {
+    return fmt::format(
+        "<figure><img alt=\"{}\" src=\"data:image/png;base64,{}\"><figcaption><b>{}</b> {}</figcaption></figure>\n",
+        html(picture.title), to_base64(picture.png), html(picture.title), html(picture.text));
+}
+
+std::string lines_text(const DefectRun& run) {
+    if (run.first_line == 0) return "–";
+    return run.first_line == run.last_line ? fmt::format("{}", run.first_line)
+                                           : fmt::format("{}–{}", run.first_line, run.last_line);
+}
+
+std::string defect_card_html(const ReportPage& page, std::size_t defect) {
+    const Defect& d = page.quality.report->defects[defect];
+    std::string text = "<article class=\"defect-card\">\n" + picture_html(*page.defects[defect].picture);
+    text += fmt::format("<p>Lines {}", html(list_of_lines(d.runs)));
+    if (!d.neighbours.empty()) text += fmt::format("; beside: {}", html(list_of_lines(d.neighbours)));
+    text += ".</p>\n";
+    if (!d.runs.empty()) text += code_html(*page.quality.program, d.runs.front());
+    return text + "</article>\n";
+}
+
+}  // namespace clsurf::io
