@@ -2,24 +2,14 @@
 
 #include <fmt/format.h>
 
-#include "io/files/sha256.h"
 #include "io/page/html_text.h"
 #include "io/page/page_bundle.h"
 #include "io/page/page_data.h"
-#include "io/page/page_pack.h"
+#include "io/page/page_policy.h"
 #include "io/page/page_sections.h"
 
 namespace clsurf::io {
 namespace {
-
-/// What a Content-Security-Policy names an inline script or style by.
-std::string source_hash(std::string_view text) {
-    const std::string digits = sha256(std::as_bytes(std::span(text.data(), text.size())));
-    std::string bytes;
-    for (std::size_t i = 0; i < digits.size(); i += 2)
-        bytes += static_cast<char>(std::stoi(digits.substr(i, 2), nullptr, 16));
-    return "'sha256-" + to_base64(bytes) + "'";
-}
 
 /// Nothing is loaded from anywhere; only the page's own script and style work.
 std::string policy() {

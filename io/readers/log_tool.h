@@ -1,5 +1,5 @@
 #pragma once
-// The tool that a log's metadata name: {"tool": "ball:6"}, in the words of machined/tool.h.
+// The tool and the machine that a log's metadata name: {"tool": "ball:6"}, in the words of machined/tool.h.
 
 #include <string>
 
@@ -7,5 +7,8 @@ namespace clsurf::io {
 
 /// Empty: they name none.
 [[nodiscard]] std::string tool_of_metadata(const std::string& metadata);
+
+/// The machine that they name: {"machine": "mill 3"}, or that of a simulation. Empty: they name none.
+[[nodiscard]] std::string machine_of_metadata(const std::string& metadata);
 
 }  // namespace clsurf::io

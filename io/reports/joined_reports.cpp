@@ -12,6 +12,17 @@ std::string csv_field(std::string_view text) {
     return quoted + "\"";
 }
 
+std::string joined_junit(const std::vector<std::string>& texts) {
+    constexpr std::string_view begin = "<testsuites>\n";
+    constexpr std::string_view end = "</testsuites>\n";
+    std::string all = texts.front().substr(0, texts.front().find(begin) + begin.size());
+    for (const std::string& text : texts) {
+        const std::size_t first = text.find(begin) + begin.size();
+        all += text.substr(first, text.rfind(end) - first);
+    }
+    return all.append(end);
+}
+
 std::string joined_sarif(const std::vector<std::string>& names, const std::vector<std::string>& texts) {
     Json all;
     Json runs = Json::array();

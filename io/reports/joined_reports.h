@@ -8,6 +8,9 @@
 namespace clsurf::io {
 
 /// One SARIF log with the runs of all, told apart by `names` (automationDetails). Domain: SARIF texts of one run each.
+/// The suites of several JUnit reports in one.
+[[nodiscard]] std::string joined_junit(const std::vector<std::string>& texts);
+
 [[nodiscard]] std::string joined_sarif(const std::vector<std::string>& names, const std::vector<std::string>& texts);
 
 /// A value of a CSV row, quoted where RFC 4180 asks for it.

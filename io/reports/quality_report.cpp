@@ -34,6 +34,7 @@ Json looked_at_defects(const ReportedQuality& q) {
             all[i]["formed_um"] = number(um(mark.depth), 2);
             all[i]["formed_note"] = mark.note == MarkNote::none ? Json(nullptr) : Json(std::string(name_of(mark.note)));
         }
+        if (q.baseline != nullptr) all[i]["baseline"] = name_of(q.baseline->states[i]);
         if (i < q.colour_differences.size()) all[i]["delta_e00"] = number(q.colour_differences[i], 1);
         all[i]["fingerprint"] = fingerprints[i];
         all[i]["accepted"] = q.acceptance != nullptr && q.acceptance->accepts(i);
@@ -201,12 +202,31 @@ std::string defects_table(const ReportedQuality& q) {
     return text + "\n";
 }
 
+/// What is new, by rank.
+std::string against_baseline(const DefectMatch& match) {
+    std::string text = "against the baseline: " + baseline_text(match) + "\n";
+    for (const DefectState state : {DefectState::fresh, DefectState::worse}) {
+        std::string ranks;
+        for (std::size_t i = 0; i < match.states.size(); ++i) {
+            if (match.states[i] == state) ranks += fmt::format("{}{}", ranks.empty() ? "" : ", ", i + 1);
+        }
+        if (!ranks.empty()) text += fmt::format("{}: {}\n", name_of(state), ranks);
+    }
+    return text;
+}
+
 std::string subprogram_columns(const DefectRun& run) {
     return run.file.empty() ? ",,"
                             : fmt::format("{},{},{}", csv_field(run.file), run.file_first_line, run.file_last_line);
 }
 
 }  // namespace
+
+std::string baseline_text(const DefectMatch& match) {
+    const auto count = [&](DefectState state) { return std::ranges::count(match.states, state); };
+    return fmt::format("{} new defects, {} worse, {} gone, {} as before", count(DefectState::fresh),
+                       count(DefectState::worse), match.gone.size(), count(DefectState::unchanged));
+}
 
 std::string quality_json(const ReportedQuality& q) {
     const QualityReport& r = *q.report;
@@ -245,6 +265,11 @@ std::string quality_json(const ReportedQuality& q) {
                  {"tool", q.tool ? Json(to_text(*q.tool)) : Json(nullptr)},
                  {"budget", std::move(budget)},
                  {"within_budget", r.judgement.judged() && all_held(q.budget)}};
+    if (q.baseline != nullptr) {
+        summary["new_defects"] = std::ranges::count(q.baseline->states, DefectState::fresh);
+        summary["worse_defects"] = std::ranges::count(q.baseline->states, DefectState::worse);
+        summary["gone_defects"] = q.baseline->gone.size();
+    }
     if (q.as_machined != nullptr) add_roughness(summary, q.as_machined->roughness);
     Json json{{"defects", looked_at_defects(q)},
               {"expected", list_defects(q.report->expected, q.scallop)},
@@ -316,6 +341,7 @@ std::string quality_text(const ReportedQuality& q) {
                             : !r.judgement.judged() && !is_limit(line) ? "NOT JUDGED"
                                                                        : "NOT HELD");
     }
+    if (q.baseline != nullptr) text += against_baseline(*q.baseline);
     return text + origin_text(q.origin);
 }
 

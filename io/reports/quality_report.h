@@ -1,5 +1,5 @@
 #pragma once
-// The predictor's report as JSON, CSV, SARIF 2.1.0 and as a table for people.
+// The predictor's report as JSON, CSV, SARIF 2.1.0, JUnit and as a table for people.
 
 #include <optional>
 #include <string>
@@ -7,6 +7,7 @@
 
 #include "core/diagnostic.h"
 #include "io/reports/acceptance.h"
+#include "history/defect_match.h"
 #include "io/reports/simulation_origin.h"
 #include "limits/limit_report.h"
 #include "machined/as_machined_report.h"
@@ -30,6 +31,8 @@ struct ReportedQuality {
     const Acceptance* acceptance = nullptr;         ///< nullptr: no file of accepted defects
     std::vector<BudgetLine> budget;
     std::optional<SimulationOrigin> origin;  ///< nullopt: the log is a recorded run
+    const DefectMatch* baseline = nullptr;   ///< the defects among those of an earlier run; nullptr: there is none
+    bool passes_asked = true;                ///< false: the budget is of limits of the machine only
     const Diagnostics* diagnostics = nullptr;
     std::size_t columns = 80;  ///< width of the table in the text
 };
@@ -42,5 +45,10 @@ struct ReportedQuality {
 /// the subprogram's line, with the calling line as a related location.
 [[nodiscard]] std::string quality_sarif(const ReportedQuality& quality);
 [[nodiscard]] std::string quality_text(const ReportedQuality& quality);
+/// JUnit's XML: a case a limit, and one for the baseline.
+[[nodiscard]] std::string quality_junit(const ReportedQuality& quality);
+
+/// "2 new defects, 1 worse, 3 gone, 10 as before".
+[[nodiscard]] std::string baseline_text(const DefectMatch& match);
 
 }  // namespace clsurf::io

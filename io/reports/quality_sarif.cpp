@@ -62,6 +62,10 @@ Json suppressions_of(const Acceptance& acceptance, std::size_t i) {
     return Json::array({std::move(suppression)});
 }
 
+std::string_view baseline_state(DefectState state) {
+    return state == DefectState::fresh ? "new" : state == DefectState::worse ? "updated" : "unchanged";
+}
+
 Json rule_json(const RuleText& rule) {
     return {{"id", rule.id},
             {"shortDescription", {{"text", rule.what}}},
@@ -116,6 +120,11 @@ std::string quality_sarif(const ReportedQuality& q) {
               {"speed_jump_percent", number(100 * d.speed_mismatch, 1)},
               {"log", q.log}}}};
         add_place(result["properties"], d.place);
+        Json lines = Json::array();
+        for (const DefectRun& run : d.runs) lines.push_back(Json::array({run.first_line, run.last_line}));
+        result["properties"].update(
+            {{"cause", name_of(d.cause)}, {"systematic", d.systematic}, {"lines", std::move(lines)}});
+        if (q.baseline != nullptr) result["baselineState"] = baseline_state(q.baseline->states[i]);
         Json related = related_locations(*q.program, d);
         if (!related.empty()) result["relatedLocations"] = std::move(related);
         if (q.acceptance != nullptr && q.acceptance->accepts(i))

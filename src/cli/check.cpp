@@ -5,29 +5,29 @@
 
 #include <fmt/format.h>
 
+#include "cli/checked_run.h"
 #include "cli/defect_colours.h"
-#include "cli/part.h"
-#include "cli/quality_limits.h"
 #include "cli/report_output.h"
-#include "cli/stage_clock.h"
+#include "cli/run_recorder.h"
 #include "cli/terminal.h"
-#include "io/readers/accepted_file.h"
-#include "io/reports/acceptance.h"
+#include "history/record_of.h"
+#include "io/readers/baseline_file.h"
 #include "io/reports/quality_report.h"
 #include "io/reports/simulation_origin.h"
-#include "pipeline/judge.h"
-#include "pipeline/limits_of.h"
 
 namespace clsurf::cli {
 namespace {
 
-constexpr const char* check_formats = "text|json|csv|sarif";
+constexpr const char* check_formats = "text|json|csv|sarif|junit";
 
 using QualityWriter = std::string (*)(const io::ReportedQuality&);
 
 QualityWriter writer_of(const std::string& format) {
-    static const std::map<std::string, QualityWriter, std::less<>> writers{
-        {"text", io::quality_text}, {"json", io::quality_json}, {"csv", io::quality_csv}, {"sarif", io::quality_sarif}};
+    static const std::map<std::string, QualityWriter, std::less<>> writers{{"text", io::quality_text},
+                                                                           {"json", io::quality_json},
+                                                                           {"csv", io::quality_csv},
+                                                                           {"sarif", io::quality_sarif},
+                                                                           {"junit", io::quality_junit}};
     return writers.at(format);
 }
 
@@ -37,65 +37,62 @@ struct Checked {
     ExitCode code = ExitCode::done;
 };
 
-Checked check_log(const PartOptions& options, std::optional<Role> measured, const CheckBudget& budget,
-                  const std::optional<io::AcceptedFile>& accepted, const std::string& format,
-                  const po::variables_map& values) {
-    StageClock clock(read_common(values), 8);
-    Part part = load_part(options, clock);
-    clock.begin("stitch the surface");
-    const ClSurface surface = stitch(part);
-    const Quality quality = judge(part, surface, measured, {}, clock.stages());
-    part.diagnostics.append(quality.diagnostics);
-    LimitReport limits;
-    if (const std::vector<StatedLimit> stated = stated_limits(part.limits, budget); !stated.empty()) {
-        clock.begin("compare with the limits");
-        limits = judge_limits(part, stated);
-        part.diagnostics.append(limits.diagnostics);
-    }
+/// What one log is checked for, besides how it is read.
+struct CheckRules {
+    std::optional<Role> measured;
+    CheckBudget budget;
+    std::optional<std::vector<RecordedDefect>> baseline;
+    std::optional<RunRecorder> recorder;
+    std::string format;
+};
 
-    io::ReportedQuality reported;
-    reported.report = &quality.report;
-    reported.program = &part.program;
-    reported.log = part.log.name;
-    reported.tool = part.tool;
-    reported.scallop = quality.scallop;
-    if (format == "json") reported.colour_differences = colour_differences(quality.report, part);
-    reported.as_machined = quality.as_machined ? &*quality.as_machined : nullptr;
-    if (!options.machine.empty() || budget.limits.max_following_error_um) reported.limits = &limits;
-    io::Acceptance acceptance;
-    if (accepted) {
-        acceptance = io::accept(quality.report, *accepted);
-        io::note_changes(acceptance, quality.report, part.diagnostics);
-        reported.acceptance = &acceptance;
+Checked check_log(const PartOptions& options, const CheckRules& rules, const po::variables_map& values) {
+    StageClock clock(read_common(values), 8);
+    const CheckedRun run = check_run(options, rules.measured, rules.budget, clock);
+    if (rules.recorder) {
+        const io::AddedRun added = rules.recorder->add(options, run);
+        if (!read_common(values).quiet) write_message("recorded as " + rules.recorder->text_of(added) + "\n");
     }
-    reported.budget =
-        hold(accepted ? io::without_accepted(quality.report, acceptance) : quality.report, budget.quality);
-    const std::vector<BudgetLine> held = hold(limits, budget.limits);
-    reported.budget.insert(reported.budget.end(), held.begin(), held.end());
-    reported.origin = io::simulation_origin(part.log);
-    reported.diagnostics = &part.diagnostics;
+    std::optional<DefectMatch> match;
+    if (rules.baseline) match = match_defects(*rules.baseline, recorded_defects(run.quality.report));
+    const bool worse = match && match->worsened() > 0 && run.code == ExitCode::done;
+    io::ReportedQuality reported;
+    reported.report = &run.quality.report;
+    reported.program = &run.part.program;
+    reported.log = run.part.log.name;
+    reported.tool = run.part.tool;
+    reported.scallop = run.quality.scallop;
+    if (rules.format == "json") reported.colour_differences = colour_differences(run.quality.report, run.part);
+    reported.as_machined = run.quality.as_machined ? &*run.quality.as_machined : nullptr;
+    if (run.states_limits) reported.limits = &run.limits;
+    reported.budget = run.budget;
+    reported.origin = io::simulation_origin(run.part.log);
+    reported.acceptance = run.acceptance ? &*run.acceptance : nullptr;
+    reported.baseline = match ? &*match : nullptr;
+    reported.passes_asked = !rules.budget.only_limits();
+    reported.diagnostics = &run.part.diagnostics;
     if (values.count("output") == 0) reported.columns = table_columns();
-    clock.end();
-    if (format != "json") print(part.diagnostics, values);
-    const ExitCode code = code_of(quality.report.judgement.judged(), reported.budget, held, budget);
-    return {writer_of(format)(reported), code};
+    if (rules.format != "json") print(run.part.diagnostics, values);
+    return {writer_of(rules.format)(reported), worse ? ExitCode::check_failed : run.code};
 }
 
 ExitCode run_check(const po::variables_map& values) {
     PartOptions options = read_part_options(values);
-    const std::optional<Role> measured = take_measured_role(options);
-    const CheckBudget budget = read_limits(values);
-    std::optional<io::AcceptedFile> accepted;
-    if (values.count("accepted") > 0) accepted = io::read_accepted(values["accepted"].as<std::string>());
+    CheckRules rules;
+    rules.measured = take_measured_role(options);
+    rules.budget = read_limits(values);
     const std::vector<std::string> logs = values["LOG"].as<std::vector<std::string>>();
     if (logs.size() > 1 && options.program == "-")
         throw UsageError("the program of several logs cannot come from standard input");
+    if (values.count("baseline") > 0) rules.baseline = io::read_baseline(values["baseline"].as<std::string>());
+    rules.recorder = read_recorder(values, options.program, logs);
     ReportOutput output(values, check_formats);
+    rules.format = output.format();
     std::vector<std::string> texts;
     ExitCode worst = ExitCode::done;
     for (const std::string& log : logs) {
         options.log = log;
-        Checked checked = check_log(options, measured, budget, accepted, output.format(), values);
+        Checked checked = check_log(options, rules, values);
         texts.push_back(std::move(checked.text));
         worst = std::max(worst, checked.code);
     }
@@ -123,23 +120,23 @@ Subcommand check_subcommand() {
             "With --machine every record of the commanded motion is compared with the limits that the machine\n"
             "file states, and with the path tolerance of the program: axis, factor, line, time (docs/limits.md).\n"
             "The exit code is 1 if a limit of --budget, --fail-on or --max-depth is exceeded, and 5 if the\n"
-            "data do not allow a verdict: less than half of the cutting points could be compared.\n\n"
+            "data do not allow a verdict: less than half of the cutting points could be compared.\n"
+            "With --baseline it is 1 if a defect is new or of a higher severity than in the earlier report.\n"
+            "--record adds the run to a history, whatever the verdict.\n\n"
             "  clsurf check part.nc run.biip --tool ball:6\n"
             "  clsurf check part.nc run.biip --machine mill.toml --budget limits.toml\n"
             "  clsurf check part.nc monday.biip friday.biip --fail-on distinct --max-depth 5um -q\n"
             "  clsurf check part.nc run.biip --tool ball:6 --budget part.toml --format sarif -o part.sarif",
         .declare =
             [](po::options_description& options) {
-                declare_tool(options);
-                // clang-format off
-                options.add_options()
-                    ("budget", po::value<std::string>()->value_name("FILE"), "limits (TOML); exit code 1 if one is exceeded")
-                    ("fail-on", po::value<std::string>()->value_name(severity_words), "exit code 1 if a defect has at least this severity")
-                    ("accepted", po::value<std::string>()->value_name("FILE"), "accepted defects (JSON, from the page of report): they are listed, and no limit counts them")
-                    ("max-depth", po::value<std::string>()->value_name("LENGTH"), "exit code 1 if a defect is deeper, for example 5um or 0.005mm");
-                // clang-format on
+                declare_judging(options);
                 declare_report_output(options, check_formats);
-                declare_part(options);
+                options.add_options()(
+                    "baseline", po::value<std::string>()->value_name("FILE"),
+                    "report of an earlier run (.json or .sarif); exit code 1 if a defect is new or worse");
+                options.add_options()("record", po::value<std::string>()->value_name("DB"),
+                                      "add the run to that history (`clsurf history`)");
+                declare_recording(options);
             },
         .positional = {"PROGRAM", "LOG…"},
         .run = run_check,

@@ -8,12 +8,16 @@
 
 #include "cli/options.h"
 #include "cli/picture_output.h"
+#include "cli/report_output.h"
 #include "io/files/atomic_file.h"
 #include "io/reports/json_text.h"
+#include "io/reports/junit.h"
 #include "viz/image_compare.h"
 
 namespace clsurf::cli {
 namespace {
+
+constexpr const char* compare_formats = "text|json|junit";
 
 std::string verdict_of(const viz::Comparison& c, const viz::CompareRule& rule) {
     return fmt::format(
@@ -38,6 +42,11 @@ void ignore_texts(viz::Image& a, const std::string& made, viz::Image& b, const s
     viz::blank_texts(a, b);
 }
 
+std::string junit_of(const std::string& made, const std::string& reference, const std::string& verdict, bool equal) {
+    return io::junit_text(
+        {{"clsurf compare", made, {{"equals " + reference, equal ? "" : verdict, "", ""}}, verdict + "\n"}});
+}
+
 ExitCode run_compare(const po::variables_map& values) {
     const std::string made = required(values, "A.png");
     const std::string reference = required(values, "B.png");
@@ -48,6 +57,7 @@ ExitCode run_compare(const po::variables_map& values) {
     }
     io::guard_input(made);
     io::guard_input(reference);
+    ReportOutput output(values, compare_formats);
     std::optional<PictureOutput> difference;
     if (values.count("diff") > 0) difference.emplace(values["diff"].as<std::string>(), "--diff");
     viz::Image a = viz::read_image(made);
@@ -78,10 +88,12 @@ ExitCode run_compare(const po::variables_map& values) {
         verdict += "; reference updated";
         report.equal = true;
     }
-    if (read_json(values))
-        write_to_stdout(io::comparison_json(report));
+    if (output.format() == "json")
+        output.write(io::comparison_json(report));
+    else if (output.format() == "junit")
+        output.write(junit_of(made, reference, verdict, report.equal));
     else
-        write_answer(verdict + "\n", values);
+        output.write(verdict + "\n");
     return report.equal ? ExitCode::done : ExitCode::check_failed;
 }
 
@@ -103,9 +115,9 @@ Subcommand compare_subcommand() {
                     ("threshold", po::value<double>()->value_name("T"), "largest difference that is ignored, 0 … 1 (default: 1/255)")
                     ("ignore-text", "words and numbers are not compared, so that a renamed log is no difference; PNG pictures of clsurf only")
                     ("diff", po::value<std::string>()->value_name("OUT.png"), "a picture of the differences")
-                    ("update", "replace the reference by A if they differ or B is missing")
-                    ("json", "one JSON object");
+                    ("update", "replace the reference by A if they differ or B is missing");
                 // clang-format on
+                declare_report_output(options, compare_formats);
             },
         .positional = {"A.png", "B.png"},
         .run = run_compare,

@@ -32,8 +32,10 @@ void require_known(const io::ConfigEntry& entry, const std::set<std::string>& na
                      did_you_mean(entry.key, known));
 }
 
-/// The entry as words that the command line would give.
-po::option option_of(const io::ConfigEntry& entry, const po::option_description& description, const fs::path& folder) {
+}  // namespace
+
+po::option option_of(const io::ConfigEntry& entry, const po::option_description& description,
+                     const std::string& folder) {
     const auto* typed = dynamic_cast<const po::typed_value_base*>(description.semantic().get());
     const bool takes_value = description.semantic()->max_tokens() > 0;
     if (takes_value == entry.is_flag)
@@ -44,7 +46,7 @@ po::option option_of(const io::ConfigEntry& entry, const po::option_description&
     option.value = entry.values;
     if (names_a_file(description.format_parameter())) {
         for (std::string& value : option.value) {
-            if (value != "-") value = (folder / value).lexically_normal().string();
+            if (value != "-") value = (fs::path(folder) / value).lexically_normal().string();
         }
     }
     // [312.5, 48, -101] is one "X,Y,Z", whether the option may be repeated or not.
@@ -58,13 +60,13 @@ po::option option_of(const io::ConfigEntry& entry, const po::option_description&
     return option;
 }
 
-}  // namespace
-
 std::string find_config(const Subcommand& subcommand, const po::variables_map& values) {
     std::error_code error;
     fs::path folder = fs::current_path(error);
     if (error) return {};
+    const std::string database = values.count("DB") > 0 ? values["DB"].as<std::string>() : "";
     for (const std::string& argument : argument_values(subcommand, values)) {
+        if (argument == database) continue;  // of many parts: none of its own
         if (argument == "-" || !fs::is_regular_file(argument, error)) continue;
         folder = fs::absolute(argument, error).parent_path();
         break;
@@ -84,7 +86,7 @@ UsedConfig store_config(const std::string& path, const po::options_description& 
         require_known(entry, known);
         const po::option_description* description = options.find_nothrow(entry.key, false);
         if (description == nullptr || values.count(entry.key) > 0) continue;
-        const po::option option = option_of(entry, *description, folder);
+        const po::option option = option_of(entry, *description, folder.string());
         try {
             check_option(option, *description);
         } catch (const UsageError& wrong) {  // said with the line instead

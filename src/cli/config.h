@@ -8,6 +8,7 @@
 
 #include "cli/subcommand.h"
 #include "core/place.h"
+#include "io/readers/config_entry.h"
 
 namespace clsurf::cli {
 
@@ -31,6 +32,11 @@ struct UsedConfig {
 /// option does not take.
 [[nodiscard]] UsedConfig store_config(const std::string& path, const po::options_description& options,
                                       po::variables_map& values);
+
+/// An entry as the words of a command line; names of files are relative to `folder`. Throws InputError: a value for a flag,
+/// none for another option.
+[[nodiscard]] po::option option_of(const io::ConfigEntry& entry, const po::option_description& description,
+                                   const std::string& folder);
 
 /// The configuration of this run, for messages.
 [[nodiscard]] UsedConfig& used_config();

@@ -29,7 +29,8 @@ constexpr std::array log_table{OutputFormat{"biip", ".biip", true}};
 constexpr std::array column_table{OutputFormat{"csv", ".csv"}, OutputFormat{"biip", ".biip", true},
                                   OutputFormat{"vtp", ".vtp", true}, OutputFormat{"vtkhdf", ".vtkhdf .hdf", true}};
 constexpr std::array report_table{OutputFormat{"text", ".txt"}, OutputFormat{"json", ".json"},
-                                  OutputFormat{"csv", ".csv"}, OutputFormat{"sarif", ".sarif .sarif.json"}};
+                                  OutputFormat{"csv", ".csv"}, OutputFormat{"sarif", ".sarif .sarif.json"},
+                                  OutputFormat{"junit", ".xml"}};
 constexpr std::array motion_table{OutputFormat{"csv", ".csv"}};
 
 constexpr std::array mapping_table{OutputFormat{"toml", ".toml"}};

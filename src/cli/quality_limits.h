@@ -1,10 +1,12 @@
 #pragma once
 // --budget, --fail-on, --max-depth: limits that a part must keep.
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/options.h"
+#include "io/readers/accepted_file.h"
 #include "limits/limit_budget.h"
 #include "predictor/verdict.h"
 
@@ -17,12 +19,13 @@ constexpr const char* severity_words = "trace|visible|distinct|reject|1|2|3|4";
 struct CheckBudget {
     QualityBudget quality;
     LimitBudget limits;
+    std::optional<io::AcceptedFile> accepted;  ///< defects that do not count
 
     /// Nothing is said of the passes, only of limits of the machine.
     [[nodiscard]] bool only_limits() const;
 };
 
-/// The limits of --budget, and those of the command line, which come first. Throws UsageError: a limit factor without
+/// The limits of --budget, those of the command line, which come first, and --accepted. Throws UsageError: a limit factor without
 /// --machine.
 [[nodiscard]] CheckBudget read_limits(const po::variables_map& values);
 

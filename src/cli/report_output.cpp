@@ -60,6 +60,7 @@ std::string joined_reports(const std::vector<std::string>& logs, const std::vect
                            const std::string& format) {
     if (format == "json") return io::list_json("logs", texts);
     if (texts.size() == 1) return texts.front();
+    if (format == "junit") return io::joined_junit(texts);
     if (format == "sarif") return io::joined_sarif(logs, texts);
     std::string all;
     for (std::size_t i = 0; i < texts.size(); ++i) {

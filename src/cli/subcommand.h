@@ -44,6 +44,8 @@ struct Subcommand {
 [[nodiscard]] Subcommand convert_subcommand();
 [[nodiscard]] Subcommand diff_subcommand();
 [[nodiscard]] Subcommand export_subcommand();
+[[nodiscard]] Subcommand fleet_subcommand();
+[[nodiscard]] Subcommand history_subcommand();
 [[nodiscard]] Subcommand identify_subcommand();
 [[nodiscard]] Subcommand info_subcommand();
 [[nodiscard]] Subcommand intervals_subcommand();

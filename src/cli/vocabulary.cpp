@@ -4,6 +4,7 @@
 #include <array>
 
 #include "cli/fields.h"
+#include "history/history_quantity.h"
 #include "io/formats/log_format.h"
 #include "log/channel.h"
 #include "program/dialects/dialect.h"
@@ -55,6 +56,16 @@ std::vector<io::ListingRow> colour_map_rows() {
     return rows;
 }
 
+std::vector<io::ListingRow> quantity_rows() {
+    std::vector<io::ListingRow> rows;
+    for (const HistoryQuantity& quantity : history_quantities()) {
+        const bool of_defects = quantity.of_defects != nullptr;
+        rows.push_back({std::string(quantity.name), std::string(quantity.unit),
+                        std::string(quantity.label) + (of_defects ? "; also of a pass, of lines or of a cause" : "")});
+    }
+    return rows;
+}
+
 bool is_word(std::string_view text) {
     return !text.empty() &&
            std::none_of(text.begin(), text.end(), [](char c) { return (c >= 'A' && c <= 'Z') || c == ','; });
@@ -81,6 +92,7 @@ std::span<const Vocabulary> vocabularies() {
         Vocabulary{"formats", "FORMAT", "log formats that are recognised", format_rows},
         Vocabulary{"dialects", "DIALECT", "languages of NC programs", dialect_rows},
         Vocabulary{"colormaps", "COLORMAP", "named colour maps", colour_map_rows},
+        Vocabulary{"quantities", "QUANTITY", "what a history can show over its runs", quantity_rows},
     };
     return table;
 }

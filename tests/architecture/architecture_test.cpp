@@ -46,6 +46,7 @@ const std::vector<ThirdParty> third_parties{
     {"lzma.h", {"io/"}},
     {"expat.h", {"io/"}},
     {"openssl/", {"io/"}},
+    {"sqlite3.h", {"io/history/"}},
     {"boost/crc", {"io/"}},
     {"boost/program_options", {"src/cli/"}},
 };

@@ -221,6 +221,7 @@ TEST(Top, HoldsWhatARepositoryNeedsAndNothingElse) {
                                        "CMakePresets.json",
                                        "LICENSE",
                                        "README.md",
+                                       "action.yml",
                                        "data",
                                        "docs",
                                        "io",

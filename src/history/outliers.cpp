@@ -1,0 +1,72 @@
+#include "history/outliers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "core/statistics.h"
+
+namespace clsurf {
+namespace {
+
+constexpr double mad_of_sigma = 0.6745;
+constexpr double sigma_of_mean_deviation = 1.253314;
+
+double true_median(std::vector<double> values) {
+    const std::size_t half = values.size() / 2;
+    const double upper = kth_smallest(values, half);
+    return values.size() % 2 == 1 ? upper : (upper + kth_smallest(values, half - 1)) / 2;
+}
+
+/// The runs of each program, by its content.
+std::map<std::string, std::vector<std::size_t>> by_program(std::span<const RunRecord> runs) {
+    std::map<std::string, std::vector<std::size_t>> groups;
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+        if (runs[i].judged) groups[runs[i].program_sha256].push_back(i);
+    }
+    return groups;
+}
+
+}  // namespace
+
+std::vector<double> modified_z_scores(std::span<const double> values) {
+    std::vector<double> known;
+    std::ranges::copy_if(values, std::back_inserter(known), [](double v) { return std::isfinite(v); });
+    if (known.empty()) return {};
+    const double middle = true_median(known);
+    double mean = 0;
+    for (double& value : known) {
+        value = std::abs(value - middle);
+        mean += value / static_cast<double>(known.size());
+    }
+    const double mad = true_median(known);
+    if (!(mean > 0)) return {};
+    std::vector<double> scores;
+    for (const double value : values)
+        scores.push_back(mad > 0 ? mad_of_sigma * (value - middle) / mad
+                                 : (value - middle) / (sigma_of_mean_deviation * mean));
+    return scores;
+}
+
+std::vector<RunOutlier> find_outliers(std::span<const RunRecord> runs) {
+    std::vector<RunOutlier> outliers;
+    for (const auto& [program, members] : by_program(runs)) {
+        if (members.size() < least_runs_for_outliers) continue;
+        for (const HistoryQuantity& quantity : history_quantities()) {
+            std::vector<double> values;
+            for (const std::size_t i : members) values.push_back(quantity.of_run(runs[i]));
+            const std::vector<double> scores = modified_z_scores(values);
+            for (std::size_t k = 0; k < scores.size(); ++k) {
+                if (!(std::abs(scores[k]) > outlier_score)) continue;
+                std::vector<double> known;
+                std::ranges::copy_if(values, std::back_inserter(known), [](double v) { return std::isfinite(v); });
+                outliers.push_back({members[k], &quantity, values[k], true_median(known), scores[k]});
+            }
+        }
+    }
+    std::ranges::stable_sort(outliers, std::ranges::greater{}, [](const RunOutlier& o) { return std::abs(o.z); });
+    return outliers;
+}
+
+}  // namespace clsurf

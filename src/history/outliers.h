@@ -1,0 +1,32 @@
+#pragma once
+// Outliers: runs that stand out among the runs of the same program, by any quantity.
+//
+// The modified z-score 0.6745 (x − median) / MAD, above 3.5; where more than half of the values are equal and the MAD is
+// 0, the mean absolute deviation takes its place: (x − median) / (1.253314 · MeanAD).
+// Source: Iglewicz and Hoaglin: How to Detect and Handle Outliers. ASQC Quality Press, 1993.
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "history/history_quantity.h"
+
+namespace clsurf {
+
+struct RunOutlier {
+    std::size_t run = 0;  ///< index among the given runs
+    const HistoryQuantity* quantity = nullptr;
+    double value = 0, usual = 0;  ///< that of the run, and the median of all runs of the program
+    double z = 0;                 ///< modified z-score
+};
+
+constexpr double outlier_score = 3.5;
+constexpr std::size_t least_runs_for_outliers = 5;  ///< of a program; fewer tell nothing
+
+/// The modified z-score of each value; empty: all values are equal, or there are none. NaN is left as it is. O(n).
+[[nodiscard]] std::vector<double> modified_z_scores(std::span<const double> values);
+
+/// The farthest first. Judged runs only. O(runs · quantities).
+[[nodiscard]] std::vector<RunOutlier> find_outliers(std::span<const RunRecord> runs);
+
+}  // namespace clsurf

@@ -1,0 +1,30 @@
+#pragma once
+// RunComparison: a recorded run against an earlier one.
+
+#include <span>
+#include <vector>
+
+#include "history/defect_match.h"
+#include "history/history_quantity.h"
+
+namespace clsurf {
+
+/// A quantity that both runs have.
+struct QuantityChange {
+    const HistoryQuantity* quantity = nullptr;
+    double before = 0, after = 0;
+};
+
+struct RunComparison {
+    std::vector<QuantityChange> quantities;
+    DefectMatch match;  ///< the run's defects among those of the reference
+};
+
+/// Both with their defects.
+[[nodiscard]] RunComparison compare_runs(const RunRecord& reference, const RunRecord& run);
+
+/// The judged run of that program with the lowest worst score, the deepest defect deciding where it is the same, then the
+/// earlier one; but `except`. nullptr: there is none.
+[[nodiscard]] const RunRecord* best_run(std::span<const RunRecord> runs, const RunRecord& except);
+
+}  // namespace clsurf

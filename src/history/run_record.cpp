@@ -1,0 +1,30 @@
+#include "history/run_record.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+
+namespace clsurf {
+
+const std::string* RunRecord::parameter(std::string_view name) const {
+    const auto at = std::ranges::find(parameters, name, &RunParameter::name);
+    return at == parameters.end() ? nullptr : &at->value;
+}
+
+std::string identity_text(const RunRecord& run) {
+    // A file that could not be read has no hash: its name stands for it.
+    const auto file = [](const std::string& hash, const std::string& name) {
+        return hash.empty() ? "name " + name : "sha256 " + hash;
+    };
+    std::string text = file(run.program_sha256, run.program) + "\n" + file(run.log_sha256, run.log) + "\n";
+    for (const RunParameter& parameter : run.parameters) text += parameter.name + "=" + parameter.value + "\n";
+    return text;
+}
+
+void sort_parameters(std::vector<RunParameter>& parameters) {
+    std::ranges::sort(parameters, {}, &RunParameter::name);
+    const auto twice = std::ranges::adjacent_find(parameters, {}, &RunParameter::name);
+    if (twice != parameters.end()) throw UsageError("--param: '" + twice->name + "' is given more than once");
+}
+
+}  // namespace clsurf

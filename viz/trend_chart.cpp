@@ -1,0 +1,192 @@
+#include "viz/trend_chart.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "viz/chart_frame.h"
+
+namespace clsurf::viz {
+namespace {
+
+constexpr Rgb trend_ink{20, 20, 24};
+constexpr Rgb trend_faint{95, 95, 100};
+constexpr Rgb trend_grid{222, 222, 226};
+constexpr Rgb limit_colour{200, 30, 30};
+constexpr Rgb level_colour{120, 120, 126};
+// Readable by the colour-blind (Okabe, Ito 2008); the shapes tell them apart in print, too.
+constexpr Rgb group_colours[] = {{0, 90, 178}, {213, 94, 0}, {0, 130, 95}, {160, 70, 130}, {110, 85, 0}, {70, 70, 75}};
+constexpr std::size_t trend_shapes = 4;
+
+class TrendDrawer {
+public:
+    TrendDrawer(const TrendPicture& picture, const ChartLook& look)
+        : picture_(picture),
+          look_(look),
+          text_(std::clamp(std::min(look.width * 0.6, 1.0 * look.height) / 40.0, 8.0, 40.0)) {
+        sheet_.width = look.width;
+        sheet_.height = look.height;
+        sheet_.background = look.background;
+        const double legend = picture.groups.size() > 1 || !picture.groups.front().empty() ? legend_width() : 0;
+        frame_.rect = {6.5 * text_, 6.0 * text_, look.width - 8.5 * text_ - legend, look.height - 12.0 * text_};
+        frame_.x_low = -0.5;
+        frame_.x_high = static_cast<double>(picture.symbols.size()) - 0.5;
+        fit();
+        if (legend > 0) add_legend();
+    }
+
+    Image drawn() {
+        add_texts();
+        add_y_axis();
+        add_runs();
+        if (picture_.levels) add_levels(*picture_.levels);
+        if (picture_.limit) add_across(*picture_.limit, frame_.x_low, frame_.x_high, limit_colour, 0.12 * text_);
+        const double per_run = frame_.rect.width / std::max<std::size_t>(1, picture_.symbols.size());
+        const double radius =
+            text_ * std::clamp(0.5 * per_run / text_, 0.2, 0.42);  // many of them must not hide each other
+        for (std::size_t i = 0; i < picture_.symbols.size(); ++i) {
+            const TrendSymbol& s = picture_.symbols[i];
+            if (std::isfinite(s.value)) add_symbol(frame_.at(static_cast<double>(i), s.value), s.group, radius);
+        }
+        return draw(sheet_, look_.gl, look_.supersample);
+    }
+
+private:
+    void text(double x, double y, const std::string& words, double size, Align align, bool bold, const Rgb& rgb) {
+        sheet_.texts.push_back({x, y, words, size, align, bold, rgb});
+    }
+
+    double legend_width() const {
+        double widest = 0;
+        for (const std::string& name : picture_.groups)
+            widest = std::max(widest, text_width({0, 0, name, text_, Align::left, false, trend_ink}));
+        return std::min(widest, 0.25 * look_.width) + 3 * text_;
+    }
+
+    void fit() {
+        double low = 0;
+        double high = -std::numeric_limits<double>::infinity();
+        for (const TrendSymbol& s : picture_.symbols) {
+            if (!std::isfinite(s.value)) continue;
+            low = std::min(low, s.value);
+            high = std::max(high, s.value);
+        }
+        if (picture_.limit) high = std::max(high, *picture_.limit);
+        if (!(high > low)) high = low + 1;
+        frame_.y_low = low < 0 ? low - 0.06 * (high - low) : 0;
+        frame_.y_high = high + 0.08 * (high - low);
+    }
+
+    void add_texts() {
+        const Rect& r = frame_.rect;
+        const double room = look_.width - 2 * text_;
+        sheet_.texts.push_back(
+            fitted({text_, look_.height - 1.5 * text_, look_.title, 1.4 * text_, Align::left, true, trend_ink}, room));
+        sheet_.texts.push_back(
+            fitted({text_, look_.height - 3.2 * text_, look_.subtitle, text_, Align::left, false, trend_faint}, room));
+        text(r.x, r.y + r.height + 1.1 * text_, picture_.y_label, text_, Align::left, true, trend_ink);
+        text(r.x + r.width, r.y - 3.6 * text_, look_.x_label, text_, Align::right, true, trend_ink);
+        sheet_.texts.push_back(
+            fitted({text_, 0.9 * text_, look_.footnote, 0.85 * text_, Align::left, false, trend_faint}, room));
+    }
+
+    void add_y_axis() {
+        const Rect& r = frame_.rect;
+        std::vector<double> ticks;
+        for (int wanted = std::max(2, static_cast<int>(r.height / (4 * text_))); ticks.size() < 2 && wanted < 12;
+             ++wanted)
+            ticks = nice_ticks(frame_.y_low, frame_.y_high, wanted);
+        const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : 1;
+        for (const double y : ticks) {
+            const Vec2 p = frame_.at(frame_.x_low, y);
+            sheet_.lines.push_back({{p, {r.x + r.width, p.y()}}, 1, trend_grid, Level::area});
+            text(r.x - 0.5 * text_, p.y(), tick_text(y, step), text_, Align::right, false, trend_ink);
+        }
+        sheet_.lines.push_back(
+            {{{r.x, r.y}, {r.x + r.width, r.y}, {r.x + r.width, r.y + r.height}, {r.x, r.y + r.height}, {r.x, r.y}},
+             1,
+             level_colour,
+             Level::edge});
+    }
+
+    /// Numbers of runs as close as they can be read, and the day where it is another one.
+    void add_runs() {
+        const double per_run = frame_.rect.width / std::max<std::size_t>(1, picture_.symbols.size());
+        double number_end = -std::numeric_limits<double>::infinity();
+        double day_end = number_end;
+        std::string day;
+        for (std::size_t i = 0; i < picture_.symbols.size(); ++i) {
+            const TrendSymbol& s = picture_.symbols[i];
+            const double x = frame_.rect.x + (static_cast<double>(i) + 0.5) * per_run;
+            const double half = 0.5 * text_width({0, 0, s.run, text_, Align::centre, false, trend_ink});
+            if (x - half > number_end + 0.6 * text_) {
+                text(x, frame_.rect.y - 0.9 * text_, s.run, text_, Align::centre, false, trend_ink);
+                number_end = x + half;
+            }
+            const double width = text_width({0, 0, s.day, 0.85 * text_, Align::left, false, trend_faint});
+            if (s.day == day || x < day_end + 0.8 * text_ || x + width > frame_.rect.x + frame_.rect.width) continue;
+            day = s.day;
+            text(x, frame_.rect.y - 2.2 * text_, s.day, 0.85 * text_, Align::left, false, trend_faint);
+            sheet_.lines.push_back(
+                {{{x, frame_.rect.y}, {x, frame_.rect.y - 0.3 * text_}}, 1, level_colour, Level::edge});
+            day_end = x + width;
+        }
+    }
+
+    void add_across(double value, double from, double to, const Rgb& rgb, double width) {
+        sheet_.lines.push_back({{frame_.at(from, value), frame_.at(to, value)}, width, rgb, Level::line});
+    }
+
+    void add_levels(const TrendLevels& levels) {
+        const double at = static_cast<double>(levels.first) - 0.5;
+        add_across(levels.before, frame_.x_low, at, level_colour, 0.12 * text_);
+        add_across(levels.after, at, frame_.x_high, level_colour, 0.12 * text_);
+        const Vec2 p = frame_.at(at, frame_.y_high);
+        sheet_.lines.push_back({{frame_.at(at, frame_.y_low), p}, 1.4, limit_colour, Level::line});
+        FlatText note{p.x(), p.y() + 1.1 * text_, levels.label, text_, Align::left, true, limit_colour};
+        const double label_end =
+            frame_.rect.x + 1.5 * text_ + text_width({0, 0, picture_.y_label, text_, Align::left, true, trend_ink});
+        note.x = std::max(label_end, std::min(note.x, frame_.rect.x + frame_.rect.width - text_width(note)));
+        sheet_.texts.push_back(std::move(note));
+    }
+
+    void add_legend() {
+        const double x = frame_.rect.x + frame_.rect.width + 1.6 * text_;
+        double y = frame_.rect.y + frame_.rect.height - 0.8 * text_;
+        for (std::size_t k = 0; k < picture_.groups.size() && y > frame_.rect.y; ++k, y -= 1.6 * text_) {
+            add_symbol({x, y}, k, 0.42 * text_);
+            const std::string name = picture_.groups[k].empty() ? "not given" : picture_.groups[k];
+            sheet_.texts.push_back(
+                fitted({x + text_, y, name, text_, Align::left, false, trend_ink}, look_.width - x - 1.5 * text_));
+        }
+    }
+
+    /// A disc, a diamond, a square or a triangle, made of strips: a line's width has square ends.
+    void add_symbol(const Vec2& at, std::size_t group, double r) {
+        constexpr int strips = 14;
+        for (int k = 0; k < strips; ++k) {
+            const double v = 2 * (k + 0.5) / strips - 1;
+            double half = std::sqrt(std::max(0.0, 1 - v * v));
+            if (group % trend_shapes == 1) half = 1.15 * (1 - std::abs(v));
+            if (group % trend_shapes == 2) half = 0.85;
+            if (group % trend_shapes == 3) half = 0.5 * (1 - v) * 1.2;
+            const Vec2 middle = at + Vec2(0, v * r);
+            sheet_.lines.push_back({{middle - Vec2(half * r, 0), middle + Vec2(half * r, 0)},
+                                    2 * r / strips + 0.3,
+                                    group_colours[group % std::size(group_colours)],
+                                    Level::dot});
+        }
+    }
+
+    const TrendPicture& picture_;
+    const ChartLook& look_;
+    double text_;
+    Sheet sheet_;
+    ChartFrame frame_;
+};
+
+}  // namespace
+
+Image draw_trend(const TrendPicture& picture, const ChartLook& look) { return TrendDrawer(picture, look).drawn(); }
+
+}  // namespace clsurf::viz
