@@ -142,7 +142,8 @@ void add_cursor(Sheet& sheet, const ChartFrame& f, const ChartCursor& cursor, co
                   cursor_colour};
     const double least = f.rect.x + text_width({0, 0, name.text, text, Align::left, true, name.rgb}) + text;
     if (known != nullptr) note.y = f.rect.y + f.rect.height - 0.9 * text;  // names of classes stand above
-    note.x = std::max(known != nullptr ? f.rect.x : least, std::min(note.x, f.rect.x + f.rect.width - text_width(note)));
+    note.x =
+        std::max(known != nullptr ? f.rect.x : least, std::min(note.x, f.rect.x + f.rect.width - text_width(note)));
     sheet.texts.push_back(std::move(note));
 }
 

@@ -18,8 +18,8 @@ struct CurveClass {
 };
 
 struct Curve {
-    std::string label;           ///< "Path speed [mm/min]"
-    std::vector<double> values;  ///< shown units; NaN: a gap
+    std::string label;                     ///< "Path speed [mm/min]"
+    std::vector<double> values;            ///< shown units; NaN: a gap
     std::vector<CurveClass> classes = {};  ///< of names: they are drawn as bands; empty: values are numbers
 };
 

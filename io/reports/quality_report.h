@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/diagnostic.h"
-#include "io/reports/acceptance.h"
 #include "history/defect_match.h"
+#include "io/reports/acceptance.h"
 #include "io/reports/simulation_origin.h"
 #include "limits/limit_report.h"
 #include "machined/as_machined_report.h"

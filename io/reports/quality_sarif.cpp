@@ -88,10 +88,28 @@ Json related_locations(const Program& program, const Defect& d) {
     return related;
 }
 
+/// Why the data do not allow a verdict: a rule, results and notifications.
+void add_not_judged(const ReportedQuality& q, Json& rules, Json& results, Json& notifications) {
+    const std::string uri = sarif_uri(q.program->main().name());
+    rules.push_back(
+        {{"id", "not_judged"},
+         {"shortDescription", {{"text", "The data do not allow a verdict."}}},
+         {"help",
+          {{"text",
+            "Check that the log belongs to the program, holds whole passes, and was recorded every few milliseconds."}}}});
+    for (const std::string& reason : q.report->judgement.reasons) {
+        notifications.push_back({{"level", "error"}, {"message", {{"text", "Not judged: " + reason}}}});
+        results.push_back({{"ruleId", "not_judged"},
+                           {"ruleIndex", rules.size() - 1},
+                           {"level", "error"},
+                           {"message", {{"text", "Not judged: " + reason}}},
+                           {"locations", Json::array({sarif_location(uri, 0, 0, "")})}});
+    }
+}
+
 }  // namespace
 
 std::string quality_sarif(const ReportedQuality& q) {
-    const std::string uri = sarif_uri(q.program->main().name());
     const std::vector<Defect>& defects = q.report->defects;
     Json rules = Json::array();
     std::map<std::string_view, std::size_t> index_of_rule;
@@ -133,22 +151,7 @@ std::string quality_sarif(const ReportedQuality& q) {
     }
     if (q.limits != nullptr) add_limits_sarif(*q.limits, *q.program, q.log, rules, results);
     Json notifications = Json::array();
-    if (!q.report->judgement.judged()) {
-        rules.push_back(
-            {{"id", "not_judged"},
-             {"shortDescription", {{"text", "The data do not allow a verdict."}}},
-             {"help",
-              {{"text",
-                "Check that the log belongs to the program, holds whole passes, and was recorded every few milliseconds."}}}});
-        for (const std::string& reason : q.report->judgement.reasons) {
-            notifications.push_back({{"level", "error"}, {"message", {{"text", "Not judged: " + reason}}}});
-            results.push_back({{"ruleId", "not_judged"},
-                               {"ruleIndex", rules.size() - 1},
-                               {"level", "error"},
-                               {"message", {{"text", "Not judged: " + reason}}},
-                               {"locations", Json::array({sarif_location(uri, 0, 0, "")})}});
-        }
-    }
+    if (!q.report->judgement.judged()) add_not_judged(q, rules, results, notifications);
     return sarif_text(std::move(rules), std::move(results), std::move(notifications));
 }
 

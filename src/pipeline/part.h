@@ -31,7 +31,7 @@ struct PartRules {
     bool accept_foreign = false;                   ///< a log of another program is a warning, not an error
     ProgramIdentity identity = ProgramIdentity::unknown;  ///< what hashes say (io/formats/program_identity.h)
     std::optional<CuttingTool> tool;
-    std::vector<StatedLimit> limits;  ///< of the machine; empty: none are stated
+    std::vector<StatedLimit> limits;         ///< of the machine; empty: none are stated
     std::shared_ptr<const Machine> machine;  ///< that planned speeds are for; nullptr: the default one
     DerivativeMethod derivative = DerivativeMethod::savgol;
 };
@@ -44,9 +44,9 @@ struct Part {
     std::shared_ptr<const LineMap> lines;
     DerivativeMethod derivative = DerivativeMethod::savgol;  ///< of fields
     std::optional<CuttingTool> tool;
-    std::vector<StatedLimit> limits;  ///< of the machine
+    std::vector<StatedLimit> limits;         ///< of the machine
     std::shared_ptr<const Machine> machine;  ///< nullptr: not given
-    Diagnostics diagnostics;          ///< of program, log and lines together
+    Diagnostics diagnostics;                 ///< of program, log and lines together
 };
 
 /// Puts a program and a log together. `program` has its motions as programmed, each in its own work system

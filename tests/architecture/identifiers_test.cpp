@@ -10,8 +10,8 @@ namespace clsurf::test {
 namespace {
 
 /// Proper names, and names of others' code.
-const std::set<std::string> of_others{"NumPy",    "SciPy",        "DecompressionStream",
-                                      "PolyData", "is_discarded", "KeyboardEvent"};
+const std::set<std::string> of_others{"NumPy",         "SciPy", "DecompressionStream", "PolyData", "is_discarded",
+                                      "KeyboardEvent", "GitLab"};
 /// Documents for authors; the others name parameters of controls as code, too.
 const std::vector<std::string> documents{"docs/contributing.md", "docs/api.md", "docs/design/", "docs/howto/"};
 

@@ -100,9 +100,7 @@ TEST(IntervalFeeds, HoldTheSpeedThatTheCurvatureAllows) {
     EXPECT_NEAR(lowest, std::sqrt(100 / curvature), 2.0);
     hold_interval_speeds(program, machine);
     for (std::size_t i = 0; i < feeds.size(); ++i) {
-        if (feeds[i] > 0) {
-            EXPECT_EQ(program.motions.feed[i], feeds[i]);
-        }
+        if (feeds[i] > 0) { EXPECT_EQ(program.motions.feed[i], feeds[i]); }
     }
     machine.path.max_normal_acceleration = 1e6;
     machine.path.max_jerk = 1e9;

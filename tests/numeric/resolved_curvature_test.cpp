@@ -59,9 +59,7 @@ TEST(ResolvedCurvature, KeepsACornerAndTheLinesBesideIt) {
     const std::vector<double> curvature = resolved_curvatures(points, 0.001, least);
     EXPECT_NEAR(curvature[100], 2 * std::sin(std::numbers::pi / 6) / (2 * 0.05 * std::cos(std::numbers::pi / 12)), 0.3);
     for (std::size_t i = 0; i < points.size(); ++i) {
-        if (i < 99 || i > 101) {
-            EXPECT_LT(curvature[i], 0.02) << i;
-        }
+        if (i < 99 || i > 101) { EXPECT_LT(curvature[i], 0.02) << i; }
     }
 }
 
