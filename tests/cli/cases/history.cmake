@@ -23,7 +23,7 @@ set(twelve "$CLSURF simulate ${bottle} -o smooth.biip -q; for day in 01 02 03 04
 clsurf_cli_test(NAME history_since_when SETUP "${twelve}" ARGS history shop.db trend --quantity worst_score --by tool -o trend.png FILE trend.png
   STDOUT "Since run 7 .2026-11-07 00:00. the median is" "worn +6 runs.*new +6 runs")
 clsurf_cli_test(NAME history_trend_of_a_pass SETUP "${recorded}" ARGS history shop.db trend --program bottle_uneven.nc --pass 7 --json STDOUT "\"pass\": 7" "\"value\": [1-9]")
-clsurf_cli_test(NAME history_trend_of_lines SETUP "${recorded}" ARGS history shop.db trend --program bottle_uneven.nc --lines 500-670 --quantity defects STDOUT "Defects, lines 500-670 over 1 runs: [1-9]")
+clsurf_cli_test(NAME history_trend_of_lines SETUP "${recorded}" ARGS history shop.db trend --program bottle_uneven.nc --lines 500-670 --quantity defects STDOUT "Defects, lines 500-670 over 1 run: [1-9]")
 clsurf_cli_test(NAME history_trend_of_passes_of_two_programs SETUP "${recorded}" ARGS history shop.db trend --pass 7 EXIT 2 STDERR "passes and lines are those of one program" "--program")
 clsurf_cli_test(NAME history_trend_of_an_unknown_quantity SETUP "${recorded}" ARGS history shop.db trend --quantity worst_scor -o t.png EXIT 2 STDERR "has no quantity 'worst_scor'" "did you mean 'worst_score'" NO_FILE t.png)
 clsurf_cli_test(NAME history_trend_of_the_whole_run SETUP "${recorded}" ARGS history shop.db trend --quantity ra_um --cause corner EXIT 2 STDERR "ra_um is of the whole run")
@@ -40,7 +40,7 @@ clsurf_cli_test(NAME history_report SETUP "${twelve}; $CLSURF history shop.db re
 # ---- parameters ----
 set(rules "printf '[tool]\nvalues = [\"D6R3\", \"D8R1\"]\nrequired = true\n[wear]\nkind = \"number\"\nunit = \"mm\"\nrange = [0, 0.2]\n' > rules.toml")
 set(ruled "${rules}; $CLSURF history shop.db add ${planted} @LOGS@/planted_loops.biip --parameters rules.toml --param tool=D6R3 --param wear=0.05mm -q")
-clsurf_cli_test(NAME history_parameters_are_kept SETUP "${ruled}" ARGS history shop.db list STDOUT "tool=D6R3 wear=0.05\n")
+clsurf_cli_test(NAME history_parameters_are_kept SETUP "${ruled}" ARGS history shop.db list STDOUT "tool=D6R3 wear=0.05$")
 clsurf_cli_test(NAME history_parameter_out_of_range SETUP "${ruled}" ARGS history shop.db add ${planted} @LOGS@/planted_loops.biip --param tool=D6R3 --param wear=0.3 EXIT 2 STDERR "wear=0.3 is out of range: 0 … 0.2 mm")
 clsurf_cli_test(NAME history_parameter_of_no_name SETUP "${ruled}" ARGS history shop.db add ${planted} @LOGS@/planted_loops.biip --param tol=D6R3 EXIT 2 STDERR "has no parameter 'tol'" "did you mean 'tool'")
 clsurf_cli_test(NAME history_parameter_missing SETUP "${ruled}" ARGS history shop.db add ${planted} @LOGS@/planted_loops.biip EXIT 2 STDERR "the parameter 'tool' is required")
@@ -56,7 +56,7 @@ clsurf_cli_test(NAME history_missing ARGS history nowhere.db list EXIT 3 STDERR 
 clsurf_cli_test(NAME history_is_no_database SETUP "cp ${bottle} shop.db" ARGS history shop.db list EXIT 3 STDERR "shop.db: error: is not a history of clsurf")
 clsurf_cli_test(NAME history_add_to_no_database SETUP "cp ${bottle} shop.db" ARGS history shop.db add ${bottle} @LOGS@/bottle_uneven.biip EXIT 3 STDERR "shop.db: error: is not a history of clsurf")
 clsurf_cli_test(NAME history_of_another_program SETUP "python3 -c \"import sqlite3; sqlite3.connect('shop.db').execute('CREATE TABLE t (a)')\"" ARGS history shop.db list EXIT 3 STDERR "SQLite database of another program")
-clsurf_cli_test(NAME history_of_a_newer_version SETUP "${recorded}; python3 -c \"import sqlite3; sqlite3.connect('shop.db').execute('PRAGMA user_version = 99')\"" ARGS history shop.db list EXIT 3 STDERR "is a history of version 99; this clsurf reads versions up to [0-9]+" "use a newer clsurf")
+clsurf_cli_test(NAME history_of_a_newer_version SETUP "${recorded}; python3 -c \"import sqlite3; sqlite3.connect('shop.db').execute('PRAGMA user_version = 99')\"" ARGS history shop.db list EXIT 3 STDERR "is a history of version 99. this clsurf reads versions up to [0-9]+" "use a newer clsurf")
 clsurf_cli_test(NAME history_of_version_1 SETUP "python3 -c \"import sqlite3; sqlite3.connect('shop.db').executescript(open('@DATA@/../tests/history/version_1.sql').read())\"" ARGS history shop.db list STDOUT "monday|2026-11-20 06:00" "tool=D6R3")
 clsurf_cli_test(NAME history_show_a_run_that_is_not_there SETUP "${recorded}" ARGS history shop.db show 7 EXIT 3 STDERR "shop.db: error: has no run 7")
 clsurf_cli_test(NAME history_show_no_number SETUP "${recorded}" ARGS history shop.db show best EXIT 2 STDERR "'best' is not the number of a run")

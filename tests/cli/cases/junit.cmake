@@ -7,7 +7,7 @@ clsurf_cli_test(NAME junit_limits SETUP "$CLSURF check ${planted} ${planted_log}
   ARGS check ${planted} ${planted_log} --max-depth 1um --format junit EXIT 1 STDOUT "<testcase classname=\"[^\"]*planted_loops.nc\" name=\"max_depth_um 1\">" "<failure type=\"limit\" message=\"max_depth_um is")
 clsurf_cli_test(NAME junit_defects_without_a_limit_fail_nothing SETUP "$CLSURF check ${planted} ${planted_log} -o a.xml; ${junit} a.xml 1 0 0" ARGS check ${planted} ${planted_log} -o b.xml FILE b.xml)
 clsurf_cli_test(NAME junit_not_judged SETUP "head -c 100000 ${planted_log} > a.biip; $CLSURF check ${planted} a.biip --fail-on reject -o a.xml || true; ${junit} a.xml 1 0 1" ARGS check ${planted} a.biip --format junit EXIT 5 STDOUT "<error type=\"not judged\"")
-clsurf_cli_test(NAME junit_several_logs SETUP "cp ${planted_log} '<&\">.biip'; $CLSURF check ${planted} ${planted_log} '<&\">.biip' --max-depth 1um -o a.xml || true; ${junit} a.xml 2 2 0" ARGS check ${planted} '<&\">.biip' --format junit STDOUT "&lt;&amp;&quot;&gt;.biip")
+clsurf_cli_test(NAME junit_several_logs SETUP "cp ${planted_log} 'a&b.biip'; $CLSURF check ${planted} ${planted_log} 'a&b.biip' --max-depth 1um -o a.xml || true; ${junit} a.xml 2 2 0" ARGS check ${planted} a&b.biip --format junit STDOUT "a&amp.b[.]biip")
 clsurf_cli_test(NAME junit_compare SETUP "cp ${shot}/speed_iso.png a.png; cp ${shot}/speed_top.png b.png; $CLSURF compare a.png b.png -o a.xml || true; ${junit} a.xml 1 1 0; $CLSURF compare a.png a.png -o b.xml; ${junit} b.xml 1 0 0" ARGS compare a.png b.png --format junit EXIT 1 STDOUT "name=\"equals b.png\"" "message=\"(different|sizes differ)")
 
 # ---- baselines ----
