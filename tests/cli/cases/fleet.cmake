@@ -4,7 +4,7 @@ set(planted @DATA@/programs/planted_loops.nc)
 set(fleet_runs "cp ${planted} part.nc; cp @LOGS@/planted_loops.biip part_1.biip; cp @LOGS@/planted_loops.biip part_2.biip; printf 'x' >> part_2.biip; printf '[[run]]\nprogram = \"part.nc\"\nlog = \"part_1.biip\"\nparameters = { tool = \"D6 R3\", wear = 0.1 }\ntime = \"2026-11-01\"\n[[run]]\nprogram = \"part.nc\"\nlog = \"nowhere.biip\"\n[[run]]\nprogram = \"part.nc\"\nlog = \"part_2.biip\"\ntime = \"2026-11-02\"\n' > runs.toml")
 set(fleet_twice "${fleet_runs}; $CLSURF fleet runs.toml -o shop.db -q || true")
 # What two histories of the same runs say, but for when they were judged and in which order.
-set(rows "import sqlite3, sys; print(sorted(sqlite3.connect(sys.argv[1]).execute('SELECT log_sha256, CASE failure WHEN '' THEN time END, worst_score, defects, failure, settings, (SELECT count(*) FROM sections WHERE run = id), (SELECT group_concat(value) FROM parameters WHERE run = id) FROM runs')))")
+set(rows "import sqlite3, sys; print(sorted(sqlite3.connect(sys.argv[1]).execute('SELECT log_sha256, CASE WHEN length(failure) = 0 THEN time END, worst_score, defects, failure, settings, (SELECT count(*) FROM sections WHERE run = id), (SELECT group_concat(value) FROM parameters WHERE run = id) FROM runs')))")
 clsurf_cli_test(NAME fleet_a_failure_is_a_row SETUP "${fleet_runs}" ARGS fleet runs.toml -o shop.db EXIT 1 FILE shop.db
   STDOUT "^3 runs in shop.db: 2 judged, 0 of them over their limits, 0 not judged, 1 failed" "failed: part.nc nowhere.biip: nowhere.biip: error: cannot open")
 clsurf_cli_test(NAME fleet_rows SETUP "${fleet_twice}" ARGS history shop.db list --json STDOUT "\"failure\": \"nowhere.biip: error: cannot open" "\"tool\": \"D6 R3\"" "\"wear\": \"0.1\"")
@@ -24,7 +24,7 @@ clsurf_cli_test(NAME fleet_within_enough_memory SETUP "${fleet_runs}" ARGS fleet
 clsurf_cli_test(NAME fleet_progress SETUP "${fleet_runs}" ARGS fleet runs.toml -o shop.db --progress always EXIT 1 STDERR "of 3 runs, 1 failed")
 # The same list by tasks, in another order.
 clsurf_cli_test(NAME fleet_tasks
-  SETUP "${fleet_runs}; mkdir bin; ln -s $CLSURF bin/clsurf; $CLSURF fleet runs.toml -o shop.db -q || true; $CLSURF fleet runs.toml -o many.db --tasks | tac > tasks; PATH=$PWD/bin:$PATH; while read -r task; do sh -c \"$task\" > /dev/null || true; done < tasks; $CLSURF fleet --merge many.db.parts -o many.db -q; python3 -c \"${rows}\" shop.db | sed \"s,$PWD/,,g\" > a; python3 -c \"${rows}\" many.db | sed \"s,$PWD/,,g\" > b; cmp a b"
+  SETUP "${fleet_runs}; mkdir bin; ln -s $CLSURF bin/clsurf; $CLSURF fleet runs.toml -o shop.db -q || true; $CLSURF fleet runs.toml -o many.db --tasks | tac > tasks; PATH=$PWD/bin:$PATH; while read -r task; do sh -c \"$task\" > /dev/null || true; done < tasks; $CLSURF fleet --merge many.db.parts -o many.db -q; python3 -c \"${rows}\" shop.db > a; python3 -c \"${rows}\" many.db > b; sed -i \"s,$PWD/,,g\" a b; cmp a b"
   ARGS fleet --merge many.db.parts -o many.db STDOUT "^0 runs of 3 databases taken into many.db, which has 3 now")
 clsurf_cli_test(NAME fleet_tasks_are_quoted SETUP "cp ${planted} \"it's a part.nc\"; cp @LOGS@/planted_loops.biip a.biip" ARGS fleet --program "it's a part.nc" --log a.biip -o shop.db --tasks STDOUT "--program '/[^\n]*/it'.''s a part.nc'" NO_FILE shop.db)
 
