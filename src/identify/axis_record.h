@@ -16,7 +16,8 @@ struct AxisRecord {
     std::vector<PointRange> sections;  ///< of consecutive records, each with both positions
 };
 
-/// The longest ranges without a gap in the time channel and without a missing value in `channels`, all of one size.
+/// The longest ranges without a gap in the time channel, without a missing value in `channels`, all of one size, and
+/// without a jump that no axis makes.
 /// O(records).
 [[nodiscard]] std::vector<PointRange> find_sections(const Log& log, std::span<const ChannelView> channels);
 

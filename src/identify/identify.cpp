@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -19,7 +20,7 @@ void identify_period(std::span<const IdentifyRun> runs, Identification& result) 
     constexpr double same = 1e-6;  // relative
     // Controllers count nanoseconds; times of a text have rounding errors.
     const double period = std::round(runs.front().log->period * 1e9) * 1e-9;
-    for (const auto& [log, lines] : runs) {
+    for (const auto& [log, lines, tips] : runs) {
         if (std::abs(log->period - period) > same * period)
             throw InputError(
                 Place::of_file(log->name),
@@ -36,7 +37,7 @@ Identification identify(std::span<const IdentifyRun> runs, const Machine& known)
     Identification result;
     result.machine = known;
     std::vector<const Log*> logs;
-    for (const auto& [log, lines] : runs) {
+    for (const auto& [log, lines, tips] : runs) {
         logs.push_back(log);
         result.runs.push_back(log->name);
     }
@@ -57,7 +58,8 @@ Identification identify(std::span<const IdentifyRun> runs, const Machine& known)
 
 Identification identify_parts(std::span<const Part> parts, const Machine& known) {
     std::vector<IdentifyRun> runs;
-    for (const Part& part : parts) runs.push_back({&part.log, part.lines.get()});
+    for (const Part& part : parts)
+        runs.push_back({&part.log, part.lines.get(), part.path.kinematics != nullptr ? &part.path : nullptr});
     Identification result = identify(runs, known);
     if (const std::string reason = why_not_simulated(parts, known); !reason.empty()) {
         for (const char* key : {"planner", "lookahead_blocks", "corner", "curve", "tolerance", "block_time"})
@@ -67,7 +69,13 @@ Identification identify_parts(std::span<const Part> parts, const Machine& known)
     std::vector<RecordedRun> recorded;
     for (const Part& part : parts) recorded.emplace_back(part);
     identify_rules(recorded, result);
-    for (const RecordedRun& run : recorded) result.fit.push_back(run.fidelity(result.machine));
+    for (const RecordedRun& run : recorded) {
+        RunFidelity fidelity = run.fidelity(result.machine);
+        if (fidelity.compared > 0)
+            result.fit.push_back(std::move(fidelity));
+        else
+            result.unidentified.push_back({"fidelity", "controller", fidelity.log + " follows its program nowhere"});
+    }
     result.machine.fidelity = summary_of(result.fit, FidelityBasis::fit);
     result.machine.uncertainty = uncertainty_of(result);
     return result;
@@ -78,6 +86,8 @@ std::string why_not_simulated(std::span<const Part> parts, const Machine& known)
     for (const Part& part : parts) {
         if (!part.log.has(Role::commanded)) return part.log.name + " has no commanded positions";
         if (part.program.motions.size() == 0) return part.log.name + " has no program";
+        if (find_rotary_motion(part.log, Role::commanded))
+            return part.log.name + " moves rotary axes, and the kinematics are not known (--machine)";
     }
     return {};
 }
@@ -96,7 +106,11 @@ void test_runs(std::span<const Part> parts, Identification& result) {
     if (parts.empty()) return;
     if (const std::string reason = why_not_simulated(parts, result.machine); !reason.empty())
         throw InputError(Place::of_file(parts.front().log.name), "cannot be a test: " + reason);
-    for (const Part& part : parts) result.tests.push_back(RecordedRun(part).fidelity(result.machine));
+    for (const Part& part : parts) {
+        result.tests.push_back(RecordedRun(part).fidelity(result.machine));
+        if (!(result.tests.back().compared > 0))
+            throw InputError(Place::of_file(part.log.name), "cannot be a test: it follows its program nowhere");
+    }
     result.machine.fidelity = summary_of(result.tests, FidelityBasis::test);
 }
 

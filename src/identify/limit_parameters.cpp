@@ -19,20 +19,31 @@ constexpr PointIndex most_records = 4'000'000;
 constexpr std::size_t least_places = 3;
 constexpr double parallel = 0.98;  ///< share of the path's value that an axis-parallel path gives its axis
 
-/// Commanded positions of a piece of a run, by axis, and which records are rapids.
+/// Commanded positions of a piece of a run, by axis, those of the tool's tip where rotary axes turn, and which records are
+/// rapids.
 struct MotionPiece {
-    std::vector<std::vector<double>> positions;
+    std::vector<std::vector<double>> positions, tips;
     std::vector<char> rapid;
 };
 
 struct Motion {
     std::string letters;  ///< of the axes; linear ones first
     double period = 0;
-    double rounding = 0;  ///< step of the commanded positions [mm or deg]
+    double rounding = 0;             ///< step of the commanded positions [mm or deg]
+    std::vector<double> resolution;  ///< what their stored numbers resolve, by axis [mm or deg]
+    bool has_tips = false;
+    double reach = 0;  ///< of the tips, from the workpiece's zero [mm]
     std::vector<MotionPiece> pieces;
 
     [[nodiscard]] std::size_t linear() const {
         return static_cast<std::size_t>(std::count_if(letters.begin(), letters.end(), [](char c) { return c >= 'x'; }));
+    }
+    /// What the positions of a quantity resolve: those of an axis, or of the path.
+    [[nodiscard]] double resolution_along(std::size_t q) const {
+        if (q < resolution.size()) return resolution[q];
+        const auto end = resolution.begin() + static_cast<std::ptrdiff_t>(linear());
+        const double of_angles = has_tips ? reach * rad_per_deg * *std::max_element(end, resolution.end()) : 0;
+        return *std::max_element(resolution.begin(), end) + of_angles;
     }
 };
 
@@ -61,14 +72,21 @@ Motion gather_motion(std::span<const IdentifyRun> runs) {
                                      [&](const IdentifyRun& run) { return run.log->find(name) != nullptr; });
         if (all) motion.letters += letter;
     }
+    motion.has_tips =
+        motion.linear() < motion.letters.size() && std::all_of(runs.begin(), runs.end(), [](const IdentifyRun& run) {
+            return run.tips != nullptr && run.tips->role == Role::commanded;
+        });
     for (const IdentifyRun& run : runs) {
         std::vector<ChannelView> channels;
         for (const char letter : motion.letters)
             channels.push_back(run.log->find(std::string("cmd.") + letter)->values);
         if (channels.empty()) break;
         const std::vector<PointRange> sections = find_sections(*run.log, channels);
-        for (const ChannelView& channel : channels)
-            motion.rounding = std::max(motion.rounding, rounding_of(channel, sections));
+        motion.resolution.resize(channels.size(), 0);
+        for (std::size_t k = 0; k < channels.size(); ++k) {
+            motion.rounding = std::max(motion.rounding, rounding_of(channels[k], sections));
+            motion.resolution[k] = std::max(motion.resolution[k], resolution_of(channels[k]));
+        }
         for (const PointRange& range : sample_pieces(sections, most_records / static_cast<PointIndex>(runs.size()))) {
             const auto n = static_cast<std::size_t>(range.size());
             MotionPiece piece;
@@ -77,6 +95,12 @@ Motion gather_motion(std::span<const IdentifyRun> runs) {
             std::vector<PointKind> kinds(n, PointKind::idle);
             if (run.lines != nullptr) run.lines->read_kinds(range.first, kinds);
             for (const PointKind kind : kinds) piece.rapid.push_back(kind == PointKind::rapid ? 1 : 0);
+            if (motion.has_tips) {
+                piece.tips.assign(3, std::vector<double>(n));
+                run.tips->read(range.first, piece.tips[0], piece.tips[1], piece.tips[2]);
+                for (const std::vector<double>& tips : piece.tips)
+                    for (const double value : tips) motion.reach = std::max(motion.reach, std::abs(value));
+            }
             motion.pieces.push_back(std::move(piece));
         }
     }
@@ -98,12 +122,12 @@ std::vector<double> differences(std::vector<double> values, int order, std::size
 /// Sets the values of the path to 0 where it bends within the records of a difference: there a change of speed along
 /// chords is not one along the path.
 void drop_bends(const std::vector<std::vector<double>>& velocities, std::span<const double> speeds, std::size_t reach,
-                std::size_t linear, std::vector<double>& values) {
+                std::vector<double>& values) {
     constexpr double straight = 1e-6;  // 1 − cos of the angle
     for (std::size_t i = 0; i < values.size(); ++i) {
         const std::size_t k = i + reach;
         double dot = 0;
-        for (std::size_t axis = 0; axis < linear; ++axis) dot += velocities[axis][i] * velocities[axis][k];
+        for (const std::vector<double>& velocity : velocities) dot += velocity[i] * velocity[k];
         if (speeds[i] * speeds[k] - dot > straight * speeds[i] * speeds[k]) values[i] = 0;
     }
 }
@@ -118,19 +142,20 @@ struct Quantities {
 Quantities quantities_of(const MotionPiece& piece, const Motion& motion, int order, std::size_t stride) {
     Quantities made;
     std::vector<std::vector<double>> velocities;
-    for (const std::vector<double>& positions : piece.positions) {
+    for (const std::vector<double>& positions : piece.positions)
         made.values.push_back(differences(positions, order, stride, motion.period));
+    const std::span<const std::vector<double>> along =
+        motion.has_tips ? std::span(piece.tips) : std::span(piece.positions).first(motion.linear());
+    for (const std::vector<double>& positions : along)
         velocities.push_back(differences(positions, 1, stride, motion.period));
-    }
     made.speeds.resize(velocities.front().size());
     for (std::size_t i = 0; i < made.speeds.size(); ++i) {
         double square = 0;
-        for (std::size_t axis = 0; axis < motion.linear(); ++axis) square += velocities[axis][i] * velocities[axis][i];
+        for (const std::vector<double>& velocity : velocities) square += velocity[i] * velocity[i];
         made.speeds[i] = std::sqrt(square);
     }
     made.values.push_back(differences(made.speeds, order - 1, stride, motion.period));
-    drop_bends(velocities, made.speeds, static_cast<std::size_t>(order - 1) * stride, motion.linear(),
-               made.values.back());
+    drop_bends(velocities, made.speeds, static_cast<std::size_t>(order - 1) * stride, made.values.back());
     made.rapid.assign(piece.rapid.begin(),
                       piece.rapid.begin() + static_cast<std::ptrdiff_t>(made.values.front().size()));
     return made;
@@ -182,17 +207,15 @@ std::vector<double> greatest_of(const Motion& motion, int order, std::size_t str
     return greatest;
 }
 
-/// What rounding makes of a difference at most: 2^order halves of a step.
-double error_of(const Motion& motion, int order, std::size_t stride) {
-    const double time = static_cast<double>(stride) * motion.period;
-    return std::pow(2.0, order - 1) * motion.rounding / std::pow(time, order);
-}
+/// What rounding to `step` makes of a difference at most: 2^order halves of a step.
+double error_of(double step, double time, int order) { return std::pow(2.0, order - 1) * step / std::pow(time, order); }
 
 /// The shortest differences that rounding leaves exact to a percent.
 std::size_t stride_of(const Motion& motion, int order) {
     constexpr double exact = 0.01;
     std::size_t stride = 1;
-    while (stride < 12 && error_of(motion, order, stride) > exact * greatest_of(motion, order, stride).back()) ++stride;
+    const auto error = [&] { return error_of(motion.rounding, static_cast<double>(stride) * motion.period, order); };
+    while (stride < 12 && error() > exact * greatest_of(motion, order, stride).back()) ++stride;
     return stride;
 }
 
@@ -202,10 +225,12 @@ public:
     LimitSearch(const Motion& motion, const LimitKind& kind) : motion_(motion), kind_(kind) {
         const std::size_t stride = stride_of(motion, kind.order);
         time_ = static_cast<double>(stride) * motion.period;
+        for (std::size_t q = 0; q <= motion.letters.size(); ++q)
+            rounding_.push_back(error_of(motion.resolution_along(q), time_, kind.order));
         greatest_ = greatest_of(motion, kind.order, stride);
         std::vector<PlateauFinder> finders;
-        for (const double greatest : greatest_)
-            finders.emplace_back(error_of(motion, kind.order, stride), kind.least, greatest);
+        for (std::size_t q = 0; q < greatest_.size(); ++q)
+            finders.emplace_back(error_of(motion.rounding, time_, kind.order), kind.least, greatest_[q]);
         for (const MotionPiece& piece : motion.pieces) {
             if (piece.rapid.size() <= static_cast<std::size_t>(kind.order) * stride) continue;
             const Quantities quantities = quantities_of(piece, motion, kind.order, stride);
@@ -224,9 +249,10 @@ public:
         bool any_axis = false;
         for (std::size_t q = 0; q < motion_.letters.size(); ++q) any_axis |= holds_alone(q);
         for (std::size_t q = 0; q < motion_.letters.size(); ++q) report_axis(q, result);
-        if (motion_.linear() < motion_.letters.size()) {
+        if (motion_.linear() < motion_.letters.size() && !motion_.has_tips) {
             result.unidentified.push_back(
-                {kind_.name, "path", "with rotary axes the path of the linear axes is not that of the tool"});
+                {kind_.name, "path",
+                 "with rotary axes the path of the linear axes is not that of the tool (--machine)"});
             return;
         }
         const bool path = levels_.back() && (holds_alone(path_number()) || !any_axis);
@@ -278,6 +304,11 @@ private:
     void put(const std::string& of, const std::string& unit, std::size_t q, bool reached, double& target,
              double to_machine, Identification& result) const {
         IdentifiedParameter p{kind_.name, of, 0, unit + kind_.unit, std::nullopt, reached, ""};
+        if (is_rounding(q) || (kind_.order == 3 && result.find_missing("max_acceleration", of) != nullptr)) {
+            const bool moves = kind_.order > 1 && result.find_missing("max_speed", of) == nullptr;
+            result.unidentified.push_back({kind_.name, of, moves ? "constant speed throughout" : "no such motion"});
+            return;
+        }
         if (reached) {
             // A planner fits ramps to whole periods and stays a little below its limits.
             const double margin = kind_.margin * levels_[q]->value;
@@ -292,9 +323,6 @@ private:
             p.value = target;
             p.reached.reset();
             p.note = "no limit seen: the acceleration changes between its limits from one record to the next";
-        } else if (greatest_[q] * motion_.period < 1e-9) {
-            result.unidentified.push_back({kind_.name, of, "no such motion"});
-            return;
         } else {
             p.value = rounded_to(bounds_[q] * kind_.factor, 1e-3 * bounds_[q] * kind_.factor);
             const double bound = bounds_[q] * to_machine;
@@ -303,6 +331,12 @@ private:
             p.note = fmt::format("hardly exceeded; the file has {:.6g}", target * kind_.factor / to_machine);
         }
         result.parameters.push_back(std::move(p));
+    }
+
+    /// Whether rounding alone explains the greatest value.
+    [[nodiscard]] bool is_rounding(std::size_t q) const {
+        constexpr double several = 4;  // steps of rounding that add up
+        return greatest_[q] * motion_.period < 1e-9 || greatest_[q] <= several * rounding_[q];
     }
 
     /// Whether the acceleration goes to its limit within the time of a difference.
@@ -314,7 +348,8 @@ private:
 
     const Motion& motion_;
     const LimitKind& kind_;
-    double time_ = 0;  ///< of a difference [s]
+    double time_ = 0;               ///< of a difference [s]
+    std::vector<double> rounding_;  ///< what rounding of the positions makes of a value at most
     std::vector<double> greatest_, bounds_;
     std::vector<std::optional<PlateauFinder::Level>> levels_;
 };

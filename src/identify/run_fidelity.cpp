@@ -48,10 +48,18 @@ struct Durations {
     double logged = 0, simulated = 0;  // s
 };
 
+double arc_length(const Positions& p) {
+    double sum = 0;
+    for (PointIndex i = 1; i < p.size(); ++i) sum += static_cast<double>((p[i] - p[i - 1]).norm());
+    return sum;
+}
+
+/// Of the whole runs where both are aligned, else of the sections that are: a log may have a part of the program only.
 Durations durations_of(const Part& a, const Part& b, const RunAlignment& alignment) {
     constexpr double whole = 0.99;
-    const PointRange moving_a = moving(gather(a.path)), moving_b = moving(gather(b.path));
-    if (alignment.aligned >= whole * alignment.arc_length)
+    const Positions of_b = gather(b.path);
+    const PointRange moving_a = moving(gather(a.path)), moving_b = moving(of_b);
+    if (alignment.aligned >= whole * alignment.arc_length && alignment.aligned >= whole * arc_length(of_b))
         return {static_cast<double>(moving_a.size()) * a.log.period,
                 static_cast<double>(moving_b.size()) * b.log.period};
     Durations sum;
@@ -183,10 +191,14 @@ RecordedRun::RecordedRun(const Part& part) : part_(&part), surface_(stitch(part)
 Part RecordedRun::simulated(const Machine& machine) const {
     Part simulation;
     simulation.program = part_->program;
-    simulation.log = simulate_to_log(part_->program, machine, part_->path.at(0)).log;
+    const Eigen::Isometry3d pose = part_->path.pose();
+    const bool five_axes = part_->path.kinematics != nullptr && runs_on_five_axes(part_->program, machine);
+    const Vec3 zero = five_axes ? Vec3(pose.translation()) : Vec3::Zero();
+    simulation.log = simulate_to_log(part_->program, machine, part_->path.at(0), {}, zero).log;
     if (!measured_role(part_->log, part_->path))
         std::erase_if(simulation.log.channels, [](const auto& channel) { return channel.name.starts_with("fb."); });
-    simulation.path = reconstruct(simulation.log, Role::commanded, Vec3::Zero());
+    simulation.path = five_axes ? reconstruct(simulation.log, Role::commanded, pose, part_->path.kinematics)
+                                : reconstruct(simulation.log, Role::commanded, Vec3::Zero());
     simulation.lines = std::make_shared<const LineMap>(
         map_lines(simulation.path, simulation.log, simulation.program, true, simulation.diagnostics));
     return simulation;

@@ -29,7 +29,8 @@ struct RunFidelity {
     [[nodiscard]] std::optional<double> precision() const;
 };
 
-/// A recorded run with what every comparison needs of it. `part` must outlive it; three axes.
+/// A recorded run with what every comparison needs of it. `part` must outlive it. On five axes it is the tip that is
+/// compared.
 class RecordedRun {
 public:
     explicit RecordedRun(const Part& part);

@@ -284,8 +284,10 @@ ServoFit fit_servo(std::span<const AxisRecord> records, double period) {
     ServoProblem problem(records, period, 0);
     if (!fit.moves || problem.count() < least_records) return fit;
     const std::vector<ServoStart> starts = servo_starts(problem, 0);
-    problem.set_settling(
-        settling_of(starts.empty() ? parameters_of(ServoModel{}, period) : starts.front().parameters, period));
+    const ServoParameters usual = parameters_of(ServoModel{}, period);
+    problem.set_settling(settling_of(starts.empty() ? usual : starts.front().parameters, period));
+    // At constant speed the regression knows no gain, and may take it for a very low one.
+    if (problem.count() < least_records) problem.set_settling(settling_of(usual, period));
     fit.records = problem.count();
     if (fit.records < least_records) return fit;
     const std::vector<ServoStart> regressions = servo_starts(problem, dead_periods_searched);

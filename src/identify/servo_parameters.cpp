@@ -137,11 +137,13 @@ private:
 
     void put_resolution(ServoModel& target, double angle) {
         const ServoFit& fit = axis_.fit;
-        target.quantum = fit.quantum * angle;
+        // It is a difference of doubles.
+        const double quantum = rounded_to(fit.quantum, 1e-5 * fit.quantum);
+        target.quantum = quantum * angle;
         result_.parameters.push_back(
             {"quantum",
              axis_.name(),
-             fit.quantum,
+             quantum,
              axis_.unit(),
              {},
              {},

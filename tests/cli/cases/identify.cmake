@@ -19,6 +19,15 @@ clsurf_cli_test(NAME identify_five_axes
   SETUP "$CLSURF simulate @DATA@/programs/dome_five_axis.nc --machine @DATA@/machines/five_axis_trunnion.toml -o r.biip"
   ARGS identify @DATA@/programs/dome_five_axis.nc r.biip --machine @DATA@/machines/five_axis_trunnion.toml -o m.toml
   STDOUT "position_gain +a +(100|99[.]9|100[.]0)[0-9]* 1/s" "velocity_feedforward +c +0[.]9(8|79|80)")
+# Limits of the path of five axes are those of the tip.
+clsurf_cli_test(NAME identify_path_limits_of_five_axes
+  SETUP "$CLSURF simulate @DATA@/programs/dome_five_axis.nc --machine @DATA@/machines/five_axis_trunnion.toml -o r.biip"
+  ARGS identify @DATA@/programs/dome_five_axis.nc r.biip --machine @DATA@/machines/five_axis_trunnion.toml -o m.toml
+  STDOUT "max_speed +path +1[0-9.]+ mm/min" "max_acceleration +path +[0-9.]+ mm/s²")
+clsurf_cli_test(NAME identify_five_axes_without_kinematics
+  SETUP "$CLSURF simulate @DATA@/programs/dome_five_axis.nc --machine @DATA@/machines/five_axis_trunnion.toml -o r.biip"
+  ARGS identify @DATA@/programs/dome_five_axis.nc r.biip --force -o m.toml FILE m.toml
+  STDOUT "moves rotary axes, and the kinematics are not known" "position_gain +y " STDERR "axis a is not in the machine file")
 # Limits: LinuxCNC's are 2000, 2000 and 1500 mm/s² and no jerk; speeds of the axes x and y stay below theirs.
 clsurf_cli_test(NAME identify_limits_of_a_kernel ARGS identify ${bottle} ${dome} -o m.toml
   STDOUT "max_acceleration +x +(2000([.]0[0-9]*)?|1999[.]9[0-9]*) mm/s² .*reached. held in" "max_acceleration +z +(1500([.]0[0-9]*)?|1499[.]9[0-9]*) mm/s² .*reached"
@@ -47,6 +56,23 @@ clsurf_cli_test(NAME identify_without_output ARGS identify ${bottle} EXIT 2 STDE
 clsurf_cli_test(NAME identify_does_not_replace_its_log SETUP "cp @LOGS@/bottle_uneven.biip r.biip" ARGS identify @DATA@/programs/bottle_uneven.nc r.biip -o r.biip EXIT 2 STDERR "is an input|input")
 clsurf_cli_test(NAME machine_dead_time_too_long SETUP "printf '[[axis]]\\nname = \"x\"\\n[axis.servo]\\ndead_time = 0.2\\n' > m.toml" ARGS machine m.toml EXIT 3 STDERR "'dead_time' is 0.2, expected 0 or more, at most 0.1")
 
+# One line at constant speed, without its ends: nothing is known of accelerations, and the time is that of the piece.
+clsurf_cli_test(NAME identify_constant_speed_throughout
+  SETUP "printf 'G21 G90\\nG0 X0 Y0 Z0\\nG1 X200 F3000\\nM2\\n' > p.nc; $CLSURF simulate p.nc --machine @DATA@/machines/three_axis_mill.toml -o r.biip -q; $CLSURF export p.nc r.biip --columns time,cmd.x,cmd.y,cmd.z,fb.x,fb.y,fb.z -o r.csv -q; sed -n '1p;200,3800p' r.csv > c.csv"
+  ARGS identify p.nc c.csv -o m.toml FILE m.toml
+  STDOUT "lag +x +0[.]000(4|39|40)[0-9]* s" "x: constant speed throughout .max_acceleration" "x: constant speed throughout .max_jerk" "simulated 3[.][0-9]+ s"
+  NO_STDOUT "max_acceleration +x +[0-9]")
+clsurf_cli_test(NAME identify_too_short
+  SETUP "printf 'G21 G90\\nG0 X0 Y0 Z0\\nG1 X50 F3000\\nM2\\n' > p.nc; $CLSURF simulate p.nc --machine @DATA@/machines/three_axis_mill.toml -o r.biip -q; $CLSURF export p.nc r.biip --columns time,cmd.x,cmd.y,cmd.z,fb.x,fb.y,fb.z -o r.csv -q; sed -n '1,40p' r.csv > c.csv"
+  ARGS identify p.nc c.csv -o m.toml STDOUT "x: too few records .position_gain" "c.csv: time 0[.]0[0-9]+ s, simulated 0[.]0[0-9]+ s")
+clsurf_cli_test(NAME identify_two_periods
+  SETUP "printf '[controller]\\nperiod = 0.002\\n' > p.toml; $CLSURF simulate @DATA@/programs/dome_loops.nc --machine p.toml -o r.biip -q"
+  ARGS identify ${bottle} @DATA@/programs/dome_loops.nc r.biip -o m.toml EXIT 3 NO_FILE m.toml STDERR "r.biip: error: has a period of 0.002 s, but .* has 0.001 s")
+# A recording of a SINUMERIK: 0.6 s of a gear-cutting cycle. A counter begins again at its end, which is no motion.
+clsurf_cli_test(NAME identify_a_short_recording ARGS identify @DATA@/programs/keychain.mpf @DATA@/logs/edge_300.json.xz -o m.toml
+  STDOUT "x: the axis does not move" "b: constant speed throughout .max_acceleration" "moves rotary axes, and the kinematics are not known"
+  NO_STDOUT "max_speed +z +[0-9]+[0-9][0-9][0-9][0-9][0-9][0-9] mm/min" "0[.]00 %")
+
 # The planner's rules: a kernel's log, and what the machine is worth on a run that the fit has not seen.
 clsurf_cli_test(NAME identify_selects_the_rules_of_a_kernel ARGS identify ${bottle} -o m.toml
   STDOUT "planner +trapezoidal, arc blends .*chosen" "fitted runs" "the runs do not tell apart .*lookahead_blocks")
@@ -55,7 +81,7 @@ clsurf_cli_test(NAME identify_tests_another_run ARGS identify ${bottle} -o m.tom
 clsurf_cli_test(NAME identify_draws_the_residual ARGS identify ${bottle} -o m.toml --test ${dome} --picture residual.png FILE residual.png)
 clsurf_cli_test(NAME identify_picture_of_what_cannot_be_simulated
   SETUP "$CLSURF simulate @DATA@/programs/dome_five_axis.nc --machine @DATA@/machines/five_axis_trunnion.toml -o r.biip"
-  ARGS identify @DATA@/programs/dome_five_axis.nc r.biip --machine @DATA@/machines/five_axis_trunnion.toml -o m.toml --picture residual.png EXIT 3
+  ARGS identify @DATA@/programs/dome_five_axis.nc r.biip --force -o m.toml --picture residual.png EXIT 3
   NO_FILE m.toml STDERR "r.biip: error: cannot be compared with a simulation: no picture")
 clsurf_cli_test(NAME identify_leaves_out_each_run ARGS identify ${bottle} ${dome} -o m.toml STDOUT "cross-validation: each run left out of the fit")
 clsurf_cli_test(NAME identify_json_of_rules_and_tests ARGS identify ${bottle} -o m.toml --test ${dome} --json

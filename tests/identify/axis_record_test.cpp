@@ -1,0 +1,64 @@
+// Sections of consecutive records: what no axis does ends one.
+
+#include "identify/axis_record.h"
+
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "log/log.h"
+
+namespace clsurf {
+namespace {
+
+ChannelView view_of(const std::vector<double>& values) {
+    ChannelView view;
+    view.first = reinterpret_cast<const std::byte*>(values.data());
+    view.stride = sizeof(double);
+    view.count = static_cast<PointIndex>(values.size());
+    return view;
+}
+
+std::vector<PointRange> sections_of(const std::vector<double>& values, double period) {
+    Log log;
+    log.records = static_cast<PointIndex>(values.size());
+    log.period = period;
+    const ChannelView view = view_of(values);
+    return find_sections(log, {&view, 1});
+}
+
+/// 0.1 mm a record.
+std::vector<double> ramp(std::size_t count) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < count; ++i) values.push_back(0.1 * static_cast<double>(i));
+    return values;
+}
+
+// A counter that begins again after 360: the step of the motion goes on after it.
+TEST(AxisRecord, ACounterThatBeginsAgainEndsASection) {
+    std::vector<double> values = ramp(100);
+    for (std::size_t i = 40; i < values.size(); ++i) values[i] -= 360;
+    const std::vector<PointRange> sections = sections_of(values, 0.002);
+    ASSERT_EQ(sections.size(), 2U);
+    EXPECT_EQ(sections[0].last, 39);
+    EXPECT_EQ(sections[1].first, 40);
+}
+
+// The jump lies where two blocks of records meet, which are read one after the other.
+TEST(AxisRecord, AJumpBetweenTwoBlocksEndsASection) {
+    std::vector<double> values = ramp(40000);
+    for (std::size_t i = 16384; i < values.size(); ++i) values[i] += 5;
+    const std::vector<PointRange> sections = sections_of(values, 0.001);
+    ASSERT_EQ(sections.size(), 2U);
+    EXPECT_EQ(sections[1].first, 16384);
+}
+
+// From rest to 12 m/min at once, as kernels without a jerk limit begin: 0.2 mm in a record of 1 ms is 20 g, but it goes on so.
+TEST(AxisRecord, AMotionThatBeginsAtOnceIsNoJump) {
+    std::vector<double> values(50, 0.0);
+    for (const double value : ramp(50)) values.push_back(2 * value);
+    EXPECT_EQ(sections_of(values, 0.001).size(), 1U);
+}
+
+}  // namespace
+}  // namespace clsurf
