@@ -136,7 +136,7 @@ std::vector<std::function<Rule(const Machine&)>> rules_of(const Machine& machine
                                [](Machine& x) -> double& { return x.controller.tolerance; });
     });
     rules.emplace_back([](const Machine& m) {
-        return rule_of_numbers("lookahead_blocks", "controller", m, std::vector{5, 20, 50, 200, 1000},
+        return rule_of_numbers("lookahead_blocks", "controller", m, std::vector{5, 7, 10, 14, 20, 50, 200, 1000},
                                [](Machine& x) -> int& { return x.controller.lookahead_blocks; });
     });
     if (is_trapezoidal(machine)) {

@@ -18,8 +18,7 @@ Program crowded_waves() {
         wavy_zigzag(6, 20, [](int pass, double x) { return pass % 3 == 0 && x > 8 && x < 10 ? 0.03 : 0.3; }));
 }
 
-Part run_on(const Machine& machine) {
-    const Program program = crowded_waves();
+Part run_on(const Machine& machine, const Program& program = crowded_waves()) {
     return assemble(program, simulate_to_log(program, machine, Vec3::Zero()).log);
 }
 
@@ -59,6 +58,21 @@ TEST(PlannerRules, ABlockTimeBetweenTheTriedOnesIsFound) {
     const Identification result = identified(part, known);
     EXPECT_NEAR(result.machine.controller.block_time, 0.004, 0.0002);
     EXPECT_GE(result.machine.controller.lookahead_blocks, 200) << "enough for every place of this part";
+}
+
+// 5 blocks are far too few, and 20 explain the run no better than 1000.
+TEST(PlannerRules, AShortLookAheadIsFound) {
+    Machine real;
+    real.controller.planner = PlannerKind::trapezoidal;
+    real.controller.trapezoid.max_feed_override = 2;
+    real.path.max_acceleration = real.path.max_normal_acceleration = 1'000'000;
+    for (MachineAxis& axis : real.axes) axis.max_jerk = 0;
+    Machine known = real;
+    real.controller.lookahead_blocks = 7;
+    std::string text = wavy_zigzag(6, 20, [](int, double) { return 0.08; });
+    text.replace(text.find("G64 P0.005"), 10, "G64 P0.005 Q0");  // no line is merged
+    const Part part = run_on(real, read_text(text));
+    EXPECT_EQ(identified(part, known).machine.controller.lookahead_blocks, 7);
 }
 
 TEST(PlannerRules, WhatTheRunDoesNotShowKeepsItsValueAndIsNamed) {
