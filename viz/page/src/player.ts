@@ -44,7 +44,8 @@ export class Player {
                 else this.show(time);
             }
             if (changed.has('playing')) this.showState();
-            if (changed.has('time') || changed.has('shown')) this.show(state.time ?? 0);
+            if (changed.has('time') || changed.has('shown'))
+                this.show(state.time ?? (state.vertex === null ? 0 : this.surface().time[state.vertex]));
         });
         this.showState();
         this.show(0);
