@@ -60,7 +60,7 @@ void leave_out_flanks(const Form& form, const MapFrame& frame, std::int64_t firs
             const std::int64_t row = k / frame.columns;
             const Vec2 place =
                 frame.at(static_cast<double>(k - row * frame.columns), static_cast<double>(first_row + row));
-            if (!form.at(place).unknown) height = std::numeric_limits<float>::quiet_NaN();
+            if (!form.is_among_contacts(place)) height = std::numeric_limits<float>::quiet_NaN();
         }
     });
 }

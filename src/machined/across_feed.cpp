@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "machined/form.h"
-
 namespace clsurf {
 
 AcrossFeed across_feed(const AsMachinedSurface& as_machined, const Signals& signals, PointIndex point) {
@@ -23,9 +21,9 @@ AcrossFeed across_feed(const AsMachinedSurface& as_machined, const Signals& sign
 }
 
 std::vector<double> deviations_along(const AsMachinedSurface& as_machined, const AsMachinedSurface& form_of,
-                                     const ProfileRow& row, double tolerance) {
+                                     const ProfileRow& row, Form::Of of, double tolerance) {
     const MapFrame frame{row.from, row.along, row.step, row.count, 1};
-    const Form form(form_of, frame.bounds(0, 0, row.count, 1), tolerance);
+    const Form form(form_of, frame.bounds(0, 0, row.count, 1), of, tolerance);
     std::vector<double> deviations;
     map_deviation(as_machined, form, frame,
                   [&](std::int64_t, std::span<float> z) { deviations.assign(z.begin(), z.end()); });

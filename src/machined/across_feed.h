@@ -6,6 +6,7 @@
 
 #include "core/point.h"
 #include "machined/as_machined_surface.h"
+#include "machined/form.h"
 
 namespace clsurf {
 
@@ -29,10 +30,10 @@ struct ProfileRow {
     std::int64_t count = 0;
 };
 
-/// Deviations [mm] of a surface along a row, over the form of `form_of`; `tolerance` as of Form. NaN: nothing was cut, or
-/// no form there.
+/// Deviations [mm] of a surface along a row, over the form of `form_of`; `of` and `tolerance` as of Form. NaN: nothing
+/// was cut, or no form there.
 [[nodiscard]] std::vector<double> deviations_along(const AsMachinedSurface& as_machined,
                                                    const AsMachinedSurface& form_of, const ProfileRow& row,
-                                                   double tolerance = 0);
+                                                   Form::Of of = Form::Of::program, double tolerance = 0);
 
 }  // namespace clsurf

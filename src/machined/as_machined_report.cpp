@@ -149,8 +149,11 @@ AsMachinedMark mark_of(const AsMachinedSurface& as_machined, const Signals& sign
     const double step = across.step_over / steps_per_pass;
     const ProfileRow row{across.at - passes_aside * across.step_over * across.direction, across.direction, step,
                          static_cast<std::int64_t>(2 * passes_aside * steps_per_pass) + 1};
+    // A form of the program takes up the marks that are programmed: where the contacts have one, theirs is better, and
+    // where the very passes are measured that it follows, there is no other.
+    const Form::Of of = as_machined.follows_surface() ? Form::Of::contacts : Form::Of::contacts_and_program;
     const std::vector<double> deviations =
-        deviations_along(as_machined, as_machined, row, mark_tolerance * std::abs(defect.depth));
+        deviations_along(as_machined, as_machined, row, of, mark_tolerance * std::abs(defect.depth));
     return with_note(mark_depth(deviations, step, across.step_over, defect.pit), defect);
 }
 

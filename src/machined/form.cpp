@@ -9,7 +9,9 @@
 #include "core/grouping.h"
 #include "core/not_finite.h"
 #include "core/parallel.h"
+#include "machined/between_contacts.h"
 #include "machined/fold.h"
+#include "machined/passes_between.h"
 #include "machined/ungouged_contacts.h"
 
 namespace clsurf {
@@ -25,6 +27,8 @@ constexpr double crease_off = 0.06;      ///< share off a smooth form from which
 constexpr double fold_off = 0.2;         ///< … and that may lie off its two sheets
 constexpr double fold_gain = 0.5;        ///< of the share off the smooth form: two sheets that leave more are no better
 
+constexpr double sharp_edge =
+    2;  ///< step-overs that the corner radius of a tool has at least whose scallops are flat arcs
 constexpr double covered = 1.1;    ///< step-overs from the nearest contact point in space; beyond, no pass has made
                                    ///< the surface: half a step-over is usual, one stands where a pass is missing
 constexpr std::int64_t finer = 4;  ///< squares of a knot's, a side, that lie inside or not
@@ -89,7 +93,8 @@ struct Form::Workspace {
     std::vector<WeighedPlace> places;
 };
 
-Form::Form(const AsMachinedSurface& as_machined, const Box2& region, double tolerance) : level_(as_machined.level()) {
+Form::Form(const AsMachinedSurface& as_machined, const Box2& region, Of of, double tolerance)
+    : level_(as_machined.level()) {
     pitch_ = as_machined.surface().step_over > 0 ? as_machined.surface().step_over : 10 * as_machined.usual_cell();
     // Of the flat formula, with the tool's radius: a measure of size.
     most_scatter_ =
@@ -100,7 +105,29 @@ Form::Form(const AsMachinedSurface& as_machined, const Box2& region, double tole
     columns_ = static_cast<std::int64_t>(std::ceil(region.sizes().x() / pitch_)) + 3;
     rows_ = static_cast<std::int64_t>(std::ceil(region.sizes().y() / pitch_)) + 3;
     knots_.resize(static_cast<std::size_t>(columns_ * rows_));
+    inside_.resize(static_cast<std::size_t>(finer * columns_ * finer * rows_));
+    if (of != Of::contacts && as_machined.knows_program()) program_ = &as_machined;
+    // Between passes of an edge that is nearly sharp, more passes leave cusps that are not much lower.
+    if (of == Of::program && as_machined.tool().corner < sharp_edge * pitch_) of = Of::contacts_and_program;
+    if (of != Of::program || program_ == nullptr) fit_contacts(as_machined, region);
+    if (program_ == nullptr) return;
+    if (of == Of::program) {
+        for (Knot& knot : knots_) knot.kind = Kind::unknown;
+    } else {
+        find_contradictions();
+    }
+    // Slopes are taken from places beside the region, too.
+    const Vec2 room = Vec2::Constant(2 * as_machined.usual_cell());
+    between_ =
+        std::make_unique<PassesBetween>(as_machined.passes_between(Box2(region.min() - room, region.max() + room)));
+    bridge_contacts(region);
+}
 
+Form::Form(Form&&) noexcept = default;
+Form& Form::operator=(Form&&) noexcept = default;
+Form::~Form() = default;
+
+void Form::fit_contacts(const AsMachinedSurface& as_machined, const Box2& region) {
     Box2 wide = region;
     const Vec2 room = Vec2::Constant((fit_reach + 1) * pitch_);
     wide.extend(Vec2(region.min() - room));
@@ -129,13 +156,50 @@ Form::Form(const AsMachinedSurface& as_machined, const Box2& region, double tole
         for (std::int64_t k = first; k < last; ++k) fit(k % columns_, k / columns_, samples, workspace);
     });
     const std::int64_t fine_columns = finer * columns_;
-    inside_.resize(static_cast<std::size_t>(fine_columns * finer * rows_));
     parallel_for(static_cast<std::int64_t>(inside_.size()), 1024, [&](std::int64_t first, std::int64_t last) {
         for (std::int64_t k = first; k < last; ++k) {
             const Vec2 off(static_cast<double>(k % fine_columns), static_cast<double>(k / fine_columns));
             inside_[static_cast<std::size_t>(k)] =
                 is_inside(corner_ + pitch_ / finer * (off + Vec2::Constant(0.5)), samples) ? 1 : 0;
         }
+    });
+}
+
+/// Knots whose fits differ from each other in a square have no smooth form.
+void Form::find_contradictions() {
+    std::vector<std::uint8_t> contradicted(knots_.size());
+    for (std::int64_t row = 0; row + 1 < rows_; ++row) {
+        for (std::int64_t column = 0; column + 1 < columns_; ++column) {
+            double low = std::numeric_limits<double>::infinity();
+            double high = -low;
+            double steepest = 0;
+            for (int k = 0; k < 4; ++k) {
+                const Knot& knot = knots_[static_cast<std::size_t>((row + k / 2) * columns_ + column + k % 2)];
+                if (knot.kind == Kind::none || knot.kind == Kind::unknown) continue;
+                const Height height = height_at(knot, 0.5 - k % 2, 0.5 - k / 2);
+                low = std::min(low, height.z);
+                high = std::max(high, height.z);
+                steepest = std::max(steepest, std::hypot(height.zx, height.zy) / pitch_);
+            }
+            if (!(high - low > knots_differ * most_scatter_ * std::sqrt(1 + steepest * steepest))) continue;
+            for (int k = 0; k < 4; ++k)
+                contradicted[static_cast<std::size_t>((row + k / 2) * columns_ + column + k % 2)] = 1;
+        }
+    }
+    for (std::size_t k = 0; k < knots_.size(); ++k) {
+        if (contradicted[k] != 0 && knots_[k].kind != Kind::none) knots_[k].kind = Kind::unknown;
+    }
+}
+
+void Form::bridge_contacts(const Box2& region) {
+    const double fine = pitch_ / finer;
+    for_each_between_contacts(*program_, region, 0.5 * fine, [&](const Vec2& place) {
+        const Vec2 at = (place - corner_) / fine;
+        if (!(at.x() >= 0 && at.y() >= 0 && at.x() < static_cast<double>(finer * columns_) &&
+              at.y() < static_cast<double>(finer * rows_)))
+            return;
+        inside_[static_cast<std::size_t>(static_cast<std::int64_t>(at.y()) * finer * columns_ +
+                                         static_cast<std::int64_t>(at.x()))] = 1;
     });
 }
 
@@ -256,57 +320,137 @@ bool Form::is_among_contacts(const Vec2& place) const {
 }
 
 Form::Facet Form::at(const Vec2& place) const {
+    return blend(place, {missing<double>, missing<double>, missing<double>, true});
+}
+
+/// The knots' sheets about a place, and the programmed surface where knots have none.
+Form::Facet Form::blend(const Vec2& place, const Facet& programmed) const {
+    Facet sum;
+    if (!is_among_contacts(place)) {
+        sum.z = sum.zx = sum.zy = missing<double>;
+        return sum;
+    }
     const double u = (place.x() - corner_.x()) / pitch_;
     const double v = (place.y() - corner_.y()) / pitch_;
     const auto c = static_cast<std::int64_t>(std::floor(u));
     const auto r = static_cast<std::int64_t>(std::floor(v));
-    Facet sum;
+    const bool follows_program = std::isfinite(programmed.z);
     double weights = 0;
     double lowest = std::numeric_limits<double>::infinity();
     double highest = -lowest;
-    if (is_among_contacts(place)) {
-        for (int k = 0; k < 4; ++k) {
-            const std::int64_t kc = c + k % 2;
-            const std::int64_t kr = r + k / 2;
-            const Knot& knot = knots_[static_cast<std::size_t>(kr * columns_ + kc)];
-            if (knot.kind == Kind::none || knot.kind == Kind::unknown) {
-                sum.unknown = sum.unknown || knot.kind == Kind::unknown;
-                continue;
-            }
-            const double x = u - static_cast<double>(kc);
-            const double y = v - static_cast<double>(kr);
-            const double w = (1 - std::abs(x)) * (1 - std::abs(y));
-            const Height height = height_at(knot, x, y);
-            sum.unknown = sum.unknown || !height.reached;
-            weights += w;
-            sum.z += w * height.z;
-            lowest = std::min(lowest, height.z);
-            highest = std::max(highest, height.z);
-            sum.zx += w * height.zx;
-            sum.zy += w * height.zy;
-        }
+    for (int k = 0; k < 4; ++k) {
+        const std::int64_t kc = c + k % 2;
+        const std::int64_t kr = r + k / 2;
+        const Knot& knot = knots_[static_cast<std::size_t>(kr * columns_ + kc)];
+        const double x = u - static_cast<double>(kc);
+        const double y = v - static_cast<double>(kr);
+        const bool fitted = knot.kind != Kind::none && knot.kind != Kind::unknown;
+        Height height = fitted ? height_at(knot, x, y) : Height{};
+        if (follows_program && !(fitted && height.reached))
+            height = {programmed.z, programmed.zx * pitch_, programmed.zy * pitch_};
+        else if (!fitted || !height.reached)
+            sum.unknown = sum.unknown || knot.kind != Kind::none;
+        if (!fitted && !follows_program) continue;
+        const double w = (1 - std::abs(x)) * (1 - std::abs(y));
+        weights += w;
+        sum.z += w * height.z;
+        lowest = std::min(lowest, height.z);
+        highest = std::max(highest, height.z);
+        sum.zx += w * height.zx;
+        sum.zy += w * height.zy;
     }
     sum.z /= weights;
     sum.zx /= weights * pitch_;
     sum.zy /= weights * pitch_;
     const double steep = std::sqrt(1 + sum.zx * sum.zx + sum.zy * sum.zy);
-    sum.unknown = sum.unknown || highest - lowest > knots_differ * most_scatter_ * steep;
+    if (program_ == nullptr) sum.unknown = sum.unknown || highest - lowest > knots_differ * most_scatter_ * steep;
     if (sum.unknown || !(weights > 0)) sum.z = sum.zx = sum.zy = missing<double>;
     return sum;
+}
+
+/// Whether a place of a box lies about a knot without a smooth form, or in a valley.
+bool Form::has_gaps(const Box2& box) const {
+    const auto clamped = [&](const Vec2& place, std::int64_t more) {
+        const Vec2 at = (place - corner_) / pitch_;
+        return std::pair(std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor(at.x())) + more, 0, columns_),
+                         std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor(at.y())) + more, 0, rows_));
+    };
+    const auto [first_column, first_row] = clamped(box.min(), 0);
+    const auto [end_column, end_row] = clamped(box.max(), 2);
+    for (std::int64_t row = first_row; row < end_row; ++row) {
+        for (std::int64_t column = first_column; column < end_column; ++column) {
+            const Kind kind = knots_[static_cast<std::size_t>(row * columns_ + column)].kind;
+            if (kind != Kind::smooth && kind != Kind::ridge) return true;
+        }
+    }
+    return false;
+}
+
+/// Rows of a frame, with some more on every side, from which slopes are taken.
+struct Form::Programmed {
+    std::int64_t columns = 0, margin = 0, row_margin = 0;
+    double reach = 0;  ///< [mm] from a place to those that its slopes are taken from
+    Vec2 along = Vec2::UnitX(), across = Vec2::UnitY();
+    std::vector<float> z;
+
+    [[nodiscard]] Facet at(std::int64_t column, std::int64_t row) const {
+        if (z.empty()) return {missing<double>, missing<double>, missing<double>, true};
+        const auto value = [&](std::int64_t c, std::int64_t r) {
+            return static_cast<double>(z[static_cast<std::size_t>((r + row_margin) * columns + c + margin)]);
+        };
+        const double here = value(column, row);
+        const auto slope = [&](double before, double after) {
+            if (std::isfinite(before) && std::isfinite(after)) return (after - before) / (2 * reach);
+            if (std::isfinite(after)) return (after - here) / reach;
+            return std::isfinite(before) ? (here - before) / reach : 0.0;
+        };
+        const Vec2 slopes = slope(value(column - margin, row), value(column + margin, row)) * along +
+                            slope(value(column, row - row_margin), value(column, row + row_margin)) * across;
+        return {here, slopes.x(), slopes.y(), false};
+    }
+};
+
+Form::Programmed Form::programmed_rows(const MapFrame& frame, std::int64_t first_row, std::int64_t rows) const {
+    Programmed p;
+    if (program_ == nullptr || !has_gaps(frame.bounds(0, first_row, frame.columns, rows))) return p;
+    // Heights are floats, whose rounding would be the slope between places that lie nearer to each other.
+    p.margin = std::max<std::int64_t>(1, std::lround(program_->usual_cell() / frame.cell));
+    p.reach = static_cast<double>(p.margin) * frame.cell;
+    p.columns = frame.columns + 2 * p.margin;
+    p.along = frame.along;
+    p.across = frame.across();
+    // Of a single row, those beside it are farther apart than its cells.
+    const bool single = rows == 1;
+    p.row_margin = single ? 1 : p.margin;
+    const double pitch = single ? p.reach : frame.pitch_of_rows();
+    MapFrame wide{frame.at(-static_cast<double>(p.margin), static_cast<double>(first_row)),
+                  frame.along,
+                  frame.cell,
+                  p.columns,
+                  rows + 2 * p.row_margin,
+                  pitch};
+    wide.corner -= static_cast<double>(p.row_margin) * pitch * p.across;
+    program_->map_programmed(*between_, wide, [&](std::int64_t, std::span<float> heights) {
+        p.z.insert(p.z.end(), heights.begin(), heights.end());
+    });
+    return p;
 }
 
 std::int64_t Form::subtract(const MapFrame& frame, std::int64_t first_row, double level, std::span<float> z) const {
     const double shift = level - level_;
     std::atomic<std::int64_t> unknown = 0;
     const auto count = static_cast<std::int64_t>(z.size());
+    const Programmed programmed = programmed_rows(frame, first_row, count / frame.columns);
     constexpr std::int64_t grain = 4096;
     parallel_for(count, grain, [&](std::int64_t first, std::int64_t last) {
         std::int64_t here = 0;
         for (std::int64_t k = first; k < last; ++k) {
             float& height = z[static_cast<std::size_t>(k)];
             if (!(height == height)) continue;
-            const Facet form = at(
-                frame.at(static_cast<double>(k % frame.columns), static_cast<double>(first_row + k / frame.columns)));
+            const std::int64_t column = k % frame.columns;
+            const std::int64_t row = k / frame.columns;
+            const Facet form = blend(frame.at(static_cast<double>(column), static_cast<double>(first_row + row)),
+                                     programmed.at(column, row));
             height =
                 static_cast<float>((height + shift - form.z) / std::sqrt(1 + form.zx * form.zx + form.zy * form.zy));
             here += form.unknown ? 1 : 0;

@@ -230,8 +230,16 @@ TEST(AsMachinedSurface, ABullOnASlopeLeavesWhatItsTorusDoes) {
 
 TEST(AsMachinedSurface, WhatNoPassCutHasNoHeight) {
     const Made made(test::flat_zigzag(9, 6, 0.3, 40, {}));
-    for (const double z : profile(made.as_machined(ball(3)), Vec2(3, 5), Vec2::UnitY(), 0.1, 20))
-        EXPECT_TRUE(std::isnan(z));
+    const AsMachinedSurface as_machined = made.as_machined(ball(3));
+    // The outermost pass lies at 2.4 mm. Beside it stands the tool's flank, which is not the part's …
+    const std::vector<double> flank = profile(as_machined, Vec2(3, 2.5), Vec2::UnitY(), 0.1, 28);
+    for (std::size_t k = 0; k < flank.size(); ++k) {
+        const double off = 0.1 + 0.1 * static_cast<double>(k);
+        EXPECT_NEAR(flank[k], 3 - std::sqrt(9 - off * off), 1e-5) << off;
+    }
+    for (const float z : deviations(as_machined, {Vec2(3, 2.8), Vec2::UnitY(), 0.1, 24, 1})) EXPECT_TRUE(std::isnan(z));
+    // … and beyond the tool's radius nothing.
+    for (const double z : profile(as_machined, Vec2(3, 5.41), Vec2::UnitY(), 0.1, 20)) EXPECT_TRUE(std::isnan(z));
 }
 
 TEST(AsMachinedSurface, TheMapIsTheSameForAnyNumberOfThreads) {
@@ -257,15 +265,20 @@ TEST(AsMachinedSurface, AHighLinkLeavesNothing) {
         for (PointIndex i = pass.first; i <= pass.last; ++i) lifted.positions.z[static_cast<std::size_t>(i)] += 2;
     }
     const AsMachinedSurface without(lifted, low.signals, Role::commanded, low.made.path, low.pieces, ball(3));
-    const auto cut = [](const AsMachinedSurface& as_machined) {
-        std::ptrdiff_t cells = 0;
-        as_machined.map(frame_of(Box2(Vec2(-2, -2), Vec2(8, 5)), 0.05), [&](std::int64_t, std::span<float> z) {
-            cells += std::count_if(z.begin(), z.end(), [](float v) { return v == v; });
-        });
-        return cells;
+    const auto heights = [](const AsMachinedSurface& as_machined) {
+        std::vector<float> all;
+        as_machined.map(frame_of(Box2(Vec2(0, 0), Vec2(6, 2.4)), 0.05),
+                        [&](std::int64_t, std::span<float> z) { all.insert(all.end(), z.begin(), z.end()); });
+        return all;
     };
-    EXPECT_GT(cut(without), 6 * 2.4 / 0.0025);
-    EXPECT_LT(cut(without), cut(low.as_machined(ball(3))));
+    const std::vector<float> with = heights(low.as_machined(ball(3))), high = heights(without);
+    double most = 0;
+    for (std::size_t k = 0; k < with.size(); ++k) {
+        ASSERT_GE(high[k], with[k] - 1e-6F);
+        most = std::max(most, static_cast<double>(high[k] - with[k]));
+    }
+    // Where a link ran from pass to pass, the cusp between both stands without it.
+    EXPECT_NEAR(most, scallop_height(3, 0.3, std::numeric_limits<double>::infinity()), 2e-4);
 }
 
 /// Tips on a tent of 30° flanks: at its ridge each flank's contacts reach R sin 30° beyond it, where the
@@ -317,7 +330,7 @@ TEST(Form, WhatTheToolCutsAwayAgainIsNoForm) {
     const double s = 0.5;
     const Made made = tent();
     const AsMachinedSurface as_machined = made.as_machined(ball(3));
-    const Form form(as_machined, as_machined.bounds());
+    const Form form(as_machined, as_machined.bounds(), Form::Of::contacts);
     for (const double y : {-3.0, -1.5, -1.2, 1.2, 1.5, 3.0}) {
         const Form::Facet facet = form.at({6, y});
         EXPECT_NEAR(facet.z + as_machined.level(), -std::abs(y) * s / c - 3 * (1 - c) / c, 0.001) << y;

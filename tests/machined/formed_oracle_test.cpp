@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "machined/as_machined_profile.h"
+#include "machined/part_roughness.h"
 #include "support/made_surface.h"
 
 namespace clsurf {
@@ -24,8 +25,9 @@ struct OracleCase {
     std::string name, kind, part;
     CuttingTool tool{};
     double a = 0, b = 0;
+    double error = 0;  ///< [µm] of the machine
     Vec2 from, to;
-    double ra = 0, rz = 0;  ///< µm
+    double ra = 0, rz = 0, sa = 0, sz = 0;  ///< µm
     std::vector<double> z;
 };
 
@@ -36,8 +38,8 @@ std::vector<OracleCase> read_cases() {
     while (file >> word) {
         OracleCase c;
         std::size_t count = 0;
-        file >> c.name >> c.kind >> c.tool.radius >> c.tool.corner >> c.part >> c.a >> c.b >> c.from.x() >>
-            c.from.y() >> c.to.x() >> c.to.y() >> c.ra >> c.rz >> count;
+        file >> c.name >> c.kind >> c.tool.radius >> c.tool.corner >> c.part >> c.a >> c.b >> c.error >> c.from.x() >>
+            c.from.y() >> c.to.x() >> c.to.y() >> c.ra >> c.rz >> c.sa >> c.sz >> count;
         c.tool.kind = c.kind == "ball" ? ToolKind::ball : c.kind == "bull" ? ToolKind::bull : ToolKind::flat;
         c.z.resize(count);
         for (double& height : c.z) file >> height;
@@ -47,7 +49,16 @@ std::vector<OracleCase> read_cases() {
     return cases;
 }
 
-double tan_of(double degrees) { return std::tan(degrees * 0.017453292519943295); }
+constexpr double per_degree = 0.017453292519943295;
+
+double tan_of(double degrees) { return std::tan(degrees * per_degree); }
+
+/// A groove of radius r between slopes of 25°.
+double groove(double r, double aside) {
+    const double sine = std::sin(25 * per_degree), cosine = std::cos(25 * per_degree);
+    const double off = std::abs(aside);
+    return off < r * sine ? r - std::sqrt(r * r - off * off) : off * sine / cosine + r - r / cosine;
+}
 
 /// The tip's height: the formulas of formed_oracle.py.
 double tip_of(const OracleCase& c, double x, double y) {
@@ -58,12 +69,29 @@ double tip_of(const OracleCase& c, double x, double y) {
         return tan_of(c.b) * x + tan_of(c.a) * y + (radius - c.tool.corner) * slope +
                c.tool.corner * (std::hypot(1, slope) - 1);
     }
-    const double direction = c.a * 0.017453292519943295;
-    const double aside = std::abs((x - 6.0) * -std::sin(direction) + (y - 3.6) * std::cos(direction));
-    const double steepness = std::atan(tan_of(c.b));
-    if (aside <= radius * std::sin(steepness)) return std::sqrt(radius * radius - aside * aside) - radius;
-    return radius / std::cos(steepness) - tan_of(c.b) * aside - radius;
+    const double direction = c.a * per_degree;
+    const double aside = (x - 6.0) * -std::sin(direction) + (y - 3.6) * std::cos(direction);
+    if (c.part == "cylinder") {
+        const double r = c.b + radius;  // of the ball's centres; < 0: a groove
+        return std::copysign(std::sqrt(r * r - aside * aside), c.b) - r;
+    }
+    if (c.part == "fillet") return groove(std::max(c.b, radius) - radius, aside);
+    const double steepness = c.b * per_degree;
+    const double off = std::abs(aside);
+    if (off <= radius * std::sin(steepness)) return std::sqrt(radius * radius - off * off) - radius;
+    return radius / std::cos(steepness) - tan_of(c.b) * off - radius;
 }
+
+/// Where the machine is [mm].
+Vec3 measured_of(const OracleCase& c, const Vec3& p) {
+    constexpr double wave = 5, from_pass_to_pass = 2;
+    const double phase = from_pass_to_pass * std::round(p.y() / step_over);
+    return p + Vec3(0, 0, 1e-3 * c.error * std::sin(2 * M_PI * p.x() / wave + phase));
+}
+
+/// Whether the path has corners, in a valley without a fillet: the smoothing of positions rounds them by up to 7 µm, and
+/// the passes between are not those of the program there (docs/formed.md, limits).
+bool has_corner(const OracleCase& c) { return c.part == "fillet" && c.b == 0; }
 
 /// A case's passes, and what the tool leaves.
 struct CutPart {
@@ -73,11 +101,12 @@ struct CutPart {
     AsMachinedSurface as_machined;
 
     explicit CutPart(const OracleCase& c)
-        : made(test::flat_zigzag(passes, length, step_over, speed, {},
-                                 [&](const Vec3& p) { return Vec3(p.x(), p.y(), tip_of(c, p.x(), p.y())); })),
+        : made(test::flat_zigzag(
+              passes, length, step_over, speed, [&](const Vec3& p, const Vec3&) { return measured_of(c, p); },
+              [&](const Vec3& p) { return Vec3(p.x(), p.y(), tip_of(c, p.x(), p.y())); })),
           signals(made.signals()),
           pieces(pieces_of(made)),
-          as_machined(made.surface, signals, Role::commanded, made.path, pieces, c.tool) {}
+          as_machined(made.surface, signals, Role::commanded, made.measured, pieces, c.tool) {}
 
     static std::vector<PointRange> pieces_of(const test::MadeSurface& made) {
         std::vector<PointRange> ranges;
@@ -88,8 +117,9 @@ struct CutPart {
 
 TEST(FormedOracle, HeightsAreThoseOfAnIndependentZBuffer) {
     const std::vector<OracleCase> cases = read_cases();
-    ASSERT_GE(cases.size(), 13U);
+    ASSERT_GE(cases.size(), 24U);
     for (const OracleCase& c : cases) {
+        if (has_corner(c)) continue;
         const CutPart part(c);
         const auto count = static_cast<std::int64_t>(c.z.size());
         // Every sixteenth place of a section of steps of about 1.5 µm.
@@ -109,15 +139,20 @@ TEST(FormedOracle, HeightsAreThoseOfAnIndependentZBuffer) {
 
 TEST(FormedOracle, RoughnessIsThatOfTheDistanceToTheDesignCreasesIncluded) {
     for (const OracleCase& c : read_cases()) {
-        if (c.ra == 0) continue;
+        if (c.ra == 0 || has_corner(c)) continue;
+        const std::string what = c.name + " " + c.kind;
         const CutPart part(c);
         const AsMachinedProfile profile = measure_profile(part.as_machined, c.from, c.to);
-        EXPECT_NEAR(1e3 * profile.roughness.ra, c.ra, 0.03 * c.ra) << c.name << " " << c.kind;
-        EXPECT_NEAR(1e3 * profile.roughness.rz, c.rz, 0.03 * c.rz) << c.name << " " << c.kind;
-        // An edge along the passes, and a sharper one, leave a gap: there the form is unknown.
-        if (c.part == "ridge" && (c.a == 0 || c.b > 20)) continue;
-        EXPECT_GT(profile.step * static_cast<double>(profile.count), 0.97 * (c.to - c.from).norm())
-            << c.name << " " << c.kind;
+        EXPECT_NEAR(1e3 * profile.roughness.ra, c.ra, 0.03 * c.ra) << what;
+        EXPECT_NEAR(1e3 * profile.roughness.rz, c.rz, 0.03 * c.rz) << what;
+        EXPECT_GT(profile.step * static_cast<double>(profile.count), 0.97 * (c.to - c.from).norm()) << what;
+        const Vec2 middle = 0.5 * (c.from + c.to);
+        const RoughnessPlace place{0, Vec3(middle.x(), middle.y(), 0), {middle, Vec2::UnitY(), step_over, true}};
+        const PartRoughness area = measure_roughness({part.as_machined, part.as_machined}, std::span(&place, 1));
+        ASSERT_EQ(area.patches.size(), 1U) << what;
+        EXPECT_EQ(area.unknown, 0) << what;
+        EXPECT_NEAR(1e3 * area.sa, c.sa, 0.03 * c.sa) << what;
+        EXPECT_NEAR(1e3 * area.sz, c.sz, 0.03 * c.sz) << what;
     }
 }
 

@@ -1,0 +1,212 @@
+#include "machined/passes_between.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace clsurf {
+namespace {
+
+constexpr double most_uneven = 1.6;  ///< times as far as the passes: what lies beyond does not tell how these go on
+constexpr double most_jump = 4;      ///< times the step along the pass: the pass beside it is another one
+constexpr double jump_fits = 0.15;   ///< of a step-over: between the places of a jump of curvature that both sides tell
+constexpr double least_jump = 2e-4;  ///< [mm] second difference: below it a cubic is as good
+
+/// Passes about the gap between two, by number from the first of these.
+class Across {
+public:
+    void set(int number, const Vec3& at) {
+        at_[index(number)] = at;
+        known_[index(number)] = true;
+    }
+    [[nodiscard]] bool has(int number) const { return known_[index(number)]; }
+    [[nodiscard]] const Vec3& at(int number) const { return at_[index(number)]; }
+    [[nodiscard]] Vec3 second_difference(int number) const { return at(number - 1) - 2 * at(number) + at(number + 1); }
+
+private:
+    static std::size_t index(int number) { return static_cast<std::size_t>(number + 2); }
+    std::array<Vec3, 6> at_;  // -2 … 3
+    std::array<bool, 6> known_{};
+};
+
+/// A curve between two passes, 0 … 1.
+class Curve {
+public:
+    explicit Curve(const Across& p) : from_(p.at(0)), chord_(p.at(1) - p.at(0)) {
+        const bool before = p.has(-1), after = p.has(2);
+        if (before) bend_ = turn_ = p.second_difference(0);
+        if (after) turn_ = p.second_difference(1);
+        if (after && !before) bend_ = turn_;
+        if (!before || !after || !p.has(-2) || !p.has(3)) return;
+        // Parabolas of second differences `low` and `high` that meet in the gap, at a share x of it, make those at its
+        // ends low + (high − low) (1 − x)²/2 and high − (high − low) x²/2.
+        const Vec3 low = p.second_difference(-1), high = p.second_difference(2), jump = high - low;
+        const double squared = jump.squaredNorm();
+        if (squared < least_jump * least_jump) return;
+        const double first = std::sqrt(2 * std::max(0.0, (bend_ - low).dot(jump) / squared));
+        const double second = std::sqrt(2 * std::max(0.0, (high - turn_).dot(jump) / squared));
+        if (std::abs(first + second - 1) > jump_fits) return;
+        meets_ = second / (first + second);
+        bend_ = low;
+        turn_ = high;
+    }
+
+    [[nodiscard]] Vec3 at(double x) const { return from_ + x * (chord_ - over(1)) + over(x); }
+
+private:
+    /// What the second differences alone give.
+    [[nodiscard]] Vec3 over(double x) const {
+        if (meets_ < 0) return 0.5 * x * x * bend_ + x * x * x / 6 * (turn_ - bend_);
+        const double beyond = std::max(0.0, x - meets_);
+        return 0.5 * x * x * bend_ + 0.5 * beyond * beyond * (turn_ - bend_);
+    }
+
+    Vec3 from_, chord_;
+    Vec3 bend_ = Vec3::Zero(), turn_ = Vec3::Zero();
+    double meets_ = -1;
+};
+
+}  // namespace
+
+PassesBetween::PassesBetween(const ClSurface& surface, const Signals& signals, const Differentiator* smoother,
+                             const std::vector<PointRange>& pieces, std::span<const PointRange> near,
+                             const CuttingTool& tool, double cell)
+    : surface_(surface),
+      signals_(signals),
+      smoother_(smoother),
+      pieces_(pieces),
+      longest_(longest_piece(tool, cell)),
+      least_(2 * cell) {
+    if (smoother == nullptr) return;
+    for (const PointRange& points : near) {
+        runs_.push_back({points.first, {}});
+        smooth_into(points, runs_.back().at);
+    }
+}
+
+void PassesBetween::smooth_into(PointRange points, std::vector<Eigen::Vector3f>& smoothed) const {
+    const Positions& p = surface_.positions;
+    smoothed.reserve(static_cast<std::size_t>(points.size()));
+    auto piece = std::upper_bound(pieces_.begin(), pieces_.end(), points.first,
+                                  [](PointIndex i, const PointRange& range) { return i < range.first; });
+    if (piece != pieces_.begin()) --piece;
+    std::vector<double> samples, values[3];
+    for (PointIndex first = points.first; first <= points.last;) {
+        while (piece != pieces_.end() && piece->last < first) ++piece;
+        if (piece == pieces_.end() || piece->first > first) {  // of no piece: as it is
+            smoothed.push_back(p[first]);
+            ++first;
+            continue;
+        }
+        const PointIndex last = std::min(points.last, piece->last);
+        const PointIndex from = std::max(piece->first, first - smoother_->reach());
+        const PointIndex to = std::min(piece->last, last + smoother_->reach());
+        for (int axis = 0; axis < 3; ++axis) {
+            const Column<float>& column = axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+            samples.assign(column.data() + from, column.data() + to + 1);
+            values[axis].resize(static_cast<std::size_t>(last - first + 1));
+            smoother_->apply(samples, from, *piece, first, values[axis]);
+        }
+        for (std::size_t k = 0; k < values[0].size(); ++k)
+            smoothed.emplace_back(static_cast<float>(values[0][k]), static_cast<float>(values[1][k]),
+                                  static_cast<float>(values[2][k]));
+        first = last + 1;
+    }
+}
+
+Vec3 PassesBetween::smooth(PointIndex point) const {
+    const Positions& p = surface_.positions;
+    if (smoother_ == nullptr) return p.absolute(point);
+    const auto run =
+        std::upper_bound(runs_.begin(), runs_.end(), point, [](PointIndex i, const Run& r) { return i < r.first; });
+    if (run != runs_.begin()) {
+        const Run& r = *std::prev(run);
+        const PointIndex off = point - r.first;
+        if (off < static_cast<PointIndex>(r.at.size()))
+            return r.at[static_cast<std::size_t>(off)].cast<double>() + p.origin;
+    }
+    std::vector<Eigen::Vector3f> one;
+    smooth_into({point, point}, one);
+    return one.front().cast<double>() + p.origin;
+}
+
+Vec3 PassesBetween::smooth(const PathLocation& at) const {
+    const Vec3 here = smooth(at.point);
+    if (at.fraction == 0) return here;
+    return here + static_cast<double>(at.fraction) * (smooth(at.point + 1) - here);
+}
+
+bool PassesBetween::between(PointIndex point, Side side, Row& row) const {
+    if (!surface_.neighbours.has(side, point) || surface_.neighbours.neighbour(side, point) < point) return false;
+    const Eigen::Vector3f feed = signals_.feed(point);
+    if (!feed.allFinite()) return false;
+    const PathLocation own{point, 0};
+    const PathLocation next = beside(surface_, own, feed, side);
+    if (!next.exists()) return false;
+    Across across;
+    across.set(0, smooth(point));
+    across.set(1, smooth(next));
+    const double apart = (across.at(1) - across.at(0)).norm();
+    if (!(apart > 0)) return false;
+    // On from pass to pass, as long as they lie about as far apart.
+    const auto go_on = [&](PathLocation before, PathLocation from, int number, int direction) {
+        for (int k = 0; k < 2 && from.exists(); ++k) {
+            const Vec3 at = smooth(from);
+            const double step = (at - across.at(number - direction)).norm();
+            if (!(step > apart / most_uneven && step < most_uneven * apart)) return;
+            across.set(number, at);
+            const PathLocation on = beyond(surface_, before, from, feed);
+            before = from;
+            from = on;
+            number += direction;
+        }
+    };
+    go_on(own, beside(surface_, own, feed, side == Side::left ? Side::right : Side::left), -1, -1);
+    go_on(next, beyond(surface_, own, next, feed), 2, 1);
+    const Curve curve(across);
+    for (int k = 0; k < count; ++k)
+        row[static_cast<std::size_t>(k)] = curve.at(static_cast<double>(k + 1) / (count + 1));
+    return std::all_of(row.begin(), row.end(), [](const Vec3& p) { return p.allFinite(); });
+}
+
+void PassesBetween::add_side(PointRange points, Side side, const FrameAxes& axes, SweptPieces& swept) const {
+    std::optional<Row> before;
+    PointIndex last = points.first;
+    for (PointIndex i = points.first; i <= points.last; ++i) {
+        Row row;
+        // The neighbours of points that are taken together lie in a row as well.
+        if (before && i < points.last &&
+            (surface_.positions[i] - surface_.positions[last]).norm() < static_cast<float>(least_))
+            continue;
+        if (!between(i, side, row)) {
+            before.reset();
+            continue;
+        }
+        if (before) {
+            const double step = (surface_.positions[i] - surface_.positions[last]).norm();
+            for (std::size_t k = 0; k < row.size(); ++k) {
+                if ((row[k] - (*before)[k]).norm() <= most_jump * step + least_)
+                    swept.add(axes((*before)[k]), axes(row[k]), longest_);
+            }
+        }
+        before = row;
+        last = i;
+    }
+}
+
+void PassesBetween::add(PointRange points, std::size_t piece, bool goes_on, const FrameAxes& axes,
+                        SweptPieces& swept) const {
+    const PointRange& range = pieces_[piece];
+    const PointRange to_next{points.first, points.last + (goes_on ? 1 : 0)};
+    std::optional<Vec3> before;
+    for (PointIndex i = to_next.first; i <= to_next.last; ++i) {
+        const Vec3 at = axes(smooth(i));
+        if (before && (at - *before).head<2>().norm() < 0.5 * least_ && i < to_next.last) continue;
+        if (before) swept.add(*before, at, longest_);
+        before = at;
+    }
+    const PointRange inside{to_next.first, std::min(to_next.last, range.last)};
+    for (const Side side : {Side::left, Side::right}) add_side(inside, side, axes, swept);
+}
+
+}  // namespace clsurf

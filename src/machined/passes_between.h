@@ -1,0 +1,54 @@
+#pragma once
+// PassesBetween: the programmed surface between its passes. A CL surface is known along the passes only; between two of
+// them, passes are interpolated through both and those beyond on either side: by a cubic, or where the curvature changes
+// from one value to another between the two (a ball that rolls round an edge), by two parabolas that meet there. A tool
+// that follows all of these leaves the programmed surface without its scallops, at creases and in fillets too.
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "machined/map_frame.h"
+#include "machined/swept_pieces.h"
+#include "predictor/signals.h"
+#include "surface/path_location.h"
+
+namespace clsurf {
+
+class PassesBetween {
+public:
+    /// Odd, so that one of them lies over the cusp. Scallops become (seven + 1)² times lower.
+    static constexpr int count = 7;
+
+    /// `smoother`: of the positions inside one of `pieces`; nullptr: none. `near`: points that will be asked for, in
+    /// order; these are smoothed once. All but `near` must outlive it. O(points in `near`).
+    PassesBetween(const ClSurface& surface, const Signals& signals, const Differentiator* smoother,
+                  const std::vector<PointRange>& pieces, std::span<const PointRange> near, const CuttingTool& tool,
+                  double cell);
+
+    /// The pass itself along points of a piece and, where it goes on, to the next one; and what lies between it and
+    /// later passes beside it. O(points).
+    void add(PointRange points, std::size_t piece, bool goes_on, const FrameAxes& axes, SweptPieces& swept) const;
+
+private:
+    using Row = std::array<Vec3, count>;
+    /// Smoothed positions of points one after the other, from the surface's origin.
+    struct Run {
+        PointIndex first = 0;
+        std::vector<Eigen::Vector3f> at;
+    };
+    void smooth_into(PointRange points, std::vector<Eigen::Vector3f>& smoothed) const;
+    [[nodiscard]] Vec3 smooth(PointIndex point) const;
+    [[nodiscard]] Vec3 smooth(const PathLocation& at) const;
+    [[nodiscard]] bool between(PointIndex point, Side side, Row& row) const;
+    void add_side(PointRange points, Side side, const FrameAxes& axes, SweptPieces& swept) const;
+
+    const ClSurface& surface_;
+    const Signals& signals_;
+    const Differentiator* smoother_;
+    const std::vector<PointRange>& pieces_;
+    std::vector<Run> runs_;
+    double longest_ = 0, least_ = 0;  ///< [mm] pieces
+};
+
+}  // namespace clsurf
