@@ -16,6 +16,7 @@ constexpr double lowering = 0.998;  ///< of a limit that is broken between its r
 // In from the beginning is what comes near its limit with the speeds to begin with, or could with some more speed and acceleration.
 constexpr double near_limit = 0.6;
 constexpr double faster = 1.1, steeper = 0.15;
+constexpr double path_likely = 0.85;  ///< of the jerk along the path: the rest is what its rounding takes of it
 
 using Three = std::array<double, 3>;
 
@@ -45,13 +46,13 @@ constexpr std::uint32_t rows_of_sample = 2 * Axes + 3;
 
 /// Whether an axis or the path may be above a part of a limit at a sample of a cell where v², acceleration and jerk along the path are at most these.
 template <int Axes>
-bool AxisSpeedProblem<Axes>::may_break(const Cell& cell, double part, double acceleration, double square,
-                                       double jerk) const {
+bool AxisSpeedProblem<Axes>::may_break(const Cell& cell, double part, double acceleration, double square, double jerk,
+                                       double path_jerk) const {
     const double limit = part * limits_.path_acceleration;
     if (cell.pace.value * acceleration + cell.pace.slope * square > limit) return true;
     const double speed = std::sqrt(square);
     if (square > part * cell.least_cap * cell.least_cap) return true;
-    if (cell.pace.value * jerk + speed * (3 * cell.pace.slope * acceleration + cell.pace.curve * square) >
+    if (cell.pace.value * path_jerk + speed * (3 * cell.pace.slope * acceleration + cell.pace.curve * square) >
         part * limits_.path_jerk)
         return true;
     for (int x = 0; x < Axes; ++x) {
@@ -90,13 +91,15 @@ void AxisSpeedProblem<Axes>::need_likely_rows() {
         const double steep =
             std::max(acceleration, steeper * std::min(cell.limits.acceleration, limits_.path_acceleration));
         const double jerk = std::min(cell.limits.jerk, limits_.path_jerk);
-        if (!may_break(cell, 1, steep, speed * speed, jerk)) continue;
+        if (!std::isfinite(cell.limits.jerk))  // one of them, as they hardly differ where the path is hardly rounded
+            samples_[(cell.first_sample + cell.end_sample) / 2].needed |= path_jerk_bit<Axes>;
+        if (!may_break(cell, 1, steep, speed * speed, jerk, path_likely * jerk)) continue;
         for (std::uint32_t s = cell.first_sample; s < cell.end_sample; ++s) {
             HeldSample& held_sample = samples_[s];
             const Sample& sample = held_sample.sample;
             if (sample.pace.value * steep + std::abs(sample.pace.slope) * speed * speed > limits_.path_acceleration)
                 held_sample.needed |= path_bit<Axes>;
-            if (sample.pace.value * jerk +
+            if (sample.pace.value * path_likely * jerk +
                     speed * (3 * std::abs(sample.pace.slope) * steep + std::abs(sample.pace.curve) * speed * speed) >
                 limits_.path_jerk)
                 held_sample.needed |= path_jerk_bit<Axes>;
@@ -140,7 +143,8 @@ bool AxisSpeedProblem<Axes>::need_broken_rows(double part) {
                 any = true;
             }
         }
-        if (!may_break(cell, part, 0.5 * std::max(std::abs(slope), std::abs(last_slope)), greatest, along_path))
+        if (!may_break(cell, part, 0.5 * std::max(std::abs(slope), std::abs(last_slope)), greatest, along_path,
+                       along_path))
             continue;
         for (std::uint32_t s = cell.first_sample; s < cell.end_sample; ++s) {
             HeldSample& held_sample = samples_[s];
@@ -255,9 +259,9 @@ void AxisSpeedProblem<Axes>::make_rows() {
 
 // What speed_problem.cpp calls of these, and what they call of each other.
 template bool AxisSpeedProblem<3>::may_break(const Cell& cell, double part, double acceleration, double square,
-                                             double jerk) const;
+                                             double jerk, double path_jerk) const;
 template bool AxisSpeedProblem<5>::may_break(const Cell& cell, double part, double acceleration, double square,
-                                             double jerk) const;
+                                             double jerk, double path_jerk) const;
 template double AxisSpeedProblem<3>::acceleration_at_end(std::size_t cell) const;
 template double AxisSpeedProblem<5>::acceleration_at_end(std::size_t cell) const;
 template void AxisSpeedProblem<3>::need_likely_rows();

@@ -125,7 +125,8 @@ private:
     [[nodiscard]] double acceleration_at_end(std::size_t cell) const;
     void need_likely_rows();
     [[nodiscard]] bool need_broken_rows(double part);
-    [[nodiscard]] bool may_break(const Cell& cell, double part, double acceleration, double square, double jerk) const;
+    [[nodiscard]] bool may_break(const Cell& cell, double part, double acceleration, double square, double jerk,
+                                 double path_jerk) const;
     void make_rows();
     void add_cap(std::uint32_t number, std::size_t cell, const std::array<double, 3>& weights, double cap);
     void add_row(std::uint32_t number, Row kind, std::size_t cell, const std::array<double, 3>& w, double limit);
