@@ -203,7 +203,7 @@ std::string defects_table(const ReportedQuality& q) {
 }
 
 /// What is new, by rank.
-std::string against_baseline(const DefectMatch& match) {
+std::string against_baseline(const RecordedMatch& match) {
     std::string text = "against the baseline: " + baseline_text(match) + "\n";
     for (const DefectState state : {DefectState::fresh, DefectState::worse}) {
         std::string ranks;
@@ -222,7 +222,7 @@ std::string subprogram_columns(const DefectRun& run) {
 
 }  // namespace
 
-std::string baseline_text(const DefectMatch& match) {
+std::string baseline_text(const RecordedMatch& match) {
     const auto count = [&](DefectState state) { return std::ranges::count(match.states, state); };
     return fmt::format("{} new defects, {} worse, {} gone, {} as before", count(DefectState::fresh),
                        count(DefectState::worse), match.gone.size(), count(DefectState::unchanged));

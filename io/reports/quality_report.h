@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/diagnostic.h"
-#include "history/defect_match.h"
+#include "history/recorded_match.h"
 #include "io/reports/acceptance.h"
 #include "io/reports/simulation_origin.h"
 #include "limits/limit_report.h"
@@ -30,9 +30,9 @@ struct ReportedQuality {
     const LimitReport* limits = nullptr;            ///< nullptr: no limits are stated
     const Acceptance* acceptance = nullptr;         ///< nullptr: no file of accepted defects
     std::vector<BudgetLine> budget;
-    std::optional<SimulationOrigin> origin;  ///< nullopt: the log is a recorded run
-    const DefectMatch* baseline = nullptr;   ///< the defects among those of an earlier run; nullptr: there is none
-    bool passes_asked = true;                ///< false: the budget is of limits of the machine only
+    std::optional<SimulationOrigin> origin;   ///< nullopt: the log is a recorded run
+    const RecordedMatch* baseline = nullptr;  ///< the defects among those of an earlier run; nullptr: there is none
+    bool passes_asked = true;                 ///< false: the budget is of limits of the machine only
     const Diagnostics* diagnostics = nullptr;
     std::size_t columns = 80;  ///< width of the table in the text
 };
@@ -49,6 +49,6 @@ struct ReportedQuality {
 [[nodiscard]] std::string quality_junit(const ReportedQuality& quality);
 
 /// "2 new defects, 1 worse, 3 gone, 10 as before".
-[[nodiscard]] std::string baseline_text(const DefectMatch& match);
+[[nodiscard]] std::string baseline_text(const RecordedMatch& match);
 
 }  // namespace clsurf::io

@@ -53,8 +53,8 @@ Checked check_log(const PartOptions& options, const CheckRules& rules, const po:
         const io::AddedRun added = rules.recorder->add(options, run);
         if (!read_common(values).quiet) write_message("recorded as " + rules.recorder->text_of(added) + "\n");
     }
-    std::optional<DefectMatch> match;
-    if (rules.baseline) match = match_defects(*rules.baseline, recorded_defects(run.quality.report));
+    std::optional<RecordedMatch> match;
+    if (rules.baseline) match = match_recorded(*rules.baseline, recorded_defects(run.quality.report));
     const bool worse = match && match->worsened() > 0 && run.code == ExitCode::done;
     io::ReportedQuality reported;
     reported.report = &run.quality.report;

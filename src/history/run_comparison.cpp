@@ -12,7 +12,7 @@ RunComparison compare_runs(const RunRecord& reference, const RunRecord& run) {
         const double after = quantity.of_run(run);
         if (std::isfinite(before) && std::isfinite(after)) comparison.quantities.push_back({&quantity, before, after});
     }
-    comparison.match = match_defects(reference.found, run.found);
+    comparison.match = match_recorded(reference.found, run.found);
     return comparison;
 }
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "history/defect_match.h"
 #include "history/history_quantity.h"
+#include "history/recorded_match.h"
 
 namespace clsurf {
 
@@ -17,7 +17,7 @@ struct QuantityChange {
 
 struct RunComparison {
     std::vector<QuantityChange> quantities;
-    DefectMatch match;  ///< the run's defects among those of the reference
+    RecordedMatch match;  ///< the run's defects among those of the reference
 };
 
 /// Both with their defects.

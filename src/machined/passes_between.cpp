@@ -30,9 +30,9 @@ private:
 };
 
 /// A curve between two passes, 0 … 1.
-class Curve {
+class AcrossCurve {
 public:
-    explicit Curve(const Across& p) : from_(p.at(0)), chord_(p.at(1) - p.at(0)) {
+    explicit AcrossCurve(const Across& p) : from_(p.at(0)), chord_(p.at(1) - p.at(0)) {
         const bool before = p.has(-1), after = p.has(2);
         if (before) bend_ = turn_ = p.second_difference(0);
         if (after) turn_ = p.second_difference(1);
@@ -163,7 +163,7 @@ bool PassesBetween::between(PointIndex point, Side side, Row& row) const {
     };
     go_on(own, beside(surface_, own, feed, side == Side::left ? Side::right : Side::left), -1, -1);
     go_on(next, beyond(surface_, own, next, feed), 2, 1);
-    const Curve curve(across);
+    const AcrossCurve curve(across);
     for (int k = 0; k < count; ++k)
         row[static_cast<std::size_t>(k)] = curve.at(static_cast<double>(k + 1) / (count + 1));
     return std::all_of(row.begin(), row.end(), [](const Vec3& p) { return p.allFinite(); });

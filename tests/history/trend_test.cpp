@@ -143,7 +143,7 @@ TEST(Outliers, AreLookedForAmongTheRunsOfOneProgram) {
 TEST(Match, EachDefectIsFoundAgainOnce) {
     const std::vector<RecordedDefect> known{defect_at(0), defect_at(100), defect_at(200, "corner")};
     const std::vector<RecordedDefect> now{defect_at(1), defect_at(2), defect_at(100, "feed_drop", 4), defect_at(50)};
-    const DefectMatch match = match_defects(known, now);
+    const RecordedMatch match = match_recorded(known, now);
     EXPECT_EQ(match.states,
               (std::vector{DefectState::unchanged, DefectState::fresh, DefectState::worse, DefectState::fresh}));
     EXPECT_EQ(match.gone, std::vector<std::size_t>{2});
@@ -152,9 +152,9 @@ TEST(Match, EachDefectIsFoundAgainOnce) {
 
 TEST(Match, CommonLinesAreTheSamePlace) {
     const std::vector<RecordedDefect> known{defect_at(0, "feed_drop", 2, 500)};
-    EXPECT_EQ(match_defects(known, std::vector{defect_at(40, "feed_drop", 2, 500)}).worsened(), 0U);
-    EXPECT_EQ(match_defects(known, std::vector{defect_at(40, "feed_drop", 2, 501)}).worsened(), 1U);
-    EXPECT_EQ(match_defects(known, std::vector{defect_at(0, "corner", 2, 500)}).worsened(), 1U) << "another cause";
+    EXPECT_EQ(match_recorded(known, std::vector{defect_at(40, "feed_drop", 2, 500)}).worsened(), 0U);
+    EXPECT_EQ(match_recorded(known, std::vector{defect_at(40, "feed_drop", 2, 501)}).worsened(), 1U);
+    EXPECT_EQ(match_recorded(known, std::vector{defect_at(0, "corner", 2, 500)}).worsened(), 1U) << "another cause";
 }
 
 TEST(Comparison, TheBestRunIsOfTheSameProgram) {

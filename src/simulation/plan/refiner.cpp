@@ -389,7 +389,7 @@ void Refiner::run_tail() {
         const double time = steepest_tail_.time, jerk = steepest_tail_.jerk;
         const SCurve profile(jerk * time * time, jerk, {0, 0, 0, 0, time, 0, time});
         sink_->run(ProfileSegment{&profile, time, 2 * time, run.spans, true, run.derated,
-                                          run.profile.length() - profile.length()});
+                                  run.profile.length() - profile.length()});
     } else {
         run_as_planned(tail_);
     }

@@ -1,4 +1,4 @@
-#include "history/defect_match.h"
+#include "history/recorded_match.h"
 
 #include <algorithm>
 #include <limits>
@@ -40,12 +40,12 @@ std::string_view name_of(DefectState state) {
     return {};
 }
 
-std::size_t DefectMatch::worsened() const {
+std::size_t RecordedMatch::worsened() const {
     return static_cast<std::size_t>(
         std::ranges::count_if(states, [](DefectState state) { return state != DefectState::unchanged; }));
 }
 
-DefectMatch match_defects(std::span<const RecordedDefect> known, std::span<const RecordedDefect> defects) {
+RecordedMatch match_recorded(std::span<const RecordedDefect> known, std::span<const RecordedDefect> defects) {
     std::vector<Pair> pairs;
     for (std::size_t k = 0; k < known.size(); ++k) {
         for (std::size_t d = 0; d < defects.size(); ++d) {
@@ -54,7 +54,7 @@ DefectMatch match_defects(std::span<const RecordedDefect> known, std::span<const
         }
     }
     std::ranges::stable_sort(pairs, {}, &Pair::distance);
-    DefectMatch match;
+    RecordedMatch match;
     match.known.resize(defects.size());
     match.states.assign(defects.size(), DefectState::fresh);
     std::vector<bool> taken(known.size(), false);

@@ -1,5 +1,5 @@
 #pragma once
-// DefectMatch: the defects of one run found again among those of another.
+// RecordedMatch: the defects of one run found again among those of another.
 //
 // A run is never exactly like the one before it: a defect moves by some points, and its score changes. Two defects are the
 // same one where they have one cause and lie within 5 mm of each other or on common lines. Each is found again once: three
@@ -17,7 +17,7 @@ namespace clsurf {
 enum class DefectState : std::uint8_t { unchanged, worse, fresh };
 [[nodiscard]] std::string_view name_of(DefectState state);  ///< "unchanged", "worse", "new"
 
-struct DefectMatch {
+struct RecordedMatch {
     std::vector<std::optional<std::size_t>> known;  ///< per defect of the run: its index among the known ones
     std::vector<DefectState> states;                ///< per defect of the run; worse: of a higher severity
     std::vector<std::size_t> gone;                  ///< known ones that were not found again
@@ -27,6 +27,7 @@ struct DefectMatch {
 };
 
 /// The nearest pairs first. O(defects · known).
-[[nodiscard]] DefectMatch match_defects(std::span<const RecordedDefect> known, std::span<const RecordedDefect> defects);
+[[nodiscard]] RecordedMatch match_recorded(std::span<const RecordedDefect> known,
+                                           std::span<const RecordedDefect> defects);
 
 }  // namespace clsurf
