@@ -22,6 +22,10 @@ bool only_path_jerk(const Machine& machine) {
                         [](const MachineAxis& axis) { return axis.max_jerk > 0; });
 }
 
+bool limits_jerk_in_bends(const Machine& machine) {
+    return only_path_jerk(machine) && machine.controller.corner != CornerMode::arc;
+}
+
 bool jerks_freely(const Machine& machine) {
     return only_path_jerk(machine) &&
            machine.path.max_jerk * machine.controller.period >= 2 * machine.path.max_acceleration;

@@ -20,8 +20,12 @@ namespace clsurf {
 /// The speed at which an arc takes a jerk v³/r² [mm/s].
 [[nodiscard]] double jerk_speed(double radius, double jerk);
 
-/// No axis has a jerk limit: that of the path then counts in bends, too.
+/// No axis has a jerk limit.
 [[nodiscard]] bool only_path_jerk(const Machine& machine);
+
+/// The jerk limit of the path counts in bends, too: no axis has one, and corners are not arcs, whose ends no such limit
+/// holds at.
+[[nodiscard]] bool limits_jerk_in_bends(const Machine& machine);
 
 /// No axis has a jerk limit, and that of the path lets the acceleration turn round within a period, so that
 /// points could not show it.

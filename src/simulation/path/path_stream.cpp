@@ -41,7 +41,7 @@ PathStream::PathStream(MotionSource& source, const Machine& machine, const Vec3&
     const bool arcs = machine.controller.corner == CornerMode::arc && only_path_jerk(machine);
     const bool curves = machine.controller.curve != CurveMode::none;
     if (!arcs && (curves || source.outline().curved)) bend_share_ = share_of_bends;
-    if (only_path_jerk(machine) && !jerks_freely(machine)) top_ = top_share;
+    if (limits_jerk_in_bends(machine) && !jerks_freely(machine)) top_ = top_share;
     if (curves) {
         curves_ = std::make_unique<CurveBlocks>(*source_, machine.controller.curve);
         source_ = curves_.get();

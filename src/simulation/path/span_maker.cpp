@@ -325,7 +325,7 @@ void PathStream::set_limits(Span& span) const {
     if (span.pace_curve * span.cap * span.cap * span.cap > nearly * path.max_jerk)
         limit(std::cbrt(path.max_jerk / span.pace_curve),
               corner ? LimitingFactor::corner_tolerance : LimitingFactor::jerk);
-    if (only_path_jerk(*machine_) && span.swing * span.cap * span.cap * span.cap > nearly * path.max_jerk)
+    if (limits_jerk_in_bends(*machine_) && span.swing * span.cap * span.cap * span.cap > nearly * path.max_jerk)
         limit(std::cbrt(path.max_jerk / span.swing), corner ? LimitingFactor::corner_tolerance : LimitingFactor::jerk);
     if (span.greatest_bend > 0) {
         const double radius = 1 / span.greatest_bend;

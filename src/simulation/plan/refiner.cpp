@@ -58,7 +58,7 @@ BendSpeed bend_speed(const PathDerivatives& d, const Pace& pace, const Machine& 
     };
     limit(chord_speed(radius, machine.controller.chord_tolerance, machine.controller.period),
           LimitingFactor::chord_error);
-    if (only_path_jerk(machine)) limit(jerk_speed(radius, machine.path.max_jerk), LimitingFactor::jerk);
+    if (limits_jerk_in_bends(machine)) limit(jerk_speed(radius, machine.path.max_jerk), LimitingFactor::jerk);
     return bend;
 }
 
