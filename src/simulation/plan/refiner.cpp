@@ -268,6 +268,10 @@ void Refiner::add_part(const CellPart& part, double begin, CellLimits& limits) {
                        : periods < brief && turn < 2 * slight ? 2
                        : periods < middling                   ? 4
                                                               : 8;
+    if (!span.rounded) {
+        limits.acceleration = std::min(limits.acceleration, machine_->path.max_acceleration);
+        limits.jerk = std::min(limits.jerk, machine_->path.max_jerk);
+    }
     PathSample sample;
     for (int k = 0; k <= pieces; ++k) {
         const double arc_length = part.length * k / pieces;
@@ -276,8 +280,9 @@ void Refiner::add_part(const CellPart& part, double begin, CellLimits& limits) {
         sample.slope = d.first;
         sample.bend = d.second;
         sample.twist = d.third;
-        sample.pace = pace_of(d);
-        const BendSpeed bend = bend_speed(d, sample.pace, *machine_);
+        const Pace pace = pace_of(d);
+        sample.pace = span.rounded ? pace : Pace{0, 0, 0};  // otherwise the cell's limits say all
+        const BendSpeed bend = bend_speed(d, pace, *machine_);
         sample.cap = bend.speed;
         if (bend.speed < least_bend_speed_) least_bend_speed_ = bend.speed, open_.in_bend = bend.why;
         samples_.push_back(sample);
