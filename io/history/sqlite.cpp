@@ -4,9 +4,11 @@
 #include <sys/stat.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <thread>
 
 #include <fmt/format.h>
 
@@ -24,6 +26,18 @@ std::string immutable_uri(const std::string& path) {
         uri += c == '?' || c == '#' || c == '%' ? fmt::format("%{:02X}", static_cast<unsigned char>(c))
                                                 : std::string(1, c);
     return uri + "?immutable=1";
+}
+
+/// SQLite does not always wait by itself: not to make the write-ahead log, and not while that is recovered after the death
+/// of another writer.
+template <typename Call>
+int patiently(const Call& call) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(patience_ms);
+    for (;;) {
+        const int code = call();
+        if ((code & 0xff) != SQLITE_BUSY || std::chrono::steady_clock::now() >= end) return code;
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
 }
 
 void require_file(const std::string& path) {
@@ -49,9 +63,9 @@ SqliteConnection::SqliteConnection(const std::string& path, DatabaseAccess acces
         sqlite3_extended_result_codes(handle, 1);
         sqlite3_busy_timeout(handle, patience_ms);
         // Nothing is read before this: only now the file is looked at.
-        return code != SQLITE_OK
-                   ? code
-                   : sqlite3_exec(handle, "SELECT count(*) FROM sqlite_master", nullptr, nullptr, nullptr);
+        return code != SQLITE_OK ? code : patiently([&] {
+            return sqlite3_exec(handle, "SELECT count(*) FROM sqlite_master", nullptr, nullptr, nullptr);
+        });
     };
     int code = open(path, writes ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE : SQLITE_OPEN_READWRITE);
     // Readers of a database with a write-ahead log make files beside it, where they may.
@@ -85,7 +99,7 @@ void SqliteConnection::fail(int code) const {
 }
 
 void SqliteConnection::execute(const std::string& sql) const {
-    const int code = sqlite3_exec(handle_.get(), sql.c_str(), nullptr, nullptr, nullptr);
+    const int code = patiently([&] { return sqlite3_exec(handle_.get(), sql.c_str(), nullptr, nullptr, nullptr); });
     if (code != SQLITE_OK) fail(code);
 }
 

@@ -56,12 +56,8 @@ OptimizeRules read_optimize_rules(const po::variables_map& values) {
     if (!(rules.more_time >= 0) || rules.more_time > 1) throw UsageError("--more-time must be 0 to 100 %");
     if (values.count("machines") > 0) rules.machines = values["machines"].as<int>();
     if (rules.machines < 0 || rules.machines > 100) throw UsageError("--machines must be 0 to 100");
-    if (values.count("feeds") > 0) {
-        const std::string feeds = values["feeds"].as<std::string>();
-        if (feeds != "searched" && feeds != "intervals")
-            throw UsageError("--feeds: '" + feeds + "' is not searched or intervals");
-        if (feeds == "intervals") rules.feeds = FeedChoice::intervals;
-    }
+    if (values.count("feeds") > 0 && values["feeds"].as<std::string>() == "intervals")
+        rules.feeds = FeedChoice::intervals;
     rules.start = read_start(values);
     rules.header = fmt::format("clsurf {} optimize, tolerance {} mm", version, rules.tolerance);
     return rules;
