@@ -14,15 +14,16 @@ constexpr double run_share = 0.85;   ///< of a window, before it is planned agai
 constexpr double rest_share = 0.25;  ///< of the jerk phase next to a rest: run as planned, as v² is no quadratic there
 constexpr double growth = 0.15;      ///< of the time from or to a rest: longest cell
 constexpr double cells_a_ramp = 10;  ///< over the time in which the jerk reaches the greatest acceleration
-constexpr double most_change = 0.05;        ///< of the speed in a cell, by the jerk
-constexpr double most_turn_of_cell = 0.05;  ///< [rad] of the path in a cell
-constexpr double turn_share = 0.7;          ///< of it, after which a cell ends
+constexpr double most_change = 0.05;       ///< of the speed in a cell, by the jerk
+constexpr double most_turn_of_cell = 0.1;  ///< [rad] of the path in a cell
+constexpr double approach = 0.5;           ///< of the way over which the pace would fall to nothing
+constexpr double turn_share = 0.7;         ///< of it, after which a cell ends
 // Spans share a cell until it lasts as long as that, and their samples hold the limits of each: a part of the
 // same time, as in less of it a speed hardly changes.
 constexpr double least_cells_a_ramp = 28, least_periods = 0.4, most_periods = 3;
 // The places where a part of a span is held, by the periods that it lasts: two, three, five, nine.
 constexpr double briefest = 0.5, brief = 1, middling = 2.5;
-constexpr double slight = 0.01;  ///< [rad] that it turns
+constexpr double slight = 0.02;  ///< [rad] that it turns
 // A window that cannot be solved is tried with an end in its last part, so many times.
 constexpr double shortening = 0.3;
 constexpr int most_shortenings = 2;
@@ -68,11 +69,15 @@ double turn_rate(const PathDerivatives& d) {
     return square > 0 ? d.first.cross(d.second).norm() / square : 0;
 }
 
-/// The way from a place of a span over which the direction turns by an angle, about [mm].
+/// The way from a place of a span over which the direction turns by an angle, about [mm]. Where the path nearly reverses, the
+/// pace falls towards the place at which it turns fastest: no step goes past it.
 double way_of_turn(const Span& span, double from, double turn) {
-    double rate = turn_rate(span.derivatives(from));
-    rate = std::max(rate, turn_rate(span.derivatives(std::min(from + turn / std::max(rate, 1e-9), span.length))));
-    return turn / std::max(rate, 1e-9);
+    const PathDerivatives here = span.derivatives(from);
+    const Pace pace = pace_of(here);
+    double rate = std::max(turn_rate(here), 1e-9);
+    rate = std::max(rate, turn_rate(span.derivatives(std::min(from + turn / rate, span.length))));
+    const double way = turn / rate;
+    return pace.slope < 0 ? std::min(way, approach * pace.value / -pace.slope) : way;
 }
 
 /// From rest at the greatest jerk, if all of the way is straight.
