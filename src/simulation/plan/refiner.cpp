@@ -14,16 +14,16 @@ constexpr double run_share = 0.85;   ///< of a window, before it is planned agai
 constexpr double rest_share = 0.25;  ///< of the jerk phase next to a rest: run as planned, as v² is no quadratic there
 constexpr double growth = 0.15;      ///< of the time from or to a rest: longest cell
 constexpr double cells_a_ramp = 10;  ///< over the time in which the jerk reaches the greatest acceleration
-constexpr double most_change = 0.05;       ///< of the speed in a cell, by the jerk
-constexpr double most_turn_of_cell = 0.1;  ///< [rad] of the path in a cell
-constexpr double approach = 0.5;           ///< of the way over which the pace would fall to nothing
-constexpr double turn_share = 0.7;         ///< of it, after which a cell ends
+constexpr double most_change = 0.05;        ///< of the speed in a cell, by the jerk
+constexpr double most_turn_of_cell = 0.05;  ///< [rad] of the path in a cell
+constexpr double approach = 0.5;            ///< of the way over which the pace would fall to nothing
+constexpr double turn_share = 0.7;          ///< of it, after which a cell ends
 // Spans share a cell until it lasts as long as that, and their samples hold the limits of each: a part of the
 // same time, as in less of it a speed hardly changes.
 constexpr double least_cells_a_ramp = 28, least_periods = 0.4, most_periods = 3;
 // The places where a part of a span is held, by the periods that it lasts: two, three, five, nine.
 constexpr double briefest = 0.5, brief = 1, middling = 2.5;
-constexpr double slight = 0.02;  ///< [rad] that it turns
+constexpr double slight = 0.01;  ///< [rad] that it turns
 // A window that cannot be solved is tried with an end in its last part, so many times.
 constexpr double shortening = 0.3;
 constexpr int most_shortenings = 2;
