@@ -56,9 +56,14 @@ constexpr std::array history_steps{version_1, version_2};
 
 /// The version of the tables; 0: there are none yet.
 int version_of(const SqliteConnection& connection) {
-    const std::int64_t version = connection.integer("PRAGMA user_version");
-    const std::int64_t application = connection.integer("PRAGMA application_id");
-    const bool empty = connection.integer("SELECT count(*) FROM sqlite_master") == 0;
+    // One statement reads one state: between two of them another writer may make the tables.
+    SqliteStatement state(connection,
+                          "SELECT user_version, application_id, (SELECT count(*) FROM sqlite_master) "
+                          "FROM pragma_user_version, pragma_application_id");
+    static_cast<void>(state.step());
+    const std::int64_t version = state.integer(0);
+    const std::int64_t application = state.integer(1);
+    const bool empty = state.integer(2) == 0;
     if (empty && version == 0 && application == 0) return 0;
     if (application != history_application)
         throw InputError(Place::of_file(connection.path()),

@@ -103,17 +103,14 @@ void SqliteConnection::execute(const std::string& sql) const {
     if (code != SQLITE_OK) fail(code);
 }
 
-std::int64_t SqliteConnection::integer(const std::string& sql) const {
-    SqliteStatement statement(*this, sql);
-    return statement.step() ? statement.integer(0) : 0;
-}
-
 std::int64_t SqliteConnection::last_row() const { return sqlite3_last_insert_rowid(handle_.get()); }
 
 SqliteStatement::SqliteStatement(const SqliteConnection& connection, std::string_view sql) : connection_(connection) {
     sqlite3_stmt* statement = nullptr;
-    const int code =
-        sqlite3_prepare_v2(connection.get(), sql.data(), static_cast<int>(sql.size()), &statement, nullptr);
+    // The schema is read here, so this has to wait as well.
+    const int code = patiently([&] {
+        return sqlite3_prepare_v2(connection.get(), sql.data(), static_cast<int>(sql.size()), &statement, nullptr);
+    });
     statement_.reset(statement);
     if (code != SQLITE_OK) connection.fail(code);
 }
@@ -140,7 +137,7 @@ SqliteStatement& SqliteStatement::bind(const std::string& value) {
 }
 
 bool SqliteStatement::step() {
-    const int code = sqlite3_step(statement_.get());
+    const int code = patiently([&] { return sqlite3_step(statement_.get()); });
     if (code != SQLITE_ROW && code != SQLITE_DONE) connection_.fail(code);
     return code == SQLITE_ROW;
 }

@@ -28,7 +28,6 @@ public:
     [[nodiscard]] sqlite3* get() const { return handle_.get(); }
     /// One or more statements without values.
     void execute(const std::string& sql) const;
-    [[nodiscard]] std::int64_t integer(const std::string& sql) const;
     [[nodiscard]] std::int64_t last_row() const;
 
     /// Throws what an error code of SQLite means: InputError where the file is no database, SystemError otherwise.
