@@ -110,9 +110,9 @@ private:
 };
 
 std::string parts_of_limits(const SimulationSummary& s, const Machine& machine) {
-    std::string parts = fmt::format("T {} speed {:.4f}, tangential {:.4f}", machine.controller.period,
-                                    s.max_speed / machine.path.max_speed,
-                                    s.max_tangential_acceleration / machine.path.max_acceleration);
+    std::string parts = fmt::format(
+        "T {} speed {:.4f}, tangential {:.4f} {:.4f}", machine.controller.period, s.max_speed / machine.path.max_speed,
+        s.max_tangential_acceleration / machine.path.max_acceleration, s.max_tangential_jerk / machine.path.max_jerk);
     for (int x = 0; x < 3; ++x) {
         const MachineAxis& axis = machine.axes[static_cast<std::size_t>(x)];
         parts += fmt::format(", {} {:.4f} {:.4f} {:.4f}", axis_names[static_cast<std::size_t>(x)],

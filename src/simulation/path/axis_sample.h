@@ -1,11 +1,15 @@
 #pragma once
 // AxisSample: the derivatives of a path at one place, for each of the axes that move along it.
 
+#include <limits>
+
 #include <Eigen/Core>
 
 #include "simulation/path/path_stream.h"
 
 namespace clsurf {
+
+inline constexpr double infinite_speed = std::numeric_limits<double>::infinity();
 
 /// A value for each of the axes that move along the path.
 template <int Axes>
@@ -17,7 +21,8 @@ struct AxisSample {
     using Vector = AxisVector<Axes>;
     double at = 0;  ///< arc length after the begin of the cell [mm]
     Vector slope = Vector::Zero(), bend = Vector::Zero(), twist = Vector::Zero();  ///< x′, x″ [1/mm], x‴ [1/mm²]
-    Pace pace{0, 0};  ///< 0: the cell's own limit of the acceleration is enough
+    Pace pace{0, 0, 0};           ///< 0: the cell's own limits along the path are enough
+    double cap = infinite_speed;  ///< of the speed, by how much the path bends here [mm/s]
 };
 using PathSample = AxisSample<3>;
 

@@ -199,7 +199,7 @@ AxisSample<5> FiveAxisPath::derivatives(double u, PathDerivatives& tip) const {
     sample.bend << axes[2], tilt[2], rotation[2];
     sample.twist << axes[3], tilt[3], rotation[3];
     const double pace = tip.first.norm();
-    sample.pace = {pace, pace > least_turn ? tip.first.dot(tip.second) / pace : 0};
+    if (pace > least_turn) sample.pace = pace_of(tip);
     return sample;
 }
 

@@ -15,6 +15,22 @@ double chord_speed(double radius, double error, double period) {
 
 double arc_speed(double radius, double normal_acceleration) { return std::sqrt(normal_acceleration * radius); }
 
+double jerk_speed(double radius, double jerk) { return std::cbrt(jerk * radius * radius); }
+
+bool only_path_jerk(const Machine& machine) {
+    return std::none_of(machine.axes.begin(), machine.axes.end(),
+                        [](const MachineAxis& axis) { return axis.max_jerk > 0; });
+}
+
+bool limits_jerk_in_bends(const Machine& machine) {
+    return only_path_jerk(machine) && machine.controller.corner != CornerMode::arc;
+}
+
+bool jerks_freely(const Machine& machine) {
+    return only_path_jerk(machine) &&
+           machine.path.max_jerk * machine.controller.period >= 2 * machine.path.max_acceleration;
+}
+
 double period_speed(double radius, double turning, double period) {
     return 2 * radius * std::sin(0.5 * turning) / period;
 }

@@ -17,6 +17,20 @@ namespace clsurf {
 /// The speed at which an arc takes the whole normal acceleration, √(a r) [mm/s].
 [[nodiscard]] double arc_speed(double radius, double normal_acceleration);
 
+/// The speed at which an arc takes a jerk v³/r² [mm/s].
+[[nodiscard]] double jerk_speed(double radius, double jerk);
+
+/// No axis has a jerk limit.
+[[nodiscard]] bool only_path_jerk(const Machine& machine);
+
+/// The jerk limit of the path counts in bends, too: no axis has one, and corners are not arcs, whose ends no such limit
+/// holds at.
+[[nodiscard]] bool limits_jerk_in_bends(const Machine& machine);
+
+/// No axis has a jerk limit, and that of the path lets the acceleration turn round within a period, so that
+/// points could not show it.
+[[nodiscard]] bool jerks_freely(const Machine& machine);
+
 /// The speed at which one period is as long as the chord of an arc of radius r that turns by `turning`,
 /// 2 r sin(α/2)/T [mm/s]: at least one point lies on it (Li et al. 2025, Eq. 7).
 [[nodiscard]] double period_speed(double radius, double turning, double period);

@@ -5,10 +5,13 @@
 #include <limits>
 #include <utility>
 
+#include "simulation/path/junction.h"
+
 namespace clsurf {
 namespace {
 
 constexpr double share_of_bends = 0.25;  ///< of the tolerance, for jumps of curvature, where there are arcs
+constexpr double top_share = 0.25;       ///< of a rounding's width, where only the path limits the jerk
 
 }  // namespace
 
@@ -35,11 +38,10 @@ Vec3 Span::at(double tau, double& deviation, double& pace) const {
 PathStream::PathStream(MotionSource& source, const Machine& machine, const Vec3& start)
     : machine_(&machine), blocks_(source, machine, start), source_(&blocks_) {
     // Only drives that bear any jerk bear the jumps of curvature at the ends of arcs.
-    const bool arcs = machine.controller.corner == CornerMode::arc &&
-                      std::none_of(machine.axes.begin(), machine.axes.end(),
-                                   [](const MachineAxis& axis) { return axis.max_jerk > 0; });
+    const bool arcs = machine.controller.corner == CornerMode::arc && only_path_jerk(machine);
     const bool curves = machine.controller.curve != CurveMode::none;
     if (!arcs && (curves || source.outline().curved)) bend_share_ = share_of_bends;
+    if (limits_jerk_in_bends(machine) && !jerks_freely(machine)) top_ = top_share;
     if (curves) {
         curves_ = std::make_unique<CurveBlocks>(*source_, machine.controller.curve);
         source_ = curves_.get();
@@ -117,7 +119,7 @@ void PathStream::settle_width(std::int64_t i) {
     if (j.turning == 0) return;
     const std::int64_t last = element_count_ - 2;
     const double allowed = (1 - bend_share_) * j.tolerance;
-    double widest = std::min({j.at, j.widest, 6 * allowed / j.turning});
+    double widest = std::min({j.at, j.widest, 6 * allowed / j.turning * (1 + top_) / (1 + top_ * (1 + top_))});
     if (closed_) widest = std::min(widest, closed_at_ - j.at);
     if (i - reach_of_a_joint >= 0) widest = std::min(widest, j.at - joint(i - reach_of_a_joint).at);
     if (i + reach_of_a_joint <= last) widest = std::min(widest, joint(i + reach_of_a_joint).at - j.at);
@@ -139,18 +141,22 @@ void PathStream::settle_width(std::int64_t i) {
             if (left <= 0) return false;
             cubes += other.turning * left * left * left;
             slopes += other.turning * left * left * (width + 2 * distance);
+            const double inner = top_ * width - distance;
+            if (inner <= 0) return true;
+            cubes -= other.turning * inner * inner * inner;
+            slopes -= other.turning * inner * inner * (top_ * width + 2 * distance);
             return true;
         };
         for (std::int64_t n = i; n >= low && add(joint(n), j.at - joint(n).at); --n) {}
         for (std::int64_t n = i + 1; n <= high && add(joint(n), joint(n).at - j.at); ++n) {}
-        const double scale = 1 / (6 * width * width);
+        const double scale = 1 / (6 * width * width * (1 - top_ * top_));
         const double next = std::min(widest, width - width * (cubes * scale - allowed) / (slopes * scale));
         const bool found = std::abs(next - width) <= near * width;
         width = next;
         if (found) break;
     }
     j.width = width;
-    j.share = j.turning / (6 * width * width);
+    j.share = j.turning / (6 * width * width * (1 - top_ * top_));
 }
 
 /// The deviation at a joint where every rounding is as wide as it may be.
@@ -159,8 +165,10 @@ void PathStream::settle_deviation(std::int64_t i) {
     const std::int64_t high = std::min(element_count_ - 2, i + reach_of_a_joint);
     for (std::int64_t k = std::max(first_joint_, i - reach_of_a_joint); k <= high; ++k) {
         const Joint& other = joint(k);
-        const double left = other.width - std::abs(other.at - j.at);
+        const double distance = std::abs(other.at - j.at);
+        const double left = other.width - distance, inner = top_ * other.width - distance;
         if (left > 0) j.deviation += other.share * left * left * left;
+        if (inner > 0) j.deviation -= other.share * inner * inner * inner;
     }
 }
 
@@ -176,7 +184,7 @@ void PathStream::settle_scale(std::int64_t i) {
             scale = std::min(scale, allowed / other.deviation);
     }
     j.width *= scale;
-    if (j.width > 0) j.turn_share = j.turn / (6 * j.width * j.width);
+    if (j.width > 0) j.turn_share = j.turn / (6 * j.width * j.width * (1 - top_ * top_));
     if (j.bend_width > 0) j.bend_share = j.bend / (12 * j.bend_width * j.bend_width);
     j.reach = std::max(j.width, j.bend_width);
 }

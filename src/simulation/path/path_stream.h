@@ -12,6 +12,11 @@
 // circular transition arc, whose curvature jumps, does not). Neighbouring roundings may overlap: dense
 // polylines are smoothed over many blocks.
 //
+// Where no axis limits the jerk, but the path does, the triangle becomes a trapezoid, whose top has the half-width
+// c = β w: a lower curvature for the same deviation, at a greater third derivative. Its first term is
+//
+//     Δt · ((w − |d|)³ − (c − |d|)³) / (6 (w² − c²)),      each cube where it is positive.
+//
 // The widths hold the tolerance by construction: the deviation D at a corner is at most
 // Σ |Δt_j| (w_j − |d|)³/(6 w_j²), convex between corners, and multiplying all w_j of that sum by
 // f < 1 makes it at most f D.
@@ -49,10 +54,11 @@ enum class LimitingFactor : std::uint8_t {
 /// "feed", "axis speed", …
 [[nodiscard]] std::string_view name_of(LimitingFactor limiting);
 
-/// Path speed over speed along the programmed arc length u, and its derivative by u: |p′| and |p′|′ [1/mm]. A rounded
-/// path is shorter than the programmed one, so that the tangential acceleration is |p′| u″ + |p′|′ u′².
+/// Path speed over speed along the programmed arc length u, and its derivatives by u: |p′|, |p′|′ [1/mm] and |p′|″
+/// [1/mm²]. A rounded path is shorter than the programmed one, so that the tangential acceleration is
+/// |p′| u″ + |p′|′ u′², and the tangential jerk |p′| u‴ + 3 |p′|′ u′ u″ + |p′|″ u′³.
 struct Pace {
-    double value = 1, slope = 0;
+    double value = 1, slope = 0, curve = 0;
 };
 [[nodiscard]] Pace pace_of(const PathDerivatives& derivatives);
 
@@ -67,7 +73,9 @@ struct Span {
     // Greatest values on the span: of the first to third derivative of the position by the arc length, an axis each.
     Vec3 slope = Vec3::Zero(), bend = Vec3::Zero(), twist = Vec3::Zero();
     double greatest_slope = 0, greatest_bend = 0;  ///< of the vectors
-    double fourth = 0;                             ///< of the length of the fourth derivative [1/mm³]
+    double pace_slope = 0, pace_curve = 0;  ///< of |p′|′ and |p′|″ [1/mm, 1/mm²]; 0 where nothing is rounded
+    double swing = 0;                       ///< of |p′|³ times the square of the curvature [1/mm²]
+    double fourth = 0;                      ///< of the length of the fourth derivative [1/mm³]
     // Speed allowed by what does not depend on bends: feed, speed of path and axes; and why.
     double free_cap = 0;
     LimitingFactor free_limiting = LimitingFactor::none;
@@ -83,8 +91,6 @@ struct Span {
     [[nodiscard]] Vec3 at(double tau, double& deviation, double& pace) const;
     [[nodiscard]] PathDerivatives derivatives(double tau) const;
     [[nodiscard]] bool straight() const { return !rounded && base.straight(); }
-    /// A bound of |p′|′ [1/mm].
-    [[nodiscard]] double greatest_pace_slope() const { return rounded ? greatest_bend : 0; }
 };
 
 class PathStream {
@@ -112,7 +118,7 @@ private:
         double tolerance = 0;
         double widest = 0;  ///< that its rounding may be
         double width = 0, bend_width = 0;
-        double share = 0;      ///< of (w − |d|)³ in its rounding, as wide as it may be [1/mm²]
+        double share = 0;      ///< of (w − |d|)³ − (β w − |d|)³ in its rounding, as wide as it may be [1/mm²]
         double deviation = 0;  ///< of the overlapping roundings, before they are scaled
         // As it is rounded: of (w − |d|)³ with the width as scaled, of d (v − |d|)³, and how far either reaches.
         Vec3 turn_share = Vec3::Zero(), bend_share = Vec3::Zero();
@@ -137,6 +143,7 @@ private:
 
     const Machine* machine_;
     double bend_share_ = 0;  ///< of the tolerance, for jumps of curvature
+    double top_ = 0;         ///< β: half-width of the top of the trapezoid, of w
     BlockStream blocks_;
     std::unique_ptr<CurveBlocks> curves_;
     std::unique_ptr<CornerArcs> arcs_;

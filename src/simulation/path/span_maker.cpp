@@ -17,6 +17,7 @@ constexpr double gentle_turn = 0.1;         ///< [rad] a span of a spline that t
 constexpr double most_bend_ratio = 1.5;   ///< … nor one whose greatest curvature is less than so many times the least
 constexpr int most_spline_halvings = 10;  ///< of a span of a spline
 constexpr int checked_points = 5;         ///< of a span whose bounds are not at its ends
+constexpr double least_pace = 0.1;        ///< of the shortest p′ seen, where no bound is known
 constexpr double nearly = 1 - 1e-9;       ///< of a limit, for rounding
 
 /// Adds factor · (a + b τ)(c + e τ)³ to a polynomial in τ.
@@ -44,6 +45,27 @@ void take(const Vec3& value, Vec3& greatest, double& greatest_length) {
     greatest_length = std::max(greatest_length, value.squaredNorm());
 }
 
+/// Bounds of |p′|′ = p′·p″/|p′| and of |p′|″ = (|p″|² − |p′|′²)/|p′| + p′·p‴/|p′| by the Bézier points of p′, p″ and p‴: a
+/// product is no greater than the greatest of the products of its factors' points.
+void bound_pace(Span& span, const std::array<Vec3, 4>& first, const std::array<Vec3, 3>& second,
+                const std::array<Vec3, 2>& third) {
+    // |p′| is no less than p′ in any direction: in that where it is shortest, this is all of it.
+    const Vec3& shortest = *std::min_element(
+        first.begin(), first.end(), [](const Vec3& a, const Vec3& b) { return a.squaredNorm() < b.squaredNorm(); });
+    const double length = shortest.norm();
+    double least = length;
+    for (const Vec3& point : first) least = std::min(least, point.dot(shortest) / length);
+    if (!(least > 0)) least = least_pace * length;
+    double slope = 0, twist = 0;
+    for (const Vec3& point : first) {
+        for (const Vec3& other : second) slope = std::max(slope, std::abs(point.dot(other)));
+        for (const Vec3& other : third) twist = std::max(twist, std::abs(point.dot(other)));
+    }
+    span.pace_slope = std::min(slope / least, span.greatest_bend);
+    span.swing = span.greatest_bend * span.greatest_bend / least;
+    span.pace_curve = span.swing + twist / least;
+}
+
 /// Greatest values on a rounded line, where derivatives are polynomials: below those of their Bézier points.
 void bound_line(Span& span) {
     const double l = span.length;
@@ -62,6 +84,9 @@ void bound_line(Span& span) {
     span.greatest_bend = std::sqrt(span.greatest_bend);
     span.twist = (6 * c[3]).cwiseAbs().cwiseMax((6 * c[3] + 24 * l * c[4]).cwiseAbs());
     span.fourth = 24 * c[4].norm();
+    bound_pace(
+        span, {slope, slope + linear / 3, slope + linear * (2.0 / 3) + square / 3, slope + linear + square + cube},
+        {bend, bend + 0.5 * bend_linear, bend + bend_linear + bend_square}, {6 * c[3], 6 * c[3] + 24 * l * c[4]});
 }
 
 /// Cuts a spline where a span would turn too far, or its curvature vary too much for one speed.
@@ -87,9 +112,11 @@ void divide_spline(const PathElement& base, double from, double to, int depth, s
 void bound_curve(Span& span) {
     const double step = span.length / (checked_points - 1);
     std::array<Vec3, checked_points> thirds;
+    std::array<Pace, checked_points> paces;
     for (int k = 0; k < checked_points; ++k) {
         const PathDerivatives d = span.derivatives(k * step);
         thirds[static_cast<std::size_t>(k)] = d.third;
+        paces[static_cast<std::size_t>(k)] = pace_of(d);
         take(d.first, span.slope, span.greatest_slope);
         take(d.second, span.bend, span.greatest_bend);
         span.twist = span.twist.cwiseMax(d.third.cwiseAbs());
@@ -121,6 +148,21 @@ void bound_curve(Span& span) {
     span.greatest_slope += curve * span.twist.norm();
     span.bend.array() += curve * span.fourth;
     span.greatest_bend += curve * span.fourth;
+    double least = paces.front().value;
+    for (const Pace& pace : paces) least = std::min(least, pace.value);
+    span.swing = span.greatest_bend * span.greatest_bend / least;
+    if (!span.rounded) return;
+    // The pace's derivatives are as good as quadratic: their second differences stand for what lies between.
+    double slope_play = 0, curve_play = 0;
+    for (std::size_t k = 0; k < paces.size(); ++k) {
+        span.pace_slope = std::max(span.pace_slope, std::abs(paces[k].slope));
+        span.pace_curve = std::max(span.pace_curve, std::abs(paces[k].curve));
+        if (k == 0 || k + 1 == paces.size()) continue;
+        slope_play = std::max(slope_play, std::abs(paces[k - 1].slope - 2 * paces[k].slope + paces[k + 1].slope));
+        curve_play = std::max(curve_play, std::abs(paces[k - 1].curve - 2 * paces[k].curve + paces[k + 1].curve));
+    }
+    span.pace_slope += 0.25 * slope_play;
+    span.pace_curve += 0.25 * curve_play;
 }
 
 }  // namespace
@@ -128,8 +170,10 @@ void bound_curve(Span& span) {
 Pace pace_of(const PathDerivatives& derivatives) {
     const double value = derivatives.first.norm();
     // The path reverses where p′ is 0: on both sides the direction is that of p″.
-    if (!(value > 0)) return {0, derivatives.second.norm()};
-    return {value, derivatives.first.dot(derivatives.second) / value};
+    if (!(value > 0)) return {0, derivatives.second.norm(), derivatives.third.norm()};
+    const double slope = derivatives.first.dot(derivatives.second) / value;
+    return {value, slope,
+            (derivatives.second.squaredNorm() - slope * slope + derivatives.first.dot(derivatives.third)) / value};
 }
 
 PathDerivatives Span::derivatives(double tau) const {
@@ -151,7 +195,7 @@ void PathStream::find_roundings(std::int64_t element, double begin, double end) 
     for (std::int64_t k = std::max(first_joint_, element - 1 - reach_of_a_joint); k <= high; ++k) {
         const Joint& j = joint(k);
         if (j.at + j.reach <= begin || j.at - j.reach >= end) continue;
-        if (j.bend_width == 0 && j.at - j.width <= begin && j.at + j.width >= end) {
+        if (j.bend_width == 0 && top_ == 0 && j.at - j.width <= begin && j.at + j.width >= end) {
             add_cube(covering_, j.turn_share, j.width, begin - j.at, k < element ? 1.0 : -1.0);
             covered_ = true;
         } else {
@@ -173,6 +217,7 @@ void PathStream::make_spans(std::int64_t element) {
     };
     for (const Joint* j : reaching_) {
         if (j->width > 0) cut(j->at - j->width), cut(j->at + j->width);
+        if (j->width > 0 && top_ > 0) cut(j->at - top_ * j->width), cut(j->at + top_ * j->width);
         if (j->bend_width > 0) cut(j->at - j->bend_width), cut(j->at + j->bend_width);
     }
     if (base.spline) {
@@ -215,6 +260,7 @@ void PathStream::add_roundings(Span& span, double begin) const {
         if (away < j->width) {
             span.rounded = true;
             add_cube(sum, j->turn_share, j->width, distance, side);
+            if (away < top_ * j->width) add_cube(sum, -j->turn_share, top_ * j->width, distance, side);
         }
         if (away < j->bend_width) {
             span.rounded = true;
@@ -274,8 +320,13 @@ void PathStream::set_limits(Span& span) const {
             limit(std::cbrt(axis.max_jerk / span.twist[i]),
                   corner ? LimitingFactor::corner_tolerance : LimitingFactor::jerk);
     }
-    if (span.greatest_pace_slope() * span.cap * span.cap > nearly * path.max_acceleration)
-        limit(std::sqrt(path.max_acceleration / span.greatest_pace_slope()), LimitingFactor::axis_acceleration);
+    if (span.pace_slope * span.cap * span.cap > nearly * path.max_acceleration)
+        limit(std::sqrt(path.max_acceleration / span.pace_slope), LimitingFactor::axis_acceleration);
+    if (span.pace_curve * span.cap * span.cap * span.cap > nearly * path.max_jerk)
+        limit(std::cbrt(path.max_jerk / span.pace_curve),
+              corner ? LimitingFactor::corner_tolerance : LimitingFactor::jerk);
+    if (limits_jerk_in_bends(*machine_) && span.swing * span.cap * span.cap * span.cap > nearly * path.max_jerk)
+        limit(std::cbrt(path.max_jerk / span.swing), corner ? LimitingFactor::corner_tolerance : LimitingFactor::jerk);
     if (span.greatest_bend > 0) {
         const double radius = 1 / span.greatest_bend;
         limit(arc_speed(radius, path.max_normal_acceleration), LimitingFactor::axis_acceleration);

@@ -26,11 +26,16 @@ Derating left_at(double speed, const Span& span, const Machine& machine) {
         const double room = axis.max_jerk - span.twist[i] * speed * speed * speed;
         left.acceleration = std::min(left.acceleration, share_of_bend * room / (3 * span.bend[i] * speed));
     }
+    const double path_room = machine.path.max_jerk - span.pace_curve * speed * speed * speed;
     if (span.rounded)
-        left.acceleration =
-            std::min(left.acceleration, (machine.path.max_acceleration - span.greatest_pace_slope() * speed * speed) /
-                                            span.greatest_slope);
+        left.acceleration = std::min(
+            left.acceleration, (machine.path.max_acceleration - span.pace_slope * speed * speed) / span.greatest_slope);
+    if (span.pace_slope > 0)
+        left.acceleration = std::min(left.acceleration, share_of_bend * path_room / (3 * span.pace_slope * speed));
     left.acceleration = std::max(left.acceleration, 0.0);
+    if (span.rounded)
+        left.jerk =
+            std::min(left.jerk, (path_room - 3 * span.pace_slope * speed * left.acceleration) / span.greatest_slope);
     for (int i = 0; i < 3; ++i) {
         const MachineAxis& axis = machine.axes[static_cast<std::size_t>(i)];
         if (axis.max_jerk <= 0 || span.slope[i] <= 0) continue;

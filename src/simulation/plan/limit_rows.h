@@ -15,6 +15,7 @@ namespace clsurf {
 /// What may rule in a cell.
 enum class Row : std::uint8_t {
     cap,
+    bend,  ///< the speed where the path bends: normal acceleration or chord error
     tangential_acceleration,
     axis_acceleration,
     tangential_jerk,

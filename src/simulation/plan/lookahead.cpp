@@ -70,12 +70,16 @@ void WindowPlanner::set_limits(SpeedRun& run, std::span<const Span> spans) {
     run.checked = false;
 }
 
-/// The greatest part of a limit of an axis, or of the path's acceleration, at a speed and an acceleration anywhere on a span.
+/// The greatest part of a limit of an axis, or of the path's acceleration and jerk, at a speed and an acceleration anywhere on a span.
 double WindowPlanner::part_of_limits(const Span& span, double speed, double acceleration, double jerk) const {
     double worst = 0;
-    if (span.rounded)
-        worst = (span.greatest_slope * acceleration + span.greatest_pace_slope() * speed * speed) /
-                machine_->path.max_acceleration;
+    if (span.rounded) {
+        const PathLimits& path = machine_->path;
+        worst = std::max((span.greatest_slope * acceleration + span.pace_slope * speed * speed) / path.max_acceleration,
+                         (span.greatest_slope * jerk + 3 * span.pace_slope * speed * acceleration +
+                          span.pace_curve * speed * speed * speed) /
+                             path.max_jerk);
+    }
     for (int k = 0; k < 3; ++k) {
         const MachineAxis& axis = machine_->axes[static_cast<std::size_t>(k)];
         worst = std::max(worst, (span.slope[k] * acceleration + span.bend[k] * speed * speed) / axis.max_acceleration);

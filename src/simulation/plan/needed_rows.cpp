@@ -16,6 +16,7 @@ constexpr double lowering = 0.998;  ///< of a limit that is broken between its r
 // In from the beginning is what comes near its limit with the speeds to begin with, or could with some more speed and acceleration.
 constexpr double near_limit = 0.6;
 constexpr double faster = 1.1, steeper = 0.15;
+constexpr double path_likely = 0.85;  ///< of the jerk along the path: the rest is what its rounding takes of it
 
 using Three = std::array<double, 3>;
 
@@ -35,17 +36,25 @@ constexpr std::uint16_t jerk_bit(int axis) {
 template <int Axes>
 constexpr std::uint16_t path_bit = acceleration_bit(2 * Axes);
 template <int Axes>
-constexpr std::uint32_t rows_of_sample = 2 * Axes + 1;
+constexpr std::uint16_t path_jerk_bit = acceleration_bit(2 * Axes + 1);
+template <int Axes>
+constexpr std::uint16_t speed_bit = acceleration_bit(2 * Axes + 2);
+template <int Axes>
+constexpr std::uint32_t rows_of_sample = 2 * Axes + 3;
 
 }  // namespace
 
 /// Whether an axis or the path may be above a part of a limit at a sample of a cell where v², acceleration and jerk along the path are at most these.
 template <int Axes>
-bool AxisSpeedProblem<Axes>::may_break(const Cell& cell, double part, double acceleration, double square,
-                                       double jerk) const {
+bool AxisSpeedProblem<Axes>::may_break(const Cell& cell, double part, double acceleration, double square, double jerk,
+                                       double path_jerk) const {
     const double limit = part * limits_.path_acceleration;
     if (cell.pace.value * acceleration + cell.pace.slope * square > limit) return true;
     const double speed = std::sqrt(square);
+    if (square > part * cell.least_cap * cell.least_cap) return true;
+    if (cell.pace.value * path_jerk + speed * (3 * cell.pace.slope * acceleration + cell.pace.curve * square) >
+        part * limits_.path_jerk)
+        return true;
     for (int x = 0; x < Axes; ++x) {
         if (cell.slope[x] * acceleration + cell.bend[x] * square > part * limits_.acceleration[x]) return true;
         if (limits_.jerk[x] > 0 &&
@@ -75,24 +84,33 @@ void AxisSpeedProblem<Axes>::need_likely_rows() {
             if (dot(along[k].b, c) > dot(along[fastest].b, c)) fastest = k;
         }
         const double b = dot(along[fastest].b, c);
-        cell.jerk[fastest] = true;  // its bound is least there
+        cell.jerk[fastest] = std::isfinite(cell.limits.jerk);  // its bound is least there
         const double acceleration = 0.5 * std::max(std::abs(dot(along[0].slope, c)), std::abs(dot(along[2].slope, c)));
         if (acceleration > near_limit * acceleration_at_end(i)) cell.acceleration = true;
         const double speed = std::min(faster * std::sqrt(b), cell.limits.cap);
-        const double steep = std::max(acceleration, steeper * cell.limits.acceleration);
-        if (!may_break(cell, 1, steep, speed * speed, cell.limits.jerk)) continue;
+        const double steep =
+            std::max(acceleration, steeper * std::min(cell.limits.acceleration, limits_.path_acceleration));
+        const double jerk = std::min(cell.limits.jerk, limits_.path_jerk);
+        if (!std::isfinite(cell.limits.jerk))  // one of them, as they hardly differ where the path is hardly rounded
+            samples_[(cell.first_sample + cell.end_sample) / 2].needed |= path_jerk_bit<Axes>;
+        if (!may_break(cell, 1, steep, speed * speed, jerk, path_likely * jerk)) continue;
         for (std::uint32_t s = cell.first_sample; s < cell.end_sample; ++s) {
             HeldSample& held_sample = samples_[s];
             const Sample& sample = held_sample.sample;
             if (sample.pace.value * steep + std::abs(sample.pace.slope) * speed * speed > limits_.path_acceleration)
                 held_sample.needed |= path_bit<Axes>;
+            if (sample.pace.value * path_likely * jerk +
+                    speed * (3 * std::abs(sample.pace.slope) * steep + std::abs(sample.pace.curve) * speed * speed) >
+                limits_.path_jerk)
+                held_sample.needed |= path_jerk_bit<Axes>;
+            if (speed > sample.cap) held_sample.needed |= speed_bit<Axes>;
             for (int x = 0; x < Axes; ++x) {
                 const double slope = std::abs(sample.slope[x]), bend = std::abs(sample.bend[x]),
                              twist = std::abs(sample.twist[x]);
                 if (slope * steep + bend * speed * speed > limits_.acceleration[x])
                     held_sample.needed |= acceleration_bit(x);
                 if (limits_.jerk[x] <= 0) continue;
-                if (slope * cell.limits.jerk + speed * (3 * bend * steep + twist * speed * speed) > limits_.jerk[x])
+                if (slope * jerk + speed * (3 * bend * steep + twist * speed * speed) > limits_.jerk[x])
                     held_sample.needed |= jerk_bit<Axes>(x);
             }
         }
@@ -125,7 +143,8 @@ bool AxisSpeedProblem<Axes>::need_broken_rows(double part) {
                 any = true;
             }
         }
-        if (!may_break(cell, part, 0.5 * std::max(std::abs(slope), std::abs(last_slope)), greatest, along_path))
+        if (!may_break(cell, part, 0.5 * std::max(std::abs(slope), std::abs(last_slope)), greatest, along_path,
+                       along_path))
             continue;
         for (std::uint32_t s = cell.first_sample; s < cell.end_sample; ++s) {
             HeldSample& held_sample = samples_[s];
@@ -137,6 +156,12 @@ bool AxisSpeedProblem<Axes>::need_broken_rows(double part) {
             if (std::abs(0.5 * sample.pace.value * slope_here + sample.pace.slope * b_here) >
                 part * limits_.path_acceleration)
                 broken |= path_bit<Axes>;
+            if (std::abs(0.5 * sample.pace.value * curve + 1.5 * sample.pace.slope * slope_here +
+                         sample.pace.curve * b_here) *
+                    root >
+                part * limits_.path_jerk)
+                broken |= path_jerk_bit<Axes>;
+            if (b_here > part * sample.cap * sample.cap) broken |= speed_bit<Axes>;
             for (int x = 0; x < Axes; ++x) {
                 const double acceleration = std::abs(0.5 * sample.slope[x] * slope_here + sample.bend[x] * b_here);
                 if (acceleration > part * limits_.acceleration[x]) broken |= acceleration_bit(x);
@@ -221,15 +246,38 @@ void AxisSpeedProblem<Axes>::make_rows() {
                 add_row(first + 2 * Axes, Row::tangential_acceleration, i,
                         sum(0.5 * sample.pace.value, w.slope, sample.pace.slope, w.b),
                         acceleration_share * limits_.path_acceleration);
+            if ((samples_[s].needed & path_jerk_bit<Axes>) != 0)
+                add_jerk(first + 2 * Axes + 1, Row::tangential_jerk, i,
+                         sum(0.5 * sample.pace.value, w.curve, 1,
+                             sum(1.5 * sample.pace.slope, w.slope, sample.pace.curve, w.b)),
+                         w.b, jerk_share * limits_.path_jerk);
+            if ((samples_[s].needed & speed_bit<Axes>) != 0)
+                add_row(first + 2 * Axes + 2, Row::bend, i, w.b, acceleration_share * sample.cap * sample.cap);
         }
     }
 }
 
-// What speed_problem.cpp calls of these; the rest comes with it.
+// What speed_problem.cpp calls of these, and what they call of each other.
+template bool AxisSpeedProblem<3>::may_break(const Cell& cell, double part, double acceleration, double square,
+                                             double jerk, double path_jerk) const;
+template bool AxisSpeedProblem<5>::may_break(const Cell& cell, double part, double acceleration, double square,
+                                             double jerk, double path_jerk) const;
+template double AxisSpeedProblem<3>::acceleration_at_end(std::size_t cell) const;
+template double AxisSpeedProblem<5>::acceleration_at_end(std::size_t cell) const;
 template void AxisSpeedProblem<3>::need_likely_rows();
 template void AxisSpeedProblem<5>::need_likely_rows();
 template bool AxisSpeedProblem<3>::need_broken_rows(double part);
 template bool AxisSpeedProblem<5>::need_broken_rows(double part);
+template void AxisSpeedProblem<3>::add_cap(std::uint32_t number, std::size_t cell, const Three& weights, double cap);
+template void AxisSpeedProblem<5>::add_cap(std::uint32_t number, std::size_t cell, const Three& weights, double cap);
+template void AxisSpeedProblem<3>::add_row(std::uint32_t number, Row kind, std::size_t cell, const Three& w,
+                                           double limit);
+template void AxisSpeedProblem<5>::add_row(std::uint32_t number, Row kind, std::size_t cell, const Three& w,
+                                           double limit);
+template void AxisSpeedProblem<3>::add_jerk(std::uint32_t number, Row kind, std::size_t cell, const Three& w,
+                                            const Three& b, double limit);
+template void AxisSpeedProblem<5>::add_jerk(std::uint32_t number, Row kind, std::size_t cell, const Three& w,
+                                            const Three& b, double limit);
 template void AxisSpeedProblem<3>::make_rows();
 template void AxisSpeedProblem<5>::make_rows();
 

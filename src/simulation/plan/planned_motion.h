@@ -16,6 +16,7 @@ struct ProfileSegment {
     std::span<const Span> spans;  ///< from that on which the profile begins
     bool to_rest = false;         ///< the profile brakes to a stop
     bool derated = false;         ///< ramps are kept low for the jerk that they cost in bends
+    double before = 0;            ///< arc length on the spans before the profile begins [mm]
 };
 
 /// Constant change of v² over arc length u: v² = speed² + 2 acceleration u + curve u².

@@ -13,27 +13,81 @@ constexpr std::size_t most_cells_of_window = 250;
 constexpr double run_share = 0.85;   ///< of a window, before it is planned again
 constexpr double rest_share = 0.25;  ///< of the jerk phase next to a rest: run as planned, as v² is no quadratic there
 constexpr double growth = 0.15;      ///< of the time from or to a rest: longest cell
-constexpr double cells_a_ramp = 5;   ///< over the time in which the jerk reaches the greatest acceleration
-constexpr double most_change = 0.05;  ///< of the speed in a cell, by the jerk
+constexpr double cells_a_ramp = 10;  ///< over the time in which the jerk reaches the greatest acceleration
+constexpr double most_change = 0.05;        ///< of the speed in a cell, by the jerk
+constexpr double most_turn_of_cell = 0.05;  ///< [rad] of the path in a cell
+constexpr double approach = 0.5;            ///< of the way over which the pace would fall to nothing
+constexpr double turn_share = 0.7;          ///< of it, after which a cell ends
 // Spans share a cell until it lasts as long as that, and their samples hold the limits of each: a part of the
 // same time, as in less of it a speed hardly changes.
-constexpr double least_cells_a_ramp = 13, least_periods = 0.4, most_periods = 3;
+constexpr double least_cells_a_ramp = 28, least_periods = 0.4, most_periods = 3;
 // The places where a part of a span is held, by the periods that it lasts: two, three, five, nine.
 constexpr double briefest = 0.5, brief = 1, middling = 2.5;
+constexpr double slight = 0.01;  ///< [rad] that it turns
 // A window that cannot be solved is tried with an end in its last part, so many times.
 constexpr double shortening = 0.3;
 constexpr int most_shortenings = 2;
 constexpr std::size_t fewest_cells = 8;
 constexpr double long_cruise = 20, cruise_left = 4;  ///< cells
 
-LimitingFactor limiting_of(Row row, LimitingFactor at_cap) {
+LimitingFactor limiting_of(Row row, LimitingFactor at_cap, LimitingFactor in_bend) {
     switch (row) {
         case Row::cap: return at_cap;
+        case Row::bend: return in_bend;
         case Row::tangential_acceleration:
         case Row::axis_acceleration: return LimitingFactor::axis_acceleration;
         case Row::corner_jerk: return LimitingFactor::corner_tolerance;
         default: return LimitingFactor::jerk;
     }
+}
+
+/// The speed along the programmed arc length that the bend at a place allows, and why.
+struct BendSpeed {
+    double speed = infinite_speed;
+    LimitingFactor why = LimitingFactor::axis_acceleration;
+};
+
+BendSpeed bend_speed(const PathDerivatives& d, const Pace& pace, const Machine& machine) {
+    const double across = std::sqrt(std::max(0.0, d.second.squaredNorm() - pace.slope * pace.slope));
+    if (!(across > 0)) return {};
+    const double by_acceleration = std::sqrt(machine.path.max_normal_acceleration / across);
+    if (!(pace.value > 0)) return {by_acceleration};
+    const double radius = pace.value * pace.value / across;
+    BendSpeed bend{by_acceleration};
+    const auto limit = [&](double path_speed, LimitingFactor why) {
+        if (path_speed < bend.speed * pace.value) bend = {path_speed / pace.value, why};
+    };
+    limit(chord_speed(radius, machine.controller.chord_tolerance, machine.controller.period),
+          LimitingFactor::chord_error);
+    if (limits_jerk_in_bends(machine)) limit(jerk_speed(radius, machine.path.max_jerk), LimitingFactor::jerk);
+    return bend;
+}
+
+/// How fast the direction turns over the programmed arc length [rad/mm].
+double turn_rate(const PathDerivatives& d) {
+    const double square = d.first.squaredNorm();
+    return square > 0 ? d.first.cross(d.second).norm() / square : 0;
+}
+
+/// The way from a place of a span over which the direction turns by an angle, about [mm]. Where the path nearly reverses, the
+/// pace falls towards the place at which it turns fastest: no step goes past it.
+double way_of_turn(const Span& span, double from, double turn) {
+    const PathDerivatives here = span.derivatives(from);
+    const Pace pace = pace_of(here);
+    double rate = std::max(turn_rate(here), 1e-9);
+    rate = std::max(rate, turn_rate(span.derivatives(std::min(from + turn / rate, span.length))));
+    const double way = turn / rate;
+    return pace.slope < 0 ? std::min(way, approach * pace.value / -pace.slope) : way;
+}
+
+/// From rest at the greatest jerk, if all of the way is straight.
+RestRamp steepest_from_rest(double way, const Span& span, const PathLimits& path) {
+    if (!span.straight() || way > span.length) return {};
+    const double time = std::cbrt(6 * way / span.jerk);
+    const RestRamp ramp{span.jerk, time, 0.5 * span.jerk * time * time, span.jerk * time};
+    const bool held =
+        ramp.speed <= span.free_cap && ramp.acceleration <= std::min(span.acceleration, path.max_acceleration);
+    return held ? ramp : RestRamp{};
 }
 
 KnotState state_at(const SCurve& profile, double time) {
@@ -111,20 +165,22 @@ void Refiner::add(const Section& section) {
     if (full && !ends_at_rest_) solve(false);
 }
 
-/// Into cells; what lies next to a rest is run as planned.
+/// Into cells, but for what lies next to a rest.
 void Refiner::divide(Section& section) {
     const KeptRun& run = kept(section.run);
     const SCurve& profile = run.profile;
     if (run.from_rest && section.from == 0) {
-        Section first = section;
-        first.to = std::min(rest_share * profile.durations()[0], section.to);
-        run_as_planned(first);
-        section.from = first.to;
+        lead_ = section;
+        lead_.to = std::min(rest_share * profile.durations()[0], section.to);
+        section.from = lead_.to;
+        steepest_lead_ = steepest_from_rest(profile.at(lead_.to).arc_length, run.spans.front(), machine_->path);
     }
     if (run.to_rest && section.to == profile.duration()) {
         tail_ = section;
         tail_.from = std::max(profile.duration() - rest_share * profile.durations()[6], section.from);
         section.to = tail_.from;
+        steepest_tail_ =
+            steepest_from_rest(profile.length() - profile.at(tail_.from).arc_length, run.spans.back(), machine_->path);
     }
     if (cells_.empty() && open_.length == 0) start_ = end_ = state_at(profile, section.from);
     add_cells(section);
@@ -147,6 +203,8 @@ void Refiner::add_cells(const Section& section) {
             const double speed = std::max(profile.at(time).speed, 0.0);
             double step = std::clamp(std::sqrt(2 * most_change * speed / machine_->path.max_jerk),
                                      machine_->controller.period, knot_time_);
+            if (!span.straight())
+                step = std::min(step, way_of_turn(span, arc_length - begin, most_turn_of_cell) / speed);
             if (run.from_rest) step = std::min(step, growth * time);
             if (run.to_rest) step = std::min(step, growth * (profile.duration() - time));
             const bool ends = last_time - time < 1.5 * step;
@@ -160,11 +218,17 @@ void Refiner::add_cells(const Section& section) {
             }
             parts_.push_back({&span, arc_length - begin, next_arc_length - arc_length});
             ++open_.parts;
+            if (!span.straight()) {
+                const double middle = 0.5 * (arc_length + next_arc_length) - begin;
+                open_.turning += (next_arc_length - arc_length) * turn_rate(span.derivatives(middle));
+            }
             open_.length += next_arc_length - arc_length;
             open_.end = {next.speed, next.acceleration};
             open_.end_run = section.run;
             open_.end_time = next_time;
-            if (open_.length >= least_time_ * std::max(next.speed, end_.speed)) close_cell();
+            if (open_.length >= least_time_ * std::max(next.speed, end_.speed) ||
+                open_.turning >= turn_share * most_turn_of_cell)
+                close_cell();
             arc_length = next_arc_length;
             time = next_time;
         }
@@ -175,9 +239,9 @@ void Refiner::add_cells(const Section& section) {
 void Refiner::close_cell() {
     if (open_.length == 0) return;
     open_.at_cap = LimitingFactor::none;
-    CellLimits limits{std::numeric_limits<double>::infinity(), machine_->path.max_acceleration,
-                      machine_->path.max_jerk};
+    CellLimits limits{infinite_speed, infinite_speed, infinite_speed};  // along a bent path its samples say more
     samples_.clear();
+    least_bend_speed_ = infinite_speed;
     double begin = 0;
     for (std::size_t k = parts_.size() - open_.parts; k < parts_.size(); ++k) {
         const CellPart& part = parts_[k];
@@ -204,9 +268,17 @@ void Refiner::add_part(const CellPart& part, double begin, CellLimits& limits) {
         return;
     }
     const double periods = part.length / (machine_->controller.period * std::max(end_.speed, open_.end.speed));
-    const int pieces = periods < briefest ? 1 : periods < brief ? 2 : periods < middling ? 4 : 8;
+    const double turn = part.length * turn_rate(span.derivatives(part.from + 0.5 * part.length));
+    const int pieces = turn >= 2 * slight                    ? 8
+                       : periods < briefest && turn < slight ? 1
+                       : periods < brief                     ? 2
+                       : periods < middling                  ? 4
+                                                             : 8;
+    if (!span.rounded) {
+        limits.acceleration = std::min(limits.acceleration, machine_->path.max_acceleration);
+        limits.jerk = std::min(limits.jerk, machine_->path.max_jerk);
+    }
     PathSample sample;
-    double curvature = 0;
     for (int k = 0; k <= pieces; ++k) {
         const double arc_length = part.length * k / pieces;
         const PathDerivatives d = span.derivatives(part.from + arc_length);
@@ -214,15 +286,12 @@ void Refiner::add_part(const CellPart& part, double begin, CellLimits& limits) {
         sample.slope = d.first;
         sample.bend = d.second;
         sample.twist = d.third;
-        sample.pace = pace_of(d);
-        curvature = std::max(curvature, d.second.squaredNorm());
+        const Pace pace = pace_of(d);
+        sample.pace = span.rounded ? pace : Pace{0, 0, 0};  // otherwise the cell's limits say all
+        const BendSpeed bend = bend_speed(d, pace, *machine_);
+        sample.cap = bend.speed;
+        if (bend.speed < least_bend_speed_) least_bend_speed_ = bend.speed, open_.in_bend = bend.why;
         samples_.push_back(sample);
-    }
-    if (curvature > 0) {
-        const double radius = 1 / std::sqrt(curvature);
-        cap(arc_speed(radius, machine_->path.max_normal_acceleration), LimitingFactor::axis_acceleration);
-        cap(chord_speed(radius, machine_->controller.chord_tolerance, machine_->controller.period),
-            LimitingFactor::chord_error);
     }
 }
 
@@ -232,9 +301,10 @@ void Refiner::solve(bool to_the_end) {
     const auto run_most = [&] {
         run_cells(static_cast<std::size_t>(std::ceil(run_share * static_cast<double>(cells_.size()))), false);
     };
-    if (problem_.solve(start_, end_)) {
+    if (solve_from_rests(to_the_end && ends_at_rest_)) {
         solved_ = cells_.size();
         waiting_.clear();
+        run_lead();
         if (to_the_end)
             run_cells(cells_.size(), ends_at_rest_);
         else
@@ -242,6 +312,7 @@ void Refiner::solve(bool to_the_end) {
         return;
     }
     if (solve_in_part()) {
+        run_lead();
         solved_ = cells_.size();
         const Cell last = cells_.back();
         run_most();
@@ -249,6 +320,8 @@ void Refiner::solve(bool to_the_end) {
         if (to_the_end) solve(true);
         return;
     }
+    steepest_lead_ = steepest_tail_ = {};
+    run_lead();
     // What was found before goes on to where the plan begins that was not refined.
     cells_.resize(solved_);
     if (solved_ > 0) end_ = state_at(kept(waiting_.front().run).profile, waiting_.front().from);
@@ -277,9 +350,62 @@ bool Refiner::solve_in_part() {
         parts_.resize(parts);
         problem_.drop_back(count);
         end_ = cells_.back().end;
-        if (problem_.solve(start_, end_)) return true;
+        if (solve_from_rests(false)) return true;
     }
     return false;
+}
+
+/// From and to the states next to rests that the greatest jerk leads to, or where no speeds are found, the planned ones.
+bool Refiner::solve_from_rests(bool to_rest) {
+    const KnotState start = start_, end = end_;
+    const bool leads = lead_.to > lead_.from && steepest_lead_.jerk > 0;
+    const bool trails = to_rest && tail_.to > tail_.from && steepest_tail_.jerk > 0;
+    for (const bool steep_end : {true, false}) {
+        if (steep_end && !trails) continue;
+        for (const bool steep_start : {true, false}) {
+            if (steep_start && !leads) continue;
+            start_ = steep_start ? KnotState{steepest_lead_.speed, steepest_lead_.acceleration} : start;
+            end_ = steep_end ? KnotState{steepest_tail_.speed, -steepest_tail_.acceleration} : end;
+            if (!problem_.solve(start_, end_)) continue;
+            if (!steep_start) steepest_lead_ = {};
+            if (to_rest && !steep_end) steepest_tail_ = {};
+            return true;
+        }
+    }
+    start_ = start;
+    end_ = end;
+    return false;
+}
+
+/// The way from rest to the first cell.
+void Refiner::run_lead() {
+    if (!(lead_.to > lead_.from)) return;
+    if (steepest_lead_.jerk > 0) {
+        const KeptRun& run = kept(lead_.run);
+        const double time = steepest_lead_.time;
+        const SCurve profile(0, steepest_lead_.jerk, {time, 0, time, 0, 0, 0, 0});
+        sink_->run(ProfileSegment{&profile, 0, time, run.spans, false, run.derated});
+    } else {
+        run_as_planned(lead_);
+    }
+    lead_ = {};
+    steepest_lead_ = {};
+}
+
+/// The way from the last cell to rest.
+void Refiner::run_tail() {
+    if (!(tail_.to > tail_.from)) return;
+    if (steepest_tail_.jerk > 0) {
+        const KeptRun& run = kept(tail_.run);
+        const double time = steepest_tail_.time, jerk = steepest_tail_.jerk;
+        const SCurve profile(jerk * time * time, jerk, {0, 0, 0, 0, time, 0, time});
+        sink_->run(ProfileSegment{&profile, time, 2 * time, run.spans, true, run.derated,
+                                  run.profile.length() - profile.length()});
+    } else {
+        run_as_planned(tail_);
+    }
+    tail_ = {};
+    steepest_tail_ = {};
 }
 
 /// The waiting sections behind a cell are divided anew.
@@ -310,8 +436,9 @@ void Refiner::run_cells(std::size_t count, bool to_rest) {
     while (to_rest && braking > 0 && motions[braking - 1].acceleration < 0) --braking;
     std::size_t part = 0;
     for (std::size_t i = 0; i < count; ++i) {
-        const LimitingFactor limiting =
-            i >= braking ? LimitingFactor::lookahead_end : limiting_of(problem_.limiting(i), cells_[i].at_cap);
+        const LimitingFactor limiting = i >= braking
+                                            ? LimitingFactor::lookahead_end
+                                            : limiting_of(problem_.limiting(i), cells_[i].at_cap, cells_[i].in_bend);
         sink_->run(motions[i], std::span(parts_).subspan(part, cells_[i].parts), limiting);
         part += cells_[i].parts;
     }
@@ -333,8 +460,7 @@ void Refiner::close() {
         solve(true);
     else
         run_cells(cells_.size(), ends_at_rest_);
-    if (ends_at_rest_ && tail_.to > tail_.from) run_as_planned(tail_);
-    tail_ = {};
+    if (ends_at_rest_) run_tail();
     ends_at_rest_ = false;
     divided_ = false;
     problem_.clear();

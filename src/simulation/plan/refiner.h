@@ -16,6 +16,12 @@
 
 namespace clsurf {
 
+/// From rest at constant jerk. A jerk of 0: there is none.
+struct RestRamp {
+    double jerk = 0, time = 0;           ///< [mm/s³, s]
+    double speed = 0, acceleration = 0;  ///< at its end
+};
+
 class Refiner {
 public:
     /// `blocks`: most that a window may span; 0: runs stay as they are planned. Both must outlive it.
@@ -38,11 +44,11 @@ private:
         double from = 0, to = 0;
     };
     struct Cell {
-        double length = 0;
-        std::size_t parts = 0;  ///< how many
-        std::int64_t run = 0;   ///< that it begins on
+        double length = 0, turning = 0;  ///< [mm, rad]
+        std::size_t parts = 0;           ///< how many
+        std::int64_t run = 0;            ///< that it begins on
         std::int64_t block = 0;
-        LimitingFactor at_cap = LimitingFactor::feed;
+        LimitingFactor at_cap = LimitingFactor::feed, in_bend = LimitingFactor::axis_acceleration;
         // Where it ends in the plan.
         KnotState end;
         std::int64_t end_run = 0;
@@ -61,6 +67,9 @@ private:
     void add_part(const CellPart& part, double begin, CellLimits& limits);
     void solve(bool to_the_end);
     [[nodiscard]] bool solve_in_part();
+    [[nodiscard]] bool solve_from_rests(bool to_rest);
+    void run_lead();
+    void run_tail();
     void wait_from(const Cell& cell);
     void run_cells(std::size_t count, bool to_rest);
     void close();
@@ -76,15 +85,18 @@ private:
     std::vector<Section> waiting_;  ///< since the window was last solved
     bool divided_ = false;          ///< the waiting sections are in cells
     bool ends_at_rest_ = false;
-    Section tail_;  ///< the last way to rest
+    // Next to a rest v² is no quadratic: these ways are run by the jerk, the greatest one if it leads anywhere.
+    Section lead_, tail_;
+    RestRamp steepest_lead_, steepest_tail_;
 
     std::vector<Cell> cells_;
     std::vector<CellPart> parts_;  ///< of the cells in turn, then of the one being made
     std::size_t solved_ = 0;       ///< first cells, whose values hold the limits
     SpeedProblem problem_;
-    KnotState start_, end_;            ///< of the cells
-    Cell open_;                        ///< the cell being made
-    std::vector<PathSample> samples_;  ///< of the cell being made
+    KnotState start_, end_;                     ///< of the cells
+    Cell open_;                                 ///< the cell being made
+    std::vector<PathSample> samples_;           ///< of the cell being made
+    double least_bend_speed_ = infinite_speed;  ///< of them [mm/s]
 };
 
 }  // namespace clsurf

@@ -20,12 +20,6 @@ constexpr int most_parts = 8;               ///< of a cell, between its places
 
 }  // namespace
 
-bool jerks_freely(const Machine& machine) {
-    const bool axes = std::any_of(machine.axes.begin(), machine.axes.end(),
-                                  [](const MachineAxis& axis) { return axis.max_jerk > 0; });
-    return !axes && machine.path.max_jerk * machine.controller.period >= 2 * machine.path.max_acceleration;
-}
-
 bool ScanDriver::take_span() {
     const Span* span = stream_->next();
     if (span == nullptr) return false;
@@ -50,7 +44,7 @@ bool ScanDriver::gentle(const Span& span) const {
         if (span.slope[x] * span.acceleration + bending > machine_->axes[static_cast<std::size_t>(x)].max_acceleration)
             return false;
     }
-    return span.greatest_slope * span.acceleration + span.greatest_pace_slope() * span.cap * span.cap <=
+    return span.greatest_slope * span.acceleration + span.pace_slope * span.cap * span.cap <=
            machine_->path.max_acceleration;
 }
 

@@ -14,10 +14,6 @@
 
 namespace clsurf {
 
-/// No axis has a jerk limit, and that of the path lets the acceleration turn round within a period, so that
-/// points could not show it.
-[[nodiscard]] bool jerks_freely(const Machine& machine);
-
 class ScanDriver {
 public:
     /// All must outlive it.

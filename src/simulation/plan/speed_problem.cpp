@@ -8,8 +8,9 @@ namespace clsurf {
 namespace {
 
 constexpr int most_steps = 90;
-constexpr double end_gap = 4e-3;         ///< of the time: how far from the optimum it stops
-constexpr double boundary_share = 0.97;  ///< of the way to a limit in one step
+const double end_gap =
+    getenv("GAP") ? atof(getenv("GAP")) : (4e-3);  ///< of the time: how far from the optimum it stops
+constexpr double boundary_share = 0.97;            ///< of the way to a limit in one step
 // A start far from every limit, as its slacks say, converges best.
 constexpr double first_slack = 1.0;  ///< of a bound, at least
 constexpr double first_gap = 1.0;    ///< of the time
@@ -32,6 +33,7 @@ ProblemLimits<3> linear_limits(const Machine& machine) {
         limits.jerk[k] = axis.max_jerk;
     }
     limits.path_acceleration = machine.path.max_acceleration;
+    limits.path_jerk = machine.path.max_jerk;
     return limits;
 }
 
@@ -41,6 +43,7 @@ ProblemLimits<5> five_axis_limits(const Machine& machine) {
     limits.acceleration << linear.acceleration, machine.rotary[0].max_acceleration, machine.rotary[1].max_acceleration;
     limits.jerk << linear.jerk, machine.rotary[0].max_jerk, machine.rotary[1].max_jerk;
     limits.path_acceleration = machine.path.max_acceleration;
+    limits.path_jerk = machine.path.max_jerk;
     return limits;
 }
 
@@ -80,7 +83,9 @@ void AxisSpeedProblem<Axes>::add_sample(const Sample& sample) {
     cell.slope = cell.slope.cwiseMax(sample.slope.cwiseAbs());
     cell.bend = cell.bend.cwiseMax(sample.bend.cwiseAbs());
     cell.twist = cell.twist.cwiseMax(sample.twist.cwiseAbs());
-    cell.pace = {std::max(cell.pace.value, sample.pace.value), std::max(cell.pace.slope, std::abs(sample.pace.slope))};
+    cell.pace = {std::max(cell.pace.value, sample.pace.value), std::max(cell.pace.slope, std::abs(sample.pace.slope)),
+                 std::max(cell.pace.curve, std::abs(sample.pace.curve))};
+    cell.least_cap = std::min(cell.least_cap, sample.cap);
 }
 
 template <int Axes>

@@ -6,8 +6,8 @@
 //
 //     |x′ b′/2 + x″ b| ≤ A,      |x′ b″/2 + 3/2 x″ b′ + x‴ b| ≤ J/√b.
 //
-// The acceleration along the rounded path has the same form as that of an axis, with |p′| and its derivative.
-// The first limit is linear. The second has a right side that is convex in b: its tangent lies below it, so
+// The acceleration and jerk along the rounded path have the same form as those of an axis, with |p′| and its
+// derivatives. The first limit is linear. The second has a right side that is convex in b: its tangent lies below it, so
 // every step that keeps the linearised limits keeps the limits themselves. The time ∫ du/√b is convex. A
 // primal-dual interior-point method solves the problem. Each c is coupled to two neighbours on either side, so
 // the Newton matrix has five diagonals, and a step costs time linear in cells.
@@ -15,6 +15,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "core/geometry.h"
@@ -30,7 +31,8 @@ struct KnotState {
     double speed = 0, acceleration = 0;
 };
 
-/// A cell's limits of the speed [mm/s] and along the path.
+/// A cell's limits of the speed [mm/s], and of acceleration and jerk along the programmed path; infinite: its samples say
+/// all.
 struct CellLimits {
     double cap = 0, acceleration = 0, jerk = 0;
 };
@@ -39,7 +41,7 @@ struct CellLimits {
 template <int Axes>
 struct ProblemLimits {
     AxisVector<Axes> acceleration, jerk;
-    double path_acceleration = 0;
+    double path_acceleration = 0, path_jerk = 0;
 };
 [[nodiscard]] ProblemLimits<3> linear_limits(const Machine& machine);
 [[nodiscard]] ProblemLimits<5> five_axis_limits(const Machine& machine);
@@ -89,7 +91,8 @@ private:
         std::uint32_t first_sample = 0, end_sample = 0;
         // Greatest of its samples.
         Vector slope = Vector::Zero(), bend = Vector::Zero(), twist = Vector::Zero();
-        Pace pace{0, 0};
+        Pace pace{0, 0, 0};
+        double least_cap = infinite_speed;  ///< of its samples
         // Rows found to be needed: of the acceleration at the end; of the jerk at begin, middle and end.
         bool acceleration = false;
         std::array<bool, 3> jerk{};
@@ -97,9 +100,9 @@ private:
     };
     struct HeldSample {
         Sample sample;
-        std::uint16_t needed =
-            0;  ///< a bit for the acceleration of each axis, then one for the jerk of each, then one for
-                ///< the acceleration of the path
+        /// A bit for the acceleration of each axis, then one for the jerk of each, then for the acceleration of the path,
+        /// its jerk, and the speed.
+        std::uint16_t needed = 0;
     };
     /// Weights of a cell's three coefficients for b, b′ and b″ at a place.
     struct Weights {
@@ -122,7 +125,8 @@ private:
     [[nodiscard]] double acceleration_at_end(std::size_t cell) const;
     void need_likely_rows();
     [[nodiscard]] bool need_broken_rows(double part);
-    [[nodiscard]] bool may_break(const Cell& cell, double part, double acceleration, double square, double jerk) const;
+    [[nodiscard]] bool may_break(const Cell& cell, double part, double acceleration, double square, double jerk,
+                                 double path_jerk) const;
     void make_rows();
     void add_cap(std::uint32_t number, std::size_t cell, const std::array<double, 3>& weights, double cap);
     void add_row(std::uint32_t number, Row kind, std::size_t cell, const std::array<double, 3>& w, double limit);

@@ -27,10 +27,11 @@ void Interpolator::run(const ProfileSegment& section) {
         const double on_profile = t - begin;
         while (phase < 6 && on_profile >= profile.end_of(phase)) ++phase;
         const MotionState state = profile.in_phase(phase, on_profile);
-        while (at + 1 < section.spans.size() && state.arc_length - before > section.spans[at].length)
+        const double arc_length = section.before + state.arc_length;
+        while (at + 1 < section.spans.size() && arc_length - before > section.spans[at].length)
             before += section.spans[at++].length;
         const Span& span = section.spans[at];
-        const double tau = std::clamp(state.arc_length - before, 0.0, span.length);
+        const double tau = std::clamp(arc_length - before, 0.0, span.length);
         double deviation = 0;
         double pace = 1;
         const Vec3 position = span.at(tau, deviation, pace);

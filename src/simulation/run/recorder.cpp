@@ -7,8 +7,19 @@
 #include <fmt/format.h>
 
 #include "machine/limit_table.h"
+#include "simulation/path/junction.h"
 
 namespace clsurf {
+namespace {
+
+/// Arcs in corners are for drives that bear steps of the curvature: where one meets the rounding of another corner, the
+/// tangential acceleration steps, too.
+bool limits_tangential_jerk(const Machine& machine) {
+    const bool arcs = machine.controller.corner == CornerMode::arc && only_path_jerk(machine);
+    return machine.controller.planner == PlannerKind::time_optimal && !arcs;
+}
+
+}  // namespace
 
 Recorder::Recorder(const Program& program, const Machine& machine, const Vec3& start, const PointSink& sink)
     : program_(&program),
@@ -42,7 +53,8 @@ void Recorder::follow() {
 /// Before the first point the axes stand at the start.
 void Recorder::measure() {
     Vec3 last = last_, last_step = last_step_, last_bend = last_bend_;
-    double last_speed = last_speed_, greatest_change = speed_change_;
+    double last_speed = last_speed_, last_change = last_change_;
+    double greatest_change = speed_change_, greatest_second = second_change_;
     Vec3 greatest = step_, greatest_bend = bend_, greatest_twist = twist_, low = last_, high = last_;
     for (const SimulatedPoint& point : block_) {
         const Vec3 step = point.commanded - last;
@@ -54,8 +66,11 @@ void Recorder::measure() {
         greatest_twist = greatest_twist.cwiseMax(twist.cwiseAbs());
         low = low.cwiseMin(point.commanded);
         high = high.cwiseMax(point.commanded);
-        greatest_change = std::max(greatest_change, std::abs(point.speed - last_speed));
+        const double change = point.speed - last_speed;
+        greatest_change = std::max(greatest_change, std::abs(change));
+        greatest_second = std::max(greatest_second, std::abs(change - last_change));
         last_speed = point.speed;
+        last_change = change;
         last = point.commanded;
         last_step = step;
         last_bend = bend;
@@ -64,7 +79,9 @@ void Recorder::measure() {
     last_step_ = last_step;
     last_bend_ = last_bend;
     last_speed_ = last_speed;
+    last_change_ = last_change;
     speed_change_ = greatest_change;
+    second_change_ = greatest_second;
     step_ = greatest;
     bend_ = greatest_bend;
     twist_ = greatest_twist;
@@ -101,8 +118,11 @@ SimulationSummary Recorder::finish() {
     s.max_acceleration = bend_ * (rate_ * rate_);
     s.max_jerk = twist_ * (rate_ * rate_ * rate_);
     s.max_tangential_acceleration = speed_change_ * rate_;
-    s.limits_ok = s.max_speed <= machine_->path.max_speed * limit_tolerance &&
-                  s.max_tangential_acceleration <= machine_->path.max_acceleration * limit_tolerance;
+    s.max_tangential_jerk = second_change_ * (rate_ * rate_);
+    s.limits_ok =
+        s.max_speed <= machine_->path.max_speed * limit_tolerance &&
+        s.max_tangential_acceleration <= machine_->path.max_acceleration * limit_tolerance &&
+        (!limits_tangential_jerk(*machine_) || s.max_tangential_jerk <= machine_->path.max_jerk * limit_tolerance);
     const std::array<const Vec3*, 4> greatest{nullptr, &s.max_axis_speed, &s.max_acceleration, &s.max_jerk};
     // At a corner that is not rounded the speeds of the axes step, which is no excess.
     const int highest_order = machine_->controller.corner == CornerMode::junction ? 1 : 3;

@@ -43,8 +43,9 @@ private:
     std::array<ServoLoop, 3> servos_;
     std::vector<SimulatedPoint> block_;
     Vec3 last_, last_step_ = Vec3::Zero(), last_bend_ = Vec3::Zero();  ///< position and its differences
-    double last_speed_ = 0, speed_change_ = 0;                         ///< of the path; its greatest in a period [mm/s]
-    double greatest_step_ = 0;                                         ///< squared [mm²]
+    // Of the path [mm/s]: speed and its change in a period; the greatest such change, and the greatest change of that.
+    double last_speed_ = 0, last_change_ = 0, speed_change_ = 0, second_change_ = 0;
+    double greatest_step_ = 0;                                               ///< squared [mm²]
     Vec3 step_ = Vec3::Zero(), bend_ = Vec3::Zero(), twist_ = Vec3::Zero();  ///< greatest differences [mm]
     std::array<bool, 3> outside_{};
     SimulationSummary summary_;

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "simulation/path/junction.h"
 #include "simulation/plan/lookahead.h"
 #include "simulation/plan/lookahead_window.h"
 #include "simulation/plan/refiner.h"
